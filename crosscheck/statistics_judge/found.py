@@ -10,6 +10,9 @@ from statistics_judge.intervals import Interval
 from statistics_judge.records import Paper
 from statistics_judge.selection import Cases, select
 
+# A bootstrap over fewer draws says nothing firm.
+FEWEST_DRAWS = 10
+
 
 @dataclass(frozen=True)
 class Estimate:
@@ -34,6 +37,7 @@ class Found:
     estimate: Estimate | None = None
     existential: bool = False
     powerless: bool = False
+    few: bool = False
     censored: frozenset[bool] = field(default_factory=lambda: frozenset([False]))
 
 

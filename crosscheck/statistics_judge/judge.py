@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from statistics_judge import across, classes, medians, printed_cells, shares, sizes
-from statistics_judge.found import Asked, Estimate, Found
+from statistics_judge.found import FEWEST_DRAWS, Asked, Estimate, Found
 from statistics_judge.records import Paper
 from statistics_judge.selection import labels
 
@@ -140,16 +140,14 @@ def is_meant(paper: Paper, claim: dict[str, Any]) -> bool:
     return all(paper.choices[axis] in options for axis, options in claim.get("holds_when", {}).items())
 
 
-# A bootstrap over fewer draws says nothing firm.
-FEWEST_DRAWS = 10
-
-
 def is_few(name: str, settings: dict[str, Any], found: Found) -> bool:
     """Whether an interval that is not exact rests on too few draws."""
     resampled = (
         name in ("lower", "share", "trend", "within") and settings.get("statistic") != "ratio_of_groups"
     )
     ours = found.estimate
+    if found.few:
+        return True
     return resampled and ours is not None and not ours.exact and ours.n < FEWEST_DRAWS
 
 

@@ -11,11 +11,13 @@ from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
 from statistics_judge.found import Asked, Estimate, Found, certain, hangs, outcomes
 from statistics_judge.intervals import End, Interval, bootstrap, median
 from statistics_judge.records import Places, Reals, Study
-from statistics_judge.selection import CUT, groups_of, labels, matched, posed
+from statistics_judge.selection import CUT, groups_of, is_drawn, labels, matched, posed
 from statistics_judge.sizes import printed
 
 # Numbers whose ratio is nearer to one are equal.
 EQUAL = 1e-9
+# Fewest seeds of two contenders that draw of which medians decide.
+FEWEST_SEEDS = 4
 # What leaves out some of a contender's trials.
 NARROWED = ("query", "sweep")
 
@@ -57,7 +59,16 @@ def least_of(asked: Asked) -> Found:
     # 0 for the claim and infinite against it, then the other way round.
     ways = ((0.0, np.inf), (np.inf, 0.0)) if is_cut else ()
     ends = [said(compare(asked, groups, pairs, way))[1] for way in ways]
-    return Found(main, possible, estimate, censored=hangs(main, possible, ends))
+    few = any(has_few_seeds(asked, group, label) for group in groups for pair in pairs for label in pair)
+    return Found(main, possible, estimate, censored=hangs(main, possible, ends), few=few)
+
+
+def has_few_seeds(asked: Asked, group: str, contender: str) -> bool:
+    """Whether a contender that draws, or one on a problem that was drawn, has too few seeds."""
+    found = side(asked, group, contender, np.inf)
+    study = asked.paper.studies[asked.settings["of"]["study"]]
+    least = 1 if is_drawn(study, group) else 2
+    return found is not None and least <= found.n < FEWEST_SEEDS
 
 
 def compare(

@@ -1,5 +1,9 @@
 """Criteria that hold printed cells against our draws: one_draw, prints_as and row_one_draw."""
 
+import functools
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 
 from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
@@ -52,7 +56,29 @@ def one_draw(asked: Asked) -> Found:
     else:
         outcome = SIGN if cases.against is not None and mean * cell.value > 0 else FAILS
     powerless = statistic == "solved_percent" and high - low >= NO_POWER
-    return certain(outcome, estimate, powerless=powerless)
+    found = certain(outcome, estimate, powerless=powerless)
+    return replace(found, censored=frozenset([hangs_on_unended(cases, statistic, cell.value, outcome)]))
+
+
+def hangs_on_unended(cases: Cases, statistic: str, printed_value: float, outcome: str) -> bool:
+    """Whether draws without a number, of which something did not end, could turn what one more draw says.
+
+    They are taken to lie below all others, then above; solved queries count as none of these, then as all.
+    """
+    if not cases.unended.any():
+        return False
+    values = of_draws(cases, statistic)
+    cut = sums_by_unit(cases.unit, cases.units, cases.unended.astype(float))[0] > 0
+    below, above = (np.where(np.isnan(values) & cut, end, values) for end in (-np.inf, np.inf))
+    if statistic == "solved_percent":
+        above = solved_percent(cases.unit, cases.own_solved | cases.unended, cases.units)
+    ends = [predictive(one[~np.isnan(one)]) for one in (below, above)]
+    if ends[0] is None or ends[1] is None:
+        return False
+    (low, low_top), (high_foot, high) = ends[0], ends[1]
+    if outcome == HOLDS:
+        return not (high_foot.at <= printed_value <= low_top.at)
+    return low.at <= printed_value <= high.at
 
 
 def prints_as(asked: Asked) -> Found:
@@ -74,35 +100,64 @@ def prints_as(asked: Asked) -> Found:
 
 def row_one_draw(asked: Asked) -> Found:
     """A printed row, or several of one draw, is as near to our mean row as our own draws are."""
-    rows, cells, first = [], [], None
-    for row in asked.settings["rows"]:
-        other = {"contender": row["contender"]}
-        if "against" in row:
-            other["against"] = row["against"]
-        cases = asked.cases(**other)
-        first = first or cases.solved_of_all()
-        columns = [of_draws(cases, of) for of in row.get("statistics", [])] or along_sweep(cases)
-        drawn = np.stack(columns, axis=1)
-        cells.append(drawn[~np.isnan(drawn).any(axis=1)])
-        rows += [printed(asked.paper, asked.paper.claim(of)).value for of in row["claims"]]
-    draws = min(map(len, cells))
+    rows = [cell for row in asked.settings["rows"] for cell in printed_row(asked, row)]
+    theirs, (ours, cases) = np.array(rows), drawn_rows(asked, solved=False)
+    draws = len(ours)
     if draws < 3:
         return too_few()
-    ours, theirs = np.concatenate([drawn[:draws] for drawn in cells], axis=1), np.array(rows)
-    far = as_far(theirs, ours)
-    rank = (far + 1) / (draws + 1)
-    level = level_rank(theirs, ours)
-    outcome = HOLDS if min(rank, level) >= asked.settings["refused_below"] else FAILS
-    return certain(outcome, Estimate(far / draws, draws, None, first))
+    refused_below = asked.settings["refused_below"]
+    outcome, rank = placed(theirs, ours, refused_below)
+    found = certain(outcome, Estimate(rank, draws, None, cases[0].solved_of_all()))
+    cut = any(one.unended.any() for one in cases)
+    if cut and not any("statistics" in row for row in asked.settings["rows"]):
+        filled, _ = drawn_rows(asked, solved=True)
+        sides = [ours.mean() < theirs.mean(), filled.mean() < theirs.mean()]
+        cut = placed(theirs, filled, refused_below)[0] != outcome or sides[0] != sides[1]
+    # The least two-sided rank is 2 / (n + 1): of fewer draws no row could be refused.
+    return replace(found, censored=frozenset([cut]), few=draws < int(2 / refused_below))
 
 
-def along_sweep(cases: Cases) -> list[Reals]:
-    """The share of each unit's queries that is solved, in per cent, at each point of the sweep."""
+def printed_row(asked: Asked, row: dict[str, Any]) -> list[float]:
+    """The numbers that a row prints."""
+    return [printed(asked.paper, asked.paper.claim(of)).value for of in row["claims"]]
+
+
+def placed(theirs: Reals, ours: Reals, refused_below: float) -> tuple[str, float]:
+    """Whether a row is an ordinary one among our draws, and its rank: the lesser of shape and level."""
+    rank = min((as_far(theirs, ours) + 1) / (len(ours) + 1), level_rank(theirs, ours))
+    return (HOLDS if rank >= refused_below else FAILS), rank
+
+
+def drawn_rows(asked: Asked, *, solved: bool) -> tuple[Reals, list[Cases]]:
+    """The cells of all rows, of every draw that has them all, with the cases of each row.
+
+    Where solved queries are counted, what did not end is solved only if so wanted.
+    """
+    cells, looked_at = [], []
+    for row in asked.settings["rows"]:
+        other = {key: row[key] for key in ("contender", "against") if key in row}
+        cases = asked.cases(**other)
+        columns = [of_draws(cases, of) for of in row.get("statistics", [])] or along_sweep(cases, solved)
+        cells.append(np.stack(columns, axis=1))
+        looked_at.append(cases)
+    known = [~np.isnan(drawn).any(axis=1) for drawn in cells]
+    names = [cases.names[kept] for cases, kept in zip(looked_at, known, strict=True)]
+    whole = functools.reduce(np.intersect1d, names)
+    kept = [drawn[np.isin(cases.names, whole)] for drawn, cases in zip(cells, looked_at, strict=True)]
+    return np.concatenate(kept, axis=1), looked_at
+
+
+def along_sweep(cases: Cases, solved: bool) -> list[Reals]:
+    """The share of each unit's queries that is solved, in per cent, at each point of the sweep.
+
+    What did not end is solved only if so wanted.
+    """
     places, names = cases.study.sweep
     found = []
     for point in cases.study.sweep_points():
         at = places[cases.own] == names.index(point)
-        found.append(solved_percent(cases.unit[at], cases.own_solved[at], cases.units))
+        hit = cases.own_solved | (cases.unended & solved)
+        found.append(solved_percent(cases.unit[at], hit[at], cases.units))
     return found
 
 

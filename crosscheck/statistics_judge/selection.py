@@ -28,13 +28,14 @@ class Cases:
     group: Places
     all_ends: bool = False
     units: int = field(init=False)
+    names: Places = field(init=False)
     values: Reals = field(init=False)
     bases: Reals = field(init=False)
 
     def __post_init__(self) -> None:
         """Number the units without gaps and look the metric up."""
-        names, self.unit = np.unique(self.unit, return_inverse=True)
-        self.units = len(names)
+        self.names, self.unit = np.unique(self.unit, return_inverse=True)
+        self.units = len(self.names)
         self.values = self.solved_values(self.own)
         self.bases = (
             self.solved_values(self.base) if self.base is not None else np.full(len(self.own), np.nan)
@@ -136,6 +137,26 @@ def groups_of(study: Study, written: str | list[str]) -> list[str]:
         else:
             found.append(label)
     return found
+
+
+# Families in which the seed decides what is posed: one draw is then one of many.
+DRAWN = frozenset(
+    (
+        "cell_queries",
+        "conditioned",
+        "joint_queries",
+        "plane_queries",
+        "random_bars",
+        "random_cells",
+        "random_polyhedra",
+        "random_rectangles",
+    )
+)
+
+
+def is_drawn(study: Study, group: str) -> bool:
+    """Whether a problem group's seed decides what is posed in it."""
+    return any(own["label"] == group and own["family"] in DRAWN for own in study.spec.get("problems", []))
 
 
 def matched(study: Study, rows: Places, others: Places) -> tuple[Places, Places]:

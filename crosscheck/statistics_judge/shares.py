@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
-from statistics_judge.found import Asked, Estimate, Found, certain, outcomes
-from statistics_judge.intervals import agreed, bootstrap, clopper_pearson, ratio_of_sums, sums_by_unit
+from statistics_judge.found import Asked, Estimate, Found, certain, hangs, outcomes
+from statistics_judge.intervals import agreed, bootstrap, clopper_pearson, hull, ratio_of_sums, sums_by_unit
 from statistics_judge.records import Flags, Reals
 from statistics_judge.selection import Cases
 
@@ -61,7 +61,8 @@ def equals(asked: Asked) -> Found:
     estimate = with_cases(counted(cases, known, same, asked.seed), (int(same[known].sum()), int(known.sum())))
     if not known.any():
         return certain(OPEN, estimate)
-    cut = cases.unended & ~(known & np.isfinite(own))
+    cut = cases.unended if "truth" in asked.settings else cases.censored
+    cut &= ~(known & np.isfinite(own))
     found = certain(HOLDS if same[known].all() else FAILS, estimate)
     # That something is wrong hangs on what did not end only if nothing else is.
     is_wrong = bool((~same & known & ~cut).any())
@@ -71,7 +72,8 @@ def equals(asked: Asked) -> Found:
 def on_every(asked: Asked) -> Found:
     """It holds on every case: one counterexample ends it, and an equality leaves the sign alone.
 
-    A case that did not come to an end might be the counterexample; that it is not solved is itself an answer.
+    A case without a number might be the counterexample; that it is not solved is itself an answer, and paths
+    that are refused have a number where it is to be at most so much.
     """
     cases, that = asked.cases(), asked.settings["that"]
     says, spoken = said(cases, that, asked.settings.get("bound", 0.0))
@@ -81,7 +83,8 @@ def on_every(asked: Asked) -> Found:
         return certain(OPEN, estimate)
     if broken > 0:
         return certain(FAILS, estimate)
-    cut = that != "solved" and bool(cases.unended.any())
+    unknown = cases.unended if that == "at_most" else cases.censored
+    cut = that != "solved" and bool(unknown.any())
     outcome = FAILS if kept == 0 else SIGN if equal else HOLDS
     return replace(certain(outcome, estimate), censored=frozenset([cut]))
 
@@ -108,10 +111,7 @@ def said(cases: Cases, that: str, bound: float) -> tuple[Reals, Flags]:
 def share_within(asked: Asked) -> Found:
     """A share lies within bounds."""
     cases, settings = asked.cases(), asked.settings
-    hits, chances = hits_of(asked, cases)
-    hits, chances = sums_by_unit(cases.unit, cases.units, hits, chances)
-    if settings["hits"] == "lower_throughout":
-        hits, chances = ((hits == chances) & (chances > 0)).astype(float), (chances > 0).astype(float)
+    hits, chances = by_unit(asked, cases)
     estimate = with_cases(share(hits, chances, asked.seed), cases.solved_of_all())
     if "accepted" not in settings:
         return certain(None, estimate)
@@ -125,7 +125,34 @@ def share_within(asked: Asked) -> Found:
         return FAILS if high < least or low > most else OPEN
 
     low, high = estimate.interval
-    return Found(outcome(low.at, high.at), outcomes(outcome, estimate.interval), estimate)
+    main = Found(outcome(low.at, high.at), outcomes(outcome, estimate.interval), estimate)
+    ends = []
+    if unknown(cases, settings["hits"]).any():
+        # All that the share may be: from no hit of these to hits alone.
+        ways = [share(*by_unit(asked, cases, given), asked.seed + " filled") for given in (False, True)]
+        intervals = [found.interval for found in ways if found is not None and found.interval is not None]
+        ends = [outcomes(outcome, hull(intervals))] if len(intervals) == 2 else []
+    return replace(main, censored=hangs(main.outcome, main.possible, ends))
+
+
+def unknown(cases: Cases, kind: str) -> Flags:
+    """Cases that might be hits and are not known to be."""
+    if kind in ("marked", "events"):
+        return np.zeros(len(cases.own), dtype=bool)
+    return cases.unended if kind in ("solved", "rejected") else cases.censored
+
+
+def by_unit(asked: Asked, cases: Cases, given: bool | None = None) -> tuple[Reals, Reals]:
+    """Hits and chances of each unit; cases of which nothing is known are left out, or all hits or misses."""
+    kind = asked.settings["hits"]
+    hits, chances = hits_of(asked, cases)
+    if given is not None:
+        lost = unknown(cases, kind)
+        hits, chances = np.where(lost, float(given), hits), np.where(lost, 1.0, chances)
+    hits, chances = sums_by_unit(cases.unit, cases.units, hits, chances)
+    if kind == "lower_throughout":
+        return ((hits == chances) & (chances > 0)).astype(float), (chances > 0).astype(float)
+    return hits, chances
 
 
 def hits_of(asked: Asked, cases: Cases) -> tuple[Reals, Reals]:

@@ -1,11 +1,12 @@
 """Criteria of sizes over draws: lower, trend and within."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
 from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
-from statistics_judge.found import Asked, Estimate, Found, hangs, outcomes, too_few
+from statistics_judge.found import FEWEST_DRAWS, Asked, Estimate, Found, hangs, outcomes, too_few
 from statistics_judge.intervals import (
     End,
     Interval,
@@ -21,7 +22,7 @@ from statistics_judge.intervals import (
 )
 from statistics_judge.printed import Printed
 from statistics_judge.records import Paper, Reals
-from statistics_judge.selection import Cases
+from statistics_judge.selection import Cases, groups_of, is_drawn
 
 # Ratios nearer to 1 are no difference.
 NO_DIFFERENCE = 1e-3
@@ -216,7 +217,30 @@ def trend(asked: Asked) -> Found:
         return HOLDS if sign * low > 0 else FAILS
 
     estimate = Estimate(float(np.polyfit(x, y, 1)[0]), len(names), interval, cases.solved_of_all())
-    return Found(outcome(*(end.at for end in interval)), outcomes(outcome, interval), estimate)
+    main = Found(outcome(*(end.at for end in interval)), outcomes(outcome, interval), estimate)
+    return replace(main, censored=bent(asked, cases, main, outcome))
+
+
+def bent(asked: Asked, cases: Cases, main: Found, outcome: Outcome) -> frozenset[bool]:
+    """Whether cases without an end bend a slope, against it or for it: given the least or greatest seen.
+
+    One whose place is not known may stand anywhere.
+    """
+    x, y = cases.study.column(asked.settings["over"])[cases.own], cases.numbers
+    seen = ~np.isnan(x) & ~np.isnan(y)
+    if (cases.unended & np.isnan(x)).any():
+        return frozenset([True])
+    lost = cases.unended & ~seen
+    ends = []
+    for rising in (True, False):
+        far = np.where((x > x[seen].mean()) == rising, y[seen].max(), y[seen].min())
+        kept = seen | lost
+        names, unit = np.unique(cases.unit[kept], return_inverse=True)
+        of = slope(unit, len(names), x[kept], np.where(lost, far, y)[kept])
+        interval = bootstrap(of, len(names), asked.seed + " filled")
+        assert interval is not None
+        ends.append(outcomes(outcome, interval))
+    return hangs(main.outcome, main.possible, ends if lost.any() else [])
 
 
 def within(asked: Asked) -> Found:
@@ -247,7 +271,18 @@ def within(asked: Asked) -> Found:
     main = Found(outcome(*(end.at for end in interval)), outcomes(outcome, interval), estimate)
     of = reduction if statistic == "reduction_percent" else itself
     censored = turned(outcome, main, otherwise(cases, statistic, asked.seed, of))
-    return Found(main.outcome, main.possible, estimate, censored=censored)
+    few = statistic == "ratio_of_groups" and has_few_draws(asked, cases)
+    return replace(main, censored=censored, few=few)
+
+
+def has_few_draws(asked: Asked, cases: Cases) -> bool:
+    """Whether one of two groups has too few draws, but for one in which nothing is drawn."""
+    names = groups_of(cases.study, asked.settings["of"]["problems"])
+    for place, name in enumerate(names):
+        draws = len(np.unique(cases.unit[cases.group == place]))
+        if draws < FEWEST_DRAWS and (draws != 1 or is_drawn(cases.study, name)):
+            return True
+    return False
 
 
 def on_bounds(number: float, *bounds: float) -> float:

@@ -6,12 +6,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from statistics_judge import shares, sizes
+from statistics_judge import printed_cells, shares, sizes
 from statistics_judge.classes import FAILS, HOLDS
 from statistics_judge.found import Found, hangs
+from statistics_judge.judge import is_few
+from statistics_judge.printed import Printed
 from statistics_judge.selection import Cases
 
-SPENT, NONE = "budget_spent", "no_path"
+SPENT, NONE, REFUSED = "budget_spent", "no_path", "rejected"
 Ends = list[tuple[float | str, float | str]]
 
 
@@ -20,12 +22,17 @@ def asked(ends: Ends, settings: dict[str, Any]) -> SimpleNamespace:
     status = [end if isinstance(end, str) else "solved" for pair in ends for end in pair]
     values = np.array([np.nan if isinstance(end, str) else end for pair in ends for end in pair])
     study = SimpleNamespace(
-        status=np.array(status), solved=np.array(status) == "solved", values=lambda metric, session: values
+        status=np.array(status),
+        solved=np.array(status) == "solved",
+        values=lambda metric, session: values,
+        column=lambda name: np.repeat(np.arange(float(len(ends))), 2),
+        groups=["g", "h"],
+        spec={"problems": [{"label": "g", "family": "grid_map"}, {"label": "h", "family": "random_cells"}]},
     )
     place = np.arange(len(ends))
     metric = SimpleNamespace(better="lower", name="cost")
     cases = Cases(study, metric, 1, "B", 2 * place, 2 * place + 1, place, np.zeros(len(ends), dtype=int))
-    return SimpleNamespace(cases=lambda: cases, settings=settings, seed="a test")
+    return SimpleNamespace(cases=lambda **other: cases, settings=settings, seed="a test", paper=None)
 
 
 def firm(found: Found) -> bool:
@@ -69,3 +76,105 @@ def test_what_chance_decides_hangs_both_ways() -> None:
     assert hangs(HOLDS, one, []) == hangs(HOLDS, one, [one]) == {False}
     assert hangs(HOLDS, one, [frozenset([FAILS])]) == {True}
     assert hangs(HOLDS, one, [two]) == {True, False}
+
+
+@pytest.mark.parametrize("hits", ["lower", "lower_throughout"])
+@pytest.mark.parametrize("lost", [(SPENT, 5.0), (REFUSED, 5.0), (NONE, 5.0), (5.0, NONE)])
+def test_a_share_hangs_on_cases_of_which_one_side_alone_has_a_number(
+    hits: str, lost: tuple[float | str, float | str]
+) -> None:
+    settings = {"hits": hits, "accepted": [0.9, 1.0]}
+    lower: Ends = [(4.0, 5.0)] * 40
+    for more, is_firm in (([], True), ([(NONE, NONE)] * 9, True), ([lost] * 9, False)):
+        found = shares.share_within(asked(lower + more, settings))
+        assert (found.outcome, firm(found)) == (HOLDS, is_firm), more
+
+
+def test_a_share_of_solved_trials_hangs_on_what_did_not_end_alone() -> None:
+    settings = {"hits": "solved", "accepted": [0.0, 0.5]}
+    ends: Ends = [(5.0, 5.0), (NONE, 5.0), (NONE, 5.0), (NONE, 5.0)] * 20
+    assert firm(shares.share_within(asked(ends, settings)))
+    assert firm(shares.share_within(asked([*ends, (SPENT, 5.0)], settings)))
+    assert not firm(shares.share_within(asked(ends + [(SPENT, 5.0)] * 40, settings)))
+
+
+def test_every_case_and_an_equality_hang_on_one_side_that_failed() -> None:
+    for criterion, settings, case in [
+        (shares.on_every, {"that": "lower"}, (4.0, 5.0)),
+        (shares.on_every, {"that": "at_most_times", "bound": 2.0}, (4.0, 5.0)),
+        (shares.equals, {}, (5.0, 5.0)),
+    ]:
+        for lost, is_firm in (((REFUSED, 5.0), False), ((5.0, NONE), False), ((NONE, NONE), True)):
+            found = criterion(asked([case] * 9 + [lost], settings))
+            assert (found.outcome, firm(found)) == (HOLDS, is_firm), (settings, lost)
+
+
+def test_a_slope_hangs_on_what_did_not_end_where_that_could_bend_it() -> None:
+    rise: Ends = [(100.0 - place, 100.0) for place in range(40)]
+    settings = {"over": "x", "rising": True}
+    whole, cut, few = (
+        sizes.trend(asked(rise + more, settings)) for more in ([], [(SPENT, 1.0)] * 40, [(SPENT, 1.0)])
+    )
+    assert [found.outcome for found in (whole, cut, few)] == [HOLDS] * 3
+    assert [firm(found) for found in (whole, cut, few)] == [True, False, True]
+
+
+def one_draw(monkeypatch: pytest.MonkeyPatch, ends: Ends, printed: str, statistic: str) -> Found:
+    """What one printed number finds among draws of the contender alone."""
+    monkeypatch.setattr(printed_cells, "printed", lambda paper, claim: Printed(printed, "rounded"))
+    one = asked(ends, {"statistic": statistic})
+    one.cases().against = None
+    one.claim = {}
+    return printed_cells.one_draw(one)
+
+
+@pytest.mark.parametrize(("printed", "outcome"), [("50", HOLDS), ("101", FAILS)])
+def test_one_draw_hangs_on_draws_that_might_lie_beyond_it(
+    monkeypatch: pytest.MonkeyPatch, printed: str, outcome: str
+) -> None:
+    ends: Ends = [(float(place), 1.0) for place in range(100)]
+    whole = one_draw(monkeypatch, ends, printed, "mean")
+    cut = one_draw(monkeypatch, ends + [(SPENT, 1.0)] * 5, printed, "mean")
+    assert (whole.outcome, cut.outcome, firm(whole)) == (outcome, outcome, True)
+    # Five that lie above all others reach what is beyond them, and move no end past the middle.
+    assert firm(cut) == (outcome == HOLDS)
+
+
+def test_one_draw_of_a_share_hangs_on_what_might_be_solved(monkeypatch: pytest.MonkeyPatch) -> None:
+    none: Ends = [(NONE, 1.0)] * 60
+    assert firm(one_draw(monkeypatch, none, "100", "solved_percent"))
+    assert not firm(one_draw(monkeypatch, none + [(SPENT, 1.0)] * 60, "100", "solved_percent"))
+
+
+def row(monkeypatch: pytest.MonkeyPatch, ends: Ends, refused_below: float, statistics: list[str]) -> Found:
+    """What one printed row finds among draws of the contender alone."""
+    monkeypatch.setattr(printed_cells, "printed", lambda paper, claim: Printed("50", "rounded"))
+    claims = ["a claim"] * len(statistics)
+    rows = [{"contender": "A", "claims": claims, "statistics": statistics}]
+    one = asked(ends, {"rows": rows, "refused_below": refused_below})
+    one.cases().against = None
+    one.paper = SimpleNamespace(claim=lambda name: {})
+    return printed_cells.row_one_draw(one)
+
+
+def test_a_row_hangs_on_what_did_not_end_and_needs_draws_of_which_one_could_be_refused(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    ends: Ends = [(float(place), 1.0) for place in range(100)]
+    whole = row(monkeypatch, ends, 0.05, ["least", "greatest"])
+    cut = row(monkeypatch, [*ends, (SPENT, 1.0)], 0.05, ["least", "greatest"])
+    assert (whole.outcome, firm(whole), firm(cut)) == (HOLDS, True, False)
+    assert not whole.few
+    few = row(monkeypatch, ends[:39], 0.05, ["mean"]), row(monkeypatch, ends[:40], 0.05, ["mean"])
+    assert [is_few("row_one_draw", {}, found) for found in few] == [True, False]
+
+
+def test_two_groups_need_ten_draws_each_unless_nothing_is_drawn() -> None:
+    def few(first: int, second: int) -> bool:
+        one = asked([(5.0, 1.0)] * (first + second), {"statistic": "ratio_of_groups", "accepted": [0.5, 2.0]})
+        one.settings["of"] = {"problems": ["g", "h"]}
+        one.cases().group = np.repeat([0, 1], [first, second])
+        return sizes.within(one).few
+
+    # Of the first a single draw is all there is, of the second it is one of many.
+    assert [few(1, 10), few(1, 1), few(2, 10), few(10, 9)] == [False, True, True, True]

@@ -7,7 +7,7 @@ use super::evidence::{Evidence, Run, default_point};
 use super::found::Found;
 use super::metric;
 use super::rule;
-use super::settle::{parts_settle, settles};
+use super::settle::{nothing_decides, parts_settle, settles};
 use super::together::together;
 use super::verdict::{Estimate, Finding, Judged, Verdicts};
 use base::hash::sha256;
@@ -91,7 +91,10 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
     let paper = evidence.paper;
     // Gathered in order before any error is passed on, so that it is the first claim's.
     let alone: Vec<_> = paper.claims.par_iter().map(|claim| judge_alone(evidence, claim)).collect();
-    let claims = with_parts(evidence, alone.into_iter().collect::<Result<_, _>>()?);
+    let mut claims = with_parts(evidence, alone.into_iter().collect::<Result<_, _>>()?);
+    for (claim, judged) in paper.claims.iter().zip(&mut claims) {
+        say_what_settles(claim, judged);
+    }
     let mut together = together(evidence)?;
     // A number that no data can give is not met by a trial that prints alike.
     let is_impossible = |id: &String| {
@@ -259,6 +262,16 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
 fn premises(claim: &Claim) -> impl Iterator<Item = String> {
     let listed = |(id, options): (&String, &Vec<String>)| format!("{id} is {}", options.join(" or "));
     claim.holds_when.iter().map(listed)
+}
+
+/// What would settle a claim of which nothing that was found decides: it is not meant under this reading, or is shown alone.
+fn say_what_settles(claim: &Claim, judged: &mut Judged) {
+    if judged.verdict == Verdict::Undecided && judged.findings.iter().all(|found| found.settles.is_none()) {
+        let premises: Vec<String> = premises(claim).collect();
+        if let Some(last) = judged.findings.last_mut() {
+            last.settles = Some(nothing_decides(&premises));
+        }
+    }
 }
 
 /// What the stored sessions of the clock say, each judged by itself, and what each of them found.

@@ -119,6 +119,10 @@ impl<'a> Selection<'a> {
             faults.add(context.settings.error_at("of.query", message));
         }
         let sweep = of.sweep.as_ref().and_then(|text| faults.keep(sweep_point(context, study, text)));
+        if let Some(own) = of.against.as_ref().filter(|against| contenders.contains(against)) {
+            let message = format!("`{own}` is held against itself; another contender is accepted");
+            faults.add(context.settings.error_at("of.against", message));
+        }
         faults.done()?;
         let (against, query) = (of.against.clone(), of.query.clone());
         let (whole_draws, all_ends) = (of.whole_draws, of.all_ends);
@@ -362,17 +366,6 @@ pub fn filled(selection: &Selection<'_>, draws: &[Draw<'_>]) -> Vec<Vec<Vec<(f64
         case.pair().or_else(|| case.is_censored().then(filled))
     };
     [1.0, -1.0].map(|unknown| by_draw(draws, |case| number(case, unknown))).to_vec()
-}
-
-/// The draws as they would be if each case without an end had given the number that `given` says of its draw.
-pub fn ended<'e>(draws: &[Draw<'e>], given: impl Fn(&Draw<'e>) -> f64) -> Vec<Draw<'e>> {
-    let of_draw = |draw: &Draw<'e>| {
-        let number = given(draw);
-        let ended =
-            |case: &Case<'e>| if case.is_unended() { Case { value: Some(number), ..*case } } else { *case };
-        Draw { group: draw.group, cases: draw.cases.iter().map(ended).collect() }
-    };
-    draws.iter().map(of_draw).collect()
 }
 
 /// The trial whose number, as `of` takes it, is nearest to `value`.

@@ -44,6 +44,15 @@ pub fn settles(found: &Found, caps: Caps) -> String {
         .unwrap_or_else(|| "the paper's own inputs: what is measured here stands neither way".to_owned())
 }
 
+/// What would settle a claim that nothing decides, with where alone it is meant.
+pub fn nothing_decides(premises: &[String]) -> String {
+    if premises.is_empty() {
+        "a bound, or a number that the paper prints: what is measured is shown and held against nothing".to_owned()
+    } else {
+        format!("a reading under which it is meant: {}", premises.join(", and "))
+    }
+}
+
 /// What would settle a sentence whose parts leave it open.
 pub fn parts_settle(parts: &Parts, verdicts: &[Verdict]) -> String {
     let speaks = |wanted| verdicts.iter().any(|verdict| verdict.polarity() == wanted);
@@ -81,7 +90,8 @@ fn more_draws(found: &Found) -> Option<String> {
     if margin == 0.0 || !margin.is_finite() {
         return None;
     }
-    let needed = units_for_margin((high - low) / 2.0, ours.n, margin);
+    // Half of a lopsided interval may be less than the distance that it covers.
+    let needed = units_for_margin((high - low) / 2.0, ours.n, margin).max(ours.n + 1);
     if needed as f64 > MANY * ours.n as f64 {
         return Some(format!(
             "no number of {} within reach: ours is too close to the limit to be told from it",

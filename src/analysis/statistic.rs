@@ -5,7 +5,7 @@
 use super::evidence::Run;
 use super::found::Narrows;
 use super::metric::Metric;
-use super::selection::{Case, Draw, Selection, by_draw, cases, ended, is_unended, unended};
+use super::selection::{Case, Draw, Selection, by_draw, cases, is_unended, unended};
 use super::verdict::Estimate as VerdictEstimate;
 use base::seed;
 use schemars::JsonSchema;
@@ -216,6 +216,17 @@ impl OfAll {
         let interval = Interval::new(percent(ratio.interval.high), percent(ratio.interval.low));
         Some(Estimate { value: percent(ratio.value), interval, ..ratio })
     }
+}
+
+/// The draws as they would be if each case without an end had given the number that `given` says of its draw.
+fn ended<'e>(draws: &[Draw<'e>], given: impl Fn(&Draw<'e>) -> f64) -> Vec<Draw<'e>> {
+    let of_draw = |draw: &Draw<'e>| {
+        let number = given(draw);
+        let ended =
+            |case: &Case<'e>| if case.is_unended() { Case { value: Some(number), ..*case } } else { *case };
+        Draw { group: draw.group, cases: draw.cases.iter().map(ended).collect() }
+    };
+    draws.iter().map(of_draw).collect()
 }
 
 /// A reduction as a change, its sign turned.

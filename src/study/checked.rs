@@ -81,6 +81,11 @@ pub fn recorded_mark<'a>(labels: impl Iterator<Item = &'a str>) -> Option<String
 }
 
 impl Study {
+    /// Whether the seed decides anything of what is posed in a problem group: one draw is then one of many.
+    pub fn is_drawn(&self, group: &str) -> bool {
+        self.groups.iter().any(|own| own.label == group && own.family.is_drawn)
+    }
+
     /// The default point and, for every other option, the point that differs in it alone.
     ///
     /// # Errors

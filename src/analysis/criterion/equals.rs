@@ -79,8 +79,9 @@ struct Tally<'e> {
     sums: [f64; 2],
     /// The first trial that is not the same.
     wrong: Option<&'e Row>,
-    /// Trials without an end and without a number, which could be either.
-    unended: usize,
+    /// Trials without a number that could be either: without an end or, held against another contender's, of which one side
+    /// alone has none.
+    unknown: usize,
     /// Trials that are not the same, of others.
     broken: usize,
 }
@@ -101,8 +102,9 @@ impl Equals<'_> {
             for case in &draw.cases {
                 let pair = self.pair(run, case);
                 let is_known = pair.is_some_and(|(_, own)| own.is_finite());
-                let is_cut = !is_known && case.is_unended();
-                all.unended += usize::from(is_cut);
+                let is_cut = !is_known
+                    && if self.truth.is_some() { case.is_unended() } else { case.is_censored() };
+                all.unknown += usize::from(is_cut);
                 let Some((truth, own)) = pair else { continue };
                 let apart = (own - truth).abs();
                 let is_same = apart <= self.within + SAME * truth.abs();
@@ -130,7 +132,7 @@ impl Criterion for Equals<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let Some(run) = self.of.run(evidence) else { return Found::default() };
         let draws = self.of.draws(evidence);
-        let Tally { counts, worst, sums, wrong, unended, broken } = self.tally(run, &draws);
+        let Tally { counts, worst, sums, wrong, unknown, broken } = self.tally(run, &draws);
         let [same, all] = counts.iter().fold([0.0, 0.0], |sum, count| [sum[0] + count[0], sum[1] + count[1]]);
         let outcome = match (all > 0.0, same == all) {
             (false, _) => Outcome::Open,
@@ -160,7 +162,7 @@ impl Criterion for Equals<'_> {
             because,
             units: "trials",
             // That something is wrong hangs on them only if nothing else is.
-            censored: if broken > 0 { 0 } else { unended },
+            censored: if broken > 0 { 0 } else { unknown },
             ..Found::default()
         }
     }

@@ -66,7 +66,7 @@ struct LeastOf<'a> {
 }
 
 /// Fewest seeds of two contenders that draw of which medians decide: of 4 each, all of one are below all of the other's by
-/// chance once in 70 times; of 3 each once in 20 times. A contender with one seed does not draw.
+/// chance once in 70 times; of 3 each once in 20 times. A contender with one seed does not draw; a problem that was drawn does.
 const FEWEST_SEEDS: usize = 4;
 
 /// One contender on one problem.
@@ -87,14 +87,17 @@ struct Compared {
     ends: [f64; 2],
     /// Trials of either side.
     trials: [usize; 2],
+    /// The problem itself was drawn, so that one trial is one of many.
+    is_drawn: bool,
     inclusion: Inclusion,
     keeps: bool,
 }
 
 impl Compared {
-    /// Whether a contender draws and has fewer seeds.
+    /// Whether something was drawn fewer times.
     fn is_few(&self, fewest: usize) -> bool {
-        self.trials.iter().any(|trials| (2..fewest).contains(trials))
+        let least = if self.is_drawn { 1 } else { 2 };
+        self.trials.iter().any(|trials| (least..fewest).contains(trials))
     }
 }
 
@@ -106,6 +109,10 @@ impl<'a> LeastOf<'a> {
             if labels.is_empty() {
                 return Err(context.settings.error_at(key, format!("`{key}` needs at least one contender")));
             }
+        }
+        if let Some(own) = lower.iter().find(|own| higher.contains(own)) {
+            let message = format!("`{own}` is held against itself; another contender is accepted");
+            return Err(context.settings.error_at("higher", message));
         }
         let named: Vec<&str> = lower.iter().chain(&higher).map(String::as_str).collect();
         let mut faults = Faults::default();
@@ -215,6 +222,7 @@ impl<'a> LeastOf<'a> {
             // Wider than the interval of the ratio at either side's level, and so on the safe side.
             ends: [ratio(from[0], to[1]), ratio(from[1], to[0])],
             trials: [one.values.len(), other.values.len()],
+            is_drawn: self.of.study.is_drawn(problem),
             inclusion,
             keeps: inclusion.is_kept(&one.ended, &other.ended),
         })

@@ -124,9 +124,15 @@ impl<'a> OnEvery<'a> {
         }
     }
 
-    /// How many cases did not come to an end; that a case is not solved is itself an answer where that is what is asked.
-    fn unended(&self, draws: &[Draw<'_>]) -> usize {
-        if self.that == That::Solved { 0 } else { selection::unended(draws) }
+    /// How many cases might have been a counterexample and have no number; that a case is not solved is itself an answer where
+    /// that is what is asked.
+    fn unknown(&self, draws: &[Draw<'_>]) -> usize {
+        match self.that {
+            That::Solved => 0,
+            // Paths that the verifier refuses are looked at too.
+            That::AtMost => selection::unended(draws),
+            That::Lower | That::AtMostTimes | That::Above => selection::censored(draws),
+        }
     }
 
     fn said_by<'e>(&self, run: &Run<'_>, draws: &'e [Draw<'e>]) -> Vec<Vec<(Says, &'e Row)>> {
@@ -171,16 +177,16 @@ impl Criterion for OnEvery<'_> {
             self.claim(),
             kept + equal + broken
         );
-        let undone = if broken == 0 && self.that != That::Solved { selection::censored(&draws) } else { 0 };
-        let left = (undone > 0).then(|| format!("{undone} more cases have no number to compare"));
+        // One counterexample is enough; that cases are equal is not.
+        let unknown = if broken > 0 { 0 } else { self.unknown(&draws) };
+        let left = (unknown > 0).then(|| format!("{unknown} more cases have no number to compare"));
         Found {
             outcome: Some(outcome),
             ours: self.share(&said).map(|ours| ours.of_cases(solved(&draws))),
             trial: shown.map(|(_, row)| run.trial(row)),
             because: std::iter::once(because).chain(left).collect(),
             units: "cases",
-            // One counterexample is enough; that cases are equal is not.
-            censored: if broken > 0 { 0 } else { self.unended(&draws) },
+            censored: unknown,
             ..Found::default()
         }
     }

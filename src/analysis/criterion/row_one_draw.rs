@@ -13,6 +13,7 @@ use base::settings::{Accepted, Faults, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::rows::{Level, Place, monotone_probability};
+use std::collections::BTreeMap;
 use study::contender::SweepPoint;
 
 /// The registry's entry.
@@ -108,10 +109,13 @@ impl<'a> RowOneDraw<'a> {
     }
 }
 
+/// What was drawn once for every row: a problem group's draw, and the contender's seed.
+type Unit<'e> = (&'e str, u32, u32);
+
 impl Row<'_> {
-    /// The numbers of each cell, one a draw; draws that lack one are left out of all.
-    fn values(&self, draws: &[Draw<'_>], unended_solved: bool) -> Vec<Vec<f64>> {
-        let of_draw = |draw: &Draw<'_>| -> Option<Vec<f64>> {
+    /// The numbers of all cells of each draw that lacks none.
+    fn values<'e>(&self, draws: &[Draw<'e>], unended_solved: bool) -> BTreeMap<Unit<'e>, Vec<f64>> {
+        let of_draw = |draw: &Draw<'e>| -> Option<Vec<f64>> {
             match &self.cells {
                 Cells::Statistics(statistics) => statistics.iter().map(|of| of.of(draw)).collect(),
                 Cells::Sweep(points) => {
@@ -121,7 +125,11 @@ impl Row<'_> {
                 }
             }
         };
-        draws.iter().filter_map(of_draw).collect()
+        let unit = |draw: &Draw<'e>| {
+            let row = draw.cases.first()?.row;
+            Some((draw.group, row.draw(), row.key.repeat))
+        };
+        draws.iter().filter_map(|draw| Some((unit(draw)?, of_draw(draw)?))).collect()
     }
 }
 
@@ -139,17 +147,35 @@ fn level_said(level: &Level, refused_below: f64) -> String {
 }
 
 impl RowOneDraw<'_> {
-    /// The numbers of all cells of all rows, one list a cell.
+    /// The numbers of all cells of all rows, one list a cell, of the draws that have them all.
     fn cells(&self, drawn: &[Vec<Draw<'_>>], unended_solved: bool) -> Vec<Vec<f64>> {
-        let of_row = |(row, draws): (&Row<'_>, &Vec<Draw<'_>>)| {
-            let values = row.values(draws, unended_solved);
-            let width = values.first().map_or(0, Vec::len);
-            (0..width).map(|cell| values.iter().map(|draw| draw[cell]).collect()).collect::<Vec<Vec<f64>>>()
+        let rows: Vec<BTreeMap<Unit<'_>, Vec<f64>>> =
+            self.rows.iter().zip(drawn).map(|(row, draws)| row.values(draws, unended_solved)).collect();
+        let whole = |unit: &Unit<'_>| -> Option<Vec<f64>> {
+            let each: Option<Vec<_>> = rows.iter().map(|row| row.get(unit).cloned()).collect();
+            each.map(|each| each.concat())
         };
-        self.rows.iter().zip(drawn).flat_map(of_row).collect()
+        let units: Vec<Vec<f64>> = rows.first().into_iter().flat_map(BTreeMap::keys).filter_map(whole).collect();
+        (0..self.printed.len()).map(|cell| units.iter().map(|unit| unit[cell]).collect()).collect()
     }
 
-    /// Where the printed row stands, in shape and in level, its rank among our draws and itself, and what that says.
+    /// How many cases without an end could turn what was found: they count as solved; what they would have given else is not known.
+    fn censored(&self, drawn: &[Vec<Draw<'_>>], (level, outcome): (&Level, Outcome)) -> usize {
+        let unended: usize = drawn.iter().map(|draws| selection::unended(draws)).sum();
+        if unended == 0 {
+            return 0;
+        }
+        let is_counted = self.rows.iter().all(|row| matches!(row.cells, Cells::Sweep(_)));
+        let filled = is_counted.then(|| self.placed(&self.cells(drawn, true))).flatten();
+        // A level that passes the row's on the way could be its.
+        let is_turned = filled.is_none_or(|(_, other, _, filled)| {
+            filled != outcome || (level.difference < 0.0) != (other.difference < 0.0)
+        });
+        if is_turned { unended } else { 0 }
+    }
+
+    /// Where the printed row stands, in shape and in level, its rank of shape among our draws and itself, and what both ranks
+    /// say: each is exact, however few the draws.
     fn placed(&self, cells: &[Vec<f64>]) -> Option<(Place, Level, f64, Outcome)> {
         let place = Place::of(&self.printed, cells).filter(|_| cells.len() == self.printed.len())?;
         let level = Level::of(&self.printed, cells)?;
@@ -162,7 +188,7 @@ impl RowOneDraw<'_> {
     fn shown(&self, evidence: &Evidence<'_>, draws: &[Draw<'_>]) -> Option<String> {
         let row = &self.rows[0];
         let apart = |draw: &Draw<'_>| -> Option<f64> {
-            let values = row.values(std::slice::from_ref(draw), false).pop()?;
+            let (_, values) = row.values(std::slice::from_ref(draw), false).pop_first()?;
             Some(values.iter().zip(&self.printed).map(|(own, printed)| (own - printed).powi(2)).sum())
         };
         let known = draws.iter().filter_map(|draw| Some((draw, apart(draw)?)));
@@ -208,17 +234,15 @@ impl Criterion for RowOneDraw<'_> {
         let Some((place, level, rank, outcome)) = self.placed(&cells) else {
             return Found::too_few(cells.iter().map(Vec::len).min().unwrap_or(0), self.fewest());
         };
-        let unended: usize = drawn.iter().map(|draws| selection::unended(draws)).sum();
-        let filled = (unended > 0).then(|| self.placed(&self.cells(&drawn, true))).flatten();
-        // A level that passes the row's on the way could be its.
-        let is_turned = filled.is_some_and(|(_, other, _, filled)| {
-            filled != outcome || (level.difference < 0.0) != (other.difference < 0.0)
-        });
-        let (share, n) = (place.as_far as f64 / place.draws as f64, place.draws);
-        let ours = Estimate::bare(share, "share of our draws at least as far from the mean row", n);
+        let (judged, n) = (rank.min(level.rank.p_two_sided()), place.draws);
+        let what = format!(
+            "rank among our draws and itself, the lesser of shape and level; refused below {}",
+            self.refused_below
+        );
+        let ours = Estimate::bare(judged, what, n);
         Found {
             outcome: Some(outcome),
-            censored: if is_turned { unended } else { 0 },
+            censored: self.censored(&drawn, (&level, outcome)),
             ours: Some(ours.of_cases(solved(&drawn[0]))),
             trial: self.shown(evidence, &drawn[0]),
             because: self.because(&place, &level, rank, &cells),

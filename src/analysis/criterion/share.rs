@@ -5,7 +5,7 @@ use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
-use crate::analysis::selection::{self, Case, Draw, Selection, cases, solved};
+use crate::analysis::selection::{Case, Draw, Selection, cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{Share, narrows, needs, plan};
 use base::settings::{Accepted, SettingsError};
@@ -123,6 +123,10 @@ impl<'a> Counted<'a> {
         }
         if let Some(accepted) = settings.accepted {
             context.rising("accepted", accepted, [0.0, 1.0])?;
+            if accepted == [0.0, 1.0] {
+                let message = "every share lies between 0 and 1; bounds that refuse some are accepted";
+                return Err(context.settings.error_at("accepted", message));
+            }
         }
         let plan = plan(&context.seed_names());
         Ok(Self { of, settings, plan })
@@ -151,9 +155,20 @@ impl<'a> Counted<'a> {
         }
     }
 
-    /// Hits and chances of one draw; its cases without an end as what they are, or all as hits or as misses.
-    fn of_draw(&self, draw: &Draw<'_>, unended: Option<bool>) -> [f64; 2] {
-        let of_case = |case: &Case<'_>| match unended.filter(|_| case.is_unended()) {
+    /// Whether a case might be a hit and is not known to be: where numbers are compared one that lacks a number, and where
+    /// statuses are counted one without an end.
+    fn is_unknown(&self, case: &Case<'_>) -> bool {
+        match self.settings.hits {
+            // They are no answer where marks or events are counted.
+            Hits::Marked | Hits::Events => false,
+            Hits::Solved | Hits::Rejected => case.is_unended(),
+            Hits::Above | Hits::Lower | Hits::Higher | Hits::LowerThroughout => case.is_censored(),
+        }
+    }
+
+    /// Hits and chances of one draw; its cases of which nothing is known left out, or all as hits or as misses.
+    fn of_draw(&self, draw: &Draw<'_>, unknown: Option<bool>) -> [f64; 2] {
+        let of_case = |case: &Case<'_>| match unknown.filter(|_| self.is_unknown(case)) {
             Some(is_hit) => Some([f64::from(u8::from(is_hit)), 1.0]),
             None => self.counts(case),
         };
@@ -165,11 +180,10 @@ impl<'a> Counted<'a> {
         [hits, chances]
     }
 
-    /// How many cases without an end could turn what was found: all are counted as hits, then all as misses. They are no
-    /// answer where marks or events are counted.
+    /// How many cases of which nothing is known could turn what was found: all are counted as hits, then all as misses.
     fn censored(&self, draws: &[Draw<'_>], outcome: Option<Outcome>) -> usize {
-        let is_asked = !matches!(self.settings.hits, Hits::Marked | Hits::Events);
-        if !is_asked || selection::unended(draws) == 0 {
+        let unknown = cases(draws).filter(|case| self.is_unknown(case)).count();
+        if unknown == 0 {
             return 0;
         }
         let interval = |is_hit: bool| {
@@ -179,7 +193,7 @@ impl<'a> Counted<'a> {
         // All that the share may be: anything from the one interval to the other.
         let widest = interval(false).zip(interval(true)).map(|(none, all)| Interval::new(none.low, all.high));
         let turned = widest.is_some_and(|widest| self.outcome(widest) != outcome);
-        if turned { selection::unended(draws) } else { 0 }
+        if turned { unknown } else { 0 }
     }
 
     fn outcome(&self, interval: Interval) -> Option<Outcome> {

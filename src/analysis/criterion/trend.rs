@@ -70,6 +70,11 @@ impl<'a> Trend<'a> {
         let middle = summary::mean(&seen.iter().map(|(x, _)| *x).collect::<Vec<_>>());
         let ends = [f64::min as fn(_, _) -> _, f64::max].map(|of| seen.iter().map(|(_, y)| *y).reduce(of));
         let (Some(middle), [Some(least), Some(most)]) = (middle, ends) else { return 0 };
+        // One whose place is not known either may stand anywhere.
+        let is_lost = |case: &Case<'_>| case.is_unended() && case.row.value(&self.over).is_none();
+        if cases(draws).any(is_lost) {
+            return selection::unended(draws);
+        }
         let number = |case: &Case<'_>, rising: bool| {
             let place = case.row.value(&self.over).filter(|_| case.is_unended());
             self.point(case).or_else(|| place.map(|x| (x, if (x > middle) == rising { most } else { least })))

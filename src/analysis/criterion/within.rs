@@ -125,10 +125,14 @@ impl<'a> Within<'a> {
         if is_same_side { Outcome::SignOnly } else { Outcome::Fails }
     }
 
-    /// Two groups of one draw each give numbers, not intervals.
-    fn needs(&self, draws: usize, units: usize) -> Option<usize> {
-        let is_exact = self.statistic == OfAll::RatioOfGroups && draws == 2;
-        needs(units).filter(|_| !is_exact)
+    /// Draws of which there are too few; of two groups each needs as many, but for one in which nothing is drawn.
+    fn needs(&self, draws: &[Draw<'_>], units: usize) -> Option<usize> {
+        if self.statistic != OfAll::RatioOfGroups {
+            return needs(units);
+        }
+        let of_group = |group: &String| draws.iter().filter(|draw| draw.group == group).count();
+        let is_enough = |group: &String| of_group(group) == 1 && !self.of.study.is_drawn(group);
+        self.of.groups.iter().filter(|group| !is_enough(group)).find_map(|group| needs(of_group(group)))
     }
 
     fn estimated(&self, draws: &[Draw<'_>]) -> Option<Estimated> {
@@ -188,7 +192,7 @@ impl Criterion for Within<'_> {
             limits: vec![self.accepted.low, self.accepted.high],
             units: "draws",
             censored: self.censored(&draws, outcome),
-            needs: self.needs(draws.len(), found.units),
+            needs: self.needs(&draws, found.units),
             narrows: narrows(found.is_agreed),
             ..Found::default()
         }

@@ -17,6 +17,7 @@ pub static ENTRY: Entry = Entry {
     name: "arm_workspace",
     about: "a planar arm among obstacles, its tip on a lattice, from one start to one goal",
     revision: 1,
+    is_drawn: false,
     prepared: workspace_map::ENTRY.name,
     columns: ARM_COLUMNS,
     settings: Accepted::of::<ArmWorkspace>(),

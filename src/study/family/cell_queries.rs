@@ -31,6 +31,7 @@ pub static ENTRY: Entry = Entry {
     name: "cell_queries",
     about: "queries of a six-axis arm in its cell, on roadmaps of free configurations drawn at random",
     revision: 5,
+    is_drawn: true,
     prepared: nested_roadmap::ENTRY.name,
     columns: ARM_COLUMNS,
     settings: Accepted::of::<CellQueries>(),

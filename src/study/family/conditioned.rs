@@ -28,6 +28,7 @@ pub static ENTRY: Entry = Entry {
     name: "conditioned",
     about: "draws of other families, each with equal chance, on which one planner's record lies in given bands",
     revision: 1,
+    is_drawn: true,
     prepared: lattice::ENTRY.name,
     columns: LATTICE_COLUMNS,
     settings: Accepted::of::<Conditioned>(),

@@ -109,6 +109,8 @@ pub struct Entry {
     pub about: &'static str,
     /// Raised whenever a change moves what it draws.
     pub revision: u32,
+    /// Whether its seed decides anything of what it poses: a single draw is then one of many, not the paper's own.
+    pub is_drawn: bool,
     /// The kind of prepared object it builds.
     pub prepared: &'static str,
     /// The columns that every trial on its problems has.

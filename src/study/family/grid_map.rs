@@ -17,6 +17,7 @@ pub static ENTRY: Entry = Entry {
     name: "grid_map",
     about: "one map from a file (text, PNG, ROS, Moving AI), one start and one goal",
     revision: 1,
+    is_drawn: false,
     prepared: lattice::ENTRY.name,
     columns: LATTICE_COLUMNS,
     settings: Accepted::of::<GridMap>(),

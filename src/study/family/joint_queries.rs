@@ -27,6 +27,7 @@ pub static ENTRY: Entry = Entry {
     name: "joint_queries",
     about: "a robot of any number of axes (URDF) among solids (robometrics or MotionBenchMaker), on roadmaps in joint space",
     revision: 2,
+    is_drawn: true,
     prepared: nested_roadmap::ENTRY.name,
     columns: JOINT_COLUMNS,
     settings: Accepted::of::<JointQueries>(),

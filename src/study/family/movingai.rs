@@ -21,6 +21,7 @@ pub static ENTRY: Entry = Entry {
     name: "movingai",
     about: "a MovingAI map (.map) with the queries of a scenario file (.scen) and their printed optimal lengths",
     revision: 1,
+    is_drawn: false,
     prepared: lattice::ENTRY.name,
     columns: &[
         "path_cost_cells",

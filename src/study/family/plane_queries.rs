@@ -21,6 +21,7 @@ pub static ENTRY: Entry = Entry {
     name: "plane_queries",
     about: "a particle among polygons, one start and one goal, on roadmaps of free points drawn at random",
     revision: 1,
+    is_drawn: true,
     prepared: nested_roadmap::ENTRY.name,
     columns: PLANE_COLUMNS,
     settings: Accepted::of::<PlaneQueries>(),

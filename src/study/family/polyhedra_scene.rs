@@ -24,6 +24,7 @@ pub static ENTRY: Entry = Entry {
     name: "polyhedra_scene",
     about: "one scene of polyhedra from a file, with written queries or ones drawn around them; an arm may carry the tip",
     revision: 3,
+    is_drawn: false,
     prepared: polyhedra::ENTRY.name,
     columns: CARRIED_COLUMNS,
     settings: Accepted::of::<SceneSettings>(),

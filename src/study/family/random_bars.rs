@@ -16,6 +16,7 @@ pub static ENTRY: Entry = Entry {
     name: "random_bars",
     about: "random maps of lying and standing bars one cell thick; start and goal are freed",
     revision: 1,
+    is_drawn: true,
     prepared: lattice::ENTRY.name,
     columns: LATTICE_COLUMNS,
     settings: Accepted::of::<RandomBars>(),

@@ -17,6 +17,7 @@ pub static ENTRY: Entry = Entry {
     name: "random_cells",
     about: "random maps whose cells are blocked independently; start and goal are freed",
     revision: 1,
+    is_drawn: true,
     prepared: lattice::ENTRY.name,
     columns: LATTICE_COLUMNS,
     settings: Accepted::of::<RandomCells>(),

@@ -19,6 +19,7 @@ pub static ENTRY: Entry = Entry {
     name: "random_polyhedra",
     about: "a random number of random obstacles in a cube, disjoint or not, with written queries or a drawn one",
     revision: 2,
+    is_drawn: true,
     prepared: polyhedra::ENTRY.name,
     columns: POLYHEDRA_COLUMNS,
     settings: Accepted::of::<RandomPolyhedra>(),

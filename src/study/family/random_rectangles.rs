@@ -16,6 +16,7 @@ pub static ENTRY: Entry = Entry {
     name: "random_rectangles",
     about: "random maps of filled rectangles that may overlap; start and goal are freed",
     revision: 1,
+    is_drawn: true,
     prepared: lattice::ENTRY.name,
     columns: LATTICE_COLUMNS,
     settings: Accepted::of::<RandomRectangles>(),

@@ -1,14 +1,17 @@
 //! Trials that did not come to an end: what they would have given decides, so nothing is decided unless it does not matter.
 
-use super::synthetic::End::{At, NoPath, Spent};
+use super::synthetic::End::{At, NoPath, Rejected, Spent};
 use super::synthetic::{End, Made, SWEEP, Sample, Synthetic};
 
 /// The class of a claim by `criterion` after `records`.
 fn class(criterion: &str, settings: &str, made: Made, records: Sample) -> &'static str {
     let of = "study = \"drawn\", problems = [\"map\"]";
     let settings = settings.replace("OF", of);
+    let cells = ["low", "high"]
+        .map(|id| format!("[[claim]]\nid = \"{id}\"\nat = \"here\"\nprinted = \"7\"\nuntestable = \"it\"\n"));
     let claim = format!(
-        "[[claim]]\nid = \"asked\"\nat = \"here\"\nprinted = \"0\"\n[claim.check.{criterion}]\n{settings}\n"
+        "[[claim]]\nid = \"asked\"\nat = \"here\"\nprinted = \"0\"\n[claim.check.{criterion}]\n{settings}\n{}",
+        cells.concat()
     );
     Synthetic::new(&claim, made).judged(records.records(), &[]).name()
 }
@@ -116,4 +119,116 @@ fn what_is_wrong_is_wrong_however_many_others_did_not_end() {
     let (same, cut, wrong) = ((9, At(5.0), At(5.0)), (2, Spent, At(5.0)), (1, At(6.0), At(5.0)));
     assert_eq!([of(&[same]), of(&[same, cut])], ["reproduced", "undecided"]);
     assert_eq!([of(&[same, wrong]), of(&[same, wrong, cut])], ["not reproduced"; 2]);
+}
+
+#[test]
+fn what_compares_two_hangs_on_cases_of_which_one_alone_has_a_number() {
+    let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+    for (criterion, settings, case) in [
+        ("share", "hits = \"lower\"\naccepted = [0.9, 1.0]", (40, At(4.0), At(5.0))),
+        ("share", "hits = \"lower_throughout\"\naccepted = [0.9, 1.0]", (40, At(4.0), At(5.0))),
+        ("on_every", "that = \"lower\"", (40, At(4.0), At(5.0))),
+        ("on_every", "that = \"at_most_times\"\nbound = 2.0", (40, At(4.0), At(5.0))),
+        ("equals", "", (40, At(5.0), At(5.0))),
+    ] {
+        let class = |more: (usize, End, End)| {
+            class(criterion, &format!("{of}\n{settings}"), Made::Plainly, pairs(&[case, more]))
+        };
+        let name = format!("{criterion}: {settings}");
+        assert_eq!(class((9, NoPath, NoPath)), "reproduced", "{name}: neither has a path");
+        for lost in [(9, Rejected, At(5.0)), (9, NoPath, At(5.0)), (9, At(4.0), NoPath), (9, Spent, Spent)] {
+            assert_eq!(class(lost), "undecided", "{name}: {lost:?}");
+        }
+    }
+    let above = |more: End| {
+        let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
+        let settings = format!("{of}\nhits = \"above\"\nbound = 3.0\naccepted = [0.9, 1.0]");
+        class("share", &settings, Made::Plainly, pairs(&[(40, At(4.0), At(1.0)), (9, more, At(1.0))]))
+    };
+    assert_eq!([above(NoPath), above(Rejected), above(Spent)], ["reproduced", "undecided", "undecided"]);
+}
+
+#[test]
+fn a_row_of_numbers_and_a_trend_hang_on_what_did_not_end() {
+    let drawn = |spent: usize| {
+        let mut sample = Sample::default();
+        for draw in 0..60 {
+            sample.draw();
+            sample.trial("A", At(7.0 + f64::from(draw % 7 - 3)));
+            sample.with("optimal_cost_cells", f64::from(draw % 7));
+        }
+        for _ in 0..spent {
+            sample.draw();
+            sample.trial("A", Spent);
+        }
+        sample
+    };
+    let of = "of = { OF, metric = \"path_cost_cells\" }";
+    let rows = "[{ contender = \"A\", statistics = [\"least\", \"greatest\"], claims = [\"low\", \"high\"] }]";
+    let row = |spent| {
+        class("row_one_draw", &format!("{of}\nrows = {rows}\nrefused_below = 0.05"), Made::Plainly, drawn(spent))
+    };
+    assert_eq!([row(0), row(1)], ["reproduced", "undecided"]);
+    let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
+    let trend = |spent| {
+        let settings = format!("{of}\nover = \"optimal_cost_cells\"\nrising = true");
+        class("trend", &settings, Made::Plainly, drawn(spent))
+    };
+    assert_eq!([trend(0), trend(1)], ["reproduced", "undecided"], "nor is it known where along it");
+}
+
+#[test]
+fn rows_of_one_draw_are_joined_by_the_draw() {
+    // Of every second draw one row lacks a number: joined by their order the two would seem apart.
+    let mut sample = Sample::default();
+    for draw in 0..120 {
+        sample.draw();
+        let cost = 7.0 + f64::from(draw % 11 - 5);
+        sample.trial("A", if draw % 2 == 0 { At(cost) } else { NoPath });
+        sample.trial("B", if draw % 3 == 0 { NoPath } else { At(cost) });
+    }
+    let row = |label: &str, claim: &str| {
+        format!("{{ contender = \"{label}\", statistics = [\"mean\"], claims = [\"{claim}\"] }}")
+    };
+    let settings = format!(
+        "of = {{ study = \"drawn\", problems = [\"map\"], metric = \"path_cost_cells\" }}\nrows = [{}, {}]\nrefused_below = 0.05",
+        row("A", "low"),
+        row("B", "high")
+    );
+    let cells = ["low", "high"]
+        .map(|id| format!("[[claim]]\nid = \"{id}\"\nat = \"here\"\nprinted = \"7\"\nuntestable = \"it\"\n"));
+    let claim = format!(
+        "[[claim]]\nid = \"asked\"\nat = \"here\"\nprinted = \"0\"\n[claim.check.row_one_draw]\n{settings}\n{}",
+        cells.concat()
+    );
+    let found = Synthetic::new(&claim, Made::Plainly).judgement(sample.records(), &[]);
+    let ours = found.findings[0].ours.as_ref().unwrap();
+    assert_eq!(ours.n, 40, "draws that have both: neither odd nor a multiple of 3");
+}
+
+#[test]
+fn one_draw_of_what_was_drawn_is_one_of_many() {
+    let least = |draws: usize| {
+        let settings = "of = { OF, metric = \"path_cost_cells\" }\nlower = \"A\"\nhigher = [\"B\"]";
+        class("least_of", settings, Made::Plainly, pairs(&[(draws, At(5.0), At(10.0))]))
+    };
+    assert_eq!([least(1), least(3), least(4)], ["undecided", "undecided", "reproduced"]);
+    let ratio = |draws: [usize; 2]| {
+        let mut sample = Sample::default();
+        for (group, count, value) in [("map", draws[0], 100.0), ("other", draws[1], 50.0)] {
+            for _ in 0..count {
+                sample.draw_on(group);
+                sample.trial("A", At(value));
+            }
+        }
+        let of = "of = { study = \"drawn\", problems = [\"map\", \"other\"], contender = \"A\", metric = \"path_cost_cells\" }";
+        class(
+            "within",
+            &format!("{of}\nstatistic = \"ratio_of_groups\"\naccepted = [0.1, 9.0]"),
+            Made::Plainly,
+            sample,
+        )
+    };
+    assert_eq!([ratio([1, 1]), ratio([1, 30]), ratio([30, 9])], ["undecided"; 3]);
+    assert_eq!(ratio([30, 10]), "reproduced");
 }

@@ -144,6 +144,8 @@ pub enum End {
     At(f64),
     /// Without a path.
     NoPath,
+    /// With a path that the verifier refuses.
+    Rejected,
     /// When the budget was spent.
     Spent,
 }
@@ -192,6 +194,7 @@ impl Sample {
         let (status, value) = match end {
             End::At(value) => (Status::Solved, Some(value)),
             End::NoPath => (Status::NoPath, None),
+            End::Rejected => (Status::Rejected, None),
             End::Spent => (Status::BudgetSpent, None),
         };
         let values = value.into_iter().map(|value| ("path_cost_cells", Value::Real(value))).collect();

@@ -10,6 +10,7 @@ fn compared(ends: [f64; 2]) -> Compared {
         ratio,
         ends,
         trials: [20, 20],
+        is_drawn: true,
         inclusion: Inclusion::Open,
         keeps: true,
     }
