@@ -163,6 +163,26 @@ fn what_the_planner_joins_the_verifier_follows_both_ways() {
 }
 
 #[test]
+fn a_joint_that_turns_back_at_its_limit_within_a_step_is_followed_or_not_joined() {
+    let ((lines, case), mut scratch) = (case(EdgeEnd::Own), Scratch::default());
+    let mut stream = stream(derive(1, &["legs at the limit of the sixth joint"]));
+    let upper_rad = lines.cell().robot().arm().chain().joints()[5].upper_rad;
+    let mut joined = 0;
+    for _ in 0..20_000 {
+        let mut near = |middle: f64| middle + stream.random_range(-0.3..0.3);
+        let mut from = [0.0, -90.0, 0.0, 0.0, 60.0, 0.0].map(|deg: f64| near(deg.to_radians()));
+        let mut to = from.map(&mut near);
+        // Both ends lie a thousandth of a turn from the limit at most: what is between may pass it.
+        for q in [&mut from, &mut to] {
+            q[5] = upper_rad - stream.random_range(0.0..0.006);
+        }
+        let is_free = [&from, &to].iter().all(|q| lines.cell().is_free(q));
+        joined += usize::from(is_free && is_followed(&lines, &case, [&from, &to], &mut scratch));
+    }
+    assert!(joined > 300, "{joined} were joined");
+}
+
+#[test]
 fn whole_turns_add_up_along_a_path_until_the_sixth_joint_ends() {
     let ((lines, case), mut scratch) = (case(EdgeEnd::WholeTurns), Scratch::default());
     let home = |last: f64| [0.0, -90.0, 0.0, 0.0, 90.0, last].map(f64::to_radians);
