@@ -145,6 +145,25 @@ def resamples(units: int, seed: str) -> list[Weights]:
     return [chunk() for _ in range(OWN // CHUNK)]
 
 
+def weighted_share(hits: Reals, chances: Reals, seed: str) -> Interval:
+    """The interval of a share, whatever units are drawn from: Gaffke's bounds by simulation.
+
+    The units and one more, with as many chances as any, are weighted by spacings of uniform numbers; that one
+    is a hit throughout at the upper end, a miss throughout at the lower.
+    """
+    rng = np.random.default_rng(list(seed.encode()))
+    lows, highs = [], []
+    for _ in range(OWN // CHUNK):
+        weights = rng.exponential(size=(CHUNK, len(hits) + 1))
+        above, more = weights[:, :-1] @ hits, weights[:, -1] * chances.max()
+        below = weights[:, :-1] @ chances + more
+        lows.append(above / below)
+        highs.append((above + more) / below)
+    tail = (1 - LEVEL) / 2
+    low, high = (np.sort(np.concatenate(ends)) for ends in (lows, highs))
+    return quantile(low, tail, STORED), quantile(high, 1 - tail, STORED)
+
+
 def percentile(drawn: Reals) -> Interval | None:
     """The interval between the outer quantiles of resampled numbers."""
     tail = (1 - LEVEL) / 2

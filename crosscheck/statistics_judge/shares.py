@@ -6,7 +6,7 @@ import numpy as np
 
 from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
 from statistics_judge.found import Asked, Estimate, Found, certain, hangs, outcomes
-from statistics_judge.intervals import agreed, bootstrap, clopper_pearson, hull, ratio_of_sums, sums_by_unit
+from statistics_judge.intervals import agreed, clopper_pearson, hull, sums_by_unit, weighted_share
 from statistics_judge.records import Flags, Reals
 from statistics_judge.selection import Cases
 
@@ -17,7 +17,7 @@ EQUAL = 1e-9
 def share(hits: Reals, chances: Reals, seed: str) -> Estimate | None:
     """A share by units with chances: exact where each has one or all agree at an end.
 
-    Where all agree on another share it allows for units that differ; else it is by bootstrap.
+    Else it is that of the units and one more, a hit throughout or a miss throughout, weighted at random.
     """
     asked = chances > 0
     hits, chances = hits[asked], chances[asked]
@@ -31,7 +31,7 @@ def share(hits: Reals, chances: Reals, seed: str) -> Estimate | None:
     allowing = agreed(hits, chances)
     if allowing:
         return Estimate(value, len(hits), allowing, exact=value in (0.0, 1.0))
-    return Estimate(value, len(hits), bootstrap(ratio_of_sums(hits, chances), len(hits), seed))
+    return Estimate(value, len(hits), weighted_share(hits, chances, seed))
 
 
 def counted(cases: Cases, asked: Flags, hit: Flags, seed: str) -> Estimate | None:

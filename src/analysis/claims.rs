@@ -79,8 +79,17 @@ fn question(claim: &Claim) -> String {
 pub fn claim_hash(paper: &Paper, claim: &Claim) -> String {
     let own = question(claim);
     let is_named = |other: &&Claim| other.id != claim.id && own.contains(&format!("\"{}\"", other.id));
-    let others = paper.claims.iter().filter(is_named).map(question);
-    sha256((own.clone() + &others.collect::<String>()).as_bytes())[..16].to_owned()
+    let others: Vec<&Claim> = paper.claims.iter().filter(is_named).collect();
+    let text: String = others.iter().map(|other| question(other)).collect();
+    let revisions: String = std::iter::once(claim).chain(others).map(revisions).collect();
+    sha256((own.clone() + &text + &revisions).as_bytes())[..16].to_owned()
+}
+
+/// The criteria and rules of a claim that do not find what they found at first, each with its revision.
+fn revisions(claim: &Claim) -> String {
+    let found = |(_, name, _): (Asked, &str, &_)| criterion::find(name).or_else(|| rule::find(name));
+    let revised = claim.asked().filter_map(found).filter(|entry| entry.revision > 1);
+    revised.map(|entry| format!("{} {}\n", entry.name, entry.revision)).collect()
 }
 
 /// Judges every claim under the evidence's reading.

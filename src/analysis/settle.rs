@@ -47,7 +47,8 @@ pub fn settles(found: &Found, caps: Caps) -> String {
 /// What would settle a claim that nothing decides, with where alone it is meant.
 pub fn nothing_decides(premises: &[String]) -> String {
     if premises.is_empty() {
-        "a bound, or a number that the paper prints: what is measured is shown and held against nothing".to_owned()
+        "a bound, or a number that the paper prints: what is measured is shown and held against nothing"
+            .to_owned()
     } else {
         format!("a reading under which it is meant: {}", premises.join(", and "))
     }

@@ -283,16 +283,16 @@ pub struct Share {
 }
 
 impl Share {
-    /// That of `counts`, the hits and chances of each draw; none without chances. The interval is exact where every draw
-    /// has one chance, or where all draws are hits throughout or misses throughout; where they agree on another share it
-    /// allows for draws that differ; else it is by bootstrap over draws. Differences of shares are not looked at here.
+    /// That of `counts`, the hits and chances of each draw; none without chances. The interval is the same everywhere
+    /// ([`pooled::share`]), in closed form where there is one: where every draw has one chance, and where all agree.
+    /// Differences of shares are not looked at here.
     pub fn of(counts: &[[f64; 2]], plan: Resampling) -> Option<Self> {
         let counts: Vec<[f64; 2]> = counts.iter().copied().filter(|count| count[1] > 0.0).collect();
         let [hits, chances] = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
         let (draws, is_single) = (counts.len(), counts.iter().all(|count| count[1] == 1.0));
         let agreed = mean_of_agreed(&counts, LEVEL).filter(|_| is_single || draws > 1);
         let interval = if is_single { clopper_pearson(hits as usize, draws, LEVEL) } else { agreed };
-        let interval = interval.or_else(|| pooled::ratio_of_sums(&counts, plan).map(|found| found.interval));
+        let interval = interval.or_else(|| pooled::share(&counts, plan).filter(|_| draws > 1));
         let is_agreed = agreed.is_some();
         let is_exact = is_single || is_agreed && (hits == 0.0 || hits == chances);
         (chances > 0.0).then(|| Self { value: hits / chances, interval, is_exact, is_agreed, draws })

@@ -1,7 +1,12 @@
 //! Statistics of all that was measured on draws of several cases each, with intervals over whole draws.
 
+use rand::RngExt as _;
+
 use super::bootstrap::{self, Estimate, Resampling};
+use super::interval::Interval;
+use super::summary::quantile_type7;
 use super::{proportion, summary};
+use base::seed;
 
 /// The sum of the first numbers over the sum of the second, one pair a draw: a ratio of means, a share, a mean over cases.
 ///
@@ -13,6 +18,34 @@ pub fn ratio_of_sums(draws: &[[f64; 2]], plan: Resampling) -> Option<Estimate> {
         (below > 0.0).then(|| above / below)
     };
     bootstrap::of_indices(draws.len(), &ratio, plan)
+}
+
+/// The interval of a share from `draws` of hits and chances, whatever they are drawn from: that of the draws with one more, a hit
+/// throughout at the upper end and a miss throughout at the lower, all weighted at random. None without draws.
+///
+/// The weights are exponential, so that their shares are spacings of uniform numbers. Where every draw has one chance this is
+/// Clopper and Pearson's interval, and where all agree [`proportion::mean_of_agreed`], but for what `resamples` leave to chance:
+/// the fewer hits, the lower either end. The draw that is added has as many chances as any.
+///
+/// # Source
+/// Gaffke, Mathematical Methods of Statistics 14 (2005) 451–467; Learned-Miller & Thomas, arXiv:1905.06208 (2019).
+pub fn share(draws: &[[f64; 2]], plan: Resampling) -> Option<Interval> {
+    let most = draws.iter().fold(0.0, |most: f64, [_, chances]| most.max(*chances));
+    let mut stream = seed::stream(plan.seed);
+    let weighted = |_| {
+        let mut weight = || -libm::log1p(-stream.random::<f64>());
+        let [hits, chances] = draws.iter().fold([0.0, 0.0], |sum, draw| {
+            let weight = weight();
+            [sum[0] + weight * draw[0], sum[1] + weight * draw[1]]
+        });
+        let more = weight() * most;
+        (hits / (chances + more), (hits + more) / (chances + more))
+    };
+    let (lows, highs): (Vec<f64>, Vec<f64>) = (0..plan.resamples).map(weighted).unzip();
+    let tail = (1.0 - plan.level) / 2.0;
+    (most > 0.0)
+        .then(|| Some(Interval::new(quantile_type7(&lows, tail)?, quantile_type7(&highs, 1.0 - tail)?)))
+        .flatten()
 }
 
 /// [`ratio_of_sums`] of two contenders' numbers: where every draw has the same ratio, the interval allows for draws that differ
@@ -86,6 +119,33 @@ mod tests {
         assert_eq!((found.value, found.interval.low, found.interval.high, found.units), (0.5, 0.5, 0.5, 3));
         assert_eq!(ratio_of_sums(&[[1.0, 0.0], [2.0, 0.0]], PLAN), None);
         assert_eq!(ratio_of_sums(&[[1.0, 2.0]], PLAN), None);
+    }
+
+    #[test]
+    fn a_share_is_clopper_and_pearsons_where_draws_have_one_chance_and_grows_with_the_hits() {
+        let plan = Resampling { resamples: 20_000, ..PLAN };
+        let near = |found: Interval, exact: Interval| {
+            (found.low - exact.low).abs() < 0.006 && (found.high - exact.high).abs() < 0.006
+        };
+        for hits in [0, 1, 7, 29, 30] {
+            let draws: Vec<[f64; 2]> = (0..30).map(|draw| [f64::from(u8::from(draw < hits)), 1.0]).collect();
+            let (found, exact) =
+                (share(&draws, plan).unwrap(), proportion::clopper_pearson(hits, 30, PLAN.level).unwrap());
+            assert!(near(found, exact), "{hits} of 30: {found:?}, not {exact:?}");
+        }
+        let agreed = [[3.0, 4.0]; 12];
+        assert!(near(
+            share(&agreed, plan).unwrap(),
+            proportion::mean_of_agreed(&agreed, PLAN.level).unwrap()
+        ));
+        // One hit more never lowers an end: a bootstrap's upper end falls from 0.12 to 0.01 with the first.
+        let draws = |hits: f64| [vec![[hits, 30.0]], vec![[0.0, 30.0]; 29]].concat();
+        let ends: Vec<Interval> =
+            [0.0, 1.0, 2.0, 30.0].map(|hits| share(&draws(hits), PLAN).unwrap()).to_vec();
+        assert!(ends.is_sorted_by(|a, b| a.low <= b.low && a.high <= b.high), "{ends:?}");
+        assert!(ends[0].low == 0.0 && (ends[1].high - ends[0].high) < 0.02, "{ends:?}");
+        assert_eq!(share(&[], PLAN), None);
+        assert_eq!(share(&[[0.0, 0.0]], PLAN), None);
     }
 
     #[test]

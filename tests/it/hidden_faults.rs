@@ -209,3 +209,32 @@ fn a_ratio_to_a_printed_zero_is_refused() {
     let wanted = "paper.toml:61:27: claim `nodes` prints 0; a number to divide by is accepted";
     assert_told("grid", &[zero, ratio], &[wanted]);
 }
+
+#[test]
+fn what_nothing_could_speak_against_is_refused() {
+    let own = ("paper.toml", "against = \"8 neighbours\"", "against = \"24 neighbours\"");
+    let wanted = "paper.toml:52:87: `24 neighbours` is held against itself; another contender is accepted";
+    assert_told("arm", &[own], &[wanted]);
+    let any =
+        ("paper.toml", "[claim.check.on_every]", "[claim.check.share]\nhits = \"lower\"\naccepted = [0, 1]");
+    let that = ("paper.toml", "that = \"lower\"\n", "");
+    let wanted = "paper.toml:53:12: every share lies between 0 and 1; bounds that refuse some are accepted";
+    assert_told("arm", &[any, that], &[wanted]);
+}
+
+#[test]
+fn contenders_that_are_on_both_sides_are_refused() {
+    let both = (
+        "paper.toml",
+        "[claim.check.on_every]",
+        "[claim.check.least_of]\nlower = \"24 neighbours\"\nhigher = [\"8 neighbours\", \"24 neighbours\"]",
+    );
+    let of = (
+        "paper.toml",
+        "of = { study = \"lengths\", problems = \"case 1\", contender = \"24 neighbours\", against = \"8 neighbours\", metric",
+        "of = { study = \"lengths\", problems = \"case 1\", metric",
+    );
+    let that = ("paper.toml", "that = \"lower\"\n", "");
+    let wanted = "paper.toml:53:10: `24 neighbours` is held against itself; another contender is accepted";
+    assert_told("arm", &[both, of, that], &[wanted]);
+}

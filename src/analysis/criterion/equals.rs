@@ -19,6 +19,7 @@ use study::record::{Row, Status};
 pub static ENTRY: Entry = Entry {
     name: "equals",
     about: "is a metric, on every trial, what another metric or another contender says that it is?",
+    revision: 2,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "success", problems = "cell", contender = "Original A*", metric = "found" }
@@ -102,8 +103,8 @@ impl Equals<'_> {
             for case in &draw.cases {
                 let pair = self.pair(run, case);
                 let is_known = pair.is_some_and(|(_, own)| own.is_finite());
-                let is_cut = !is_known
-                    && if self.truth.is_some() { case.is_unended() } else { case.is_censored() };
+                let is_cut =
+                    !is_known && if self.truth.is_some() { case.is_unended() } else { case.is_censored() };
                 all.unknown += usize::from(is_cut);
                 let Some((truth, own)) = pair else { continue };
                 let apart = (own - truth).abs();

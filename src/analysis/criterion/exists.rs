@@ -29,6 +29,7 @@ use study::{ReadingChoice, Study};
 pub static ENTRY: Entry = Entry {
     name: "exists",
     about: "does any stored trial meet the printed number exactly, where other named claims are met too?",
+    revision: 1,
     settings: Accepted::of::<Settings>(),
     example: r#"
 metric = "expansions"

@@ -27,6 +27,7 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "least_of",
     about: "is a contender's median over seeds, failures infinite, below that of each other one on every problem?",
+    revision: 2,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "methods", problems = ["case 1", "case 2"], metric = "expansions" }

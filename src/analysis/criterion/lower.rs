@@ -24,6 +24,7 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "lower",
     about: "is a contender lower than another on average over draws, or solves it more all along a sweep?",
+    revision: 1,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "length", problems = "cell", metric = "local_paths", contender = "Improved A*", against = "Original A*" }

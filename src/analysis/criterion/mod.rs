@@ -103,6 +103,8 @@ pub struct Entry {
     pub name: &'static str,
     /// One line for `replan list`.
     pub about: &'static str,
+    /// Raised whenever a change moves what it finds in the same trials: what was found under readings is then asked again.
+    pub revision: u32,
     /// The shape of its settings, which documents them.
     pub settings: Accepted,
     /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.

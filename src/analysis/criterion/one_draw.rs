@@ -22,6 +22,7 @@ use stats::summary::{mean, median};
 pub static ENTRY: Entry = Entry {
     name: "one_draw",
     about: "does the printed number lie where one more draw of ours would, with 95 % probability?",
+    revision: 1,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "success", problems = "cell", contender = "Original A*", sweep = "samples=100" }

@@ -20,6 +20,7 @@ use study::contender::SweepPoint;
 pub static ENTRY: Entry = Entry {
     name: "row_one_draw",
     about: "is a printed row as near to our mean row as our own draws are, in shape and in level?",
+    revision: 2,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "length", problems = "cell", metric = "path_length_mm", whole_draws = true }
@@ -155,7 +156,8 @@ impl RowOneDraw<'_> {
             let each: Option<Vec<_>> = rows.iter().map(|row| row.get(unit).cloned()).collect();
             each.map(|each| each.concat())
         };
-        let units: Vec<Vec<f64>> = rows.first().into_iter().flat_map(BTreeMap::keys).filter_map(whole).collect();
+        let units: Vec<Vec<f64>> =
+            rows.first().into_iter().flat_map(BTreeMap::keys).filter_map(whole).collect();
         (0..self.printed.len()).map(|cell| units.iter().map(|unit| unit[cell]).collect()).collect()
     }
 

@@ -23,6 +23,7 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "share",
     about: "does a share lie within bounds: of trials solved or with a mark, of events, of draws?",
+    revision: 2,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "postures", problems = ["C1", "C2"], contender = "A*" }

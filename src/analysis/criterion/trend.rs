@@ -22,6 +22,7 @@ use study::column;
 pub static ENTRY: Entry = Entry {
     name: "trend",
     about: "does a metric, or what a contender saves, grow along a column? the slope over draws, with medians",
+    revision: 2,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "random", problems = ["disjoint", "overlapping"], contender = "A*", metric = "nodes" }

@@ -21,6 +21,7 @@ use stats::paired::{self, snapped};
 pub static ENTRY: Entry = Entry {
     name: "within",
     about: "does the interval of a mean, median, deviation, ratio or reduction lie within a margin or within bounds?",
+    revision: 2,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "environments", problems = "E*", contender = "Improved A*", against = "A*", metric = "nodes" }

@@ -10,6 +10,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "lattice_length",
     about: "is a printed length a + b√2 for any 8-connected path between the cells, rounded or truncated?",
+    revision: 1,
     settings: Accepted::of::<Settings>(),
     example: "start = [22, 15]\ngoal = [26, 28]",
     build: |context| {

@@ -164,9 +164,15 @@ fn a_row_of_numbers_and_a_trend_hang_on_what_did_not_end() {
         sample
     };
     let of = "of = { OF, metric = \"path_cost_cells\" }";
-    let rows = "[{ contender = \"A\", statistics = [\"least\", \"greatest\"], claims = [\"low\", \"high\"] }]";
+    let rows =
+        "[{ contender = \"A\", statistics = [\"least\", \"greatest\"], claims = [\"low\", \"high\"] }]";
     let row = |spent| {
-        class("row_one_draw", &format!("{of}\nrows = {rows}\nrefused_below = 0.05"), Made::Plainly, drawn(spent))
+        class(
+            "row_one_draw",
+            &format!("{of}\nrows = {rows}\nrefused_below = 0.05"),
+            Made::Plainly,
+            drawn(spent),
+        )
     };
     assert_eq!([row(0), row(1)], ["reproduced", "undecided"]);
     let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\" }";

@@ -94,9 +94,14 @@ mod tests {
             upper_rad: 2.0,
             speed_rad_s: 1.0,
         };
-        for (a, b, near) in
-            [(0.0, 0.5, false), (1.0, 1.4, false), (1.4, 1.8, true), (1.8, 1.4, true), (-0.7, -0.2, true), (1.99, 1.99, true)]
-        {
+        for (a, b, near) in [
+            (0.0, 0.5, false),
+            (1.0, 1.4, false),
+            (1.4, 1.8, true),
+            (1.8, 1.4, true),
+            (-0.7, -0.2, true),
+            (1.99, 1.99, true),
+        ] {
             assert_eq!(is_near_limit(&joint, a, b, 0.0), near, "{a} to {b}");
         }
     }
