@@ -89,7 +89,7 @@ pub fn claim_hash(paper: &Paper, claim: &Claim) -> String {
 fn revisions(claim: &Claim) -> String {
     let found = |(_, name, _): (Asked, &str, &_)| criterion::find(name).or_else(|| rule::find(name));
     let revised = claim.asked().filter_map(found).filter(|entry| entry.revision > 1);
-    revised.map(|entry| format!("{} {}\n", entry.name, entry.revision)).collect()
+    revised.map(|entry| format!("{} {}\n", entry.name, entry.revision)).collect::<Vec<_>>().concat()
 }
 
 /// Judges every claim under the evidence's reading.
