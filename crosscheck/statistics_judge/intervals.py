@@ -63,16 +63,16 @@ def clopper_pearson(hits: int, trials: int) -> Interval:
     return End.exact(low), End.exact(high)
 
 
-def agreed(hits: Reals, chances: Reals) -> Interval | None:
+def agreed(hits: Reals, chances: Reals, most: float) -> Interval | None:
     """The interval of a share on which all draws agree, whatever they are drawn from; none for other draws.
 
     At the tail's level no more than a beta quantile of all draws differ from those seen, by hits or by misses
-    throughout. A share weighs draws by their chances, so the largest over the mean widens it.
+    throughout. A share weighs draws by their chances, so the most that one can have over the mean widens it.
     """
     if (hits * chances[0] != hits[0] * chances).any():
         return None
     share = float(hits[0] / chances[0])
-    wide = may_differ(len(chances)) * float(chances.max() / chances.mean())
+    wide = may_differ(len(chances)) * most / float(chances.mean())
     return End.exact(max(share - share * wide, 0.0)), End.exact(min(share + (1 - share) * wide, 1.0))
 
 
@@ -145,17 +145,17 @@ def resamples(units: int, seed: str) -> list[Weights]:
     return [chunk() for _ in range(OWN // CHUNK)]
 
 
-def weighted_share(hits: Reals, chances: Reals, seed: str) -> Interval:
+def weighted_share(hits: Reals, chances: Reals, most: float, seed: str) -> Interval:
     """The interval of a share, whatever units are drawn from: Gaffke's bounds by simulation.
 
-    The units and one more, with as many chances as any, are weighted by spacings of uniform numbers; that one
-    is a hit throughout at the upper end, a miss throughout at the lower.
+    The units and one more, with the most chances that one can have, are weighted by spacings of uniform
+    numbers; that one is a hit throughout at the upper end, a miss throughout at the lower.
     """
     rng = np.random.default_rng(list(seed.encode()))
     lows, highs = [], []
     for _ in range(OWN // CHUNK):
         weights = rng.exponential(size=(CHUNK, len(hits) + 1))
-        above, more = weights[:, :-1] @ hits, weights[:, -1] * chances.max()
+        above, more = weights[:, :-1] @ hits, weights[:, -1] * most
         below = weights[:, :-1] @ chances + more
         lows.append(above / below)
         highs.append((above + more) / below)

@@ -8,7 +8,7 @@ from typing import Any
 from statistics_judge import across, classes, medians, printed_cells, shares, sizes
 from statistics_judge.found import FEWEST_DRAWS, Asked, Estimate, Found
 from statistics_judge.records import Paper
-from statistics_judge.selection import labels
+from statistics_judge.selection import labels, select
 
 CRITERIA: dict[str, Callable[[Asked], Found]] = {
     "equals": shares.equals,
@@ -111,6 +111,7 @@ def of_criterion(
     if not (decides and is_meant(paper, claim)):
         return Recomputed(name, frozenset([None]), found.estimate)
     studies = [paper.studies[of] for of in studies_of(settings)]
+    is_cut = any(select(paper, of, 1).cut_left_out for of in selections_of(settings))
     clock = None
     if reads_clock(paper, settings):
         clock = lacks_sessions(min(study.sessions for study in studies), find)
@@ -131,6 +132,7 @@ def of_criterion(
             clock=bool(clock),
         )
         for outcome, censored in itertools.product(found.possible, found.censored)
+        for censored in [censored or is_cut]
     )
     return Recomputed(name, possible, found.estimate)
 
@@ -149,6 +151,15 @@ def is_few(name: str, settings: dict[str, Any], found: Found) -> bool:
     if found.few:
         return True
     return resampled and ours is not None and not ours.exact and ours.n < FEWEST_DRAWS
+
+
+def selections_of(settings: dict[str, Any]) -> list[dict[str, Any]]:
+    """Where only whole draws count, the selections of a criterion, one a row."""
+    of = settings.get("of", {})
+    if not of.get("whole_draws", False):
+        return []
+    rows = settings.get("rows", [{}])
+    return [{**of, **{key: row[key] for key in ("contender", "against") if key in row}} for row in rows]
 
 
 def studies_of(settings: dict[str, Any]) -> list[str]:

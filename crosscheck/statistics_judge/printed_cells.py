@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 
 from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
-from statistics_judge.found import Asked, Estimate, Found, certain, too_few
-from statistics_judge.intervals import predictive, sums_by_unit
+from statistics_judge.found import Asked, Estimate, Found, certain, outcomes, too_few
+from statistics_judge.intervals import bootstrap, predictive, sums_by_unit
 from statistics_judge.records import Places, Reals
-from statistics_judge.selection import Cases
+from statistics_judge.selection import Cases, labels
+from statistics_judge.shares import needs_draws
 from statistics_judge.sizes import printed
 
 # Points of a share that an interval covers from which on next to nothing could be refused.
@@ -51,26 +52,38 @@ def one_draw(asked: Asked) -> Found:
     low, high = (end.at for end in interval)
     mean = float(values.mean())
     estimate = Estimate(mean, len(values), interval, cases.solved_of_all())
+    about = bootstrap(lambda weights: weights @ values / len(values), len(values), asked.seed)
+    assert about is not None
+
+    def of_mean(least: float, most: float) -> str:
+        """Both are savings, or both are losses."""
+        is_sign = cases.against is not None and min(least * cell.value, most * cell.value) > 0
+        return SIGN if is_sign else FAILS
+
     if low <= cell.value <= high:
-        outcome = HOLDS
+        outcome, possible = HOLDS, frozenset([HOLDS])
     else:
-        outcome = SIGN if cases.against is not None and mean * cell.value > 0 else FAILS
+        outcome, possible = of_mean(*(end.at for end in about)), outcomes(of_mean, about)
     powerless = statistic == "solved_percent" and high - low >= NO_POWER
-    found = certain(outcome, estimate, powerless=powerless)
+    found = replace(certain(outcome, estimate, powerless=powerless), possible=possible)
     return replace(found, censored=frozenset([hangs_on_unended(cases, statistic, cell.value, outcome)]))
 
 
 def hangs_on_unended(cases: Cases, statistic: str, printed_value: float, outcome: str) -> bool:
     """Whether draws without a number, of which something did not end, could turn what one more draw says.
 
-    They are taken to lie below all others, then above; solved queries count as none of these, then as all.
+    Those of which something did not end are taken to lie below all others, then above, as far as it can move
+    them; solved queries count as none of these, then as all.
     """
     if not cases.unended.any():
         return False
     values = of_draws(cases, statistic)
     cut = sums_by_unit(cases.unit, cases.units, cases.unended.astype(float))[0] > 0
-    below, above = (np.where(np.isnan(values) & cut, end, values) for end in (-np.inf, np.inf))
+    # A least number is not raised by one more, nor a greatest one lowered.
+    below = np.where(cut & (np.isnan(values) | (statistic != "greatest")), -np.inf, values)
+    above = np.where(cut & (np.isnan(values) | (statistic != "least")), np.inf, values)
     if statistic == "solved_percent":
+        below = values
         above = solved_percent(cases.unit, cases.own_solved | cases.unended, cases.units)
     ends = [predictive(one[~np.isnan(one)]) for one in (below, above)]
     if ends[0] is None or ends[1] is None:
@@ -95,7 +108,10 @@ def prints_as(asked: Asked) -> Found:
         outcome = HOLDS
     elif not any(agree) and (float(least) > high or float(most) < low):
         outcome = FAILS
-    return certain(outcome, Estimate(low, len(values), None, cases.solved_of_all()))
+    found = certain(outcome, Estimate(low, len(values), None, cases.solved_of_all()))
+    few = outcome == HOLDS and needs_draws(cases, labels(asked.settings["of"]["problems"]))
+    cut = outcome != OPEN and bool(cases.unended.any())
+    return replace(found, censored=frozenset([cut]), few=few)
 
 
 def row_one_draw(asked: Asked) -> Found:

@@ -27,6 +27,8 @@ class Cases:
     unit: Places
     group: Places
     all_ends: bool = False
+    # Whether something did not end in units that do not count, as only whole ones do.
+    cut_left_out: bool = False
     units: int = field(init=False)
     names: Places = field(init=False)
     values: Reals = field(init=False)
@@ -87,11 +89,16 @@ class Cases:
             lacks |= np.isnan(self.bases)
         return lacks & ~none & ~(self.own_solved & self.base_solved)
 
+    def cut(self) -> tuple[Flags, Flags]:
+        """Whether each case's own trial did not come to an end, and whether the other contender's did not."""
+        own = np.isin(self.study.status[self.own], CUT)
+        return own, np.zeros_like(own) if self.base is None else np.isin(self.study.status[self.base], CUT)
+
     @property
     def unended(self) -> Flags:
         """Whether some side did not come to an end: what it would have given is not known."""
-        cut = np.isin(self.study.status[self.own], CUT)
-        return cut if self.base is None else cut | np.isin(self.study.status[self.base], CUT)
+        own, base = self.cut()
+        return own | base
 
     def ended_as(self, rows: Places, solved: bool) -> Flags:
         """Whether trials are solved; those that did not come to an end as is said."""
@@ -186,12 +193,18 @@ def select(paper: Paper, of: dict[str, Any], session: int) -> Cases:
     base = None if against is None else np.concatenate([bases for _, _, bases in parts])
     places = np.concatenate([np.full(len(rows), index) for index, rows, _ in parts])
     draws, seeds = int(study.draw.max(initial=0)) + 1, int(study.repeat.max(initial=0)) + 1
-    unit = (places * draws + study.draw[own]) * seeds + study.repeat[own]
+    # Seeds on a problem that is drawn are no draws of it.
+    drawn = [index for index, name in enumerate(groups_of(study, of["problems"])) if is_drawn(study, name)]
+    seed = np.where(np.isin(places, drawn), 0, study.repeat[own])
+    unit = (places * draws + study.draw[own]) * seeds + seed
     cases = Cases(study, metric, session, against, own, base, unit, places, of.get("all_ends", False))
     if not of.get("whole_draws", False):
         return cases
     unsolved = ~(cases.own_solved & cases.base_solved)
-    return cases.kept(~np.isin(cases.unit, cases.unit[unsolved]))
+    left_out = np.isin(cases.unit, cases.unit[unsolved])
+    whole = cases.kept(~left_out)
+    whole.cut_left_out = bool(cases.unended[left_out].any())
+    return whole
 
 
 def posed(

@@ -5,17 +5,17 @@ from dataclasses import replace
 import numpy as np
 
 from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
-from statistics_judge.found import Asked, Estimate, Found, certain, hangs, outcomes
+from statistics_judge.found import FEWEST_DRAWS, Asked, Estimate, Found, certain, hangs, outcomes
 from statistics_judge.intervals import agreed, clopper_pearson, hull, sums_by_unit, weighted_share
 from statistics_judge.records import Flags, Reals
-from statistics_judge.selection import Cases
+from statistics_judge.selection import Cases, groups_of, is_drawn, labels
 
 # Numbers no farther apart are equal.
 EQUAL = 1e-9
 
 
-def share(hits: Reals, chances: Reals, seed: str) -> Estimate | None:
-    """A share by units with chances: exact where each has one or all agree at an end.
+def share(hits: Reals, chances: Reals, most: float, seed: str) -> Estimate | None:
+    """A share by units with chances, `most` at most: exact where each has one or all agree at an end.
 
     Else it is that of the units and one more, a hit throughout or a miss throughout, weighted at random.
     """
@@ -23,22 +23,27 @@ def share(hits: Reals, chances: Reals, seed: str) -> Estimate | None:
     hits, chances = hits[asked], chances[asked]
     if not asked.any():
         return None
-    value = float(hits.sum() / chances.sum())
-    if (chances == 1).all():
+    value, most = float(hits.sum() / chances.sum()), max(most, float(chances.max()))
+    if most <= 1 and (chances == 1).all():
         return Estimate(value, len(hits), clopper_pearson(int(hits.sum()), int(chances.sum())), exact=True)
     if len(hits) < 2:
         return Estimate(value, len(hits), None)
-    allowing = agreed(hits, chances)
+    allowing = agreed(hits, chances, most)
     if allowing:
         return Estimate(value, len(hits), allowing, exact=value in (0.0, 1.0))
-    return Estimate(value, len(hits), weighted_share(hits, chances, seed))
+    return Estimate(value, len(hits), weighted_share(hits, chances, most, seed))
 
 
 def counted(cases: Cases, asked: Flags, hit: Flags, seed: str) -> Estimate | None:
     """The share of cases asked that are hit, by units."""
     unit = cases.unit[asked]
     hits, chances = sums_by_unit(unit, cases.units, hit[asked].astype(float), np.ones(len(unit)))
-    return share(hits, chances, seed)
+    return share(hits, chances, most_cases(cases), seed)
+
+
+def most_cases(cases: Cases) -> float:
+    """The most cases of any unit."""
+    return float(np.bincount(cases.unit).max(initial=0))
 
 
 def with_cases(estimate: Estimate | None, solved: tuple[int, int]) -> Estimate | None:
@@ -66,14 +71,15 @@ def equals(asked: Asked) -> Found:
     found = certain(HOLDS if same[known].all() else FAILS, estimate)
     # That something is wrong hangs on what did not end only if nothing else is.
     is_wrong = bool((~same & known & ~cut).any())
-    return replace(found, censored=frozenset([not is_wrong and bool(cut.any())]))
+    few = found.outcome == HOLDS and needs_draws(cases, labels(asked.settings["of"]["problems"]))
+    return replace(found, censored=frozenset([not is_wrong and bool(cut.any())]), few=few)
 
 
 def on_every(asked: Asked) -> Found:
     """It holds on every case: one counterexample ends it, and an equality leaves the sign alone.
 
-    A case without a number might be the counterexample; that it is not solved is itself an answer, and paths
-    that are refused have a number where it is to be at most so much.
+    A case without a number might be the counterexample; paths that are refused have one where it is to be at
+    most so much.
     """
     cases, that = asked.cases(), asked.settings["that"]
     says, spoken = said(cases, that, asked.settings.get("bound", 0.0))
@@ -82,17 +88,35 @@ def on_every(asked: Asked) -> Found:
     if kept + equal + broken == 0:
         return certain(OPEN, estimate)
     if broken > 0:
+        # One counterexample is enough.
         return certain(FAILS, estimate)
-    unknown = cases.unended if that == "at_most" else cases.censored
-    cut = that != "solved" and bool(unknown.any())
     outcome = FAILS if kept == 0 else SIGN if equal else HOLDS
-    return replace(certain(outcome, estimate), censored=frozenset([cut]))
+    cut = bool(counterexamples(cases, that).any())
+    few = outcome != FAILS and needs_draws(cases, labels(asked.settings["of"]["problems"]))
+    return replace(certain(outcome, estimate), censored=frozenset([cut]), few=few)
+
+
+def counterexamples(cases: Cases, that: str) -> Flags:
+    """Cases that might be counterexamples and are not known to be none."""
+    if that == "at_most":
+        return cases.unended
+    if that != "solved":
+        return cases.censored
+    own, base = cases.cut()
+    return (own & (base | cases.base_solved)) | (base & ~cases.own_solved)
+
+
+def needs_draws(cases: Cases, problems: list[str]) -> bool:
+    """Whether groups that are drawn have too few draws for what holds on each of them to be firm."""
+    names = groups_of(cases.study, problems)
+    drawn = [place for place, name in enumerate(names) if is_drawn(cases.study, name)]
+    return bool(drawn) and len(np.unique(cases.unit[np.isin(cases.group, drawn)])) < FEWEST_DRAWS
 
 
 def said(cases: Cases, that: str, bound: float) -> tuple[Reals, Flags]:
     """How each case speaks (1 for, 0 equal, -1 against), and whether it is asked."""
     if that == "solved":
-        return np.where(cases.own_solved, 1.0, -1.0), cases.base_solved
+        return np.where(cases.own_solved, 1.0, -1.0), cases.base_solved & ~cases.cut()[0]
     if that == "lower":
         gap = cases.values - cases.bases
         return np.where(gap < -EQUAL, 1.0, np.where(gap > EQUAL, -1.0, 0.0)), cases.paired
@@ -112,33 +136,39 @@ def share_within(asked: Asked) -> Found:
     """A share lies within bounds."""
     cases, settings = asked.cases(), asked.settings
     hits, chances = by_unit(asked, cases)
-    estimate = with_cases(share(hits, chances, asked.seed), cases.solved_of_all())
+    most = {"lower_throughout": 1.0, "events": 0.0}.get(settings["hits"], most_cases(cases))
+    estimate = with_cases(share(hits, chances, most, asked.seed), cases.solved_of_all())
     if "accepted" not in settings:
         return certain(None, estimate)
     if estimate is None or estimate.interval is None:
         return certain(OPEN, estimate)
-    least, most = settings["accepted"]
+    least, greatest = settings["accepted"]
 
     def outcome(low: float, high: float) -> str:
-        if least <= low and high <= most:
+        if least <= low and high <= greatest:
             return HOLDS
-        return FAILS if high < least or low > most else OPEN
+        return FAILS if high < least or low > greatest else OPEN
 
     low, high = estimate.interval
     main = Found(outcome(low.at, high.at), outcomes(outcome, estimate.interval), estimate)
     ends = []
-    if unknown(cases, settings["hits"]).any():
+    lost = unknown(asked, cases)
+    if lost.any() and settings["hits"] == "events":
+        # How many there would have been is not known even as a bound.
+        return replace(main, censored=frozenset([True]))
+    if lost.any():
         # All that the share may be: from no hit of these to hits alone.
-        ways = [share(*by_unit(asked, cases, given), asked.seed + " filled") for given in (False, True)]
+        ways = [share(*by_unit(asked, cases, given), most, asked.seed + " filled") for given in (False, True)]
         intervals = [found.interval for found in ways if found is not None and found.interval is not None]
         ends = [outcomes(outcome, hull(intervals))] if len(intervals) == 2 else []
     return replace(main, censored=hangs(main.outcome, main.possible, ends))
 
 
-def unknown(cases: Cases, kind: str) -> Flags:
+def unknown(asked: Asked, cases: Cases) -> Flags:
     """Cases that might be hits and are not known to be."""
+    kind = asked.settings["hits"]
     if kind in ("marked", "events"):
-        return np.zeros(len(cases.own), dtype=bool)
+        return cases.unended & (hits_of(asked, cases)[1] == 0)
     return cases.unended if kind in ("solved", "rejected") else cases.censored
 
 
@@ -147,7 +177,7 @@ def by_unit(asked: Asked, cases: Cases, given: bool | None = None) -> tuple[Real
     kind = asked.settings["hits"]
     hits, chances = hits_of(asked, cases)
     if given is not None:
-        lost = unknown(cases, kind)
+        lost = unknown(asked, cases)
         hits, chances = np.where(lost, float(given), hits), np.where(lost, 1.0, chances)
     hits, chances = sums_by_unit(cases.unit, cases.units, hits, chances)
     if kind == "lower_throughout":

@@ -46,8 +46,8 @@ def filled(cases: Cases) -> list[tuple[Reals, Reals]]:
     censored, paired = cases.censored, cases.paired
     if not censored.any() or not paired.any():
         return []
-    most = np.abs(cases.values - cases.bases)[paired].max() * paired.sum()
     middle = cases.bases[paired].mean()
+    most = max(np.abs(cases.values - cases.bases)[paired].max(), abs(middle)) * paired.sum()
     better = cases.metric.better if cases.metric else "neither"
     worse = {"lower": 1, "higher": -1, "neither": 0}[better]
     found = []
@@ -87,9 +87,10 @@ def otherwise(cases: Cases, statistic: str, seed: str, of: Callable[[Interval], 
 def turned(outcome: Outcome, main: Found, others: list[Interval]) -> frozenset[bool]:
     """Whether what cases without a number may have given turns an outcome.
 
-    What they may make of it reaches from one interval to the other.
+    What they may make of it reaches from one interval to the other, and to what was found.
     """
-    whole = [hull(others)] if others else []
+    own = main.estimate.interval if main.estimate else None
+    whole = [hull([*others, *([own] if own else [])])] if others else []
     return hangs(main.outcome, main.possible, [outcomes(outcome, one) for one in [*others, *whole]])
 
 
@@ -222,7 +223,7 @@ def trend(asked: Asked) -> Found:
 
 
 def bent(asked: Asked, cases: Cases, main: Found, outcome: Outcome) -> frozenset[bool]:
-    """Whether cases without an end bend a slope, against it or for it: given the least or greatest seen.
+    """Whether cases without an end bend a slope: given numbers below or above all that were seen together.
 
     One whose place is not known may stand anywhere.
     """
@@ -232,8 +233,9 @@ def bent(asked: Asked, cases: Cases, main: Found, outcome: Outcome) -> frozenset
         return frozenset([True])
     lost = cases.unended & ~seen
     ends = []
+    least, most = min(0.0, y[seen].min()), np.abs(y[seen]).max() * seen.sum()
     for rising in (True, False):
-        far = np.where((x > x[seen].mean()) == rising, y[seen].max(), y[seen].min())
+        far = np.where((x > x[seen].mean()) == rising, most, least)
         kept = seen | lost
         names, unit = np.unique(cases.unit[kept], return_inverse=True)
         of = slope(unit, len(names), x[kept], np.where(lost, far, y)[kept])
@@ -248,7 +250,7 @@ def within(asked: Asked) -> Found:
     cases, statistic = asked.cases(), asked.settings["statistic"]
     found = of_all(cases, statistic, asked.seed)
     if found is None or not np.isfinite(found[1][0].at):
-        return too_few()
+        return replace(too_few(), censored=frozenset([bool(cases.unended.any())]))
     value, interval, n = found
     least, most, printed = accepted(asked)
     middle = (least + most) / 2 if printed is None else printed

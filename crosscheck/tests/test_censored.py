@@ -9,9 +9,9 @@ import pytest
 from statistics_judge import printed_cells, shares, sizes
 from statistics_judge.classes import FAILS, HOLDS
 from statistics_judge.found import Found, hangs
-from statistics_judge.judge import is_few
+from statistics_judge.judge import is_few, selections_of
 from statistics_judge.printed import Printed
-from statistics_judge.selection import Cases
+from statistics_judge.selection import Cases, select
 
 SPENT, NONE, REFUSED = "budget_spent", "no_path", "rejected"
 Ends = list[tuple[float | str, float | str]]
@@ -32,6 +32,7 @@ def asked(ends: Ends, settings: dict[str, Any]) -> SimpleNamespace:
     place = np.arange(len(ends))
     metric = SimpleNamespace(better="lower", name="cost")
     cases = Cases(study, metric, 1, "B", 2 * place, 2 * place + 1, place, np.zeros(len(ends), dtype=int))
+    settings = {"of": {"problems": ["g"]}, **settings}
     return SimpleNamespace(cases=lambda **other: cases, settings=settings, seed="a test", paper=None)
 
 
@@ -178,3 +179,77 @@ def test_two_groups_need_ten_draws_each_unless_nothing_is_drawn() -> None:
 
     # Of the first a single draw is all there is, of the second it is one of many.
     assert [few(1, 10), few(1, 1), few(2, 10), few(10, 9)] == [False, True, True, True]
+
+
+def test_what_did_not_end_is_neither_solved_nor_not() -> None:
+    def solved(*more: tuple[float | str, float | str]) -> Found:
+        return shares.on_every(asked([(1.0, 1.0)] * 20 + list(more), {"that": "solved"}))
+
+    assert [solved().outcome, solved((NONE, 1.0)).outcome] == [HOLDS, FAILS]
+    for case, is_firm in (((SPENT, 1.0), False), ((NONE, SPENT), False), ((1.0, SPENT), True)):
+        assert (solved(case).outcome, firm(solved(case))) == (HOLDS, is_firm), case
+
+
+def test_what_holds_on_each_of_few_draws_of_a_problem_that_is_drawn_is_not_firm() -> None:
+    def few(draws: int, group: str) -> bool:
+        one = asked([(4.0, 5.0)] * draws, {"that": "lower", "of": {"problems": [group]}})
+        return shares.on_every(one).few
+
+    assert [few(1, "h"), few(9, "h"), few(10, "h"), few(1, "g")] == [True, True, False, False]
+
+
+def test_pairs_that_agree_bound_no_others() -> None:
+    settings = {"statistic": "ratio", "accepted": [0.5, 1.5]}
+    assert firm(sizes.within(asked([(5.0, 5.0)] * 80, settings)))
+    assert not firm(sizes.within(asked([(5.0, 5.0)] * 40 + [(SPENT, 5.0)] * 40, settings)))
+
+
+def test_what_prints_alike_hangs_on_what_did_not_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(printed_cells, "printed", lambda paper, claim: Printed("5", "rounded"))
+
+    def prints(value: float, *more: tuple[float | str, float | str]) -> Found:
+        one = asked([(value, 1.0)] * 20 + list(more), {})
+        one.claim = {}
+        return printed_cells.prints_as(one)
+
+    for value, outcome in ((5.0, HOLDS), (9.0, FAILS)):
+        whole, cut = prints(value), prints(value, (SPENT, 1.0))
+        assert (whole.outcome, firm(whole), firm(cut)) == (outcome, True, False)
+
+
+def drawn(status: list[str], *, family: str, repeats: int = 1) -> tuple[SimpleNamespace, dict[str, Any]]:
+    """A paper with one group, of draws of two queries or two seeds each, and a selection of it."""
+    count = len(status)
+    place = np.arange(count)
+    study = SimpleNamespace(
+        status=np.array(status),
+        solved=np.array(status) == "solved",
+        values=lambda metric, session: np.ones(count),
+        rows=lambda group, contender: place,
+        draw=place // 2,
+        repeat=place % repeats,
+        query=(place % 2, ["0", "1"]),
+        sweep=(np.zeros(count, dtype=int), [""]),
+        groups=["g"],
+        spec={"problems": [{"label": "g", "family": family}]},
+    )
+    metric = SimpleNamespace(better="lower", name="cost", clock=False)
+    paper = SimpleNamespace(studies={"s": study}, metric=lambda name: metric)
+    return paper, {"study": "s", "problems": ["g"], "contender": "A", "metric": "cost"}
+
+
+@pytest.mark.parametrize(("lost", "is_cut"), [("solved", False), (NONE, False), (SPENT, True)])
+def test_draws_that_might_have_been_whole_are_not_forgotten(lost: str, is_cut: bool) -> None:
+    paper, of = drawn(["solved"] * 7 + [lost], family="random_cells")
+    cases = select(paper, {**of, "whole_draws": True}, 1)
+    assert (cases.units, cases.cut_left_out) == (4 if lost == "solved" else 3, is_cut)
+    assert selections_of({"of": of}) == []
+    rows = [{"contender": "A", "claims": []}, {"contender": "B", "against": "A", "claims": []}]
+    whole = selections_of({"of": {**of, "whole_draws": True}, "rows": rows})
+    assert [(one["contender"], one.get("against")) for one in whole] == [("A", None), ("B", "A")]
+
+
+def test_seeds_on_a_problem_that_is_drawn_are_no_draws_of_it() -> None:
+    for family, units in (("random_cells", 4), ("grid_map", 8)):
+        paper, of = drawn(["solved"] * 8, family=family, repeats=2)
+        assert select(paper, of, 1).units == units, family

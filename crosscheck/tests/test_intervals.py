@@ -41,19 +41,19 @@ def test_draws_that_agree_at_an_end_leave_a_root_of_the_tail() -> None:
         root = 0.025 ** (1 / n)
         chances = np.full(n, 7.0)
         for hits, expected in ((chances, [root, 1]), (0 * chances, [0, 1 - root])):
-            found = share(hits, chances, "a test")
+            found = share(hits, chances, 7.0, "a test")
             assert found is not None
             assert found.interval is not None
             assert [end.at for end in found.interval] == pytest.approx(expected, abs=1e-12)
     uneven = np.array([6.0] * 4 + [2.25] * 16)
-    low = agreed(uneven, uneven)
+    low = agreed(uneven, uneven, float(uneven.max()))
     assert low is not None
     assert low[0].at == pytest.approx(1 - 2 * (1 - 0.025**0.05), abs=1e-12)
-    assert agreed(np.array([1.0, 1.0]), np.array([2.0, 3.0])) is None
+    assert agreed(np.array([1.0, 1.0]), np.array([2.0, 3.0]), 3.0) is None
 
 
 def test_draws_that_agree_between_the_ends_allow_for_those_that_differ() -> None:
-    found = agreed(np.full(20, 3.0), np.full(20, 4.0))
+    found = agreed(np.full(20, 3.0), np.full(20, 4.0), 4.0)
     differ = 1 - 0.025**0.05
     assert found is not None
     assert [end.at for end in found] == pytest.approx([0.75 - 0.75 * differ, 0.75 + 0.25 * differ], abs=1e-12)

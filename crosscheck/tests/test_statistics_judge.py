@@ -30,7 +30,7 @@ REQUEST = ROOT / "target/replan/crosscheck/statistics.json"
 
 def test_few_draws_say_nothing_firm_of_a_share_unless_its_interval_is_exact() -> None:
     def is_firm(hits: list[float], chances: list[float]) -> bool:
-        found = Found(None, frozenset(), share(np.array(hits), np.array(chances), "a test"))
+        found = Found(None, frozenset(), share(np.array(hits), np.array(chances), max(chances), "a test"))
         return not is_few("share", {}, found)
 
     assert is_firm([1.0, 0.0, 1.0], [1.0] * 3), "one chance each"

@@ -240,6 +240,7 @@ fn finding(criterion: &str, found: Found, caps: Caps) -> Finding {
 
 fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: &Claim) -> Weighed {
     let mut found = of.find(evidence);
+    found.censored += of.selections().iter().map(|of| of.unended_left_out(evidence)).sum::<usize>();
     let studies = of.studies();
     let clock = of.is_clock().then(|| sessions(of, evidence));
     let clock = clock.map(|(said, because)| {

@@ -53,4 +53,10 @@ impl Found {
         let because = format!("{draws} draws have what is compared; at least {needs} are needed");
         Self { needs: Some(needs), ..Self::open(because) }
     }
+
+    /// It, with so many cases that did not come to an end: what is lacking is theirs.
+    #[must_use]
+    pub fn hanging_on(self, unended: usize) -> Self {
+        Self { censored: unended, ..self }
+    }
 }

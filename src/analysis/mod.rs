@@ -6,6 +6,7 @@
 //! ([`judge`](claims::judge)).
 
 pub mod across;
+mod censored;
 pub mod claims;
 pub mod class;
 pub mod compare;

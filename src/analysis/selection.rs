@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use super::evidence::{Cases, Evidence, Run};
-use super::metric::{Better, Metric};
+use super::metric::Metric;
 use super::selection_spec::SelectionSpec;
 use base::settings::{Faults, SettingsError};
 use std::collections::BTreeMap;
@@ -178,19 +178,44 @@ impl<'a> Selection<'a> {
     /// The trials of its contenders, by draw; problems that could not be posed are left out, and so, if only whole draws
     /// count, are draws of which something is not solved.
     pub fn draws<'e>(&self, evidence: &'e Evidence<'_>) -> Vec<Draw<'e>> {
+        let mut draws = self.all_draws(evidence);
+        draws.retain(|draw| !self.whole_draws || draw.is_whole());
+        draws
+    }
+
+    /// How many cases without an end are in draws that do not count, as only whole ones do: these might have been whole.
+    pub fn unended_left_out(&self, evidence: &Evidence<'_>) -> usize {
+        if !self.whole_draws {
+            return 0;
+        }
+        let draws = self.all_draws(evidence);
+        draws.iter().filter(|draw| !draw.is_whole()).map(|draw| unended(std::slice::from_ref(draw))).sum()
+    }
+
+    /// Draws that it takes, of groups that are drawn, before what holds on each of them is firm; none if there are as many.
+    pub fn needs_draws(&self, draws: &[Draw<'_>], fewest: usize) -> Option<usize> {
+        let of_group = |group: &String| draws.iter().filter(|draw| draw.group == group).count();
+        let drawn: Vec<usize> =
+            self.groups.iter().filter(|group| self.study.is_drawn(group)).map(of_group).collect();
+        (!drawn.is_empty() && drawn.iter().sum::<usize>() < fewest).then_some(fewest)
+    }
+
+    fn all_draws<'e>(&self, evidence: &'e Evidence<'_>) -> Vec<Draw<'e>> {
         let Some(run) = evidence.run(&self.study.name) else { return Vec::new() };
         let mut draws: Vec<Draw<'e>> = Vec::new();
         let reader = self.metric.map(|metric| run.reader(metric));
         let value = |row: Option<&Row>| reader.as_ref()?(row.filter(|row| self.counts(row))?);
         for group in &self.groups {
             let bases = self.against.as_ref().map(|against| Cases::of(self.rows(run, group, against)));
-            let mut places: BTreeMap<(u32, u32), usize> = BTreeMap::new();
+            let (is_drawn, mut places) = (self.study.is_drawn(group), BTreeMap::<(u32, u32), usize>::new());
             for row in self.contenders.iter().flat_map(|contender| self.rows(run, group, contender)) {
                 let base = bases.as_ref().and_then(|bases| bases.same(row));
                 if self.against.is_some() && base.is_none() {
                     continue;
                 }
-                let place = *places.entry((row.draw(), row.key.repeat)).or_insert(draws.len());
+                // Seeds on a problem that is drawn are no draws of it.
+                let seed = if is_drawn { 0 } else { row.key.repeat };
+                let place = *places.entry((row.draw(), seed)).or_insert(draws.len());
                 if place == draws.len() {
                     draws.push(Draw { group: &row.key.on.group, cases: Vec::new() });
                 }
@@ -198,7 +223,6 @@ impl<'a> Selection<'a> {
                 draws[place].cases.push(case);
             }
         }
-        draws.retain(|draw| !self.whole_draws || draw.is_whole());
         draws
     }
 
@@ -312,6 +336,11 @@ pub fn cases<'d, 'e>(draws: &'d [Draw<'e>]) -> impl Iterator<Item = &'d Case<'e>
     draws.iter().flat_map(|draw| &draw.cases)
 }
 
+/// The most cases of any draw, as a number to count chances with.
+pub fn most_cases(draws: &[Draw<'_>]) -> f64 {
+    draws.iter().map(|draw| draw.cases.len()).max().unwrap_or(0) as f64
+}
+
 /// Of all cases those that are solved by everyone who is compared, and all.
 pub fn solved(draws: &[Draw<'_>]) -> [usize; 2] {
     [cases(draws).filter(|case| case.is_solved()).count(), cases(draws).count()]
@@ -336,36 +365,6 @@ pub fn pairs(draws: &[Draw<'_>]) -> Vec<Vec<(f64, f64)>> {
 pub fn by_draw<'e, T>(draws: &[Draw<'e>], of: impl Fn(&Case<'e>) -> Option<T>) -> Vec<Vec<T>> {
     let of_draw = |draw: &Draw<'e>| draw.cases.iter().filter_map(&of).collect::<Vec<T>>();
     draws.iter().map(of_draw).filter(|all| !all.is_empty()).collect()
-}
-
-/// The pairs of every draw with its censored cases filled in by a difference that outweighs all that were seen: against the
-/// contender where it alone failed, for it where the other did (no number is below 0), and where that is not known once one
-/// way and once the other. What is found every time does not hang on them. Nothing where nothing is censored.
-pub fn filled(selection: &Selection<'_>, draws: &[Draw<'_>]) -> Vec<Vec<Vec<(f64, f64)>>> {
-    let seen = || cases(draws).filter_map(Case::pair);
-    let count = seen().count();
-    let greatest = seen().map(|(base, own)| (own - base).abs()).fold(0.0, f64::max);
-    let most = greatest * count as f64;
-    if censored(draws) == 0 || count == 0 {
-        return Vec::new();
-    }
-    let middle = seen().map(|(base, _)| base).sum::<f64>() / count as f64;
-    let worse = match selection.metric.map(|metric| metric.better) {
-        Some(Better::Lower) => 1.0,
-        Some(Better::Higher) => -1.0,
-        Some(Better::Neither) | None => 0.0,
-    };
-    let number = |case: &Case<'_>, unknown: f64| {
-        let way = match (case.base_value, case.value) {
-            _ if worse == 0.0 => unknown,
-            (Some(_), None) => worse,
-            (None, Some(_)) => -worse,
-            _ => unknown,
-        };
-        let filled = || (middle, (middle + way * most).max(0.0));
-        case.pair().or_else(|| case.is_censored().then(filled))
-    };
-    [1.0, -1.0].map(|unknown| by_draw(draws, |case| number(case, unknown))).to_vec()
 }
 
 /// The trial whose number, as `of` takes it, is nearest to `value`.

@@ -2,6 +2,7 @@
 //!
 //! What was drawn independently is the unit: intervals resample whole draws with all that was asked of them.
 
+use super::censored::{ended, filled};
 use super::evidence::Run;
 use super::found::Narrows;
 use super::metric::Metric;
@@ -177,7 +178,7 @@ impl OfAll {
     /// given the least and the greatest; none if all have one.
     pub fn otherwise(self, selection: &Selection<'_>, draws: &[Draw<'_>], plan: Resampling) -> Vec<Interval> {
         if self.is_paired() {
-            let pairs = super::selection::filled(selection, draws).into_iter();
+            let pairs = filled(selection, draws).into_iter();
             return pairs
                 .filter_map(|pairs| self.of_pairs(&pairs, plan))
                 .map(|found| found.interval)
@@ -216,17 +217,6 @@ impl OfAll {
         let interval = Interval::new(percent(ratio.interval.high), percent(ratio.interval.low));
         Some(Estimate { value: percent(ratio.value), interval, ..ratio })
     }
-}
-
-/// The draws as they would be if each case without an end had given the number that `given` says of its draw.
-fn ended<'e>(draws: &[Draw<'e>], given: impl Fn(&Draw<'e>) -> f64) -> Vec<Draw<'e>> {
-    let of_draw = |draw: &Draw<'e>| {
-        let number = given(draw);
-        let ended =
-            |case: &Case<'e>| if case.is_unended() { Case { value: Some(number), ..*case } } else { *case };
-        Draw { group: draw.group, cases: draw.cases.iter().map(ended).collect() }
-    };
-    draws.iter().map(of_draw).collect()
 }
 
 /// A reduction as a change, its sign turned.
@@ -283,16 +273,17 @@ pub struct Share {
 }
 
 impl Share {
-    /// That of `counts`, the hits and chances of each draw; none without chances. The interval is the same everywhere
-    /// ([`pooled::share`]), in closed form where there is one: where every draw has one chance, and where all agree.
-    /// Differences of shares are not looked at here.
-    pub fn of(counts: &[[f64; 2]], plan: Resampling) -> Option<Self> {
+    /// That of `counts`, the hits and chances of each draw, which could have had `most` chances or as many as were seen; none
+    /// without chances. The interval is the same everywhere ([`pooled::share`]), in closed form where there is one: where every
+    /// draw can have but one chance, and where all agree. Differences of shares are not looked at here.
+    pub fn of(counts: &[[f64; 2]], most: f64, plan: Resampling) -> Option<Self> {
         let counts: Vec<[f64; 2]> = counts.iter().copied().filter(|count| count[1] > 0.0).collect();
         let [hits, chances] = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
-        let (draws, is_single) = (counts.len(), counts.iter().all(|count| count[1] == 1.0));
-        let agreed = mean_of_agreed(&counts, LEVEL).filter(|_| is_single || draws > 1);
+        let most = counts.iter().fold(most, |most, count| most.max(count[1]));
+        let (draws, is_single) = (counts.len(), most <= 1.0 && counts.iter().all(|count| count[1] == 1.0));
+        let agreed = mean_of_agreed(&counts, most, LEVEL).filter(|_| is_single || draws > 1);
         let interval = if is_single { clopper_pearson(hits as usize, draws, LEVEL) } else { agreed };
-        let interval = interval.or_else(|| pooled::share(&counts, plan).filter(|_| draws > 1));
+        let interval = interval.or_else(|| pooled::share(&counts, most, plan).filter(|_| draws > 1));
         let is_agreed = agreed.is_some();
         let is_exact = is_single || is_agreed && (hits == 0.0 || hits == chances);
         (chances > 0.0).then(|| Self { value: hits / chances, interval, is_exact, is_agreed, draws })
@@ -316,23 +307,23 @@ mod tests {
     #[test]
     fn a_share_of_single_chances_is_exact_and_draws_of_several_are_units() {
         let plan = plan(&["a test"]);
-        let exact = Share::of(&[[1.0, 1.0], [0.0, 1.0], [1.0, 1.0], [1.0, 1.0]], plan).unwrap();
+        let exact = Share::of(&[[1.0, 1.0], [0.0, 1.0], [1.0, 1.0], [1.0, 1.0]], 1.0, plan).unwrap();
         let interval = exact.interval.unwrap();
         assert_eq!((exact.value, exact.draws), (0.75, 4));
         assert!((interval.low - 0.1941).abs() < 1e-4 && (interval.high - 0.9937).abs() < 1e-4, "{exact:?}");
         // Draws that agree within themselves: as uncertain as their number says, not as that of their queries.
         let draws: Vec<[f64; 2]> = (0..10).map(|i| [if i % 2 == 0 { 100.0 } else { 0.0 }, 100.0]).collect();
-        let of_draws = Share::of(&draws, plan).unwrap();
+        let of_draws = Share::of(&draws, 100.0, plan).unwrap();
         assert!(of_draws.value == 0.5 && of_draws.interval.unwrap().half_width() > 0.25, "{of_draws:?}");
-        let single = Share::of(&[[3.0, 4.0]], plan).unwrap();
+        let single = Share::of(&[[3.0, 4.0]], 4.0, plan).unwrap();
         assert_eq!((single.value, single.interval), (0.75, None), "one draw has no interval");
-        assert!(Share::of(&[[0.0, 0.0]], plan).is_none() && Share::of(&[], plan).is_none());
+        assert!(Share::of(&[[0.0, 0.0]], 1.0, plan).is_none() && Share::of(&[], 1.0, plan).is_none());
     }
 
     #[test]
     fn draws_that_all_agree_leave_an_interval_with_width() {
         let plan = plan(&["a test"]);
-        let of = |hits: f64| Share::of(&[[hits, 10.0]; 20], plan).unwrap();
+        let of = |hits: f64| Share::of(&[[hits, 10.0]; 20], 10.0, plan).unwrap();
         let interval = |hits: f64| of(hits).interval.map(|found| [found.low, found.high]).unwrap();
         assert!((interval(10.0)[0] - 0.831_566_5).abs() < 1e-6 && interval(10.0)[1] == 1.0, "{:?}", of(10.0));
         assert!((interval(0.0)[1] - 0.168_433_5).abs() < 1e-6 && interval(0.0)[0] == 0.0, "{:?}", of(0.0));

@@ -25,12 +25,13 @@ pub fn ratio_of_sums(draws: &[[f64; 2]], plan: Resampling) -> Option<Estimate> {
 ///
 /// The weights are exponential, so that their shares are spacings of uniform numbers. Where every draw has one chance this is
 /// Clopper and Pearson's interval, and where all agree [`proportion::mean_of_agreed`], but for what `resamples` leave to chance:
-/// the fewer hits, the lower either end. The draw that is added has as many chances as any.
+/// the fewer hits, the lower either end. The draw that is added has the `most` chances that a draw can have, or that one has. That
+/// the bounds hold whatever is drawn is proved for the closed forms and a conjecture else; no counterexample is known.
 ///
 /// # Source
 /// Gaffke, Mathematical Methods of Statistics 14 (2005) 451–467; Learned-Miller & Thomas, arXiv:1905.06208 (2019).
-pub fn share(draws: &[[f64; 2]], plan: Resampling) -> Option<Interval> {
-    let most = draws.iter().fold(0.0, |most: f64, [_, chances]| most.max(*chances));
+pub fn share(draws: &[[f64; 2]], most: f64, plan: Resampling) -> Option<Interval> {
+    let most = draws.iter().fold(most, |most: f64, [_, chances]| most.max(*chances));
     let mut stream = seed::stream(plan.seed);
     let weighted = |_| {
         let mut weight = || -libm::log1p(-stream.random::<f64>());
@@ -43,7 +44,7 @@ pub fn share(draws: &[[f64; 2]], plan: Resampling) -> Option<Interval> {
     };
     let (lows, highs): (Vec<f64>, Vec<f64>) = (0..plan.resamples).map(weighted).unzip();
     let tail = (1.0 - plan.level) / 2.0;
-    (most > 0.0)
+    (draws.iter().any(|[_, chances]| *chances > 0.0))
         .then(|| Some(Interval::new(quantile_type7(&lows, tail)?, quantile_type7(&highs, 1.0 - tail)?)))
         .flatten()
 }
@@ -129,8 +130,10 @@ mod tests {
         };
         for hits in [0, 1, 7, 29, 30] {
             let draws: Vec<[f64; 2]> = (0..30).map(|draw| [f64::from(u8::from(draw < hits)), 1.0]).collect();
-            let (found, exact) =
-                (share(&draws, plan).unwrap(), proportion::clopper_pearson(hits, 30, PLAN.level).unwrap());
+            let (found, exact) = (
+                share(&draws, 1.0, plan).unwrap(),
+                proportion::clopper_pearson(hits, 30, PLAN.level).unwrap(),
+            );
             assert!(near(found, exact), "{hits} of 30: {found:?}, not {exact:?}");
         }
         let agreed = [[3.0, 4.0]; 12];
@@ -141,11 +144,11 @@ mod tests {
         // One hit more never lowers an end: a bootstrap's upper end falls from 0.12 to 0.01 with the first.
         let draws = |hits: f64| [vec![[hits, 30.0]], vec![[0.0, 30.0]; 29]].concat();
         let ends: Vec<Interval> =
-            [0.0, 1.0, 2.0, 30.0].map(|hits| share(&draws(hits), PLAN).unwrap()).to_vec();
+            [0.0, 1.0, 2.0, 30.0].map(|hits| share(&draws(hits), 30.0, PLAN).unwrap()).to_vec();
         assert!(ends.is_sorted_by(|a, b| a.low <= b.low && a.high <= b.high), "{ends:?}");
         assert!(ends[0].low == 0.0 && (ends[1].high - ends[0].high) < 0.02, "{ends:?}");
-        assert_eq!(share(&[], PLAN), None);
-        assert_eq!(share(&[[0.0, 0.0]], PLAN), None);
+        assert_eq!(share(&[], 1.0, PLAN), None);
+        assert_eq!(share(&[[0.0, 0.0]], 1.0, PLAN), None);
     }
 
     #[test]

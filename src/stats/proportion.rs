@@ -62,22 +62,22 @@ pub fn clopper_pearson(hits: usize, trials: usize, level: f64) -> Option<Interva
 /// hits throughout or misses throughout, so that a share v lies from v − m·v to v + m·(1 − v). At v = 1 or 0 this is exact: if the
 /// values are in [0, 1], P(all are 1) ≤ meanⁿ. Between them, v was not known before it was drawn; that all agree on a value that
 /// fewer than 1 − m of the draws have is no likelier than (1 − m)ⁿ⁻¹, below 5 % from six draws on at 0.95. Draws of unequal chances
-/// weigh unequally, and one that differs may be the largest: the interval is wider by the largest number of chances over the mean
-/// one, which is exact only where no draw could have more chances.
+/// weigh unequally, and one that differs may be the largest: the interval is wider by the `most` chances that a draw can have, or
+/// that one has, over the mean number.
 ///
 /// # Panics
 /// If `level` is not inside (0, 1).
 ///
 /// # Source
 /// Clopper & Pearson, Biometrika 26 (1934) 404–413, at n of n; P(X = 1) ≤ E X for X in [0, 1] is Markov's inequality.
-pub fn mean_of_agreed(draws: &[[f64; 2]], level: f64) -> Option<Interval> {
+pub fn mean_of_agreed(draws: &[[f64; 2]], most: f64, level: f64) -> Option<Interval> {
     assert!(level > 0.0 && level < 1.0, "an interval at level {level}");
     let [first_hits, first_chances] = *draws.first()?;
     let is_same = |[hits, chances]: &[f64; 2]| *chances > 0.0 && hits * first_chances == first_hits * chances;
-    let chances =
-        |of: fn(f64, f64) -> f64| draws.iter().fold(0.0, |so_far, [_, chances]| of(so_far, *chances));
-    let differ =
-        may_differ(draws.len(), level) * chances(f64::max) * draws.len() as f64 / chances(|a, b| a + b);
+    let [seen, all] = draws
+        .iter()
+        .fold([0.0, 0.0], |[seen, all]: [f64; 2], [_, chances]| [seen.max(*chances), all + chances]);
+    let differ = may_differ(draws.len(), level) * most.max(seen) * draws.len() as f64 / all;
     draws.iter().all(is_same).then(|| {
         let share = first_hits / first_chances;
         Interval::new((share - share * differ).max(0.0), (share + (1.0 - share) * differ).min(1.0))

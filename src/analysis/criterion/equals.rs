@@ -6,9 +6,9 @@ use crate::analysis::context::Context;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::{Case, Draw, Selection, cases};
+use crate::analysis::selection::{Case, Draw, Selection, cases, most_cases};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{Share, plan};
+use crate::analysis::statistic::{FEWEST_DRAWS, Share, plan};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -19,7 +19,7 @@ use study::record::{Row, Status};
 pub static ENTRY: Entry = Entry {
     name: "equals",
     about: "is a metric, on every trial, what another metric or another contender says that it is?",
-    revision: 2,
+    revision: 3,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "success", problems = "cell", contender = "Original A*", metric = "found" }
@@ -151,7 +151,7 @@ impl Criterion for Equals<'_> {
             vec![format!("{}: {metric} is {truth} on {same} of {all} trials{apart}", self.of.said())];
         let refused = cases(&draws).filter(|case| case.row.status == Status::Rejected).count();
         because.extend((refused > 0).then(|| format!("{refused} of these paths the verifier refuses")));
-        let ours = Share::of(&counts, self.plan).map(|share| {
+        let ours = Share::of(&counts, most_cases(&draws), self.plan).map(|share| {
             let what = format!("trials on which {metric} is {truth}");
             share.estimate(&what).of_cases([same as usize, all as usize])
         });
@@ -164,6 +164,7 @@ impl Criterion for Equals<'_> {
             units: "trials",
             // That something is wrong hangs on them only if nothing else is.
             censored: if broken > 0 { 0 } else { unknown },
+            needs: self.of.needs_draws(&draws, FEWEST_DRAWS).filter(|_| outcome == Outcome::Holds),
             ..Found::default()
         }
     }

@@ -1,6 +1,7 @@
 //! Whether one contender is lower (or higher) than another: sign and size over draws, or all along a sweep at once.
 
 use super::{Criterion, Entry};
+use crate::analysis::censored::filled;
 use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
@@ -24,7 +25,7 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "lower",
     about: "is a contender lower than another on average over draws, or solves it more all along a sweep?",
-    revision: 1,
+    revision: 2,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "length", problems = "cell", metric = "local_paths", contender = "Improved A*", against = "Original A*" }
@@ -113,7 +114,7 @@ impl<'a> Lower<'a> {
             self.change(&pairs)
                 .is_some_and(|filled| outcome(self.way, self.by_percent, filled.interval) != found)
         };
-        let is_turned = selection::filled(&self.of, &draws).into_iter().any(is_other);
+        let is_turned = filled(&self.of, &draws).into_iter().any(is_other);
         let what = format!("change of {metric} in %, {} 95 % over draws", how(&change));
         let of_case = |case: &Case<'_>| case.saving_percent().map(|saving| -saving);
         Found {

@@ -5,9 +5,9 @@ use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::found::Found;
-use crate::analysis::selection::{self, Case, Draw, Selection, solved};
+use crate::analysis::selection::{self, Case, Draw, Selection, cases, most_cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{Share, plan};
+use crate::analysis::statistic::{FEWEST_DRAWS, Share, plan};
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
@@ -20,7 +20,7 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "on_every",
     about: "does it hold on every case that a contender is lower, within a bound, or solves what another solves?",
-    revision: 2,
+    revision: 3,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "environments", problems = "E*", contender = "Improved A*", against = "A*", metric = "nodes" }
@@ -109,7 +109,10 @@ impl<'a> OnEvery<'a> {
                 let value = run.value(case.row, self.of.metric?).filter(|_| case.row.is_returned());
                 value.map(|value| holds(value <= self.bound + EQUAL))
             }
-            That::Solved => case.base.filter(|base| base.is_solved()).map(|_| holds(case.row.is_solved())),
+            That::Solved => {
+                let is_asked = case.base.is_some_and(Row::is_solved) && !selection::is_unended(case.row);
+                is_asked.then(|| holds(case.row.is_solved()))
+            }
         }
     }
 
@@ -125,11 +128,17 @@ impl<'a> OnEvery<'a> {
         }
     }
 
-    /// How many cases might have been a counterexample and have no number; that a case is not solved is itself an answer where
-    /// that is what is asked.
+    /// How many cases might have been a counterexample and are not known to be none.
     fn unknown(&self, draws: &[Draw<'_>]) -> usize {
         match self.that {
-            That::Solved => 0,
+            That::Solved => {
+                let might_part = |case: &&Case<'_>| {
+                    let [own, base] =
+                        [Some(case.row), case.base].map(|row| row.is_some_and(selection::is_unended));
+                    own && (base || case.base.is_some_and(Row::is_solved)) || base && !case.row.is_solved()
+                };
+                cases(draws).filter(might_part).count()
+            }
             // Paths that the verifier refuses are looked at too.
             That::AtMost => selection::unended(draws),
             That::Lower | That::AtMostTimes | That::Above => selection::censored(draws),
@@ -145,11 +154,11 @@ impl<'a> OnEvery<'a> {
 }
 
 impl OnEvery<'_> {
-    /// The share of cases that speak for it.
-    fn share(&self, said: &[Vec<(Says, &Row)>]) -> Option<Estimate> {
+    /// The share of cases that speak for it, of `most` of a draw at most.
+    fn share(&self, said: &[Vec<(Says, &Row)>], most: f64) -> Option<Estimate> {
         let kept = |draw: &Vec<(Says, &Row)>| draw.iter().filter(|(says, _)| *says == Says::For).count();
         let counts = said.iter().map(|draw| [kept(draw) as f64, draw.len() as f64]);
-        let share = Share::of(&counts.collect::<Vec<_>>(), self.plan)?;
+        let share = Share::of(&counts.collect::<Vec<_>>(), most, self.plan)?;
         Some(share.estimate(&format!("cases on which {}", self.claim())))
     }
 }
@@ -183,11 +192,15 @@ impl Criterion for OnEvery<'_> {
         let left = (unknown > 0).then(|| format!("{unknown} more cases have no number to compare"));
         Found {
             outcome: Some(outcome),
-            ours: self.share(&said).map(|ours| ours.of_cases(solved(&draws))),
+            ours: self.share(&said, most_cases(&draws)).map(|ours| ours.of_cases(solved(&draws))),
             trial: shown.map(|(_, row)| run.trial(row)),
             because: std::iter::once(because).chain(left).collect(),
             units: "cases",
             censored: unknown,
+            needs: self
+                .of
+                .needs_draws(&draws, FEWEST_DRAWS)
+                .filter(|_| matches!(outcome, Outcome::Holds | Outcome::SignOnly)),
             ..Found::default()
         }
     }

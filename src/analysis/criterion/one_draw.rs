@@ -7,22 +7,23 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
 use crate::analysis::selection::{self, Draw, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{LEVEL, OfDraw};
+use crate::analysis::statistic::{LEVEL, OfDraw, plan};
 use crate::analysis::verdict::Estimate;
 use audit::exact::Print;
 use audit::printed::Printed;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use stats::bootstrap::{self, Resampling};
 use stats::interval::Interval;
 use stats::proportion::{Rank, predictive};
-use stats::summary::{mean, median};
+use stats::summary::median;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "one_draw",
     about: "does the printed number lie where one more draw of ours would, with 95 % probability?",
-    revision: 1,
+    revision: 2,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "success", problems = "cell", contender = "Original A*", sweep = "samples=100" }
@@ -65,6 +66,7 @@ struct OneDraw<'a> {
     label: Option<String>,
     premises: Vec<String>,
     print: Print,
+    plan: Resampling,
 }
 
 /// The draws that the claim of `context` is held against, one set a criterion of this name that it decides or shows by.
@@ -92,7 +94,8 @@ impl<'a> OneDraw<'a> {
         if statistic != OfDraw::SolvedPercent {
             of.metric(context)?;
         }
-        Ok(Self { of, statistic, label, premises, print: context.print()? })
+        let plan = plan(&context.seed_names());
+        Ok(Self { of, statistic, label, premises, print: context.print()?, plan })
     }
 
     /// What is taken of each draw, in words.
@@ -110,27 +113,36 @@ impl<'a> OneDraw<'a> {
         }
     }
 
-    /// What the interval of one more draw says, of draws with this mean.
-    fn outcome(&self, interval: Interval, mean: f64) -> Outcome {
+    /// What the interval of one more draw says, of draws whose mean lies in `mean`.
+    fn outcome(&self, interval: Interval, mean: Interval) -> Outcome {
         let printed = self.print.printed.value();
         match interval.contains(printed) {
             true => Outcome::Holds,
             // Both are savings, or both are losses.
-            false if self.of.against.is_some() && mean * printed > 0.0 => Outcome::SignOnly,
+            false if self.of.against.is_some() && (mean.low * printed).min(mean.high * printed) > 0.0 => {
+                Outcome::SignOnly
+            }
             false => Outcome::Fails,
         }
     }
 
-    /// How many cases without an end could turn what was found: draws without a number are taken to lie above all others,
-    /// then below; where solved queries are counted, they are counted as solved.
+    /// How many cases without an end could turn what was found: draws of which one did not end are taken to lie above all
+    /// others, then below; where solved queries are counted, they are counted as solved.
     fn censored(&self, drawn: &[Draw<'_>], found: Outcome) -> usize {
         let number = |draw: &Draw<'_>, lost: f64| {
             let unended = draw.cases.iter().filter(|case| case.is_unended()).count();
             let own = self.statistic.of(draw);
-            if self.statistic == OfDraw::SolvedPercent && lost > 0.0 {
-                return own.map(|own| own + 100.0 * unended as f64 / draw.cases.len() as f64);
+            if self.statistic == OfDraw::SolvedPercent {
+                let more = if lost > 0.0 { 100.0 * unended as f64 / draw.cases.len() as f64 } else { 0.0 };
+                return own.map(|own| own + more);
             }
-            own.or((unended > 0).then_some(lost))
+            // One more number would move a mean either way, a least one down and a greatest one up.
+            let is_moved = match self.statistic {
+                OfDraw::Least => lost < 0.0,
+                OfDraw::Greatest => lost > 0.0,
+                OfDraw::Mean | OfDraw::SolvedPercent => true,
+            };
+            if unended > 0 && (is_moved || own.is_none()) { Some(lost) } else { own }
         };
         let interval = |lost: f64| {
             let filled: Vec<f64> = drawn.iter().filter_map(|draw| number(draw, lost)).collect();
@@ -202,10 +214,11 @@ impl Criterion for OneDraw<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let drawn = self.of.draws(evidence);
         let draws = self.values(evidence, &drawn);
-        let (Some(interval), Some(mean)) = (predictive(&draws.values, LEVEL), mean(&draws.values)) else {
+        let about = bootstrap::mean(&draws.values, self.plan);
+        let (Some(interval), Some(about)) = (predictive(&draws.values, LEVEL), about) else {
             return Found { premises: self.premises.clone(), ..Found::too_few(draws.values.len(), 39) };
         };
-        let outcome = self.outcome(interval, mean);
+        let (outcome, mean) = (self.outcome(interval, about.interval), about.value);
         let powerless =
             self.statistic == OfDraw::SolvedPercent && interval.high - interval.low >= NO_POWER_POINTS;
         let mut because = vec![said(&draws, self.print.printed)];

@@ -8,6 +8,7 @@ use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::{self, Selection, cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
+use crate::analysis::statistic::FEWEST_DRAWS;
 use crate::analysis::verdict::Estimate;
 use audit::exact::Print;
 use base::settings::{Accepted, SettingsError};
@@ -19,7 +20,7 @@ use stats::interval::Interval;
 pub static ENTRY: Entry = Entry {
     name: "prints_as",
     about: "does a number that is the same in every trial print as the paper's?",
-    revision: 1,
+    revision: 2,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "methods", problems = "case 1", contender = "A* 8", metric = "path_length_cm" }
@@ -74,8 +75,10 @@ impl Criterion for PrintsAs<'_> {
             outcome: Some(outcome),
             ours: Some(ours.of_cases(solved(&draws))),
             trial: self.of.trial(evidence, first),
-            censored: if outcome == Outcome::Holds { selection::unended(&draws) } else { 0 },
+            // One that would print so leaves open what is not the same in every trial.
+            censored: if outcome == Outcome::Open { 0 } else { selection::unended(&draws) },
             because: vec![format!("{who}: {metric} {number}, which {verb} {}", self.print.printed)],
+            needs: self.of.needs_draws(&draws, FEWEST_DRAWS).filter(|_| outcome == Outcome::Holds),
             ..Found::default()
         }
     }

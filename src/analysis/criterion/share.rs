@@ -5,7 +5,7 @@ use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
-use crate::analysis::selection::{Case, Draw, Selection, cases, solved};
+use crate::analysis::selection::{Case, Draw, Selection, cases, most_cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{Share, narrows, needs, plan};
 use base::settings::{Accepted, SettingsError};
@@ -23,7 +23,7 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "share",
     about: "does a share lie within bounds: of trials solved or with a mark, of events, of draws?",
-    revision: 2,
+    revision: 3,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "postures", problems = ["C1", "C2"], contender = "A*" }
@@ -160,8 +160,8 @@ impl<'a> Counted<'a> {
     /// statuses are counted one without an end.
     fn is_unknown(&self, case: &Case<'_>) -> bool {
         match self.settings.hits {
-            // They are no answer where marks or events are counted.
-            Hits::Marked | Hits::Events => false,
+            // What ended without a path, or with a refused one, has no marks; what did not end might have had some.
+            Hits::Marked | Hits::Events => case.is_unended() && self.counts(case).is_none(),
             Hits::Solved | Hits::Rejected => case.is_unended(),
             Hits::Above | Hits::Lower | Hits::Higher | Hits::LowerThroughout => case.is_censored(),
         }
@@ -181,15 +181,25 @@ impl<'a> Counted<'a> {
         [hits, chances]
     }
 
+    /// The most chances that a draw could have had: of events the most that were seen, as they have no bound.
+    fn most(&self, draws: &[Draw<'_>]) -> f64 {
+        match self.settings.hits {
+            Hits::LowerThroughout => 1.0,
+            Hits::Events => 0.0,
+            _ => most_cases(draws),
+        }
+    }
+
     /// How many cases of which nothing is known could turn what was found: all are counted as hits, then all as misses.
     fn censored(&self, draws: &[Draw<'_>], outcome: Option<Outcome>) -> usize {
         let unknown = cases(draws).filter(|case| self.is_unknown(case)).count();
-        if unknown == 0 {
-            return 0;
+        // How many events there would have been is not known even as a bound.
+        if unknown == 0 || self.settings.hits == Hits::Events {
+            return unknown;
         }
         let interval = |is_hit: bool| {
             let counts: Vec<[f64; 2]> = draws.iter().map(|draw| self.of_draw(draw, Some(is_hit))).collect();
-            Share::of(&counts, self.plan).and_then(|share| share.interval)
+            Share::of(&counts, self.most(draws), self.plan).and_then(|share| share.interval)
         };
         // All that the share may be: anything from the one interval to the other.
         let widest = interval(false).zip(interval(true)).map(|(none, all)| Interval::new(none.low, all.high));
@@ -281,7 +291,7 @@ impl Criterion for Counted<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let draws = self.of.draws(evidence);
         let counts: Vec<[f64; 2]> = draws.iter().map(|draw| self.of_draw(draw, None)).collect();
-        let Some(share) = Share::of(&counts, self.plan) else {
+        let Some(share) = Share::of(&counts, self.most(&draws), self.plan) else {
             let because = format!("{}: nothing to count {} among", self.of.said(), self.said());
             return Found { outcome: self.settings.accepted.map(|_| Outcome::Open), ..Found::open(because) };
         };

@@ -22,7 +22,7 @@ use study::column;
 pub static ENTRY: Entry = Entry {
     name: "trend",
     about: "does a metric, or what a contender saves, grow along a column? the slope over draws, with medians",
-    revision: 2,
+    revision: 3,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "random", problems = ["disjoint", "overlapping"], contender = "A*", metric = "nodes" }
@@ -64,13 +64,14 @@ impl<'a> Trend<'a> {
         Ok(Self { of, metric, over: settings.over, rising: settings.rising, plan })
     }
 
-    /// How many cases without an end could turn what was found: each is given the least number seen or the greatest one,
-    /// whichever goes against a slope that rises, then against one that falls.
+    /// How many cases without an end could turn what was found: each is given a number below or above all that were seen
+    /// together, whichever goes against a slope that rises, then against one that falls.
     fn censored(&self, draws: &[Draw<'_>], outcome: Outcome) -> usize {
         let seen: Vec<(f64, f64)> = cases(draws).filter_map(|case| self.point(case)).collect();
         let middle = summary::mean(&seen.iter().map(|(x, _)| *x).collect::<Vec<_>>());
-        let ends = [f64::min as fn(_, _) -> _, f64::max].map(|of| seen.iter().map(|(_, y)| *y).reduce(of));
-        let (Some(middle), [Some(least), Some(most)]) = (middle, ends) else { return 0 };
+        let Some(middle) = middle else { return 0 };
+        let least = seen.iter().fold(0.0, |least: f64, (_, y)| least.min(*y));
+        let most = seen.iter().fold(0.0, |most: f64, (_, y)| most.max(y.abs())) * seen.len() as f64;
         // One whose place is not known either may stand anywhere.
         let is_lost = |case: &Case<'_>| case.is_unended() && case.row.value(&self.over).is_none();
         if cases(draws).any(is_lost) {

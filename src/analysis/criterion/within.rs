@@ -21,7 +21,7 @@ use stats::paired::{self, snapped};
 pub static ENTRY: Entry = Entry {
     name: "within",
     about: "does the interval of a mean, median, deviation, ratio or reduction lie within a margin or within bounds?",
-    revision: 2,
+    revision: 3,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "environments", problems = "E*", contender = "Improved A*", against = "A*", metric = "nodes" }
@@ -141,12 +141,12 @@ impl<'a> Within<'a> {
     }
 
     /// How many cases without a number could turn what was found.
-    fn censored(&self, draws: &[Draw<'_>], outcome: Outcome) -> usize {
+    fn censored(&self, draws: &[Draw<'_>], found: Interval, outcome: Outcome) -> usize {
         let others = self.statistic.otherwise(&self.of, draws, self.plan);
         // What they may make of it reaches from the one to the other: two that both fail may do so on either side.
         let both = |one: Interval, two: Interval| Interval::new(one.low.min(two.low), one.high.max(two.high));
-        let whole = others.iter().copied().reduce(both);
-        let turned = others.into_iter().chain(whole).any(|interval| self.outcome(interval) != outcome);
+        let whole = others.iter().copied().fold(found, both);
+        let turned = others.into_iter().chain([whole]).any(|interval| self.outcome(interval) != outcome);
         match turned {
             false => 0,
             true if self.statistic.is_paired() => selection::censored(draws),
@@ -166,7 +166,8 @@ impl Criterion for Within<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let draws = self.of.draws(evidence);
         let Some(found) = self.estimated(&draws).filter(|found| found.interval.low.is_finite()) else {
-            return Found::too_few(draws.len(), FEWEST_DRAWS);
+            let counted = draws.iter().filter(|draw| draw.cases.iter().any(|case| case.value.is_some()));
+            return Found::too_few(counted.count(), FEWEST_DRAWS).hanging_on(selection::unended(&draws));
         };
         let outcome = self.outcome(found.interval);
         let metric = self.metric.label.to_lowercase();
@@ -192,7 +193,7 @@ impl Criterion for Within<'_> {
             because: vec![because],
             limits: vec![self.accepted.low, self.accepted.high],
             units: "draws",
-            censored: self.censored(&draws, outcome),
+            censored: self.censored(&draws, found.interval, outcome),
             needs: self.needs(&draws, found.units),
             narrows: narrows(found.is_agreed),
             ..Found::default()

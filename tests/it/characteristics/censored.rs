@@ -116,7 +116,7 @@ fn what_is_wrong_is_wrong_however_many_others_did_not_end() {
         let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
         class("equals", of, Made::Plainly, pairs(all))
     };
-    let (same, cut, wrong) = ((9, At(5.0), At(5.0)), (2, Spent, At(5.0)), (1, At(6.0), At(5.0)));
+    let (same, cut, wrong) = ((12, At(5.0), At(5.0)), (2, Spent, At(5.0)), (1, At(6.0), At(5.0)));
     assert_eq!([of(&[same]), of(&[same, cut])], ["reproduced", "undecided"]);
     assert_eq!([of(&[same, wrong]), of(&[same, wrong, cut])], ["not reproduced"; 2]);
 }
@@ -237,4 +237,128 @@ fn one_draw_of_what_was_drawn_is_one_of_many() {
     };
     assert_eq!([ratio([1, 1]), ratio([1, 30]), ratio([30, 9])], ["undecided"; 3]);
     assert_eq!(ratio([30, 10]), "reproduced");
+}
+
+#[test]
+fn what_did_not_end_might_have_had_marks() {
+    let class = |hits: &str, spent: u32| {
+        let mut sample = Sample::default();
+        for draw in 0..100 {
+            sample.draw();
+            sample.trial("A", if draw < spent { Spent } else { At(1.0) });
+            if draw >= spent {
+                sample.with("optimal_cost_cells", 0.0);
+                sample.with("expansions", 1.0);
+            }
+        }
+        let of = "of = { OF, contender = \"A\" }";
+        let settings = format!("{of}\nhits = {hits}\naccepted = [0.0, 0.1]");
+        class("share", &settings, Made::Plainly, sample)
+    };
+    let marked = "\"marked\"\ncolumns = [\"optimal_cost_cells\"]";
+    let events = "\"events\"\ncolumns = [\"optimal_cost_cells\"]\nper = \"expansions\"";
+    assert_eq!(
+        [class(marked, 0), class(marked, 1), class(marked, 50)],
+        ["reproduced", "reproduced", "undecided"]
+    );
+    assert_eq!([class(events, 0), class(events, 1)], ["reproduced", "undecided"]);
+}
+
+#[test]
+fn what_did_not_end_is_neither_solved_nor_not() {
+    let of = |all: &[(usize, End, End)]| {
+        let of = "of = { OF, contender = \"A\", against = \"B\" }";
+        class("on_every", &format!("{of}\nthat = \"solved\""), Made::Plainly, pairs(all))
+    };
+    let both = (20, At(1.0), At(1.0));
+    assert_eq!([of(&[both]), of(&[both, (1, NoPath, At(1.0))])], ["reproduced", "not reproduced"]);
+    assert_eq!(of(&[both, (5, Spent, At(1.0))]), "undecided", "it might have been solved");
+    assert_eq!(of(&[both, (5, NoPath, Spent)]), "undecided", "the other might have solved it");
+    assert_eq!(of(&[both, (5, At(1.0), Spent)]), "reproduced", "whatever the other would have done");
+}
+
+#[test]
+fn draws_that_might_have_been_whole_are_not_forgotten() {
+    let of = |lost: End| {
+        let mut sample = Sample::default();
+        for draw in 0..40 {
+            sample.draw();
+            sample.query("A", Some(0), None, At(1.0));
+            sample.query("A", Some(1), None, if draw == 0 { lost } else { At(1.0) });
+        }
+        let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\", whole_draws = true }";
+        class("within", &format!("{of}\nstatistic = \"mean\"\naccepted = [0.0, 2.0]"), Made::Plainly, sample)
+    };
+    assert_eq!([of(At(1.0)), of(NoPath), of(Spent)], ["reproduced", "reproduced", "undecided"]);
+}
+
+#[test]
+fn one_draw_of_which_a_query_did_not_end_may_give_any_number() {
+    let of = |statistic: &str, lost: End| {
+        let mut sample = Sample::default();
+        for draw in 0..100 {
+            sample.draw();
+            sample.query("A", Some(0), None, At(40.0 + f64::from(draw % 5)));
+            sample.query("A", Some(1), None, if lost.is_at() { At(42.0) } else { lost });
+        }
+        let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
+        class("one_draw", &format!("{of}\nstatistic = \"{statistic}\""), Made::Plainly, sample)
+    };
+    // What is printed, 0, lies below every draw: a greatest number that is not known is no lower.
+    for (statistic, cut) in [("mean", "undecided"), ("least", "undecided"), ("greatest", "not reproduced")] {
+        assert_eq!([of(statistic, At(1.0)), of(statistic, Spent)], ["not reproduced", cut], "{statistic}");
+    }
+}
+
+#[test]
+fn what_prints_alike_and_pairs_that_agree_hang_on_what_did_not_end() {
+    let prints = |value: f64, lost: End| {
+        let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
+        class("prints_as", of, Made::Plainly, pairs(&[(20, At(value), At(1.0)), (1, lost, At(1.0))]))
+    };
+    assert_eq!([prints(0.0, NoPath), prints(0.0, Spent)], ["reproduced", "undecided"]);
+    assert_eq!([prints(9.0, NoPath), prints(9.0, Spent)], ["not reproduced", "undecided"]);
+    let ratio = |lost: End| {
+        let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+        let settings = format!("{of}\nstatistic = \"ratio\"\naccepted = [0.5, 1.5]");
+        class("within", &settings, Made::Plainly, pairs(&[(40, At(5.0), At(5.0)), (40, lost, At(5.0))]))
+    };
+    assert_eq!(
+        [ratio(At(5.0)), ratio(Spent)],
+        ["reproduced", "undecided"],
+        "those that agree bound no others"
+    );
+}
+
+#[test]
+fn what_holds_on_each_of_few_draws_of_a_problem_that_is_drawn_is_not_firm() {
+    let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+    let prints = "of = { OF, contender = \"B\", metric = \"path_cost_cells\" }";
+    for (criterion, settings) in [
+        ("on_every", format!("{of}\nthat = \"lower\"")),
+        ("equals", of.to_owned()),
+        ("prints_as", prints.to_owned()),
+    ] {
+        let own = if criterion == "equals" { 0.0 } else { -1.0 };
+        let class = |draws| class(criterion, &settings, Made::Plainly, pairs(&[(draws, At(own), At(0.0))]));
+        assert_eq!([class(1), class(9), class(10)], ["undecided", "undecided", "reproduced"], "{criterion}");
+    }
+}
+
+#[test]
+fn seeds_on_a_problem_that_is_drawn_are_no_draws_of_it() {
+    let mut sample = Sample::default();
+    for draw in 0..12 {
+        sample.draw();
+        for seed in 0..30 {
+            sample.seed("A", seed, At(f64::from(draw)));
+        }
+    }
+    let of =
+        "of = { study = \"drawn\", problems = [\"map\"], contender = \"A\", metric = \"path_cost_cells\" }";
+    let claim = format!(
+        "[[claim]]\nid = \"asked\"\nat = \"here\"\nprinted = \"0\"\n[claim.check.within]\n{of}\nstatistic = \"mean\"\naccepted = [0.0, 12.0]"
+    );
+    let found = Synthetic::new(&claim, Made::Plainly).judgement(sample.records(), &[]);
+    assert_eq!(found.findings[0].ours.as_ref().unwrap().n, 12);
 }

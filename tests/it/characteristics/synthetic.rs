@@ -150,6 +150,13 @@ pub enum End {
     Spent,
 }
 
+impl End {
+    /// Whether it was solved.
+    pub fn is_at(self) -> bool {
+        matches!(self, Self::At(_))
+    }
+}
+
 /// Records in the making.
 #[derive(Default)]
 pub struct Sample {
@@ -199,6 +206,12 @@ impl Sample {
         };
         let values = value.into_iter().map(|value| ("path_cost_cells", Value::Real(value))).collect();
         self.records.batch.rows.push(Row { key, seed: 1, status, reason: None, values });
+    }
+
+    /// A trial of `contender` on the draw, with one of its seeds.
+    pub fn seed(&mut self, contender: &str, repeat: u32, end: End) {
+        self.trial(contender, end);
+        self.records.batch.rows.last_mut().unwrap().key.repeat = repeat;
     }
 
     /// Gives the trial that was put last one more number.

@@ -147,7 +147,7 @@ fn prints_as() -> Vec<Scenario> {
         let world = move |stream: &mut Stream| {
             let cost = 100.0 * stream.random::<f64>();
             let mut sample = Sample::default();
-            for index in 0..if truth == "underpowered" { 1 } else { 3 } {
+            for index in 0..if truth == "underpowered" { 1 } else { 12 } {
                 sample.draw();
                 sample.trial("A", if is_spent && index == 0 { End::Spent } else { End::At(cost) });
             }

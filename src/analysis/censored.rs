@@ -1,0 +1,45 @@
+//! Cases without a number: what the draws would be if they had given the least or the most that can be against what was found.
+
+use super::metric::Better;
+use super::selection::{Case, Draw, Selection, by_draw, cases, censored};
+
+/// The pairs of every draw with its censored cases filled in by a difference that outweighs all that were seen: against the
+/// contender where it alone failed, for it where the other did (no number is below 0), and where that is not known once one
+/// way and once the other. What is found every time does not hang on them. Nothing where nothing is censored.
+pub fn filled(selection: &Selection<'_>, draws: &[Draw<'_>]) -> Vec<Vec<Vec<(f64, f64)>>> {
+    let seen = || cases(draws).filter_map(Case::pair);
+    let count = seen().count();
+    if censored(draws) == 0 || count == 0 {
+        return Vec::new();
+    }
+    let middle = seen().map(|(base, _)| base).sum::<f64>() / count as f64;
+    // Where all that were seen agree, those that were not may differ by as much as they are.
+    let most = seen().map(|(base, own)| (own - base).abs()).fold(middle.abs(), f64::max) * count as f64;
+    let worse = match selection.metric.map(|metric| metric.better) {
+        Some(Better::Lower) => 1.0,
+        Some(Better::Higher) => -1.0,
+        Some(Better::Neither) | None => 0.0,
+    };
+    let number = |case: &Case<'_>, unknown: f64| {
+        let way = match (case.base_value, case.value) {
+            _ if worse == 0.0 => unknown,
+            (Some(_), None) => worse,
+            (None, Some(_)) => -worse,
+            _ => unknown,
+        };
+        let filled = || (middle, (middle + way * most).max(0.0));
+        case.pair().or_else(|| case.is_censored().then(filled))
+    };
+    [1.0, -1.0].map(|unknown| by_draw(draws, |case| number(case, unknown))).to_vec()
+}
+
+/// The draws as they would be if each case without an end had given the number that `given` says of its draw.
+pub fn ended<'e>(draws: &[Draw<'e>], given: impl Fn(&Draw<'e>) -> f64) -> Vec<Draw<'e>> {
+    let of_draw = |draw: &Draw<'e>| {
+        let number = given(draw);
+        let ended =
+            |case: &Case<'e>| if case.is_unended() { Case { value: Some(number), ..*case } } else { *case };
+        Draw { group: draw.group, cases: draw.cases.iter().map(ended).collect() }
+    };
+    draws.iter().map(of_draw).collect()
+}
