@@ -138,8 +138,8 @@ mod tests {
         }
         let agreed = [[3.0, 4.0]; 12];
         assert!(near(
-            share(&agreed, plan).unwrap(),
-            proportion::mean_of_agreed(&agreed, PLAN.level).unwrap()
+            share(&agreed, 4.0, plan).unwrap(),
+            proportion::mean_of_agreed(&agreed, 4.0, PLAN.level).unwrap()
         ));
         // One hit more never lowers an end: a bootstrap's upper end falls from 0.12 to 0.01 with the first.
         let draws = |hits: f64| [vec![[hits, 30.0]], vec![[0.0, 30.0]; 29]].concat();

@@ -51,7 +51,7 @@ fn clopper_pearson_gives_what_newcombe_and_r_print() {
 fn draws_that_agree_at_an_end_have_the_closed_form() {
     for n in [1_u8, 5, 10, 20, 145] {
         let low = libm::pow(0.025, 1.0 / f64::from(n));
-        let all = |hits: f64| mean_of_agreed(&vec![[hits, 7.0]; usize::from(n)], 0.95);
+        let all = |hits: f64| mean_of_agreed(&vec![[hits, 7.0]; usize::from(n)], 0.0, 0.95);
         close(all(7.0), low, 1.0, 1e-12);
         close(all(0.0), 0.0, 1.0 - low, 1e-12);
         let exact = clopper_pearson(usize::from(n), usize::from(n), 0.95).unwrap();
@@ -59,7 +59,10 @@ fn draws_that_agree_at_an_end_have_the_closed_form() {
     }
     // Twice the mean number of chances on the largest draw: twice as wide.
     let uneven: Vec<[f64; 2]> = (0..20).map(|i| if i < 4 { [6.0, 6.0] } else { [2.25, 2.25] }).collect();
-    close(mean_of_agreed(&uneven, 0.95), 1.0 - 2.0 * (1.0 - libm::pow(0.025, 0.05)), 1.0, 1e-12);
+    close(mean_of_agreed(&uneven, 0.0, 0.95), 1.0 - 2.0 * (1.0 - libm::pow(0.025, 0.05)), 1.0, 1e-12);
+    // A draw that differs may have more chances than any that was seen.
+    let most = 2.0 * uneven.iter().fold(0.0, |most: f64, draw| most.max(draw[1]));
+    close(mean_of_agreed(&uneven, most, 0.95), 1.0 - 4.0 * (1.0 - libm::pow(0.025, 0.05)), 1.0, 1e-12);
 }
 
 #[test]
@@ -69,7 +72,7 @@ fn draws_that_agree_between_the_ends_leave_room_for_those_that_differ() {
         (1..=20).map(|i| [f64::from(3 * (i % 2 + 1)), f64::from(4 * (i % 2 + 1))]).collect();
     // Half of the draws have twice the chances of the others: a third wider.
     let wide = differ * 4.0 / 3.0;
-    close(mean_of_agreed(&draws, 0.95), 0.75 - 0.75 * wide, 0.75 + 0.25 * wide, 1e-12);
+    close(mean_of_agreed(&draws, 0.0, 0.95), 0.75 - 0.75 * wide, 0.75 + 0.25 * wide, 1e-12);
 }
 
 #[test]
@@ -82,7 +85,7 @@ fn agreement_misleads_no_oftener_than_its_level_says() {
     for _ in 0..runs {
         let draw =
             |_| if rand::RngExt::random::<f64>(&mut stream) < differ { [0.0, 4.0] } else { [3.0, 4.0] };
-        let found = mean_of_agreed(&(0..n).map(draw).collect::<Vec<_>>(), 0.95);
+        let found = mean_of_agreed(&(0..n).map(draw).collect::<Vec<_>>(), 0.0, 0.95);
         missed += u32::from(found.is_some_and(|found| !found.contains(0.75 * (1.0 - differ))));
     }
     assert!((40..=160).contains(&missed), "seed 47: {missed} of {runs}, where 100 are expected");
@@ -91,14 +94,14 @@ fn agreement_misleads_no_oftener_than_its_level_says() {
 #[test]
 fn draws_that_do_not_agree_have_no_such_interval() {
     for draws in [vec![], vec![[1.0, 1.0], [0.0, 1.0]], vec![[1.0, 2.0], [1.0, 3.0]], vec![[0.0, 0.0]]] {
-        assert_eq!(mean_of_agreed(&draws, 0.95), None, "{draws:?}");
+        assert_eq!(mean_of_agreed(&draws, 0.0, 0.95), None, "{draws:?}");
     }
 }
 
 #[test]
 fn so_many_agreeing_draws_reach_a_width_and_one_fewer_do_not() {
     for (width, needed) in [(0.1, 36), (0.005, 736), (0.5, 6)] {
-        let found = |n: usize| mean_of_agreed(&vec![[1.0, 1.0]; n], 0.95).unwrap().low;
+        let found = |n: usize| mean_of_agreed(&vec![[1.0, 1.0]; n], 0.0, 0.95).unwrap().low;
         assert_eq!(agreeing_for_width(width, 0.95), needed);
         assert!(found(needed) >= 1.0 - width && found(needed - 1) < 1.0 - width, "{width}");
     }
