@@ -107,7 +107,12 @@ def counterexamples(cases: Cases, that: str) -> Flags:
 
 
 def needs_draws(cases: Cases, problems: list[str]) -> bool:
-    """Whether groups that are drawn have too few draws for what holds on each of them to be firm."""
+    """Whether groups that are drawn have too few draws for what holds on each of them to be firm.
+
+    Those that were searched for show what can be.
+    """
+    if cases.study.spec.get("searched", False):
+        return False
     names = groups_of(cases.study, problems)
     drawn = [place for place, name in enumerate(names) if is_drawn(cases.study, name)]
     return bool(drawn) and len(np.unique(cases.unit[np.isin(cases.group, drawn)])) < FEWEST_DRAWS

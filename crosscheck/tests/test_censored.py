@@ -196,6 +196,9 @@ def test_what_holds_on_each_of_few_draws_of_a_problem_that_is_drawn_is_not_firm(
         return shares.on_every(one).few
 
     assert [few(1, "h"), few(9, "h"), few(10, "h"), few(1, "g")] == [True, True, False, False]
+    searched = asked([(4.0, 5.0)], {"that": "lower", "of": {"problems": ["h"]}})
+    searched.cases().study.spec["searched"] = True
+    assert not shares.on_every(searched).few
 
 
 def test_pairs_that_agree_bound_no_others() -> None:

@@ -192,8 +192,12 @@ impl<'a> Selection<'a> {
         draws.iter().filter(|draw| !draw.is_whole()).map(|draw| unended(std::slice::from_ref(draw))).sum()
     }
 
-    /// Draws that it takes, of groups that are drawn, before what holds on each of them is firm; none if there are as many.
+    /// Draws that it takes, of groups that are drawn, before what holds on each of them is firm; none if there are as many, or if
+    /// they were searched for: one then shows what can be.
     pub fn needs_draws(&self, draws: &[Draw<'_>], fewest: usize) -> Option<usize> {
+        if self.study.searched {
+            return None;
+        }
         let of_group = |group: &String| draws.iter().filter(|draw| draw.group == group).count();
         let drawn: Vec<usize> =
             self.groups.iter().filter(|group| self.study.is_drawn(group)).map(of_group).collect();

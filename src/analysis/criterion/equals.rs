@@ -19,7 +19,7 @@ use study::record::{Row, Status};
 pub static ENTRY: Entry = Entry {
     name: "equals",
     about: "is a metric, on every trial, what another metric or another contender says that it is?",
-    revision: 3,
+    revision: 4,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "success", problems = "cell", contender = "Original A*", metric = "found" }

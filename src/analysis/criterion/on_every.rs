@@ -20,7 +20,7 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "on_every",
     about: "does it hold on every case that a contender is lower, within a bound, or solves what another solves?",
-    revision: 3,
+    revision: 4,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "environments", problems = "E*", contender = "Improved A*", against = "A*", metric = "nodes" }

@@ -20,7 +20,7 @@ use stats::interval::Interval;
 pub static ENTRY: Entry = Entry {
     name: "prints_as",
     about: "does a number that is the same in every trial print as the paper's?",
-    revision: 2,
+    revision: 3,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "methods", problems = "case 1", contender = "A* 8", metric = "path_length_cm" }

@@ -340,8 +340,10 @@ fn what_holds_on_each_of_few_draws_of_a_problem_that_is_drawn_is_not_firm() {
         ("prints_as", prints.to_owned()),
     ] {
         let own = if criterion == "equals" { 0.0 } else { -1.0 };
-        let class = |draws| class(criterion, &settings, Made::Plainly, pairs(&[(draws, At(own), At(0.0))]));
-        assert_eq!([class(1), class(9), class(10)], ["undecided", "undecided", "reproduced"], "{criterion}");
+        let class = |draws, made| class(criterion, &settings, made, pairs(&[(draws, At(own), At(0.0))]));
+        let plainly = [1, 9, 10].map(|draws| class(draws, Made::Plainly));
+        assert_eq!(plainly, ["undecided", "undecided", "reproduced"], "{criterion}");
+        assert_eq!(class(1, Made::Searched), "attainable", "{criterion}");
     }
 }
 
