@@ -237,11 +237,7 @@ impl Criterion for RowOneDraw<'_> {
             return Found::too_few(cells.iter().map(Vec::len).min().unwrap_or(0), self.fewest());
         };
         let (judged, n) = (rank.min(level.rank.p_two_sided()), place.draws);
-        let what = format!(
-            "rank among our draws and itself, the lesser of shape and level; refused below {}",
-            self.refused_below
-        );
-        let ours = Estimate::bare(judged, what, n);
+        let ours = Estimate::bare(judged, "the lesser rank, of shape or level", n);
         Found {
             outcome: Some(outcome),
             censored: self.censored(&drawn, (&level, outcome)),
