@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use study::paper::results::{BlockSpec, CellSpec, ResultsSpec, Show};
 use study::paper::{OursSpec, TableRow};
 use study::record::{PreparedRow, Row};
-use study::{Study, recorded_mark};
+use study::{Study, name, recorded_mark};
 
 /// A table of results: its head and, block by block, its rows; a dash where there is nothing.
 pub struct Grid {
@@ -122,15 +122,19 @@ pub struct Trials {
     pub all: usize,
 }
 
-/// The trials of the problem groups and contenders that `settings` name, of all where they name none.
+/// The trials of the problem groups, contenders and points of sweeps that `settings` name, of all where they name none.
 pub fn trials(run: &Run<'_>, settings: Option<&toml::Table>) -> Trials {
     let mut named = BTreeSet::new();
     settings.into_iter().flat_map(toml::Table::values).for_each(|value| texts(value, &mut named));
     let groups: Vec<&str> = run.study.groups.iter().map(|group| group.label.as_str()).collect();
     let contenders: Vec<&str> = run.study.contenders.iter().map(|one| one.label.as_str()).collect();
+    let points: Vec<String> = run.study.sweep_points().iter().map(|point| name::sweep(&point.key)).collect();
+    let points = among(points.iter().map(String::as_str).collect(), &named);
     let (groups, contenders) = (among(groups, &named), among(contenders, &named));
     let rows = groups.iter().flat_map(|group| contenders.iter().flat_map(|one| run.rows(group, one)));
-    let rows: Vec<&Row> = rows.collect();
+    let is_shown =
+        |row: &&Row| row.key.sweep.values().is_empty() || points.contains(&&*name::sweep(&row.key.sweep));
+    let rows: Vec<&Row> = rows.filter(is_shown).collect();
     let draws: BTreeSet<_> = rows.iter().map(|row| (&row.key.on.group, row.draw())).collect();
     let solved = rows.iter().filter(|row| row.is_solved()).count();
     Trials { draws: draws.len(), solved, all: rows.len() }
