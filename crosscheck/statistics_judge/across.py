@@ -6,6 +6,7 @@ from typing import Any
 
 from statistics_judge.classes import SPEAKS, WEIGHT
 from statistics_judge.records import Paper
+from statistics_judge.shared_out import shares
 
 # Of ten results that speak or leave open, so many must speak.
 TENTHS = 9
@@ -342,8 +343,7 @@ class Across:
         if not parting:
             return f"hangs on several readings: {found} under {holds} of {every}"
         _, axis, split = max(parting, key=lambda one: one[0] - len(one[2]))
-        shares = ", ".join(f"{option} {own[0]} of {sum(own)}" for option, own in split.items() if sum(own))
-        return f"hangs on {axis.id} and others: {found} under {holds} of {every} ({shares})"
+        return f"hangs on {axis.id} and others: {found} under {holds} of {every} ({shares(split)})"
 
 
 def flips(results: list[Result]) -> list[Result]:

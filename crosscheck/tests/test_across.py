@@ -14,6 +14,7 @@ import pytest
 from statistics_judge.across import Across, Axis, Counted, Result, axes, combined, differences, flips
 from statistics_judge.medians import departs
 from statistics_judge.records import Paper, Study
+from statistics_judge.shared_out import shares
 
 ROOT = Path(__file__).parents[2]
 EXPLORED = [path.parent.name for path in sorted(ROOT.glob("data/runs/*/explored.toml.gz"))]
@@ -223,3 +224,11 @@ def test_a_contender_departs_where_an_option_of_its_own_is_not_the_default() -> 
     study = Study(Path("room.toml"), {"contender": contenders}, Path())
     study.choices = {"hurry": "a", "idle": "a"}
     assert [departs(study, one["label"]) for one in contenders] == [False, True, False]
+
+
+def test_many_options_that_have_all_of_their_results_are_counted() -> None:
+    few = {"a": [1, 0], "b": [2, 1], "c": [0, 0]}
+    assert shares(few) == "a 1 of 1, b 2 of 3"
+    many = {**{name: [1, 0] for name in "defgh"}, "b": [2, 1]}
+    assert shares(many) == "b 2 of 3; all under each of 5 more"
+    assert shares({name: [1, 0] for name in "defgh"}) == "d 1 of 1, e 1 of 1, f 1 of 1, g 1 of 1, h 1 of 1"
