@@ -127,12 +127,11 @@ def of_criterion(
             ),
             existential=found.existential,
             powerless=found.powerless,
-            censored=censored,
+            censored=censored or is_cut,
             few=is_few(name, settings, found),
             clock=bool(clock),
         )
         for outcome, censored in itertools.product(found.possible, found.censored)
-        for censored in [censored or is_cut]
     )
     return Recomputed(name, possible, found.estimate)
 

@@ -134,3 +134,13 @@ fn no_criterion_or_rule_serves_one_claim_alone() {
     let few: Vec<&str> = names.filter(|name| asked.get(*name).is_none_or(|claims| *claims < 2)).collect();
     assert!(few.is_empty(), "asked by fewer than two claims of the committed papers: {few:?}");
 }
+
+#[test]
+fn the_second_judge_knows_the_families_in_which_something_is_drawn() {
+    let text = std::fs::read_to_string("crosscheck/statistics_judge/selection.py").unwrap();
+    let (_, from) = text.split_once("DRAWN = frozenset(").unwrap();
+    let (listed, _) = from.split_once(')').unwrap();
+    let known: Vec<&str> = listed.split('"').skip(1).step_by(2).collect();
+    let drawn = study::family::REGISTRY.iter().filter(|entry| entry.is_drawn).map(|entry| entry.name);
+    assert_eq!(known, drawn.collect::<Vec<_>>());
+}

@@ -2,9 +2,19 @@
 
 use super::synthetic::End::{At, NoPath, Rejected, Spent};
 use super::synthetic::{End, Made, SWEEP, Sample, Synthetic};
+use replan::analysis::verdict::Judged;
 
 /// The class of a claim by `criterion` after `records`.
 fn class(criterion: &str, settings: &str, made: Made, records: Sample) -> &'static str {
+    judged(criterion, settings, made, records).verdict.name()
+}
+
+/// How many draws our number rests on.
+fn draws(criterion: &str, settings: &str, records: Sample) -> usize {
+    judged(criterion, settings, Made::Plainly, records).findings[0].ours.as_ref().unwrap().n
+}
+
+fn judged(criterion: &str, settings: &str, made: Made, records: Sample) -> Judged {
     let of = "study = \"drawn\", problems = [\"map\"]";
     let settings = settings.replace("OF", of);
     let cells = ["low", "high"]
@@ -13,7 +23,7 @@ fn class(criterion: &str, settings: &str, made: Made, records: Sample) -> &'stat
         "[[claim]]\nid = \"asked\"\nat = \"here\"\nprinted = \"0\"\n[claim.check.{criterion}]\n{settings}\n{}",
         cells.concat()
     );
-    Synthetic::new(&claim, made).judged(records.records(), &[]).name()
+    Synthetic::new(&claim, made).judgement(records.records(), &[])
 }
 
 /// A draw for each of these pairs of ends of A and B.
@@ -196,20 +206,10 @@ fn rows_of_one_draw_are_joined_by_the_draw() {
     let row = |label: &str, claim: &str| {
         format!("{{ contender = \"{label}\", statistics = [\"mean\"], claims = [\"{claim}\"] }}")
     };
-    let settings = format!(
-        "of = {{ study = \"drawn\", problems = [\"map\"], metric = \"path_cost_cells\" }}\nrows = [{}, {}]\nrefused_below = 0.05",
-        row("A", "low"),
-        row("B", "high")
-    );
-    let cells = ["low", "high"]
-        .map(|id| format!("[[claim]]\nid = \"{id}\"\nat = \"here\"\nprinted = \"7\"\nuntestable = \"it\"\n"));
-    let claim = format!(
-        "[[claim]]\nid = \"asked\"\nat = \"here\"\nprinted = \"0\"\n[claim.check.row_one_draw]\n{settings}\n{}",
-        cells.concat()
-    );
-    let found = Synthetic::new(&claim, Made::Plainly).judgement(sample.records(), &[]);
-    let ours = found.findings[0].ours.as_ref().unwrap();
-    assert_eq!(ours.n, 40, "draws that have both: neither odd nor a multiple of 3");
+    let rows = format!("rows = [{}, {}]\nrefused_below = 0.05", row("A", "low"), row("B", "high"));
+    let settings = format!("of = {{ OF, metric = \"path_cost_cells\" }}\n{rows}");
+    let both = draws("row_one_draw", &settings, sample);
+    assert_eq!(both, 40, "draws that have both: neither odd nor a multiple of 3");
 }
 
 #[test]
@@ -356,11 +356,7 @@ fn seeds_on_a_problem_that_is_drawn_are_no_draws_of_it() {
             sample.seed("A", seed, At(f64::from(draw)));
         }
     }
-    let of =
-        "of = { study = \"drawn\", problems = [\"map\"], contender = \"A\", metric = \"path_cost_cells\" }";
-    let claim = format!(
-        "[[claim]]\nid = \"asked\"\nat = \"here\"\nprinted = \"0\"\n[claim.check.within]\n{of}\nstatistic = \"mean\"\naccepted = [0.0, 12.0]"
-    );
-    let found = Synthetic::new(&claim, Made::Plainly).judgement(sample.records(), &[]);
-    assert_eq!(found.findings[0].ours.as_ref().unwrap().n, 12);
+    let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
+    let settings = format!("{of}\nstatistic = \"mean\"\naccepted = [0.0, 12.0]");
+    assert_eq!(draws("within", &settings, sample), 12);
 }
