@@ -11,10 +11,10 @@
 use super::CrosscheckError;
 use super::sample::Question;
 use polars::prelude::{Column, DataFrame, NamedFrom as _, Series};
-use polars_io::prelude::{ParquetCompression, ParquetReader, ParquetWriter, SerReader as _};
 use std::fs;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
+use study::parquet::{FrameReader, write_frame};
 
 /// How the name of the table ends that every answered model has.
 pub const ANSWERED: &str = ".touch.parquet";
@@ -48,13 +48,9 @@ pub fn write_questions(path: &Path, joints: usize, questions: &[Question]) -> Re
 }
 
 fn write(path: &Path, height: usize, columns: Vec<Column>) -> Result<(), CrosscheckError> {
-    let mut frame = DataFrame::new(height, columns).expect("columns are as long as the questions are many");
+    let frame = DataFrame::new(height, columns).expect("columns are as long as the questions are many");
     let mut bytes = Vec::new();
-    ParquetWriter::new(&mut bytes)
-        .with_compression(ParquetCompression::Zstd(None))
-        .set_parallel(false)
-        .finish(&mut frame)
-        .expect("a frame of equally long columns is written to memory");
+    write_frame(&mut bytes, frame, Vec::new()).expect("a frame of equally long columns is written to memory");
     fs::write(path, bytes).map_err(|source| CrosscheckError::Io { path: path.to_owned(), source })
 }
 
@@ -66,7 +62,7 @@ impl Table {
     pub fn read(path: PathBuf, rows: usize) -> Result<Self, CrosscheckError> {
         let wrong = |reason: String| CrosscheckError::Answer { path: path.clone(), reason };
         let bytes = fs::read(&path).map_err(|e| wrong(format!("cannot be read ({e})")))?;
-        let frame = ParquetReader::new(Cursor::new(bytes)).finish();
+        let frame = FrameReader::open(Cursor::new(bytes)).and_then(|mut file| file.frame());
         let frame = frame.map_err(|e| wrong(format!("is not a Parquet file: {e}")))?;
         if frame.height() != rows {
             return Err(wrong(format!("has {} rows; {rows} were asked for", frame.height())));

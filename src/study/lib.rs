@@ -12,6 +12,7 @@ mod error;
 mod inputs;
 pub mod key;
 pub mod name;
+pub mod parquet;
 pub mod spec;
 
 pub mod explore;

@@ -2,10 +2,9 @@
 
 use crate::paper::{Bench, Said};
 use polars::prelude::{Column, DataFrame, NamedFrom as _, Series};
-use polars_io::prelude::{ParquetReader, ParquetWriter, SerReader as _};
 use std::fs;
-use std::io::Cursor;
 use std::path::{Path, PathBuf};
+use study::parquet::{FrameReader, write_frame};
 
 /// Where answers lie in a bench.
 const ANSWERS: &str = "out/target/replan/crosscheck/judged/up6-in-room";
@@ -34,13 +33,21 @@ fn judged(bench: &Bench) -> Said {
     bench.run(&["crosscheck", "./judged", "--answered", "--out", "out"])
 }
 
+fn frame_at(path: &Path) -> DataFrame {
+    FrameReader::open(fs::File::open(path).unwrap()).unwrap().frame().unwrap()
+}
+
+fn write_at(path: &Path, frame: DataFrame) {
+    write_frame(fs::File::create(path).unwrap(), frame, Vec::new()).unwrap();
+}
+
 /// Changes one cell of a table of answers.
 fn edit(bench: &Bench, file: &str, column: &str, change: impl Fn(&Column) -> Series) {
     let path = bench.at(&format!("{ANSWERS}/{file}"));
-    let mut frame: DataFrame = ParquetReader::new(Cursor::new(fs::read(&path).unwrap())).finish().unwrap();
+    let mut frame = frame_at(&path);
     let series = change(frame.column(column).unwrap());
     frame.with_column(series.into()).unwrap();
-    ParquetWriter::new(fs::File::create(path).unwrap()).finish(&mut frame).unwrap();
+    write_at(&path, frame);
 }
 
 fn flipped(column: &Column, row: usize) -> Series {
@@ -158,16 +165,11 @@ fn an_error_on_purpose_that_goes_unnoticed_fails_the_run() {
         let bench = bench();
         // The judge answers as if nothing were wrong: its answers to the right model, for the rows that were asked.
         let (wrong, part) = name.split_once('.').unwrap();
-        let read = |file: &str| {
-            let bytes = fs::read(bench.at(&format!("{ANSWERS}/{file}.{part}.parquet"))).unwrap();
-            ParquetReader::new(Cursor::new(bytes)).finish().unwrap()
-        };
+        let read = |file: &str| frame_at(&bench.at(&format!("{ANSWERS}/{file}.{part}.parquet")));
         let (right, height) = (read("scene"), read(wrong).height());
         // Questions about frames start with the drawn ones; those near contact stand after the 40 drawn ones.
         let first = if part == "touch" { 40 } else { 0 };
-        let mut frame = right.slice(first, height);
-        let path = bench.at(&format!("{ANSWERS}/{name}.parquet"));
-        ParquetWriter::new(fs::File::create(path).unwrap()).finish(&mut frame).unwrap();
+        write_at(&bench.at(&format!("{ANSWERS}/{name}.parquet")), right.slice(first, height));
         let said = judged(&bench);
         assert_eq!(said.code, Some(3), "{name}\n{}{}", said.out, said.err);
         let is_told = said.err.contains("control not noticed") && said.err.contains(control);
@@ -180,12 +182,12 @@ fn answers_that_are_missing_or_do_not_fit_are_refused_by_name() {
     let bench = bench();
     let path = bench.at(&format!("{ANSWERS}/scene.touch.parquet"));
     let whole = fs::read(&path).unwrap();
-    let mut frame = ParquetReader::new(Cursor::new(whole.clone())).finish().unwrap();
-    ParquetWriter::new(fs::File::create(&path).unwrap()).finish(&mut frame.slice(0, 9)).unwrap();
+    let mut frame = frame_at(&path);
+    write_at(&path, frame.slice(0, 9));
     let said = judged(&bench);
     assert!(said.code == Some(3) && said.err.contains("has 9 rows"), "{}", said.err);
     let _ = frame.drop_in_place("finger|box").unwrap();
-    ParquetWriter::new(fs::File::create(&path).unwrap()).finish(&mut frame).unwrap();
+    write_at(&path, frame);
     let said = judged(&bench);
     assert!(said.code == Some(3) && said.err.contains("no column `finger|box`"), "{}", said.err);
     fs::write(&path, &whole[..200]).unwrap();

@@ -4,10 +4,10 @@ use crate::across::Toy;
 use crate::paper::Bench;
 use base::hash::sha256;
 use polars::prelude::{DataFrame, IntoColumn as _, NamedFrom as _, Series};
-use polars_io::prelude::{ParquetReader, ParquetWriter, SerReader as _};
 use std::fs;
 use std::io::Cursor;
 use std::path::Path;
+use study::parquet::{FrameReader, write_frame};
 
 const RUNS: &str = "data/runs/movingai_sample";
 const REPORT: &str = "paper_repro.md";
@@ -46,13 +46,13 @@ fn refused(bench: &Bench, arguments: &[&str]) -> String {
 fn touch(bench: &Bench, column: &str) -> String {
     let path = format!("{RUNS}/scenarios.trials.parquet");
     let bytes = fs::read(bench.at(&path)).unwrap();
-    let mut frame: DataFrame = ParquetReader::new(Cursor::new(bytes)).finish().unwrap();
+    let mut frame: DataFrame = FrameReader::open(Cursor::new(bytes)).unwrap().frame().unwrap();
     let values = frame.column(column).unwrap().f64().unwrap();
     let mut values: Vec<Option<f64>> = values.iter().collect();
     values[0] = values[0].map(|value| 1.5 * value);
     frame.with_column(Series::new(column.into(), values).into_column()).unwrap();
     let mut bytes = Vec::new();
-    ParquetWriter::new(&mut bytes).finish(&mut frame).unwrap();
+    write_frame(&mut bytes, frame, Vec::new()).unwrap();
     bench.write(&path, &bytes);
     sha256(&bytes)
 }

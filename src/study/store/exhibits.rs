@@ -5,13 +5,13 @@ use super::read::{Draws, Stored, UNREADABLE, touched, unpanicked};
 use super::table;
 use crate::StudyError;
 use crate::key::{KeyColumns, Owner, SweepKey};
+use crate::parquet::{FrameReader, FrameWriter};
 use crate::record::{Kept, Row};
 use polars::prelude::PolarsError;
-use polars_io::parquet::write::BatchedWriter;
-use polars_io::prelude::{ParquetReader, SerReader as _};
 use std::collections::VecDeque;
 use std::fs::File;
 use std::io::{self, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// How many numbers a group holds, but for an exhibit that has more: 16 MB.
@@ -19,7 +19,8 @@ pub const GROUP_VALUES: usize = 1 << 21;
 
 /// A file of exhibits at work.
 pub struct ExhibitWriter<'k, W: Write> {
-    file: BatchedWriter<W>,
+    file: FrameWriter<W>,
+    description: Vec<(String, String)>,
     keys: &'k KeyColumns,
     sweep: Option<SweepKey>,
     group: Vec<Kept>,
@@ -34,8 +35,9 @@ impl<'k, W: Write> ExhibitWriter<'k, W> {
     /// What the system refused.
     pub fn new(out: W, keys: &'k KeyColumns, sweep: Option<SweepKey>, most: usize) -> io::Result<Self> {
         let empty = table::exhibits(&[], keys, sweep.as_ref());
-        let file = table::writer(out, &empty, keys).batched(empty.schema()).map_err(told)?;
-        Ok(Self { file, keys, sweep, group: Vec::new(), values: 0, most })
+        let file = FrameWriter::new(out, &empty).map_err(told)?;
+        let description = table::description(&empty, keys);
+        Ok(Self { file, description, keys, sweep, group: Vec::new(), values: 0, most })
     }
 
     /// Adds an exhibit; they come in the order of records.
@@ -58,15 +60,13 @@ impl<'k, W: Write> ExhibitWriter<'k, W> {
     /// As [`new`](Self::new).
     pub fn finish(mut self) -> io::Result<()> {
         self.flush()?;
-        self.file.finish().map_err(told)?;
-        Ok(())
+        self.file.finish(self.description).map_err(told)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        let mut frame = table::exhibits(&self.group, self.keys, self.sweep.as_ref());
+        let frame = table::exhibits(&self.group, self.keys, self.sweep.as_ref());
         (self.group, self.values) = (Vec::new(), 0);
-        frame.rechunk_mut();
-        self.file.write_batch(&frame).map_err(told)
+        self.file.write(frame).map_err(told)
     }
 }
 
@@ -91,31 +91,25 @@ pub fn sweep_of(kept: &[Kept]) -> Option<SweepKey> {
 /// [`StudyError::Touched`].
 pub fn groups(path: &Path) -> Result<Vec<usize>, StudyError> {
     let file = File::open(path).map_err(StudyError::io(path, "opening the file"))?;
-    let metadata = unpanicked(|| ParquetReader::new(file).get_metadata().ok().cloned());
-    let metadata = metadata.flatten().ok_or_else(|| touched(path, UNREADABLE))?;
-    let mut counts = Vec::new();
-    for group in &metadata.row_groups {
-        counts.push(group.num_rows());
-    }
-    Ok(counts)
+    let groups = unpanicked(|| FrameReader::open(file).ok().map(|file| file.groups().collect()));
+    groups.flatten().ok_or_else(|| touched(path, UNREADABLE))
 }
 
-/// The exhibits in the file at `path` that stand in `rows`: the first row and how many there are.
+/// The exhibits in a group of the file at `path`.
 ///
 /// # Errors
 /// [`StudyError::Touched`].
-pub fn read_group(path: &Path, rows: (usize, usize), draws: &mut Draws) -> Result<Vec<Kept>, StudyError> {
+pub fn read_group(path: &Path, group: usize, draws: &mut Draws) -> Result<Vec<Kept>, StudyError> {
     let file = File::open(path).map_err(StudyError::io(path, "opening the file"))?;
-    let read = || ParquetReader::new(file).with_slice(Some(rows)).finish();
+    let read = || FrameReader::open(file)?.group(group);
     Stored::of(path.to_owned(), read)?.guarded(|file| file.exhibits(draws))
 }
 
 /// A file of exhibits that is read from its beginning, one group at a time.
 pub struct ExhibitReader {
     path: PathBuf,
-    /// How many exhibits each group has that was not read yet, the last one first.
-    groups: Vec<usize>,
-    row: usize,
+    /// The groups that were not read yet.
+    groups: Range<usize>,
     read: VecDeque<Kept>,
     draws: Draws,
 }
@@ -126,9 +120,9 @@ impl ExhibitReader {
     /// # Errors
     /// [`StudyError::Stored`].
     pub fn open(path: &Path) -> Result<Self, StudyError> {
-        let groups = groups(path)?.into_iter().rev().collect();
+        let groups = 0..groups(path)?.len();
         let (path, read, draws) = (path.to_owned(), VecDeque::new(), Draws::default());
-        Ok(Self { path, groups, row: 0, read, draws })
+        Ok(Self { path, groups, read, draws })
     }
 
     /// The next exhibit, which stays the next.
@@ -137,10 +131,9 @@ impl ExhibitReader {
     /// [`StudyError::Stored`].
     pub fn peek(&mut self) -> Result<Option<&Kept>, StudyError> {
         while self.read.is_empty()
-            && let Some(count) = self.groups.pop()
+            && let Some(group) = self.groups.next()
         {
-            self.read = read_group(&self.path, (self.row, count), &mut self.draws)?.into();
-            self.row += count;
+            self.read = read_group(&self.path, group, &mut self.draws)?.into();
         }
         Ok(self.read.front())
     }
@@ -180,7 +173,7 @@ impl ExhibitReader {
     /// [`StudyError::Stored`].
     pub fn has_trials(&self) -> Result<bool, StudyError> {
         let file = File::open(&self.path).map_err(StudyError::io(&self.path, "opening the file"))?;
-        let read = || ParquetReader::new(file).with_columns(Some(vec!["contender".to_owned()])).finish();
+        let read = || FrameReader::open(file)?.columns(|name| name == "contender");
         Stored::of(self.path.clone(), read)?.has_some("contender")
     }
 }

@@ -5,9 +5,9 @@ use super::read::{Draws, Stored};
 use super::{check, hash_of, part_path};
 use crate::StudyError;
 use crate::key::Owner;
+use crate::parquet::FrameReader;
 use crate::record::Kept;
 use engine::planner::Exhibit;
-use polars_io::prelude::{ParquetReader, SerReader as _};
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -27,14 +27,8 @@ pub struct KeptExhibits {
 struct Found {
     /// Its group and its place there.
     places: BTreeMap<Owner, Vec<(usize, usize)>>,
-    groups: Vec<Group>,
-}
-
-/// A group of the file: its first row and how many it has.
-#[derive(Debug)]
-struct Group {
-    rows: (usize, usize),
-    read: OnceLock<Vec<Exhibit>>,
+    /// What each group of the file holds.
+    groups: Vec<OnceLock<Vec<Exhibit>>>,
 }
 
 impl KeptExhibits {
@@ -46,7 +40,7 @@ impl KeptExhibits {
             places.entry(of).or_default().push((0, place));
             all.push(exhibit);
         }
-        let groups = vec![Group { rows: (0, all.len()), read: OnceLock::from(all) }];
+        let groups = vec![OnceLock::from(all)];
         Self { found: OnceLock::from(Found { places, groups }), ..Self::default() }
     }
 
@@ -66,8 +60,7 @@ impl KeptExhibits {
         let found = self.found();
         let places = found.places.get(owner).map_or(&[][..], Vec::as_slice);
         places.iter().filter_map(|(group, place)| {
-            let Group { rows, read } = &found.groups[*group];
-            once(read, || self.or_damage(|path| Self::group(path, *rows))).get(*place)
+            once(&found.groups[*group], || self.or_damage(|path| Self::group(path, *group))).get(*place)
         })
     }
 
@@ -85,7 +78,7 @@ impl KeptExhibits {
             let own = found.places.get(owner).and_then(|places| places.last()).map(|(group, _)| *group);
             for (number, group) in found.groups.iter_mut().enumerate() {
                 if own.is_some_and(|own| own != number) {
-                    group.read.take();
+                    group.take();
                 }
             }
         }
@@ -116,7 +109,7 @@ impl KeptExhibits {
     #[cfg(test)]
     pub fn in_memory(&self) -> usize {
         let groups = self.found.get().into_iter().flat_map(|found| &found.groups);
-        groups.filter(|group| group.read.get().is_some()).count()
+        groups.filter(|group| group.get().is_some()).count()
     }
 
     fn or_damage<T: Default>(&self, read: impl FnOnce(&Path) -> Result<T, StudyError>) -> T {
@@ -131,26 +124,20 @@ impl KeptExhibits {
     fn find(path: &Path) -> Result<Found, StudyError> {
         let mut found = Found::default();
         let file = File::open(path).map_err(StudyError::io(path, "opening the file"))?;
-        let read = || {
-            let mut reader = ParquetReader::new(file);
-            let names = reader.schema()?.iter_names().map(ToString::to_string).collect::<Vec<_>>();
-            reader.with_columns(Some(names.into_iter().filter(|name| name != "values").collect())).finish()
-        };
+        let read = || FrameReader::open(file)?.columns(|name| name != "values");
         let stored = Stored::of(path.to_owned(), read)?;
         let mut owners = stored.guarded(|file| file.owners(&mut Draws::default()))?.into_iter();
-        let mut first = 0;
         for (number, count) in groups(path)?.into_iter().enumerate() {
             for (place, owner) in owners.by_ref().take(count).enumerate() {
                 found.places.entry(owner).or_default().push((number, place));
             }
-            found.groups.push(Group { rows: (first, count), read: OnceLock::new() });
-            first += count;
+            found.groups.push(OnceLock::new());
         }
         Ok(found)
     }
 
-    fn group(path: &Path, rows: (usize, usize)) -> Result<Vec<Exhibit>, StudyError> {
-        let kept = read_group(path, rows, &mut Draws::default())?;
+    fn group(path: &Path, group: usize) -> Result<Vec<Exhibit>, StudyError> {
+        let kept = read_group(path, group, &mut Draws::default())?;
         Ok(kept.into_iter().map(|kept| kept.exhibit).collect())
     }
 }

@@ -7,10 +7,10 @@ use super::describe::{READING, SWEEP};
 use crate::StudyError;
 use crate::column::{self, Kind};
 use crate::key::{DrawKey, Owner, ReadingKey, SweepKey, SweepValue, Text, TrialKey};
+use crate::parquet::FrameReader;
 use crate::record::{Kept, PreparedRow, Row, Status, Timing, Values};
 use engine::planner::{Exhibit, Value};
 use polars::prelude::{AnyValue, Column, DataFrame, DataType, PolarsResult};
-use polars_io::prelude::{ParquetReader, SerReader as _};
 use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::panic::{self, AssertUnwindSafe, UnwindSafe, catch_unwind};
@@ -127,7 +127,7 @@ pub struct Stored {
 impl Stored {
     /// The frame in `bytes`, read from `path`.
     pub fn open(path: PathBuf, bytes: Vec<u8>) -> Result<Self, StudyError> {
-        Self::of(path, || ParquetReader::new(Cursor::new(bytes)).finish())
+        Self::of(path, || FrameReader::open(Cursor::new(bytes))?.frame())
     }
 
     /// The frame that `read` reads from `path`.

@@ -3,12 +3,11 @@
 use super::describe::{READING, SWEEP, described};
 use crate::column::{self, Kind};
 use crate::key::{DrawKey, KeyColumns, Owner, SweepKey, SweepValue, TrialKey};
+use crate::parquet::write_frame;
 use crate::record::{Kept, PreparedRow, Row, Timing, Values};
 use engine::planner::Value;
 use polars::prelude::{Column, DataFrame, NamedFrom as _, Series};
-use polars_io::prelude::{KeyValueMetadata, ParquetCompression, ParquetWriter};
 use std::collections::BTreeSet;
-use std::io::Write;
 
 /// The key of a file's metadata under which its columns are described: JSON, a list of name, unit and meaning.
 pub const DESCRIPTION: &str = "columns";
@@ -78,22 +77,18 @@ pub fn times(times: &[Timing], keys: &KeyColumns) -> DataFrame {
 }
 
 /// The bytes of `frame` as a Parquet file: the same for the same frame.
-pub fn to_parquet(mut frame: DataFrame, keys: &KeyColumns) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    let writer = writer(&mut bytes, &frame, keys);
-    writer.finish(&mut frame).expect("a frame of equally long columns is written to memory");
+pub fn to_parquet(frame: DataFrame, keys: &KeyColumns) -> Vec<u8> {
+    let (mut bytes, entries) = (Vec::new(), description(&frame, keys));
+    write_frame(&mut bytes, frame, entries).expect("a frame of equally long columns is written to memory");
     bytes
 }
 
-/// What writes frames with the columns of `frame` into `out`.
-pub fn writer<W: Write>(out: W, frame: &DataFrame, keys: &KeyColumns) -> ParquetWriter<W> {
+/// What a file of frames with the columns of `frame` says of them.
+pub fn description(frame: &DataFrame, keys: &KeyColumns) -> Vec<(String, String)> {
     let names = frame.columns().iter().map(|column| column.name().as_str());
     let meant = names.map(|name| described(name, keys).expect("every column of records is described"));
     let json = serde_json::to_string(&meant.collect::<Vec<_>>()).expect("descriptions are strings");
-    ParquetWriter::new(out)
-        .with_compression(ParquetCompression::Zstd(None))
-        .with_key_value_metadata(Some(KeyValueMetadata::from_static(vec![(DESCRIPTION.to_owned(), json)])))
-        .set_parallel(false)
+    vec![(DESCRIPTION.to_owned(), json)]
 }
 
 fn assemble(height: usize, columns: Vec<Column>) -> DataFrame {

@@ -1,0 +1,187 @@
+//! Data frames in Parquet files, written and read group by group.
+//!
+//! polars's own reader and writer of files bring along what reads other formats, from other places; this asks its Parquet library
+//! alone, and a first build takes a sixth less.
+
+use polars::prelude::{
+    ArrowSchema, Column, CompatLevel, DataFrame, PolarsResult, Schema, SchemaExt as _, Series,
+};
+use polars::utils::accumulate_dataframes_vertical;
+use polars_parquet::read::{
+    BasicDecompressor, ColumnChunkMetadata, FileMetadata, PageReader, column_iter_to_arrays, infer_schema,
+    read_metadata,
+};
+use polars_parquet::write::{
+    CompressionOptions, FileWriter, KeyValue, StatisticsOptions, Version, WriteOptions, get_dtype_encoding,
+    row_group_iter, schema_to_metadata_key,
+};
+use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
+use std::io::{Cursor, Read, Seek, SeekFrom, Write};
+
+/// How many rows a group has at most.
+const GROUP_ROWS: usize = 1 << 18;
+
+const OPTIONS: WriteOptions = WriteOptions {
+    statistics: StatisticsOptions {
+        min_value: true,
+        max_value: true,
+        distinct_count: false,
+        null_count: true,
+        binary_statistics_truncate_length: None,
+    },
+    version: Version::V1,
+    compression: CompressionOptions::Zstd(None),
+    data_page_size: None,
+};
+
+/// A file at work: frames of the same columns, each a group or, where it is long, several.
+pub struct FrameWriter<W: Write> {
+    file: FileWriter<W>,
+}
+
+impl<W: Write> FrameWriter<W> {
+    /// Begins a file in `out` for frames with the columns of `like`.
+    ///
+    /// # Errors
+    /// A column of a type that Parquet has not.
+    pub fn new(out: W, like: &DataFrame) -> PolarsResult<Self> {
+        let schema = like.schema().to_arrow(CompatLevel::newest());
+        Ok(Self { file: FileWriter::try_new(out, schema, OPTIONS)? })
+    }
+
+    /// Adds the rows of `frame`.
+    ///
+    /// # Errors
+    /// What the system refused.
+    pub fn write(&mut self, mut frame: DataFrame) -> PolarsResult<()> {
+        frame.rechunk_mut();
+        let encodings = self.file.schema().iter_values().map(|field| get_dtype_encoding(&field.dtype));
+        let encodings: Vec<_> = encodings.collect();
+        let fields = self.file.parquet_schema().fields().to_vec();
+        for first in (0..frame.height()).step_by(GROUP_ROWS) {
+            for batch in frame.slice(first as i64, GROUP_ROWS).iter_chunks(CompatLevel::newest(), false) {
+                let rows = batch.len() as u64;
+                let group = row_group_iter(batch, encodings.clone().into(), fields.clone(), OPTIONS);
+                self.file.write(rows, group)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Ends the file, with `entries` of names and values in its metadata.
+    ///
+    /// # Errors
+    /// What the system refused.
+    pub fn finish(mut self, entries: Vec<(String, String)>) -> PolarsResult<()> {
+        let entries = entries.into_iter().map(|(key, value)| KeyValue { key, value: Some(value) });
+        let metadata = [schema_to_metadata_key(self.file.schema())].into_iter().chain(entries).collect();
+        self.file.end(Some(metadata))?;
+        Ok(())
+    }
+}
+
+/// `frame` alone as a file, with `entries` in its metadata.
+///
+/// # Errors
+/// As those of [`FrameWriter`].
+pub fn write_frame(out: impl Write, frame: DataFrame, entries: Vec<(String, String)>) -> PolarsResult<()> {
+    let mut writer = FrameWriter::new(out, &frame)?;
+    writer.write(frame)?;
+    writer.finish(entries)
+}
+
+/// A file that was opened: what it says of itself is read, its rows are not.
+pub struct FrameReader<R> {
+    file: R,
+    metadata: FileMetadata,
+    schema: ArrowSchema,
+}
+
+impl<R: Read + Seek> FrameReader<R> {
+    /// Opens `file`.
+    ///
+    /// # Errors
+    /// What is no Parquet file.
+    pub fn open(mut file: R) -> PolarsResult<Self> {
+        let metadata = read_metadata(&mut file)?;
+        let schema = infer_schema(&metadata)?;
+        Ok(Self { file, metadata, schema })
+    }
+
+    /// How many rows each group has.
+    pub fn groups(&self) -> impl Iterator<Item = usize> {
+        self.metadata.row_groups.iter().map(|group| group.num_rows())
+    }
+
+    /// What the metadata says under `name`.
+    pub fn entry(&self, name: &str) -> Option<&str> {
+        let entries = self.metadata.key_value_metadata().iter().flatten();
+        entries.filter(|entry| entry.key == name).find_map(|entry| entry.value.as_deref())
+    }
+
+    /// All rows of all columns.
+    ///
+    /// # Errors
+    /// What is damaged.
+    pub fn frame(&mut self) -> PolarsResult<DataFrame> {
+        self.columns(|_| true)
+    }
+
+    /// All rows of the columns whose names are wanted.
+    ///
+    /// # Errors
+    /// What is damaged.
+    pub fn columns(&mut self, is_wanted: impl Fn(&str) -> bool) -> PolarsResult<DataFrame> {
+        let groups = 0..self.metadata.row_groups.len();
+        let frames = groups.map(|group| self.part(group, &is_wanted)).collect::<PolarsResult<Vec<_>>>()?;
+        if frames.is_empty() {
+            let fields = self.schema.iter().filter(|(name, _)| is_wanted(name));
+            let schema: ArrowSchema = fields.map(|(name, field)| (name.clone(), field.clone())).collect();
+            return Ok(DataFrame::empty_with_schema(&Schema::from_arrow_schema(&schema)));
+        }
+        accumulate_dataframes_vertical(frames)
+    }
+
+    /// The rows of one group.
+    ///
+    /// # Errors
+    /// What is damaged.
+    ///
+    /// # Panics
+    /// If there is no such group.
+    pub fn group(&mut self, group: usize) -> PolarsResult<DataFrame> {
+        self.part(group, |_| true)
+    }
+
+    fn part(&mut self, group: usize, is_wanted: impl Fn(&str) -> bool) -> PolarsResult<DataFrame> {
+        let Self { file, metadata, schema } = self;
+        let group = &metadata.row_groups[group];
+        let wanted = schema.iter().filter(|(name, _)| is_wanted(name));
+        let mut packed = Vec::new();
+        for (name, field) in wanted {
+            let chunks = group.columns_under_root_iter(name).into_iter().flatten();
+            let chunks = chunks.map(|chunk| Ok((chunk, bytes_of(file, chunk)?)));
+            packed.push((field, chunks.collect::<PolarsResult<Vec<_>>>()?));
+        }
+        let columns = packed.into_par_iter().map(|(field, chunks)| {
+            let types =
+                chunks.iter().map(|(chunk, _)| &chunk.descriptor().descriptor.primitive_type).collect();
+            let pages = chunks.into_iter().map(|(chunk, bytes)| {
+                let pages = PageReader::new(Cursor::new(bytes.into()), chunk, Vec::new(), usize::MAX);
+                BasicDecompressor::new(pages, Vec::new())
+            });
+            let (arrays, _) = column_iter_to_arrays(pages.collect(), types, field.clone(), None)?;
+            Ok(Series::try_from((field, arrays))?.into())
+        });
+        DataFrame::new(group.num_rows(), columns.collect::<PolarsResult<Vec<Column>>>()?)
+    }
+}
+
+/// The bytes of a column of a group, or as many as the file has of them.
+fn bytes_of(file: &mut (impl Read + Seek), chunk: &ColumnChunkMetadata) -> PolarsResult<Vec<u8>> {
+    let range = chunk.byte_range();
+    file.seek(SeekFrom::Start(range.start))?;
+    let mut bytes = Vec::new();
+    file.take(range.end.saturating_sub(range.start)).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
