@@ -139,13 +139,17 @@ class Study:
         return self.trials.numbers("repeat").astype(np.int64)
 
     @cached_property
+    def posed(self) -> Places:
+        """One number for what is posed to contenders alike: draw, query and point of the sweeps."""
+        posed = self.draw
+        for part in (self.query[0], self.sweep[0]):
+            posed = posed * (int(part.max(initial=0)) + 1) + part
+        return posed
+
+    @cached_property
     def case(self) -> Places:
-        """One number for what trials of contenders share: draw, query, point of the sweeps and seed."""
-        query, sweep = self.query[0], self.sweep[0]
-        case = self.draw
-        for part in (query, sweep, self.repeat):
-            case = case * (int(part.max(initial=0)) + 1) + part
-        return case
+        """The same with the seed of a contender that draws."""
+        return self.posed * (int(self.repeat.max(initial=0)) + 1) + self.repeat
 
     @cached_property
     def status(self) -> npt.NDArray[np.str_]:

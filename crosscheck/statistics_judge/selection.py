@@ -167,13 +167,17 @@ def is_drawn(study: Study, group: str) -> bool:
 
 
 def matched(study: Study, rows: Places, others: Places) -> tuple[Places, Places]:
-    """Trials of two contenders on the same cases, in the order of the first."""
-    order = np.argsort(study.case[others], kind="stable")
-    ordered = study.case[others][order]
-    at = np.searchsorted(ordered, study.case[rows])
-    at = np.minimum(at, max(len(ordered) - 1, 0))
-    is_found = ordered[at] == study.case[rows] if len(ordered) else np.zeros(len(rows), dtype=bool)
-    return rows[is_found], others[order[at[is_found]]] if len(ordered) else others
+    """Trials of two contenders on the same cases, in the order of the first.
+
+    One of a single seed stands beside each seed of the other.
+    """
+    by_seed = all(study.repeat[own].any() for own in (rows, others))
+    case = study.case if by_seed else study.posed
+    order = np.argsort(case[others], kind="stable")
+    first, last = (np.searchsorted(case[others][order], case[rows], side) for side in ("left", "right"))
+    counts = last - first
+    within = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+    return np.repeat(rows, counts), others[order[np.repeat(first, counts) + within]]
 
 
 def select(paper: Paper, of: dict[str, Any], session: int) -> Cases:
@@ -195,7 +199,8 @@ def select(paper: Paper, of: dict[str, Any], session: int) -> Cases:
     draws, seeds = int(study.draw.max(initial=0)) + 1, int(study.repeat.max(initial=0)) + 1
     # Seeds on a problem that is drawn are no draws of it.
     drawn = [index for index, name in enumerate(groups_of(study, of["problems"])) if is_drawn(study, name)]
-    seed = np.where(np.isin(places, drawn), 0, study.repeat[own])
+    seed = study.repeat[own] if base is None else np.maximum(study.repeat[own], study.repeat[base])
+    seed = np.where(np.isin(places, drawn), 0, seed)
     unit = (places * draws + study.draw[own]) * seeds + seed
     cases = Cases(study, metric, session, against, own, base, unit, places, of.get("all_ends", False))
     if not of.get("whole_draws", False):

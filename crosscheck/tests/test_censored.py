@@ -11,7 +11,7 @@ from statistics_judge.classes import FAILS, HOLDS
 from statistics_judge.found import Found, hangs
 from statistics_judge.judge import is_few, selections_of
 from statistics_judge.printed import Printed
-from statistics_judge.selection import Cases, select
+from statistics_judge.selection import Cases, matched, select
 
 SPENT, NONE, REFUSED = "budget_spent", "no_path", "rejected"
 Ends = list[tuple[float | str, float | str]]
@@ -256,3 +256,14 @@ def test_seeds_on_a_problem_that_is_drawn_are_no_draws_of_it() -> None:
     for family, units in (("random_cells", 4), ("grid_map", 8)):
         paper, of = drawn(["solved"] * 8, family=family, repeats=2)
         assert select(paper, of, 1).units == units, family
+
+
+def test_a_contender_with_one_seed_stands_beside_each_seed_of_the_other() -> None:
+    # Two draws: trials 0 and 4 of a contender without seeds, the others of one with three.
+    posed, repeat = np.repeat([0, 1], 4), np.tile([0, 0, 1, 2], 2)
+    study = SimpleNamespace(posed=posed, repeat=repeat, case=3 * posed + repeat)
+    one, many = np.array([0, 4]), np.array([1, 2, 3, 5, 6, 7])
+    pairs = [[own.tolist() for own in matched(study, *sides)] for sides in ((one, many), (many, one))]
+    assert pairs[0] == pairs[1][::-1] == [[0, 0, 0, 4, 4, 4], many.tolist()]
+    assert [own.tolist() for own in matched(study, many, many[1:])] == [many[1:].tolist()] * 2
+    assert matched(study, one, many[:0])[0].tolist() == []

@@ -264,9 +264,20 @@ impl<'a> Run<'a> {
             return solved.map(|row| Pair { base: row, other: row }).collect();
         }
         let solved = |row: &&Row| row.status == Status::Solved;
-        let bases = Cases::of(self.rows(group, base).into_iter().filter(solved));
-        let others = self.rows(group, other).into_iter().filter(solved);
-        others.filter_map(|other| Some(Pair { base: bases.same(other)?, other })).collect()
+        let [bases, others] =
+            [base, other].map(|contender| self.rows(group, contender).into_iter().filter(solved).collect());
+        paired(others, bases).into_iter().map(|(other, base)| Pair { base, other }).collect()
+    }
+
+    /// How many queries of the problem group `group` can be posed on its first draw, and how many it has.
+    pub fn posed_queries(&self, group: &str) -> [usize; 2] {
+        let mut queries: BTreeMap<&str, bool> = BTreeMap::new();
+        for contender in &self.study.contenders {
+            for row in self.rows(group, &contender.label).iter().filter(|row| row.draw() == 0) {
+                *queries.entry(row.query()).or_default() |= row.status != Status::InvalidProblem;
+            }
+        }
+        [queries.values().filter(|is_posed| **is_posed).count(), queries.len()]
     }
 
     /// The prepared objects of the problem group `group` under the reading, in the order of draws.
@@ -286,27 +297,26 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Trials of one contender on one problem group, to be found by what they have in common with another contender's.
-pub struct Cases<'r>(BTreeMap<u32, Vec<&'r Row>>);
-
-impl<'r> Cases<'r> {
-    /// These trials.
-    pub fn of(rows: impl IntoIterator<Item = &'r Row>) -> Self {
-        let mut draws: BTreeMap<u32, Vec<&Row>> = BTreeMap::new();
-        for row in rows {
-            draws.entry(row.draw()).or_default().push(row);
-        }
-        Self(draws)
+/// The trials `own` and `bases` of two contenders on one problem group, paired where draw, query, point of the sweeps and seed are
+/// the same, in the order of `own`. A contender with a single seed stands beside each seed of the other.
+pub fn paired<'r>(own: Vec<&'r Row>, bases: Vec<&'r Row>) -> Vec<(&'r Row, &'r Row)> {
+    let has_seeds = |rows: &[&Row]| rows.iter().any(|row| row.key.repeat > 0);
+    let by_seed = has_seeds(&own) && has_seeds(&bases);
+    let mut draws: BTreeMap<u32, Vec<&Row>> = BTreeMap::new();
+    for base in bases {
+        draws.entry(base.draw()).or_default().push(base);
     }
-
-    /// The trial of the same draw, query, point of the sweeps and repeat as `row`.
-    pub fn same(&self, row: &Row) -> Option<&'r Row> {
-        let of_draw = self.0.get(&row.draw())?;
-        of_draw.iter().copied().find(|own| {
-            let (one, other) = (&own.key, &row.key);
-            one.repeat == other.repeat && one.query == other.query && one.sweep.is_same(&other.sweep)
-        })
+    let is_same = |one: &TrialKey, other: &TrialKey| {
+        let is_same_seed = !by_seed || one.repeat == other.repeat;
+        is_same_seed && one.query == other.query && one.sweep.is_same(&other.sweep)
+    };
+    let mut pairs = Vec::with_capacity(own.len());
+    for row in own {
+        let of_draw = draws.get(&row.draw()).into_iter().flatten();
+        let bases = of_draw.filter(|base| is_same(&base.key, &row.key));
+        pairs.extend(bases.map(|base| (row, *base)));
     }
+    pairs
 }
 
 impl Index {

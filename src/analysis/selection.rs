@@ -1,7 +1,7 @@
 //! Which trials a criterion, a figure or a table looks at: resolved once, then asked of the runs under any reading.
 
 use super::context::Context;
-use super::evidence::{Cases, Evidence, Run};
+use super::evidence::{Evidence, Run, paired};
 use super::metric::Metric;
 use super::selection_spec::SelectionSpec;
 use base::settings::{Faults, SettingsError};
@@ -210,15 +210,11 @@ impl<'a> Selection<'a> {
         let reader = self.metric.map(|metric| run.reader(metric));
         let value = |row: Option<&Row>| reader.as_ref()?(row.filter(|row| self.counts(row))?);
         for group in &self.groups {
-            let bases = self.against.as_ref().map(|against| Cases::of(self.rows(run, group, against)));
             let (is_drawn, mut places) = (self.study.is_drawn(group), BTreeMap::<(u32, u32), usize>::new());
-            for row in self.contenders.iter().flat_map(|contender| self.rows(run, group, contender)) {
-                let base = bases.as_ref().and_then(|bases| bases.same(row));
-                if self.against.is_some() && base.is_none() {
-                    continue;
-                }
+            for (row, base) in self.compared(run, group) {
                 // Seeds on a problem that is drawn are no draws of it.
-                let seed = if is_drawn { 0 } else { row.key.repeat };
+                let seed = row.key.repeat.max(base.map_or(0, |base| base.key.repeat));
+                let seed = if is_drawn { 0 } else { seed };
                 let place = *places.entry((row.draw(), seed)).or_insert(draws.len());
                 if place == draws.len() {
                     draws.push(Draw { group: &row.key.on.group, cases: Vec::new() });
@@ -228,6 +224,19 @@ impl<'a> Selection<'a> {
             }
         }
         draws
+    }
+
+    /// The trials of its contenders in one group, each with that which it is held against.
+    fn compared<'e>(&self, run: &'e Run<'_>, group: &str) -> Vec<(&'e Row, Option<&'e Row>)> {
+        let of = |contender: &String| {
+            let own = self.rows(run, group, contender);
+            let Some(against) = &self.against else {
+                return own.into_iter().map(|row| (row, None)).collect();
+            };
+            let pairs = paired(own, self.rows(run, group, against)).into_iter();
+            pairs.map(|(row, base)| (row, Some(base))).collect::<Vec<_>>()
+        };
+        self.contenders.iter().flat_map(of).collect()
     }
 
     /// The trials of `contender` in one group that are looked at.
@@ -319,17 +328,6 @@ impl Draw<'_> {
     }
 }
 
-/// How many queries of a problem group can be posed on its first draw, and how many it has.
-pub fn posed(run: &Run<'_>, group: &str) -> [usize; 2] {
-    let mut queries: BTreeMap<&str, bool> = BTreeMap::new();
-    for contender in &run.study.contenders {
-        for row in run.rows(group, &contender.label).iter().filter(|row| row.draw() == 0) {
-            *queries.entry(row.query()).or_default() |= row.status != Status::InvalidProblem;
-        }
-    }
-    [queries.values().filter(|is_posed| **is_posed).count(), queries.len()]
-}
-
 /// Whether a trial did not come to an end: what it would have given is not known.
 pub fn is_unended(row: &Row) -> bool {
     matches!(row.status, Status::BudgetSpent | Status::TimeSpent | Status::Crashed)
@@ -350,12 +348,12 @@ pub fn solved(draws: &[Draw<'_>]) -> [usize; 2] {
     [cases(draws).filter(|case| case.is_solved()).count(), cases(draws).count()]
 }
 
-/// Cases that have no number on some side although they might.
+/// paired that have no number on some side although they might.
 pub fn censored(draws: &[Draw<'_>]) -> usize {
     cases(draws).filter(|case| case.is_censored()).count()
 }
 
-/// Cases that did not come to an end on some side.
+/// paired that did not come to an end on some side.
 pub fn unended(draws: &[Draw<'_>]) -> usize {
     cases(draws).filter(|case| case.is_unended()).count()
 }

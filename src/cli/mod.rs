@@ -294,9 +294,9 @@ pub fn run() -> ExitCode {
     }
 }
 
-/// The command line as it would be typed.
+/// The command line as it would be typed for the same results: what only talks is left out.
 fn command_line() -> String {
-    let words = std::env::args().skip(1);
+    let words = std::env::args().skip(1).filter(|word| word != "--why");
     let quoted = words.map(|word| {
         let is_plain = word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./=,".contains(c));
         if is_plain { word } else { format!("'{word}'") }

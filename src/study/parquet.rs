@@ -8,8 +8,8 @@ use polars::prelude::{
 };
 use polars::utils::accumulate_dataframes_vertical;
 use polars_parquet::read::{
-    BasicDecompressor, ColumnChunkMetadata, FileMetadata, PageReader, column_iter_to_arrays, infer_schema,
-    read_metadata,
+    BasicDecompressor, ColumnChunkMetadata, FileMetadata, PageReader, RowGroupMetadata,
+    column_iter_to_arrays, infer_schema, read_metadata,
 };
 use polars_parquet::write::{
     CompressionOptions, FileWriter, KeyValue, StatisticsOptions, Version, WriteOptions, get_dtype_encoding,
@@ -110,7 +110,7 @@ impl<R: Read + Seek> FrameReader<R> {
 
     /// How many rows each group has.
     pub fn groups(&self) -> impl Iterator<Item = usize> {
-        self.metadata.row_groups.iter().map(|group| group.num_rows())
+        self.metadata.row_groups.iter().map(RowGroupMetadata::num_rows)
     }
 
     /// What the metadata says under `name`.

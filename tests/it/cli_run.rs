@@ -103,6 +103,8 @@ fn what_is_stored_and_unchanged_is_reused_and_why_says_what_changed() {
     let says =
         |out: &str, line: &str| assert!(out.lines().any(|l| l == line), "{line}\nis missing in\n{out}");
     says(&why(&[]), "draws: 48 trials");
+    let manifest = fs::read_to_string(bench.at(&format!("{RUNS}/draws.manifest.toml"))).unwrap();
+    assert!(manifest.contains("command = \"replan run ./mini\"\n"), "{manifest}");
     let (first, records) = (bench.facts(RUNS), bench.tree(RUNS));
     let again = why(&[]);
     says(&again, "draws: 48 trials (24 of 24 units reused)");

@@ -13,23 +13,27 @@ use base64::engine::general_purpose::STANDARD;
 use driver::Browser;
 use flate2::read::GzDecoder;
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Mutex;
 
 /// A page may take so many bytes.
 const PAGE_BYTES: usize = 4_000_000;
 
-/// The committed paper `name` as a page.
-fn page(bench: &Bench, name: &str) -> PathBuf {
-    let to = bench.at("pages");
-    let output = Command::new(env!("CARGO_BIN_EXE_replan"))
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .args(["report", name, "--to"])
-        .arg(&to)
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+/// The committed paper `name` as a page, which is made once for all tests.
+fn page(name: &str) -> PathBuf {
+    static MADE: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let to = Path::new(env!("CARGO_TARGET_TMPDIR")).join("pages");
+    let mut made = MADE.lock().unwrap();
+    if !made.contains(name) {
+        let mut report = Command::new(env!("CARGO_BIN_EXE_replan"));
+        report.current_dir(env!("CARGO_MANIFEST_DIR")).args(["report", name, "--to"]).arg(&to);
+        let output = report.output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        made.insert(name.to_owned());
+    }
     to.join(format!("{name}.html"))
 }
 
@@ -53,9 +57,8 @@ fn first_line(page: &Path) -> String {
 
 #[test]
 fn every_committed_paper_fits_into_four_megabytes_and_asks_nothing_of_the_network() {
-    let bench = Bench::empty();
     for name in committed() {
-        let text = fs::read_to_string(page(&bench, &name)).unwrap();
+        let text = fs::read_to_string(page(&name)).unwrap();
         assert!(text.len() < PAGE_BYTES, "{name}: {} bytes", text.len());
         let (body, _) = text.split_once("<script>").unwrap();
         for outside in ["src=\"http", "href=\"http", "url(http", "@import"] {
@@ -69,9 +72,8 @@ const SHOWN: &str =
 
 #[test]
 fn claims_filter_sort_and_open_in_a_browser() {
-    let bench = Bench::empty();
     let Some(browser) = Browser::open([1280, 800]) else { return };
-    let file = page(&bench, "zhang");
+    let file = page("zhang");
     browser.go(&file, "claims");
     let all = browser.run(SHOWN).as_u64().unwrap();
     browser.picture("zhang-claims-1280");
@@ -120,7 +122,6 @@ fn moves(browser: &Browser, page: &Path, trial: &str, steps: &[u32], name: &str)
 
 #[test]
 fn replays_change_from_step_to_step_in_wide_and_narrow_windows() {
-    let bench = Bench::empty();
     let replays = [
         ("zhang", "witness/w1/a-star", [1, 8, 16]),
         ("planar", "methods/case-1/a-star-8", [0, 10, 20]),
@@ -129,7 +130,7 @@ fn replays_change_from_step_to_step_in_wide_and_narrow_windows() {
     for [width, height] in [[1280, 800], [390, 844]] {
         let Some(browser) = Browser::open([width, height]) else { return };
         for (paper, trial, steps) in replays {
-            moves(&browser, &page(&bench, paper), trial, &steps, &format!("{paper}-replay-{width}"));
+            moves(&browser, &page(paper), trial, &steps, &format!("{paper}-replay-{width}"));
         }
     }
 }
@@ -175,9 +176,8 @@ fn a_search_closes_a_cell_a_step_and_its_sides_are_told_apart() {
 
 #[test]
 fn the_play_button_plays() {
-    let bench = Bench::empty();
     let Some(browser) = Browser::open([1280, 800]) else { return };
-    browser.go(&page(&bench, "planar"), "replay=methods/case-1/a-star-8");
+    browser.go(&page("planar"), "replay=methods/case-1/a-star-8");
     browser.run("document.querySelector('[name=play]').click()");
     browser.wait("return Number(document.querySelector('[name=step]').value) > 2");
     assert_eq!(browser.console(), json!([]));

@@ -111,6 +111,12 @@ pub const WRONG: &[Wrong] = &[
         "label = \"a-star\"",
         "the second to be called `a-star` in trial names",
     ),
+    wrong(
+        "draws",
+        "label = \"Two-sided\"",
+        "label = \"Two\\u0007sided\"",
+        "contender \"Two\\u{7}sided\" has a control character in its name",
+    ),
     wrong("draws", "\"mini\"", "\"maxi\"", "`paper` is `maxi`, but the study lies in the folder of `mini`"),
     wrong(
         "draws",

@@ -2,7 +2,7 @@
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::{Selection, posed};
+use crate::analysis::selection::Selection;
 use crate::analysis::shown::{mean_difference, mean_solved, of_all};
 use crate::analysis::statistic::{Estimate, INTERVALS, OfAll};
 use crate::render::RenderError;
@@ -114,7 +114,7 @@ impl Intervals {
         if !self.is_by_group() {
             return self.contenders.clone();
         }
-        let named = |problems: &String| match posed(scene.run, problems) {
+        let named = |problems: &String| match scene.run.posed_queries(problems) {
             [posed, all] if posed < all => format!("{problems} ({posed} of {all} groups posed)"),
             _ => problems.clone(),
         };

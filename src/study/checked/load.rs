@@ -141,6 +141,9 @@ fn unique<'a>(
         if slug.is_empty() {
             let message = format!("{what} `{}` has no letter or digit in its name", label.get_ref());
             faults.add(document.error(label.span(), message));
+        } else if label.get_ref().chars().any(char::is_control) {
+            let message = format!("{what} {:?} has a control character in its name", label.get_ref());
+            faults.add(document.error(label.span(), message));
         } else if !seen.insert(slug.clone()) {
             let message =
                 format!("{what} `{}` is the second to be called `{slug}` in trial names", label.get_ref());

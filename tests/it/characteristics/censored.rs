@@ -360,3 +360,23 @@ fn seeds_on_a_problem_that_is_drawn_are_no_draws_of_it() {
     let settings = format!("{of}\nstatistic = \"mean\"\naccepted = [0.0, 12.0]");
     assert_eq!(draws("within", &settings, sample), 12);
 }
+
+#[test]
+fn a_contender_with_one_seed_stands_beside_each_seed_of_the_other() {
+    let class_of = |many: &str, one: &str, [first, rest, other]: [f64; 3]| {
+        let mut sample = Sample::default();
+        for _ in 0..12 {
+            sample.draw();
+            sample.trial(one, At(other));
+            for seed in 0..3 {
+                sample.seed(many, seed, At(if seed == 0 { first } else { rest }));
+            }
+        }
+        let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+        class("on_every", &format!("{of}\nthat = \"lower\""), Made::Plainly, sample)
+    };
+    assert_eq!([class_of("A", "B", [1.0, 2.0, 5.0]), class_of("B", "A", [9.0, 8.0, 5.0])], ["reproduced"; 2]);
+    // What the first seed alone would say is not what all say.
+    let turned = [class_of("A", "B", [1.0, 9.0, 5.0]), class_of("B", "A", [9.0, 1.0, 5.0])];
+    assert_eq!(turned, ["not reproduced"; 2]);
+}

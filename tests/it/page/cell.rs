@@ -33,9 +33,8 @@ fn frame(step: usize, steps: usize, count: usize) -> usize {
 
 #[test]
 fn original_and_improved_stand_side_by_side_in_step_with_their_clearance() {
-    let bench = Bench::empty();
     let Some(browser) = Browser::open([1280, 800]) else { return };
-    let file = page(&bench, "fu2018");
+    let file = page("fu2018");
     let replay = replay(&file, TRIAL);
     let lane =
         |at: usize| -> Vec<f64> { serde_json::from_value(replay["lanes"][at]["clearance"].clone()).unwrap() };
@@ -70,9 +69,8 @@ fn original_and_improved_stand_side_by_side_in_step_with_their_clearance() {
 
 #[test]
 fn one_camera_turns_all_arms_by_pointer_and_by_keys() {
-    let bench = Bench::empty();
     let Some(browser) = Browser::open([1280, 800]) else { return };
-    browser.go(&page(&bench, "fu2018"), &format!("replay={TRIAL}&step=30"));
+    browser.go(&page("fu2018"), &format!("replay={TRIAL}&step=30"));
     let first = pixels(&browser);
     let differs = |from: &[String], what: &str| {
         let now = pixels(&browser);
@@ -116,7 +114,7 @@ const RED: &str = "return [...document.querySelectorAll('.stage canvas')].map((c
 fn an_arm_in_contact_turns_red_and_a_replay_is_opened_from_a_file() {
     let bench = Bench::empty();
     let Some(browser) = Browser::open([1280, 800]) else { return };
-    let file = page(&bench, "fu2018");
+    let file = page("fu2018");
     let is_moving = |replay: &Value| replay["lanes"][0]["clearance"].as_array().unwrap().len() == 100;
     let mut replay = packed(&file, "replay").into_iter().find(is_moving).unwrap();
     // What is stored was found free by the verifier: contact is put in by hand.
@@ -149,9 +147,8 @@ fn an_arm_in_contact_turns_red_and_a_replay_is_opened_from_a_file() {
 
 #[test]
 fn one_that_finds_no_path_stands_beside_the_one_that_does() {
-    let bench = Bench::empty();
     let Some(browser) = Browser::open([1280, 800]) else { return };
-    browser.go(&page(&bench, "fu2018"), "replay=length/cell/0/1/improved-a-star&step=20");
+    browser.go(&page("fu2018"), "replay=length/cell/0/1/improved-a-star&step=20");
     let said = texts(&browser, ".stage figcaption");
     assert!(said[0] == "Original A*: no path" && said[1].starts_with("Improved A*: "), "{said:?}");
     assert!(texts(&browser, ".controls output")[0].contains("Original A*: no path"));

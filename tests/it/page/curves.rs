@@ -2,7 +2,6 @@
 
 use super::driver::Browser;
 use super::page;
-use crate::paper::Bench;
 use replan::analysis::verdict::Verdicts;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -17,11 +16,10 @@ const LEGEND: &str = "
 
 #[test]
 fn success_curves_say_the_values_under_the_pointer() {
-    let bench = Bench::empty();
     let Some(browser) = Browser::open([1280, 800]) else { return };
     let runs = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/runs/fu2018");
     let verdicts = Verdicts::read(&runs).unwrap();
-    browser.go(&page(&bench, "fu2018"), "curves");
+    browser.go(&page("fu2018"), "curves");
     browser.wait("return document.querySelectorAll('#curves .u-over').length >= 2");
     let legend = || -> BTreeMap<String, String> { serde_json::from_value(browser.run(LEGEND)).unwrap() };
     assert!(legend().values().all(|value| value.chars().all(|c| "-–".contains(c))), "{:?}", legend());

@@ -2,7 +2,7 @@
 
 use super::driver::Browser;
 use super::page;
-use crate::paper::{Bench, committed};
+use crate::paper::committed;
 use serde_json::{Value, json};
 
 /// How light the colour of an element is, from 0 to 1, as the mean of red, green and blue.
@@ -16,9 +16,8 @@ fn lightness(browser: &Browser, property: &str) -> f64 {
 
 #[test]
 fn the_page_is_dark_where_the_reader_wants_it_dark() {
-    let bench = Bench::empty();
     let Some(browser) = Browser::open([1280, 800]) else { return };
-    let file = page(&bench, "zhang");
+    let file = page("zhang");
     for (scheme, is_dark) in [("light", false), ("dark", true)] {
         browser.emulate(&json!({ "features": [{ "name": "prefers-color-scheme", "value": scheme }] }));
         browser.go(&file, "claims");
@@ -31,9 +30,8 @@ fn the_page_is_dark_where_the_reader_wants_it_dark() {
 
 #[test]
 fn on_paper_stand_all_evidence_and_figures_and_no_controls() {
-    let bench = Bench::empty();
     let Some(browser) = Browser::open([1280, 800]) else { return };
-    browser.go(&page(&bench, "zhang"), "claims");
+    browser.go(&page("zhang"), "claims");
     browser.emulate(&json!({ "media": "print" }));
     browser.run("dispatchEvent(new Event('beforeprint'))");
     browser.wait("return [...document.querySelectorAll('#figures img')].every((image) => image.complete && image.naturalWidth > 0)");
@@ -46,9 +44,8 @@ fn on_paper_stand_all_evidence_and_figures_and_no_controls() {
 
 #[test]
 fn keys_open_a_claim_and_step_and_play_a_replay() {
-    let bench = Bench::empty();
     let Some(browser) = Browser::open([1280, 800]) else { return };
-    let file = page(&bench, "planar");
+    let file = page("planar");
     browser.go(&file, "claims");
     browser.run("document.querySelector('#claimed .open').focus()");
     browser.press("\u{E007}");
@@ -77,10 +74,9 @@ const NAMELESS: &str = "
 
 #[test]
 fn everything_has_a_name_and_no_page_is_wider_than_a_narrow_screen() {
-    let bench = Bench::empty();
     let Some(browser) = Browser::open([390, 844]) else { return };
     for name in committed() {
-        browser.go(&page(&bench, &name), "claims");
+        browser.go(&page(&name), "claims");
         assert_eq!(browser.run(NAMELESS), json!([]), "{name}");
         let width = browser.run("return document.documentElement.scrollWidth");
         assert!(width.as_u64().unwrap() <= 390, "{name} is {width} wide");

@@ -2,7 +2,6 @@
 
 use super::driver::Browser;
 use super::{SHOWN, page};
-use crate::paper::Bench;
 use replan::analysis::across::stored::Exploration;
 use replan::analysis::verdict::{Effect, Judged, Verdicts};
 use serde_json::{Value, json};
@@ -22,9 +21,9 @@ const UNDER: &str = "return Object.fromEntries([...document.getElementById('clai
 
 #[test]
 fn a_reading_that_is_chosen_shows_each_claims_class_under_it() {
-    let (bench, explored) = (Bench::empty(), explored());
+    let explored = explored();
     let Some(browser) = Browser::open([1280, 800]) else { return };
-    let file = page(&bench, "zhang");
+    let file = page("zhang");
     let mut moved = 0;
     for place in [3, explored.readings.len() / 2, explored.readings.len() - 1] {
         let options: Vec<String> =
@@ -60,9 +59,8 @@ fn a_reading_that_is_chosen_shows_each_claims_class_under_it() {
 
 #[test]
 fn a_combination_that_was_not_explored_is_said_and_leads_to_those_that_were() {
-    let bench = Bench::empty();
     let Some(browser) = Browser::open([390, 844]) else { return };
-    browser.go(&page(&bench, "zhang"), "reading=meeting:both_closed,ties:lifo,nodes:closed,end:contact");
+    browser.go(&page("zhang"), "reading=meeting:both_closed,ties:lifo,nodes:closed,end:contact");
     let said = "return document.querySelector('#reading output').textContent";
     assert!(browser.run(said).as_str().unwrap().starts_with("This combination was not explored."));
     browser.run("document.querySelector('#reading output button').click()");
@@ -75,9 +73,9 @@ fn a_combination_that_was_not_explored_is_said_and_leads_to_those_that_were() {
 
 #[test]
 fn a_claim_that_is_opened_shows_what_each_option_does_and_lines_filter_by_what_they_hang_on() {
-    let (bench, verdicts) = (Bench::empty(), Verdicts::read(&runs()).unwrap());
+    let verdicts = Verdicts::read(&runs()).unwrap();
     let Some(browser) = Browser::open([1280, 800]) else { return };
-    let file = page(&bench, "zhang");
+    let file = page("zhang");
     let effects = |judged: &Judged| judged.across.clone().map(|across| across.effects).unwrap_or_default();
     let turns =
         verdicts.claims.iter().find(|judged| effects(judged).values().any(|of| of.effect == Effect::Turns));
