@@ -300,8 +300,8 @@ impl<'a> Run<'a> {
 /// The trials `own` and `bases` of two contenders on one problem group, paired where draw, query, point of the sweeps and seed are
 /// the same, in the order of `own`. A contender with a single seed stands beside each seed of the other.
 pub fn paired<'r>(own: Vec<&'r Row>, bases: Vec<&'r Row>) -> Vec<(&'r Row, &'r Row)> {
-    let has_seeds = |rows: &[&Row]| rows.iter().any(|row| row.key.repeat > 0);
-    let by_seed = has_seeds(&own) && has_seeds(&bases);
+    let [own_seeds, base_seeds] = [&own, &bases].map(|rows| rows.iter().any(|row| row.key.repeat > 0));
+    let by_seed = own_seeds && base_seeds;
     let mut draws: BTreeMap<u32, Vec<&Row>> = BTreeMap::new();
     for base in bases {
         draws.entry(base.draw()).or_default().push(base);
@@ -310,11 +310,20 @@ pub fn paired<'r>(own: Vec<&'r Row>, bases: Vec<&'r Row>) -> Vec<(&'r Row, &'r R
         let is_same_seed = !by_seed || one.repeat == other.repeat;
         is_same_seed && one.query == other.query && one.sweep.is_same(&other.sweep)
     };
-    let mut pairs = Vec::with_capacity(own.len());
+    let (mut pairs, mut next) = (Vec::with_capacity(own.len()), 0);
     for row in own {
-        let of_draw = draws.get(&row.draw()).into_iter().flatten();
-        let bases = of_draw.filter(|base| is_same(&base.key, &row.key));
-        pairs.extend(bases.map(|base| (row, *base)));
+        let of_draw = draws.get(&row.draw()).map_or(&[][..], Vec::as_slice);
+        let is_base = |base: &Row| is_same(&base.key, &row.key);
+        if own_seeds != base_seeds {
+            pairs.extend(of_draw.iter().filter(|base| is_base(base)).map(|base| (row, *base)));
+            continue;
+        }
+        // One at most, and mostly the one after the last: both come in the same order.
+        let mut places = (next..of_draw.len()).chain(0..next.min(of_draw.len()));
+        if let Some(place) = places.find(|place| is_base(of_draw[*place])) {
+            pairs.push((row, of_draw[place]));
+            next = place + 1;
+        }
     }
     pairs
 }

@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn false_alarms_and_misses_are_as_rare_as_is_said_and_a_worse_planner_is_caught() {
+    fn false_alarms_and_misses_are_as_rare_as_is_said() {
         // At the margin itself both words are as often wrong as they ever are. The percentile interval is a little short
         // of few draws of unlike size: 3.5 % of 100 in place of 2.5 %, and 5.5 % of 20.
         for (draws, bound_percent) in [(20, 5.5), (100, 3.5)] {

@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn a_share_is_clopper_and_pearsons_where_draws_have_one_chance_and_grows_with_the_hits() {
+    fn a_share_is_clopper_and_pearsons_where_draws_have_one_chance() {
         let plan = Resampling { resamples: 20_000, ..PLAN };
         let near = |found: Interval, exact: Interval| {
             (found.low - exact.low).abs() < 0.006 && (found.high - exact.high).abs() < 0.006

@@ -343,7 +343,7 @@ fn a_budget_without_room_and_votes_without_sources_are_refused_where_they_stand(
 }
 
 #[test]
-fn a_finding_that_asks_gets_the_least_and_the_greatest_number_over_readings_and_no_other_claim_does() {
+fn a_finding_that_asks_alone_gets_the_least_and_the_greatest_number_over_readings() {
     let asked = "[explore]\nsample = 20";
     let report = "[report]\nfindings = [\"{fewer:percents}\"]\n\n[explore]\nsample = 20";
     let hurried = "[reading.option.none]\nstage.astar = { weight = 0 }";

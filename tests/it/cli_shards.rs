@@ -258,7 +258,7 @@ done
 "#;
 
 #[test]
-fn scripts_of_slurm_and_parallel_run_every_shard_and_merge() {
+fn scripts_of_slurm_and_parallel_run_every_shard() {
     let bench = Bench::new();
     bench.done(&["run", "./mini", "--quick", "--out", "whole"]);
     stub(&bench, "sbatch", SBATCH);

@@ -331,7 +331,7 @@ fn answers_that_were_never_asked_for_are_wrong_input_and_nothing_is_written() {
 }
 
 #[test]
-fn the_judge_of_statistics_is_told_metrics_and_papers_and_its_word_is_the_exit_code() {
+fn the_judge_of_statistics_is_told_metrics_and_papers() {
     let bench = bench();
     bench.write("crosscheck/requirements.txt", b"scipy==1.17.1\n");
     let ask =

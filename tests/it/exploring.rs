@@ -102,7 +102,7 @@ fn kept(said: &Said) -> u32 {
 }
 
 #[test]
-fn an_exploration_and_a_confirmation_that_are_interrupted_go_on_and_end_with_the_same_bytes() {
+fn interrupted_explorations_and_confirmations_end_with_the_same_bytes() {
     let calm = Toy::new(&SLOW);
     calm.0.done(&["confirm", "./toy"]);
     let toy = Toy::unexplored(&SLOW);

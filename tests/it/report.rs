@@ -56,7 +56,7 @@ fn pages() -> Vec<PathBuf> {
 }
 
 #[test]
-fn every_link_and_image_of_the_report_and_its_details_leads_somewhere() {
+fn every_link_or_image_of_the_report_and_its_details_leads_somewhere() {
     let found: Vec<_> = pages().iter().map(|page| broken(page)).collect();
     let count: usize = found.iter().map(|(_, count)| count).sum();
     let lost: Vec<String> = found.into_iter().flat_map(|(lost, _)| lost).collect();

@@ -111,7 +111,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_and_coordinates_go_round_and_steps_add_up() {
+    fn numbers_and_coordinates_go_round() {
         let grid = Grid3::new([4, 3, 5]).unwrap();
         assert_eq!(grid.free_count(), 60);
         let mut inside = 0;

@@ -71,7 +71,7 @@ mod tests {
     }
 
     #[test]
-    fn the_octagons_of_8_and_24_steps_are_squares_and_those_of_48_and_80_discs() {
+    fn small_octagons_are_squares_and_large_ones_discs() {
         assert_eq!(Offsets::octagon_on_corners(4), Offsets::disc(4));
         assert_ne!(Offsets::octagon_on_corners(5), Offsets::disc(5));
         // Of these none but 48 has a whole radius.

@@ -165,7 +165,7 @@ fn the_aubo_rows_and_the_makers_chain_of_frames_are_one_robot() {
 }
 
 #[test]
-fn base_and_tool_stand_before_and_after_the_chain() {
+fn the_base_stands_before_the_chain_and_the_tool_after_it() {
     let (seed, up6) = (711, robot("motoman_up6"));
     let chain = up6.arm().chain();
     let base = Frame::at(Vec3::new(1.0, 2.0, 3.0)) * Frame::turned(&Vec3::z(), 0.4);

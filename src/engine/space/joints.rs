@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn seven_axes_stand_and_move_and_stop_at_what_is_in_the_way() {
+    fn seven_axes_move_and_stop_at_what_is_in_the_way() {
         let space = JointSpace::new(seven(), vec![ball(0.8, 0.4)], true, 0.05);
         let up = [0.0; 7];
         assert!((space.chain().forward(&up).origin - Vec3::z() * 1.6).norm() < 1e-12);

@@ -71,7 +71,7 @@ fn a_single_column_is_85_mm_wide_and_736_pixels() {
 }
 
 #[test]
-fn ink_falls_where_it_was_put_and_clips_and_dashes_hold() {
+fn ink_falls_where_it_was_put_within_clips_and_dashes() {
     let png = drawn().png;
     assert_eq!(at(&png, [50.0, 30.0]), [230, 159, 0]);
     assert_eq!(at(&png, [10.0, 30.0]), [255; 3], "left of the clip");

@@ -172,7 +172,7 @@ fn only_the_groups_that_are_asked_for_are_read_and_one_at_a_time_by_who_takes_th
 }
 
 #[test]
-fn exhibits_are_written_and_read_group_by_group_and_one_group_is_the_file_of_a_frame() {
+fn exhibits_are_written_and_read_group_by_group() {
     let (kept, keys) = (kept(40), keys());
     let written = |most: usize| in_groups(&kept, most);
     assert!(written(GROUP_VALUES) == table::to_parquet(table::exhibits(&kept, &keys, None), &keys));

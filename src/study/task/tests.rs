@@ -88,7 +88,7 @@ fn with_quick(quick: &str) -> Result<Paper, String> {
 }
 
 #[test]
-fn a_quick_run_takes_its_own_budget_clock_and_task_settings_and_a_full_one_does_not() {
+fn a_quick_run_alone_takes_the_budget_clock_and_task_settings_of_quick() {
     let quick = "replicates = 1
 budget = { expansions = 7 }
 timing = { problems = 1, repeats = 1 }
@@ -135,7 +135,7 @@ fn with_all_variants(task: &str) -> tempfile::TempDir {
 }
 
 #[test]
-fn end_points_and_null_rate_are_the_same_bytes_on_one_thread_and_on_two() {
+fn end_points_and_null_rate_are_the_same_bytes_at_any_number_of_threads() {
     for task in ["identify_endpoints", "null_rate"] {
         let folder = with_all_variants(task);
         assert!(facts(folder.path(), 1) == facts(folder.path(), 2), "{task} differs between 1 thread and 2");
@@ -189,7 +189,7 @@ fn a_rerun_names_trials_that_come_out_otherwise_and_those_that_come_no_more() {
 }
 
 #[test]
-fn variants_that_never_lower_open_nodes_need_an_excess_and_one_shape_and_only_they_have_ties() {
+fn variants_that_never_lower_open_nodes_alone_have_ties_and_need_an_excess() {
     let check = |task: &str, variant: &str, close: &str| {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("p")).unwrap();

@@ -319,7 +319,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn way_and_time_are_each_others_inverse_on_long_and_short_legs() {
+    fn way_and_time_are_each_others_inverse_on_legs_of_any_length() {
         for length_m in [0.02, 0.25, 1.3] {
             for step in 0..=50 {
                 let way = length_m * f64::from(step) / 50.0;

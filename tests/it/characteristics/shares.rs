@@ -11,10 +11,18 @@ use rand::RngExt as _;
 const QUERIES: u32 = 10;
 
 pub fn scenarios() -> Vec<Scenario> {
-    [share_of_trials(), share_of_draws(), one_draw(), one_draw_of_shares(), rows(), curves()]
-        .into_iter()
-        .flatten()
-        .collect()
+    [
+        share_of_trials(&SOLVED),
+        share_of_trials(&MARKED),
+        share_of_draws(),
+        one_draw(),
+        one_draw_of_shares(),
+        rows(),
+        curves(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 fn claim(criterion: &str, settings: &str) -> String {
@@ -22,6 +30,8 @@ fn claim(criterion: &str, settings: &str) -> String {
         "[[claim]]\nid = \"{ASKED}\"\nat = \"here\"\nprinted = \"0\"\n[claim.check.{criterion}]\n{settings}"
     )
 }
+
+const OF_A: &str = "of = { study = \"drawn\", problems = \"map\", contender = \"A\" }\n";
 
 fn at_most(bound: f64) -> Bounds {
     Bounds { false_for: Some(bound), false_against: Some(bound), ..Bounds::default() }
@@ -31,25 +41,41 @@ fn right(bounds: Bounds) -> Bounds {
     Bounds { right: Some(0.9), ..bounds }
 }
 
-const SOLVED: &str = "of = { study = \"drawn\", problems = \"map\", contender = \"A\" }\nhits = \"solved\"\n";
+/// What a share counts: the setting, in words, and how a trial ends that is no hit.
+struct Counted {
+    hits: &'static str,
+    said: &'static str,
+    missed: End,
+}
 
-/// One query a map: the share solved, claimed to be at least nine in ten.
-fn share_of_trials() -> Vec<Scenario> {
+const SOLVED: Counted = Counted { hits: "hits = \"solved\"", said: "are solved", missed: End::NoPath };
+
+const MARKED: Counted = Counted {
+    hits: "hits = \"marked\"\ncolumns = [\"optimal_cost_cells\"]",
+    said: "have a mark",
+    missed: End::At(1.0),
+};
+
+/// One query a map: the share of hits, claimed to be at least nine in ten.
+fn share_of_trials(Counted { hits, said, missed }: &'static Counted) -> Vec<Scenario> {
     let scenario = |truth, draws: usize, share: f64, made, bounds| {
         let is_censored = truth == "censored";
         let world = move |stream: &mut Stream| {
             let mut sample = Sample::default();
             for index in 0..draws {
                 sample.draw();
-                let is_solved = stream.random::<f64>() < share && index > 0;
-                let missed = if is_censored { End::Spent } else { End::NoPath };
-                sample.trial("A", if is_solved { End::At(1.0) } else { missed });
+                let is_hit = stream.random::<f64>() < share && index > 0;
+                let missed = if is_censored { End::Spent } else { *missed };
+                sample.trial("A", if is_hit { End::At(1.0) } else { missed });
+                if is_hit || missed.is_at() {
+                    sample.with("optimal_cost_cells", f64::from(u8::from(is_hit)));
+                }
             }
             World::new(sample.records(), share >= 0.9)
         };
         let tail = if is_censored { ", the others without an end" } else { "" };
-        let about = format!("{:.2} % are solved{tail}, 90 % claimed; {draws} maps", 100.0 * share);
-        let claim = claim("share", &format!("{SOLVED}accepted = [0.9, 1.0]\n"));
+        let about = format!("{:.2} % {said}{tail}, 90 % claimed; {draws} maps", 100.0 * share);
+        let claim = claim("share", &format!("{OF_A}{hits}\naccepted = [0.9, 1.0]\n"));
         Scenario { criterion: "share", truth, about, claim, made, world: Box::new(world), bounds }
     };
     let plain = Made::Plainly;
@@ -81,7 +107,7 @@ fn share_of_draws() -> Vec<Scenario> {
             "80 % of ten queries a map are solved, more on some maps than on others; {:.2} % claimed; {draws} maps",
             100.0 * claimed
         );
-        let claim = claim("share", &format!("{SOLVED}accepted = [{claimed}, 1.0]\n"));
+        let claim = claim("share", &format!("{OF_A}{}\naccepted = [{claimed}, 1.0]\n", SOLVED.hits));
         let (made, world) = (Made::Plainly, Box::new(world));
         Scenario { criterion: "share", truth, about, claim, made, world, bounds }
     };

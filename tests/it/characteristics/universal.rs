@@ -21,7 +21,7 @@ const KINDS: [(&str, usize, f64); 4] = [
 ];
 
 pub fn scenarios() -> Vec<Scenario> {
-    let every = [EQUALS, ON_EVERY].into_iter().flat_map(of_every);
+    let every = [EQUALS, ON_EVERY, SOLVED].into_iter().flat_map(of_every);
     every.chain(exists()).chain(prints_as()).collect()
 }
 
@@ -31,13 +31,18 @@ struct Every {
     settings: &'static str,
     /// What is claimed of A.
     says: &'static str,
+    /// What A does where it is not so, and the optimum costs this.
+    wrong: fn(f64) -> End,
 }
+
+const COSTLY: fn(f64) -> End = |optimal| End::At(1.1 * optimal);
 
 const EQUALS: Every = Every {
     criterion: "equals",
     settings: "of = { study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }\ntruth = \
                \"optimal_cost_cells\"\n",
     says: "A's cost is the optimal one on every map",
+    wrong: COSTLY,
 };
 
 const ON_EVERY: Every = Every {
@@ -45,6 +50,14 @@ const ON_EVERY: Every = Every {
     settings: "of = { study = \"drawn\", problems = \"map\", contender = \"A\", against = \"B\", metric = \
                \"path_cost_cells\" }\nthat = \"at_most_times\"\nbound = 1.0\n",
     says: "A costs no more than B on every map",
+    wrong: COSTLY,
+};
+
+const SOLVED: Every = Every {
+    criterion: "on_every",
+    settings: "of = { study = \"drawn\", problems = \"map\", contender = \"A\", against = \"B\" }\nthat = \"solved\"\n",
+    says: "A solves every map that B solves",
+    wrong: |_| End::NoPath,
 };
 
 fn claim(criterion: &str, settings: &str) -> String {
@@ -53,18 +66,17 @@ fn claim(criterion: &str, settings: &str) -> String {
     )
 }
 
-/// `draws` maps, on a share `wrong` of which A costs more than the optimum, which B finds; where the budget is spent, it
-/// would have.
-fn drawn(stream: &mut Stream, draws: usize, wrong: f64, is_spent: bool) -> Sample {
+/// `draws` maps, on a share `share` of which A does not find the optimum that B finds but ends `wrong`; where the budget is
+/// spent, it would have.
+fn drawn(stream: &mut Stream, draws: usize, share: f64, wrong: fn(f64) -> End, is_spent: bool) -> Sample {
     let mut sample = Sample::default();
     for index in 0..draws {
         let optimal = 10.0 + stream.random::<f64>();
-        let is_wrong = stream.random::<f64>() < wrong;
-        let own = optimal * if is_wrong { 1.1 } else { 1.0 };
+        let is_wrong = stream.random::<f64>() < share;
+        let own = if is_wrong { wrong(optimal) } else { End::At(optimal) };
         sample.draw();
         let is_spent = is_spent && (is_wrong || index == 0);
-        for (label, end) in [("A", if is_spent { End::Spent } else { End::At(own) }), ("B", End::At(optimal))]
-        {
+        for (label, end) in [("A", if is_spent { End::Spent } else { own }), ("B", End::At(optimal))] {
             sample.trial(label, end);
             sample.with("optimal_cost_cells", optimal);
         }
@@ -72,26 +84,26 @@ fn drawn(stream: &mut Stream, draws: usize, wrong: f64, is_spent: bool) -> Sampl
     sample
 }
 
-fn of_every(Every { criterion, settings, says }: Every) -> Vec<Scenario> {
-    let scenario = |truth, draws, wrong: f64, made, bounds| {
+fn of_every(Every { criterion, settings, says, wrong }: Every) -> Vec<Scenario> {
+    let scenario = |truth, draws, share: f64, made, bounds| {
         let is_spent = truth == "censored";
         let world = move |stream: &mut Stream| {
-            World::new(drawn(stream, draws, wrong, is_spent).records(), wrong == 0.0)
+            World::new(drawn(stream, draws, share, wrong, is_spent).records(), share == 0.0)
         };
         let tail = if is_spent { ", those that would contradict it without an end" } else { "" };
-        let about = format!("{says}; {} % contradict it{tail}; {draws} maps", 100.0 * wrong);
+        let about = format!("{says}; {} % contradict it{tail}; {draws} maps", 100.0 * share);
         let (claim, world) = (claim(criterion, settings), Box::new(world));
         Scenario { criterion, truth, about, claim, made, world, bounds }
     };
-    let plain = |(truth, draws, wrong): (&'static str, usize, f64)| {
+    let plain = |(truth, draws, share): (&'static str, usize, f64)| {
         // It is missed if no trial shows it.
         let bounds = Bounds {
-            false_for: Some(libm::pow(1.0 - wrong, draws as f64)),
+            false_for: Some(libm::pow(1.0 - share, draws as f64)),
             false_against: Some(0.0),
             right: (truth == "true" || truth == "false").then_some(1.0),
             ..Bounds::default()
         };
-        scenario(truth, draws, wrong, Made::Plainly, bounds)
+        scenario(truth, draws, share, Made::Plainly, bounds)
     };
     let mut all: Vec<Scenario> = KINDS.into_iter().map(plain).collect();
     all.push(scenario("fitted", MANY, 0.0, Made::Fitted, never_reproduced()));

@@ -29,7 +29,7 @@ fn the_page_is_dark_where_the_reader_wants_it_dark() {
 }
 
 #[test]
-fn on_paper_stand_all_evidence_and_figures_and_no_controls() {
+fn on_paper_stand_all_evidence_and_figures_without_controls() {
     let Some(browser) = Browser::open([1280, 800]) else { return };
     browser.go(&page("zhang"), "claims");
     browser.emulate(&json!({ "media": "print" }));
@@ -43,7 +43,7 @@ fn on_paper_stand_all_evidence_and_figures_and_no_controls() {
 }
 
 #[test]
-fn keys_open_a_claim_and_step_and_play_a_replay() {
+fn keys_open_a_claim_and_move_a_replay() {
     let Some(browser) = Browser::open([1280, 800]) else { return };
     let file = page("planar");
     browser.go(&file, "claims");

@@ -100,7 +100,7 @@ fn scaled(keys: [&str; 2], by: f64) -> String {
 }
 
 #[test]
-fn rows_in_metres_and_limits_in_radians_are_guessed_and_asked_about() {
+fn rows_in_metres_and_limits_in_radians_are_asked_about() {
     let said = |text: &str| Robot::parse(text, Path::new("up6.toml")).map_err(|error| error.to_string());
     let metres = said(&scaled(["a_mm", "d_mm"], 1e-3)).unwrap_err();
     let asked =
@@ -183,7 +183,7 @@ fn a_robot_by_the_modified_convention_is_the_same_robot() {
 }
 
 #[test]
-fn millimetres_and_degrees_become_metres_and_radians() {
+fn millimetres_become_metres_and_degrees_radians() {
     let (up6, aubo) = (robot("motoman_up6"), robot("aubo_i10"));
     let joint = up6.arm().chain().joints()[0];
     assert!((joint.a_m - 0.15).abs() < 1e-15 && (joint.d_m - 0.45).abs() < 1e-15, "{joint:?}");

@@ -30,7 +30,7 @@ fn plan(world: &World, text: &str, expansions: u64) -> Plan {
 }
 
 #[test]
-fn twelve_and_728_steps_move_one_joint_and_any() {
+fn twelve_steps_move_one_joint_and_728_any() {
     let [one, any] = [12, 728].map(|neighbours| steps(neighbours, 0.5));
     assert_eq!((one.len(), any.len()), (12, 728));
     assert!(one.iter().all(|(step, length)| moved(step) == 1 && *length == 0.5));

@@ -43,7 +43,7 @@ fn tick_labels_never_run_into_each_other() {
 }
 
 #[test]
-fn a_log_axis_names_decades_and_within_two_of_them_also_2_and_5() {
+fn a_short_log_axis_names_2_and_5_beside_the_decades() {
     let wide = Axis::log("x", 1.0, 1e6).unwrap();
     assert_eq!(labels(&wide, 200.0, true), ["1", "10", "100", "1000", "10⁴", "10⁵", "10⁶"]);
     let narrow = Axis::log("x", 0.5, 20.0).unwrap();
