@@ -77,9 +77,11 @@ pub struct Sizes {
     /// Singular.
     #[schemars(range(max = 1_000_000))]
     pub singular: u32,
-    /// Piercing.
+    /// In which solids go through each other.
+    #[schemars(range(max = 1_000_000))]
     pub piercing: u32,
     /// Straight joint paths drawn where no paths are stored.
+    #[schemars(range(max = 1_000_000))]
     pub drawn_paths: u32,
 }
 

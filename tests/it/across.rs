@@ -1,10 +1,14 @@
 //! Classes across readings, on a small paper through the whole program: run, explore, confirm, judge.
 
 use crate::paper::Bench;
+use flate2::Compression;
+use flate2::read::GzDecoder;
+use flate2::write::GzEncoder;
 use replan::analysis::across::stored::Exploration;
 use replan::analysis::class::Verdict;
 use replan::analysis::verdict::{Judged, Verdicts};
 use std::fs;
+use std::io::{Read as _, Write as _};
 
 /// Where its runs are.
 pub const RUNS: &str = "target/replan/toy/data/runs/toy";
@@ -316,6 +320,29 @@ fn what_changed_after_an_exploration_is_stale_and_judged_under_the_default_alone
     toy.0.done(&["judge", "./toy"]);
     assert_eq!(toy.verdicts().explored.unwrap().stale, ["fewer", "shorter", "witness"]);
     assert!(toy.verdicts().claims.iter().filter(|judged| judged.across.is_some()).count() == 1);
+}
+
+#[test]
+fn an_exploration_that_was_edited_is_refused_until_it_is_made_again() {
+    let toy = Toy::new(&[CITED]);
+    let path = toy.0.at(RUNS).join("explored.toml.gz");
+    let (whole, mut text) = (fs::read(&path).unwrap(), String::new());
+    GzDecoder::new(&whole[..]).read_to_string(&mut text).unwrap();
+    let edited = text.replacen("class = \"not_reproduced\"", "class = \"reproduced\"", 1);
+    assert_ne!(edited, text);
+    let unsealed = text.split_once('\n').unwrap().1.to_owned();
+    for wrong in [edited, unsealed] {
+        let mut packed = GzEncoder::new(Vec::new(), Compression::fast());
+        packed.write_all(wrong.as_bytes()).unwrap();
+        fs::write(&path, packed.finish().unwrap()).unwrap();
+        for (command, code) in [(&["judge", "./toy", "--check"][..], 3), (&["judge", "./toy"], 2)] {
+            let said = toy.0.run(command);
+            assert_eq!(said.code, Some(code), "{}", said.err);
+            assert!(said.err.contains("explored.toml.gz: is not what replan wrote: edited"), "{}", said.err);
+        }
+    }
+    fs::write(&path, whole).unwrap();
+    toy.0.done(&["judge", "./toy", "--check"]);
 }
 
 #[test]

@@ -209,7 +209,7 @@ fn a_subset_larger_than_its_region_is_refused_with_what_is_accepted() {
         ("neighbours = 25", "neighbours is 25; 1 to 24, all points of the region, is accepted"),
         ("neighbours = 0", "neighbours is 0; 1 to 24"),
         ("region_shape = 'octagon'\nneighbours = 13", "neighbours is 13; 1 to 12"),
-        ("region_radius_cells = 0", "radius_cells is 0; 1 to 20 is accepted"),
+        ("region_radius_cells = 0", "`region_radius_cells` is 0; a whole number from 1 to 20 is accepted"),
     ] {
         let refused = chaos(changes).err().unwrap();
         assert!(refused.contains(said), "{changes}: {refused}");

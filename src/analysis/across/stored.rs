@@ -4,6 +4,7 @@ use super::super::claims::claim_hash;
 use super::super::class::Verdict;
 use super::super::verdict::Together;
 use super::glance::{Glance, Sight};
+use base::hash::sha256;
 use base::settings::Document;
 use flate2::Compression;
 use flate2::read::GzDecoder;
@@ -78,6 +79,9 @@ pub struct ExploredResult {
     pub results: String,
 }
 
+/// What stands before the hash of all that follows, in a file's first line.
+const SEAL: &str = "# sha256 of the lines below: ";
+
 /// A number to the digits that are shown of it.
 fn shown(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
@@ -144,16 +148,19 @@ impl Exploration {
         let again = "explore or confirm the paper again";
         let (file, mut text) =
             (File::open(path).map_err(StudyError::io(path, "opening the file"))?, String::new());
-        GzDecoder::new(file).read_to_string(&mut text).map_err(|error| {
-            StudyError::stored(path, format!("is no text packed by gzip ({error}); {again}"))
-        })?;
+        let touched = |reason: &str| StudyError::Touched(format!("{}: {reason}; {again}", path.display()));
+        let unpacked = GzDecoder::new(file).read_to_string(&mut text);
+        unpacked.map_err(|error| touched(&format!("is no text packed by gzip ({error})")))?;
+        let sealed = text.strip_prefix(SEAL).and_then(|rest| rest.split_once('\n'));
+        if sealed.is_none_or(|(seal, body)| sha256(body.as_bytes()) != seal) {
+            return Err(touched("is not what replan wrote: edited, or of an older version"));
+        }
         let read = Document::new(path, text).read_stored();
         let found: Self = read.map_err(|error| StudyError::touched(error, again))?;
         let beyond =
             |result: &ExploredResult| result.readings.iter().any(|place| *place >= found.readings.len());
         if found.claims.values().flat_map(|claim| &claim.results).any(beyond) {
-            let reason = "a result names a reading that is not listed; explore or confirm the paper again";
-            return Err(StudyError::stored(path, reason));
+            return Err(touched("a result names a reading that is not listed"));
         }
         Ok(Some(found))
     }
@@ -163,7 +170,8 @@ impl Exploration {
     /// # Errors
     /// [`StudyError::Io`].
     pub fn write(&self, path: &Path) -> Result<(), StudyError> {
-        let text = toml::to_string(self).expect("an exploration is strings, numbers and tables of them");
+        let body = toml::to_string(self).expect("an exploration is strings, numbers and tables of them");
+        let text = format!("{SEAL}{}\n{body}", sha256(body.as_bytes()));
         // A claim has a row for each result: a megabyte as text, a tenth of that packed.
         let mut packed = GzEncoder::new(Vec::new(), Compression::best());
         let packed = packed.write_all(text.as_bytes()).and_then(|()| packed.finish());

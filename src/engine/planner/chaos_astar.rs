@@ -7,7 +7,7 @@ use super::tips::{
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::Successors;
 use crate::space::{ArmWorld, WorldKind};
-use base::grid::Offsets;
+use base::grid::{MAX_REACH_CELLS, Offsets};
 use base::seed::{self, Stream};
 use base::settings::Accepted;
 use rand::RngExt as _;
@@ -36,7 +36,7 @@ heuristic = "euclidean"
     build: Build::Planner(|settings| {
         let read: ChaosAstar = settings.read()?;
         let region = RegionSetting { shape: read.region_shape, radius_cells: read.region_radius_cells };
-        let offsets = region.offsets(settings)?;
+        let offsets = region.offsets();
         let most = offsets.steps().len();
         if !(1..=most).contains(&read.neighbours) {
             let message = format!(
@@ -55,6 +55,7 @@ struct ChaosAstar {
     /// The shape of the region that is drawn from.
     region_shape: RegionShape,
     /// Its radius, to the middle of a side.
+    #[schemars(range(min = 1, max = MAX_REACH_CELLS))]
     region_radius_cells: u8,
     /// How many are drawn.
     neighbours: usize,

@@ -30,7 +30,7 @@ sets = "all"
 "#,
     build: Build::Planner(|settings| {
         let read: LatticeAstar = settings.read()?;
-        let offsets = read.neighbourhood.offsets(settings)?;
+        let offsets = read.neighbourhood.offsets();
         Ok(Box::new(Ready { read, offsets, pool: Pool::default() }))
     }),
 };

@@ -8,7 +8,6 @@ use crate::search::{
 };
 use crate::space::ArmWorld;
 use base::grid::{MAX_REACH_CELLS, Offsets};
-use base::settings::{Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::f64::consts::SQRT_2;
@@ -24,9 +23,6 @@ pub(super) const COLUMNS: &[&str] = &[
     "list_operations",
 ];
 
-/// The widest neighbourhood that is accepted.
-const WIDEST_CELLS: u8 = MAX_REACH_CELLS as u8;
-
 /// A neighbourhood as settings write it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -34,6 +30,7 @@ pub(super) struct RegionSetting {
     /// Its shape.
     pub(super) shape: RegionShape,
     /// How far it reaches.
+    #[schemars(range(min = 1, max = MAX_REACH_CELLS))]
     pub(super) radius_cells: u8,
 }
 
@@ -52,18 +49,14 @@ pub(super) enum RegionShape {
 }
 
 impl RegionSetting {
-    pub(super) fn offsets(self, settings: &Settings) -> Result<Offsets, SettingsError> {
+    pub(super) fn offsets(self) -> Offsets {
         let radius = self.radius_cells;
-        if !(1..=WIDEST_CELLS).contains(&radius) {
-            let message = format!("radius_cells is {radius}; 1 to {WIDEST_CELLS} is accepted");
-            return Err(settings.error_at("radius_cells", message));
-        }
-        Ok(match self.shape {
+        match self.shape {
             RegionShape::Square => Offsets::square(radius),
             RegionShape::Disc => Offsets::disc(radius),
             RegionShape::Octagon => Offsets::octagon(radius),
             RegionShape::OctagonOnCorners => Offsets::octagon_on_corners(radius),
-        })
+        }
     }
 }
 

@@ -45,6 +45,7 @@ corner_rule = "allow"
 #[serde(deny_unknown_fields)]
 struct RandomBars {
     /// Columns and rows of the map.
+    #[schemars(inner(range(max = 65_535)))]
     size_cells: [u32; 2],
     /// The column and row of the start cell.
     start: [u32; 2],

@@ -47,6 +47,7 @@ corner_rule = "allow"
 #[serde(deny_unknown_fields)]
 struct RandomRectangles {
     /// Columns and rows of the map.
+    #[schemars(inner(range(max = 65_535)))]
     size_cells: [u32; 2],
     /// The column and row of the start cell.
     start: [u32; 2],
@@ -58,6 +59,6 @@ struct RandomRectangles {
     #[schemars(range(max = 1_000_000))]
     count: u32,
     /// Least and most side.
-    #[schemars(inner(range(min = 1)))]
+    #[schemars(inner(range(min = 1, max = 65_535)))]
     side_cells: [u32; 2],
 }

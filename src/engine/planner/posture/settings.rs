@@ -27,6 +27,7 @@ pub(super) struct Posture {
     /// The longest turn of one step.
     pub(super) step_rad: f64,
     /// Most steps at one node.
+    #[schemars(range(max = 1_000_000))]
     pub(super) iterations: u32,
     /// The most that the posture may turn about x, y and z.
     pub(super) bounds_rad: [f64; 3],
@@ -39,6 +40,7 @@ pub(super) struct Posture {
     pub(super) margin_cm: f64,
     /// How often a step that does not help is halved.
     #[serde(default = "five")]
+    #[schemars(range(max = 60))]
     pub(super) halvings: u32,
     /// Which solutions of the inverse kinematics are tried at the start.
     pub(super) branches: Branches,
@@ -132,10 +134,6 @@ impl Posture {
                 let least = if above < 0.0 { "0 or more" } else { "more than 0" };
                 faults.add(settings.error_at(name, format!("{name} is {value}; {least} is accepted")));
             }
-        }
-        if read.halvings > 60 {
-            let message = format!("halvings is {}; 0 to 60 is accepted", read.halvings);
-            faults.add(settings.error_at("halvings", message));
         }
         faults.done()?;
         Ok(read)
