@@ -348,12 +348,12 @@ pub fn solved(draws: &[Draw<'_>]) -> [usize; 2] {
     [cases(draws).filter(|case| case.is_solved()).count(), cases(draws).count()]
 }
 
-/// paired that have no number on some side although they might.
+/// Cases that have no number on some side although they might.
 pub fn censored(draws: &[Draw<'_>]) -> usize {
     cases(draws).filter(|case| case.is_censored()).count()
 }
 
-/// paired that did not come to an end on some side.
+/// Cases that did not come to an end on some side.
 pub fn unended(draws: &[Draw<'_>]) -> usize {
     cases(draws).filter(|case| case.is_unended()).count()
 }

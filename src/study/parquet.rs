@@ -37,16 +37,17 @@ const OPTIONS: WriteOptions = WriteOptions {
 /// A file at work: frames of the same columns, each a group or, where it is long, several.
 pub struct FrameWriter<W: Write> {
     file: FileWriter<W>,
+    entries: Vec<(String, String)>,
 }
 
 impl<W: Write> FrameWriter<W> {
-    /// Begins a file in `out` for frames with the columns of `like`.
+    /// Begins a file in `out` for frames with the columns of `like`, with `entries` of names and values in its metadata.
     ///
     /// # Errors
     /// A column of a type that Parquet has not.
-    pub fn new(out: W, like: &DataFrame) -> PolarsResult<Self> {
+    pub fn new(out: W, like: &DataFrame, entries: Vec<(String, String)>) -> PolarsResult<Self> {
         let schema = like.schema().to_arrow(CompatLevel::newest());
-        Ok(Self { file: FileWriter::try_new(out, schema, OPTIONS)? })
+        Ok(Self { file: FileWriter::try_new(out, schema, OPTIONS)?, entries })
     }
 
     /// Adds the rows of `frame`.
@@ -68,12 +69,12 @@ impl<W: Write> FrameWriter<W> {
         Ok(())
     }
 
-    /// Ends the file, with `entries` of names and values in its metadata.
+    /// Ends the file.
     ///
     /// # Errors
     /// What the system refused.
-    pub fn finish(mut self, entries: Vec<(String, String)>) -> PolarsResult<()> {
-        let entries = entries.into_iter().map(|(key, value)| KeyValue { key, value: Some(value) });
+    pub fn finish(mut self) -> PolarsResult<()> {
+        let entries = self.entries.into_iter().map(|(key, value)| KeyValue { key, value: Some(value) });
         let metadata = [schema_to_metadata_key(self.file.schema())].into_iter().chain(entries).collect();
         self.file.end(Some(metadata))?;
         Ok(())
@@ -85,9 +86,9 @@ impl<W: Write> FrameWriter<W> {
 /// # Errors
 /// As those of [`FrameWriter`].
 pub fn write_frame(out: impl Write, frame: DataFrame, entries: Vec<(String, String)>) -> PolarsResult<()> {
-    let mut writer = FrameWriter::new(out, &frame)?;
+    let mut writer = FrameWriter::new(out, &frame, entries)?;
     writer.write(frame)?;
-    writer.finish(entries)
+    writer.finish()
 }
 
 /// A file that was opened: what it says of itself is read, its rows are not.

@@ -140,7 +140,7 @@ impl Exploration {
     /// The exploration in `path`, if there is one.
     ///
     /// # Errors
-    /// [`StudyError::Touched`] if it cannot be understood.
+    /// [`StudyError::Touched`] if it was edited or cannot be understood.
     pub fn read(path: &Path) -> Result<Option<Self>, StudyError> {
         if !path.exists() {
             return Ok(None);

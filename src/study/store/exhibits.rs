@@ -20,7 +20,6 @@ pub const GROUP_VALUES: usize = 1 << 21;
 /// A file of exhibits at work.
 pub struct ExhibitWriter<'k, W: Write> {
     file: FrameWriter<W>,
-    description: Vec<(String, String)>,
     keys: &'k KeyColumns,
     sweep: Option<SweepKey>,
     group: Vec<Kept>,
@@ -35,9 +34,8 @@ impl<'k, W: Write> ExhibitWriter<'k, W> {
     /// What the system refused.
     pub fn new(out: W, keys: &'k KeyColumns, sweep: Option<SweepKey>, most: usize) -> io::Result<Self> {
         let empty = table::exhibits(&[], keys, sweep.as_ref());
-        let file = FrameWriter::new(out, &empty).map_err(told)?;
-        let description = table::description(&empty, keys);
-        Ok(Self { file, description, keys, sweep, group: Vec::new(), values: 0, most })
+        let file = FrameWriter::new(out, &empty, table::description(&empty, keys)).map_err(told)?;
+        Ok(Self { file, keys, sweep, group: Vec::new(), values: 0, most })
     }
 
     /// Adds an exhibit; they come in the order of records.
@@ -60,7 +58,7 @@ impl<'k, W: Write> ExhibitWriter<'k, W> {
     /// As [`new`](Self::new).
     pub fn finish(mut self) -> io::Result<()> {
         self.flush()?;
-        self.file.finish(self.description).map_err(told)
+        self.file.finish().map_err(told)
     }
 
     fn flush(&mut self) -> io::Result<()> {
