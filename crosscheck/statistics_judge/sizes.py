@@ -42,8 +42,11 @@ def ratio(cases: Cases, bases: Reals, values: Reals, seed: str) -> tuple[float, 
 
 
 def filled(cases: Cases) -> list[tuple[Reals, Reals]]:
-    """Both numbers of every case, the censored ones farther apart than all that were seen together."""
-    censored, paired = cases.censored, cases.paired
+    """Both numbers of every case, the censored ones farther apart than all that were seen together.
+
+    A side that ended without a path counts against itself; one that did not come to an end might have been either.
+    """
+    censored, paired, ended = cases.censored, cases.paired, ~cases.unended
     if not censored.any() or not paired.any():
         return []
     middle = cases.bases[paired].mean()
@@ -54,8 +57,8 @@ def filled(cases: Cases) -> list[tuple[Reals, Reals]]:
     for unknown in (1, -1):
         way = np.full(len(censored), unknown)
         if worse:
-            way[np.isnan(cases.values) & ~np.isnan(cases.bases)] = worse
-            way[~np.isnan(cases.values) & np.isnan(cases.bases)] = -worse
+            way[ended & np.isnan(cases.values) & ~np.isnan(cases.bases)] = worse
+            way[ended & ~np.isnan(cases.values) & np.isnan(cases.bases)] = -worse
         ends = np.maximum(middle + way * most, 0)
         bases = np.where(paired, cases.bases, np.where(censored, middle, np.nan))
         found.append((bases, np.where(paired, cases.values, np.where(censored, ends, np.nan))))

@@ -5,7 +5,8 @@ use super::selection::{Case, Draw, Selection, by_draw, cases, censored};
 
 /// The pairs of every draw with its censored cases filled in by a difference that outweighs all that were seen: against the
 /// contender where it alone failed, for it where the other did (no number is below 0), and where that is not known once one
-/// way and once the other. What is found every time does not hang on them. Nothing where nothing is censored.
+/// way and once the other. It is not known of a side that did not come to an end: with more budget it might have been the
+/// better one. What is found every time does not hang on them. Nothing where nothing is censored.
 pub fn filled(selection: &Selection<'_>, draws: &[Draw<'_>]) -> Vec<Vec<Vec<(f64, f64)>>> {
     let seen = || cases(draws).filter_map(Case::pair);
     let count = seen().count();
@@ -22,7 +23,7 @@ pub fn filled(selection: &Selection<'_>, draws: &[Draw<'_>]) -> Vec<Vec<Vec<(f64
     };
     let number = |case: &Case<'_>, unknown: f64| {
         let way = match (case.base_value, case.value) {
-            _ if worse == 0.0 => unknown,
+            _ if worse == 0.0 || case.is_unended() => unknown,
             (Some(_), None) => worse,
             (None, Some(_)) => -worse,
             _ => unknown,

@@ -10,7 +10,7 @@ use super::selection::{Case, Draw, Selection, by_draw, cases, is_unended, unende
 use super::verdict::Estimate as VerdictEstimate;
 use base::seed;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 pub use stats::bootstrap::Estimate;
 use stats::bootstrap::Resampling;
 pub use stats::interval::Interval;
@@ -66,7 +66,7 @@ pub fn or_infinite(run: &Run<'_>, row: &Row, metric: &Metric, unended: Option<f6
 }
 
 /// What one draw gives.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum OfDraw {
     /// The mean over its solved queries.

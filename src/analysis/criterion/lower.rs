@@ -12,7 +12,7 @@ use crate::analysis::statistic::{FEWEST_DRAWS, OfAll, how, narrows, needs, plan,
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use stats::bands::{Band, sup_t_between};
 use stats::bootstrap::{Estimate as Estimated, Resampling};
 use stats::interval::Interval;
@@ -25,7 +25,7 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "lower",
     about: "is a contender lower than another on average over draws, or solves it more all along a sweep?",
-    revision: 2,
+    revision: 3,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "length", problems = "cell", metric = "local_paths", contender = "Improved A*", against = "Original A*" }
@@ -47,7 +47,7 @@ struct Settings {
     by_percent: f64,
 }
 
-#[derive(Deserialize, JsonSchema, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Default, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Way {
     /// Its numbers are below the other's; it solves less.

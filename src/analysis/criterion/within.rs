@@ -21,7 +21,7 @@ use stats::paired::{self, snapped};
 pub static ENTRY: Entry = Entry {
     name: "within",
     about: "does the interval of a mean, median, deviation, ratio or reduction lie within a margin or within bounds?",
-    revision: 3,
+    revision: 4,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "environments", problems = "E*", contender = "Improved A*", against = "A*", metric = "nodes" }

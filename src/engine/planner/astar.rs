@@ -11,7 +11,7 @@ use crate::space::WorldKind;
 use base::grid::NeighbourOrder;
 use base::settings::Accepted;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -43,6 +43,7 @@ ties = "fifo"
 #[serde(deny_unknown_fields)]
 struct Astar {
     /// What h is multiplied by.
+    #[serde(default = "one")]
     weight: Weight,
     /// The order among equal f.
     #[serde(default)]
@@ -54,7 +55,12 @@ struct Astar {
     pool: Pool<Search<Octile, Heap>>,
 }
 
-#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq)]
+/// f = g + h.
+fn one() -> Weight {
+    Weight::Constant(1.0)
+}
+
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, PartialEq)]
 #[serde(untagged, expecting = "a number, or `falling`, is accepted as a weight")]
 enum Weight {
     /// The same everywhere.
@@ -63,7 +69,7 @@ enum Weight {
     Ruled(Rule),
 }
 
-#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Rule {
     /// (R + r) / R, as Zhang's eq. 2.

@@ -11,7 +11,7 @@ use crate::space::WorldKind;
 use base::grid::NeighbourOrder;
 use base::settings::Accepted;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::cell::Cell;
 
 /// The registry's entry.
@@ -83,7 +83,7 @@ enum MeetingSetting {
     OptimalStop,
 }
 
-#[derive(Deserialize, JsonSchema, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Default, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum EndSetting {
     /// The expansion is finished, and the node with the smallest sum of both g is kept.
@@ -93,7 +93,7 @@ enum EndSetting {
     Contact,
 }
 
-#[derive(Deserialize, JsonSchema, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Default, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Aim {
     /// Where the other side began.

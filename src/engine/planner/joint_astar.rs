@@ -19,7 +19,7 @@ use crate::space::polyhedra::{Apart, CarriedArm, DOWN};
 use crate::space::{PolyhedraWorld, WorldKind};
 use base::settings::Accepted;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use states::{Around, Cell, States};
 use std::cell::RefCell;
 
@@ -77,7 +77,7 @@ struct JointAstar {
 }
 
 /// A branch on which both ends are free.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum BranchSetting {
     /// The one whose start is farthest from obstacles.

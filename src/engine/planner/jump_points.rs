@@ -6,13 +6,13 @@ use super::{Invalid, Plan, Request, Value};
 use crate::search::JumpSearch;
 use crate::space::Jumps;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// The columns that every search by jump points fills.
 pub(super) const COLUMNS: &[&str] = &["opened", "closed", "expansions", "generated", "prepared_bytes"];
 
 /// When what a planner needs of a map is made.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Preparation {
     /// Once for each map, in the first query on it, which no clock times.

@@ -23,7 +23,7 @@ use crate::shorten::{Resume, stepwise_straightening};
 use crate::space::{PolyhedraWorld, WorldKind};
 use base::settings::Accepted;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use walk::Guards;
 
 /// The registry's entry.
@@ -116,7 +116,7 @@ impl Keynode {
 }
 
 /// What becomes of the nodes between two key nodes.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum Legs {
     /// They stay; a stage may straighten the whole path.

@@ -61,7 +61,7 @@ impl From<SightSetting> for Sight {
 }
 
 /// Which corners a line of sight may pass, as settings write it.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum SightCorners {
     /// Those that the map's rule lets moves cut.

@@ -11,7 +11,7 @@ use crate::space::{ArmWorld, WorldKind};
 use base::grid::Offsets;
 use base::settings::Accepted;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -54,7 +54,7 @@ struct LatticeAstar {
 }
 
 /// The sets of neighbours that a square consists of.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum Sets {
     /// All of them.

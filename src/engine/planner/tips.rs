@@ -9,7 +9,7 @@ use crate::search::{
 use crate::space::ArmWorld;
 use base::grid::{MAX_REACH_CELLS, Offsets};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::SQRT_2;
 
 /// The columns that every search over tip positions fills.
@@ -77,7 +77,7 @@ impl From<OpenSetting> for Update {
 }
 
 /// The order among equal f, as settings write it.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum TipTies {
     /// The node that was put in first.
@@ -104,7 +104,7 @@ impl From<TipTies> for Ties {
 }
 
 /// The distance to the goal that is added to g, as settings write it.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Heuristic {
     /// The length of the straight line.

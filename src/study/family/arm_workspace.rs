@@ -10,7 +10,7 @@ use engine::kinematics::planar_2r::Planar2r;
 use engine::planner::Invalid;
 use engine::space::{ArmRules, ArmWorld, Obstacle, TipLattice, WorldKind};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -90,7 +90,7 @@ struct ArmWorkspace {
 }
 
 /// What is made of a start or goal that is not free.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum BlockedEnds {
     /// The study is wrong.
@@ -101,7 +101,7 @@ enum BlockedEnds {
 }
 
 /// Which way a path is searched.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum Direction {
     /// From the start to the goal.

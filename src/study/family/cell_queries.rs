@@ -22,7 +22,7 @@ use engine::space::roadmap::{Counted, Extent, Local, Near, Sample};
 use groups::{posed, read_queries};
 use rand::RngExt as _;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -148,7 +148,7 @@ enum Region {
     AroundPoses,
 }
 
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum Turns {
     /// At most half a turn either way.

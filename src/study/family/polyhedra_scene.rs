@@ -16,7 +16,7 @@ use engine::space::roadmap::joints;
 use engine::space::{PolyhedraWorld, WorldKind};
 use rand::RngExt as _;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// The registry's entry.
@@ -65,7 +65,7 @@ struct SceneSettings {
 }
 
 /// What a point on an obstacle's face is: there T of eq. 2 in Tang, Zhou & Xu (2023) is 0.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Contact {
     /// Blocked.

@@ -5,7 +5,7 @@ use base::grid::{CornerRule, Grid2, components};
 use engine::planner::{Counts, Exhibit, Invalid, Value};
 use engine::space::{LatticeWorld, World};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -15,7 +15,7 @@ pub static ENTRY: Entry = Entry {
 };
 
 /// The corner rule as settings write it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CornerSetting {
     /// Every corner may be cut.

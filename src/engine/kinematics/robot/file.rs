@@ -10,7 +10,7 @@ use crate::{
 };
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::{collections::BTreeSet, ops::Range, path::Path};
 
 /// What a robot file may hold.
@@ -34,7 +34,7 @@ struct RobotFile {
     body: Spanned<Vec<BodyEntry>>,
 }
 
-#[derive(Deserialize, JsonSchema, Default, Clone, Copy, PartialEq)]
+#[derive(Serialize, Deserialize, JsonSchema, Default, Clone, Copy, PartialEq)]
 #[serde(rename_all = "snake_case")]
 enum Convention {
     /// Frames at the far ends of links: `alpha` and `a` lead from a joint's axis to the next one.
