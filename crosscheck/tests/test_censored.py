@@ -267,3 +267,10 @@ def test_a_contender_with_one_seed_stands_beside_each_seed_of_the_other() -> Non
     assert pairs[0] == pairs[1][::-1] == [[0, 0, 0, 4, 4, 4], many.tolist()]
     assert [own.tolist() for own in matched(study, many, many[1:])] == [many[1:].tolist()] * 2
     assert matched(study, one, many[:0])[0].tolist() == []
+
+
+def test_a_side_that_did_not_end_might_have_been_the_better_one() -> None:
+    settings = {"statistic": "ratio", "accepted": [0.0, 0.7]}
+    for end, is_firm in ((NONE, True), (SPENT, False)):
+        found = sizes.within(asked([(50.0, 100.0)] * 30 + [(50.0, end)] * 3, settings))
+        assert (found.outcome, firm(found)) == (HOLDS, is_firm), end

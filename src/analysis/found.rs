@@ -48,9 +48,9 @@ impl Found {
         Self { outcome: Some(Outcome::Open), because: vec![because.into()], ..Self::default() }
     }
 
-    /// Undecided because `draws` draws are fewer than `needs`.
-    pub fn too_few(draws: usize, needs: usize) -> Self {
-        let because = format!("{draws} draws have what is compared; at least {needs} are needed");
+    /// Undecided because the `draws` draws of all `ran` that have what is compared are fewer than `needs`.
+    pub fn too_few(draws: usize, ran: usize, needs: usize) -> Self {
+        let because = format!("{draws} of {ran} draws have what is compared; at least {needs} are needed");
         Self { needs: Some(needs), ..Self::open(because) }
     }
 

@@ -11,7 +11,7 @@ pub struct SelectionSpec {
     pub study: String,
     /// The problem group, by its label, or several; a label that ends in `*` stands for all that begin so.
     pub problems: Labels,
-    /// The contender, by its label, or several.
+    /// The contender, by its label, or several; left out where nothing is asked of one.
     #[serde(default)]
     pub contender: Labels,
     /// The contender that it is held against, on the same problems.

@@ -32,7 +32,7 @@ pub fn settles(found: &Found, caps: Caps) -> String {
             .to_owned();
     }
     if let Some(needed) = found.needs {
-        return format!("{needed} draws at least");
+        return format!("at least {needed} draws that have what is compared");
     }
     if found.existential {
         return "the paper's own input, on which one trial would do".to_owned();
@@ -186,6 +186,6 @@ mod tests {
             assert!(settles(&found, caps).contains(expected), "{caps:?}: {}", settles(&found, caps));
         }
         let few = Found { needs: Some(39), ..Found::default() };
-        assert_eq!(settles(&few, Caps::default()), "39 draws at least");
+        assert_eq!(settles(&few, Caps::default()), "at least 39 draws that have what is compared");
     }
 }

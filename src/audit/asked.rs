@@ -32,8 +32,8 @@ pub fn read(mut keys: BTreeMap<String, Value>, digits: Digits, place: Place) -> 
         other => rounding(other)
             .ok_or_else(|| fault(format!("rounding `{other}` is not known; accepted: {}", roundings())))?,
     };
-    if let Some(key) = keys.keys().find(|key| !form.keys.contains(&key.as_str())) {
-        let message = format!("check `{check}` has no key `{key}`; it has {}", form.keys.join(", "));
+    if let Some(key) = keys.keys().find(|key| !form.names().contains(&key.as_str())) {
+        let message = format!("check `{check}` has no key `{key}`; it has {}", form.names().join(", "));
         return Err(fault(message));
     }
     Ok(Relation { check, name, place, digits, keys })

@@ -221,7 +221,7 @@ pub fn list() -> String {
             text += &format!(
                 "      in TOML: [[relation]] check = \"{}\", {}\n",
                 entry.name,
-                form.keys.join(", ")
+                form.names().join(", ")
             );
         }
     }

@@ -44,9 +44,8 @@ fn table(about: &str, keys: &Map<String, Value>, required: &[&str]) -> Value {
 fn relations() -> Vec<Value> {
     let forms = REGISTRY.iter().filter_map(|entry| Some((entry, entry.relation.as_ref()?)));
     let relation = |(entry, form): (&&audit::checks::Entry, &audit::checks::FromRelation)| {
-        let about = |key: &str| json!({ "description": format!("The {key} that the check `{}` asks of.", entry.name) });
-        let mut keys: Map<String, Value> =
-            form.keys.iter().map(|key| ((*key).to_owned(), about(key))).collect();
+        let about = |(key, meaning): &(&str, &str)| ((*key).to_owned(), json!({ "description": meaning }));
+        let mut keys: Map<String, Value> = form.keys.iter().map(about).collect();
         keys.insert(
             "check".to_owned(),
             json!({ "type": "string", "const": entry.name, "description": entry.about }),

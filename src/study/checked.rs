@@ -59,6 +59,8 @@ pub struct Study {
     pub quick: QuickSpec,
     /// Figures drawn from it.
     pub figures: Vec<FigureSpec>,
+    /// What its paper leaves out, and what holds there.
+    pub of_paper: Vec<String>,
     /// The file it was read from.
     pub document: Arc<Document>,
 }

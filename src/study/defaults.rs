@@ -6,7 +6,7 @@ use toml::{Table, Value};
 
 /// Every default that `study` runs by, in the order of the spec: `contender `A*`, astar: ties = "fifo"`.
 pub fn defaults(study: &Study) -> Vec<String> {
-    let mut all = Vec::new();
+    let mut all = study.of_paper.clone();
     let spec: Table = study.document.read_stored().unwrap_or_default();
     if spec.get("quick").is_none_or(|quick| quick.get("replicates").is_none()) {
         all.push(format!("quick: replicates = {}", study.quick.replicates));

@@ -46,7 +46,7 @@ struct PaperSpec {
     prints: Prints,
     /// How far its readings are explored; needed where a study is.
     explore: Option<ExplorePaper>,
-    /// Everything that it prints, and what answers it.
+    /// Everything that it prints, and what answers it; nothing is held against the paper's own list of prints if absent.
     #[serde(default)]
     ledger: Vec<LedgerRow>,
     /// What it says.
@@ -61,6 +61,15 @@ struct PaperSpec {
     /// The series, of those that figures have, that a contender is drawn as wherever it is drawn, by its label.
     #[serde(default)]
     series: BTreeMap<String, usize>,
+}
+
+impl PaperSpec {
+    /// What is left out and what holds there, for the manifests of the paper's studies.
+    fn left_out(&self) -> Vec<String> {
+        let prints = (self.prints == Prints::default()).then_some("paper: prints = nothing");
+        let ledger = self.ledger.is_empty().then_some("paper: ledger = nothing");
+        prints.into_iter().chain(ledger).map(str::to_owned).collect()
+    }
 }
 
 /// Where the paper was published, as far as its text says.
@@ -81,7 +90,7 @@ pub struct Source {
 }
 
 /// How many numbered things the paper has.
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Prints {
     /// Figures.
@@ -216,9 +225,10 @@ impl Paper {
         folder: &Path,
         document: &Arc<Document>,
         spec: PaperSpec,
-        (studies, others): Files,
+        (mut studies, others): Files,
         faults: &mut Faults,
     ) -> Result<Self, StudyError> {
+        studies.iter_mut().for_each(|study| study.of_paper = spec.left_out());
         let claims = spec.claims.iter().map(|spec| claim(document, spec, faults)).collect();
         let absolute = fs::canonicalize(folder).map_err(StudyError::io(folder, "opening the folder"))?;
         let paper = Self {

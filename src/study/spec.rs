@@ -20,7 +20,7 @@ pub struct StudySpec {
     pub seed: u64,
     /// The root of every seed when `replan confirm` runs it once more.
     pub second_seed: Option<u64>,
-    /// What is done with the problems; `plan` unless said otherwise.
+    /// What is done with the problems; `plan` if absent.
     pub task: Option<Spanned<String>>,
     /// Settings of the task.
     #[schemars(with = "Option<AnyTable>")]
@@ -78,7 +78,7 @@ pub struct ProblemsSpec {
     /// The number, from 0, of the entry that it was made from.
     #[serde(skip)]
     pub place: usize,
-    /// How many independent draws.
+    /// How many independent draws; 1 if absent.
     #[schemars(range(min = 1, max = 1_000_000))]
     pub replicates: Option<u32>,
     /// What its draws are called: groups of one paper whose draws have one name get the same seeds, draw by draw, so that
@@ -103,7 +103,7 @@ pub struct ContenderSpec {
     /// Stages that tidy the plan, in order.
     #[serde(default)]
     pub then: Vec<StageSpec>,
-    /// How many seeds it runs on each problem; more than 1 only where it draws.
+    /// How many seeds it runs on each problem, 1 if absent; more than 1 only where it draws.
     #[schemars(range(min = 1, max = 100_000))]
     pub repeats: Option<u32>,
     /// Readings of other studies, with the option, that its settings take: a witness that it gives counts under these alone.

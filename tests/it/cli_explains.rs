@@ -38,13 +38,19 @@ fn a_toy_needs_no_ledger_no_counts_no_quick_and_no_ties() {
     let claims = &paper[paper.find("[[claim]]").unwrap()..];
     bench.write("mini/paper.toml", format!("[source]\ntitle = \"A toy\"\n{claims}").as_bytes());
     bench.edit("mini/draws.toml", "[quick]\nreplicates = 3\n", "");
-    bench.edit("mini/draws.toml", "settings = { weight = 1, ties = \"fifo\" }", "settings = { weight = 1 }");
+    bench.edit("mini/draws.toml", "settings = { weight = 1, ties = \"fifo\" }\n", "");
     bench.edit("mini/room.toml", "[quick]\nreplicates = 1\n", "");
     assert_eq!(bench.done(&["check", "./mini"]), "mini: 2 studies, 2 claims, 0 ledger rows are in order\n");
     bench.done(&["run", "./mini"]);
     let manifest = bench.at("target/replan/mini/data/runs/mini/draws.manifest.toml");
     let manifest = fs::read_to_string(manifest).unwrap();
-    for default in ["quick: replicates = 2", "contender `A*`, astar: ties = \"fifo\""] {
+    for default in [
+        "paper: prints = nothing",
+        "paper: ledger = nothing",
+        "quick: replicates = 2",
+        "contender `A*`, astar: ties = \"fifo\"",
+        "contender `A*`, astar: weight = 1.0",
+    ] {
         assert!(manifest.contains(default), "{default}\n{manifest}");
     }
 }

@@ -94,7 +94,7 @@ fn sizes_that_cannot_be_meant_are_refused_with_their_limit() {
             "zhang/ensemble.toml",
             "size_cells = [30, 30]",
             "size_cells = [65000, 65000]",
-            "and all may have 67108864",
+            "and all may have 16777216",
         ),
         (
             "tang2023/environments.toml",

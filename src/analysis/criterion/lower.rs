@@ -106,7 +106,7 @@ impl<'a> Lower<'a> {
         let draws = self.of.draws(evidence);
         let pairs = selection::pairs(&draws);
         let Some(change) = self.change(&pairs) else {
-            return Found::too_few(pairs.len(), FEWEST_DRAWS);
+            return Found::too_few(pairs.len(), draws.len(), FEWEST_DRAWS);
         };
         let Estimated { value, interval, units, .. } = change;
         let found = outcome(self.way, self.by_percent, interval);
@@ -163,7 +163,7 @@ impl<'a> Lower<'a> {
         let draws = self.of.draws(evidence);
         let units = self.curves(&draws, [false; 2]).len();
         let Some(Band { mean, band, .. }) = self.band(&draws, [false; 2]) else {
-            return Found::too_few(units, FEWEST_DRAWS);
+            return Found::too_few(units, draws.len(), FEWEST_DRAWS);
         };
         let points = self.of.study.sweep_points();
         let at = |index: usize| name::sweep(&points[index].key);

@@ -216,7 +216,10 @@ impl Criterion for OneDraw<'_> {
         let draws = self.values(evidence, &drawn);
         let about = bootstrap::mean(&draws.values, self.plan);
         let (Some(interval), Some(about)) = (predictive(&draws.values, LEVEL), about) else {
-            return Found { premises: self.premises.clone(), ..Found::too_few(draws.values.len(), 39) };
+            return Found {
+                premises: self.premises.clone(),
+                ..Found::too_few(draws.values.len(), drawn.len(), 39)
+            };
         };
         let (outcome, mean) = (self.outcome(interval, about.interval), about.value);
         let powerless =

@@ -234,7 +234,8 @@ impl Criterion for RowOneDraw<'_> {
         let drawn: Vec<Vec<Draw<'_>>> = self.rows.iter().map(|row| row.of.draws(evidence)).collect();
         let cells = self.cells(&drawn, false);
         let Some((place, level, rank, outcome)) = self.placed(&cells) else {
-            return Found::too_few(cells.iter().map(Vec::len).min().unwrap_or(0), self.fewest());
+            let ran = drawn.iter().map(Vec::len).max().unwrap_or(0);
+            return Found::too_few(cells.iter().map(Vec::len).min().unwrap_or(0), ran, self.fewest());
         };
         let (judged, n) = (rank.min(level.rank.p_two_sided()), place.draws);
         let ours = Estimate::bare(judged, "the lesser rank, of shape or level", n);

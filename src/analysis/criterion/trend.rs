@@ -120,7 +120,7 @@ impl Criterion for Trend<'_> {
         let draws = self.of.draws(evidence);
         let points = by_draw(&draws, |case| self.point(case));
         let Some(found) = pooled::slope(&points, self.plan) else {
-            return Found::too_few(points.len(), FEWEST_DRAWS);
+            return Found::too_few(points.len(), draws.len(), FEWEST_DRAWS);
         };
         let outcome = self.outcome(found.interval);
         let metric = self.metric.label.to_lowercase();

@@ -167,7 +167,8 @@ impl Criterion for Within<'_> {
         let draws = self.of.draws(evidence);
         let Some(found) = self.estimated(&draws).filter(|found| found.interval.low.is_finite()) else {
             let counted = draws.iter().filter(|draw| draw.cases.iter().any(|case| case.value.is_some()));
-            return Found::too_few(counted.count(), FEWEST_DRAWS).hanging_on(selection::unended(&draws));
+            return Found::too_few(counted.count(), draws.len(), FEWEST_DRAWS)
+                .hanging_on(selection::unended(&draws));
         };
         let outcome = self.outcome(found.interval);
         let metric = self.metric.label.to_lowercase();

@@ -1,6 +1,7 @@
 //! Whether a polyline through cell centres has the printed length and the printed sum of turns, at any angles.
 
 use super::arguments::{digits, up_to_twice};
+use super::keys::{FROM, LENGTH, TO, TURNS};
 use super::lattice::between;
 use super::{Entry, FromRelation, Test, Window, none};
 use crate::exact::{Exact, Print, floor, whole};
@@ -21,7 +22,23 @@ pub static ENTRY: Entry = Entry {
     premises: "bends are cell centres; the sum is of changes of direction, or of the angles between segments; a signal, since the search is by floats",
     source: "best-first search from both ends (crate::turns); the same as the papers' claims",
     tests: none,
-    relation: Some(FromRelation { keys: &["turns", "length", "from", "to", "grid", "angles"], build }),
+    relation: Some(FromRelation {
+        keys: &[
+            TURNS,
+            LENGTH,
+            FROM,
+            TO,
+            (
+                "grid",
+                "Columns and rows \"X:Y\" of the map that the path stays on; it may leave any if absent.",
+            ),
+            (
+                "angles",
+                "What is summed: `exterior`, changes of direction; `interior`, angles between segments; `either` if absent.",
+            ),
+        ],
+        build,
+    }),
 };
 
 /// How far beyond the straight line paths are looked for, and how long that may be, cells: work grows threefold for each

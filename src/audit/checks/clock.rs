@@ -18,7 +18,13 @@ pub static ENTRY: Entry = Entry {
     premises: "each number is one reading of a clock with that tick, not a mean",
     source: "multiples of a rational (crate::clock)",
     tests,
-    relation: Some(FromRelation { keys: &["value", "tick"], build }),
+    relation: Some(FromRelation {
+        keys: &[
+            ("value", "The time, in quotes: the printed number, or the name of a cell."),
+            ("tick", "The clock's step in the same unit, a decimal or a fraction in quotes: \"1/64\"."),
+        ],
+        build,
+    }),
 };
 
 struct Clock {

@@ -18,7 +18,13 @@ pub static ENTRY: Entry = Entry {
     premises: "a cell is expanded once at most, as with a consistent heuristic; the count is of distinct cells",
     source: "Hart, Nilsson & Raphael (1968), lemma 2; with known ends and length see crate::fvalues",
     tests,
-    relation: Some(FromRelation { keys: &["value", "free"], build }),
+    relation: Some(FromRelation {
+        keys: &[
+            ("value", "How many nodes were opened, in quotes: the printed number, or the name of a cell."),
+            ("free", "How many free cells the map has, a whole number."),
+        ],
+        build,
+    }),
 };
 
 struct Expansions {

@@ -1,6 +1,7 @@
 //! Whether a mean of whole numbers, or a share of trials, can be what is printed, given how many there were.
 
 use super::arguments::{count, digits, gap, multiple, shown};
+use super::keys::{GRAIN, LEAST, MOST, N};
 use super::{Entry, FromRelation, Proof, Test, Window};
 use crate::exact::{Exact, Print, Span, div, mul, spelled, whole};
 use crate::input::Input;
@@ -20,7 +21,20 @@ pub static ENTRY: Entry = Entry {
     premises: "n is the number of values behind the mean; each is a multiple of the grain; none is left out or weighted",
     source: "Brown & Heathers, The GRIM Test, Social Psychological and Personality Science 8 (2017) 363-369 (preprint 2016)",
     tests,
-    relation: Some(FromRelation { keys: &["value", "n", "whole", "grain", "least", "most"], build }),
+    relation: Some(FromRelation {
+        keys: &[
+            ("value", "The mean or share, in quotes: the printed number, or the name of a cell."),
+            N,
+            (
+                "whole",
+                "What a success counts where the number is a share: 100 of per cent, or 1; left out where it is a mean.",
+            ),
+            GRAIN,
+            LEAST,
+            MOST,
+        ],
+        build,
+    }),
 };
 
 struct Grim {

@@ -1,6 +1,7 @@
 //! Whether n values of a grain can have the printed mean and the printed deviation at once.
 
 use super::arguments::{count, digits, shown, spreads, up_to_twice};
+use super::keys::{DIVISOR, GRAIN, LEAST, MEAN, MOST, N, SD, SE};
 use super::{Entry, FromRelation, Proof, Test, Window};
 use crate::exact;
 use crate::exact::{Exact, Print, Span, ceil, div, floor, mul, spelled, whole};
@@ -23,10 +24,7 @@ pub static ENTRY: Entry = Entry {
     premises: "mean and deviation, and the least and greatest value if they are printed, are of the same n values; each is a multiple of the grain; the deviation divides by n - 1 or n",
     source: "Anaya, The GRIMMER test, PeerJ Preprints 4:e2400v1 (2016); Allard, Analytic-GRIMMER (2018); exact by crate::reach",
     tests,
-    relation: Some(FromRelation {
-        keys: &["mean", "sd", "se", "n", "grain", "least", "most", "divisor"],
-        build,
-    }),
+    relation: Some(FromRelation { keys: &[MEAN, SD, SE, N, GRAIN, LEAST, MOST, DIVISOR], build }),
 };
 
 /// Mean and deviation of values on a grain.

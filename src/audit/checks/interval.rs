@@ -18,7 +18,18 @@ pub static ENTRY: Entry = Entry {
     premises: "trials are independent; a proof only where the interval is said to be Clopper and Pearson's, else a signal",
     source: "Clopper & Pearson, Biometrika 26 (1934); Wilson, JASA 22 (1927); Agresti & Coull, The American Statistician 52 (1998)",
     tests: none,
-    relation: Some(FromRelation { keys: &["low", "high", "k", "n", "level", "method", "whole"], build }),
+    relation: Some(FromRelation {
+        keys: &[
+            ("low", "The lower end, in quotes: the printed number, or the name of a cell."),
+            ("high", "The upper end, in quotes: the printed number, or the name of a cell."),
+            ("k", "How many of n trials succeeded, a whole number."),
+            ("n", "How many trials there were, a whole number."),
+            ("level", "The confidence level, in quotes; \"0.95\" if absent."),
+            ("method", "`clopper_pearson`, `wilson`, `wald` or `agresti_coull`; `any` of them if absent."),
+            ("whole", "What a share of all is printed as: 100 for per cent, which holds if absent, or 1."),
+        ],
+        build,
+    }),
 };
 
 const METHODS: [&str; 5] = ["any", "clopper_pearson", "wilson", "wald", "agresti_coull"];

@@ -1,6 +1,7 @@
 //! Whether a printed length is that of straight and diagonal moves.
 
 use super::arguments::digits;
+use super::keys::OF_PATH;
 use super::{Entry, FromRelation, Proof, Test};
 use crate::Cell;
 use crate::exact::{Exact, Print, Span, add, div, floor, mul, spelled, whole};
@@ -20,7 +21,16 @@ pub static ENTRY: Entry = Entry {
     premises: "the path is of moves to one of eight neighbours, which cost the step and √2 (or what is said) steps",
     source: "the norm of a + b√2; decided in integers",
     tests,
-    relation: Some(FromRelation { keys: &["value", "step", "diagonal", "from", "to"], build }),
+    relation: Some(FromRelation {
+        keys: &[
+            OF_PATH,
+            ("step", "What a straight move costs, in quotes if no whole number; 1 if absent."),
+            ("diagonal", "What a diagonal move costs, in quotes if no whole number; √2 steps if absent."),
+            ("from", "The start \"X:Y\", in cells; given with `to` or not at all."),
+            ("to", "The goal \"X:Y\", in cells; given with `from` or not at all."),
+        ],
+        build,
+    }),
 };
 
 struct Length {

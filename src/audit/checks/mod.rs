@@ -20,6 +20,7 @@ mod expansions;
 mod grim;
 mod grimmer;
 mod interval;
+mod keys;
 mod lattice;
 mod order;
 mod p_value;
@@ -114,10 +115,17 @@ pub struct Window {
 
 /// How a relation of a TOML file becomes a test.
 pub struct FromRelation {
-    /// The keys that it has beside `check`, `name` and `rounding`.
-    pub keys: &'static [&'static str],
+    /// The keys that it has beside `check`, `name` and `rounding`, with what each means.
+    pub keys: &'static [keys::Key],
     /// Builds the test.
     pub build: fn(&Relation, &Input) -> Result<Box<dyn Test>, Fault>,
+}
+
+impl FromRelation {
+    /// The names of its keys.
+    pub fn names(&self) -> Vec<&'static str> {
+        self.keys.iter().map(|(key, _)| *key).collect()
+    }
 }
 
 /// A check in the registry.

@@ -15,7 +15,19 @@ pub static ENTRY: Entry = Entry {
     premises: "the shares are of independent trials; tests looked at: Fisher, chi-squared, chi-squared by Yates, z, one- and two-sided; a signal",
     source: "Nuijten et al., Behavior Research Methods 48 (2016) 1205-1226 (statcheck); Fisher (1935); Yates (1934)",
     tests: none,
-    relation: Some(FromRelation { keys: &["p", "k1", "n1", "k2", "n2"], build }),
+    relation: Some(FromRelation {
+        keys: &[
+            (
+                "p",
+                "The p-value, in quotes: as printed, with `<` or `>` before a bound, or the name of a cell.",
+            ),
+            ("k1", "How many of the first n trials succeeded, a whole number."),
+            ("n1", "How many trials the first had, a whole number."),
+            ("k2", "How many of the second n trials succeeded, a whole number."),
+            ("n2", "How many trials the second had, a whole number."),
+        ],
+        build,
+    }),
 };
 
 struct PValue {

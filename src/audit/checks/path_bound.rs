@@ -1,6 +1,7 @@
 //! Whether a printed length is at least the straight line, or the octile distance, between its ends.
 
 use super::arguments::{digits, shown};
+use super::keys::{FROM, OF_PATH, TO};
 use super::{Entry, FromRelation, Proof, Test};
 use crate::bounds::{Moves, against, apart};
 use crate::exact::{Exact, Print, spelled, whole};
@@ -19,7 +20,18 @@ pub static ENTRY: Entry = Entry {
     premises: "the path joins the two ends; its length is in their unit",
     source: "the triangle inequality; compared in squares, exactly",
     tests,
-    relation: Some(FromRelation { keys: &["value", "from", "to", "moves"], build }),
+    relation: Some(FromRelation {
+        keys: &[
+            OF_PATH,
+            FROM,
+            TO,
+            (
+                "moves",
+                "What the path is made of: `eight` or `four` neighbours' moves; `any` lines if absent.",
+            ),
+        ],
+        build,
+    }),
 };
 
 struct PathBound {

@@ -19,7 +19,14 @@ pub static ENTRY: Entry = Entry {
     premises: "the quotient was taken of the true values behind the two cells, not problem by problem",
     source: "interval arithmetic",
     tests,
-    relation: Some(FromRelation { keys: &["value", "of", "over"], build }),
+    relation: Some(FromRelation {
+        keys: &[
+            ("value", "The ratio, in quotes: the printed number, or the name of a cell."),
+            ("of", "What is divided, in quotes: the printed number, or the name of a cell."),
+            ("over", "What it is divided by, in quotes: the printed number, or the name of a cell."),
+        ],
+        build,
+    }),
 };
 
 /// A printed number that is one of some forms of two cells.

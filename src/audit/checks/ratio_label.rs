@@ -18,7 +18,14 @@ pub static ENTRY: Entry = Entry {
     premises: "the quotient was taken on every problem, and its quantiles are over the same n problems as the others",
     source: "counting: of n problems, those with r at least R and a at most A have b at most A / R",
     tests,
-    relation: Some(FromRelation { keys: &["ratio", "of", "over"], build }),
+    relation: Some(FromRelation {
+        keys: &[
+            ("ratio", "The sample, by its name, whose values are said to be ratios."),
+            ("of", "The sample, by its name, of what is divided."),
+            ("over", "The sample, by its name, of what it is divided by."),
+        ],
+        build,
+    }),
 };
 
 struct RatioLabel {

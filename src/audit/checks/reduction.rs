@@ -15,7 +15,15 @@ pub static ENTRY: Entry = Entry {
     premises: "the percentage was computed from the two cells, of the first (or as `base` says)",
     source: "interval arithmetic",
     tests: none,
-    relation: Some(FromRelation { keys: &["percent", "from", "to", "base"], build }),
+    relation: Some(FromRelation {
+        keys: &[
+            ("percent", "The change in per cent, in quotes: the printed number, or the name of a cell."),
+            ("from", "The number before, in quotes: the printed number, or the name of a cell."),
+            ("to", "The number after, in quotes: the printed number, or the name of a cell."),
+            ("base", "What the per cent are of: `from`, which holds if absent, `to`, or `either`."),
+        ],
+        build,
+    }),
 };
 
 fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {

@@ -17,7 +17,13 @@ pub static ENTRY: Entry = Entry {
     premises: "a proof only if the larger sample contains the smaller (anytime); otherwise chance can do it, and it is a signal",
     source: "set inclusion",
     tests,
-    relation: Some(FromRelation { keys: &["values", "anytime"], build }),
+    relation: Some(FromRelation {
+        keys: &[
+            ("values", "The printed numbers, each in quotes or the name of a cell, by rising budget."),
+            ("anytime", "Whether one run was looked at as it went on, `yes`; `no` if absent."),
+        ],
+        build,
+    }),
 };
 
 struct Rises {

@@ -18,7 +18,14 @@ pub static ENTRY: Entry = Entry {
     premises: "the parts are all there are, and none overlaps another",
     source: "interval arithmetic; with n, sums of whole counts",
     tests,
-    relation: Some(FromRelation { keys: &["parts", "whole", "n"], build }),
+    relation: Some(FromRelation {
+        keys: &[
+            ("parts", "The printed shares, each in quotes or the name of a cell."),
+            ("whole", "What they are shares of: 100 for per cent, which holds if absent, or 1."),
+            ("n", "How many trials the shares are of, a whole number; any if absent."),
+        ],
+        build,
+    }),
 };
 
 struct SharesSum {

@@ -15,7 +15,15 @@ pub static ENTRY: Entry = Entry {
     premises: "the factor was computed from the two cells; both ways to say \"times faster\" count unless one is named",
     source: "interval arithmetic",
     tests: none,
-    relation: Some(FromRelation { keys: &["times", "before", "after", "means"], build }),
+    relation: Some(FromRelation {
+        keys: &[
+            ("times", "The printed factor, in quotes: the printed number, or the name of a cell."),
+            ("before", "The slower time, in quotes: the printed number, or the name of a cell."),
+            ("after", "The faster time, in quotes: the printed number, or the name of a cell."),
+            ("means", "How the factor is meant: `times` as fast, `times more`; `either` if absent."),
+        ],
+        build,
+    }),
 };
 
 fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {

@@ -19,7 +19,17 @@ pub static ENTRY: Entry = Entry {
     premises: "the total is the sum of the parts on every problem; all means are over the same problems",
     source: "linearity of the mean; interval arithmetic",
     tests,
-    relation: Some(FromRelation { keys: &["total", "parts", "cut"], build }),
+    relation: Some(FromRelation {
+        keys: &[
+            ("total", "The mean of the whole, in quotes: the printed number, or the name of a cell."),
+            ("parts", "The means of its parts, each in quotes or the name of a cell."),
+            (
+                "cut",
+                "What each measured value was cut to a multiple of, in quotes if no whole number; nothing was cut if absent.",
+            ),
+        ],
+        build,
+    }),
 };
 
 struct SumOfMeans {

@@ -18,7 +18,18 @@ pub static ENTRY: Entry = Entry {
     premises: "the total is the sum of the values that the mean is of",
     source: "the definition of the mean; interval arithmetic",
     tests,
-    relation: Some(FromRelation { keys: &["total", "mean", "n", "unit"], build }),
+    relation: Some(FromRelation {
+        keys: &[
+            ("total", "The sum of all values, in quotes: the printed number, or the name of a cell."),
+            ("mean", "Their mean, in quotes: the printed number, or the name of a cell."),
+            ("n", "How many values are said to be behind them, a whole number; any if absent."),
+            (
+                "unit",
+                "The total's unit in the mean's, 1000 for s and ms, in quotes if no whole number; 1 if absent.",
+            ),
+        ],
+        build,
+    }),
 };
 
 struct TotalOverMean {

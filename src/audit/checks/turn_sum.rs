@@ -1,6 +1,7 @@
 //! Whether an 8-connected path of the printed length can turn by the printed sum of angles.
 
 use super::arguments::digits;
+use super::keys::{FROM, LENGTH, TO, TURNS};
 use super::lattice::{between, moves};
 use super::{Entry, FromRelation, Proof, Test, Window};
 use crate::Cell;
@@ -24,7 +25,7 @@ pub static ENTRY: Entry = Entry {
     premises: "moves go to one of eight neighbours; the sum is of changes of direction, or of the angles between moves",
     source: "enumeration over moves (crate::octile_turns); for any-angle paths see the package turns",
     tests,
-    relation: Some(FromRelation { keys: &["turns", "length", "from", "to"], build }),
+    relation: Some(FromRelation { keys: &[TURNS, LENGTH, FROM, TO], build }),
 };
 
 struct TurnSum {

@@ -154,7 +154,7 @@ mod tests {
         let error = Grid3::new([3, 0, 2]).unwrap_err();
         assert_eq!(
             error.to_string(),
-            "a lattice of 3 × 0 × 2 nodes; each side may have 1 to 1023 nodes, and all may have 67108864"
+            "a lattice of 3 × 0 × 2 nodes; each side may have 1 to 1023 nodes, and all may have 16777216"
         );
         assert!(Grid3::new([1024, 1, 1]).is_err());
     }

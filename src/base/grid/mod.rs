@@ -43,7 +43,7 @@ pub const MAX_SIDE_CELLS: u32 = 65_535;
 pub const MAX_SIDE_NODES: u32 = 1023;
 
 /// The most cells of one grid, and the most nodes of one lattice in space: beyond them a search fills the memory.
-pub const MAX_CELLS: u32 = 1 << 26;
+pub const MAX_CELLS: u32 = 1 << 24;
 
 /// A dense occupancy grid.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -158,7 +158,7 @@ mod tests {
         let error = Grid2::new(0, 3).unwrap_err();
         assert_eq!(
             error.to_string(),
-            "a grid of 0 × 3 cells; each side may have 1 to 65535 cells, and all may have 67108864"
+            "a grid of 0 × 3 cells; each side may have 1 to 65535 cells, and all may have 16777216"
         );
         assert!(Grid2::new(3, 65_536).is_err());
     }

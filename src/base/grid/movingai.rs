@@ -225,7 +225,7 @@ mod tests {
             (MAP.replace('O', "x"), format!("line 5, column 5: found `x`; a cell is one of {letters}")),
             (
                 MAP.replace("width 7", "width 0"),
-                "a grid of 0 × 2 cells; each side may have 1 to 65535 cells, and all may have 67108864"
+                "a grid of 0 × 2 cells; each side may have 1 to 65535 cells, and all may have 16777216"
                     .into(),
             ),
         ] {

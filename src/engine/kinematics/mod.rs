@@ -21,3 +21,9 @@ pub use error::KinematicsError;
 pub use robot::Robot;
 pub use rough::RoughChain;
 pub use serial::{AXES, Chain, Joint, Joints};
+
+/// How far what a robot or scene file says may be from the origin, or from one axis to the next: 100 m, ten times the longest arms
+/// that are sold. A greater number is a slip of the unit.
+pub const FARTHEST_MM: f64 = 1e5;
+/// The same in centimetres.
+pub const FARTHEST_CM: f64 = FARTHEST_MM / 10.0;

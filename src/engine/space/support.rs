@@ -3,6 +3,7 @@
 //! A scene without this table is one for points. Lengths in files are millimetres, those in memory metres. The world's z points up.
 
 use crate::geometry::{Frame, GeometryError, HalfSpace, OrientedBox, Solid, Vec3};
+use crate::kinematics::FARTHEST_MM;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -17,6 +18,7 @@ pub enum SupportEntry {
     /// The base stands on the floor, which is at its height.
     Floor {
         /// x, y and z of the base.
+        #[schemars(inner(range(min = -FARTHEST_MM, max = FARTHEST_MM)))]
         base_mm: [f64; 3],
         /// How far the base is turned about the vertical.
         yaw_deg: f64,
@@ -24,21 +26,26 @@ pub enum SupportEntry {
     /// The base stands on a block, and that on the floor.
     Pedestal {
         /// x, y and z of the base, the middle of the block's top.
+        #[schemars(inner(range(min = -FARTHEST_MM, max = FARTHEST_MM)))]
         base_mm: [f64; 3],
         /// How far base and block are turned about the vertical.
         yaw_deg: f64,
         /// How high the floor is.
+        #[schemars(range(min = -FARTHEST_MM, max = FARTHEST_MM))]
         floor_mm: f64,
         /// The block's sides along the base's x and y.
+        #[schemars(inner(range(max = FARTHEST_MM)))]
         sides_mm: [f64; 2],
     },
     /// Nothing that a rod could meet: the base hangs, or is held from behind.
     Nothing {
         /// x, y and z of the base.
+        #[schemars(inner(range(min = -FARTHEST_MM, max = FARTHEST_MM)))]
         base_mm: [f64; 3],
         /// How far the base is turned about the vertical.
         yaw_deg: f64,
         /// How high the floor is; there is none if absent.
+        #[schemars(range(min = -FARTHEST_MM, max = FARTHEST_MM))]
         floor_mm: Option<f64>,
         /// Why there is nothing: what the arm hangs from, or whose problem it is that has no floor.
         why: String,

@@ -89,6 +89,7 @@ impl Study {
             keeps: spec.keeps,
             quick: spec.quick,
             figures: spec.figures,
+            of_paper: Vec::new(),
             document: document.clone(),
         }
     }

@@ -6,6 +6,7 @@ use crate::prepared::workspace_map::{self, ElbowSetting, HopSetting, ShapeSettin
 use crate::prepared::{Prepared, lattice};
 use crate::verification::ARM_COLUMNS;
 use base::settings::{Accepted, Faults, Settings, SettingsError};
+use engine::kinematics::FARTHEST_CM;
 use engine::kinematics::planar_2r::Planar2r;
 use engine::planner::Invalid;
 use engine::space::{ArmRules, ArmWorld, Obstacle, TipLattice, WorldKind};
@@ -48,6 +49,7 @@ goal_cm = [0, 45]
 #[serde(deny_unknown_fields)]
 struct ArmWorkspace {
     /// The lengths of the two links.
+    #[schemars(inner(range(max = FARTHEST_CM)))]
     links_cm: [f64; 2],
     /// The least and the greatest x of the lattice.
     x_cm: [f64; 2],
@@ -56,6 +58,7 @@ struct ArmWorkspace {
     /// The side of a lattice cell.
     step_cm: f64,
     /// How far the tip must stay from the base.
+    #[schemars(range(max = FARTHEST_CM))]
     inner_radius_cm: f64,
     /// How far joint 2 turns to either side; without stops if absent.
     theta2_limit_deg: Option<f64>,
@@ -68,6 +71,7 @@ struct ArmWorkspace {
     /// When a diagonal move past blocked cells is allowed.
     corner_rule: lattice::CornerSetting,
     /// The diameter of every obstacle.
+    #[schemars(range(max = FARTHEST_CM))]
     obstacle_diameter_cm: f64,
     /// One shape for all obstacles, or one for each.
     obstacle_shapes: Vec<ShapeSetting>,
@@ -155,7 +159,9 @@ impl ArmWorkspace {
                     Direction::StartToGoal => [start, goal],
                     Direction::GoalToStart => [goal, start],
                 };
-                Ok(vec![Query { name: String::new(), start: start.to_vec(), goal: goal.to_vec() }])
+                let query = Query { name: String::new(), start: start.to_vec(), goal: goal.to_vec() };
+                query.leads_away().map_err(|message| settings.error_at("goal_cm", message))?;
+                Ok(vec![query])
             }
             (None, None) => Ok(Vec::new()),
             (start, _) => {

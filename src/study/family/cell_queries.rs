@@ -14,7 +14,7 @@ use crate::{Inputs, StudyError};
 use base::seed;
 use base::settings::{Accepted, Document, Faults, Settings, SettingsError};
 use engine::kinematics::ik::Branch;
-use engine::kinematics::{AXES, Joints, Robot};
+use engine::kinematics::{AXES, FARTHEST_MM, Joints, Robot};
 use engine::planner::Invalid;
 use engine::space::WorldKind;
 use engine::space::cell::{self, Cell, EdgeEnd, LineRules, Lines, Scene, SpeedRule};
@@ -78,7 +78,7 @@ struct CellQueries {
     /// Whether the arm must not touch itself.
     self_collision: bool,
     /// Instead of the robot file's tool.
-    #[schemars(range(min = 0))]
+    #[schemars(range(min = 0, max = FARTHEST_MM))]
     tool_mm: Option<f64>,
     /// The file with the groups of poses that are started from and planned to.
     queries: String,

@@ -40,6 +40,7 @@ corner_rule = "allow"
         faults.done()?;
         let [start, goal] = [read.start, read.goal].map(|cell| cell.map(f64::from).to_vec());
         let queries = [Query { name: String::new(), start, goal }];
+        queries[0].leads_away().map_err(|message| settings.error_at("goal", message))?;
         Ok::<Box<dyn Family>, StudyError>(Box::new(Posed { read, grid, queries, inputs }))
     },
 };
@@ -50,9 +51,9 @@ struct GridMap {
     /// The map file: text (`.` free, `#` blocked), an image (`.png`, `.pgm`: free where it is bright), a ROS map (`.yaml`) or a Moving AI
     /// map (`.map`).
     map: String,
-    /// The column and row of the start cell.
+    /// The column and row of the start cell, counted from 0 at the lower left.
     start: [u32; 2],
-    /// The column and row of the goal cell.
+    /// The column and row of the goal cell, counted from 0 at the lower left.
     goal: [u32; 2],
     /// When a diagonal move past blocked cells is allowed.
     corner_rule: lattice::CornerSetting,

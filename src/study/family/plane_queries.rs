@@ -37,8 +37,10 @@ radius_mm = 220
         let map: MapFile = document.read()?;
         let plane = map.plane(&document)?;
         let posed = map.posed(&plane, &document);
+        let goal_at = map.goal_mm.span();
         let [start, goal] = [map.start_mm, map.goal_mm].map(|point| point.into_inner().to_vec());
         let queries = [Query { name: String::new(), start, goal }];
+        queries[0].leads_away().map_err(|message| document.error(goal_at, message))?;
         Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn { read, plane, queries, posed, inputs: [file] }))
     },
 };

@@ -193,6 +193,8 @@ pub(super) fn check(
             let key = format!("queries.{index}.{what}");
             faults.keep(stands(what, end).map_err(|message| settings.error_at(&key, message)));
         }
+        let goal = format!("queries.{index}.goal");
+        faults.keep(query.leads_away().map_err(|message| settings.error_at(&goal, message)));
     }
     faults.done()
 }

@@ -49,9 +49,9 @@ struct RandomCells {
     /// Columns and rows of the map.
     #[schemars(inner(range(max = 65_535)))]
     size_cells: [u32; 2],
-    /// The column and row of the start cell.
+    /// The column and row of the start cell, counted from 0 at the lower left.
     start: [u32; 2],
-    /// The column and row of the goal cell.
+    /// The column and row of the goal cell, counted from 0 at the lower left.
     goal: [u32; 2],
     /// When a diagonal move past blocked cells is allowed.
     corner_rule: lattice::CornerSetting,
@@ -103,6 +103,7 @@ where
         let keep_free = ends.map(Option::unwrap_or_default);
         let [from, to] = [start, goal].map(|cell| cell.map(f64::from).to_vec());
         let queries = [Query { name: String::new(), start: from, goal: to }];
+        queries[0].leads_away().map_err(|message| settings.error_at("goal", message))?;
         Ok(Self { frame, keep_free, queries, blocked, draw })
     }
 

@@ -49,9 +49,9 @@ struct RandomRectangles {
     /// Columns and rows of the map.
     #[schemars(inner(range(max = 65_535)))]
     size_cells: [u32; 2],
-    /// The column and row of the start cell.
+    /// The column and row of the start cell, counted from 0 at the lower left.
     start: [u32; 2],
-    /// The column and row of the goal cell.
+    /// The column and row of the goal cell, counted from 0 at the lower left.
     goal: [u32; 2],
     /// When a diagonal move past blocked cells is allowed.
     corner_rule: lattice::CornerSetting,

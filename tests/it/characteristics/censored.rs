@@ -93,6 +93,22 @@ fn a_statistic_of_one_contender_hangs_on_what_did_not_end() {
 }
 
 #[test]
+fn a_side_that_did_not_end_might_have_been_the_better_one() {
+    let of = |criterion: &str, settings: &str, usual: (usize, End, End), other: (usize, End, End)| {
+        let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+        class(criterion, &format!("{of}\n{settings}"), Made::Plainly, pairs(&[usual, other]))
+    };
+    let (less, more) = ((30, At(50.0), At(100.0)), (30, At(100.0), At(50.0)));
+    for (end, class) in [(NoPath, "reproduced"), (Spent, "undecided")] {
+        let (own, other) = ((3, end, At(50.0)), (3, At(50.0), end));
+        assert_eq!(of("lower", "is = \"lower\"", less, other), class, "the other one: {end:?}");
+        assert_eq!(of("lower", "is = \"higher\"", more, own), class, "its own: {end:?}");
+        let ratio = of("within", "statistic = \"ratio\"\naccepted = [0.0, 0.7]", less, other);
+        assert_eq!(ratio, class, "{end:?}");
+    }
+}
+
+#[test]
 fn a_ratio_of_two_groups_hangs_on_what_did_not_end() {
     let ratio = |spent: usize| {
         let mut sample = Sample::default();

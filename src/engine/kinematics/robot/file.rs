@@ -4,7 +4,7 @@ use super::{Body, Part, Robot, attached, tool_frame};
 use crate::{
     geometry::{Capsule, Frame, Vec3},
     kinematics::{
-        Arm, KinematicsError,
+        Arm, FARTHEST_MM, KinematicsError,
         serial::{AXES, Chain, Joint},
     },
 };
@@ -48,6 +48,7 @@ enum Convention {
 #[serde(deny_unknown_fields)]
 struct ToolEntry {
     /// How far the tool's tip is from the flange.
+    #[schemars(range(max = FARTHEST_MM))]
     length_mm: Spanned<f64>,
 }
 
@@ -57,8 +58,10 @@ struct JointEntry {
     /// The twist: the turn about x from this joint's axis to the next one's.
     alpha_deg: f64,
     /// The link's length: the way along x to the next axis.
+    #[schemars(range(min = -FARTHEST_MM, max = FARTHEST_MM))]
     a_mm: f64,
     /// The offset: the way along this joint's axis.
+    #[schemars(range(min = -FARTHEST_MM, max = FARTHEST_MM))]
     d_mm: f64,
     /// What is added to the joint's angle.
     offset_deg: f64,
@@ -91,8 +94,10 @@ struct CapsuleEntry {
     /// The link that it moves with: 0 is the base.
     link: Option<usize>,
     /// x, y and z of one end, in the link's frame.
+    #[schemars(inner(range(min = -FARTHEST_MM, max = FARTHEST_MM)))]
     from_mm: Option<[f64; 3]>,
     /// x, y and z of the other end, in the link's frame.
+    #[schemars(inner(range(min = -FARTHEST_MM, max = FARTHEST_MM)))]
     to_mm: Option<[f64; 3]>,
     /// Instead of link and ends: where its axis begins and ends along the tool; the axis is cut so far that the round end
     /// does not reach beyond the tool's tip.
@@ -101,6 +106,7 @@ struct CapsuleEntry {
     #[serde(default)]
     self_only: bool,
     /// The radius.
+    #[schemars(range(max = FARTHEST_MM))]
     radius_mm: f64,
 }
 

@@ -1,6 +1,7 @@
 //! Scenes from files: where the robot stands and still obstacles by name, in millimetres as drawings give them.
 
 use crate::geometry::{Capsule, Convex, Frame, GeometryError, OrientedBox, Solid, Sphere, Vec3};
+use crate::kinematics::FARTHEST_MM;
 use crate::space::SupportEntry;
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
 use schemars::JsonSchema;
@@ -57,8 +58,10 @@ struct BoxEntry {
     /// Its name.
     name: String,
     /// x, y and z of the lowest corner, before it is turned.
+    #[schemars(inner(range(min = -FARTHEST_MM, max = FARTHEST_MM)))]
     min_mm: [f64; 3],
     /// x, y and z of the highest corner, before it is turned.
+    #[schemars(inner(range(min = -FARTHEST_MM, max = FARTHEST_MM)))]
     max_mm: [f64; 3],
     /// Turn about the vertical through the middle.
     #[serde(default)]
@@ -71,8 +74,10 @@ struct SphereEntry {
     /// Its name.
     name: String,
     /// x, y and z of the centre.
+    #[schemars(inner(range(min = -FARTHEST_MM, max = FARTHEST_MM)))]
     center_mm: [f64; 3],
     /// The radius.
+    #[schemars(range(max = FARTHEST_MM))]
     radius_mm: f64,
 }
 
@@ -82,10 +87,13 @@ struct CapsuleEntry {
     /// Its name.
     name: String,
     /// x, y and z of one end of the line.
+    #[schemars(inner(range(min = -FARTHEST_MM, max = FARTHEST_MM)))]
     from_mm: [f64; 3],
     /// x, y and z of the other end.
+    #[schemars(inner(range(min = -FARTHEST_MM, max = FARTHEST_MM)))]
     to_mm: [f64; 3],
     /// The radius.
+    #[schemars(range(max = FARTHEST_MM))]
     radius_mm: f64,
 }
 
@@ -95,6 +103,7 @@ struct ConvexEntry {
     /// Its name.
     name: String,
     /// Points whose convex hull it is.
+    #[schemars(inner(inner(range(min = -FARTHEST_MM, max = FARTHEST_MM))))]
     vertices_mm: Vec<[f64; 3]>,
 }
 
