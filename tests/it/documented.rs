@@ -83,6 +83,50 @@ fn every_example_of_a_planner_a_stage_a_family_and_a_task_builds() {
 }
 
 #[test]
+fn every_example_of_a_family_poses_its_problem() {
+    let inputs = Inputs { roots: vec![root().to_owned(), root().join("experiments/zhang")] };
+    for item in catalogue::families() {
+        let family = (family::find(item.name).unwrap().build)(&example(&item), &inputs).unwrap();
+        let prepared = family.prepare(1).unwrap_or_else(|invalid| panic!("{}: {invalid}", item.name));
+        assert_eq!(prepared.world.kind(), family.world(), "{}", item.name);
+        assert!(!family.queries_for(1).is_empty(), "{}: nothing is asked", item.name);
+    }
+}
+
+/// The keys under `schema` that are one value and may be left out without a word about what holds then.
+fn unsaid(schema: &Value, whole: &Value, path: &str, found: &mut BTreeSet<String>) {
+    let required =
+        |key: &str| schema["required"].as_array().is_some_and(|all| all.iter().any(|one| one == key));
+    for (key, part) in schema["properties"].as_object().into_iter().flatten() {
+        let name = part["$ref"].as_str().and_then(|to| to.strip_prefix("#/$defs/"));
+        let meant = name.map_or(part, |name| &whole["$defs"][name]);
+        let many = ["array", "object"].iter().any(|kind| meant["type"] == **kind);
+        let may_be_null = part.to_string().contains("\"null\"");
+        if !required(key) && !many && !may_be_null && part.get("default").is_none() {
+            found.insert(format!("{path}{key}"));
+        }
+    }
+}
+
+#[test]
+fn every_value_that_may_be_left_out_has_a_default_in_its_schema() {
+    let mut found = BTreeSet::new();
+    let mut keys = 0;
+    for (kind, items) in everything() {
+        for item in items {
+            let schema = item.settings.expect("it is set").schema();
+            keys += base::settings::describe::fields(&schema).len();
+            unsaid(&schema, &schema, &format!("{kind} {}: ", item.name), &mut found);
+            for (name, part) in schema["$defs"].as_object().into_iter().flatten() {
+                unsaid(part, &schema, &format!("{kind} {}, {name}: ", item.name), &mut found);
+            }
+        }
+    }
+    assert!(keys > 400, "{keys} keys");
+    assert_eq!(found, BTreeSet::new());
+}
+
+#[test]
 fn every_example_is_shown_whole_as_it_stands_in_a_file_and_within_eighty_columns() {
     let (mut shown, mut wide) = (0, Vec::new());
     for (kind, items) in everything().into_iter().filter(|(kind, _)| *kind != "file") {
