@@ -136,6 +136,12 @@ fn remove(value: &mut DeValue<'_>, span: &Range<usize>, names: &mut Vec<String>)
                 }
                 return true;
             }
+            // A list that lacks an element may be too short.
+            let holds = |list: &DeValue<'_>| {
+                list.as_array().is_some_and(|all| all.iter().any(|one| is_it(None, one)))
+            };
+            let lists = table.iter().filter(|(_, inner)| holds(inner.get_ref()));
+            names.extend(lists.map(|(key, _)| key.get_ref().to_string()));
             table.iter_mut().any(|(_, inner)| remove(inner.get_mut(), span, names))
         }
         DeValue::Array(elements) => {

@@ -42,6 +42,8 @@ impl Study {
     ) -> Result<Option<Self>, StudyError> {
         let name = document.path().file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let Some(mut spec) = faults.keep(document.read::<StudySpec>()) else {
+            // What it says is not known, but that it says it.
+            document.words().into_iter().for_each(|word| faults.unread(word));
             faults.unread(name);
             return Ok(None);
         };

@@ -3,19 +3,13 @@
 use super::{ClaimSpec, Paper, Parts};
 use crate::spec::OptionSpec;
 use crate::{Reading, ReadingChoice};
-use base::settings::{Document, Faults, Spanned, none_called};
+use base::settings::{Faults, Spanned, none_called};
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Paper {
     /// What is wrong with the paper as a whole goes to `faults`.
     pub(super) fn check(&self, specs: &[ClaimSpec], faults: &mut Faults) {
-        let mut seen = BTreeSet::new();
-        for spec in specs {
-            if !seen.insert(spec.id.get_ref()) {
-                let message = format!("claim `{}` stands twice", spec.id.get_ref());
-                faults.add(self.document.error(spec.id.span(), message));
-            }
-        }
+        self.check_claim_ids(specs, faults);
         self.check_ids(faults);
         let claims: BTreeSet<&str> = self.claims.iter().map(|claim| claim.id.as_str()).collect();
         let studies: BTreeSet<&str> = self.studies.iter().map(|study| study.name.as_str()).collect();
@@ -57,34 +51,6 @@ impl Paper {
                     let message = format!("claim `{id}` {why}; a part counts with one sentence or row");
                     faults.add(self.document.error(part.span(), message));
                 }
-            }
-        }
-    }
-
-    /// Ids of figures and tables are names of files: plain ones, each once.
-    fn check_ids(&self, faults: &mut Faults) {
-        let mut placed: Vec<(&Document, String, &String)> = Vec::new();
-        for study in &self.studies {
-            let ids = study.figures.iter().enumerate();
-            placed.extend(
-                ids.map(|(index, f)| (&*study.document, format!("figure.{index}.id"), f.id.get_ref())),
-            );
-        }
-        let results = self.results.iter().enumerate();
-        placed.extend(
-            results.map(|(index, t)| (&*self.document, format!("results.{index}.id"), t.id.get_ref())),
-        );
-        let tables = self.tables.iter().enumerate();
-        placed.extend(tables.map(|(index, table)| (&*self.document, format!("table.{index}.id"), &table.id)));
-        let mut seen = BTreeSet::from(["numbers"]);
-        for (document, place, id) in placed {
-            let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-            if id.is_empty() || !id.chars().all(is_plain) {
-                let message = format!("the id `{id}` names files; a to z, 0 to 9 and _ are accepted in it");
-                faults.add(document.error_at(&place, message));
-            } else if !seen.insert(id) {
-                let message = format!("another figure or table of the paper is called `{id}` already");
-                faults.add(document.error_at(&place, message));
             }
         }
     }
@@ -166,7 +132,9 @@ impl Paper {
                 let mut wrong = |message: String| {
                     let place = format!("contender.{index}.departs");
                     let message = format!("contender `{}`: {message}", contender.label);
-                    faults.add(study.document.error_at(&place, message));
+                    let error = study.document.error_at(&place, message);
+                    let named = contender.departs.iter().flat_map(|(id, option)| [id, option]);
+                    faults.add(named.fold(error, |error, name| error.about(name)));
                 };
                 if let Err(message) = ReadingChoice::new(&all, &contender.departs) {
                     wrong(message);
@@ -196,7 +164,7 @@ impl Paper {
                     "study `{}` is explored; paper.toml then needs `[explore]` with `sample` and `trials`",
                     study.name
                 );
-                faults.add(study.document.error_at("explore", message));
+                faults.add(study.document.error_at("explore", message).about("explore"));
             }
             let other = study.explore.as_ref().and_then(|explore| explore.stands_for.as_ref());
             if let Some(other) = other.filter(|other| self.study(other).is_none()) {
@@ -243,10 +211,16 @@ impl Paper {
         for name in names {
             if !known.contains(name.get_ref().as_str()) {
                 let message = none_called(what, name.get_ref(), known.iter().copied());
-                faults.add(self.document.error(name.span(), message).about(name.get_ref()));
+                let error = self.document.error(name.span(), message).about(name.get_ref());
+                faults.add(error.about(&names_of(what)));
             }
         }
     }
+}
+
+/// What the names of all that is a `what` are called where one of them may be unread.
+pub fn names_of(what: &str) -> String {
+    format!("names of every {what}")
 }
 
 /// What is wrong with an option of `reading`: a number without bounds or bounds without a number, or an empty source.
