@@ -125,6 +125,11 @@ impl Document {
         self.parted.contains(key)
     }
 
+    /// Whether something was taken away from it.
+    pub fn is_rest(&self) -> bool {
+        !self.parted.is_empty()
+    }
+
     /// Whether it is TOML.
     pub fn is_toml(&self) -> bool {
         self.parsed().is_ok()

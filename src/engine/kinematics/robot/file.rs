@@ -13,7 +13,7 @@ use crate::{
 };
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned, did_you_mean};
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, de::IgnoredAny};
 use std::{collections::BTreeSet, ops::Range, path::Path};
 
 /// What a robot file may hold.
@@ -86,12 +86,17 @@ struct CapsuleEntry {
     radius_mm: Spanned<f64>,
 }
 
-/// The file being read, which knows the places in it.
-struct Source<'a>(&'a Document);
+/// The file being read, without what is not accepted in it, which knows the places in it.
+struct Source<'a>(&'a Document, &'a [Range<usize>]);
 
 impl Source<'_> {
     fn fault(&self, span: &Range<usize>, message: impl Into<String>) -> SettingsError {
         self.0.error(span.clone(), message)
+    }
+
+    /// The number, from 0, that the joint of the number `index` has in the whole file.
+    fn number<T>(&self, index: usize, joint: &Spanned<T>) -> usize {
+        self.1.iter().position(|written| *written == joint.span()).unwrap_or(index)
     }
 
     fn finite(&self, key: &str, value: &Spanned<f64>) -> Result<f64, SettingsError> {
@@ -103,34 +108,46 @@ impl Source<'_> {
     }
 }
 
+/// The joints of a file whatever stands in them.
+#[derive(Deserialize, Default)]
+struct Joints {
+    #[serde(default)]
+    joint: Vec<Spanned<IgnoredAny>>,
+}
+
 pub(super) fn parse(text: &str, path: &Path) -> Result<Robot, KinematicsError> {
-    let document = Document::new(path, text.to_owned());
-    let source = Source(&document);
-    let file: RobotFile = document.read()?;
+    let written = Document::new(path, text.to_owned());
+    let all: Joints = written.read_stored().unwrap_or_default();
+    let all: Vec<Range<usize>> = all.joint.iter().map(Spanned::span).collect();
     let mut faults = Faults::default();
+    let Some((file, document)) = written.read_rest::<RobotFile>(&mut faults) else {
+        return Err(faults.error().into());
+    };
+    let source = Source(&document, &all);
     let tool_length_m = faults.keep(tool_length_m(&source, &file.tool.length_mm));
-    let joints = faults.keep(joints::joints(&source, &file));
+    let joints = joints::joints(&source, &file, &mut faults);
     let tool = tool_frame(tool_length_m.unwrap_or(SOME_TOOL_M));
+    // Rows mean nothing certain without the convention that they are written by.
+    let joints = joints.filter(|_| !document.is_part("convention"));
     let chain = joints.and_then(|joints| faults.keep(joints::chain(&source, &file, &joints, tool)));
     let (chain, far) = chain.unzip();
     let arm = chain.and_then(|chain| faults.keep(arm(&source, &file, chain)));
     let links = Links {
-        chain: arm.as_ref().map(Arm::chain),
+        chain: arm.as_ref().map(Arm::chain).filter(|_| !document.is_part("body")),
         far: far.flatten(),
         tool_length_m: tool_length_m.unwrap_or(SOME_TOOL_M),
     };
-    let bodies = faults.keep(bodies(&source, &file.body, &links));
-    let (name, flange) = (file.name, Frame::IDENTITY);
-    let robot = arm.zip(bodies).zip(tool_length_m).map(|((arm, bodies), tool_length_m)| Robot {
-        name,
+    let bodies = bodies(&source, &file.body, &links, &mut faults);
+    let (arm, tool_length_m) = faults.or(arm.zip(tool_length_m))?;
+    Ok(Robot {
+        name: file.name,
         arm,
-        flange,
+        flange: Frame::IDENTITY,
         tool_length_m,
         bodies,
         files: Vec::new(),
         enclosed: None,
-    });
-    Ok(faults.or(robot)?)
+    })
 }
 
 /// What stands in for a tool's length that is not accepted, so that its capsules are checked all the same.
@@ -174,19 +191,19 @@ fn bodies(
     source: &Source,
     entries: &Spanned<Vec<BodyEntry>>,
     links: &Links,
-) -> Result<Vec<Body>, SettingsError> {
-    let (mut names, mut faults) = (BTreeSet::new(), Faults::default());
+    faults: &mut Faults,
+) -> Vec<Body> {
+    let mut names = BTreeSet::new();
     for name in entries.get_ref().iter().map(|entry| &entry.name) {
         if !names.insert(name.get_ref()) {
             let message = format!("body `{}` is given twice; accepted: a name of its own", name.get_ref());
             faults.add(source.fault(&name.span(), message));
         }
     }
-    if names.is_empty() {
+    if names.is_empty() && !source.0.is_part("body") {
         faults.add(source.fault(&entries.span(), "no body is given; accepted: at least one"));
     }
-    let bodies = faults.keep_each(entries.get_ref().iter().map(|entry| body(source, entry, links)));
-    faults.or(Some(bodies))
+    faults.keep_each(entries.get_ref().iter().map(|entry| body(source, entry, links)))
 }
 
 fn body(source: &Source, entry: &BodyEntry, links: &Links) -> Result<Body, SettingsError> {
@@ -198,7 +215,7 @@ fn body(source: &Source, entry: &BodyEntry, links: &Links) -> Result<Body, Setti
             faults.add(source.fault(&name.span(), message));
         }
     }
-    if names.is_empty() {
+    if names.is_empty() && !source.0.is_part("body") {
         faults.add(source.fault(&entry.name.span(), "the body has no capsule; accepted: at least one"));
     }
     let parts = faults.keep_each(entry.capsule.iter().map(|capsule| part(source, capsule, links)));
@@ -263,7 +280,8 @@ fn self_pair(
             let known: Vec<&str> = parts.iter().map(|part| part.name.as_str()).collect();
             let hint = did_you_mean(name.get_ref(), known.iter().copied());
             let (name, known, at) = (name.get_ref(), known.join(", "), name.span());
-            source.fault(&at, format!("self_pairs names capsule `{name}`{hint}; accepted: {known}"))
+            let message = format!("self_pairs names capsule `{name}`{hint}; accepted: {known}");
+            source.fault(&at, message).about(name)
         })
     };
     let [first, second] = pair.get_ref();

@@ -191,8 +191,11 @@ pub fn read_scene(path: &Path) -> Result<Scene, SettingsError> {
     scene(&Document::open(path)?)
 }
 
-pub(super) fn scene(document: &Arc<Document>) -> Result<Scene, SettingsError> {
-    let file: SceneFile = document.read()?;
+pub(super) fn scene(written: &Arc<Document>) -> Result<Scene, SettingsError> {
+    let mut faults = Faults::default();
+    let Some((file, document)) = written.read_rest::<SceneFile>(&mut faults) else {
+        return Err(faults.error());
+    };
     let solid = |(index, entry): (usize, &Shape)| {
         let wrong = |e: GeometryError| {
             document.error_at(&format!("obstacle.{index}.{}", e.place("points")), e.to_string())
@@ -202,11 +205,12 @@ pub(super) fn scene(document: &Arc<Document>) -> Result<Scene, SettingsError> {
     let support = |entry: &SupportEntry| {
         entry.support().map_err(|(key, message)| document.error_at(&format!("support.{key}"), message))
     };
-    let mut faults = Faults::default();
     let bodies = faults.keep_each(file.obstacle.iter().enumerate().map(solid));
-    let support = faults.keep(file.support.as_ref().map(support).transpose()).flatten();
+    let stands = file.support.as_ref().filter(|_| !document.is_part("support"));
+    let support = faults.keep(stands.map(support).transpose()).flatten();
     let DomainEntry { min, max } = file.domain;
-    for (axis, (low, high)) in min.iter().zip(&max).enumerate().filter(|(_, (low, high))| low >= high) {
+    let turned = min.iter().zip(&max).enumerate().filter(|(_, (low, high))| low >= high);
+    for (axis, (low, high)) in turned.filter(|_| !document.is_part("domain")) {
         let message = format!("`max[{axis}]` is {high}; a number above `min[{axis}]`, {low}, is accepted");
         faults.add(document.error_at(&format!("domain.max.{axis}"), message));
     }

@@ -33,7 +33,7 @@ pub(super) struct JointEntry {
     speed_rad_s: Option<Spanned<f64>>,
 }
 
-/// What is wrong with the joint called `index`, from 0, at the number that `key` names.
+/// What is wrong with the joint of the number `index`, from 0, at the number that `key` names.
 fn fault_at(source: &Source, index: usize, key: &str, message: impl Into<String>) -> SettingsError {
     source.0.error_at(&format!("joint.{index}.{key}"), message)
 }
@@ -44,20 +44,22 @@ pub(super) fn about_joint(source: &Source, error: &KinematicsError) -> Option<Se
     Some(fault_at(source, joint - 1, key, error.to_string()))
 }
 
-/// The joints of `file`.
-pub(super) fn joints(source: &Source, file: &RobotFile) -> Result<[Joint; AXES], SettingsError> {
-    let (mut faults, entries) = (Faults::default(), &file.joint);
-    let count = entries.get_ref().len();
-    if count != AXES {
-        let span = entries.get_ref().last().map_or(entries.span(), Spanned::span);
-        faults.add(source.fault(&span, format!("{count} joints were given; accepted: {AXES}")));
+/// The joints of `file`; what is wrong with them goes to `faults`.
+pub(super) fn joints(source: &Source, file: &RobotFile, faults: &mut Faults) -> Option<[Joint; AXES]> {
+    let entries = file.joint.get_ref();
+    let numbered =
+        entries.iter().enumerate().map(|(index, entry)| (index, source.number(index, entry), entry));
+    let joints = faults.keep_each(numbered.map(|(index, number, entry)| joint(source, index, number, entry)));
+    // What was not accepted may be the joint that seems to be missing, or the longest link.
+    if !source.0.is_part("joint") {
+        let count = entries.len();
+        if count != AXES {
+            let span = entries.last().map_or(file.joint.span(), Spanned::span);
+            faults.add(source.fault(&span, format!("{count} joints were given; accepted: {AXES}")));
+        }
+        other_units(source, entries).into_iter().for_each(|fault| faults.add(fault));
     }
-    let each = entries.get_ref().iter().enumerate();
-    let joints = faults.keep_each(each.map(|(index, entry)| joint(source, index, entry)));
-    for fault in other_units(source, entries.get_ref()) {
-        faults.add(fault);
-    }
-    faults.or(joints.try_into().ok())
+    joints.try_into().ok()
 }
 
 /// A key of a joint, and the number there.
@@ -112,7 +114,12 @@ pub(super) fn chain(
     chain.map_err(fault)
 }
 
-fn joint(source: &Source, index: usize, entry: &Spanned<JointEntry>) -> Result<Joint, SettingsError> {
+fn joint(
+    source: &Source,
+    index: usize,
+    number: usize,
+    entry: &Spanned<JointEntry>,
+) -> Result<Joint, SettingsError> {
     let joint = entry.get_ref();
     let (speed_key, speed_rad_s) = match (joint.speed_deg_s, &joint.speed_rad_s) {
         (Some(speed_deg_s), None) => ("speed_deg_s", speed_deg_s.to_radians()),
@@ -135,7 +142,7 @@ fn joint(source: &Source, index: usize, entry: &Spanned<JointEntry>) -> Result<J
     let mut faults = Faults::default();
     for (key, found, accepted) in read.faults() {
         let key = if key == "speed_deg_s" { speed_key } else { key };
-        let error = KinematicsError::joint(index, key, found, accepted);
+        let error = KinematicsError::joint(number, key, found, accepted);
         faults.add(fault_at(source, index, key, error.to_string()));
     }
     faults.or(Some(read))
