@@ -177,7 +177,9 @@ impl<'a> Node<'a> {
     fn number(self, what: &str, furthest: f64) -> String {
         let ((low, high), (above, below)) = (self.bounds(), self.open_bounds());
         let (low, high) = (low.max(-furthest), high.min(furthest));
-        let told = |end: f64| if end.abs() == furthest { format!("{end:e}") } else { end.to_string() };
+        let told = |end: f64| {
+            if what == "a number" && end.abs() >= 1e9 { format!("{end:e}") } else { end.to_string() }
+        };
         let lower = match () {
             () if above >= low && above.is_finite() => Some(format!("above {above}")),
             () if low.is_finite() => Some(format!("from {}", told(low))),

@@ -320,9 +320,8 @@ fn shown(value: &DeValue<'_>) -> String {
             format!("\"{}…\"", text.chars().take(60).collect::<String>())
         }
         DeValue::String(text) => format!("\"{text}\""),
+        DeValue::Integer(whole) => whole.to_string(),
         // As a number, not as it is written: what is wrong in a table and in a copy of it is one thing.
-        DeValue::Integer(written) => i128::from_str_radix(written.as_str(), written.radix())
-            .map_or(written.to_string(), |n| n.to_string()),
         DeValue::Float(real) => match real.as_str().parse::<f64>() {
             Ok(number) if number.is_finite() => format!("{number:?}"),
             Ok(number) => number.to_string().to_lowercase(),
