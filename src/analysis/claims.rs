@@ -29,7 +29,7 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
             if paper.claim(id).is_none() {
                 let message = format!("fitted_to: {}", none_called("claim", id, ids()));
                 let error = study.document.error_at(&format!("fitted_to.{index}"), message).about(id);
-                faults.add(error.about(&names_of("claim")));
+                faults.add(error.about(&names_of("claim")).about("id"));
             }
         }
     }

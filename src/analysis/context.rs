@@ -94,7 +94,7 @@ impl<'a> Context<'a> {
         self.paper.claim(id).ok_or_else(|| {
             let known = self.paper.claims.iter().map(|claim| claim.id.as_str());
             let error = self.settings.error_about("", &[""], id, none_called("claim", id, known));
-            error.about(&paper::names_of("claim"))
+            error.about(&paper::names_of("claim")).about("id")
         })
     }
 

@@ -45,6 +45,26 @@ fn what_follows_from_a_fault_of_a_claim_is_not_told() {
 }
 
 #[test]
+fn what_bears_a_name_that_cannot_be_read_is_missed_nowhere() {
+    let claim = ("paper.toml", "id = \"nodes\"", "id = 5");
+    assert_alone("grid", claim, "paper.toml:52:6: `id` is 5; text in quotes is accepted");
+    let table = ("paper.toml", "id = \"table1\"", "id = 5");
+    assert_alone("grid", table, "paper.toml:82:6: `id` is 5; text in quotes is accepted");
+    let capsule = ("robot.toml", "name = \"forearm\"", "name = 5");
+    assert_alone("cell", capsule, "robot.toml:122:8: `name` is 5; text in quotes is accepted");
+}
+
+#[test]
+fn a_figure_called_like_another_is_told_once() {
+    let (from, text) = ("id = \"maps\"", "id = \"maps\"\nkind = \"grid_search\"\ncaption = \"c\"\n");
+    let settings = "settings = { problems = [\"maps\"], contenders = [\"A*\"] }\n";
+    let shows = "shows = [{ problems = \"maps\", replicates = 1 }]\n";
+    let twice = format!("{text}{settings}{shows}[[figure]]\n{from}");
+    let wanted = "compare.toml:57:6: another figure or table of the paper is called `maps` already";
+    assert_alone("grid", ("compare.toml", from, &twice), wanted);
+}
+
+#[test]
 fn nothing_is_told_of_what_a_study_that_is_no_toml_may_say() {
     for (template, file) in [("grid", "compare.toml"), ("arm", "lengths.toml"), ("cell", "cell.toml")] {
         assert_alone(template, (file, "seed = 1", "seed = = 1"), &format!("{file}:8:8: "));

@@ -128,7 +128,6 @@ fn check_labels(spec: &StudySpec, document: &Document, study: &str, faults: &mut
     unique(document, "problem group", spec.problems.iter().map(|p| &p.label), faults);
     unique(document, "contender", spec.contenders.iter().map(|c| &c.label), faults);
     unique(document, "reading", spec.readings.iter().map(|r| &r.id), faults);
-    unique(document, "figure", spec.figures.iter().map(|f| &f.id), faults);
 }
 
 fn unique<'a>(

@@ -79,7 +79,7 @@ impl Paper {
             for (id, message) in unknown_options(&claim.holds_when, &all) {
                 let message = format!("claim `{}`, holds_when{message}", claim.id);
                 let place = format!("claim.{index}.holds_when.{id}");
-                faults.add(self.document.error_at(&place, message).about(&id));
+                faults.add(self.document.error_at(&place, message).about(&id).about("id"));
             }
         }
     }
@@ -89,9 +89,11 @@ impl Paper {
         let all = self.readings();
         let each = self.studies.iter().flat_map(|s| s.readings.iter().enumerate().map(move |r| (s, r)));
         for (study, (index, own)) in each {
-            let mut wrong = |key: &str, message: String| {
+            // It may hang on what could not be read, by these names.
+            let mut wrong = |key: &str, message: String, of: &[&str]| {
                 let place = format!("reading.{index}.{key}");
-                faults.add(study.document.error_at(&place, format!("reading `{}`: {message}", own.id)));
+                let error = study.document.error_at(&place, format!("reading `{}`: {message}", own.id));
+                faults.add(of.iter().fold(error, |error, name| error.about(name)));
             };
             let reading = all.iter().find(|known| known.id == own.id).expect("every reading is listed");
             if let Some(bounds) = own.bounds.as_ref().filter(|bounds| bounds.least > bounds.greatest) {
@@ -99,12 +101,15 @@ impl Paper {
                     "least {} is above greatest {}; rising bounds are accepted",
                     bounds.least, bounds.greatest
                 );
-                wrong("bounds", message);
+                wrong("bounds", message, &[]);
             }
             for (name, option) in &own.options {
-                let only_with = only_with_faults(name, option, &all);
-                for message in option_faults(name, option, reading).into_iter().chain(only_with) {
-                    wrong(&format!("option.{name}"), message);
+                for message in option_faults(name, option, reading) {
+                    wrong(&format!("option.{name}"), message, &["bounds", "value"]);
+                }
+                for (other, message) in unknown_options(&option.only_with, &all) {
+                    let message = format!("option `{name}`, only_with{message}");
+                    wrong(&format!("option.{name}.only_with.{other}"), message, &[&other, "id"]);
                 }
             }
             if !reading.votes(&own.default) {
@@ -112,13 +117,11 @@ impl Paper {
                     "the default `{}` needs `paper` or `practice` as other options have: what it is judged by votes",
                     own.default
                 );
-                wrong("default", message);
+                wrong("default", message, &["bounds", "value", "paper", "practice"]);
             }
             if own.fitted && self.studies.iter().all(|study| study.fitted_to.is_empty()) {
-                wrong(
-                    "fitted",
-                    "is fitted, but no study of the paper says what to; `fitted_to` is needed".to_owned(),
-                );
+                let message = "is fitted, but no study of the paper says what to; `fitted_to` is needed";
+                wrong("fitted", message.to_owned(), &["fitted_to"]);
             }
         }
     }
@@ -212,7 +215,8 @@ impl Paper {
             if !known.contains(name.get_ref().as_str()) {
                 let message = none_called(what, name.get_ref(), known.iter().copied());
                 let error = self.document.error(name.span(), message).about(name.get_ref());
-                faults.add(error.about(&names_of(what)));
+                let error = error.about(&names_of(what));
+                faults.add(if what == "study" { error } else { error.about("id") });
             }
         }
     }
@@ -241,12 +245,6 @@ fn option_faults(name: &str, option: &OptionSpec, reading: &Reading) -> Vec<Stri
         faults.push(format!("option `{name}` cites nothing; the source and its words are accepted"));
     }
     faults
-}
-
-/// What is wrong with the options that an option asks to stand with.
-fn only_with_faults(name: &str, option: &OptionSpec, all: &[Reading]) -> Vec<String> {
-    let unknown = unknown_options(&option.only_with, all).into_iter();
-    unknown.map(|(_, message)| format!("option `{name}`, only_with{message}")).collect()
 }
 
 /// Of options by reading those that are none of `all`, by reading; and readings of which none is named.

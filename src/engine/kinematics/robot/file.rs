@@ -281,7 +281,7 @@ fn self_pair(
             let hint = did_you_mean(name.get_ref(), known.iter().copied());
             let (name, known, at) = (name.get_ref(), known.join(", "), name.span());
             let message = format!("self_pairs names capsule `{name}`{hint}; accepted: {known}");
-            source.fault(&at, message).about(name)
+            source.fault(&at, message).about(name).about("name")
         })
     };
     let [first, second] = pair.get_ref();
