@@ -1,7 +1,7 @@
 //! Judges every claim of a paper, and which claims hold together.
 
 use super::class::{self, Caps, Sessions, Verdict};
-use super::context::Context;
+use super::context::{self, Context};
 use super::criterion::{self, Criterion};
 use super::evidence::{Evidence, Run, default_point};
 use super::found::Found;
@@ -14,7 +14,7 @@ use base::hash::sha256;
 use base::settings::{Faults, SettingsError, none_called};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use study::paper::{Asked, Claim, Paper, Parts};
+use study::paper::{Asked, Claim, Paper, Parts, names_of};
 
 /// Builds every criterion and rule of every claim, so that `replan check` finds what is wrong before anything runs.
 ///
@@ -28,13 +28,15 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
         for (index, id) in study.fitted_to.iter().enumerate() {
             if paper.claim(id).is_none() {
                 let message = format!("fitted_to: {}", none_called("claim", id, ids()));
-                faults.add(study.document.error_at(&format!("fitted_to.{index}"), message).about(id));
+                let error = study.document.error_at(&format!("fitted_to.{index}"), message).about(id);
+                faults.add(error.about(&names_of("claim")).about("id"));
             }
         }
     }
     check_metrics(paper, &mut faults);
     let point = default_point(paper);
     for claim in &paper.claims {
+        faults.keep(context::printed(paper, claim));
         for (asked, name, settings) in claim.asked() {
             let context = Context { claim, settings, paper, point: &point };
             faults.keep(built(asked, name, &context).map(|_| ()));
@@ -145,10 +147,15 @@ fn built<'a>(
         Asked::Rule => ("rule", rule::REGISTRY, rule::find(name)),
         Asked::Decides | Asked::Shown => ("criterion", criterion::REGISTRY, criterion::find(name)),
     };
+    let key = match asked {
+        Asked::Rule => "rule",
+        Asked::Decides => "check",
+        Asked::Shown => "shows",
+    };
     let unknown = || {
         let known = registry.iter().map(|entry| entry.name);
         let message = format!("claim `{}`: {}", context.claim.id, none_called(what, name, known));
-        context.settings.error(message)
+        context.error_at_key([key, name], message)
     };
     (found.ok_or_else(unknown)?.build)(context)
 }

@@ -3,7 +3,7 @@
 use super::metric::{self, Metric};
 use super::selection_spec::Labels;
 use audit::exact::Print;
-use audit::printed::Digits;
+use audit::printed::{Digits, Printed};
 use base::settings::{Faults, Settings, SettingsError, did_you_mean, none_called};
 use std::collections::BTreeSet;
 use study::paper::{self, Claim, Paper};
@@ -40,19 +40,42 @@ fn audited(digits: paper::Digits) -> Digits {
     }
 }
 
+/// The number of `claim` among those of `paper`, from 0.
+fn place_of(paper: &Paper, claim: &Claim) -> String {
+    let place = paper.claims.iter().position(|own| std::ptr::eq(own, claim) || own.id == claim.id);
+    place.unwrap_or_default().to_string()
+}
+
+/// The number that `claim` prints; none if it prints none.
+///
+/// # Errors
+/// What it prints is no number that we take, told where it is printed.
+pub fn printed(paper: &Paper, claim: &Claim) -> Result<Option<Printed>, SettingsError> {
+    let refused = |e: audit::AuditError| {
+        let place = format!("claim.{}.printed", place_of(paper, claim));
+        let message = format!("claim `{}`: {e}", claim.id);
+        paper.document.error_at(&place, message).about(&paper::printed_by(&claim.id))
+    };
+    claim.printed.as_ref().map(|text| text.parse().map_err(refused)).transpose()
+}
+
 impl<'a> Context<'a> {
     /// The claim's printed number and how its digits end.
     ///
     /// # Errors
     /// The claim prints no number.
     pub fn print(&self) -> Result<Print, SettingsError> {
-        let missing = || format!("claim `{}` prints no number, which is needed here", self.claim.id);
-        let text = self.claim.printed.as_ref().ok_or_else(|| self.settings.error(missing()))?;
-        let about = || paper::printed_by(&self.claim.id);
-        let refused = |e: audit::AuditError| self.settings.error(e.to_string()).about(&about());
-        let printed = text.parse().map_err(refused)?;
+        let message = format!("claim `{}` prints no number, which is needed here", self.claim.id);
+        let missing = || self.settings.error(message).about("printed").about("printed_ratio");
+        let printed = printed(self.paper, self.claim)?.ok_or_else(missing)?;
         let digits = self.claim.digits.or_else(|| self.point.digits()).unwrap_or(paper::Digits::Unknown);
         Ok(Print { printed, digits: audited(digits) })
+    }
+
+    /// An error at the key that `steps` lead to in the claim.
+    pub fn error_at_key(&self, steps: [&str; 2], message: String) -> SettingsError {
+        let index = place_of(self.paper, self.claim);
+        self.paper.document.error_at_key(&["claim", &index, steps[0], steps[1]], message)
     }
 
     /// That of another claim.
@@ -70,7 +93,8 @@ impl<'a> Context<'a> {
     pub fn claim_called(&self, id: &str) -> Result<&'a Claim, SettingsError> {
         self.paper.claim(id).ok_or_else(|| {
             let known = self.paper.claims.iter().map(|claim| claim.id.as_str());
-            self.settings.error_about("", &[""], id, none_called("claim", id, known))
+            let error = self.settings.error_about("", &[""], id, none_called("claim", id, known));
+            error.about(&paper::names_of("claim")).about("id")
         })
     }
 
@@ -81,7 +105,9 @@ impl<'a> Context<'a> {
     pub fn study(&self, within: &str, name: &str, contenders: &[&str]) -> Result<&'a Study, SettingsError> {
         let study = self.paper.study(name).ok_or_else(|| {
             let known = self.paper.studies.iter().map(|study| study.name.as_str());
-            self.settings.error_about(within, &STUDY_KEYS, name, none_called("study", name, known))
+            let error =
+                self.settings.error_about(within, &STUDY_KEYS, name, none_called("study", name, known));
+            error.about(&paper::names_of("study"))
         })?;
         let known: Vec<&str> = study.contenders.iter().map(|c| c.label.as_str()).collect();
         let mut faults = Faults::default();
@@ -128,7 +154,8 @@ impl<'a> Context<'a> {
         }
         faults.done()?;
         if groups.is_empty() {
-            return Err(self.settings.error_at(within, "`problems` needs at least one label"));
+            let message = "`problems` needs at least one label";
+            return Err(self.settings.error_at(within, message).about("problems"));
         }
         Ok(groups)
     }

@@ -147,8 +147,8 @@ impl<'a> Selection<'a> {
     /// # Errors
     /// There is none.
     pub fn against(&self, context: &Context<'_>) -> Result<&str, SettingsError> {
-        let missing =
-            || context.settings.error_at("of", "`of` needs `against`: the contender that it is held against");
+        let message = "`of` needs `against`: the contender that it is held against";
+        let missing = || context.settings.error_at("of", message).about("against");
         self.against.as_deref().ok_or_else(missing)
     }
 
@@ -157,7 +157,8 @@ impl<'a> Selection<'a> {
     /// # Errors
     /// There is none.
     pub fn metric(&self, context: &Context<'_>) -> Result<&'static Metric, SettingsError> {
-        self.metric.ok_or_else(|| context.settings.error_at("of", "`of` needs a `metric`"))
+        let missing = || context.settings.error_at("of", "`of` needs a `metric`").about("metric");
+        self.metric.ok_or_else(missing)
     }
 
     /// Whether it reads a clock.

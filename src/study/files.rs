@@ -89,8 +89,8 @@ pub fn schema(name: &str) -> Value {
 /// The kind of `document`.
 ///
 /// A study has `paper` or `question`; what has neither is of another kind if at least half of its keys, and more than a
-/// study has of them, are that kind's; of the rest a study is what has some key of one, what `paper` speaks of, and what
-/// is no TOML.
+/// study has of them, are that kind's, and some table or list under one of them is as that kind has it: `name` and `tool` are
+/// keys of many files. Of the rest a study is what has some key of one, what `paper` speaks of, and what is no TOML.
 pub fn kind_of(document: &Document, paper: &Document) -> &'static str {
     let keys = document.keys();
     if ["paper", "question"].iter().any(|key| keys.contains(key)) {
@@ -101,7 +101,9 @@ pub fn kind_of(document: &Document, paper: &Document) -> &'static str {
         keys.iter().filter(|key| schema.get("properties").is_some_and(|all| all.get(key).is_some())).count()
     };
     let as_study = KINDS.iter().filter(|kind| kind.name == STUDY).map(shared).max().unwrap_or(0);
-    let others = || KINDS.iter().filter(|kind| shared(kind) > as_study && 2 * shared(kind) >= keys.len());
+    let is_like = |kind: &FileKind| document.likeness(&kind.accepted.schema()) > 0;
+    let is_most = |kind: &FileKind| shared(kind) > as_study && 2 * shared(kind) >= keys.len();
+    let others = || KINDS.iter().filter(|kind| is_most(kind) && is_like(kind));
     let fits = |kind: &&FileKind| document.validate(&kind.accepted.schema()).is_ok();
     let other = others().find(fits).or_else(|| others().max_by_key(|kind| shared(kind)));
     let stem = document.path().file_stem().unwrap_or_default().to_string_lossy();

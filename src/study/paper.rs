@@ -3,6 +3,7 @@
 //! The claims' checks stay tables here; they are understood on the floor that judges.
 
 mod claim;
+mod ids;
 mod ledger;
 mod report;
 pub mod results;
@@ -11,6 +12,7 @@ mod tables;
 
 pub use self::claim::{Asked, Claim, Parts, printed_by};
 use self::claim::{ClaimSpec, claim};
+pub use self::rules::names_of;
 pub use ledger::{LedgerRow, NumbersRow};
 pub use report::{CLAIMS, FIGURES, OVER_READINGS, ReportSpec, filled};
 

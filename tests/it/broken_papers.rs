@@ -151,7 +151,7 @@ const BROKEN: [(&str, &str, &[Mistake]); 10] = [
                 "scene.toml",
                 "max_mm = [800, -300, 60]",
                 "max_mm = [300, -300, 60]",
-                "scene.toml:16:1: obstacle `shelf`",
+                "scene.toml:19:11: obstacle `shelf`",
             ),
             ("poses.toml", "-120, -90, 0]", "-120, -90]", "poses.toml:5:5: "),
             ("paper.toml", "at = \"section 3\"\n", "", "missing key `at`"),

@@ -4,7 +4,7 @@
 use crate::paper::Bench;
 
 /// A change of a file of a template, and what must be said of it.
-type Change<'a> = (&'a str, &'a str, &'a str);
+pub type Change<'a> = (&'a str, &'a str, &'a str);
 
 /// What `check` says of the template with the changes made, line by line without excerpts.
 fn told(template: &str, changes: &[Change<'_>]) -> Vec<String> {
@@ -21,7 +21,7 @@ fn told(template: &str, changes: &[Change<'_>]) -> Vec<String> {
 }
 
 /// That exactly `wanted` is told, each line by how it begins.
-fn assert_told(template: &str, changes: &[Change<'_>], wanted: &[&str]) {
+pub fn assert_told(template: &str, changes: &[Change<'_>], wanted: &[&str]) {
     let told = told(template, changes);
     let fits =
         told.len() == wanted.len() && told.iter().zip(wanted).all(|(line, wanted)| line.starts_with(wanted));
@@ -33,8 +33,8 @@ const SCENE: Change<'_> = ("scene.toml", "max_mm = [800, -300, 60]", "max_mm = [
 const POSES: Change<'_> = ("poses.toml", "-120, -90, 0]", "-120, -90]");
 const IN_FILES: [&str; 3] = [
     "poses.toml:5:5: `A` is an array of 5",
-    "robot.toml:15:1: joint 1: upper_deg is -500",
-    "scene.toml:16:1: obstacle `shelf`",
+    "robot.toml:21:13: joint 1: upper_deg is -500",
+    "scene.toml:19:11: obstacle `shelf`: `max_mm[0]` is 300",
 ];
 
 #[test]
@@ -68,13 +68,14 @@ fn every_fault_of_one_robot_file_is_told() {
 
 #[test]
 fn a_key_too_many_and_a_key_too_few_in_one_table_are_both_told() {
-    let unknown = ("compare.toml", "settings = { weight = 1,", "settings = { colour = 1,");
-    let wanted = ["compare.toml:31:12: missing key `weight`", "compare.toml:31:14: unknown key `colour`"];
-    assert_told("grid", &[unknown], &wanted);
+    let unknown =
+        ("lengths.toml", "radius_cells = 1 }, open_node = \"lowered\"", "radius_cells = 1 }, colour = 1");
+    let wanted = ["lengths.toml:37:12: missing key `open_node`", "lengths.toml:37:70: unknown key `colour`"];
+    assert_told("arm", &[unknown], &wanted);
     // What is missing in one contender is told although another's is only misspelt.
-    let misspelt = ("compare.toml", "settings = { weight = 2,", "settings = { wieght = 2,");
-    let wanted = [wanted[0], wanted[1], "compare.toml:36:14: unknown key `wieght`"];
-    assert_told("grid", &[unknown, misspelt], &wanted);
+    let misspelt = ("lengths.toml", "radius_cells = 2 }, open_node", "radius_cells = 2 }, open_nodes");
+    let wanted = [wanted[0], wanted[1], "lengths.toml:42:70: unknown key `open_nodes`"];
+    assert_told("arm", &[unknown, misspelt], &wanted);
 }
 
 #[test]

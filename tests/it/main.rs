@@ -32,6 +32,7 @@ mod jump_points;
 mod latex;
 mod laws;
 mod mutation;
+mod own_keys;
 mod own_paper;
 mod page;
 mod paper;

@@ -37,7 +37,7 @@ struct Settings {
     truth: Option<String>,
     /// How far they may be apart, in the metric's unit, beyond a billionth of the truth.
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0, max = 1e9))]
     within: f64,
 }
 

@@ -108,7 +108,8 @@ impl<'a> LeastOf<'a> {
         let (lower, higher) = (settings.lower.listed(), settings.higher.listed());
         for (key, labels) in [("lower", &lower), ("higher", &higher)] {
             if labels.is_empty() {
-                return Err(context.settings.error_at(key, format!("`{key}` needs at least one contender")));
+                let message = format!("`{key}` needs at least one contender");
+                return Err(context.settings.error_at(key, message).about(key));
             }
         }
         if let Some(own) = lower.iter().find(|own| higher.contains(own)) {

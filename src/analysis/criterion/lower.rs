@@ -72,7 +72,7 @@ impl<'a> Lower<'a> {
         of.against(context)?;
         if of.metric.is_none() && of.study.sweeps.is_empty() {
             let message = format!("`of` needs a `metric`: study `{}` sweeps nothing", of.study.name);
-            return Err(context.settings.error_at("of", message));
+            return Err(context.settings.error_at("of", message).about("metric"));
         }
         let plan = plan(&context.seed_names());
         Ok(Self { of, way: settings.is, by_percent: settings.by_percent, plan })

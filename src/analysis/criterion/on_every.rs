@@ -81,7 +81,8 @@ impl<'a> OnEvery<'a> {
         let is_bounded = matches!(that, That::AtMost | That::Above | That::AtMostTimes);
         if is_bounded != settings.bound.is_some() {
             let needs = if is_bounded { "needs a `bound`" } else { "takes no `bound`" };
-            return Err(context.settings.error_at("that", format!("this kind of `that` {needs}")));
+            let message = format!("this kind of `that` {needs}");
+            return Err(context.settings.error_at("that", message).about("bound"));
         }
         if !matches!(that, That::AtMost | That::Above) {
             of.against(context)?;

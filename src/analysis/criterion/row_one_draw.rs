@@ -93,7 +93,8 @@ impl<'a> RowOneDraw<'a> {
             };
             if row.claims.len() != count {
                 let message = format!("the row has {} claims for {count} cells", row.claims.len());
-                return Err(context.settings.error_at(&format!("rows.{index}.claims"), message));
+                let error = context.settings.error_at(&format!("rows.{index}.claims"), message);
+                return Err(error.about("claims").about("statistics").about("of"));
             }
             for id in &row.claims {
                 printed.push(context.print_of(id)?.printed.value());
@@ -104,7 +105,7 @@ impl<'a> RowOneDraw<'a> {
             settings.rows.iter().enumerate().filter_map(|row| faults.keep(read(row))).collect();
         faults.done()?;
         if rows.is_empty() {
-            return Err(context.settings.error_at("rows", "at least one row is needed"));
+            return Err(context.settings.error_at("rows", "at least one row is needed").about("rows"));
         }
         Ok(Self { rows, printed, refused_below: settings.refused_below })
     }

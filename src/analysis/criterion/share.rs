@@ -111,10 +111,11 @@ impl<'a> Counted<'a> {
         let needs_columns = matches!(hits, Hits::Marked | Hits::Events);
         if needs_columns == settings.columns.is_empty() || (hits == Hits::Events) != settings.per.is_some() {
             let message = "`marked` and `events` take `columns`, and `events` takes `per`; nothing else does";
-            return Err(context.settings.error_at("hits", message));
+            return Err(context.settings.error_at("hits", message).about("columns").about("per"));
         }
         if (hits == Hits::Above) != settings.bound.is_some() {
-            return Err(context.settings.error_at("hits", "`above` takes a `bound`; nothing else does"));
+            let message = "`above` takes a `bound`; nothing else does";
+            return Err(context.settings.error_at("hits", message).about("bound"));
         }
         if matches!(hits, Hits::Above | Hits::Lower | Hits::Higher | Hits::LowerThroughout) {
             of.metric(context)?;

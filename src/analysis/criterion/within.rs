@@ -39,7 +39,7 @@ struct Settings {
     /// What is taken of all draws.
     statistic: OfAll,
     /// How far the statistic may be from the printed number, in its unit.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0, max = 1e9))]
     margin: Option<f64>,
     /// Two claims whose printed numbers' ratio the margin is about, in place of the claim's own number.
     printed_ratio: Option<[String; 2]>,

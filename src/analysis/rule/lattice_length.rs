@@ -18,7 +18,7 @@ pub static ENTRY: Entry = Entry {
         if start.is_some() != goal.is_some() {
             let given = if start.is_some() { "start" } else { "goal" };
             let message = "`start` and `goal` are given together or not at all";
-            return Err(context.settings.error_at(given, message));
+            return Err(context.settings.error_at(given, message).about("start").about("goal"));
         }
         let (print, ends) = (context.print()?, start.zip(goal).map(|(start, goal)| [start, goal]));
         Ok(rule(move |_| refused(proof::lattice_length(print, ends, size))))

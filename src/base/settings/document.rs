@@ -125,6 +125,11 @@ impl Document {
         self.parted.contains(key)
     }
 
+    /// Whether something was taken away from it.
+    pub fn is_rest(&self) -> bool {
+        !self.parted.is_empty()
+    }
+
     /// Whether it is TOML.
     pub fn is_toml(&self) -> bool {
         self.parsed().is_ok()
@@ -134,6 +139,14 @@ impl Document {
     pub fn keys(&self) -> Vec<&str> {
         let table = self.parsed().ok().and_then(|value| value.get_ref().as_table());
         table.into_iter().flatten().map(|(key, _)| key.get_ref().as_ref()).collect()
+    }
+
+    /// Every text in quotes and every word of its text, whether it is TOML or not: a name that it gives is among them.
+    pub fn words(&self) -> BTreeSet<&str> {
+        let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
+        let bare = self.text().split(|c| !is_part(c));
+        let quoted = self.text().lines().flat_map(|line| line.split(['"', '\'']).skip(1));
+        bare.chain(quoted).filter(|word| !word.is_empty()).collect()
     }
 
     /// Whether some value in it is the text `word`.
@@ -162,6 +175,13 @@ impl Document {
     /// As far as the document does not have it, the place is that of the innermost value it has.
     pub fn error_at(&self, path: &str, message: impl Into<String>) -> SettingsError {
         let span = self.parsed().map_or(0..0, |value| span_of(value, path));
+        self.error(span, message)
+    }
+
+    /// An error at the key that `steps` lead to, by keys and by the numbers of elements from 0. As far as the document does not
+    /// have it, as [`error_at`](Self::error_at).
+    pub fn error_at_key(&self, steps: &[&str], message: impl Into<String>) -> SettingsError {
+        let span = self.parsed().map_or(0..0, |value| key_span_of(value, steps));
         self.error(span, message)
     }
 
@@ -232,6 +252,18 @@ pub(super) fn parse(text: &str) -> Result<Spanned<DeValue<'_>>, toml::de::Error>
 /// Where the value that `path` leads to stands inside `value`.
 pub(super) fn span_of(value: &Spanned<DeValue<'_>>, path: &str) -> Range<usize> {
     part_of(value, path).span()
+}
+
+/// Where the key that `steps` lead to stands inside `value`; where the innermost value on the way stands if there is none.
+fn key_span_of(value: &Spanned<DeValue<'_>>, steps: &[&str]) -> Range<usize> {
+    let Some((step, rest)) = steps.split_first() else { return value.span() };
+    match inner(value, step) {
+        Some(next) if !rest.is_empty() => key_span_of(next, rest),
+        _ => {
+            let mut keys = value.get_ref().as_table().into_iter().flatten().map(|(key, _)| key);
+            keys.find(|key| key.get_ref() == step).map_or_else(|| value.span(), Spanned::span)
+        }
+    }
 }
 
 /// The value that `path` leads to inside `value`, or the innermost on the way that there is.

@@ -10,6 +10,7 @@ mod accepted;
 pub mod describe;
 mod document;
 mod error;
+mod likeness;
 mod nearest;
 mod place;
 mod reader;

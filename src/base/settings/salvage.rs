@@ -4,7 +4,9 @@ use super::document::parse;
 use super::reader;
 use super::schema::Node;
 use super::validate::faults;
-use super::{Document, Faults, Settings, SettingsError};
+use super::{Document, Faults, Settings, SettingsError, schema_of};
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -16,6 +18,20 @@ use toml::{Spanned, Table};
 const ROUNDS: usize = 20;
 
 impl Document {
+    /// What is accepted of the document as a `T`, and the document without the rest, which goes to `faults`; none if that leaves
+    /// nothing that can be read.
+    pub fn read_rest<T: DeserializeOwned + JsonSchema + 'static>(
+        self: &Arc<Self>,
+        faults: &mut Faults,
+    ) -> Option<(T, Arc<Self>)> {
+        if self.text().trim().is_empty() {
+            return faults.keep(self.read::<T>()).map(|read| (read, self.clone()));
+        }
+        let rest = self.salvaged(&schema_of::<T>(), faults);
+        let read = faults.keep(rest.read::<T>());
+        read.map(|read| (read, rest))
+    }
+
     /// The document without what `schema` does not accept; that goes to `faults`, with the names that went with it.
     ///
     /// What a table at the top must have is filled in with something that is accepted. A document that is no TOML stays as it
@@ -128,7 +144,11 @@ fn remove(value: &mut DeValue<'_>, span: &Range<usize>, names: &mut Vec<String>)
     };
     match value {
         DeValue::Table(table) => {
-            let found = table.iter().find(|(key, inner)| is_it(Some(key.span()), inner));
+            let holds = |list: &Spanned<DeValue<'_>>| {
+                list.get_ref().as_array().is_some_and(|all| all.iter().any(|one| is_it(None, one)))
+            };
+            // A list of tables with headers of their own stands where its first table does, which is what is meant.
+            let found = table.iter().find(|(key, inner)| is_it(Some(key.span()), inner) && !holds(inner));
             if let Some(key) = found.map(|(key, _)| key.get_ref().clone()) {
                 names.push(key.to_string());
                 if let Some(gone) = table.remove(&*key) {
@@ -136,6 +156,10 @@ fn remove(value: &mut DeValue<'_>, span: &Range<usize>, names: &mut Vec<String>)
                 }
                 return true;
             }
+            // A list that lacks an element may be too short.
+            names.extend(
+                table.iter().filter(|(_, list)| holds(list)).map(|(key, _)| key.get_ref().to_string()),
+            );
             table.iter_mut().any(|(_, inner)| remove(inner.get_mut(), span, names))
         }
         DeValue::Array(elements) => {

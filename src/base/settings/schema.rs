@@ -137,6 +137,11 @@ impl<'a> Node<'a> {
         (said("minItems").unwrap_or(0), said("maxItems").unwrap_or(u64::MAX))
     }
 
+    /// What is accepted of a number, none of which may be further from 0 than `furthest`, in words.
+    pub(super) fn accepted_within(self, furthest: f64) -> String {
+        self.number("a number", furthest)
+    }
+
     /// What is accepted, in words.
     pub(super) fn accepted(self) -> String {
         let branches = self.branches();
@@ -159,8 +164,8 @@ impl<'a> Node<'a> {
 
     fn of_kind(self, kind: &str) -> String {
         match kind {
-            "integer" => self.number("a whole number"),
-            "number" => self.number("a number"),
+            "integer" => self.number("a whole number", f64::INFINITY),
+            "number" => self.number("a number", f64::INFINITY),
             "boolean" => "true or false".to_owned(),
             "string" => "text in quotes".to_owned(),
             "array" => self.array(),
@@ -169,16 +174,20 @@ impl<'a> Node<'a> {
         }
     }
 
-    fn number(self, what: &str) -> String {
+    fn number(self, what: &str, furthest: f64) -> String {
         let ((low, high), (above, below)) = (self.bounds(), self.open_bounds());
+        let (low, high) = (low.max(-furthest), high.min(furthest));
+        let told = |end: f64| {
+            if what == "a number" && end.abs() >= 1e9 { format!("{end:e}") } else { end.to_string() }
+        };
         let lower = match () {
             () if above >= low && above.is_finite() => Some(format!("above {above}")),
-            () if low.is_finite() => Some(format!("from {low}")),
+            () if low.is_finite() => Some(format!("from {}", told(low))),
             () => None,
         };
         let upper = match () {
             () if below <= high && below.is_finite() => Some(format!("below {below}")),
-            () if high.is_finite() => Some(format!("to {high}")),
+            () if high.is_finite() => Some(format!("to {}", told(high))),
             () => None,
         };
         match (lower, upper) {

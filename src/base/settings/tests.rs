@@ -4,6 +4,8 @@ use serde::Deserialize;
 use std::path::Path;
 use toml::Table;
 
+mod rest;
+
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Outer {

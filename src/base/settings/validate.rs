@@ -189,7 +189,9 @@ fn plain(node: Node<'_>, subject: Subject<'_>, found: &mut Found) {
         DeValue::Table(table) => keys(node, subject, table, found),
         DeValue::Array(elements) => array(node, subject, elements, found),
         value => {
-            if number(value).is_some_and(|number| !is_within(node, number)) {
+            if number(value).is_some_and(|number| number.is_finite() && !is_usable(node, number)) {
+                found.push(|| refused(subject, &node.accepted_within(LARGEST)));
+            } else if number(value).is_some_and(|number| !is_within(node, number)) {
                 found.push(|| refused(subject, &node.accepted()));
             } else if let Some(limit) = whole(value).and_then(|whole| node.limit_passed(whole)) {
                 found.push(|| refused(subject, &format!("{} (no further than {limit})", node.accepted())));
@@ -272,9 +274,6 @@ fn refused(subject: Subject<'_>, accepted: &str) -> Fault {
     let found = shown(subject.value.get_ref());
     let accepted = match number(subject.value.get_ref()) {
         Some(number) if !number.is_finite() => accepted.replace("a number", "a finite number"),
-        Some(number) if number.abs() > LARGEST && accepted == "a number" => {
-            format!("a number from -{LARGEST:e} to {LARGEST:e}")
-        }
         _ => accepted.to_owned(),
     };
     let name = if subject.name.is_empty() { "the value".to_owned() } else { format!("`{}`", subject.name) };
@@ -322,7 +321,12 @@ fn shown(value: &DeValue<'_>) -> String {
         }
         DeValue::String(text) => format!("\"{text}\""),
         DeValue::Integer(whole) => whole.to_string(),
-        DeValue::Float(real) => real.to_string(),
+        // As a number, not as it is written: what is wrong in a table and in a copy of it is one thing.
+        DeValue::Float(real) => match real.as_str().parse::<f64>() {
+            Ok(number) if number.is_finite() => format!("{number:?}"),
+            Ok(number) => number.to_string().to_lowercase(),
+            Err(_) => real.to_string(),
+        },
         DeValue::Boolean(boolean) => boolean.to_string(),
         DeValue::Datetime(time) => time.to_string(),
         DeValue::Array(elements) => format!("an array of {}", elements.len()),

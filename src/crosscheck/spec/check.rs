@@ -3,7 +3,7 @@
 use super::{SceneFormat, Spec, armed};
 use crate::crosscheck::stored::StoredPaths;
 use base::settings::{Faults, none_called};
-use engine::kinematics::{Robot, robot::Body};
+use engine::kinematics::{KinematicsError, Robot, robot::Body};
 use engine::space::cell::Scene;
 use study::Inputs;
 use study::paper::Paper;
@@ -14,10 +14,15 @@ impl Spec {
         faults.keep(self.check_names());
         for (index, robot) in self.file.robots.iter().enumerate() {
             let (robot, at) = (robot.get_ref(), |key: &str| format!("robot.{index}.{key}"));
-            let loaded =
-                inputs.locate(&robot.file).and_then(|file| Robot::load(&file).map_err(|e| e.to_string()));
+            let wrong = |message: String| self.document.error_at(&at("file"), message);
+            let loaded = inputs.locate(&robot.file).map_err(wrong).and_then(|file| {
+                Robot::load(&file).map_err(|error| match error {
+                    KinematicsError::File(faults) => faults,
+                    other => wrong(other.to_string()),
+                })
+            });
             match loaded {
-                Err(message) => faults.add(self.document.error_at(&at("file"), message)),
+                Err(error) => faults.add(error),
                 Ok(loaded) => {
                     let known: Vec<&str> = loaded.bodies().iter().map(Body::name).collect();
                     if !known.contains(&robot.body.as_str()) {

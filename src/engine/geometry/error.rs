@@ -89,6 +89,29 @@ pub enum GeometryError {
     },
 }
 
+impl GeometryError {
+    /// The way from a shape's table to what is wrong, where tables call quantities as messages do, and corners `corners`.
+    pub(crate) fn place(&self, corners: &str) -> String {
+        match self {
+            Self::NotPositive { what, .. } => {
+                let axis = ["x", "y", "z"].iter().position(|axis| what.ends_with(&format!("along {axis}")));
+                let word = what.rsplit(' ').next().unwrap_or_default();
+                axis.map_or_else(|| word.to_owned(), |axis| format!("size.{axis}"))
+            }
+            Self::Count { what: "sides", .. } => "sides".to_owned(),
+            Self::Count { .. } | Self::Flat { .. } => corners.to_owned(),
+            Self::DuplicateVertex { second: vertex, .. } | Self::NotConvex { vertex } => {
+                format!("{corners}.{vertex}")
+            }
+            Self::DuplicatePlane { second: plane, .. } | Self::IdlePlane { plane } => {
+                format!("planes.{plane}")
+            }
+            Self::Unbounded { .. } | Self::Empty { .. } => "planes".to_owned(),
+            Self::NotFinite { .. } | Self::NotCounterClockwise { .. } => String::new(),
+        }
+    }
+}
+
 /// `value` if it is finite.
 pub(super) fn finite(what: &str, value: f64) -> Result<f64, GeometryError> {
     if value.is_finite() {

@@ -86,7 +86,11 @@ impl KinematicsError {
     /// A refusal of a joint, counted from 0, for a quantity in metres or radians, told in the units of robot
     /// files.
     pub(super) fn joint(index: usize, key: &'static str, found_si: f64, accepted: &str) -> Self {
-        let found = if key.ends_with("_mm") { found_si * 1e3 } else { found_si.to_degrees() };
+        let found = match key {
+            _ if key.ends_with("_mm") => found_si * 1e3,
+            _ if key.ends_with("_rad_s") => found_si,
+            _ => found_si.to_degrees(),
+        };
         // What was written in degrees or millimetres is shown without the rounding of the way back.
         let found = (found * 1e9).round() / 1e9;
         Self::Joint { joint: index + 1, key, found, accepted: accepted.to_owned() }

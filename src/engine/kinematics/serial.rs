@@ -63,8 +63,8 @@ impl Joint {
         self.allows(allowed).then_some(allowed)
     }
 
-    /// The first quantity that cannot be, called as in robot files, with what could.
-    fn fault(&self) -> Option<(&'static str, f64, &'static str)> {
+    /// Every quantity that cannot be, called as in robot files, with what could.
+    pub(super) fn faults(&self) -> Vec<(&'static str, f64, &'static str)> {
         let numbers = [
             ("alpha_deg", self.alpha_rad),
             ("a_mm", self.a_m),
@@ -74,16 +74,19 @@ impl Joint {
             ("upper_deg", self.upper_rad),
             ("speed_deg_s", self.speed_rad_s),
         ];
-        let unreal = numbers.into_iter().find(|(_, value)| !value.is_finite());
-        let unreal = unreal.map(|(key, value)| (key, value, "a finite number"));
-        let endless = numbers.into_iter().find(|(_, value)| value.abs() > LARGEST);
-        let endless =
-            endless.map(|(key, value)| (key, value, "at most a thousand kilometres or 10^6 rad, either way"));
-        let crossed = self.upper_rad <= self.lower_rad;
-        let crossed = crossed.then_some(("upper_deg", self.upper_rad, "more than lower_deg"));
-        let stuck = self.speed_rad_s <= 0.0;
-        let stuck = stuck.then_some(("speed_deg_s", self.speed_rad_s, "more than 0"));
-        unreal.or(endless).or(crossed).or(stuck)
+        let unmeant = |(key, value): (&'static str, f64)| match value {
+            _ if !value.is_finite() => Some((key, value, "a finite number")),
+            _ if value.abs() > LARGEST && key.ends_with("_mm") => Some((key, value, "-10^9 to 10^9")),
+            _ if value.abs() > LARGEST => Some((key, value, "at most 10^6 rad, either way")),
+            _ => None,
+        };
+        let mut faults: Vec<_> = numbers.into_iter().filter_map(unmeant).collect();
+        let is_fine = |key: &str| faults.iter().all(|(faulty, ..)| *faulty != key);
+        let crossed = self.upper_rad <= self.lower_rad && is_fine("lower_deg") && is_fine("upper_deg");
+        let stuck = self.speed_rad_s <= 0.0 && is_fine("speed_deg_s");
+        faults.extend(crossed.then_some(("upper_deg", self.upper_rad, "more than lower_deg")));
+        faults.extend(stuck.then_some(("speed_deg_s", self.speed_rad_s, "more than 0")));
+        faults
     }
 }
 
@@ -116,7 +119,7 @@ impl Chain {
     /// [`KinematicsError::Joint`] if a number is not finite, limits are crossed, or a speed is not above 0.
     pub fn new(joints: [Joint; AXES], base: Frame, tool: Frame) -> Result<Self, KinematicsError> {
         for (index, joint) in joints.iter().enumerate() {
-            if let Some((key, found, accepted)) = joint.fault() {
+            if let Some((key, found, accepted)) = joint.faults().into_iter().next() {
                 return Err(KinematicsError::joint(index, key, found, accepted));
             }
         }

@@ -64,8 +64,9 @@ impl SupportEntry {
     /// The entry, checked.
     ///
     /// # Errors
-    /// A sentence for a pedestal without height or sides, and where nothing is under the arm for no reason.
-    pub fn support(&self) -> Result<Support, String> {
+    /// A sentence for a pedestal without height or sides, and where nothing is under the arm for no reason; with the key that it is
+    /// about.
+    pub fn support(&self) -> Result<Support, (&'static str, String)> {
         match self {
             Self::Floor { base_mm, yaw_deg } => {
                 let base = frame(*base_mm, *yaw_deg);
@@ -76,16 +77,17 @@ impl SupportEntry {
                 if height_mm <= 0.0 {
                     let message = "floor_mm is at the base or above it; a floor below it is accepted, or \
                                    `under = \"floor\"`";
-                    return Err(message.to_owned());
+                    return Err(("floor_mm", message.to_owned()));
                 }
                 let size = Vec3::new(sides_mm[0], sides_mm[1], height_mm) * 1e-3;
                 let middle = base * Frame::at(Vec3::z() * (-0.5 * size.z));
                 let block = OrientedBox::new(middle, size)
-                    .map_err(|e| format!("sides_mm: {e} (lengths in metres)"))?;
+                    .map_err(|e| ("sides_mm", format!("sides_mm: {e} (lengths in metres)")))?;
                 Ok(Support { base, floor_m: Some(floor_mm * 1e-3), pedestal: Some(block) })
             }
             Self::Nothing { why, .. } if why.trim().is_empty() => {
-                Err("why is empty; the reason for which nothing is under the arm is accepted".to_owned())
+                let message = "why is empty; the reason for which nothing is under the arm is accepted";
+                Err(("why", message.to_owned()))
             }
             Self::Nothing { base_mm, yaw_deg, floor_mm, .. } => Ok(Support {
                 base: frame(*base_mm, *yaw_deg),
@@ -146,7 +148,10 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Result<Support, String> {
-        toml::from_str::<SupportEntry>(text).map_err(|e| e.to_string())?.support()
+        toml::from_str::<SupportEntry>(text)
+            .map_err(|e| e.to_string())?
+            .support()
+            .map_err(|(_, message)| message)
     }
 
     #[test]

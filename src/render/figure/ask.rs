@@ -13,7 +13,7 @@ use base::settings::{Faults, Settings, SettingsError, did_you_mean, none_called}
 use engine::planner::Exhibit;
 use std::sync::Arc;
 use study::key::{DrawKey, Owner, SweepKey};
-use study::paper::Paper;
+use study::paper::{Paper, printed_by};
 use study::record::Row;
 use study::{Study, labels_of};
 
@@ -110,7 +110,10 @@ pub(super) fn sweep(settings: &Settings, study: &Study, text: &str) -> Result<Sw
 /// The printed number of the claim `id`, which the settings name at `key`.
 pub(super) fn printed(settings: &Settings, paper: &Paper, key: &str, id: &str) -> Result<f64, SettingsError> {
     let number = paper.claim(id).and_then(|claim| claim.printed.as_ref()?.parse().ok());
-    number.ok_or_else(|| settings.error_at(key, format!("there is no claim `{id}` with a printed number")))
+    number.ok_or_else(|| {
+        let error = settings.error_at(key, format!("there is no claim `{id}` with a printed number"));
+        error.about("printed").about(&printed_by(id)).about(id)
+    })
 }
 
 /// The printed numbers of the claims that the settings list under `key`.

@@ -117,7 +117,7 @@ fn how_many(corner: [f64; 2], index: usize, draws: usize) -> Note {
 /// The claim called `id`, whose criterion `one_draw` says what is to be shown.
 fn asked_claim<'p>(settings: &Settings, paper: &'p Paper, id: &str) -> Result<&'p Claim, SettingsError> {
     let known = paper.claims.iter().map(|claim| claim.id.as_str());
-    let missing = || settings.error_about("", &["claim"], id, none_called("claim", id, known));
+    let missing = || settings.error_about("", &["claim"], id, none_called("claim", id, known)).about("id");
     let claim = paper.claim(id).ok_or_else(missing)?;
     if claim.criteria().any(|(own, _)| own == "one_draw") {
         return Ok(claim);

@@ -38,7 +38,8 @@ views = ["corner"]
         }
         for (key, count) in [("contenders", read.contenders.len()), ("views", read.views.len())] {
             if count == 0 {
-                faults.add(settings.error_at(key, format!("{key} is empty; at least one is accepted")));
+                let message = format!("{key} is empty; at least one is accepted");
+                faults.add(settings.error_at(key, message).about(key));
             }
         }
         let sweep = read.sweep.as_ref().and_then(|text| faults.keep(ask::sweep(settings, study, text)));

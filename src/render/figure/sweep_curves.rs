@@ -127,7 +127,7 @@ impl Read {
     /// Refuses settings without one of these keys.
     fn has(&self, settings: &Settings, keys: &[&str]) -> Result<(), SettingsError> {
         match keys.iter().find(|key| self.is_left_out(key)) {
-            Some(key) => Err(settings.error(format!("`{key}` is missing"))),
+            Some(key) => Err(settings.error(format!("`{key}` is missing")).about(key)),
             None => Ok(()),
         }
     }

@@ -30,7 +30,10 @@ at_once = 3
         let read: WorkCell = settings.read()?;
         ask::known(settings, study, [&read.problems], &read.contenders)?;
         if read.poses.is_empty() == read.contenders.is_empty() {
-            return Err(settings.error("either poses or contenders are accepted"));
+            return Err(settings
+                .error("either poses or contenders are accepted")
+                .about("poses")
+                .about("contenders"));
         }
         read.check_queries(settings, study)?;
         Ok(Box::new(read))

@@ -42,6 +42,8 @@ impl Study {
     ) -> Result<Option<Self>, StudyError> {
         let name = document.path().file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let Some(mut spec) = faults.keep(document.read::<StudySpec>()) else {
+            // What it says is not known, but that it says it.
+            document.words().into_iter().for_each(|word| faults.unread(word));
             faults.unread(name);
             return Ok(None);
         };
@@ -127,7 +129,6 @@ fn check_labels(spec: &StudySpec, document: &Document, study: &str, faults: &mut
     unique(document, "problem group", spec.problems.iter().map(|p| &p.label), faults);
     unique(document, "contender", spec.contenders.iter().map(|c| &c.label), faults);
     unique(document, "reading", spec.readings.iter().map(|r| &r.id), faults);
-    unique(document, "figure", spec.figures.iter().map(|f| &f.id), faults);
 }
 
 fn unique<'a>(

@@ -128,7 +128,8 @@ impl Posed {
 
 /// The support, checked: the problem's origin is the base.
 fn support(settings: &Settings, entry: &SupportEntry) -> Result<Support, SettingsError> {
-    let support = entry.support().map_err(|message| settings.error_at("support", message))?;
+    let support =
+        entry.support().map_err(|(key, message)| settings.error_at(&format!("support.{key}"), message))?;
     if *support.base() == Frame::IDENTITY {
         return Ok(support);
     }

@@ -34,8 +34,12 @@ radius_mm = 220
         let read: PlaneQueries = settings.read()?;
         let file = inputs.locate(&read.map).map_err(|message| settings.error_at("map", message))?;
         let document = Document::open(&file)?;
-        let map: MapFile = document.read()?;
-        let plane = map.plane(&document)?;
+        let mut faults = Faults::default();
+        let Some((map, document)) = document.read_rest::<MapFile>(&mut faults) else {
+            return Err(faults.error().into());
+        };
+        let plane = faults.keep(map.plane(&document));
+        let plane = faults.or(plane)?;
         let posed = map.posed(&plane, &document);
         let goal_at = map.goal_mm.span();
         let [start, goal] = [map.start_mm, map.goal_mm].map(|point| point.into_inner().to_vec());
@@ -113,7 +117,7 @@ impl MapFile {
             ConvexPolygon::new(vertices).map_err(|e| document.error(entry.span(), e.to_string()))
         };
         let mut faults = Faults::default();
-        if !self.size_mm.iter().all(|side| side.is_finite() && *side > 0.0) {
+        if !document.is_part("size_mm") && !self.size_mm.iter().all(|side| side.is_finite() && *side > 0.0) {
             let message = format!("size_mm is {:?}; two lengths above 0 are accepted", self.size_mm);
             faults.add(document.error_at("size_mm", message));
         }

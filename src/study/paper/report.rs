@@ -1,6 +1,6 @@
 //! What a paper's chapter of the report shows: its findings, with places for our numbers, and which figures, tables and claims.
 
-use super::Paper;
+use super::{Paper, names_of};
 use base::settings::{Faults, Spanned, did_you_mean};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -77,7 +77,8 @@ impl Paper {
                 if !claims.contains(claim) {
                     let hint = did_you_mean(claim, claims.iter().copied());
                     let message = format!("the text speaks of `{{{claim}}}`; there is no such claim{hint}");
-                    faults.add(self.document.error_at(&place, message).about(claim));
+                    let error = self.document.error_at(&place, message).about(claim).about("id");
+                    faults.add(error.about(&names_of("claim")));
                 } else if !form.is_empty() && !FORMS.contains(&form) {
                     let message = format!(
                         "the text asks for `{{{claim}:{form}}}`; the forms are {}, or none",

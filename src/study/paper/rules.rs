@@ -3,19 +3,13 @@
 use super::{ClaimSpec, Paper, Parts};
 use crate::spec::OptionSpec;
 use crate::{Reading, ReadingChoice};
-use base::settings::{Document, Faults, Spanned, none_called};
+use base::settings::{Faults, Spanned, none_called};
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Paper {
     /// What is wrong with the paper as a whole goes to `faults`.
     pub(super) fn check(&self, specs: &[ClaimSpec], faults: &mut Faults) {
-        let mut seen = BTreeSet::new();
-        for spec in specs {
-            if !seen.insert(spec.id.get_ref()) {
-                let message = format!("claim `{}` stands twice", spec.id.get_ref());
-                faults.add(self.document.error(spec.id.span(), message));
-            }
-        }
+        self.check_claim_ids(specs, faults);
         self.check_ids(faults);
         let claims: BTreeSet<&str> = self.claims.iter().map(|claim| claim.id.as_str()).collect();
         let studies: BTreeSet<&str> = self.studies.iter().map(|study| study.name.as_str()).collect();
@@ -61,34 +55,6 @@ impl Paper {
         }
     }
 
-    /// Ids of figures and tables are names of files: plain ones, each once.
-    fn check_ids(&self, faults: &mut Faults) {
-        let mut placed: Vec<(&Document, String, &String)> = Vec::new();
-        for study in &self.studies {
-            let ids = study.figures.iter().enumerate();
-            placed.extend(
-                ids.map(|(index, f)| (&*study.document, format!("figure.{index}.id"), f.id.get_ref())),
-            );
-        }
-        let results = self.results.iter().enumerate();
-        placed.extend(
-            results.map(|(index, t)| (&*self.document, format!("results.{index}.id"), t.id.get_ref())),
-        );
-        let tables = self.tables.iter().enumerate();
-        placed.extend(tables.map(|(index, table)| (&*self.document, format!("table.{index}.id"), &table.id)));
-        let mut seen = BTreeSet::from(["numbers"]);
-        for (document, place, id) in placed {
-            let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-            if id.is_empty() || !id.chars().all(is_plain) {
-                let message = format!("the id `{id}` names files; a to z, 0 to 9 and _ are accepted in it");
-                faults.add(document.error_at(&place, message));
-            } else if !seen.insert(id) {
-                let message = format!("another figure or table of the paper is called `{id}` already");
-                faults.add(document.error_at(&place, message));
-            }
-        }
-    }
-
     /// A reading's name means the same in every study of the paper.
     fn check_readings(&self, faults: &mut Faults) {
         let all = self.readings();
@@ -113,7 +79,7 @@ impl Paper {
             for (id, message) in unknown_options(&claim.holds_when, &all) {
                 let message = format!("claim `{}`, holds_when{message}", claim.id);
                 let place = format!("claim.{index}.holds_when.{id}");
-                faults.add(self.document.error_at(&place, message).about(&id));
+                faults.add(self.document.error_at(&place, message).about(&id).about("id"));
             }
         }
     }
@@ -123,9 +89,11 @@ impl Paper {
         let all = self.readings();
         let each = self.studies.iter().flat_map(|s| s.readings.iter().enumerate().map(move |r| (s, r)));
         for (study, (index, own)) in each {
-            let mut wrong = |key: &str, message: String| {
+            // It may hang on what could not be read, by these names.
+            let mut wrong = |key: &str, message: String, of: &[&str]| {
                 let place = format!("reading.{index}.{key}");
-                faults.add(study.document.error_at(&place, format!("reading `{}`: {message}", own.id)));
+                let error = study.document.error_at(&place, format!("reading `{}`: {message}", own.id));
+                faults.add(of.iter().fold(error, |error, name| error.about(name)));
             };
             let reading = all.iter().find(|known| known.id == own.id).expect("every reading is listed");
             if let Some(bounds) = own.bounds.as_ref().filter(|bounds| bounds.least > bounds.greatest) {
@@ -133,12 +101,15 @@ impl Paper {
                     "least {} is above greatest {}; rising bounds are accepted",
                     bounds.least, bounds.greatest
                 );
-                wrong("bounds", message);
+                wrong("bounds", message, &[]);
             }
             for (name, option) in &own.options {
-                let only_with = only_with_faults(name, option, &all);
-                for message in option_faults(name, option, reading).into_iter().chain(only_with) {
-                    wrong(&format!("option.{name}"), message);
+                for message in option_faults(name, option, reading) {
+                    wrong(&format!("option.{name}"), message, &["bounds", "value"]);
+                }
+                for (other, message) in unknown_options(&option.only_with, &all) {
+                    let message = format!("option `{name}`, only_with{message}");
+                    wrong(&format!("option.{name}.only_with.{other}"), message, &[&other, "id"]);
                 }
             }
             if !reading.votes(&own.default) {
@@ -146,13 +117,11 @@ impl Paper {
                     "the default `{}` needs `paper` or `practice` as other options have: what it is judged by votes",
                     own.default
                 );
-                wrong("default", message);
+                wrong("default", message, &["bounds", "value", "paper", "practice"]);
             }
             if own.fitted && self.studies.iter().all(|study| study.fitted_to.is_empty()) {
-                wrong(
-                    "fitted",
-                    "is fitted, but no study of the paper says what to; `fitted_to` is needed".to_owned(),
-                );
+                let message = "is fitted, but no study of the paper says what to; `fitted_to` is needed";
+                wrong("fitted", message.to_owned(), &["fitted_to"]);
             }
         }
     }
@@ -166,7 +135,9 @@ impl Paper {
                 let mut wrong = |message: String| {
                     let place = format!("contender.{index}.departs");
                     let message = format!("contender `{}`: {message}", contender.label);
-                    faults.add(study.document.error_at(&place, message));
+                    let error = study.document.error_at(&place, message);
+                    let named = contender.departs.iter().flat_map(|(id, option)| [id, option]);
+                    faults.add(named.fold(error, |error, name| error.about(name)));
                 };
                 if let Err(message) = ReadingChoice::new(&all, &contender.departs) {
                     wrong(message);
@@ -196,7 +167,7 @@ impl Paper {
                     "study `{}` is explored; paper.toml then needs `[explore]` with `sample` and `trials`",
                     study.name
                 );
-                faults.add(study.document.error_at("explore", message));
+                faults.add(study.document.error_at("explore", message).about("explore"));
             }
             let other = study.explore.as_ref().and_then(|explore| explore.stands_for.as_ref());
             if let Some(other) = other.filter(|other| self.study(other).is_none()) {
@@ -243,10 +214,17 @@ impl Paper {
         for name in names {
             if !known.contains(name.get_ref().as_str()) {
                 let message = none_called(what, name.get_ref(), known.iter().copied());
-                faults.add(self.document.error(name.span(), message).about(name.get_ref()));
+                let error = self.document.error(name.span(), message).about(name.get_ref());
+                let error = error.about(&names_of(what));
+                faults.add(if what == "study" { error } else { error.about("id") });
             }
         }
     }
+}
+
+/// What the names of all that is a `what` are called where one of them may be unread.
+pub fn names_of(what: &str) -> String {
+    format!("names of every {what}")
 }
 
 /// What is wrong with an option of `reading`: a number without bounds or bounds without a number, or an empty source.
@@ -267,12 +245,6 @@ fn option_faults(name: &str, option: &OptionSpec, reading: &Reading) -> Vec<Stri
         faults.push(format!("option `{name}` cites nothing; the source and its words are accepted"));
     }
     faults
-}
-
-/// What is wrong with the options that an option asks to stand with.
-fn only_with_faults(name: &str, option: &OptionSpec, all: &[Reading]) -> Vec<String> {
-    let unknown = unknown_options(&option.only_with, all).into_iter();
-    unknown.map(|(_, message)| format!("option `{name}`, only_with{message}")).collect()
 }
 
 /// Of options by reading those that are none of `all`, by reading; and readings of which none is named.

@@ -24,18 +24,28 @@ fn refusal(find: &str, put: &str) -> String {
 /// What is written in the file, what is put there instead, and what the refusal says.
 const REFUSALS: &[(&str, &str, &str)] = &[
     ("a_mm = 150\n", "a_mm = nan\n", "up6.toml:20:8: `a_mm` is nan; a finite number is accepted"),
+    ("a_mm = 150\n", "a_mm = -1e9\n", "up6.toml:20:8: `a_mm` is -1e9; a number from -100000 to 100000 is accepted"),
+    ("length_mm = 150", "length_mm = 1e9", "`length_mm` is 1e9; a number of 100000 or less is accepted"),
     ("a_mm = 150\n", "a_m = 0.15\n", "up6.toml:20:1: unknown key `a_m` (did you mean"),
     ("a_mm = 150\n", "", "missing key `a_mm` (The link's length"),
     ("a_mm = 150\n", "a_mm = \"150\"\n", "up6.toml:20:8: `a_mm` is \"150\"; a number is accepted"),
     ("a_mm = 150\n", "a_mm 150\n", "up6.toml:20:"),
-    ("lower_deg = -170", "lower_deg = 170", "joint 1: upper_deg is 170; accepted: more than lower_deg"),
-    ("speed_deg_s = 140", "speed_deg_s = 0", "joint 1: speed_deg_s is 0; accepted: more than 0"),
+    (
+        "lower_deg = -170",
+        "lower_deg = 170",
+        "up6.toml:24:13: joint 1: upper_deg is 170; accepted: more than lower_deg",
+    ),
+    (
+        "speed_deg_s = 140",
+        "speed_deg_s = 0",
+        "up6.toml:25:15: joint 1: speed_deg_s is 0; accepted: more than 0",
+    ),
     ("speed_deg_s = 140", "", "neither of speed_deg_s and speed_rad_s is given; accepted: exactly one"),
     ("speed_deg_s = 140", "speed_deg_s = 1\nspeed_rad_s = 1", "both of speed_deg_s and speed_rad_s"),
     (
         "alpha_deg = -90",
         "alpha_deg = -80",
-        "up6.toml:18:1: joint 1: alpha_deg is -80; accepted: 90 or -90, for the solver `spherical_wrist`",
+        "up6.toml:19:13: joint 1: alpha_deg is -80; accepted: 90 or -90, for the solver `spherical_wrist`",
     ),
     (
         "d_mm = 0\noffset_deg = 0\nlower_deg = -135",
@@ -57,7 +67,7 @@ const REFUSALS: &[(&str, &str, &str)] = &[
     (
         "[\"elbow\", \"base\"]",
         "[\"elbow\", \"bas\"]",
-        "self_pairs names capsule `bas`; accepted: base, turret",
+        "self_pairs names capsule `bas` (did you mean `base`?); accepted: base, turret",
     ),
     ("[\"elbow\", \"base\"]", "[\"elbow\", \"forearm\"]", "accepted: capsules on two different links"),
     ("name = \"turret\"", "name = \"base\"", "capsule `base` is given twice"),
@@ -74,7 +84,7 @@ const REFUSALS: &[(&str, &str, &str)] = &[
     (
         "\"spherical_wrist\"",
         "\"offset_wrist\"",
-        "up6.toml:18:1: joint 1: a_mm is 150; accepted: 0, for the solver `offset_wrist`; `spherical_wrist` fits",
+        "up6.toml:20:8: joint 1: a_mm is 150; accepted: 0, for the solver `offset_wrist`; `spherical_wrist` fits",
     ),
 ];
 
@@ -270,4 +280,31 @@ fn a_longer_tool_takes_its_capsules_along_and_moves_nothing_else() {
     let none = up6.with_tool_length(0.0).unwrap_err().to_string();
     assert!(none.starts_with("capsule `tool_body` spans a share of the tool"), "{none}");
     assert!(up6.with_tool_length(f64::NAN).is_err());
+}
+
+#[test]
+fn a_value_out_of_range_hides_no_fault_of_another_joint_or_capsule() {
+    let text = FILE
+        .replacen("lower_deg = -170", "lower_deg = -1e308", 1)
+        .replacen("lower_deg = -135", "lower_deg = 500", 1)
+        .replacen("radius_mm = 150", "radius_mm = -150", 1)
+        .replacen("length_mm = 150", "length_mm = -150", 1);
+    let refused = Robot::parse(&text, Path::new("up6.toml")).unwrap_err().to_string();
+    let told: Vec<&str> = refused.lines().filter(|line| line.starts_with("up6.toml:")).collect();
+    let parts = [
+        "`lower_deg` is -1e308; a number from -1e9 to 1e9",
+        "joint 5: upper_deg is 135; accepted: more than lower_deg",
+        "tool.length_mm is -150",
+        "the capsule's radius is -0.15",
+    ];
+    assert!(told.len() == 4 && told.iter().zip(parts).all(|(line, part)| line.contains(part)), "{refused}");
+}
+
+#[test]
+fn a_speed_is_told_in_the_unit_that_it_is_given_in() {
+    let refused = refusal("speed_deg_s = 140", "speed_rad_s = -2");
+    assert!(
+        refused.starts_with("up6.toml:25:15: joint 1: speed_rad_s is -2; accepted: more than 0"),
+        "{refused}"
+    );
 }

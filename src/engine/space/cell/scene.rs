@@ -8,6 +8,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 
 /// What stands still around a robot.
 #[derive(Debug, Clone, PartialEq)]
@@ -111,34 +112,62 @@ fn metres(point_mm: [f64; 3]) -> Vec3 {
     Vec3::from(point_mm) * 1e-3
 }
 
+/// What is wrong with an obstacle: the way to it from the obstacle's table, and a sentence.
+type Wrong = (String, String);
+
+/// What is wrong with a shape whose corners are called `vertices_mm`, and a radius `radius_mm`.
+fn wrong(error: &GeometryError) -> Wrong {
+    let place = match error.place("vertices_mm") {
+        radius if radius == "radius" => "radius_mm".to_owned(),
+        other => other,
+    };
+    (place, format!("{error} (lengths in metres)"))
+}
+
 impl BoxEntry {
-    fn solid(&self) -> Result<Solid, GeometryError> {
+    fn solid(&self) -> Result<Solid, Vec<Wrong>> {
+        let turned_over = |axis: &usize| self.min_mm[*axis] >= self.max_mm[*axis];
+        let told = |axis: usize| {
+            let (low, high) = (self.min_mm[axis], self.max_mm[axis]);
+            let message =
+                format!("`max_mm[{axis}]` is {high}; a number above `min_mm[{axis}]`, {low}, is accepted");
+            (format!("max_mm.{axis}"), message)
+        };
+        let faults: Vec<Wrong> = (0..3).filter(turned_over).map(told).collect();
+        if !faults.is_empty() {
+            return Err(faults);
+        }
         let (min, max) = (metres(self.min_mm), metres(self.max_mm));
         let turn = Frame::turned(&Vec3::z(), self.yaw_deg.to_radians());
-        let solid = OrientedBox::new(Frame::at((min + max) * 0.5) * turn, max - min)?;
-        Ok(Solid::Box(solid))
+        let solid = OrientedBox::new(Frame::at((min + max) * 0.5) * turn, max - min);
+        solid.map(Solid::Box).map_err(|error| vec![wrong(&error)])
     }
 }
 
 impl SphereEntry {
-    fn solid(&self) -> Result<Solid, GeometryError> {
-        Ok(Solid::Sphere(Sphere::new(metres(self.center_mm), self.radius_mm * 1e-3)?))
+    fn solid(&self) -> Result<Solid, Vec<Wrong>> {
+        let solid = Sphere::new(metres(self.center_mm), self.radius_mm * 1e-3);
+        solid.map(Solid::Sphere).map_err(|error| vec![wrong(&error)])
     }
 }
 
 impl CapsuleEntry {
-    fn solid(&self) -> Result<Solid, GeometryError> {
+    fn solid(&self) -> Result<Solid, Vec<Wrong>> {
         let radius_m = self.radius_mm * 1e-3;
-        Ok(Solid::Capsule(Capsule::new(metres(self.from_mm), metres(self.to_mm), radius_m)?))
+        let solid = Capsule::new(metres(self.from_mm), metres(self.to_mm), radius_m);
+        solid.map(Solid::Capsule).map_err(|error| vec![wrong(&error)])
     }
 }
 
 impl ConvexEntry {
-    fn solid(&self) -> Result<Solid, GeometryError> {
+    fn solid(&self) -> Result<Solid, Vec<Wrong>> {
         let vertices = self.vertices_mm.iter().map(|vertex| metres(*vertex)).collect();
-        Ok(Solid::Convex(Convex::from_vertices(vertices)?))
+        Convex::from_vertices(vertices).map(Solid::Convex).map_err(|error| vec![wrong(&error)])
     }
 }
+
+/// An obstacle's name, and its shape if that can be.
+type Named<'a> = (&'a str, Result<Solid, Vec<Wrong>>);
 
 impl SceneFile {
     /// Every number of the obstacles, with the place of its obstacle.
@@ -155,6 +184,20 @@ impl SceneFile {
         let convexes = self.convexes.iter().map(|e| (e.span(), e.get_ref().vertices_mm.concat()));
         let all = boxes.chain(spheres).chain(capsules).chain(convexes);
         all.flat_map(|(at, lengths)| lengths.into_iter().map(move |length| (at.clone(), length.abs())))
+    }
+
+    /// The obstacles of each kind in the order of the file, by name, as far as they can be.
+    fn solids(&self) -> [(&'static str, Vec<Named<'_>>); 4] {
+        let boxes = self.boxes.iter().map(Spanned::get_ref).map(|e| (e.name.as_str(), e.solid()));
+        let spheres = self.spheres.iter().map(Spanned::get_ref).map(|e| (e.name.as_str(), e.solid()));
+        let capsules = self.capsules.iter().map(Spanned::get_ref).map(|e| (e.name.as_str(), e.solid()));
+        let convexes = self.convexes.iter().map(Spanned::get_ref).map(|e| (e.name.as_str(), e.solid()));
+        [
+            ("box", boxes.collect()),
+            ("sphere", spheres.collect()),
+            ("capsule", capsules.collect()),
+            ("convex", convexes.collect()),
+        ]
     }
 
     /// That the scene is not a thousandth of its size, as one written in metres is.
@@ -181,7 +224,7 @@ impl Scene {
     /// # Errors
     /// As [`parse`](Self::parse), and if the file cannot be read.
     pub fn load(path: &Path) -> Result<Self, SettingsError> {
-        Self::parse(Document::open(path)?.as_ref())
+        Self::parse(&Document::open(path)?)
     }
 
     /// The scene that `document` describes.
@@ -189,45 +232,52 @@ impl Scene {
     /// # Errors
     /// All of them at once: the line and column of an unknown key, a number that is not finite, a size that is not above 0, a shape that
     /// encloses nothing, a name that stands twice, or obstacles that all lie within 10 mm, as in a file in metres.
-    pub fn parse(document: &Document) -> Result<Self, SettingsError> {
-        let file: SceneFile = document.read()?;
-        let (support, mut faults) = (&file.support, Faults::default());
-        faults.keep(file.millimetres(document));
-        let read = support.get_ref().support().map_err(|message| document.error(support.span(), message))?;
-        let mut scene = Self { name: file.name, base: *read.base(), obstacles: Vec::new(), under: 0 };
-        for (name, solid) in read.solids().map_err(|e| document.error(support.span(), e.to_string()))? {
-            faults.keep(scene.add(document, name, support, Ok(solid)));
-            scene.under += 1;
+    pub fn parse(written: &Arc<Document>) -> Result<Self, SettingsError> {
+        let mut faults = Faults::default();
+        let Some((file, document)) = written.read_rest::<SceneFile>(&mut faults) else {
+            return Err(faults.error());
+        };
+        let document = document.as_ref();
+        if !document.is_rest() {
+            faults.keep(file.millimetres(document));
         }
-        for entry in &file.boxes {
-            faults.keep(scene.add(document, &entry.get_ref().name, entry, entry.get_ref().solid()));
+        let mut scene =
+            Self { name: file.name.clone(), base: Frame::IDENTITY, obstacles: Vec::new(), under: 0 };
+        if !document.is_part("support") {
+            scene.stand_on(document, &file.support, &mut faults);
         }
-        for entry in &file.spheres {
-            faults.keep(scene.add(document, &entry.get_ref().name, entry, entry.get_ref().solid()));
-        }
-        for entry in &file.capsules {
-            faults.keep(scene.add(document, &entry.get_ref().name, entry, entry.get_ref().solid()));
-        }
-        for entry in &file.convexes {
-            faults.keep(scene.add(document, &entry.get_ref().name, entry, entry.get_ref().solid()));
+        for (kind, obstacles) in file.solids() {
+            for (index, (name, solid)) in obstacles.into_iter().enumerate() {
+                let fault = |key: &str, message: &str| {
+                    let message = format!("obstacle `{name}`: {message}");
+                    document.error_at(&format!("{kind}.{index}.{key}"), message)
+                };
+                if scene.obstacles.iter().any(|obstacle| obstacle.name == *name) {
+                    faults.add(fault("name", "the name stands twice; accepted: a name of its own"));
+                }
+                match solid {
+                    Ok(solid) => scene.obstacles.push(Obstacle { name: name.to_owned(), solid }),
+                    Err(wrong) => wrong.iter().for_each(|(key, message)| faults.add(fault(key, message))),
+                }
+            }
         }
         faults.or(Some(scene))
     }
 
-    fn add<T>(
-        &mut self,
-        document: &Document,
-        name: &str,
-        entry: &Spanned<T>,
-        solid: Result<Solid, GeometryError>,
-    ) -> Result<(), SettingsError> {
-        let fault = |message: String| document.error(entry.span(), format!("obstacle `{name}`: {message}"));
-        if self.obstacles.iter().any(|obstacle| obstacle.name == name) {
-            return Err(fault("the name stands twice; accepted: a name of its own".to_owned()));
+    /// Puts the base where `support` says, and what is under it among the obstacles.
+    fn stand_on(&mut self, document: &Document, support: &Spanned<SupportEntry>, faults: &mut Faults) {
+        let read = match support.get_ref().support() {
+            Ok(read) => read,
+            Err((key, message)) => return faults.add(document.error_at(&format!("support.{key}"), message)),
+        };
+        self.base = *read.base();
+        match read.solids() {
+            Ok(solids) => self
+                .obstacles
+                .extend(solids.into_iter().map(|(name, solid)| Obstacle { name: name.to_owned(), solid })),
+            Err(error) => faults.add(document.error(support.span(), error.to_string())),
         }
-        let solid = solid.map_err(|error| fault(format!("{error} (lengths in metres)")))?;
-        self.obstacles.push(Obstacle { name: name.to_owned(), solid });
-        Ok(())
+        self.under = self.obstacles.len();
     }
 
     /// The scene without anything in it, not even a floor.
@@ -280,102 +330,4 @@ impl Scene {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const FLOOR: &str = "[support]\nunder = 'floor'\nbase_mm = [0, 0, 0]\nyaw_deg = 0\n";
-
-    fn refusal(text: &str) -> String {
-        let floor = if text.contains("[support]") { "" } else { FLOOR };
-        let document = Document::new(Path::new("s.toml"), format!("name = 's'\n{text}{floor}"));
-        Scene::parse(&document).unwrap_err().to_string()
-    }
-
-    #[test]
-    fn a_box_of_another_height_stands_where_it_stood() {
-        let block = "[[box]]\nname = 'b'\nmin_mm = [0, 0, 100]\nmax_mm = [10, 20, 400]\nyaw_deg = 90\n";
-        let text = format!("name = 's'\n{block}{FLOOR}");
-        let scene = Scene::parse(&Document::new(Path::new("s.toml"), text)).unwrap();
-        let changed = scene.with_height("b", 0.5).unwrap();
-        let Some(Solid::Box(higher)) = changed.obstacles().last().map(|o| &o.solid) else { panic!("no box") };
-        let z: Vec<f64> = higher.corners().iter().map(|corner| corner.z).collect();
-        let [low, high] = [f64::min, f64::max].map(|of| z.iter().copied().reduce(of).unwrap());
-        assert!((low - 0.1).abs() < 1e-12 && (high - 0.6).abs() < 1e-12, "{z:?}");
-        assert_eq!(scene.with_height("c", 0.5).unwrap_err(), "there is no box `c`; the boxes are b");
-        assert!(scene.with_height("b", 0.0).is_err());
-    }
-
-    #[test]
-    fn every_kind_of_obstacle_is_read_in_metres() {
-        let text = "name = 's'\n[support]\nunder = 'pedestal'\nbase_mm = [0, 0, 100]\nyaw_deg = 90\nfloor_mm = -5\n\
-                    sides_mm = [200, 300]\n[[box]]\nname = 'b'\nmin_mm = [0, 0, 0]\nmax_mm = [100, 200, 300]\n\
-                    yaw_deg = 90\n[[sphere]]\nname = 'k'\ncenter_mm = [1, 2, 3]\nradius_mm = 50\n[[capsule]]\nname = 'c'\n\
-                    from_mm = [0, 0, 0]\nto_mm = [0, 0, 10]\nradius_mm = 5\n[[convex]]\nname = 'p'\n\
-                    vertices_mm = [[0, 0, 0], [10, 0, 0], [0, 10, 0], [0, 0, 10]]\n";
-        let scene = Scene::parse(&Document::new(Path::new("s.toml"), text.to_owned())).unwrap();
-        let names: Vec<&str> = scene.obstacles().iter().map(|o| o.name.as_str()).collect();
-        assert_eq!(names, ["floor", "pedestal", "b", "k", "c", "p"]);
-        assert!((scene.base().origin.z - 0.1).abs() < 1e-15 && (scene.base().axis(0).y - 1.0).abs() < 1e-12);
-        let turned = scene.obstacles()[2].solid.aabb();
-        assert!((turned.max - Vec3::new(0.15, 0.15, 0.3)).norm() < 1e-12, "{turned:?}");
-    }
-
-    #[test]
-    fn a_scene_that_does_not_say_what_is_under_the_arm_is_refused() {
-        let document = Document::new(Path::new("s.toml"), "name = 's'\n".to_owned());
-        let refusal = Scene::parse(&document).unwrap_err().to_string();
-        let parts = ["s.toml:1:1", "missing key `support`", "what is under it"];
-        assert!(parts.iter().all(|part| refusal.contains(part)), "{refusal}");
-    }
-
-    #[test]
-    fn a_cleared_scene_keeps_what_the_robot_stands_on() {
-        let text =
-            format!("name = 's'\n{FLOOR}[[sphere]]\nname = 'k'\ncenter_mm = [1, 2, 3]\nradius_mm = 50\n");
-        let scene = Scene::parse(&Document::new(Path::new("s.toml"), text)).unwrap().cleared();
-        let names: Vec<&str> = scene.obstacles().iter().map(|o| o.name.as_str()).collect();
-        assert_eq!(names, ["floor"]);
-    }
-
-    #[test]
-    fn a_wrong_scene_says_which_obstacle_where_and_what_is_accepted() {
-        for (text, parts) in [
-            (
-                "[[box]]\nname = 'b'\nmin_mm = [0, 0, 0]\nmax_mm = [1, -2, 3]\n",
-                ["s.toml:2:1", "`b`", "greater than 0"],
-            ),
-            (
-                "[[box]]\nname = 'b'\nmin_mm = [0.38, -0.04, 0]\nmax_mm = [0.9, 0.04, 0.55]\n",
-                ["s.toml:2:1", "than 0.9 mm from the origin; are lengths in metres?", "(0.9 m is 900 mm)"],
-            ),
-            (
-                "[[sphere]]\nname = 'k'\ncenter_mm = [0, nan, 0]\nradius_mm = 1\n",
-                ["s.toml:4:17", "`center_mm[1]`", "finite"],
-            ),
-            (
-                "[[sphere]]\nname = 'k'\ncenter_mm = [0, 0, 0]\nradius_mm = -1\n",
-                ["s.toml:2:1", "radius", "0"],
-            ),
-            (
-                "[support]\nunder = 'floor'\nbase_mm = [0, 0, 0]\nyaw_deg = 0\nfloor_mm = 3\n",
-                ["s.toml:6:1", "floor_mm", "base_mm"],
-            ),
-            (
-                "[support]\nunder = 'pedestal'\nbase_mm = [0, 0, 0]\nyaw_deg = 0\nfloor_mm = 3\nsides_mm = [1, 1]\n",
-                ["s.toml:2:1", "at the base or above it", "a floor below it is accepted"],
-            ),
-            (
-                "[[convex]]\nname = 'p'\nvertices_mm = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]\n",
-                ["`p`", "enclose nothing", "plane"],
-            ),
-            (
-                "[[sphere]]\nname = 'k'\ncenter_mm = [0, 0, 0]\nradius_mm = 1\n[[sphere]]\nname = 'k'\n\
-                 center_mm = [0, 0, 9]\nradius_mm = 1\n",
-                ["s.toml:6:1", "twice", "name of its own"],
-            ),
-        ] {
-            let message = refusal(text);
-            assert!(parts.iter().all(|part| message.contains(part)), "{message}");
-        }
-    }
-}
+mod tests;

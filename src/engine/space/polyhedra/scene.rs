@@ -2,7 +2,7 @@
 
 use crate::geometry::{Aabb, Axis, Convex, GeometryError, Vec3};
 use crate::space::{Support, SupportEntry};
-use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
+use base::settings::{Accepted, Document, Faults, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
@@ -53,10 +53,10 @@ struct SceneFile {
     /// The box that the point may be in.
     domain: DomainEntry,
     /// Where an arm's base stands and what is under it; without it the scene is one for points alone.
-    support: Option<Spanned<SupportEntry>>,
+    support: Option<SupportEntry>,
     /// The obstacles.
     #[serde(default)]
-    obstacle: Vec<Spanned<Shape>>,
+    obstacle: Vec<Shape>,
 }
 
 #[derive(Deserialize, JsonSchema)]
@@ -191,17 +191,29 @@ pub fn read_scene(path: &Path) -> Result<Scene, SettingsError> {
     scene(&Document::open(path)?)
 }
 
-pub(super) fn scene(document: &Arc<Document>) -> Result<Scene, SettingsError> {
-    let file: SceneFile = document.read()?;
-    let solid = |entry: &Spanned<Shape>| {
-        entry.get_ref().solid().map_err(|e| document.error(entry.span(), e.to_string()))
-    };
-    let support = |entry: &Spanned<SupportEntry>| {
-        entry.get_ref().support().map_err(|message| document.error(entry.span(), message))
-    };
+pub(super) fn scene(written: &Arc<Document>) -> Result<Scene, SettingsError> {
     let mut faults = Faults::default();
-    let bodies = faults.keep_each(file.obstacle.iter().map(solid));
-    let support = faults.keep(file.support.as_ref().map(support).transpose()).flatten();
-    let domain = Aabb { min: file.domain.min.into(), max: file.domain.max.into() };
+    let Some((file, document)) = written.read_rest::<SceneFile>(&mut faults) else {
+        return Err(faults.error());
+    };
+    let solid = |(index, entry): (usize, &Shape)| {
+        let wrong = |e: GeometryError| {
+            document.error_at(&format!("obstacle.{index}.{}", e.place("points")), e.to_string())
+        };
+        entry.solid().map_err(wrong)
+    };
+    let support = |entry: &SupportEntry| {
+        entry.support().map_err(|(key, message)| document.error_at(&format!("support.{key}"), message))
+    };
+    let bodies = faults.keep_each(file.obstacle.iter().enumerate().map(solid));
+    let stands = file.support.as_ref().filter(|_| !document.is_part("support"));
+    let support = faults.keep(stands.map(support).transpose()).flatten();
+    let DomainEntry { min, max } = file.domain;
+    let turned = min.iter().zip(&max).enumerate().filter(|(_, (low, high))| low >= high);
+    for (axis, (low, high)) in turned.filter(|_| !document.is_part("domain")) {
+        let message = format!("`max[{axis}]` is {high}; a number above `min[{axis}]`, {low}, is accepted");
+        faults.add(document.error_at(&format!("domain.max.{axis}"), message));
+    }
+    let domain = Aabb { min: min.into(), max: max.into() };
     faults.or(Some(Scene { support, name: file.name, bodies, domain }))
 }

@@ -62,7 +62,8 @@ impl Across {
                 self.printed.len(),
                 self.others.len()
             );
-            return Err(settings.error_at("across.printed", message));
+            let error = settings.error_at("across.printed", message);
+            return Err(error.about("printed").about("others"));
         }
         let printed = ask::all_printed(settings, paper, "across.printed", &self.printed)?;
         let others = others(settings, study, &self.others)?;

@@ -2,13 +2,14 @@
 
 use super::Query;
 use crate::name;
-use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
+use base::settings::{Accepted, Document, Faults, SettingsError, Spanned, none_called};
 use engine::kinematics::Joints;
 use engine::space::cell::Cell;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// What a file of groups may hold.
 pub const GROUPS_FILE: Accepted = Accepted::of::<GroupsFile>();
@@ -40,14 +41,15 @@ struct GroupEntry {
 pub(super) type Placed = (Vec<Query>, Vec<[Range<usize>; 2]>);
 
 /// The queries of a file of groups.
-pub(super) fn read_queries(document: &Document) -> Result<Placed, SettingsError> {
-    let file: GroupsFile = document.read()?;
+pub(super) fn read_queries(written: &Arc<Document>) -> Result<Placed, SettingsError> {
     let mut faults = Faults::default();
+    let Some((file, document)) = written.read_rest::<GroupsFile>(&mut faults) else {
+        return Err(faults.error());
+    };
     let mut pose = |name: &Spanned<String>| {
         let found = file.pose_deg.get(name.get_ref()).ok_or_else(|| {
-            let known = file.pose_deg.keys().cloned().collect::<Vec<_>>().join(", ");
-            document
-                .error(name.span(), format!("there is no pose `{}`; the poses are {known}", name.get_ref()))
+            let known = file.pose_deg.keys().map(String::as_str);
+            document.error(name.span(), none_called("pose", name.get_ref(), known)).about(name.get_ref())
         });
         let found = faults.keep(found)?;
         if let Some(number) = found.iter().find(|number| !number.is_finite()) {
@@ -66,7 +68,7 @@ pub(super) fn read_queries(document: &Document) -> Result<Placed, SettingsError>
     for (place, message) in name::repeated(file.groups.iter().map(|group| group.name.get_ref().as_str())) {
         faults.add(document.error(file.groups[place].name.span(), message));
     }
-    if file.groups.is_empty() {
+    if file.groups.is_empty() && !document.is_part("group") {
         faults.add(document.error_at("group", "there is no group; at least one is accepted"));
     }
     let places = file.groups.iter().map(|group| [group.from.span(), group.to.span()]).collect();

@@ -1,0 +1,82 @@
+//! What is left of documents that are not accepted as they are, what they are like, and where their keys stand.
+
+use super::*;
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[expect(dead_code, reason = "a name says nothing of what a file is")]
+struct Arm {
+    name: String,
+    tool: Tool,
+    #[serde(default)]
+    joint: Vec<Joint>,
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[expect(dead_code, reason = "read by the deserializer only")]
+struct Tool {
+    name: String,
+    length: f64,
+}
+
+#[derive(Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Joint {
+    lower: f64,
+    #[schemars(range(min = 0.0))]
+    speed: Option<f64>,
+}
+
+fn document(text: &str) -> std::sync::Arc<Document> {
+    Document::new(Path::new("a.toml"), text.to_owned())
+}
+
+#[test]
+fn a_wrong_first_table_of_a_list_takes_no_other_with_it() {
+    let text = "name = 'a'\ntool = { name = 't', length = 1 }\n[[joint]]\nspeed = 1\n[[joint]]\nlower = 2\n";
+    let mut faults = Faults::default();
+    let (arm, rest) = document(text).read_rest::<Arm>(&mut faults).unwrap();
+    assert_eq!(arm.joint, [Joint { lower: 2.0, speed: None }]);
+    assert!(rest.is_part("joint") && rest.is_rest() && !rest.is_part("tool"));
+    let told = faults.error().to_string();
+    assert!(told.starts_with("a.toml:3:1: missing key `lower`") && told.lines().count() == 2, "{told}");
+}
+
+#[test]
+fn a_list_that_lacks_an_element_is_called_unread() {
+    let text = "name = 'a'\ntool = { name = 't', length = 1 }\njoint = [3, { lower = 2 }]\n";
+    let mut faults = Faults::default();
+    let (_, rest) = document(text).read_rest::<Arm>(&mut faults).unwrap();
+    faults.add(rest.error_at("joint", "two joints are needed").about("joint"));
+    let told = faults.error().to_string();
+    assert!(told.starts_with("a.toml:3:10: `joint[0]` is 3") && told.lines().count() == 2, "{told}");
+}
+
+#[test]
+fn a_document_is_like_a_schema_by_its_tables_and_lists_alone() {
+    let likeness = |text: &str| document(text).likeness(&schema_of::<Arm>());
+    for text in ["name = 'a'\n", "[tool.ruff]\nline = 3\n", "[tool]\nname = 'x'\n", "joint = 3\n", "= 3\n"] {
+        assert_eq!(likeness(text), 0, "{text}");
+    }
+    assert_eq!(likeness("[tool]\nlength = 'x'\n"), 1);
+    assert_eq!(likeness("[tool]\nlength = 1\n[[joint]]\nuper = 1\n[[joint]]\nspeed = 2\n"), 2);
+}
+
+#[test]
+fn a_key_is_found_by_the_steps_to_it_whatever_is_in_them() {
+    let document = document("[[claim]]\n[claim.check.\"a.b\"]\nof = 3\n");
+    let place = |steps: &[&str]| document.error_at_key(steps, "x").to_string();
+    assert!(place(&["claim", "0", "check", "a.b"]).starts_with("a.toml:2:14:"));
+    assert!(place(&["claim", "0", "check", "a.b", "of"]).starts_with("a.toml:3:1:"));
+    assert!(place(&["claim", "0", "says"]).starts_with("a.toml:1:1:"));
+}
+
+#[test]
+fn a_number_too_large_is_told_with_the_limit_and_without_the_way_it_is_written() {
+    let told = |text: &str| document(text).read::<Joint>().unwrap_err().to_string();
+    assert!(told("lower = 1e308\n").contains("`lower` is 1e308; a number from -1e9 to 1e9 is accepted"));
+    assert!(told("lower = 1\nspeed = 2_000_000_000\n").contains("is 2000000000; a number from 0 to 1e9 is"));
+    assert!(told("lower = 1\nspeed = -1.50\n").contains("is -1.5; a number of 0 or more is accepted"));
+    assert!(told("lower = -nan\n").contains("is nan; a finite number is accepted"));
+}

@@ -1,0 +1,151 @@
+//! The joints of a robot file: each number is told at its own key, and all that are wrong at once.
+
+use super::{Convention, RobotFile, Source};
+use crate::{
+    geometry::Frame,
+    kinematics::{
+        FARTHEST_MM, KinematicsError,
+        serial::{AXES, Chain, Joint},
+    },
+};
+use base::settings::{Faults, SettingsError, Spanned};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct JointEntry {
+    /// The twist: the turn about x from this joint's axis to the next one's.
+    alpha_deg: f64,
+    /// The link's length: the way along x to the next axis.
+    #[schemars(range(min = -FARTHEST_MM, max = FARTHEST_MM))]
+    a_mm: f64,
+    /// The offset: the way along this joint's axis.
+    #[schemars(range(min = -FARTHEST_MM, max = FARTHEST_MM))]
+    d_mm: f64,
+    /// What is added to the joint's angle.
+    offset_deg: f64,
+    /// The least angle.
+    lower_deg: f64,
+    /// The greatest angle.
+    upper_deg: f64,
+    /// The greatest speed; given like this or as `speed_rad_s`.
+    speed_deg_s: Option<f64>,
+    /// The greatest speed; given like this or as `speed_deg_s`.
+    speed_rad_s: Option<Spanned<f64>>,
+}
+
+/// What is wrong with the joint of the number `index`, from 0, at the number that `key` names.
+fn fault_at(source: &Source, index: usize, key: &str, message: impl Into<String>) -> SettingsError {
+    source.0.error_at(&format!("joint.{index}.{key}"), message)
+}
+
+/// An error of a chain or a solver, at the number that it is about; `None` if it is about no joint.
+pub(super) fn about_joint(source: &Source, error: &KinematicsError) -> Option<SettingsError> {
+    let KinematicsError::Joint { joint, key, .. } = error else { return None };
+    Some(fault_at(source, joint - 1, key, error.to_string()))
+}
+
+/// The joints of `file`; what is wrong with them goes to `faults`.
+pub(super) fn joints(source: &Source, file: &RobotFile, faults: &mut Faults) -> Option<[Joint; AXES]> {
+    let entries = file.joint.get_ref();
+    let numbered =
+        entries.iter().enumerate().map(|(index, entry)| (index, source.number(index, entry), entry));
+    let joints = faults.keep_each(numbered.map(|(index, number, entry)| joint(source, index, number, entry)));
+    // What was not accepted may be the joint that seems to be missing, or the longest link.
+    if !source.0.is_part("joint") {
+        let count = entries.len();
+        if count != AXES {
+            let span = entries.last().map_or(file.joint.span(), Spanned::span);
+            faults.add(source.fault(&span, format!("{count} joints were given; accepted: {AXES}")));
+        }
+        other_units(source, entries).into_iter().for_each(|fault| faults.add(fault));
+    }
+    joints.try_into().ok()
+}
+
+/// A key of a joint, and the number there.
+type Quantity = (&'static str, f64);
+
+/// What is said of an arm that is a thousandth of its size, or does not turn: it is written in metres or radians.
+fn other_units(source: &Source, entries: &[Spanned<JointEntry>]) -> Vec<SettingsError> {
+    // The longest link of an arm is longer, and some joint turns farther; metres and radians are less.
+    const SHORT_MM: f64 = 10.0;
+    const LITTLE_DEG: f64 = 7.0;
+    let greatest = |of: fn(&JointEntry) -> [Quantity; 2]| {
+        let each = entries.iter().enumerate();
+        let sizes = each.flat_map(|(index, entry)| of(entry.get_ref()).map(|(key, x)| (x.abs(), index, key)));
+        sizes.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(size, ..)| *size > 0.0)
+    };
+    let lengths = |joint: &JointEntry| [("a_mm", joint.a_mm), ("d_mm", joint.d_mm)];
+    let limits = |joint: &JointEntry| [("lower_deg", joint.lower_deg), ("upper_deg", joint.upper_deg)];
+    let mut faults = Vec::new();
+    if let Some((size, index, key)) = greatest(lengths).filter(|(size, ..)| *size < SHORT_MM) {
+        let message = format!(
+            "no link is longer than {size} mm; are lengths in metres? millimetres are accepted ({size} m is {} mm)",
+            size * 1e3
+        );
+        faults.push(fault_at(source, index, key, message));
+    }
+    if let Some((size, index, key)) = greatest(limits).filter(|(size, ..)| *size < LITTLE_DEG) {
+        let message = format!(
+            "no joint turns beyond {size}°; are limits in radians? degrees are accepted ({size} rad is {:.1}°)",
+            size.to_degrees()
+        );
+        faults.push(fault_at(source, index, key, message));
+    }
+    faults
+}
+
+/// The chain, and the file's frames in its frames if they differ.
+pub(super) fn chain(
+    source: &Source,
+    file: &RobotFile,
+    joints: &[Joint; AXES],
+    tool: Frame,
+) -> Result<(Chain, Option<[Frame; AXES + 1]>), SettingsError> {
+    let chain = match file.convention {
+        Convention::Distal => Chain::new(*joints, Frame::IDENTITY, tool).map(|chain| (chain, None)),
+        Convention::Modified => {
+            Chain::modified(*joints, Frame::IDENTITY, tool).map(|(chain, far)| (chain, Some(far)))
+        }
+    };
+    let fault = |error: KinematicsError| {
+        about_joint(source, &error).unwrap_or_else(|| source.fault(&file.joint.span(), error.to_string()))
+    };
+    chain.map_err(fault)
+}
+
+fn joint(
+    source: &Source,
+    index: usize,
+    number: usize,
+    entry: &Spanned<JointEntry>,
+) -> Result<Joint, SettingsError> {
+    let joint = entry.get_ref();
+    let (speed_key, speed_rad_s) = match (joint.speed_deg_s, &joint.speed_rad_s) {
+        (Some(speed_deg_s), None) => ("speed_deg_s", speed_deg_s.to_radians()),
+        (None, Some(speed_rad_s)) => ("speed_rad_s", *speed_rad_s.get_ref()),
+        (given, other) => {
+            let found = if given.is_some() { "both" } else { "neither" };
+            let message = format!("{found} of speed_deg_s and speed_rad_s is given; accepted: exactly one");
+            return Err(source.fault(&other.as_ref().map_or(entry.span(), Spanned::span), message));
+        }
+    };
+    let read = Joint {
+        alpha_rad: joint.alpha_deg.to_radians(),
+        a_m: joint.a_mm * 1e-3,
+        d_m: joint.d_mm * 1e-3,
+        offset_rad: joint.offset_deg.to_radians(),
+        lower_rad: joint.lower_deg.to_radians(),
+        upper_rad: joint.upper_deg.to_radians(),
+        speed_rad_s,
+    };
+    let mut faults = Faults::default();
+    for (key, found, accepted) in read.faults() {
+        let key = if key == "speed_deg_s" { speed_key } else { key };
+        let error = KinematicsError::joint(number, key, found, accepted);
+        faults.add(fault_at(source, index, key, error.to_string()));
+    }
+    faults.or(Some(read))
+}
