@@ -20,6 +20,7 @@ use self::gate::unknown_metric;
 use self::pair::{Pair, paired};
 use self::run::{Seen, Times};
 use super::metric::{self, Better, Metric};
+use base::settings::none_called;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use study::key::{ReadingKey, Text};
@@ -112,8 +113,9 @@ pub fn compare(sides: &Sides<'_>, asked: &Asked) -> Result<Comparison, String> {
     let runs = sides.runs();
     for study in &asked.studies {
         if !runs.iter().any(|run| run.studies.contains_key(study)) {
-            let known = runs.map(StoredRun::names).join("; ");
-            return Err(format!("--study: there is no stored run of a study `{study}`; there are {known}"));
+            let known: BTreeSet<&str> =
+                runs.iter().flat_map(|run| run.studies.keys().map(String::as_str)).collect();
+            return Err(format!("--study: {}", none_called("stored run of a study", study, known)));
         }
     }
     let metrics = metrics(&asked.metrics)?;
@@ -211,8 +213,7 @@ fn of_contenders<'r>(
 ) -> Result<Vec<Only>, String> {
     let known: BTreeSet<&str> = seen.values().flat_map(|study| study.rows.keys().copied()).collect();
     if let Some(other) = labels.iter().find(|label| !known.contains(*label)) {
-        let known = known.into_iter().collect::<Vec<_>>().join(", ");
-        return Err(format!("--contenders: no stored trial is `{other}`'s; there are {known}"));
+        return Err(format!("--contenders: {}", none_called("stored trial of a contender", other, known)));
     }
     let mut only = Vec::new();
     for (study, own) in seen {

@@ -70,7 +70,7 @@ impl<'a> Evidence<'a> {
     /// Reads the runs of every study of `paper` from `folder`, to be judged under the reading `point`.
     ///
     /// # Errors
-    /// [`StudyError::Stored`] for a run that is missing, damaged or made by another spec.
+    /// [`StudyError::Stored`] for a run that is missing, [`StudyError::Touched`] for one that is damaged or made by another spec.
     pub fn read(paper: &'a Paper, point: ReadingChoice, folder: &Path) -> Result<Self, StudyError> {
         let read = |study: &'a Study| Ok((study.name.as_str(), Run::read(study, &point, folder)?));
         // Gathered in order before any error is passed on, so that it is the first study's.
@@ -178,7 +178,7 @@ impl<'a> Run<'a> {
         if manifest.spec != spec {
             let path = Manifest::path(folder, &study.name);
             let reason = format!("the stored run was made by another spec; run study `{}` again", study.name);
-            return Err(StudyError::stored(path, reason));
+            return Err(StudyError::Touched(format!("{}: {reason}", path.display())));
         }
         let records = read_numbers(folder, &study.name, &manifest.files)?;
         let kept = KeptExhibits::stored(folder, &study.name, &manifest.files)?;

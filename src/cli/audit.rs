@@ -6,9 +6,9 @@ use ::audit::reader::{self, Format};
 use ::audit::report::{Options, Report};
 use ::audit::witness::Budget;
 use ::audit::{coverage, output};
+use base::file;
 use clap::Args;
 use std::fs;
-use std::io::Read;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 
@@ -185,13 +185,13 @@ fn about(path: &Path, error: &std::io::Error) -> Failure {
 }
 
 fn read(path: &Path) -> Result<String, Failure> {
-    let mut bytes = Vec::new();
-    let done = if path == Path::new("-") {
-        std::io::stdin().lock().read_to_end(&mut bytes).map(|_| ())
+    let read = if path == Path::new("-") {
+        file::read_all(&mut std::io::stdin().lock())
     } else {
-        fs::read(path).map(|read| bytes = read)
+        // A pipe is as good as a file here: `replan audit <(command)`.
+        fs::File::open(path).and_then(|mut file| file::read_all(&mut file))
     };
-    done.map_err(|error| {
+    let bytes = read.map_err(|error| {
         Failure::input(format!("{}: {error}; a readable text file is expected", path.display()))
     })?;
     String::from_utf8(bytes).map_err(|error| {

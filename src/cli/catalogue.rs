@@ -45,6 +45,8 @@ pub struct Item {
     pub settings: Option<Accepted>,
     /// Settings that it can be built from; empty if it needs none.
     pub example: &'static str,
+    /// A file of this repository that is one, if it is a kind of file.
+    pub file: Option<&'static str>,
     /// What stands before its settings in a file, with `{}` for its name, and the table that they are.
     pub frame: Frame,
     /// The columns that it fills.
@@ -58,6 +60,7 @@ fn planners_or_stages(first: bool) -> Vec<Item> {
         about: e.about,
         settings: Some(e.settings),
         example: e.example,
+        file: None,
         frame: if first { PLANNER } else { STAGE },
         columns: e.columns,
     };
@@ -81,6 +84,7 @@ pub fn families() -> Vec<Item> {
         about: e.about,
         settings: Some(e.settings),
         example: e.example,
+        file: None,
         frame: FAMILY,
         columns: e.columns,
     };
@@ -94,6 +98,7 @@ pub fn tasks() -> Vec<Item> {
         about: e.about,
         settings: Some(e.settings),
         example: e.example,
+        file: None,
         frame: TASK,
         columns: e.columns,
     };
@@ -116,6 +121,7 @@ fn criteria_or_rules(registry: &[&criterion::Entry], frame: Frame) -> Vec<Item> 
         about: e.about,
         settings: Some(e.settings),
         example: e.example,
+        file: None,
         frame,
         columns: &[],
     };
@@ -129,6 +135,7 @@ pub fn figures() -> Vec<Item> {
         about: e.about,
         settings: Some(e.settings),
         example: e.example,
+        file: None,
         frame: FIGURE,
         columns: &[],
     };
@@ -142,6 +149,7 @@ pub fn prepared() -> Vec<Item> {
         about: e.about,
         settings: None,
         example: "",
+        file: None,
         frame: NONE,
         columns: e.columns,
     };
@@ -155,21 +163,25 @@ pub fn files() -> Vec<Item> {
             name: "audit_tables",
             about: "printed tables, samples and relations for replan audit: docs/audit/zhang.toml",
             accepted: Accepted::of::<AuditFile>(),
+            example: "docs/audit/fu2018.toml",
         },
         FileKind {
             name: "crosscheck",
             about: "what an independent judge is asked: crosscheck.toml in a paper's folder",
             accepted: crate::crosscheck::FILE,
+            example: "experiments/gallery/crosscheck.toml",
         },
         FileKind {
             name: "paper",
             about: "a paper's source, ledger, claims and tables: paper.toml in its folder",
             accepted: paper::FILE,
+            example: "experiments/movingai_sample/paper.toml",
         },
         FileKind {
             name: "planner_protocol",
             about: "lines of JSON that planners from outside and replan write: docs/PLANNER_PROTOCOL.md",
             accepted: Accepted::of::<external::message::Messages>(),
+            example: "docs/PLANNER_PROTOCOL.md",
         },
     ];
     let item = |kind: &FileKind| Item {
@@ -177,6 +189,7 @@ pub fn files() -> Vec<Item> {
         about: kind.about,
         settings: Some(kind.accepted),
         example: "",
+        file: Some(kind.example),
         frame: NONE,
         columns: &[],
     };

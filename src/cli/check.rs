@@ -2,6 +2,7 @@
 
 use super::load::gather;
 use super::places::{Places, papers};
+use super::progress::doing;
 use super::{Failure, Which, all, counted};
 use crate::analysis::evidence::default_point;
 use crate::crosscheck::Spec;
@@ -83,17 +84,21 @@ fn notes(paper: &Paper, places: &Places) -> BTreeSet<String> {
 /// Runs a sample of each study's stored trials again.
 fn rerun(paper: &Paper, places: &Places, count: usize, threads: usize) -> Result<(), Failure> {
     for study in &paper.studies {
+        doing(&format!("{}/{}: running stored trials again", paper.id, study.name));
         let done = rerun::rerun(study, &places.inputs, &places.runs, count, threads)?;
         if let Some(first) = done.differ.first() {
             return Err(Failure::stale(format!(
-                "{} of {} trials of study `{}` are not what is stored; the first is {}/{first}",
+                "{} of {} of study `{}` are not what is stored; the first is {}/{first}",
                 done.differ.len(),
-                done.trials,
+                counted(done.trials, ["trial", "trials"]),
                 study.name,
                 study.name
             )));
         }
-        say!("  {}: {} trials run again on {threads} threads equal their rows", study.name, done.trials);
+        let equal = if done.trials == 1 { "equals its row" } else { "equal their rows" };
+        let (trials, threads) =
+            (counted(done.trials, ["trial", "trials"]), counted(threads, ["thread", "threads"]));
+        say!("  {}: {trials} run again on {threads} {equal}", study.name);
     }
     Ok(())
 }

@@ -4,8 +4,9 @@ use super::explorer::{Explorer, judged, most_draws, scratch, within};
 use super::load::load;
 use super::one_shard::OneShard;
 use super::places::Places;
+use super::progress::doing;
 use super::rounds::{Halt, Round, Rounds, unless_planned};
-use super::{Failure, How, Which, command_line, judge, verdicts};
+use super::{Failure, How, Which, command_line, counted, judge, verdicts};
 use crate::analysis::across::stored::Exploration;
 use crate::analysis::across::to_confirm;
 use crate::analysis::evidence::{Evidence, default_point};
@@ -79,9 +80,9 @@ pub fn confirm(
     second.write(&path)?;
     verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?);
     say!(
-        "{} trials on the second seed, {} readings besides the default; what was found is in {}",
-        second.trials,
-        second.readings.len() - 1,
+        "{} on the second seed, {} besides the default; what was found is in {}",
+        counted(second.trials as usize, ["trial", "trials"]),
+        counted(second.readings.len() - 1, ["reading", "readings"]),
         path.display()
     );
     Ok(())
@@ -141,6 +142,7 @@ fn confirmed(explorer: &Explorer<'_>) -> Result<Exploration, Halt> {
 /// How many trials the default reading takes on the second seed; refused if the paper's budget has no room for them.
 fn affordable(explorer: &Explorer<'_>) -> Result<u64, Failure> {
     let mut needed = 0;
+    doing(&format!("{}: counting the trials on the second seed", explorer.paper.id));
     for study in explorer.paper.studies.iter().map(|study| study.clone().reseeded()) {
         needed += explorer.trials_of(&study)?;
     }

@@ -77,6 +77,11 @@ const PICTURE: &str = "scene_mujoco.png";
 impl Crosscheck {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
+        let is_check = self.check;
+        self.cross_checked().map_err(|failure| if is_check { failure.in_check() } else { failure })
+    }
+
+    fn cross_checked(self) -> Result<(), Failure> {
         if self.statistics {
             return statistics::run(self.paper.as_deref(), self.out.as_deref(), self.python.as_deref());
         }

@@ -1,10 +1,14 @@
 //! What `replan list` says of one thing: its meaning, each of its keys, and an example, within 80 columns.
 
 use super::catalogue::Item;
+use super::places::home;
+use base::file::read_text;
 use base::settings::describe::{Default, Field, fields};
 
 /// Terminals have at least this many columns.
 const COLUMNS: usize = 80;
+/// And so many rows.
+const ROWS: usize = 24;
 
 /// `first` and then the words of `text`, on lines of 80 columns, those after the first indented by `indent`.
 pub fn wrapped(first: &str, text: &str, indent: usize) -> String {
@@ -27,11 +31,24 @@ pub fn explained(item: &Item) -> String {
             parts.push("\nIt has no settings of its own; the family of the problems has them.".to_owned());
         }
     }
+    if let Some(file) = item.file {
+        parts.push(format!("\nExample\n  {file}"));
+        parts.extend(short(file));
+    }
     if let Some(example) = item.shown() {
         parts.push("\nExample".to_owned());
         parts.extend(example.lines().map(|line| format!("  {line}")));
     }
     parts.join("\n")
+}
+
+/// What the project's `file` says without its comments, indented, if it is here and fits a terminal.
+fn short(file: &str) -> Option<String> {
+    let text = read_text(&home(None).ok()?.join(file)).ok().filter(|_| file.ends_with(".toml"))?;
+    let said: Vec<String> =
+        text.lines().filter(|line| !line.starts_with('#')).map(|line| format!("    {line}")).collect();
+    let fits = said.len() <= ROWS && said.iter().all(|line| line.chars().count() <= COLUMNS);
+    fits.then(|| said.join("\n").replace("    \n", "\n").trim_end().to_owned())
 }
 
 fn key(field: &Field) -> String {

@@ -5,7 +5,7 @@ use super::load::load;
 use super::one_shard::OneShard;
 use super::places::Places;
 use super::rounds::{Round, Rounds, unless_planned};
-use super::{Failure, How, Which, command_line, judge, verdicts};
+use super::{Failure, How, Which, command_line, counted, judge, verdicts};
 use crate::analysis::across::stored::Exploration;
 use crate::analysis::evidence::default_point;
 use clap::Args;
@@ -88,9 +88,9 @@ pub fn explore(
     exploration.write(&path)?;
     verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?);
     say!(
-        "{} trials under {} readings; what was found is in {}",
-        exploration.trials,
-        points.len(),
+        "{} under {}; what was found is in {}",
+        counted(exploration.trials as usize, ["trial", "trials"]),
+        counted(points.len(), ["reading", "readings"]),
         path.display()
     );
     Ok(())

@@ -5,7 +5,7 @@ use super::places::Places;
 use super::progress::{Bar, doing, safe_point, stop_flag};
 use super::rounds::{Halt, Round, Rounds};
 use super::sharded::Sharded;
-use super::{Failure, command_line};
+use super::{Failure, command_line, counted};
 use crate::analysis::across::glance::{Glance, glances};
 use crate::analysis::across::stored::Exploration;
 use crate::analysis::across::{compatible, near_a_flip};
@@ -91,6 +91,7 @@ impl<'p> Explorer<'p> {
     /// in order.
     pub fn affordable(&self, budget: &ExplorePaper) -> Result<(Vec<ReadingChoice>, u64), Failure> {
         let paper = self.paper;
+        doing(&format!("{}: counting the trials of its readings", paper.id));
         let seed = seed::derive(0, &[&paper.id, "explore"]);
         let refuse = |message: String| Failure::from(paper.document.error_at("explore", message));
         let found = points(&paper.readings(), paper.departures(), budget.sample, seed);
@@ -115,7 +116,9 @@ impl<'p> Explorer<'p> {
             }
             (chosen, trials) = (with, needed);
         }
-        say!("{}: {} readings, {trials} trials of at most {}", paper.id, chosen.len(), budget.trials);
+        let (readings, said) =
+            (counted(chosen.len(), ["reading", "readings"]), counted(trials as usize, ["trial", "trials"]));
+        say!("{}: {readings}, {said} of at most {}", paper.id, budget.trials);
         Ok((chosen, trials))
     }
 

@@ -2,6 +2,7 @@
 
 use super::Failure;
 use super::places::stored_run;
+use super::progress::doing;
 use crate::analysis::compare::{StoredRun, cells, stored_studies};
 use crate::render::comparison::cells_csv;
 use clap::Args;
@@ -38,11 +39,13 @@ impl Export {
     pub fn run(self) -> Result<(), Failure> {
         let folder = stored_run(&self.paper)?;
         let name = folder.file_name().unwrap_or_default();
+        doing(&format!("{}: reading its records and computing their statistics", self.paper));
         check_stored(&folder)?;
         let out = self.out.unwrap_or_else(|| PathBuf::from("target/replan/export").join(name));
         let mut staged = Staged::default();
         let cells = cells(&StoredRun::read(&folder, &self.paper)?);
         for study in stored_studies(&folder) {
+            doing(&format!("{}/{study}: writing its records", self.paper));
             let manifest = Manifest::read(&folder, &study)?;
             for part in PARTS {
                 let text = csv(&folder, &study, part, &manifest.files)?;

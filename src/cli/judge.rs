@@ -3,6 +3,7 @@
 use super::places::Places;
 use super::progress::doing;
 use super::{Failure, How, Which, verdicts};
+use crate::analysis::across::stored::Exploration;
 use crate::analysis::across::{self, Stored};
 use crate::analysis::claims;
 use crate::analysis::compare::stored_studies;
@@ -50,6 +51,7 @@ impl Judge {
 /// Judges again and refuses stored verdicts that are not what comes out, to the byte.
 fn check(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<(), Failure> {
     let (stored, path) = (Verdicts::read_as_they_stand(&places.runs)?, Verdicts::path(&places.runs));
+    check_explorations(&stored, places)?;
     let evidence = read(paper, point, places)?;
     check_manifests(&evidence, places)?;
     let now = judged(&evidence, places)?;
@@ -78,6 +80,24 @@ pub fn must_hold(verdicts: &Verdicts) -> Result<(), Failure> {
         violated[0]
     );
     Err(Failure::stale(message))
+}
+
+/// Refuses verdicts that rest on an exploration that is gone.
+fn check_explorations(stored: &Verdicts, places: &Places) -> Result<(), Failure> {
+    let Some(explored) = &stored.explored else { return Ok(()) };
+    for (is_told, path, command) in [
+        (explored.readings > 0, Exploration::first(&places.runs), "explore"),
+        (explored.second_seed, Exploration::second(&places.runs), "confirm"),
+    ] {
+        if is_told && !path.exists() {
+            let (path, paper) = (path.display(), &stored.paper);
+            let message = format!(
+                "{path}: is gone, and the stored verdicts rest on it; `replan {command} {paper}` makes it again"
+            );
+            return Err(Failure::stale(message));
+        }
+    }
+    Ok(())
 }
 
 /// Refuses manifests that say what the studies, their inputs and the records do not bear out.

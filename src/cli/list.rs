@@ -3,7 +3,8 @@
 use super::catalogue::{self, Item};
 use super::explain::{explained, wrapped};
 use super::places::{experiments, home, papers};
-use super::{Failure, all};
+use super::progress::doing;
+use super::{Failure, all, described};
 use crate::analysis::metric;
 use base::robot::read_urdf;
 use base::settings::none_called;
@@ -83,6 +84,21 @@ impl Found {
     }
 }
 
+impl Found {
+    /// What is said of a paper or study by itself; none for what has one line only.
+    fn described(&self, what: What, name: &str) -> Result<Option<String>, Failure> {
+        let find = |id: &str| self.papers.iter().find(|paper| paper.id == id);
+        Ok(match (what, name.split_once('/')) {
+            (What::Papers, _) => find(name).map(described::paper),
+            (What::Studies, Some((id, study))) => {
+                let found = find(id).and_then(|paper| Some((paper, paper.study(study)?)));
+                found.map(|(paper, study)| described::study(paper, study)).transpose()?
+            }
+            _ => None,
+        })
+    }
+}
+
 fn title(what: What) -> String {
     what.to_possible_value().expect("no variant is hidden").get_name().to_owned()
 }
@@ -112,9 +128,10 @@ fn one(what: What, name: &str) -> Result<(), Failure> {
         let (found, results) = Found::read(|kind| kind.contains(&what));
         let rows = rows(what, &found);
         let known = rows.iter().map(|(known, _)| known.as_str());
-        let found = rows.iter().find(|(known, _)| known == name);
-        let (_, about) = found.ok_or_else(|| Failure::input(none_called(singular(what), name, known)))?;
-        say!("{name}\n{}", wrapped("  ", about, 2));
+        let row = rows.iter().find(|(known, _)| known == name);
+        let (_, about) = row.ok_or_else(|| Failure::input(none_called(singular(what), name, known)))?;
+        let described = found.described(what, name)?;
+        say!("{}", described.unwrap_or_else(|| format!("{name}\n{}", wrapped("  ", about, 2))));
         if let Some(metric) = metric::find(name).filter(|_| what == What::Metrics) {
             let unit = if metric.unit.is_empty() { "none: it is a count or a flag" } else { metric.unit };
             say!("{}", wrapped("  unit: ", unit, 2));
@@ -223,6 +240,7 @@ fn loaded() -> (Vec<Paper>, Vec<Result<(), Failure>>) {
         let inputs = Inputs { roots: vec![folder.clone(), home(None)?] };
         Ok(Paper::load(&folder, &inputs)?)
     };
+    doing("reading the papers");
     let read: Vec<Result<Paper, Failure>> = papers().into_iter().map(load).collect();
     let (mut papers, mut results) = (Vec::new(), Vec::new());
     for paper in read {

@@ -3,6 +3,10 @@
 //! Exit codes: 0 done; 1 the system refused (disk, permissions, a busy folder); 2 wrong words on the command line or
 //! wrong input files; 3 a check said no: something is not as stored, is worse than a gate allows, is judged otherwise, is impossible, or an independent judge
 //! disagrees; 4 a tool is missing: Python or the network for `crosscheck`, a planner from outside; 130 interrupted, and what was done is kept.
+//!
+//! A stored file that is edited, damaged, gone, or of a spec that has changed is the answer that a check gives: code 3 under
+//! `--check` and `--rerun`. A command that needs it as its input ends with code 2, and so does a check where nothing was ever
+//! stored.
 
 /// Prints a line; a reader that closed the pipe early (`head`) is no failure of ours.
 macro_rules! say {
@@ -20,6 +24,7 @@ mod compare;
 mod confirm;
 mod conformance;
 mod crosscheck;
+mod described;
 mod drawn;
 mod example;
 mod explain;
@@ -177,13 +182,18 @@ struct Again {
 struct Failure {
     code: u8,
     message: String,
-    /// Something that is stored is not what was written.
+    /// Something that is stored is not what would be written now.
     is_touched: bool,
 }
 
 impl Failure {
     fn input(message: impl Into<String>) -> Self {
         Self::new(2, message)
+    }
+
+    /// Something stored that is not what would be written now, and is needed.
+    fn touched(message: impl Into<String>) -> Self {
+        Self { is_touched: true, ..Self::new(2, message) }
     }
 
     fn stale(message: impl Into<String>) -> Self {

@@ -5,6 +5,7 @@
 
 use super::{Failure, How, Which};
 use crate::analysis::compare::stored_studies;
+use base::settings::{did_you_mean, none_called};
 use std::collections::BTreeMap;
 use std::fs;
 use std::iter;
@@ -96,16 +97,22 @@ pub fn stored_run(given: &str) -> Result<PathBuf, Failure> {
         _ if is_run(folder) => Ok(folder.to_owned()),
         [one] => Ok(one.clone()),
         [] if is_run(&named) => Ok(named),
-        [] => Err(Failure::input(format!(
-            "`{given}` holds no stored run; a folder with *.manifest.toml, what `--out` was given, or the name of a paper \
-             that has run is accepted"
-        ))),
+        [] => Err(no_run(given)),
         several => Err(Failure::input(format!(
             "`{given}` holds the runs of {} papers; name one of their folders, as {}",
             several.len(),
             several[0].display()
         ))),
     }
+}
+
+fn no_run(given: &str) -> Failure {
+    let known = papers();
+    let hint = did_you_mean(given, known.iter().map(String::as_str));
+    Failure::input(format!(
+        "`{given}` holds no stored run{hint}; a folder with *.manifest.toml, what `--out` was given, or the name of a paper that \
+         has run is accepted"
+    ))
 }
 
 /// The folder that outputs and shared inputs lie in, as a path from here: the nearest one from here upwards with papers or
@@ -190,6 +197,7 @@ fn paper_id(folder: &Path) -> Result<String, Failure> {
 
 fn unknown(name: &str) -> Failure {
     let known = papers();
+    let hint = did_you_mean(name, known.iter().map(String::as_str));
     let known = if known.is_empty() {
         format!(
             "there is no folder `{EXPERIMENTS}` with papers here; run replan from the project's own folder"
@@ -197,7 +205,7 @@ fn unknown(name: &str) -> Failure {
     } else {
         format!("the papers are {}", known.join(", "))
     };
-    Failure::input(format!("`{name}` is neither a paper nor a folder with a paper.toml; {known}"))
+    Failure::input(format!("`{name}` is neither a paper nor a folder with a paper.toml{hint}; {known}"))
 }
 
 impl How {
@@ -280,9 +288,7 @@ impl How {
             let id = part.split('=').next().unwrap_or(part);
             if !known.iter().any(|reading| reading.id == id) {
                 let ids: Vec<&str> = known.iter().map(|reading| reading.id.as_str()).collect();
-                let message =
-                    format!("--readings: there is no reading `{id}`; the readings are {}", ids.join(", "));
-                return Err(Failure::input(message));
+                return Err(Failure::input(format!("--readings: {}", none_called("reading", id, ids))));
             }
         }
         Ok(())

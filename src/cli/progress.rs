@@ -1,8 +1,12 @@
-//! Progress on the terminal, and Ctrl-C.
+//! Progress, and Ctrl-C.
+//!
+//! Progress goes to standard error, so that standard output holds results alone. Whatever may take longer than a second begins
+//! with a line that ends in an ellipsis, on a terminal or not; what is done in units has a bar on a terminal, and elsewhere says
+//! how far it is, at most once in [`SAID_EVERY_S`].
 
 use super::{Failure, counted};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::IsTerminal as _;
+use std::io::{IsTerminal as _, Write as _};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use study::runner::Progress;
@@ -23,12 +27,14 @@ pub fn stop_flag() -> &'static AtomicBool {
     &STOP
 }
 
-/// Says on a terminal what is about to be done, as it may take longer than a second.
+/// Says what is about to be done, as it may take longer than a second.
 pub fn doing(what: &str) {
-    if std::io::stderr().is_terminal() {
-        eprintln!("{what} …");
-    }
+    // A reader that closed the pipe early is no reason to stop.
+    let _ = writeln!(std::io::stderr(), "{what} …");
 }
+
+/// How often it is said how far units are, where there is no terminal for a bar.
+const SAID_EVERY_S: u64 = 10;
 
 /// Ends the command here if Ctrl-C was pressed; `kept` says what is not lost.
 pub fn safe_point(stop: &AtomicBool, kept: &str) -> Result<(), Failure> {
@@ -39,11 +45,34 @@ pub fn safe_point(stop: &AtomicBool, kept: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A bar with the time left on a terminal, one line per pass elsewhere.
+/// A bar with the time left on a terminal; elsewhere a line at the beginning, at the end, and now and then between.
 #[derive(Default)]
 pub struct Bar {
-    bar: Mutex<Option<(String, ProgressBar)>>,
+    bar: Mutex<Option<Pass>>,
 }
+
+/// A pass through units that is at work.
+struct Pass {
+    what: String,
+    bar: ProgressBar,
+    /// When it was last said how far it is, in seconds since it began.
+    said_s: u64,
+}
+
+impl Pass {
+    /// Says how far it is, if that is due.
+    fn say(&mut self) {
+        let now_s = self.bar.elapsed().as_secs();
+        if self.bar.is_hidden() && now_s >= self.said_s + SAID_EVERY_S {
+            self.said_s = now_s;
+            let all = self.bar.length().unwrap_or_default();
+            doing(&format!("{}: {} of {}", self.what, self.bar.position(), counted(all as usize, UNITS)));
+        }
+    }
+}
+
+/// What passes go through.
+const UNITS: [&str; 2] = ["unit", "units"];
 
 impl Progress for Bar {
     fn begin(&self, what: &str, total: usize) {
@@ -51,24 +80,30 @@ impl Progress for Bar {
         let style = ProgressStyle::with_template("{msg} [{bar:30}] {pos}/{len} units, {eta} left");
         bar.set_style(style.expect("the template is well formed").progress_chars("=> "));
         bar.set_message(what.to_owned());
-        *self.bar.lock().expect("no thread panics while it holds the bar") = Some((what.to_owned(), bar));
+        if bar.is_hidden() && total > 0 {
+            doing(&format!("{what}: {}", counted(total, UNITS)));
+        }
+        let pass = Pass { what: what.to_owned(), bar, said_s: 0 };
+        *self.bar.lock().expect("no thread panics while it holds the bar") = Some(pass);
     }
 
     fn step(&self) {
-        if let Some((_, bar)) = &*self.bar.lock().expect("no thread panics while it holds the bar") {
-            bar.inc(1);
+        if let Some(pass) = &mut *self.bar.lock().expect("no thread panics while it holds the bar") {
+            pass.bar.inc(1);
+            pass.say();
         }
     }
 
     fn end(&self) {
-        let Some((what, bar)) = self.bar.lock().expect("no thread panics while it holds the bar").take()
+        let Some(Pass { what, bar, .. }) =
+            self.bar.lock().expect("no thread panics while it holds the bar").take()
         else {
             return;
         };
         let (done, seconds) = (bar.position(), bar.elapsed().as_secs_f64());
         bar.finish_and_clear();
         if std::io::stderr().is_terminal() || done > 0 {
-            eprintln!("{what}: {} in {seconds:.1} s", counted(done as usize, ["unit", "units"]));
+            eprintln!("{what}: {} in {seconds:.1} s", counted(done as usize, UNITS));
         }
     }
 }

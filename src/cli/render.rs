@@ -103,10 +103,10 @@ pub fn check_report(paper: &Paper, places: &Places) -> Result<(), Failure> {
 fn draw(paper: &Paper, places: &Places, only: Option<&str>, stop: &AtomicBool) -> Result<Drawn, Failure> {
     let verdicts = Verdicts::read(&places.runs)?;
     let point = ReadingChoice::new(&paper.readings(), &verdicts.reading).map_err(|message| {
-        Failure::input(format!("the stored verdicts are of other readings ({message}); judge again"))
+        Failure::touched(format!("the stored verdicts are of other readings ({message}); judge again"))
     })?;
-    let evidence = Evidence::read(paper, point, &places.runs)?;
     doing(&format!("{}: drawing its figures and tables", paper.id));
+    let evidence = Evidence::read(paper, point, &places.runs)?;
     let outputs = output::outputs(&evidence, &verdicts, only, stop);
     evidence.exhibits_read()?;
     let mut outputs = outputs?;

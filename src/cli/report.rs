@@ -108,8 +108,8 @@ fn made(paper: &Paper, places: &Places, folder: &Path) -> Result<Made, Failure> 
     let point = ReadingChoice::new(&paper.readings(), &verdicts.reading).map_err(|message| {
         Failure::input(format!("the stored verdicts are of other readings ({message}); judge again"))
     })?;
-    let evidence = Evidence::read(paper, point, &places.runs)?;
     doing(&format!("{}: writing its page", paper.id));
+    let evidence = Evidence::read(paper, point, &places.runs)?;
     let figures = figures(paper, &places.plots);
     let rest = format!("{}-replays.zip", paper.id);
     let stored = Stored::read(&places.runs)?;

@@ -2,7 +2,7 @@
 
 use super::load::load;
 use super::places::Places;
-use super::progress::{Bar, stop_flag};
+use super::progress::{Bar, doing, stop_flag};
 use super::rounds::at_work;
 use super::sharded::Sharded;
 use super::summary::summary;
@@ -83,6 +83,7 @@ pub fn run_studies(
     lock: &Lock,
     again: Again,
 ) -> Result<Vec<Report>, Failure> {
+    doing(&format!("{}: looking for what has changed since it was run", paper.id));
     paper.studies.iter().map(|study| run_study(paper, study, places, how, lock, again)).collect()
 }
 

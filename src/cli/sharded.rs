@@ -2,9 +2,9 @@
 
 use super::load::load;
 use super::places::Places;
-use super::progress::{Bar, stop_flag};
+use super::progress::{Bar, doing, stop_flag};
 use super::summary::summary;
-use super::{Again, Failure, How, Which, command_line};
+use super::{Again, Failure, How, Which, command_line, counted};
 use crate::analysis::claims::claims_hash;
 use std::path::{Path, PathBuf};
 use study::lock::Lock;
@@ -89,6 +89,7 @@ impl Sharded {
     /// Those of families, pipelines and input files.
     pub fn studies(&self) -> Result<Vec<(BuiltStudy<'_>, Manifest)>, Failure> {
         let mut studies = Vec::new();
+        doing(&format!("{}: building its problems", self.named));
         for (study, points) in &self.runs {
             let built = BuiltStudy::new(study, points, &self.places.inputs)?;
             let (claims, command) = (self.claims.clone(), command_line());
@@ -147,7 +148,8 @@ impl Sharded {
         let lock = Lock::take(runs)?;
         for ((place, (study, _)), (built, manifest)) in self.runs.iter().enumerate().zip(&studies) {
             let trials = parts.merge((place, study), built, manifest.clone(), lock.folder())?;
-            say!("{}: {trials} trials of {} parts", study.name, plan.shards);
+            let trials = counted(trials, ["trial", "trials"]);
+            say!("{}: {trials} of {}", study.name, counted(plan.shards, ["part", "parts"]));
         }
         say!("records are in {}", runs.display());
         Ok(())

@@ -1,10 +1,11 @@
 //! What a run did, for the terminal.
 
+use super::counted;
 use study::session::{Report, UnexpectedStatus};
 
 /// What a run did, in a few words.
 pub fn summary(report: &Report, why: bool) -> String {
-    let mut text = format!("{}: {} trials", report.manifest.study, report.trials);
+    let mut text = format!("{}: {}", report.manifest.study, counted(report.trials, ["trial", "trials"]));
     let parts = [
         (report.resumed, report.units, "units resumed"),
         (report.reused, report.units, "units reused"),
@@ -21,9 +22,8 @@ pub fn summary(report: &Report, why: bool) -> String {
     if !report.moved.is_empty() {
         let first = &report.moved[0];
         text += &format!(
-            "\n  {} trials differ from what was stored although nothing they depend on has changed; the first is \
-             {}/{first}",
-            report.moved.len(),
+            "\n  {} from what was stored although nothing that could change it has changed; the first is {}/{first}",
+            counted(report.moved.len(), ["trial differs", "trials differ"]),
             report.manifest.study
         );
     }

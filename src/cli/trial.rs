@@ -1,7 +1,9 @@
 //! `replan repro --trial`: one trial alone, against its stored row.
 
 use super::places::Places;
+use super::progress::doing;
 use super::{Failure, How};
+use base::settings::none_called;
 use study::name::Names;
 use study::paper::Paper;
 use study::record::{Kept, Row};
@@ -10,14 +12,15 @@ use study::session;
 /// Runs the trial called `name` = `study/trial`, prints its record and path, and compares it with the stored row.
 pub fn run(paper: &Paper, places: &Places, how: &How, name: &str) -> Result<(), Failure> {
     let (study_name, trial) = name.split_once('/').unwrap_or((name, ""));
-    let known = || paper.studies.iter().map(|study| study.name.as_str()).collect::<Vec<_>>().join(", ");
+    let known = paper.studies.iter().map(|study| study.name.as_str());
     let study = paper.study(study_name).ok_or_else(|| {
         Failure::input(format!(
-            "--trial {name}: there is no study `{study_name}`; write STUDY/TRIAL, with a study of {}",
-            known()
+            "--trial {name}: {}; write STUDY/TRIAL",
+            none_called("study", study_name, known)
         ))
     })?;
     let points = how.points(study)?;
+    doing(&format!("{}: running trial {name}", paper.id));
     let names = study.names();
     let (batch, stored) = session::run_one(study, &points, &places.inputs, &places.runs, trial)?;
     for row in &batch.rows {

@@ -8,6 +8,7 @@ use super::vector::{Figure, Provenance};
 use super::{RenderError, marks};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::Verdicts;
+use base::settings::did_you_mean;
 use rayon::prelude::*;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -63,9 +64,10 @@ pub fn outputs(
     }
     if outputs.is_empty() && undrawn.is_empty() {
         let ids: Vec<&str> = paper.figure_ids().chain(paper.table_ids()).chain(["numbers"]).collect();
-        let (wanted, ids) = (only.unwrap_or_default(), ids.join(", "));
+        let wanted = only.unwrap_or_default();
+        let (hint, ids) = (did_you_mean(wanted, ids.iter().copied()), ids.join(", "));
         return Err(RenderError::NotStored {
-            what: format!("a figure or table `{wanted}`; there are {ids}"),
+            what: format!("a figure or table `{wanted}`{hint}; there are {ids}"),
         });
     }
     Ok(Outputs { files: outputs, undrawn })

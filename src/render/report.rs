@@ -49,7 +49,7 @@ const OVERVIEW: &str = "! overview";
 /// The report at `path`; empty if there is none.
 ///
 /// # Errors
-/// [`StudyError::Io`] if it cannot be read, [`StudyError::Stored`] if it is not UTF-8 text.
+/// [`StudyError::Io`] if it cannot be read, [`StudyError::Touched`] if it is not UTF-8 text.
 pub fn read(path: &Path) -> Result<String, StudyError> {
     let bytes = match fs::read(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(String::new()),
@@ -57,24 +57,28 @@ pub fn read(path: &Path) -> Result<String, StudyError> {
     };
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
-        StudyError::stored(path, format!("byte {at} is not UTF-8; {ASIDE}"))
+        touched(path, &format!("byte {at} is not UTF-8"))
     })
 }
 
-const ASIDE: &str = "mend it, move it away, or write elsewhere with --out";
+/// What is said of the report at `path` in which something stands that `replan` did not write there.
+fn touched(path: &Path, what: &str) -> StudyError {
+    let aside = "mend it, move it away, or write elsewhere with --out";
+    StudyError::Touched(format!("{}: {what}; {aside}", path.display()))
+}
 
 /// `report`, read from `path`, with the chapter of the paper `name` and its line of the overview in their places; everything
 /// else stays as it is.
 ///
 /// # Errors
-/// [`StudyError::Stored`] with the line if the markers of its chapters do not pair up.
+/// [`StudyError::Touched`] with the line if the markers of its chapters do not pair up.
 pub fn with_chapter(path: &Path, report: &str, name: &str, chapter: &Chapter) -> Result<String, StudyError> {
     let put = || {
         let overview = overview(chapters::chapter(report, OVERVIEW)?, name, &chapter.line);
         let report = chapters::with_chapter(report, OPENING, OVERVIEW, &overview)?;
         chapters::with_chapter(&report, OPENING, name, &chapter.text)
     };
-    put().map_err(|error: chapters::MarkerError| StudyError::stored(path, format!("{error}; {ASIDE}")))
+    put().map_err(|error: chapters::MarkerError| touched(path, &error.to_string()))
 }
 
 /// Puts a paper's chapter into the report at `path`, which no other run changes meanwhile: `lock` is the file by which runs
@@ -96,7 +100,7 @@ pub fn put_chapter(path: &Path, lock: &Path, name: &str, chapter: &Chapter) -> R
 /// As [`read`] and [`with_chapter`].
 pub fn besides(path: &Path, name: &str) -> Result<String, StudyError> {
     let text = chapters::without_chapter(&read(path)?, name);
-    text.map_err(|error| StudyError::stored(path, format!("{error}; {ASIDE}")))
+    text.map_err(|error| touched(path, &error.to_string()))
 }
 
 /// The overview, of which `before` is the former text, with `line` for the paper `name`.

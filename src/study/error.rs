@@ -35,7 +35,7 @@ pub enum StudyError {
         /// What is wrong with it, and what helps.
         reason: String,
     },
-    /// A stored file is not what was written: truncated, edited, or of another version.
+    /// A stored file is not what would be written now: truncated, edited, of another version, or of a spec that has changed.
     #[error("{0}")]
     Touched(String),
     /// Another process is running into the same folder.
@@ -69,12 +69,14 @@ pub enum StudyError {
         lacks: String,
     },
     /// A trial was asked for that the study does not have.
-    #[error("study `{study}` has no trial `{trial}`; {hint}")]
+    #[error("study `{study}` has no trial `{trial}`{near}; {hint}")]
     UnknownTrial {
         /// The study.
         study: String,
         /// The trial asked for.
         trial: String,
+        /// Which of its trials may have been meant.
+        near: String,
         /// Trials that it has.
         hint: String,
     },

@@ -19,6 +19,8 @@ pub struct FileKind {
     pub about: &'static str,
     /// What it may hold.
     pub accepted: Accepted,
+    /// A file of the kind in this repository.
+    pub example: &'static str,
 }
 
 /// Every kind that a file may be taken for, in the order of their names; `paper.toml` and `crosscheck.toml` go by their
@@ -28,31 +30,37 @@ pub static KINDS: &[FileKind] = &[
         name: "cell_groups",
         about: "start and goal poses of an arm for the family cell_queries",
         accepted: cell_queries::GROUPS_FILE,
+        example: "data/scenes/gallery_puma560.toml",
     },
     FileKind {
         name: "cell_scene",
         about: "what stands around an arm: data/scenes/fu2018_cell.toml",
         accepted: cell::SCENE_FILE,
+        example: "data/scenes/gallery_wall.toml",
     },
     FileKind {
         name: "plane_map",
         about: "polygons in a plane for the family plane_queries: data/scenes/fu2018_particle.toml",
         accepted: plane_queries::MAP_FILE,
+        example: "data/scenes/fu2018_particle.toml",
     },
     FileKind {
         name: "polyhedra_scene",
         about: "convex obstacles around a point: data/scenes/tang_e1.toml",
         accepted: polyhedra::SCENE_FILE,
+        example: "data/scenes/tang_e1.toml",
     },
     FileKind {
         name: "robot",
         about: "an arm's joints, limits, capsules and tool: data/robots/motoman_up6.toml",
         accepted: robot::ROBOT_FILE,
+        example: "data/robots/puma560.toml",
     },
     FileKind {
         name: "study",
         about: "problems, contenders, sweeps, readings and figures: any other TOML file beside paper.toml",
         accepted: Accepted::of::<StudySpec>(),
+        example: "experiments/movingai_sample/scenarios.toml",
     },
 ];
 

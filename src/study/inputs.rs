@@ -26,6 +26,12 @@ impl Inputs {
                 folder.display()
             ));
         }
+        if let Some(other) = tried.iter().find(|path| path.exists()) {
+            return Err(format!(
+                "input file `{name}` is a device, a pipe or a socket ({}); a regular file is accepted",
+                other.display()
+            ));
+        }
         let places: Vec<String> = tried.iter().map(|path| path.display().to_string()).collect();
         Err(format!("input file `{name}` does not exist; looked for {}", places.join(", ")))
     }

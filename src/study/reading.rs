@@ -3,7 +3,7 @@
 use super::key::ReadingKey;
 use super::name;
 use super::spec::{BoundsSpec, Digits, OptionSpec};
-use base::settings::{Place, Settings};
+use base::settings::{Place, Settings, did_you_mean, none_called};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -109,7 +109,7 @@ impl ReadingChoice {
         for id in other.keys() {
             if !readings.iter().any(|reading| reading.id == *id) {
                 let known: Vec<&str> = readings.iter().map(|reading| reading.id.as_str()).collect();
-                return Err(format!("there is no reading `{id}`; the readings are {}", known.join(", ")));
+                return Err(none_called("reading", id, known));
             }
         }
         let mut point = Self::default();
@@ -118,7 +118,12 @@ impl ReadingChoice {
             let option = other.get(&reading.id).unwrap_or(&reading.default);
             let change = reading.options.get(option).ok_or_else(|| {
                 let known: Vec<&str> = reading.options.keys().map(String::as_str).collect();
-                format!("reading `{}` has no option `{option}`; it has {}", reading.id, known.join(", "))
+                let hint = did_you_mean(option, known.iter().copied());
+                format!(
+                    "reading `{}` has no option `{option}`{hint}; it has {}",
+                    reading.id,
+                    known.join(", ")
+                )
             })?;
             if *option != reading.default {
                 differs.push((reading.id.as_str(), option.as_str()));
@@ -265,7 +270,7 @@ mod tests {
         );
         assert_eq!(
             point(&[("node", "all")]).unwrap_err(),
-            "there is no reading `node`; the readings are nodes"
+            "there is no reading `node` (did you mean `nodes`?); there are nodes"
         );
     }
 }

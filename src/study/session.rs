@@ -15,6 +15,7 @@ use super::store::{
 };
 use super::unit::Unit;
 use super::{Inputs, StudyError};
+use base::settings::did_you_mean;
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Mutex;
@@ -297,10 +298,8 @@ pub fn run_one(
         all.find(|(_, key)| is_it(&names.trial(key)))
     };
     let unknown = || {
-        let first = units.first().and_then(|unit| built.trials(unit).into_iter().next());
-        let first = first.map_or_else(String::new, |key| names.trial(&key));
-        let hint = format!("its first one is `{}/{first}`", study.name);
-        StudyError::UnknownTrial { study: study.name.clone(), trial: trial.to_owned(), hint }
+        let all = units.iter().flat_map(|unit| built.trials(unit)).map(|key| names.trial(&key));
+        unknown_trial(&study.name, trial, &all.collect::<Vec<String>>())
     };
     let owner = find(&|name| name == trial).or_else(|| find(&is_below));
     let (unit, key) = owner.ok_or_else(unknown)?;
@@ -319,6 +318,13 @@ pub fn run_one(
         return Err(unknown());
     }
     Ok((batch, before))
+}
+
+/// What is said of a trial that is not among `all` of the study's.
+fn unknown_trial(study: &str, trial: &str, all: &[String]) -> StudyError {
+    let near = did_you_mean(trial, all.iter().map(String::as_str));
+    let hint = format!("its first one is `{study}/{}`", all.first().map_or("", String::as_str));
+    StudyError::UnknownTrial { study: study.to_owned(), trial: trial.to_owned(), near, hint }
 }
 
 /// A pool of `threads` threads; of the machine's number if absent.

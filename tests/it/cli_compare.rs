@@ -83,15 +83,15 @@ fn what_cannot_be_compared_is_told() {
         (&["compare", "a", "nowhere"][..], "`nowhere` holds no stored run; a folder with *.manifest.toml"),
         (&["compare", "a"], "the following required arguments were not provided:\n  <SECOND>"),
         (&["compare", "a", "a", "--contenders", "A*", "B"], "cannot be used with"),
-        (&["compare", "a", "--contenders", "A*", "B"], "no stored trial is `B`'s; there are A*, Two-sided"),
+        (
+            &["compare", "a", "--contenders", "A*", "B"],
+            "--contenders: there is no stored trial of a contender `B`; there are A*, Two-sided",
+        ),
         (
             &["compare", "a", "a", "--study", "hall"],
             "there is no stored run of a study `hall`; there are draws, room",
         ),
-        (
-            &["compare", "a", "a", "--metric", "speed"],
-            "`speed` is no metric that can be compared (there is none)",
-        ),
+        (&["compare", "a", "a", "--metric", "speed"], "`speed` is no metric that can be compared; solved, "),
         (&["compare", "a", "a", "--gate", "expansions"], "is not `METRIC ±NUMBER` or `METRIC ±NUMBER%`"),
         (&["compare", "a", "a", "--gate", "hops +2%"], "no pair of trials has a `hops`"),
         (&["compare", "a", "a", "--strict"], "--gate"),

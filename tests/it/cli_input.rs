@@ -95,7 +95,7 @@ fn papers_and_flags_that_do_not_exist_are_told() {
         ),
         (
             &["repro", "./mini", "--readings", "corner=x"],
-            "--readings: there is no reading `corner`; the readings are",
+            "--readings: there is no reading `corner` (did you mean `corners`?); there are ",
         ),
         (
             &["repro", "./mini", "--readings", "corners=x"],
@@ -112,7 +112,7 @@ fn papers_and_flags_that_do_not_exist_are_told() {
         (&["repro", "./mini", "--seed", "-1"], "'-1'"),
         (
             &["repro", "./mini", "--trial", "hall/x"],
-            "there is no study `hall`; write STUDY/TRIAL, with a study of draws",
+            "there is no study `hall`; there are draws, room; write STUDY/TRIAL",
         ),
         (
             &["repro", "./mini", "--trial", "draws/x"],
@@ -120,7 +120,7 @@ fn papers_and_flags_that_do_not_exist_are_told() {
         ),
         (
             &["repro", "./mini", "--trial", "draws/drawn/0/a-star/x"],
-            "study `draws` has no trial `drawn/0/a-star/x`; its first one is `draws/drawn/0/a",
+            "study `draws` has no trial `drawn/0/a-star/x` (did you mean `drawn/0/a-star`?); its first one is `draws/drawn/0/a",
         ),
         (&["judge", "./mini"], "no stored run"),
         (&["render", "./mini"], "verdicts.toml: no verdicts; run `replan judge` first"),

@@ -136,7 +136,7 @@ fn an_own_paper_whose_path_is_spelled_otherwise_runs_nothing_again() {
         let spelled = spelled.replace("../mini/..", "./mini/..");
         let out = bench.done(&["repro", &spelled]);
         assert!(out.contains("draws: 48 trials (24 of 24 units reused)"), "{spelled}: {out}");
-        assert!(out.contains("room: 1 trials (1 of 1 units reused)"), "{spelled}: {out}");
+        assert!(out.contains("room: 1 trial (1 of 1 units reused)"), "{spelled}: {out}");
     }
     let after = bench.tree("target");
     assert!(before.iter().all(|(path, bytes)| after[path] == *bytes), "a record was written again");

@@ -47,7 +47,8 @@ fn render_writes_what_repro_wrote_byte_for_byte_and_check_notices_an_edit() {
     assert!(bench.tree("target/replan/mini") == before, "--only fig1 did not bring the figure back");
     let said = bench.run(&["render", "./mini", "--only", "fig9"]);
     assert_eq!(said.code, Some(2));
-    let known = "nothing like a figure or table `fig9`; there are fig1, table1, numbers";
+    let known =
+        "nothing like a figure or table `fig9` (did you mean `fig1`?); there are fig1, table1, numbers";
     assert!(said.err.contains(known), "{}", said.err);
 }
 
@@ -122,7 +123,7 @@ fn what_is_unchanged_is_reused_and_why_says_what_changed() {
     let changed = why(&[]);
     says(&changed, "draws: 48 trials (24 of 48 trials reused)");
     says(&changed, "  why: contender `A*` has changed");
-    says(&changed, "room: 1 trials (1 of 1 units reused)");
+    says(&changed, "room: 1 trial (1 of 1 units reused)");
     bench.edit("mini/draws.toml", "blocked_share = 0.3", "blocked_share = 0.2");
     says(&why(&[]), "  why: problem group `drawn` has changed");
     says(&why(&["--fresh"]), "draws: 48 trials");
@@ -132,7 +133,7 @@ fn what_is_unchanged_is_reused_and_why_says_what_changed() {
 fn trials_that_ended_in_an_unexpected_way_are_counted_with_the_first_reason() {
     let bench = Bench::new();
     let whole = bench.done(&["run", "./mini"]);
-    assert!(whole.starts_with("draws: 48 trials\nroom: 1 trials\n"), "{whole}");
+    assert!(whole.starts_with("draws: 48 trials\nroom: 1 trial\n"), "{whole}");
     bench.edit("mini/draws.toml", "expansions = 10_000", "expansions = 3");
     let study = "paper = \"mini\"\nquestion = \"q\"\nseed = 9\n[budget]\nexpansions = 9\n[quick]\nreplicates = 1\n\
                  [[problems]]\nlabel = \"lake\"\nfamily = \"movingai\"\n\
@@ -145,7 +146,7 @@ fn trials_that_ended_in_an_unexpected_way_are_counted_with_the_first_reason() {
         let out = bench.done(&["run", "./mini"]);
         let lines: Vec<&str> = out.lines().collect();
         let [draws, spent, lake, invalid, room, _] = lines[..] else { panic!("again {again}:\n{out}") };
-        let studies = [(draws, "draws: 48 trials"), (lake, "lake: 2 trials"), (room, "room: 1 trials")];
+        let studies = [(draws, "draws: 48 trials"), (lake, "lake: 2 trials"), (room, "room: 1 trial")];
         assert!(studies.iter().all(|(line, start)| line.starts_with(start)), "{out}");
         let (count, first) = spent.trim().split_once(' ').unwrap();
         assert!((24..=48).contains(&count.parse::<u32>().unwrap()), "{out}");

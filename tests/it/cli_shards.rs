@@ -58,7 +58,8 @@ fn shards_in_any_order_with_one_killed_halfway_give_the_bytes_of_one_machine() {
         }
         run(&bench, order, of, &parts);
         let out = bench.done(&["merge", &parts, "--out", merged]);
-        assert!(out.contains(&format!("draws: 280 trials of {of} parts\n")), "{out}");
+        let of_parts = if of == 1 { "1 part".to_owned() } else { format!("{of} parts") };
+        assert!(out.contains(&format!("draws: 280 trials of {of_parts}\n")), "{out}");
         assert!(bench.facts(merged) == whole, "{of} shards give other bytes than one machine");
     }
     let parts: Vec<usize> = (1..=7).map(|k| trials(&bench, &format!("parts-seven/{k}-of-7"))).collect();

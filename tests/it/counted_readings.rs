@@ -111,7 +111,7 @@ fn a_contender_cannot_depart_from_a_reading_that_its_study_has() {
     assert!(said.err.contains("departs from reading `hurry`, which its study has"), "{}", said.err);
     toy.0.edit("toy/room.toml", "hurry = \"none\"", "haste = \"none\"");
     let said = toy.0.run(&["check", "./toy"]);
-    assert!(said.err.contains("there is no reading `haste`; the readings are hurry, idle"), "{}", said.err);
+    assert!(said.err.contains("there is no reading `haste`; there are hurry, idle"), "{}", said.err);
 }
 
 /// A row that takes the best of its parts: a number that is met with a weight of three, or an input on which one is met.

@@ -79,7 +79,7 @@ fn every_command_and_file_of_the_page_on_papers_of_ones_own_does_what_the_page_s
     let page =
         fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/YOUR_OWN_PAPER.md")).unwrap();
     let (bench, mut commands, mut shown) = (Bench::empty(), 0, 0);
-    let mut last = Said { code: None, out: String::new(), err: String::new() };
+    let mut last = Said { code: None, out: String::new(), err: String::new(), doing: Vec::new() };
     for Block { info, text } in blocks(&page) {
         match info.split_once(' ').unwrap_or((info, "")) {
             ("sh", "") => {

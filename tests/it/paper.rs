@@ -177,7 +177,10 @@ pub struct Bench {
 pub struct Said {
     pub code: Option<i32>,
     pub out: String,
+    /// Standard error, but for the lines in `doing`.
     pub err: String,
+    /// The lines of standard error that say what is being done: they end in an ellipsis.
+    pub doing: Vec<String>,
 }
 
 impl Bench {
@@ -264,7 +267,11 @@ impl Bench {
     pub fn said(&self, output: &Output) -> Said {
         let place = self.folder.path().display().to_string();
         let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap().replace(&place, "[dir]");
-        Said { code: output.status.code(), out: text(&output.stdout), err: text(&output.stderr) }
+        let said = text(&output.stderr);
+        let (doing, rest): (Vec<&str>, Vec<&str>) =
+            said.split_inclusive('\n').partition(|line| line.ends_with(" …\n"));
+        let doing = doing.iter().map(|line| line.trim_end().to_owned()).collect();
+        Said { code: output.status.code(), out: text(&output.stdout), err: rest.concat(), doing }
     }
 }
 

@@ -3,6 +3,7 @@
 use super::change::{Measured, SOLVED, Sample, joint_plan};
 use crate::analysis::metric::{self, Better};
 use crate::analysis::statistic::needs;
+use base::settings::did_you_mean;
 use serde::Serialize;
 use stats::bootstrap::Estimate;
 use stats::gate::{Decision, decide};
@@ -97,8 +98,13 @@ pub fn unknown_metric(flag: &str, name: &str) -> String {
         .filter(|metric| metric.better != Better::Neither)
         .map(|metric| metric.name)
         .collect();
-    let why = if metric::find(name).is_some() { "neither way of it is better" } else { "there is none" };
-    format!("{flag}: `{name}` is no metric that can be compared ({why}); {SOLVED}, {} can", known.join(", "))
+    let is_one = metric::find(name).is_some();
+    let why = if is_one { " (neither way of it is better)" } else { "" };
+    let hint = did_you_mean(name, known.iter().copied().chain([SOLVED]));
+    format!(
+        "{flag}: `{name}` is no metric that can be compared{why}{hint}; {SOLVED}, {} can",
+        known.join(", ")
+    )
 }
 
 /// What `gates` say of `samples`; all lines hold together with the level of every interval.
@@ -181,7 +187,10 @@ mod tests {
             ("expansions +inf", "is not `METRIC ±NUMBER`"),
             ("expansions -2%", "lower is better, so that a margin for the worse is +2%"),
             ("solved +1%", "higher is better, so that a margin for the worse is -1%"),
-            ("expanded +2%", "`expanded` is no metric that can be compared (there is none); solved, "),
+            (
+                "expanded +2%",
+                "`expanded` is no metric that can be compared (did you mean `expansions`?); solved, ",
+            ),
             ("candidates +2%", "(neither way of it is better)"),
         ] {
             let error = read(text).unwrap_err();

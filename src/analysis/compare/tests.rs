@@ -161,7 +161,7 @@ fn two_contenders_of_one_run_are_paired_draw_by_draw() {
     let change = change(&found, "expansions");
     assert_eq!((change.contender.as_str(), change.word, change.losses), ("B against A", Word::Worse, 40));
     let error = compare(&Sides::Contenders(&both, ["A", "C"]), &Asked::default()).unwrap_err();
-    assert_eq!(error, "--contenders: no stored trial is `C`'s; there are A, B");
+    assert_eq!(error, "--contenders: there is no stored trial of a contender `C`; there are A, B");
 }
 
 #[test]

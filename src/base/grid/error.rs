@@ -1,6 +1,7 @@
 //! What can be wrong with a grid or with a file that describes one.
 
 use super::{MAX_CELLS, MAX_SIDE_CELLS, MAX_SIDE_NODES};
+use crate::file;
 use std::path::{Path, PathBuf};
 
 /// Why a grid, a map file or a scenario file was refused.
@@ -92,7 +93,7 @@ pub enum GridError {
 
 /// Reads the file at `path` and parses it, so that every error names the file once.
 pub(super) fn read<T>(path: &Path, parse: impl Fn(&str) -> Result<T, GridError>) -> Result<T, GridError> {
-    std::fs::read(path)
+    file::read(path)
         .map_err(|error| GridError::Unreadable { reason: error.to_string() })
         .and_then(|bytes| {
             String::from_utf8(bytes).map_err(|error| {

@@ -34,7 +34,7 @@ pub fn read_map(path: &Path) -> Result<(Grid2, Vec<PathBuf>), GridError> {
         // A text map may be called `.map` too; the format of Moving AI begins with its type.
         "map" => read_movingai_map(path)
             .or_else(|error| {
-                let text = std::fs::read_to_string(path).unwrap_or_default();
+                let text = crate::file::read_text(path).unwrap_or_default();
                 if text.trim_start().starts_with("type") {
                     Err(error)
                 } else {
@@ -149,7 +149,7 @@ impl Picture {
             path: path.to_owned(),
             source: Box::new(GridError::Unreadable { reason }),
         };
-        let bytes = std::fs::read(path).map_err(|error| inside(error.to_string()))?;
+        let bytes = crate::file::read(path).map_err(|error| inside(error.to_string()))?;
         let read = if bytes.starts_with(b"P5") { pgm(&bytes) } else { png(bytes) };
         let (size, bright) = read.map_err(inside)?;
         Ok(Self { path: path.to_owned(), size, bright })

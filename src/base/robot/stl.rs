@@ -1,5 +1,6 @@
 //! STL meshes: where they are looked for, and their vertices, binary and text.
 
+use crate::file;
 use std::path::{Path, PathBuf};
 
 /// Where a mesh is looked for: `package://name/rest` beside the file, and in the folders above it.
@@ -15,11 +16,19 @@ pub(super) fn places(urdf: &Path, given: &str) -> Vec<PathBuf> {
     }
 }
 
+/// The distinct vertices of the mesh in the file at `path`.
+///
+/// # Errors
+/// What the system refuses; what is wrong with it.
+pub(super) fn read(path: &Path) -> Result<Vec<[f64; 3]>, String> {
+    vertices(&file::read(path).map_err(|error| error.to_string())?)
+}
+
 /// The distinct vertices of the mesh in `bytes`, in an order of their own.
 ///
 /// # Errors
 /// What is wrong with it.
-pub(super) fn vertices(bytes: &[u8]) -> Result<Vec<[f64; 3]>, String> {
+fn vertices(bytes: &[u8]) -> Result<Vec<[f64; 3]>, String> {
     let facets = bytes.get(80..84).map(|count| u32::from_le_bytes([count[0], count[1], count[2], count[3]]));
     let is_binary = facets.is_some_and(|count| bytes.len() as u64 == 84 + 50 * u64::from(count));
     let mut found = if is_binary { binary(&bytes[84..]) } else { text(bytes)? };

@@ -382,9 +382,8 @@ impl<'a, 'input> Walk<'_, 'a, 'input> {
             );
         };
         let scale = tree.numbers::<3>(mesh, "scale")?.unwrap_or([1.0; 3]);
-        let read =
-            std::fs::read(file).map_err(|error| error.to_string()).and_then(|bytes| stl::vertices(&bytes));
-        let points = read.map_err(|message| source.fault(&at, format!("{}: {message}", file.display())))?;
+        let points =
+            stl::read(file).map_err(|message| source.fault(&at, format!("{}: {message}", file.display())))?;
         let scaled = |[x, y, z]: [f64; 3]| [x * scale[0], y * scale[1], z * scale[2]];
         let points: Vec<[f64; 3]> = points.into_iter().map(scaled).collect();
         for point in &points {

@@ -3,6 +3,7 @@
 use super::reader::{self, Refused};
 use super::validate::{Fault, faults};
 use super::{Faults, SettingsError, schema_of};
+use crate::file;
 use schemars::JsonSchema;
 use self_cell::self_cell;
 use serde::de::DeserializeOwned;
@@ -48,7 +49,7 @@ impl Document {
     /// [`SettingsError::Unreadable`] if it is missing, not readable, or not UTF-8 (with the first bad byte).
     pub fn open(path: &Path) -> Result<Arc<Self>, SettingsError> {
         let unreadable = |reason: String| SettingsError::Unreadable { path: path.to_owned(), reason };
-        let bytes = std::fs::read(path).map_err(|e| unreadable(e.to_string()))?;
+        let bytes = file::read(path).map_err(|e| unreadable(e.to_string()))?;
         let text = String::from_utf8(bytes).map_err(|e| {
             let at = e.utf8_error().valid_up_to();
             unreadable(format!("byte {at} is not UTF-8; TOML files are UTF-8 text"))

@@ -3,6 +3,7 @@
 //! The judge is told what metrics mean and where papers lie, and nothing else of what is computed here.
 
 use super::super::places::{Places, home, papers};
+use super::super::progress::doing;
 use super::super::{Failure, Which};
 use super::FOLDER;
 use super::python::Judge;
@@ -40,6 +41,7 @@ pub fn run(paper: Option<&str>, out: Option<&Path>, python: Option<&str>) -> Res
     let request = out.unwrap_or(Path::new("")).join(FOLDER).join(REQUEST);
     std::fs::create_dir_all(request.parent().unwrap_or(Path::new("")))?;
     write_whole(&request, format!("{:#}\n", asked(&places)).as_bytes())?;
+    doing("computing the statistics of stored runs again");
     if judge.recompute(&request)? {
         return Ok(());
     }

@@ -15,7 +15,6 @@ pub use urdf::capsule_around;
 
 use super::{Arm, Chain, Joints, KinematicsError, serial::AXES};
 use crate::geometry::{Capsule, Frame, Segment, Vec3};
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A robot, checked.
@@ -61,7 +60,7 @@ impl Robot {
         if path.extension().is_some_and(|end| end == "urdf") {
             return urdf::robot(&base::robot::read_urdf(path)?);
         }
-        let text = fs::read_to_string(path)
+        let text = base::file::read_text(path)
             .map_err(|source| KinematicsError::Read { path: path.to_owned(), source })?;
         Self::parse(&text, path)
     }

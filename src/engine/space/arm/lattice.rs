@@ -26,7 +26,7 @@ impl TipLattice {
     /// many points.
     pub fn new(x_cm: [f64; 2], y_cm: [f64; 2], step_cm: f64) -> Result<Self, (&'static str, String)> {
         if !(step_cm.is_finite() && step_cm > 0.0) {
-            return Err(("step_cm", format!("step_cm is {step_cm}; a step above 0 is accepted")));
+            return Err(("step_cm", format!("step_cm is {step_cm:?}; a step above 0 is accepted")));
         }
         let side = |name: &'static str, [low, high]: [f64; 2]| {
             let steps = (high - low) / step_cm;
@@ -35,20 +35,28 @@ impl TipLattice {
                     format!("{name} runs from {low} to {high}; two rising finite numbers are accepted");
                 return Err((name, message));
             }
+            // So many that a step's own digits say nothing of whether it divides the side.
+            if steps > MAX_POINTS as f64 {
+                let message = format!(
+                    "step_cm is {step_cm:?}, which makes {:.1e} points along {name} alone; at most {MAX_POINTS} in all are accepted",
+                    steps.round()
+                );
+                return Err(("step_cm", message));
+            }
             if (steps - steps.round()).abs() > SLACK * steps.max(1.0) {
                 let message = format!(
-                    "step_cm is {step_cm}, which does not divide {name} of {} cm; a whole number of steps is accepted",
+                    "step_cm is {step_cm:?}, which does not divide {name} of {} cm; a whole number of steps is accepted",
                     high - low
                 );
                 return Err(("step_cm", message));
             }
-            Ok((steps.round() as u32).saturating_add(1))
+            Ok(steps.round() as u32 + 1)
         };
         let size = [side("x_cm", x_cm)?, side("y_cm", y_cm)?];
         let points = u64::from(size[0]) * u64::from(size[1]);
         if points > MAX_POINTS {
             let message = format!(
-                "step_cm is {step_cm}, which makes {} × {} points; {MAX_POINTS} in all are accepted",
+                "step_cm is {step_cm:?}, which makes {} × {} points; at most {MAX_POINTS} in all are accepted",
                 size[0], size[1]
             );
             return Err(("step_cm", message));

@@ -12,7 +12,7 @@ use std::path::Path;
 /// # Errors
 /// A message with the file, the line and what is accepted there.
 pub fn read(file: &Path, fingerprint: &str) -> Result<BTreeMap<u64, u64>, String> {
-    let text = std::fs::read_to_string(file).map_err(|e| format!("{}: {e}", file.display()))?;
+    let text = base::file::read_text(file).map_err(|e| format!("{}: {e}", file.display()))?;
     parsed(&text, fingerprint).map_err(|message| format!("{}, {message}", file.display()))
 }
 

@@ -1,0 +1,71 @@
+//! Files that others wrote, read whole.
+//!
+//! What a spec or a command line names may be anything: a device never ends, and a pipe may never begin. So only regular files
+//! are read, and none larger than [`MOST_BYTES`].
+
+use std::fs::File;
+use std::io::{self, Error, Read};
+use std::path::Path;
+
+/// The most bytes of a file: a map of the largest accepted size, four bytes a cell, has room.
+pub const MOST_BYTES: u64 = 1 << 29;
+
+/// The bytes of the file at `path`.
+///
+/// # Errors
+/// What the system refuses; something that is no regular file; one that is larger than [`MOST_BYTES`].
+pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    // Asked before it is opened: opening a pipe waits for who writes into it.
+    let found = std::fs::metadata(path)?;
+    if !found.is_file() && !found.is_dir() {
+        return Err(Error::other("it is a device, a pipe or a socket; a regular file is accepted"));
+    }
+    read_all(&mut File::open(path)?)
+}
+
+/// As [`read`], as text.
+///
+/// # Errors
+/// As [`read`]; bytes that are not UTF-8.
+pub fn read_text(path: &Path) -> io::Result<String> {
+    String::from_utf8(read(path)?).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        Error::other(format!("byte {at} is not UTF-8; UTF-8 text is accepted"))
+    })
+}
+
+/// All that `from` gives: a file, a pipe, standard input.
+///
+/// # Errors
+/// What the system refuses; more than [`MOST_BYTES`].
+pub fn read_all(from: &mut impl Read) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    from.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MOST_BYTES {
+        let most = MOST_BYTES >> 20;
+        return Err(Error::other(format!("it holds more than {most} MiB; at most {most} MiB are accepted")));
+    }
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_regular_files_are_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a");
+        std::fs::write(&file, "text").unwrap();
+        assert_eq!(read_text(&file).unwrap(), "text");
+        assert!(read(folder.path()).is_err(), "a folder");
+        let said = read(Path::new("/dev/zero")).unwrap_err().to_string();
+        assert_eq!(said, "it is a device, a pipe or a socket; a regular file is accepted");
+    }
+
+    #[test]
+    fn what_never_ends_is_refused_with_what_is_accepted() {
+        let said = read_all(&mut io::repeat(0)).unwrap_err().to_string();
+        assert_eq!(said, "it holds more than 512 MiB; at most 512 MiB are accepted");
+    }
+}

@@ -1,0 +1,156 @@
+//! What the command line says while it works, of names that are nearly right, of counts, and of one thing by itself.
+
+use crate::across::{CITED, Toy};
+use crate::paper::Bench;
+use base::settings::Document;
+use replan::cli::{catalogue, file_schema};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+#[test]
+fn what_may_take_long_says_so_without_a_terminal_on_standard_error_alone() {
+    let toy = Toy::unexplored(&[CITED]);
+    for (arguments, said) in [
+        (&["run", "./toy", "--why"][..], "toy: looking for what has changed since it was run …"),
+        (&["run", "./toy", "--fresh"], "draws: trials: 40 units …"),
+        (&["judge", "./toy"], "toy: judging "),
+        (&["render", "./toy"], "toy: drawing its figures and tables …"),
+        (&["render", "./toy", "--check"], "toy: drawing its figures and tables …"),
+        (&["check", "./toy", "--rerun", "3"], "toy/draws: running stored trials again …"),
+        (&["explore", "./toy", "--plan"], "toy: counting the trials of its readings …"),
+        (&["compare", "target/replan/toy", "target/replan/toy"], "reading and comparing stored runs …"),
+        (&["export", "target/replan/toy", "--csv"], "reading its records and computing their statistics …"),
+        (&["repro", "./toy", "--trial", "room/room/a-star"], "toy: running trial room/room/a-star …"),
+    ] {
+        let told = toy.0.run(arguments);
+        assert_eq!(told.code, Some(0), "{arguments:?}: {}", told.err);
+        assert!(told.doing.iter().any(|line| line.contains(said)), "{arguments:?}: {:?}", told.doing);
+        assert!(!told.out.contains('…'), "{}", told.out);
+        assert!(!told.doing.concat().contains(['\r', '\x1b']), "{:?}", told.doing);
+    }
+}
+
+#[test]
+fn a_name_that_is_nearly_right_is_answered_with_the_right_one() {
+    let bench = Bench::new();
+    fs::create_dir(bench.at("experiments")).unwrap();
+    fs::rename(bench.at("mini"), bench.at("experiments/mini")).unwrap();
+    bench.done(&["repro", "mini"]);
+    for (arguments, meant) in [
+        (&["check", "minni"][..], "mini"),
+        (&["show", "mimi"], "mini"),
+        (&["compare", "minni", "mini"], "mini"),
+        (&["export", "minni", "--csv"], "mini"),
+        (&["repro", "mini", "--readings", "corner=allow"], "corners"),
+        (&["judge", "mini", "--readings", "nodes=opend"], "opened"),
+        (&["render", "mini", "--only", "fig2"], "fig1"),
+        (&["repro", "mini", "--trial", "draw/drawn/0/a-star"], "draws"),
+        (&["repro", "mini", "--trial", "draws/drawn/0/a-sta"], "drawn/0/a-star"),
+        (&["compare", "mini", "mini", "--study", "drawn"], "draws"),
+        (&["compare", "mini", "mini", "--metric", "opend"], "opened"),
+        (&["compare", "mini", "mini", "--gate", "expansion +2%"], "expansions"),
+        (&["compare", "mini", "--contenders", "A*", "Two-side"], "Two-sided"),
+        (&["show", "mini", "node"], "nodes"),
+        (&["list", "studies", "mini/drawn"], "mini/draws"),
+    ] {
+        let said = bench.run(arguments);
+        assert_eq!(said.code, Some(2), "{arguments:?}: {}{}", said.out, said.err);
+        assert!(said.err.contains(&format!(" (did you mean `{meant}`?)")), "{arguments:?}: {}", said.err);
+    }
+}
+
+#[test]
+fn one_trial_is_not_called_trials() {
+    let bench = Bench::new();
+    let said = bench.done(&["run", "./mini"]);
+    assert!(said.contains("\nroom: 1 trial\n"), "{said}");
+    let said = bench.done(&["check", "./mini", "--rerun", "1"]);
+    assert!(said.contains("  room: 1 trial run again on 1 thread equals its row\n"), "{said}");
+}
+
+#[test]
+fn devices_are_refused_as_input_files() {
+    let bench = Bench::new();
+    bench.edit("mini/room.toml", "room.map.txt", "/dev/zero");
+    let said = bench.run(&["check", "./mini"]);
+    let told =
+        "input file `/dev/zero` is a device, a pipe or a socket (/dev/zero); a regular file is accepted";
+    assert!(said.code == Some(2) && said.err.contains(told), "{}", said.err);
+    std::os::unix::fs::symlink("/dev/zero", bench.at("mini/zero.toml")).unwrap();
+    let said = bench.run(&["check", "./mini"]);
+    let told = "mini/zero.toml: it is a device, a pipe or a socket; a regular file is accepted";
+    assert!(said.code == Some(2) && said.err.contains(told), "{}", said.err);
+    let said = bench.run(&["audit", "/dev/zero"]);
+    let told = "/dev/zero: it holds more than 512 MiB; at most 512 MiB are accepted";
+    assert!(said.code == Some(2) && said.err.contains(told), "{}", said.err);
+}
+
+#[test]
+fn a_lattice_of_too_many_points_is_refused_with_the_step_found_and_the_limit() {
+    let bench = Bench::empty();
+    bench.done(&["new", "./arm", "--from", "arm"]);
+    for (step, told) in [
+        (
+            "1e-9",
+            "step_cm is 1e-9, which makes 1.0e11 points along x_cm alone; at most 1000000 in all are accepted",
+        ),
+        ("1e-300", "step_cm is 1e-300, which makes 1.0e302 points along x_cm alone; at most 1000000 in all"),
+        ("0.01", "step_cm is 0.01, which makes 10001 × 5001 points; at most 1000000 in all are accepted"),
+    ] {
+        let whole = fs::read(bench.at("arm/lengths.toml")).unwrap();
+        bench.edit("arm/lengths.toml", "step_cm = 1\n", &format!("step_cm = {step}\n"));
+        let said = bench.run(&["check", "./arm"]);
+        assert!(said.code == Some(2) && said.err.contains(told), "{step}: {}", said.err);
+        bench.write("arm/lengths.toml", &whole);
+    }
+}
+
+#[test]
+fn every_kind_of_file_has_an_example_of_its_kind() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for kind in catalogue::files() {
+        let file = kind.file.unwrap_or_else(|| panic!("{} has no example", kind.name));
+        assert!(root.join(file).is_file(), "{}: {file}", kind.name);
+        if file.ends_with(".toml") {
+            let document = Document::open(&root.join(file)).unwrap();
+            document.validate(&file_schema::of(kind.name)).unwrap();
+        }
+        assert!(listed(&["list", "files", kind.name]).contains(&format!("\nExample\n  {file}\n")), "{file}");
+    }
+    let groups = listed(&["list", "files", "cell_groups"]);
+    assert!(groups.contains("\n    [pose_deg]\n    A = [") && !groups.contains('#'), "{groups}");
+}
+
+#[test]
+fn a_paper_by_itself_is_told_with_its_studies_and_how_it_is_run() {
+    let said = listed(&["list", "papers", "zhang"]);
+    for part in
+        ["\n  Y. Zhang, ", " claims, 6 studies\n", "\n  ensemble: How are ", "\n  replan repro zhang "]
+    {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+}
+
+#[test]
+fn a_study_by_itself_is_told_with_its_problems_contenders_and_trials() {
+    let said = listed(&["list", "studies", "movingai_sample/scenarios"]);
+    for part in [
+        "\n  paper: ",
+        "\n  120 trials under the default",
+        "\nProblems\n",
+        "\nContenders\n",
+        ": astar; 1 seed\n",
+    ] {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+}
+
+/// What the program prints in the project's folder, of which no line is wider than 80 columns.
+fn listed(arguments: &[&str]) -> String {
+    let mut list = Command::new(env!("CARGO_BIN_EXE_replan"));
+    let said = list.args(arguments).current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
+    let said = String::from_utf8(said.stdout).unwrap();
+    assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
+    said
+}

@@ -1,0 +1,106 @@
+//! What is stored and stale has one exit code under every check, and another where it is needed as input.
+
+use crate::across::{CITED, RUNS, Toy};
+use crate::paper::Bench;
+use std::fs;
+
+const STORED: &str = "target/replan/mini/data/runs/mini";
+const REPORT: &str = "target/replan/mini/paper_repro.md";
+
+/// The paper, run, judged and drawn.
+fn reproduced() -> Bench {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini"]);
+    bench
+}
+
+/// The command must end with the exit code; what it said.
+fn ends(bench: &Bench, arguments: &[&str], code: i32) -> String {
+    let said = bench.run(arguments);
+    assert_eq!(said.code, Some(code), "{arguments:?}: {}{}", said.out, said.err);
+    said.err
+}
+
+#[test]
+fn a_spec_that_has_changed_has_one_exit_code_under_every_check() {
+    let bench = reproduced();
+    bench.edit("mini/draws.toml", "seed = 7", "seed = 9");
+    for check in [
+        &["judge", "./mini", "--check"][..],
+        &["render", "./mini", "--check"],
+        &["check", "./mini", "--rerun", "4"],
+    ] {
+        ends(&bench, check, 3);
+    }
+    let why = "the stored run was made by another spec; run study `draws` again";
+    for command in ["judge", "render"] {
+        assert!(ends(&bench, &[command, "./mini"], 2).contains(why), "{command}");
+    }
+}
+
+#[test]
+fn a_report_that_was_edited_has_one_exit_code_however_it_was_edited() {
+    let begin = "<!-- replan begin mini -->";
+    let bench = reproduced();
+    let whole = fs::read(bench.at(REPORT)).unwrap();
+    let twice = format!("{begin}\n{begin}");
+    let edits =
+        [(begin, twice.as_str()), ("<!-- replan end mini -->", ""), ("A tiny paper", "A large paper")];
+    for (from, to) in edits {
+        bench.edit(REPORT, from, to);
+        ends(&bench, &["render", "./mini", "--check"], 3);
+        bench.write(REPORT, &whole);
+    }
+    bench.write(REPORT, &[&whole[..], b"\xff"].concat());
+    ends(&bench, &["render", "./mini", "--check"], 3);
+    let said = ends(&bench, &["render", "./mini"], 2);
+    assert!(said.contains("is not UTF-8; mend it, move it away"), "{said}");
+}
+
+#[test]
+fn verdicts_of_other_readings_are_stale_under_a_check() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini", "--readings", "nodes=closed", "--out", "other"]);
+    bench.edit("mini/draws.toml", "reading.option.closed", "reading.option.shut");
+    let said = ends(&bench, &["render", "./mini", "--out", "other", "--check"], 3);
+    assert!(
+        said.contains("the stored verdicts are of other readings (reading `nodes` has no option"),
+        "{said}"
+    );
+    ends(&bench, &["render", "./mini", "--out", "other"], 2);
+}
+
+#[test]
+fn an_exploration_that_was_edited_is_found_by_a_check_and_wrong_input_of_a_command() {
+    let bench = reproduced();
+    bench.write(&format!("{STORED}/explored.toml.gz"), b"by hand");
+    let why = "explored.toml.gz: is no text packed by gzip";
+    assert!(ends(&bench, &["judge", "./mini", "--check"], 3).contains(why));
+    assert!(ends(&bench, &["judge", "./mini"], 2).contains(why));
+}
+
+#[test]
+fn what_was_never_stored_is_wrong_input_of_a_check() {
+    let bench = Bench::new();
+    for check in ["judge", "render"] {
+        ends(&bench, &[check, "./mini", "--check"], 2);
+    }
+}
+
+#[test]
+fn an_exploration_that_is_gone_is_named_with_the_command_that_makes_it() {
+    let toy = Toy::new(&[CITED]);
+    toy.0.done(&["confirm", "./toy"]);
+    toy.0.done(&["judge", "./toy", "--check"]);
+    for (file, command) in [("second_seed.toml.gz", "confirm"), ("explored.toml.gz", "explore")] {
+        let path = format!("{RUNS}/{file}");
+        let whole = fs::read(toy.0.at(&path)).unwrap();
+        fs::remove_file(toy.0.at(&path)).unwrap();
+        let said = ends(&toy.0, &["judge", "./toy", "--check"], 3);
+        let told = format!(
+            "replan: {path}: is gone, and the stored verdicts rest on it; `replan {command} toy` makes it again\n"
+        );
+        assert_eq!(said, told);
+        toy.0.write(&path, &whole);
+    }
+}
