@@ -24,7 +24,11 @@ fn refusal(find: &str, put: &str) -> String {
 /// What is written in the file, what is put there instead, and what the refusal says.
 const REFUSALS: &[(&str, &str, &str)] = &[
     ("a_mm = 150\n", "a_mm = nan\n", "up6.toml:20:8: `a_mm` is nan; a finite number is accepted"),
-    ("a_mm = 150\n", "a_mm = -1e9\n", "up6.toml:20:8: `a_mm` is -1e9; a number from -100000 to 100000 is accepted"),
+    (
+        "a_mm = 150\n",
+        "a_mm = -1e9\n",
+        "up6.toml:20:8: `a_mm` is -1e9; a number from -100000 to 100000 is accepted",
+    ),
     ("length_mm = 150", "length_mm = 1e9", "`length_mm` is 1e9; a number of 100000 or less is accepted"),
     ("a_mm = 150\n", "a_m = 0.15\n", "up6.toml:20:1: unknown key `a_m` (did you mean"),
     ("a_mm = 150\n", "", "missing key `a_mm` (The link's length"),
