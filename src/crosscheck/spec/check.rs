@@ -1,8 +1,8 @@
 //! What is wrong with a cross-check, as far as that is known before anything is run or asked.
 
-use super::{SceneFormat, Spec, armed};
+use super::{RobotEntry, SceneFormat, Spec, armed};
 use crate::crosscheck::stored::StoredPaths;
-use base::settings::{Faults, none_called};
+use base::settings::{Faults, SettingsError, none_called};
 use engine::kinematics::{KinematicsError, Robot, robot::Body};
 use engine::space::cell::Scene;
 use study::Inputs;
@@ -13,24 +13,7 @@ impl Spec {
     pub fn check(&self, paper: &Paper, inputs: &Inputs, faults: &mut Faults) {
         faults.keep(self.check_names());
         for (index, robot) in self.file.robots.iter().enumerate() {
-            let (robot, at) = (robot.get_ref(), |key: &str| format!("robot.{index}.{key}"));
-            let wrong = |message: String| self.document.error_at(&at("file"), message);
-            let loaded = inputs.locate(&robot.file).map_err(wrong).and_then(|file| {
-                Robot::load(&file).map_err(|error| match error {
-                    KinematicsError::File(faults) => faults,
-                    other => wrong(other.to_string()),
-                })
-            });
-            match loaded {
-                Err(error) => faults.add(error),
-                Ok(loaded) => {
-                    let known: Vec<&str> = loaded.bodies().iter().map(Body::name).collect();
-                    if !known.contains(&robot.body.as_str()) {
-                        let message = none_called("body", &robot.body, known);
-                        faults.add(self.document.error_at(&at("body"), message));
-                    }
-                }
-            }
+            faults.keep(self.check_robot(index, robot.get_ref(), inputs));
         }
         for (index, scene) in self.file.scenes.iter().enumerate() {
             let scene = scene.get_ref();
@@ -50,6 +33,22 @@ impl Spec {
         for (index, workspace) in self.file.workspaces.iter().enumerate() {
             self.check_paths(&workspace.get_ref().paths, &format!("workspace.{index}.paths"), paper, faults);
         }
+    }
+
+    /// A robot that can be read, which has the body.
+    fn check_robot(&self, index: usize, robot: &RobotEntry, inputs: &Inputs) -> Result<(), SettingsError> {
+        let wrong =
+            |key: &str, message: String| self.document.error_at(&format!("robot.{index}.{key}"), message);
+        let file = inputs.locate(&robot.file).map_err(|message| wrong("file", message))?;
+        let loaded = Robot::load(&file).map_err(|error| match error {
+            KinematicsError::File(faults) => faults,
+            other => wrong("file", other.to_string()),
+        })?;
+        let known: Vec<&str> = loaded.bodies().iter().map(Body::name).collect();
+        if known.contains(&robot.body.as_str()) {
+            return Ok(());
+        }
+        Err(wrong("body", none_called("body", &robot.body, known)))
     }
 
     fn check_paths(&self, paths: &StoredPaths, place: &str, paper: &Paper, faults: &mut Faults) {

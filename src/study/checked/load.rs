@@ -8,8 +8,9 @@ use super::super::spec::{ContenderSpec, ProblemsSpec, ReadingSpec, StudySpec, Sw
 use super::super::{family, planner, task};
 use super::check::check_selections;
 use super::{Contender, Group, Reading, Settings, Study, Sweep, columns_of, each, labels_of};
-use base::settings::{Document, Faults, Place, SettingsError, Spanned, did_you_mean, none_called};
+use base::settings::{Document, Faults, Place, SettingsError, Spanned, did_you_mean, none_called, schema_of};
 use engine::planner::{Build, Entry};
+use serde_json::Value;
 use std::collections::BTreeSet;
 use std::ops::Range;
 use std::path::Path;
@@ -42,8 +43,10 @@ impl Study {
     ) -> Result<Option<Self>, StudyError> {
         let name = document.path().file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let Some(mut spec) = faults.keep(document.read::<StudySpec>()) else {
-            // What it says is not known, but that it says it.
-            document.words().into_iter().for_each(|word| faults.unread(word));
+            // Any word of it may be a name that it gives, but for those that all studies have.
+            let keys = keys_in(&schema_of::<StudySpec>());
+            let names = document.words().into_iter().filter(|word| !keys.contains(*word));
+            names.for_each(|word| faults.unread(word));
             faults.unread(name);
             return Ok(None);
         };
@@ -95,6 +98,18 @@ impl Study {
             document: document.clone(),
         }
     }
+}
+
+/// Every key that `schema` knows in some table.
+fn keys_in(schema: &Value) -> BTreeSet<String> {
+    let own = schema.get("properties").and_then(Value::as_object).into_iter().flatten();
+    let own = own.map(|(key, _)| key.clone());
+    let parts: Vec<&Value> = match schema {
+        Value::Object(parts) => parts.values().collect(),
+        Value::Array(parts) => parts.iter().collect(),
+        _ => Vec::new(),
+    };
+    own.chain(parts.into_iter().flat_map(keys_in)).collect()
 }
 
 /// Every entry that can be read; the others go to `faults` under their labels, and with them columns of the study.

@@ -61,8 +61,13 @@ impl Paper {
         for (document, place, id) in placed {
             let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
             if id.is_empty() || !id.chars().all(is_plain) {
-                let message = format!("the id {id:?} names files; a to z, 0 to 9 and _ are accepted in it");
+                let shown = id.escape_debug();
+                let message =
+                    format!("the id `{shown}` names files; a to z, 0 to 9 and _ are accepted in it");
                 faults.add(document.error_at(&place, message));
+                for what in ["figure", "figure or table"] {
+                    faults.unread(names_of(what));
+                }
             } else if !seen.insert(id) {
                 let message = format!("another figure or table of the paper is called `{id}` already");
                 faults.add(document.error_at(&place, message));
