@@ -44,7 +44,7 @@ pub fn explained(item: &Item) -> String {
 
 /// What the project's `file` says without its comments, indented, if it is here and fits a terminal.
 fn short(file: &str) -> Option<String> {
-    let text = read_text(&home(None).ok()?.join(file)).ok().filter(|_| file.ends_with(".toml"))?;
+    let text = read_text(&home(None).ok()?.join(file)).ok()?;
     let said: Vec<String> =
         text.lines().filter(|line| !line.starts_with('#')).map(|line| format!("    {line}")).collect();
     let fits = said.len() <= ROWS && said.iter().all(|line| line.chars().count() <= COLUMNS);

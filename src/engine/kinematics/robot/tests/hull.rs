@@ -4,6 +4,7 @@ use super::super::urdf::capsule_around;
 use super::*;
 use crate::geometry::{Frame, Vec3};
 use crate::kinematics::open_chain::OpenChain;
+use std::fs;
 use std::path::PathBuf;
 
 /// A chain that ends a hull this near its tip ends it there: the Panda's fingers are boxes, in capsules 0.4 mm too short.
