@@ -1,7 +1,7 @@
 //! Selections as claims write them.
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// A selection as claims write it.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
@@ -31,7 +31,7 @@ pub struct SelectionSpec {
 }
 
 /// One label, or several.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "a label, or a list of labels, is accepted")]
 pub enum Labels {
     /// One label.

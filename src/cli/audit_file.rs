@@ -79,9 +79,15 @@ impl JsonSchema for AuditFile {
             ("name".to_owned(), text("Its name.")),
             ("text".to_owned(), text("One Markdown table, heads and all.")),
         ]);
+        let [mut about, mut digits] = [
+            text("What the file holds, for readers."),
+            rounding("How printed digits end where nothing else says so."),
+        ];
+        about["default"] = json!("");
+        digits["default"] = json!(Digits::Any.name());
         let keys = json!({
-            "about": text("What the file holds, for readers."),
-            "rounding": rounding("How printed digits end where nothing else says so."),
+            "about": about,
+            "rounding": digits,
             "cells": {
                 "type": "object",
                 "description": "Printed numbers by name.",

@@ -194,10 +194,10 @@ impl Manifest {
         self.gives() == before.gives()
     }
 
-    /// What says which trials and readings of the clock the run gave.
+    /// What says which trials and readings of the clock the run gave, and by which defaults.
     fn gives(&self) -> impl PartialEq {
-        let Self { spec, depends, recorded, axes, readings, shard, sessions, .. } = self;
-        (spec, depends, recorded, axes, readings, shard, sessions.is_empty())
+        let Self { spec, depends, recorded, defaults, axes, readings, shard, sessions, .. } = self;
+        (spec, depends, recorded, defaults, axes, readings, shard, sessions.is_empty())
     }
 
     /// Whether trials ran under the reading.

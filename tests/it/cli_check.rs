@@ -122,20 +122,20 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
         ),
         (
             "draws",
-            &[("replicates = 24", "replicates = 1_000_000"), ("[12, 12]", "[8192, 8192]")],
+            &[("replicates = 24", "replicates = 1_000_000"), ("[12, 12]", "[4096, 4096]")],
             &[
-                "draws.toml:18:14: 1000000 draws of 67108864 cells or samples each are 6.7e13; at most 1e12 are accepted",
+                "draws.toml:18:14: 1000000 draws of 16777216 cells or samples each are 1.7e13; at most 1e12 are accepted",
             ],
         ),
         (
             "draws",
             &[
                 ("\"random_cells\"", "\"random_rectangles\""),
-                ("[12, 12]", "[8192, 8192]"),
+                ("[12, 12]", "[4096, 4096]"),
                 ("blocked_share = 0.3", "count = 1_000_000, side_cells = [1, 8192]"),
             ],
             &[
-                "draws.toml:18:14: 24 draws of 67108931108864 cells or samples each are 1.6e15; at most 1e12 are",
+                "draws.toml:18:14: 24 draws of 16777232777216 cells or samples each are 4.0e14; at most 1e12 are",
             ],
         ),
         (

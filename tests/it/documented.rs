@@ -2,6 +2,7 @@
 
 use base::settings::describe::undocumented;
 use base::settings::{Document, Settings, SettingsError};
+use engine::planner::{Ending, Request};
 use replan::analysis::context::Context;
 use replan::analysis::criterion;
 use replan::analysis::rule;
@@ -12,7 +13,9 @@ use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use study::family::Query;
 use study::paper::Paper;
+use study::prepared::Prepared;
 use study::{Inputs, ReadingChoice, family, task};
 
 fn everything() -> Vec<(&'static str, Vec<Item>)> {
@@ -82,14 +85,39 @@ fn every_example_of_a_planner_a_stage_a_family_and_a_task_builds() {
     }
 }
 
-#[test]
-fn every_example_of_a_family_poses_its_problem() {
+/// What the example of every family poses.
+fn posed() -> Vec<(Prepared, Vec<Query>)> {
     let inputs = Inputs { roots: vec![root().to_owned(), root().join("experiments/zhang")] };
-    for item in catalogue::families() {
+    let pose = |item: Item| {
         let family = (family::find(item.name).unwrap().build)(&example(&item), &inputs).unwrap();
         let prepared = family.prepare(1).unwrap_or_else(|invalid| panic!("{}: {invalid}", item.name));
-        assert_eq!(prepared.world.kind(), family.world(), "{}", item.name);
-        assert!(!family.queries_for(1).is_empty(), "{}: nothing is asked", item.name);
+        let queries = family.queries_for(1);
+        assert!(prepared.world.kind() == family.world() && !queries.is_empty(), "{}", item.name);
+        (prepared, queries)
+    };
+    catalogue::families().into_iter().map(pose).collect()
+}
+
+#[test]
+fn every_example_of_a_planner_solves_a_problem_of_an_example_of_a_family() {
+    let posed = posed();
+    let problems =
+        || posed.iter().flat_map(|(prepared, queries)| queries.iter().map(move |query| (prepared, query)));
+    for item in catalogue::planners() {
+        let entry = study::planner::find(item.name).unwrap();
+        let engine::planner::Build::Planner(build) = entry.build else { panic!("{} is none", item.name) };
+        if item.name == study::planner::external::ENTRY.name {
+            continue; // Its example names a program, which tests/it/external runs.
+        }
+        let planner = build(&example(&item)).unwrap();
+        let is_solved = |(prepared, query): (&Prepared, &Query)| {
+            let Query { start, goal, .. } = query;
+            let request =
+                Request { world: &prepared.world, start, goal, expansions: 1_000_000, seed: 5, trace: false };
+            planner.plan(&request).is_ok_and(|plan| plan.ending == Ending::Solved)
+        };
+        let mut fitting = problems().filter(|(prepared, _)| prepared.world.kind() == entry.needs);
+        assert!(fitting.any(is_solved), "{}: its example solves nothing", item.name);
     }
 }
 

@@ -60,10 +60,8 @@ impl Study {
     fn resolve(name: String, spec: StudySpec, document: &Arc<Document>, faults: &mut Faults) -> Self {
         check_labels(&spec, document, &name, faults);
         check_selections(&spec, document, &name, faults);
-        let named = spec
-            .task
-            .as_ref()
-            .map(|task| look_up(document, "task", task, task::find, task::REGISTRY.iter().map(|e| e.name)));
+        let known = task::REGISTRY.iter().map(|entry| entry.name);
+        let named = spec.task.as_ref().map(|task| look_up(document, "task", task, task::find, known));
         Self {
             paper: spec.paper.into_inner(),
             question: spec.question,

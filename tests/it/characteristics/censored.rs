@@ -100,7 +100,7 @@ fn a_side_that_did_not_end_might_have_been_the_better_one() {
     };
     let (less, more) = ((30, At(50.0), At(100.0)), (30, At(100.0), At(50.0)));
     for (end, class) in [(NoPath, "reproduced"), (Spent, "undecided")] {
-        let (own, other) = ((3, end, At(50.0)), (3, At(50.0), end));
+        let (own, other) = ((40, end, At(50.0)), (3, At(50.0), end));
         assert_eq!(of("lower", "is = \"lower\"", less, other), class, "the other one: {end:?}");
         assert_eq!(of("lower", "is = \"higher\"", more, own), class, "its own: {end:?}");
         let ratio = of("within", "statistic = \"ratio\"\naccepted = [0.0, 0.7]", less, other);

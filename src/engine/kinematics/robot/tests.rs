@@ -23,7 +23,11 @@ fn refusal(find: &str, put: &str) -> String {
 
 /// What is written in the file, what is put there instead, and what the refusal says.
 const REFUSALS: &[(&str, &str, &str)] = &[
-    ("a_mm = 150\n", "a_mm = nan\n", "up6.toml:20:8: `a_mm` is nan; a finite number is accepted"),
+    (
+        "a_mm = 150\n",
+        "a_mm = nan\n",
+        "up6.toml:20:8: `a_mm` is nan; a finite number from -100000 to 100000 is accepted",
+    ),
     (
         "a_mm = 150\n",
         "a_mm = -1e9\n",
@@ -58,7 +62,11 @@ const REFUSALS: &[(&str, &str, &str)] = &[
     ),
     ("\"spherical_wrist\"", "\"pieper\"", "up6.toml:6:10: solver `pieper` does not exist"),
     ("length_mm = 150", "length_mm = -1", "tool.length_mm is -1; accepted: 0 (no tool) or more"),
-    ("length_mm = 150", "length_mm = inf", "`length_mm` is inf; a finite number is accepted"),
+    (
+        "length_mm = 150",
+        "length_mm = inf",
+        "`length_mm` is inf; a finite number of 100000 or less is accepted",
+    ),
     ("length_mm = 150", "length_mm = 0", "capsule `tool_body` spans a share of the tool"),
     ("radius_mm = 150", "radius_mm = -150", "the capsule's radius is -0.15; it must be greater than 0"),
     ("link = 0", "link = 7", "capsule `base` is on link 7; accepted: 0 (base) to 6"),
