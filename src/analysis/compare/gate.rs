@@ -188,8 +188,8 @@ mod tests {
             ("expansions -2%", "lower is better, so that a margin for the worse is +2%"),
             ("solved +1%", "higher is better, so that a margin for the worse is -1%"),
             (
-                "expanded +2%",
-                "`expanded` is no metric that can be compared (did you mean `expansions`?); solved, ",
+                "expansion +2%",
+                "`expansion` is no metric that can be compared (did you mean `expansions`?); solved, ",
             ),
             ("candidates +2%", "(neither way of it is better)"),
         ] {

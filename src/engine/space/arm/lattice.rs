@@ -26,7 +26,7 @@ impl TipLattice {
     /// many points.
     pub fn new(x_cm: [f64; 2], y_cm: [f64; 2], step_cm: f64) -> Result<Self, (&'static str, String)> {
         if !(step_cm.is_finite() && step_cm > 0.0) {
-            return Err(("step_cm", format!("step_cm is {step_cm:?}; a step above 0 is accepted")));
+            return Err(("step_cm", format!("step_cm is {step_cm}; a step above 0 is accepted")));
         }
         let side = |name: &'static str, [low, high]: [f64; 2]| {
             let steps = (high - low) / step_cm;
@@ -45,7 +45,7 @@ impl TipLattice {
             }
             if (steps - steps.round()).abs() > SLACK * steps.max(1.0) {
                 let message = format!(
-                    "step_cm is {step_cm:?}, which does not divide {name} of {} cm; a whole number of steps is accepted",
+                    "step_cm is {step_cm}, which does not divide {name} of {} cm; a whole number of steps is accepted",
                     high - low
                 );
                 return Err(("step_cm", message));
