@@ -45,8 +45,9 @@ impl Study {
         let Some(mut spec) = faults.keep(document.read::<StudySpec>()) else {
             // Any word of it may be a name that it gives, but for those that all studies have.
             let keys = keys_in(&schema_of::<StudySpec>());
-            let names = document.words().into_iter().filter(|word| !keys.contains(*word));
-            names.for_each(|word| faults.unread(word));
+            for word in document.words().into_iter().filter(|word| !keys.contains(*word)) {
+                faults.unread(word);
+            }
             faults.unread(name);
             return Ok(None);
         };

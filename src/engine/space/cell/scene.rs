@@ -257,7 +257,11 @@ impl Scene {
                 }
                 match solid {
                     Ok(solid) => scene.obstacles.push(Obstacle { name: name.to_owned(), solid }),
-                    Err(wrong) => wrong.iter().for_each(|(key, message)| faults.add(fault(key, message))),
+                    Err(wrong) => {
+                        for (key, message) in wrong {
+                            faults.add(fault(&key, &message));
+                        }
+                    }
                 }
             }
         }

@@ -59,7 +59,9 @@ pub(super) fn joints(source: &Source, file: &RobotFile, faults: &mut Faults) -> 
             let span = entries.last().map_or(file.joint.span(), Spanned::span);
             faults.add(source.fault(&span, format!("{count} joints were given; accepted: {AXES}")));
         }
-        other_units(source, entries).into_iter().for_each(|fault| faults.add(fault));
+        for fault in other_units(source, entries) {
+            faults.add(fault);
+        }
     }
     joints.try_into().ok()
 }
