@@ -230,7 +230,9 @@ impl Paper {
         (mut studies, others): Files,
         faults: &mut Faults,
     ) -> Result<Self, StudyError> {
-        studies.iter_mut().for_each(|study| study.of_paper = spec.left_out());
+        for study in &mut studies {
+            study.of_paper = spec.left_out();
+        }
         let claims = spec.claims.iter().map(|spec| claim(document, spec, faults)).collect();
         let absolute = fs::canonicalize(folder).map_err(StudyError::io(folder, "opening the folder"))?;
         let paper = Self {

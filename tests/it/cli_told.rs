@@ -53,6 +53,7 @@ fn a_name_that_is_nearly_right_is_answered_with_the_right_one() {
         (&["compare", "mini", "--contenders", "A*", "Two-side"], "Two-sided"),
         (&["show", "mini", "node"], "nodes"),
         (&["list", "studies", "mini/drawn"], "mini/draws"),
+        (&["list", "studies", "draws"], "mini/draws"),
     ] {
         let said = bench.run(arguments);
         assert_eq!(said.code, Some(2), "{arguments:?}: {}{}", said.out, said.err);

@@ -84,7 +84,7 @@ fn a_witness_by_a_contender_that_departs_counts_under_the_reading_that_it_depart
     let judged = toy.claim("witness");
     assert_eq!(judged.alone().name(), "undecided");
     let because = judged.findings[0].because.join("; ");
-    assert!(because.contains("met by none of 1 trials"), "{because}");
+    assert!(because.contains("met by none of 1 trial"), "{because}");
     assert!(
         because.contains("met under another reading, hurry=none, where it counts: room/room/"),
         "{because}"

@@ -324,17 +324,18 @@ impl Criterion for Attained<'_> {
             let what = format!("{how}, {} by {}", self.title(), shown.contender);
             found.ours = Some(Estimate::bare(shown.value, what, eligible.len()));
         }
+        let trials = match eligible.len() {
+            1 => "1 trial".to_owned(),
+            count => format!("{count} trials"),
+        };
         found.because.push(match met.first() {
             Some(first) => format!(
-                "met by {} of {} trials{condition}; first by `{}` on {}",
+                "met by {} of {trials}{condition}; first by `{}` on {}",
                 met.len(),
-                eligible.len(),
                 first.contender,
                 first.run.problem(first.row)
             ),
-            None => {
-                format!("met by none of {} trials{condition}; this proves nothing either way", eligible.len())
-            }
+            None => format!("met by none of {trials}{condition}; this proves nothing either way"),
         });
         let more = selected.len();
         found.because.extend((more > 0).then(|| {

@@ -3,7 +3,7 @@
 /// ` (did you mean X?)` with the known name nearest to `written`, or nothing if none is near.
 ///
 /// Near is at most a third of the letters added, left out, changed or swapped with their neighbour, whatever their case; a
-/// name that begins with what was written is near.
+/// name that begins with what was written, or ends in it after a `/`, is near.
 pub fn did_you_mean<'a>(written: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     nearest(written, known).map_or_else(String::new, |name| format!(" (did you mean `{name}`?)"))
 }
@@ -15,7 +15,8 @@ pub(super) fn nearest<'a>(written: &str, known: impl IntoIterator<Item = &'a str
     let apart = |name: &str| {
         let name = name.to_lowercase();
         // A name that was not written out is nearer than one with other letters.
-        if length > 2 && name.starts_with(&lower) { 0 } else { strsim::damerau_levenshtein(&lower, &name) }
+        let is_part = name.starts_with(&lower) || name.rsplit_once('/').is_some_and(|(_, end)| end == lower);
+        if length > 2 && is_part { 0 } else { strsim::damerau_levenshtein(&lower, &name) }
     };
     let nearest = known.into_iter().map(|name| (apart(name), name)).min();
     nearest.filter(|(apart, _)| *apart <= length / 3).map(|(_, name)| name)
