@@ -148,7 +148,10 @@ impl<'a> Context<'a> {
             };
             let meant: Vec<String> = known.iter().filter(is_meant).map(|group| (*group).to_owned()).collect();
             if meant.is_empty() {
-                faults.add(self.unknown(within, "problem group", &PROBLEM_KEYS, &label, (study, &known)));
+                let fault = self.unknown(within, "problem group", &PROBLEM_KEYS, &label, (study, &known));
+                // What begins so may be what was not read.
+                let is_many = label.ends_with('*');
+                faults.add(if is_many { fault.about(&columns_of(&study.name)) } else { fault });
             }
             groups.extend(meant);
         }

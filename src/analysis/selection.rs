@@ -6,10 +6,10 @@ use super::metric::Metric;
 use super::selection_spec::SelectionSpec;
 use base::settings::{Faults, SettingsError};
 use std::collections::BTreeMap;
-use study::Study;
 use study::key::SweepKey;
 use study::name;
 use study::record::{Row, Status};
+use study::{Study, sweeps_of};
 
 /// A selection whose every name was found.
 #[derive(Clone)]
@@ -292,9 +292,9 @@ impl<'a> Selection<'a> {
 }
 
 fn sweep_point(context: &Context<'_>, study: &Study, text: &str) -> Result<SweepKey, SettingsError> {
-    study.sweep_called(text).map_err(|message| {
-        context.settings.error_at("of.sweep", message).about(&format!("sweeps of {}", study.name))
-    })
+    study
+        .sweep_called(text)
+        .map_err(|message| context.settings.error_at("of.sweep", message).about(&sweeps_of(&study.name)))
 }
 
 impl Draw<'_> {

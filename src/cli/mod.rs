@@ -8,11 +8,23 @@
 //! `--check` and `--rerun`. A command that needs it as its input ends with code 2, and so does a check where nothing was ever
 //! stored.
 
-/// Prints a line; a reader that closed the pipe early (`head`) is no failure of ours.
+/// Whether something could not be printed, as on a disk that is full.
+static IS_LOST: AtomicBool = AtomicBool::new(false);
+
+/// Remembers that something could not be printed; a reader that closed the pipe early (`head`) is no failure of ours.
+fn not_said(error: &io::Error) {
+    if error.kind() != io::ErrorKind::BrokenPipe && !IS_LOST.swap(true, Ordering::Relaxed) {
+        let _ = writeln!(io::stderr(), "replan: standard output: {error}");
+    }
+}
+
+/// Prints a line.
 macro_rules! say {
     ($($arguments:tt)*) => {{
         use std::io::Write as _;
-        let _ = writeln!(std::io::stdout(), $($arguments)*);
+        if let Err(error) = writeln!(std::io::stdout(), $($arguments)*) {
+            $crate::cli::not_said(&error);
+        }
     }};
 }
 
@@ -60,6 +72,7 @@ use clap::{Args, Parser, Subcommand};
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
 use study::StudyError;
 
 /// `1 study`, `2 studies`.
@@ -295,6 +308,7 @@ pub fn run() -> ExitCode {
         Command::Schema(command) => command.run(),
     };
     match done {
+        Ok(()) if IS_LOST.load(Ordering::Relaxed) => ExitCode::from(1),
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             // A reader that closed the pipe early (head) is no failure of ours, and cannot be told anything.

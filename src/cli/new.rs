@@ -79,7 +79,10 @@ impl New {
         if !is_in_project {
             file_schema::write_all(&self.folder.join(OWN_SCHEMAS))?;
         }
-        let given = self.folder.display();
+        // A bare name would be taken for a paper of the project.
+        let is_bare = self.folder.components().count() == 1 && !self.folder.starts_with(".");
+        let given = if is_bare { Path::new(".").join(&self.folder) } else { self.folder.clone() };
+        let given = given.display();
         say!("`replan check {given}` checks it, `replan repro {given}` runs it and judges its claims");
         Ok(())
     }

@@ -75,6 +75,11 @@ pub fn labels_of(name: &str) -> String {
     format!("labels of {name}")
 }
 
+/// What the sweeps of the study called `name` are called where one of them may be unread.
+pub fn sweeps_of(name: &str) -> String {
+    format!("sweeps of {name}")
+}
+
 /// What stands beside whatever shows these contenders, of which a study says that they are recorded; none if there are none.
 pub fn recorded_mark<'a>(labels: impl Iterator<Item = &'a str>) -> Option<String> {
     let labels: Vec<&str> = labels.collect();

@@ -54,7 +54,7 @@ pub mod merge;
 
 pub mod rerun;
 
-pub use checked::{Study, columns_of, labels_of, recorded_mark};
+pub use checked::{Study, columns_of, labels_of, recorded_mark, sweeps_of};
 pub use contender::{Contender, StageUse, Sweep};
 pub use error::StudyError;
 pub use group::{Families, Group};

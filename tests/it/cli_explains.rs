@@ -85,7 +85,7 @@ fn list_explains_one_thing_within_eighty_columns_and_meets_a_misspelled_name() {
         ("families", "random_cells", "blocked_share: a number (a share of 1); required"),
         ("tasks", "plan", "It has no settings."),
         ("prepared", "lattice", "free_cells"),
-        ("files", "robot", "joint.alpha_deg: a number (degrees); required"),
+        ("files", "robot", "joint.alpha_deg: a number from -360 to 360 (degrees); required"),
         ("files", "study", "{ replicates = 2 } if left out"),
     ] {
         let said = bench.done(&["list", what, name]);

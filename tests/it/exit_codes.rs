@@ -104,3 +104,12 @@ fn an_exploration_that_is_gone_is_named_with_the_command_that_makes_it() {
         toy.0.write(&path, &whole);
     }
 }
+
+#[test]
+fn output_that_a_full_disk_loses_is_the_systems_refusal() {
+    let bench = Bench::new();
+    let full = fs::File::create("/dev/full").unwrap();
+    let ended = bench.command(&["check", "./mini"]).stdout(full).output().unwrap();
+    assert_eq!(ended.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&ended.stderr).contains("replan: standard output: "));
+}

@@ -28,6 +28,7 @@ mod exit_codes;
 mod exploring;
 mod external;
 mod floors;
+mod follow_on;
 mod guards;
 mod hidden_faults;
 mod jump_points;

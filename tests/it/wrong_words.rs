@@ -115,7 +115,7 @@ pub const WRONG: &[Wrong] = &[
         "draws",
         "label = \"Two-sided\"",
         "label = \"Two\\u0007sided\"",
-        "contender \"Two\\u{7}sided\" has a control character in its name",
+        "`label` holds a control character; text that can be seen is accepted",
     ),
     wrong("draws", "\"mini\"", "\"maxi\"", "`paper` is `maxi`, but the study lies in the folder of `mini`"),
     wrong(

@@ -20,6 +20,7 @@ use stats::paired::{self, snapped};
 use study::contender::SweepPoint;
 use study::name;
 use study::record::Row;
+use study::sweeps_of;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -72,7 +73,11 @@ impl<'a> Lower<'a> {
         of.against(context)?;
         if of.metric.is_none() && of.study.sweeps.is_empty() {
             let message = format!("`of` needs a `metric`: study `{}` sweeps nothing", of.study.name);
-            return Err(context.settings.error_at("of", message).about("metric"));
+            return Err(context
+                .settings
+                .error_at("of", message)
+                .about("metric")
+                .about(&sweeps_of(&of.study.name)));
         }
         let plan = plan(&context.seed_names());
         Ok(Self { of, way: settings.is, by_percent: settings.by_percent, plan })

@@ -1,5 +1,6 @@
 //! A TOML file in memory: its text, what it says, and where each value stands.
 
+use super::nearest::nearest;
 use super::reader::{self, Refused};
 use super::validate::{Fault, faults};
 use super::{Faults, SettingsError, schema_of};
@@ -121,9 +122,10 @@ impl Document {
         self.refuse_parted(faults(schema, self.parsed()?))
     }
 
-    /// Whether something was taken away under the key at its top: what seems to be missing there may be written.
+    /// Whether something was taken away under the key at its top, or under one that is nearly written so: what seems to be missing
+    /// there may be written.
     pub fn is_part(&self, key: &str) -> bool {
-        self.parted.contains(key)
+        self.parted.iter().any(|part| part == key || nearest(part, [key]).is_some())
     }
 
     /// Whether something was taken away from it.

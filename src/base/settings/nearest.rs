@@ -5,7 +5,9 @@
 /// Near is at most a third of the letters added, left out, changed or swapped with their neighbour, whatever their case; a
 /// name that begins with what was written, or ends in it after a `/`, is near.
 pub fn did_you_mean<'a>(written: &str, known: impl IntoIterator<Item = &'a str>) -> String {
-    nearest(written, known).map_or_else(String::new, |name| format!(" (did you mean `{name}`?)"))
+    nearest(written, known)
+        .filter(|name| *name != written)
+        .map_or_else(String::new, |name| format!(" (did you mean `{name}`?)"))
 }
 
 /// The known name nearest to `written`, if one is near.

@@ -84,8 +84,12 @@ impl Settings {
         table.retain(|key, value| self.table().get(key) == Some(value));
         let kept: BTreeSet<String> = table.keys().cloned().collect();
         let is_asked = |key: &String| !kept.contains(key);
-        let filled = example.into_iter().filter(|(key, _)| is_asked(key));
-        table.extend(filled.map(|(key, value)| (key, multiplied(value, times))));
+        let filled: Vec<_> = example.into_iter().filter(|(key, _)| is_asked(key)).collect();
+        // What stands in a file cannot be doubled, so that nothing tells what hangs on it.
+        if filled.iter().any(|(_, value)| value.as_str().is_some_and(|text| text.contains('/'))) {
+            return None;
+        }
+        table.extend(filled.into_iter().map(|(key, value)| (key, multiplied(value, times))));
         let mended =
             parse(&toml::to_string(&table).ok()?).is_ok_and(|value| faults(schema, &value).is_empty());
         mended.then(|| Self::remains(self, kept, table))

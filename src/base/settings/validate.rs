@@ -169,6 +169,13 @@ fn tag_word<'a>(branch: Node<'a>, key: &str) -> Option<&'a str> {
     branch.property(key)?.text("const")
 }
 
+/// Whether it does something to a terminal or a page instead of being seen: all control characters but ends of lines and tabs, and
+/// those that turn the direction of reading.
+fn is_unseen(c: char) -> bool {
+    let turns = matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    turns || (c.is_control() && !matches!(c, '\n' | '\r' | '\t'))
+}
+
 fn plain(node: Node<'_>, subject: Subject<'_>, found: &mut Found) {
     let words = node.words();
     if !words.is_empty() {
@@ -188,6 +195,11 @@ fn plain(node: Node<'_>, subject: Subject<'_>, found: &mut Found) {
     match subject.value.get_ref() {
         DeValue::Table(table) => keys(node, subject, table, found),
         DeValue::Array(elements) => array(node, subject, elements, found),
+        DeValue::String(text) if text.chars().any(is_unseen) => found.push(|| {
+            let message =
+                format!("`{}` holds a control character; text that can be seen is accepted", subject.name);
+            Fault::new(subject.span(), message)
+        }),
         value => {
             if number(value).is_some_and(|number| number.is_finite() && !is_usable(node, number)) {
                 found.push(|| refused(subject, &node.accepted_within(LARGEST)));

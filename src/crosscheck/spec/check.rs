@@ -5,8 +5,8 @@ use crate::crosscheck::stored::StoredPaths;
 use base::settings::{Faults, SettingsError, none_called};
 use engine::kinematics::{KinematicsError, Robot, robot::Body};
 use engine::space::cell::Scene;
-use study::Inputs;
 use study::paper::Paper;
+use study::{Inputs, labels_of};
 
 impl Spec {
     /// Files, bodies, studies and problem groups that do not exist go to `faults`, with all other names that are wrong.
@@ -61,7 +61,12 @@ impl Spec {
         if !study.groups.iter().any(|group| group.label == label) {
             let known = study.groups.iter().map(|group| group.label.as_str());
             let message = format!("study `{name}`: {}", none_called("problem group", label, known));
-            faults.add(self.document.error_at(&format!("{place}.problems"), message).about(label));
+            faults.add(
+                self.document
+                    .error_at(&format!("{place}.problems"), message)
+                    .about(label)
+                    .about(&labels_of(name)),
+            );
         }
     }
 }

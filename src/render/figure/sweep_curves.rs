@@ -16,10 +16,10 @@ use crate::render::style::{
 use base::settings::{Accepted, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use study::Study;
 use study::key::SweepKey;
 use study::paper::Paper;
 use study::record::Status;
+use study::{Study, sweeps_of};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -174,7 +174,7 @@ impl SweepCurves {
         let points: Vec<(f64, SweepKey)> = points.filter_map(|key| Some((value(&key)?, key))).collect();
         if points.is_empty() {
             let message = format!("study `{}` does not sweep numbers of `{}`", study.name, read.sweep);
-            return Err(settings.error_at("sweep", message));
+            return Err(settings.error_at("sweep", message).about(&sweeps_of(&study.name)));
         }
         let mut rows = Vec::new();
         for (index, row) in read.rows.iter().enumerate() {

@@ -7,7 +7,7 @@ use super::super::inputs::Inputs;
 use super::super::spec::StudySpec;
 use super::super::{name, planner};
 use super::sizes::SWEPT;
-use super::{Contender, Group, ReadingChoice, Study, Sweep, SweepPoint, labels_of};
+use super::{Contender, Group, ReadingChoice, Study, Sweep, SweepPoint, labels_of, sweeps_of};
 use base::settings::{Document, Faults, Settings, SettingsError, did_you_mean, none_called};
 use engine::space::WorldKind;
 use engine::space::roadmap::Extent;
@@ -56,7 +56,7 @@ impl Study {
         Ok(())
     }
 
-    /// Refuses readings whose default is not one of their options; the first option stands in for it.
+    /// Refuses readings whose default is not one of their options, and leaves them out.
     fn check_defaults(&mut self, faults: &mut Faults) {
         for (index, reading) in self.readings.iter_mut().enumerate() {
             let (id, default) = (&reading.id, &reading.default);
@@ -68,7 +68,8 @@ impl Study {
             let message =
                 format!("reading `{id}` has no option `{default}`{hint}; it has {}", known.join(", "));
             faults.add(self.document.error_at(&format!("reading.{index}.default"), message));
-            reading.default = reading.options.keys().next().cloned().unwrap_or_default();
+            faults.unread(id);
+            reading.options.clear();
         }
         self.readings.retain(|reading| !reading.options.is_empty());
     }
@@ -205,7 +206,7 @@ impl Study {
             if let Some(wrong) = wrong {
                 let message = format!("sweep `{}` {wrong}", sweep.key);
                 faults.add(self.document.error_at(&format!("sweep.{index}.key"), message));
-                faults.unread(format!("sweeps of {}", self.name));
+                faults.unread(sweeps_of(&self.name));
                 continue;
             }
             points = points.saturating_mul(sweep.values.len());
@@ -214,7 +215,7 @@ impl Study {
                     "the values of the sweeps have {points} combinations; at most {SWEPT} are accepted"
                 );
                 faults.add(self.document.error_at(&format!("sweep.{index}.values"), message));
-                faults.unread(format!("sweeps of {}", self.name));
+                faults.unread(sweeps_of(&self.name));
                 break;
             }
             if !used.contains(sweep.of.as_str()) {

@@ -7,7 +7,7 @@ use super::super::name::slug;
 use super::super::spec::{ContenderSpec, ProblemsSpec, ReadingSpec, StudySpec, SweepSpec};
 use super::super::{family, planner, task};
 use super::check::check_selections;
-use super::{Contender, Group, Reading, Settings, Study, Sweep, columns_of, each, labels_of};
+use super::{Contender, Group, Reading, Settings, Study, Sweep, columns_of, each, labels_of, sweeps_of};
 use base::settings::{Document, Faults, Place, SettingsError, Spanned, did_you_mean, none_called, schema_of};
 use engine::planner::{Build, Entry};
 use serde_json::Value;
@@ -140,6 +140,9 @@ fn check_labels(spec: &StudySpec, document: &Document, study: &str, faults: &mut
         faults.unread(labels_of(study));
         faults.unread(columns_of(study));
     }
+    if document.is_part("sweep") {
+        faults.unread(sweeps_of(study));
+    }
     unique(document, "problem group", spec.problems.iter().map(|p| &p.label), faults);
     unique(document, "contender", spec.contenders.iter().map(|c| &c.label), faults);
     unique(document, "reading", spec.readings.iter().map(|r| &r.id), faults);
@@ -156,9 +159,6 @@ fn unique<'a>(
         let slug = slug(label.get_ref());
         if slug.is_empty() {
             let message = format!("{what} `{}` has no letter or digit in its name", label.get_ref());
-            faults.add(document.error(label.span(), message));
-        } else if label.get_ref().chars().any(char::is_control) {
-            let message = format!("{what} {:?} has a control character in its name", label.get_ref());
             faults.add(document.error(label.span(), message));
         } else if !seen.insert(slug.clone()) {
             let message =

@@ -2,7 +2,8 @@
 
 use super::super::family::Family;
 use super::super::spec::TrialsSpec;
-use super::{Contender, Group, Study};
+use super::super::task;
+use super::{Contender, Group, Study, columns_of, labels_of};
 use base::settings::Faults;
 use std::sync::Arc;
 
@@ -29,11 +30,26 @@ impl Study {
                 faults.add(self.document.error_at(&format!("problems.{}.replicates", group.place), message));
             }
         }
+        self.check_runs(faults);
         self.check_trials(families, faults);
         for (index, figure) in self.figures.iter().enumerate() {
             self.check_shown(&figure.shows, &format!("figure.{index}.shows"), faults);
         }
         self.check_shown(&self.keeps, "keep", faults);
+    }
+
+    /// Refuses a study that plans nothing: without problems, or without a contender.
+    fn check_runs(&self, faults: &mut Faults) {
+        if self.document.is_rest() {
+            return;
+        }
+        let lists = [("problems", self.groups.is_empty()), ("contender", self.contenders.is_empty())];
+        for (key, is_empty) in lists {
+            if is_empty && self.task.name == task::default().name {
+                let message = format!("nothing is planned without `[[{key}]]`; one or more are accepted");
+                faults.add(self.document.error_at("", message).about(&columns_of(&self.name)));
+            }
+        }
     }
 
     fn check_trials(&self, families: &[(&Group, Arc<dyn Family>)], faults: &mut Faults) {
@@ -86,7 +102,8 @@ impl Study {
                 {
                     let message =
                         format!("`{key}` is {asked}; there are {there_are}, and no more is accepted");
-                    faults.add(self.document.error_at(&format!("{place}.{index}.{key}"), message));
+                    let fault = self.document.error_at(&format!("{place}.{index}.{key}"), message);
+                    faults.add(fault.about(&labels_of(&self.name)));
                 }
             }
         }

@@ -8,6 +8,7 @@ use base::seed;
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
 use engine::geometry::Vec2;
 use engine::geometry::planar::ConvexPolygon;
+use engine::kinematics::FARTHEST_MM;
 use engine::planner::{Exhibit, Invalid};
 use engine::space::WorldKind;
 use engine::space::roadmap::{Counted, Extent, Local, Near, PlaneMap, Sample};
@@ -61,7 +62,7 @@ struct PlaneQueries {
     #[schemars(range(min = 1, max = 100_000))]
     samples: u32,
     /// How far two samples may be apart to be tried as neighbours.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(range(max = FARTHEST_MM), extend("exclusiveMinimum" = 0))]
     radius_mm: f64,
 }
 

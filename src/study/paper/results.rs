@@ -1,6 +1,7 @@
 //! Tables of our own results: rows of contenders, blocks of problems, cells of metrics.
 
 use super::Paper;
+use crate::checked::labels_of;
 use base::settings::{Faults, Spanned, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -96,7 +97,8 @@ impl Paper {
                         named.get_ref(),
                         known.join(", ")
                     );
-                    faults.add(self.document.error(named.span(), message).about(named.get_ref()));
+                    let fault = self.document.error(named.span(), message);
+                    faults.add(fault.about(named.get_ref()).about(&labels_of(&study.name)));
                 }
             }
         }

@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 use study::contender::SweepPoint;
 use study::key::{SweepValue, Text};
 use study::paper::Paper;
-use study::{Study, name};
+use study::{Study, name, sweeps_of};
 
 /// One contender's shares in several studies.
 #[derive(Deserialize, JsonSchema)]
@@ -119,7 +119,7 @@ fn others(settings: &Settings, study: &Study, written: &[String]) -> Result<Vec<
             let known: Vec<String> = known.iter().map(|other| name::sweep_value(other)).collect();
             let message =
                 format!("study `{}` has no sweep `{text}`; it has {}", study.name, known.join(", "));
-            settings.error_at(&format!("across.others.{index}"), message)
+            settings.error_at(&format!("across.others.{index}"), message).about(&sweeps_of(&study.name))
         })
     };
     written.iter().enumerate().map(find).collect()

@@ -16,6 +16,7 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields)]
 pub(super) struct JointEntry {
     /// The twist: the turn about x from this joint's axis to the next one's.
+    #[schemars(range(min = -360, max = 360))]
     alpha_deg: f64,
     /// The link's length: the way along x to the next axis.
     #[schemars(range(min = -FARTHEST_MM, max = FARTHEST_MM))]
@@ -24,10 +25,13 @@ pub(super) struct JointEntry {
     #[schemars(range(min = -FARTHEST_MM, max = FARTHEST_MM))]
     d_mm: f64,
     /// What is added to the joint's angle.
+    #[schemars(range(min = -360, max = 360))]
     offset_deg: f64,
     /// The least angle.
+    #[schemars(range(min = -3600, max = 3600))]
     lower_deg: f64,
     /// The greatest angle.
+    #[schemars(range(min = -3600, max = 3600))]
     upper_deg: f64,
     /// The greatest speed; given like this or as `speed_rad_s`.
     speed_deg_s: Option<f64>,

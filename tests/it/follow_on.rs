@@ -1,0 +1,73 @@
+//! In a paper of many studies one fault is told once, and nothing that follows from it alone.
+
+use crate::paper::Bench;
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::path::Path;
+
+/// What `check` says of a committed paper with one change of one of its files, without excerpts.
+fn told(paper: &str, file: &str, from: &str, to: &str) -> Vec<String> {
+    let (bench, root) = (Bench::empty(), Path::new(env!("CARGO_MANIFEST_DIR")));
+    symlink(root.join("data"), bench.at("data")).unwrap();
+    for entry in fs::read_dir(root.join("experiments").join(paper)).unwrap() {
+        let entry = entry.unwrap();
+        let name = entry.file_name().into_string().unwrap();
+        bench.write(&format!("{paper}/{name}"), &fs::read(entry.path()).unwrap());
+    }
+    bench.edit(&format!("{paper}/{file}"), from, to);
+    let said = bench.run(&["check", &format!("./{paper}")]);
+    assert_eq!(said.code, Some(2), "{from} to {to}: {}{}", said.out, said.err);
+    said.err.lines().filter(|line| !line.starts_with("    ")).map(str::to_owned).collect()
+}
+
+#[test]
+fn a_fault_of_one_study_is_told_alone_in_a_paper_of_many() {
+    for (paper, file, from, to, wanted) in [
+        ("fu2018", "success.toml", "[[sweep]]", "[[sweeep]]", "unknown key `sweeep` (did you mean `sweep`?)"),
+        ("fu2018", "success.toml", "key = \"samples\"", "key = 5", "`key` is 5; text in quotes is accepted"),
+        ("fu2018", "length.toml", "label = \"cell\"", "", "missing key `label`"),
+        ("gallery", "movingai.toml", "{ map = ", "{ mapp = ", "unknown key `mapp` (did you mean `map`?)"),
+        ("gallery", "movingai.toml", "\"movingai\"", "\"movingay\"", "there is no problem family `movingay`"),
+        (
+            "gallery",
+            "ur5.toml",
+            "jump_deg = ",
+            "jump_deg = 4000 #",
+            "`jump_deg` is 4000; a number above 0 to 3600",
+        ),
+        ("tang2023", "postures.toml", "replicates = 1000", "replicates = \"9\"", "`replicates` is \"9\""),
+        (
+            "tang2023",
+            "postures.toml",
+            "default = \"paper\"",
+            "default = \"papper\"",
+            "has no option `papper`",
+        ),
+    ] {
+        let told = told(paper, file, from, to);
+        let is_meant = told.len() == 1 && told[0].contains(wanted);
+        assert!(is_meant, "{paper}/{file}: {from} to {to} is told:\n{}", told.join("\n"));
+    }
+}
+
+#[test]
+fn a_study_that_plans_nothing_is_refused() {
+    let bench = Bench::new();
+    bench.write(
+        "mini/none.toml",
+        b"paper = \"mini\"\nquestion = \"?\"\nseed = 1\nbudget = { expansions = 9 }\n",
+    );
+    let said = bench.run(&["check", "./mini"]);
+    assert_eq!(said.code, Some(2), "{}{}", said.out, said.err);
+    for list in ["problems", "contender"] {
+        assert!(said.err.contains(&format!("nothing is planned without `[[{list}]]`")), "{}", said.err);
+    }
+}
+
+#[test]
+fn text_that_turns_a_terminal_or_a_page_is_refused() {
+    for turning in ["\\u0000", "\\u001b[31m", "\\u202e"] {
+        let told = told("gallery", "paper.toml", "title = \"", &format!("title = \"{turning}"));
+        assert!(told.len() == 1 && told[0].contains("`title` holds a control character"), "{told:?}");
+    }
+}
