@@ -44,7 +44,7 @@ def ratio(cases: Cases, bases: Reals, values: Reals, seed: str) -> tuple[float, 
 def filled(cases: Cases) -> list[tuple[Reals, Reals]]:
     """Both numbers of every case, the censored ones farther apart than all that were seen together.
 
-    A side that ended without a path counts against itself; one that did not come to an end might have been either.
+    A side that ended without a path counts against itself; one that did not end might be the better.
     """
     censored, paired, ended = cases.censored, cases.paired, ~cases.unended
     if not censored.any() or not paired.any():

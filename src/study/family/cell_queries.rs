@@ -93,14 +93,14 @@ struct CellQueries {
     #[serde(default)]
     turns: Turns,
     /// How far the tools of two samples may be apart to be tried as neighbours; given like this, as `radius_deg` or as `nearest`.
-    #[schemars(range(max = FARTHEST_MM), extend("exclusiveMinimum" = 0))]
+    #[schemars(range(min = 0.001, max = FARTHEST_MM))]
     radius_mm: Option<f64>,
     /// By how much `radius_mm` is multiplied: what varies with a radius that another setting chose.
     #[serde(default = "once")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     radius_times: f64,
     /// How far two samples may be apart in joint space, by the root of the sum of squares over the joints.
-    #[schemars(range(max = 36_000), extend("exclusiveMinimum" = 0))]
+    #[schemars(range(min = 0.001, max = 36_000))]
     radius_deg: Option<f64>,
     /// So many samples nearest in joint space are tried as a sample's neighbours.
     #[schemars(range(min = 1))]
@@ -114,10 +114,10 @@ struct CellQueries {
     #[schemars(range(min = 0.1, max = 180.0))]
     step_deg: f64,
     /// How far a joint may move between two of them before the path counts as broken.
-    #[schemars(range(max = 3600), extend("exclusiveMinimum" = 0))]
+    #[schemars(range(min = 0.001, max = 3600))]
     jump_deg: f64,
     /// How far the tool may turn along one local path.
-    #[schemars(range(max = 360), extend("exclusiveMinimum" = 0))]
+    #[schemars(range(min = 0.001, max = 360))]
     turn_deg: f64,
     /// What the end of a local path must be.
     end: EndSetting,

@@ -68,10 +68,10 @@ struct JointQueries {
     #[schemars(range(min = 1, max = 100_000))]
     samples: u32,
     /// How far the tips of two samples may be apart to be tried as neighbours; given like this, as `radius_deg` or as `nearest`.
-    #[schemars(range(max = FARTHEST_MM), extend("exclusiveMinimum" = 0))]
+    #[schemars(range(min = 0.001, max = FARTHEST_MM))]
     radius_mm: Option<f64>,
     /// How far two samples may be apart in joint space, by the root of the sum of squares over the joints.
-    #[schemars(range(max = 36_000), extend("exclusiveMinimum" = 0))]
+    #[schemars(range(min = 0.001, max = 36_000))]
     radius_deg: Option<f64>,
     /// So many samples nearest in joint space are tried as a sample's neighbours.
     #[schemars(range(min = 1))]

@@ -62,7 +62,7 @@ struct PlaneQueries {
     #[schemars(range(min = 1, max = 100_000))]
     samples: u32,
     /// How far two samples may be apart to be tried as neighbours.
-    #[schemars(range(max = FARTHEST_MM), extend("exclusiveMinimum" = 0))]
+    #[schemars(range(min = 0.001, max = FARTHEST_MM))]
     radius_mm: f64,
 }
 
