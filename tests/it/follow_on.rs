@@ -33,7 +33,7 @@ fn a_fault_of_one_study_is_told_alone_in_a_paper_of_many() {
             "ur5.toml",
             "jump_deg = ",
             "jump_deg = 4000 #",
-            "`jump_deg` is 4000; a number above 0 to 3600",
+            "`jump_deg` is 4000; a number from 0.001 to 3600",
         ),
         ("tang2023", "postures.toml", "replicates = 1000", "replicates = \"9\"", "`replicates` is \"9\""),
         (
