@@ -44,7 +44,7 @@ fn planner(over: &str) -> Box<dyn Planner> {
 fn numbers_that_cannot_be_are_refused_by_name() {
     for (over, parts) in [
         ("samples = 0", ["`samples` is 0", "1 to 100000"]),
-        ("radius_mm = 0", ["`radius_mm` is 0", "above 0"]),
+        ("radius_mm = 0", ["`radius_mm` is 0", "from 0.001 to 100000"]),
         ("radius_times = 0", ["`radius_times` is 0", "above 0"]),
         ("step_deg = nan", ["`step_deg` is nan", "finite"]),
         ("speed = { tool_mm_s = -1, acceleration_mm_s2 = 1 }", ["tool_mm_s` is -1", "above 0"]),
