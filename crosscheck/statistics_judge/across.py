@@ -19,7 +19,7 @@ Options = dict[str, str]
 
 @dataclass
 class Axis:
-    """A reading of a paper, put together from its studies."""
+    """A choice of a paper."""
 
     id: str
     default: str
@@ -32,8 +32,12 @@ class Axis:
         return reading.get(self.id, self.default)
 
     def votes(self, reading: Options) -> bool:
-        """Whether the option cites the paper or a practice, or is a number within sourced bounds."""
+        """Whether the option can be run and the paper may mean it."""
         name = self.option(reading)
+        return self.is_meant(name) and "cannot_run" not in self.options[name]
+
+    def is_meant(self, name: str) -> bool:
+        """Whether an option cites the paper or a practice, or is a number within sourced bounds."""
         if any(self.is_cited(option) for option in self.options.values()):
             return self.is_cited(self.options[name])
         return name == self.default
@@ -72,22 +76,18 @@ def within(value: float, bounds: tuple[float, float]) -> bool:
 
 
 def axes(paper: Paper) -> list[Axis]:
-    """The readings of all studies; what the first table of one leaves out, a later one may say."""
-    found: dict[str, Axis] = {}
-    for study in paper.studies.values():
-        for table in study.readings:
-            bounds = table.get("bounds")
-            ends = (bounds["least"], bounds["greatest"]) if bounds else None
-            fitted = table.get("fitted", False)
-            options = {name: dict(option) for name, option in table["option"].items()}
-            known = found.setdefault(table["id"], Axis(table["id"], table["default"], fitted, ends, options))
-            known.fitted |= fitted
-            known.bounds = known.bounds or ends
-            for name, own in known.options.items():
-                for key in ("paper", "practice", "value"):
-                    if key in options.get(name, {}):
-                        own.setdefault(key, options[name][key])
-    return list(found.values())
+    """The choices of a paper; what an option does not cite, its choice may."""
+    found = []
+    for choice in paper.choices:
+        bounds = choice.get("bounds")
+        ends = (bounds["least"], bounds["greatest"]) if bounds else None
+        source = {key: choice[key] for key in ("paper", "practice") if key in choice}
+        options = {
+            name: option if "paper" in option or "practice" in option else {**source, **option}
+            for name, option in choice["option"].items()
+        }
+        found.append(Axis(choice["id"], choice["default"], choice.get("fitted", False), ends, options))
+    return found
 
 
 class Across:
@@ -255,12 +255,12 @@ class Across:
         """Whether some reading changes trials, and none of the studies that the claim looks at has any."""
         assert self.first is not None
         changing = (option for axis in self.axes for option in axis.options.values())
-        if not any(option.get(key) for option in changing for key in ("problem", "stage")):
+        if not any(option.get(key) for option in changing for key in ("problem", "stage", "contender")):
             return False
         looked_at = set(self.first["claims"][claim]["studies"])
         for study in self.paper.studies.values():
-            names = {study.name, study.spec.get("explore", {}).get("stands_for")}
-            if names & looked_at and study.readings:
+            names = {study.name, self.paper.stands_for.get(study.name)}
+            if names & looked_at and study.inherited:
                 return False
         return bool(looked_at)
 

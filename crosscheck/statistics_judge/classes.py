@@ -33,9 +33,13 @@ def of_finding(
     censored: bool = False,
     few: bool = False,
     clock: bool = False,
+    not_run: bool = False,
 ) -> str:
-    """The class of what a criterion found; `clock`: it rests on a clock with few or contrary sessions."""
-    if censored or few or clock:
+    """The class of what a criterion found.
+
+    `clock`: it rests on a clock with few or contrary sessions. `not_run`: the paper may mean an option that cannot be run.
+    """
+    if censored or few or clock or not_run:
         return "undecided"
     plain = {HOLDS: "reproduced", SIGN: "direction_only", OPEN: "undecided", FAILS: "not_reproduced"}[outcome]
     if plain == "reproduced" and (searched or existential):

@@ -7,7 +7,7 @@ from typing import Any
 
 from statistics_judge import across, classes, medians, printed_cells, shares, sizes
 from statistics_judge.found import FEWEST_DRAWS, Asked, Estimate, Found
-from statistics_judge.records import Paper
+from statistics_judge.records import Paper, Study
 from statistics_judge.selection import labels, select
 
 CRITERIA: dict[str, Callable[[Asked], Found]] = {
@@ -130,6 +130,7 @@ def of_criterion(
             censored=censored or is_cut,
             few=is_few(name, settings, found),
             clock=bool(clock),
+            not_run=is_not_run(paper, claim, studies),
         )
         for outcome, censored in itertools.product(found.possible, found.censored)
     )
@@ -138,7 +139,19 @@ def of_criterion(
 
 def is_meant(paper: Paper, claim: dict[str, Any]) -> bool:
     """Whether a claim is meant under the readings that it is judged under."""
-    return all(paper.choices[axis] in options for axis, options in claim.get("holds_when", {}).items())
+    return all(paper.taken[axis] in options for axis, options in claim.get("holds_when", {}).items())
+
+
+def is_not_run(paper: Paper, claim: dict[str, Any], studies: list[Study]) -> bool:
+    """Whether the paper may mean an option that cannot be run, of a choice that these studies inherit."""
+    premises = claim.get("holds_when", {})
+    for axis in across.axes(paper):
+        lost = [name for name, option in axis.options.items() if "cannot_run" in option and axis.is_meant(name)]
+        lost = [name for name in lost if name in premises.get(axis.id, [name])]
+        of_claims = any(key in option for option in axis.options.values() for key in ("metric", "digits"))
+        if lost and (of_claims or any(axis.id in study.inherited for study in studies)):
+            return True
+    return False
 
 
 def is_few(name: str, settings: dict[str, Any], found: Found) -> bool:
@@ -184,7 +197,7 @@ def lacks_sessions(stored: int, find: Callable[[int], Found]) -> bool:
 def compare(paper: Paper, claims: list[Claim], verdicts: dict[str, Any]) -> Said:
     """What verdicts.toml says, held against what was recomputed."""
     said = Said()
-    if verdicts["reading"] != paper.choices:
+    if verdicts["reading"] != paper.taken:
         said.differ.append(f"{paper.id}: verdicts.toml was judged under other readings than the defaults")
         return said
     stored = {one["claim"]: one for one in verdicts.get("claim", [])}

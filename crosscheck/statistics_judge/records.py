@@ -20,6 +20,10 @@ Places = npt.NDArray[np.int64]
 Flags = npt.NDArray[np.bool_]
 
 
+# What a column is called that has the option taken of a choice, before the choice's name.
+OPTION = "reading_"
+
+
 @dataclass(frozen=True)
 class Metric:
     """A metric, as replan describes it."""
@@ -66,21 +70,22 @@ def coded(words: list[str]) -> tuple[Places, list[str]]:
 
 
 class Study:
-    """A study's spec with its stored run, as seen under one choice of readings."""
+    """A study's spec with its stored run, as seen under one interpretation."""
 
     def __init__(self, path: Path, spec: dict[str, Any], runs: Path) -> None:
         """Remember where it is; nothing is read before it is asked for."""
         self.name, self.spec, self.runs = path.stem, spec, runs
-        self.choices: dict[str, str] = {}
+        self.taken: dict[str, str] = {}
         self._columns: dict[str, Reals] = {}
         self._clocked: dict[int, Reals] = {}
         # What many claims ask of one contender on one problem, and who asks.
         self.known: dict[tuple, Any] = {}
 
-    @property
-    def readings(self) -> list[dict[str, Any]]:
-        """The readings that it declares."""
-        return self.spec.get("reading", [])
+    @cached_property
+    def inherited(self) -> list[str]:
+        """The choices that touch its trials, by the columns of their options."""
+        columns = (name for name in self.trials.names if name.startswith(OPTION))
+        return [name.removeprefix(OPTION) for name in columns]
 
     @property
     def groups(self) -> list[str]:
@@ -167,12 +172,10 @@ class Study:
         groups, group_names = self.trials.words("group")
         contenders, contender_names = self.trials.words("contender")
         kept = np.ones(self.count, dtype=bool)
-        for reading in self.readings:
-            column = f"reading_{reading['id']}"
-            if column in self.trials.names:
-                options, names = self.trials.words(column)
-                wanted = self.choices[reading["id"]]
-                kept &= options == (names.index(wanted) if wanted in names else -1)
+        for choice in self.inherited:
+            options, names = self.trials.words(OPTION + choice)
+            wanted = self.taken[choice]
+            kept &= options == (names.index(wanted) if wanted in names else -1)
         both = np.where(kept, groups * len(contender_names) + contenders, -1)
         found = {}
         for code in np.unique(both[kept]):
@@ -237,7 +240,7 @@ def spelled(value: object) -> str:
 def keys_of(table: Table) -> list[tuple]:
     """What names the trial of each row."""
     fixed = ["group", "draw", "query", "contender", "repeat"]
-    named = [*fixed, *(name for name in table.names if name.startswith(("sweep_", "reading_")))]
+    named = [*fixed, *(name for name in table.names if name.startswith(("sweep_", OPTION)))]
     return list(zip(*(table.listed(name) for name in named), strict=True))
 
 
@@ -247,19 +250,17 @@ class Paper:
     def __init__(self, folder: Path, runs: Path, metrics: list[Metric]) -> None:
         """Read the specs."""
         self.id = runs.name
-        self.claims: list[dict[str, Any]] = toml(folder / "paper.toml").get("claim", [])
+        spec = toml(folder / "paper.toml")
+        self.claims: list[dict[str, Any]] = spec.get("claim", [])
+        self.choices: list[dict[str, Any]] = spec.get("choice", [])
+        self.stands_for: dict[str, str] = spec.get("explore", {}).get("stands_for", {})
         self.studies = {study.name: study for study in studies(folder, runs)}
         self.metrics = {metric.name: metric for metric in metrics}
         self.runs = runs
-        options: list[dict[str, Any]] = []
-        self.choices: dict[str, str] = {}
+        self.taken: dict[str, str] = {choice["id"]: choice["default"] for choice in self.choices}
+        options = [choice["option"][choice["default"]] for choice in self.choices]
         for study in self.studies.values():
-            for reading in study.readings:
-                if reading["id"] not in self.choices:
-                    self.choices[reading["id"]] = reading["default"]
-                    options.append(reading["option"][reading["default"]])
-        for study in self.studies.values():
-            study.choices = self.choices
+            study.taken = self.taken
         self.meanings = {name: own for option in options for name, own in option.get("metric", {}).items()}
         self.digits = next((option["digits"] for option in options if "digits" in option), "unknown")
 

@@ -114,20 +114,15 @@ def test_an_exploration_that_was_changed_no_longer_agrees(name: str, tmp_path: P
 
 def test_a_vote_made_a_probe_changes_what_is_counted() -> None:
     of = paper(EXPLORED[-1])
-    sourced = next(
-        (study, table, name)
-        for study in of.studies.values()
-        for table in study.readings
-        for name, option in table["option"].items()
-        if "practice" in option and name != table["default"]
+    choice, name = next(
+        (choice, name)
+        for choice in of.choices
+        for name, option in choice["option"].items()
+        if "practice" in option and name != choice["default"]
     )
-    _, table, name = sourced
-    for study in of.studies.values():
-        for known in study.readings:
-            if known["id"] == table["id"]:
-                known["option"][name].pop("practice", None)
-                known["option"][name].pop("paper", None)
-    axis = next(axis for axis in axes(of) if axis.id == table["id"])
+    choice["option"][name].pop("practice")
+    choice["option"][name].pop("paper", None)
+    axis = next(axis for axis in axes(of) if axis.id == choice["id"])
     assert not axis.votes({axis.id: name})
     assert said(of, stored(of))
 

@@ -45,17 +45,14 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
     faults.done()
 }
 
-/// Refuses options of readings that give a name the meaning of a metric that does not exist.
+/// Refuses options that give a name the meaning of a metric that does not exist.
 fn check_metrics(paper: &Paper, faults: &mut Faults) {
-    for study in &paper.studies {
-        for (index, reading) in study.readings.iter().enumerate() {
-            let options = reading.options.iter();
-            let named = options.flat_map(|(option, change)| change.metric.iter().map(move |m| (option, m)));
-            for (option, (name, metric)) in named.filter(|(_, (_, metric))| metric::find(metric).is_none()) {
-                let message = none_called("metric", metric, metric::METRICS.iter().map(|metric| metric.name));
-                let place = format!("reading.{index}.option.{option}.metric.{name}");
-                faults.add(study.document.error_at(&place, message));
-            }
+    for choice in &paper.choices {
+        let options = choice.options.iter();
+        let named = options.flat_map(|(option, change)| change.metric.iter().map(move |m| (option, m)));
+        for (option, (name, metric)) in named.filter(|(_, (_, metric))| metric::find(metric).is_none()) {
+            let message = none_called("metric", metric, metric::METRICS.iter().map(|metric| metric.name));
+            faults.add(choice.error(&["option", option, "metric", name], message));
         }
     }
 }
@@ -123,7 +120,7 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
         paper: paper.id.clone(),
         command: evidence.runs().next().map_or_else(String::new, |run| run.manifest.command.clone()),
         quick: evidence.runs().any(|run| run.manifest.quick),
-        reading: evidence.point.choices().clone(),
+        reading: evidence.point.options().clone(),
         explored: None,
         records: records(evidence),
         claims_changed_since: changed.map(|run| run.study.name.clone()).collect(),
@@ -231,9 +228,12 @@ fn judged(evidence: &Evidence<'_>, claim: &Claim, verdict: Verdict, mut findings
     }
 }
 
-fn finding(criterion: &str, found: Found, caps: Caps) -> Finding {
+fn finding(criterion: &str, found: Found, caps: Caps, not_run: &[String]) -> Finding {
     let verdict = found.outcome.and_then(|outcome| class::of_finding(outcome, caps));
-    let settles = (verdict == Some(Verdict::Undecided)).then(|| settles(&found, caps));
+    let settles = (verdict == Some(Verdict::Undecided)).then(|| match not_run {
+        [] => settles(&found, caps),
+        options => format!("trials under what cannot be run here: {}", options.join("; ")),
+    });
     Finding {
         criterion: criterion.to_owned(),
         verdict,
@@ -258,6 +258,7 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
     // A cell of a row that something was chosen to meet was met with it, and so was a sentence that repeats such a number.
     let row = |id: &str| evidence.paper.whole_of(id).filter(|whole| matches!(whole.parts, Parts::Cells(_)));
     let is_met = |id: &str| is_fitted(id) || row(id).is_some_and(|row| is_fitted(&row.id));
+    let not_run = evidence.paper.not_run(claim, &studies);
     let caps = Caps {
         searched: studies.iter().any(|study| study.searched),
         fitted: evidence.paper.claims.iter().any(|other| other.asks_as(claim) && is_met(&other.id)),
@@ -267,11 +268,12 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
         few: found.needs.is_some(),
         clock,
         without_premises: !claim.is_meant(&evidence.point),
+        not_run: !not_run.is_empty(),
     };
     let studies = studies.iter().map(|study| study.name.clone()).collect();
     let (is_covered, is_posed) = (of.is_covered(evidence), of.is_posed(evidence));
     found.premises.extend(premises(claim));
-    let finding = finding(name, found, caps);
+    let finding = finding(name, found, caps, &not_run);
     Weighed { finding, caps, is_covered, is_posed, results: String::new(), studies }
 }
 

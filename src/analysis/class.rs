@@ -127,6 +127,8 @@ pub struct Caps {
     pub clock: Option<Sessions>,
     /// The reading is none under which the claim is meant.
     pub without_premises: bool,
+    /// The paper may mean an option that cannot be run.
+    pub not_run: bool,
 }
 
 /// What the stored sessions of a clock, judged one by one and never pooled, say of a claim.
@@ -163,7 +165,8 @@ pub fn of_finding(outcome: Outcome, caps: Caps) -> Option<Verdict> {
     };
     let no_clock = matches!(caps.clock, Some(Sessions::TooFew | Sessions::Disagree));
     let is_hollow = caps.powerless && measured.polarity() == Polarity::For;
-    Some(if caps.censored || caps.few || no_clock || is_hollow { Verdict::Undecided } else { measured })
+    let is_open = caps.censored || caps.few || caps.not_run || no_clock || is_hollow;
+    Some(if is_open { Verdict::Undecided } else { measured })
 }
 
 /// The class of a claim from those of its findings, and whether the paper leaves out what it would take.

@@ -7,7 +7,7 @@ use audit::printed::{Digits, Printed};
 use base::settings::{Faults, Settings, SettingsError, did_you_mean, none_called};
 use std::collections::BTreeSet;
 use study::paper::{self, Claim, Paper};
-use study::{ReadingChoice, Study, columns_of, labels_of};
+use study::{Interpretation, Study, columns_of, labels_of};
 
 /// What a criterion or rule is built from.
 #[derive(Clone, Copy)]
@@ -19,7 +19,7 @@ pub struct Context<'a> {
     /// The paper.
     pub paper: &'a Paper,
     /// The reading that the claim is judged under.
-    pub point: &'a ReadingChoice,
+    pub point: &'a Interpretation,
 }
 
 /// How the keys start that name studies.
@@ -169,15 +169,15 @@ impl<'a> Context<'a> {
     /// There is no such metric.
     pub fn known_metric(&self, name: &str) -> Result<&'static Metric, SettingsError> {
         metric::find(self.point.metric(name)).ok_or_else(|| {
-            let readings = self.paper.readings();
-            let options = readings.iter().flat_map(|reading| reading.options.values());
-            // Names that readings give a meaning; several options give one to the same name.
+            let choices = &self.paper.choices;
+            let options = choices.iter().flat_map(|choice| choice.options.values());
+            // Names that choices give a meaning; several options give one to the same name.
             let read: BTreeSet<&str> =
                 options.flat_map(|option| option.metric.keys()).map(String::as_str).collect();
             let known: Vec<&str> = metric::METRICS.iter().map(|metric| metric.name).chain(read).collect();
             let hint = did_you_mean(name, known.iter().copied());
             let message = format!(
-                "there is no metric `{name}`, nor a reading that gives the name a meaning{hint}; the metrics are {}",
+                "there is no metric `{name}`, nor a choice that gives the name a meaning{hint}; the metrics are {}",
                 known.join(", ")
             );
             self.settings.error_about("", &METRIC_KEYS, name, message)

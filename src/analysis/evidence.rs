@@ -16,7 +16,7 @@ use study::name::Names;
 use study::paper::Paper;
 use study::record::{PreparedRow, Row, Status};
 use study::store::{KeptExhibits, Records, read_numbers};
-use study::{ReadingChoice, Study, StudyError};
+use study::{Interpretation, Study, StudyError};
 use turns::{Polyline, TurnQuery};
 
 /// A paper with the stored runs of its studies.
@@ -24,7 +24,7 @@ pub struct Evidence<'a> {
     /// The paper.
     pub paper: &'a Paper,
     /// The reading that claims are judged under.
-    pub point: ReadingChoice,
+    pub point: Interpretation,
     runs: BTreeMap<&'a str, Run<'a>>,
     polylines: Arc<Polylines>,
 }
@@ -71,7 +71,7 @@ impl<'a> Evidence<'a> {
     ///
     /// # Errors
     /// [`StudyError::Stored`] for a run that is missing, [`StudyError::Touched`] for one that is damaged or made by another spec.
-    pub fn read(paper: &'a Paper, point: ReadingChoice, folder: &Path) -> Result<Self, StudyError> {
+    pub fn read(paper: &'a Paper, point: Interpretation, folder: &Path) -> Result<Self, StudyError> {
         let read = |study: &'a Study| Ok((study.name.as_str(), Run::read(study, &point, folder)?));
         // Gathered in order before any error is passed on, so that it is the first study's.
         let runs: Vec<Result<_, StudyError>> = paper.studies.par_iter().map(read).collect();
@@ -83,7 +83,7 @@ impl<'a> Evidence<'a> {
     /// records of each study depend on, and the records, by the study's name. Studies that are not named have no run.
     pub fn of(
         paper: &'a Paper,
-        point: ReadingChoice,
+        point: Interpretation,
         mut stored: BTreeMap<String, (Manifest, Records)>,
     ) -> Self {
         let run = |study: &'a Study| {
@@ -128,7 +128,7 @@ impl<'a> Evidence<'a> {
 
     /// The same records, to be judged under another reading.
     #[must_use]
-    pub fn under(&self, point: ReadingChoice) -> Self {
+    pub fn under(&self, point: Interpretation) -> Self {
         let runs = self.runs.iter().map(|(name, run)| (*name, run.under(&point))).collect();
         Self { paper: self.paper, point, runs, polylines: self.polylines.clone() }
     }
@@ -166,13 +166,13 @@ impl<'a> Evidence<'a> {
 }
 
 /// The default point over the readings of all studies of `paper`.
-pub fn default_point(paper: &Paper) -> ReadingChoice {
-    ReadingChoice::new(&paper.readings(), &BTreeMap::new())
+pub fn default_point(paper: &Paper) -> Interpretation {
+    Interpretation::new(&paper.choices, &BTreeMap::new())
         .expect("a loaded study's defaults are among its options")
 }
 
 impl<'a> Run<'a> {
-    fn read(study: &'a Study, point: &ReadingChoice, folder: &Path) -> Result<Self, StudyError> {
+    fn read(study: &'a Study, point: &Interpretation, folder: &Path) -> Result<Self, StudyError> {
         let manifest = Manifest::read(folder, &study.name)?;
         let spec = sha256(study.document.text().as_bytes());
         if manifest.spec != spec {
@@ -185,21 +185,21 @@ impl<'a> Run<'a> {
         Ok(Self { kept: Arc::new(kept), ..Self::of(study, point, manifest, records) })
     }
 
-    fn of(study: &'a Study, point: &ReadingChoice, manifest: Manifest, mut records: Records) -> Self {
+    fn of(study: &'a Study, point: &Interpretation, manifest: Manifest, mut records: Records) -> Self {
         let kept = Arc::new(KeptExhibits::held(mem::take(&mut records.batch.kept)));
         let index = Arc::new(Index::of(study.names(), &records));
-        let reading = point.for_trials(&study.readings).key(&study.readings);
+        let reading = point.for_trials(&study.choices).key(&study.choices);
         let (manifest, records) = (Arc::new(manifest), Arc::new(records));
         Self { study, manifest, records, kept, reading, session: 1, index }
     }
 
-    fn under(&self, point: &ReadingChoice) -> Self {
+    fn under(&self, point: &Interpretation) -> Self {
         Self {
             study: self.study,
             manifest: self.manifest.clone(),
             records: self.records.clone(),
             kept: self.kept.clone(),
-            reading: point.for_trials(&self.study.readings).key(&self.study.readings),
+            reading: point.for_trials(&self.study.choices).key(&self.study.choices),
             session: self.session,
             index: self.index.clone(),
         }

@@ -3,7 +3,7 @@
 use base::settings::SettingsError;
 use engine::planner::Planner;
 use std::collections::BTreeSet;
-use study::{ReadingChoice, Study};
+use study::{Interpretation, Study};
 
 /// What the sets of steps of two contenders say about their path lengths on one problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,11 +25,11 @@ impl Inclusion {
     /// A settings error of a planner.
     pub fn of(
         study: &Study,
-        point: &ReadingChoice,
+        point: &Interpretation,
         contender: &str,
         other: &str,
     ) -> Result<Self, SettingsError> {
-        let point = point.for_trials(&study.readings);
+        let point = point.for_trials(&study.choices);
         let sweep = study.sweep_points().swap_remove(0);
         let planner = |label: &str| -> Result<Option<Box<dyn Planner>>, SettingsError> {
             let found = study.contenders.iter().find(|contender| contender.label == label);

@@ -25,14 +25,14 @@ use study::contender::{Pipeline, SweepPoint};
 use study::paper::Paper;
 use study::record::Status;
 use study::verification::{self, Guide};
-use study::{Group, Inputs, Reading, ReadingChoice, Study, StudyError};
+use study::{Choice, Group, Inputs, Interpretation, Study, StudyError};
 use walk::Walk;
 
 /// Which reading maps are searched under.
 #[derive(Debug, Clone)]
 pub enum Under {
     /// This one.
-    One(ReadingChoice),
+    One(Interpretation),
     /// One that each search draws from the options that vote.
     Any,
 }
@@ -80,7 +80,7 @@ pub struct Witness {
     /// The search that found it.
     pub number: u32,
     /// The reading.
-    pub reading: ReadingChoice,
+    pub reading: Interpretation,
     /// The map.
     pub grid: Grid2,
     /// How many maps the search had looked at.
@@ -106,7 +106,7 @@ impl<'a> Hunt<'a> {
     /// # Errors
     /// A message: a claim is unknown, prints no number that some trial may meet, or speaks of other maps than the first.
     pub fn place(paper: &'a Paper, claims: &[String]) -> Result<(&'a Study, &'a Group), String> {
-        let point = ReadingChoice::new(&paper.readings(), &BTreeMap::new())?;
+        let point = Interpretation::new(&paper.choices, &BTreeMap::new())?;
         let asked = asked(paper, &point, claims)?;
         let on_map = |group: &&Group| group.family.name == "grid_map" && group.replicates == 1;
         for study in paper.studies.iter().filter(|study| study.searched) {
@@ -140,7 +140,7 @@ impl<'a> Hunt<'a> {
         let mut stream = seed::stream(seed::derive(self.seed, &names));
         let reading = match &self.under {
             Under::One(point) => point.clone(),
-            Under::Any => drawn(&self.paper.readings(), &mut stream),
+            Under::Any => drawn(&self.paper.choices, &mut stream),
         };
         let ground = Ground::new(self, &reading, false)?;
         let share = stream.random_range(0.05..0.4);
@@ -195,7 +195,7 @@ impl<'a> Hunt<'a> {
 /// The criterion `exists` of each claim.
 fn asked<'a>(
     paper: &'a Paper,
-    point: &'a ReadingChoice,
+    point: &'a Interpretation,
     claims: &[String],
 ) -> Result<Vec<Attained<'a>>, String> {
     let known = || paper.claims.iter().map(|claim| claim.id.as_str());
@@ -212,7 +212,7 @@ fn asked<'a>(
 /// What `claims` want of contenders of `study` under the reading.
 fn wanted_of(
     paper: &Paper,
-    point: &ReadingChoice,
+    point: &Interpretation,
     study: &Study,
     claims: &[String],
 ) -> Result<Vec<Wanted>, String> {
@@ -259,22 +259,22 @@ impl Wanted {
 const UNMET: f64 = 0.05;
 
 /// An option of every reading that votes there, with equal chance.
-fn drawn(readings: &[Reading], stream: &mut Stream) -> ReadingChoice {
-    let pick = |reading: &Reading, stream: &mut Stream| {
+fn drawn(readings: &[Choice], stream: &mut Stream) -> Interpretation {
+    let pick = |reading: &Choice, stream: &mut Stream| {
         let voting: Vec<&String> = reading.options.keys().filter(|option| reading.votes(option)).collect();
         let at = stream.random_range(0..voting.len().max(1));
         (reading.id.clone(), voting.get(at).copied().unwrap_or(&reading.default).clone())
     };
     let choices = readings.iter().map(|reading| pick(reading, stream)).collect();
-    ReadingChoice::new(readings, &choices).expect("the options are the readings' own")
+    Interpretation::new(readings, &choices).expect("the options are the readings' own")
 }
 
 /// What of the reading changes the study's settings: axes of its own, and any along which the reading departs. The default of
 /// an axis that only other studies have says nothing of this one, whose own settings stand.
-fn laid_over(hunt: &Hunt<'_>, reading: &ReadingChoice) -> ReadingChoice {
-    let mut axes = hunt.paper.readings();
-    let is_own = |axis: &Reading| hunt.study.readings.iter().any(|own| own.id == axis.id);
-    axes.retain(|axis| is_own(axis) || reading.choices().get(&axis.id) != Some(&axis.default));
+fn laid_over(hunt: &Hunt<'_>, reading: &Interpretation) -> Interpretation {
+    let mut axes = hunt.paper.choices.clone();
+    let is_own = |axis: &Choice| hunt.study.choices.iter().any(|own| own.id == axis.id);
+    axes.retain(|axis| is_own(axis) || reading.options().get(&axis.id) != Some(&axis.default));
     reading.within(&axes)
 }
 
@@ -292,7 +292,7 @@ struct Ground {
 
 impl Ground {
     /// With the contenders that are wanted, or all of the study's.
-    fn new(hunt: &Hunt<'_>, reading: &ReadingChoice, all: bool) -> Result<Self, StudyError> {
+    fn new(hunt: &Hunt<'_>, reading: &Interpretation, all: bool) -> Result<Self, StudyError> {
         let refused = |message: String| StudyError::Settings(hunt.study.document.error_at("", message));
         let mut wanted = wanted_of(hunt.paper, reading, hunt.study, &hunt.claims).map_err(refused)?;
         wanted.extend(hunt.besides.iter().cloned());

@@ -73,7 +73,7 @@ impl Check {
 fn notes(paper: &Paper, places: &Places) -> BTreeSet<String> {
     let mut notes = BTreeSet::new();
     for study in &paper.studies {
-        let point = default_point(paper).for_trials(&study.readings);
+        let point = default_point(paper).for_trials(&study.choices);
         // A family that cannot be built was told of before.
         let families = study.groups.iter().filter_map(|group| group.family(&point, &places.inputs).ok());
         notes.extend(families.flat_map(|family| family.notes()));

@@ -13,7 +13,7 @@ use crate::analysis::evidence::{Evidence, default_point};
 use crate::analysis::verdict::Verdicts;
 use clap::Args;
 use std::collections::BTreeMap;
-use study::ReadingChoice;
+use study::Interpretation;
 use study::lock::Lock;
 use study::manifest::MadeBy;
 use study::paper::Paper;
@@ -52,7 +52,7 @@ impl Confirm {
 }
 
 /// The point of the first round, if the paper can be confirmed.
-pub fn first_points(explorer: &Explorer<'_>) -> Result<Vec<ReadingChoice>, Failure> {
+pub fn first_points(explorer: &Explorer<'_>) -> Result<Vec<Interpretation>, Failure> {
     check_seeds(explorer.paper)?;
     affordable(explorer)?;
     Ok(vec![default_point(explorer.paper)])
@@ -159,9 +159,9 @@ fn affordable(explorer: &Explorer<'_>) -> Result<u64, Failure> {
 }
 
 /// The readings of `first` that turn a claim.
-fn turned(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> Vec<ReadingChoice> {
-    let readings = paper.readings();
+fn turned(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> Vec<Interpretation> {
+    let choices = &paper.choices;
     let places = to_confirm(paper, verdicts, first).into_iter().filter(|place| *place > 0);
-    // A reading that the specs no longer have belongs to an exploration that is stale.
-    places.filter_map(|place| ReadingChoice::new(&readings, &first.readings[place]).ok()).collect()
+    // A choice that the paper no longer has belongs to an exploration that is stale.
+    places.filter_map(|place| Interpretation::new(choices, &first.readings[place]).ok()).collect()
 }

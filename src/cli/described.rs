@@ -53,7 +53,7 @@ pub fn study(paper: &Paper, study: &Study) -> Result<String, Failure> {
     lines.extend(compared(study));
     let of = |label: &str, ids: Vec<&str>| (!ids.is_empty()).then(|| wrapped(label, &ids.join(", "), 2));
     lines.extend(of("\nSweeps over: ", study.sweeps.iter().map(|sweep| sweep.key.as_str()).collect()));
-    lines.extend(of("\nReadings: ", study.readings.iter().map(|reading| reading.id.as_str()).collect()));
+    lines.extend(of("\nChoices: ", study.choices.iter().map(|choice| choice.id.as_str()).collect()));
     lines.push("\nExample".to_owned());
     lines.push(wrapped(
         &format!("  replan run {id}   "),

@@ -9,7 +9,7 @@ use super::{Failure, How, Which, command_line, counted, judge, verdicts};
 use crate::analysis::across::stored::Exploration;
 use crate::analysis::evidence::default_point;
 use clap::Args;
-use study::ReadingChoice;
+use study::Interpretation;
 use study::lock::Lock;
 use study::manifest::MadeBy;
 use study::shard;
@@ -52,7 +52,7 @@ impl Explore {
 }
 
 /// The points of the first round.
-pub fn first_points(explorer: &Explorer<'_>) -> Result<Vec<ReadingChoice>, Failure> {
+pub fn first_points(explorer: &Explorer<'_>) -> Result<Vec<Interpretation>, Failure> {
     Ok(explorer.affordable(&budget(explorer.paper)?)?.0)
 }
 

@@ -16,14 +16,15 @@ use crate::analysis::verdict::{Together, Verdicts};
 use base::seed;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
-use study::explore::{ExplorePaper, Points, points};
+use study::explore::{Interpretations, interpretations};
 use study::lock::Lock;
 use study::manifest::Manifest;
 use study::paper::Paper;
 use study::runner::BuiltStudy;
 use study::session::{self, Options};
+use study::spec::ExploreSpec;
 use study::store::{Records, read_numbers};
-use study::{ReadingChoice, Study};
+use study::{Interpretation, Study};
 
 /// What every claim is found to be under one reading.
 pub type Glances = BTreeMap<String, Glance>;
@@ -51,19 +52,15 @@ pub struct Explorer<'p> {
 }
 
 /// The paper's budget.
-pub fn budget(paper: &Paper) -> Result<ExplorePaper, Failure> {
+pub fn budget(paper: &Paper) -> Result<ExploreSpec, Failure> {
     let missing = || {
         let path = paper.folder.join("paper.toml");
         Failure::input(format!(
-            "{}: explores no readings; `[explore]` with `sample` and `trials`, and `[explore]` with `draws` in a study, are accepted",
+            "{}: explores no interpretations; `[explore]` with `sample`, `trials` and, by study, `draws` is accepted",
             path.display()
         ))
     };
-    let budget = paper.explore.clone().ok_or_else(missing)?;
-    if paper.studies.iter().all(|study| study.explore.is_none()) {
-        return Err(missing());
-    }
-    Ok(budget)
+    paper.explore.clone().filter(|explore| !explore.draws.is_empty()).ok_or_else(missing)
 }
 
 /// Where the trials of `command` are kept: they are large, and what was found in them is not.
@@ -89,14 +86,14 @@ impl<'p> Explorer<'p> {
 
     /// The points that the budget has room for, and how many trials they take, which is told: all that must be, and drawn ones
     /// in order.
-    pub fn affordable(&self, budget: &ExplorePaper) -> Result<(Vec<ReadingChoice>, u64), Failure> {
+    pub fn affordable(&self, budget: &ExploreSpec) -> Result<(Vec<Interpretation>, u64), Failure> {
         let paper = self.paper;
         doing(&format!("{}: counting the trials of its readings", paper.id));
         let seed = seed::derive(0, &[&paper.id, "explore"]);
         let refuse = |message: String| Failure::from(paper.document.error_at("explore", message));
-        let found = points(&paper.readings(), paper.departures(), budget.sample, seed);
-        let Points { alone, drawn } = found.map_err(refuse)?;
-        let each = self.trials_each(first_draws, |study| !budget.is_late(study))?;
+        let found = interpretations(&paper.choices, paper.departures(), budget.sample, seed);
+        let Interpretations { alone, drawn } = found.map_err(refuse)?;
+        let each = self.trials_each(first_draws, |study| !budget.is_late(&study.name))?;
         let mut chosen = alone;
         let mut trials = trials(&each, &chosen);
         if trials > budget.trials {
@@ -124,7 +121,7 @@ impl<'p> Explorer<'p> {
 
     /// The studies that run in `round`.
     fn studies_in(&self, round: Round) -> Vec<Ran<'p>> {
-        let is_late = |study: &Study| self.paper.explore.as_ref().is_some_and(|all| all.is_late(study));
+        let is_late = |study: &Study| self.paper.explore.as_ref().is_some_and(|all| all.is_late(&study.name));
         let first = |late: bool| {
             self.studies(first_draws).into_iter().filter(|ran| is_late(&ran.study) == late).collect()
         };
@@ -140,7 +137,7 @@ impl<'p> Explorer<'p> {
     }
 
     /// What runs in `round` under `points`, to be cut into shards of the paper that the command line called `named`.
-    pub fn sharded(&self, named: &str, round: Round, points: &[ReadingChoice]) -> Sharded {
+    pub fn sharded(&self, named: &str, round: Round, points: &[Interpretation]) -> Sharded {
         let run = |ran: Ran<'_>| {
             let points = ran.study.as_trials_see(points);
             (ran.study, points)
@@ -181,7 +178,7 @@ impl<'p> Explorer<'p> {
 
     /// How many trials `study` runs under one reading.
     pub fn trials_of(&self, study: &Study) -> Result<u64, Failure> {
-        let points = [default_point(self.paper).for_trials(&study.readings)];
+        let points = [default_point(self.paper).for_trials(&study.choices)];
         let built = BuiltStudy::new(study, &points, &self.places.inputs)?;
         Ok(built.units().iter().map(|unit| built.trials(unit).len() as u64).sum())
     }
@@ -190,8 +187,8 @@ impl<'p> Explorer<'p> {
     /// class is near a flip.
     pub fn explore(
         &self,
-        points: &[ReadingChoice],
-        budget: &ExplorePaper,
+        points: &[Interpretation],
+        budget: &ExploreSpec,
         spent: u64,
         verdicts: &Verdicts,
     ) -> Result<Exploration, Halt> {
@@ -202,7 +199,7 @@ impl<'p> Explorer<'p> {
         let mut first = Exploration::of(self.paper, points, &found, &BTreeMap::new());
         first.trials = spent;
         if !late.is_empty() {
-            let each = self.trials_each(first_draws, |study| budget.is_late(study))?;
+            let each = self.trials_each(first_draws, |study| budget.is_late(&study.name))?;
             let fits = compatible(self.paper, verdicts, &first);
             let (places, some) = within(budget.trials, &mut first.trials, &each, points, fits);
             self.put_together(Round::Compatible, &some)?;
@@ -226,8 +223,8 @@ impl<'p> Explorer<'p> {
     /// What is found with more draws, by the places of readings near a flip, and how many trials it took in all.
     fn once_more(
         &self,
-        points: &[ReadingChoice],
-        budget: &ExplorePaper,
+        points: &[Interpretation],
+        budget: &ExploreSpec,
         verdicts: &Verdicts,
         first: &Exploration,
     ) -> Result<(BTreeMap<usize, Glances>, u64), Halt> {
@@ -249,7 +246,7 @@ impl<'p> Explorer<'p> {
     /// What every claim is under each of `points` by what runs in `round`, and which claims hold jointly there.
     pub fn look(
         &self,
-        points: &[ReadingChoice],
+        points: &[Interpretation],
         round: Round,
     ) -> Result<(Vec<Glances>, Vec<Together>), Halt> {
         let studies = self.studies_in(round);
@@ -258,7 +255,7 @@ impl<'p> Explorer<'p> {
     }
 
     /// Puts the parts of `round` together, if it is run in shards.
-    pub fn put_together(&self, round: Round, points: &[ReadingChoice]) -> Result<(), Halt> {
+    pub fn put_together(&self, round: Round, points: &[Interpretation]) -> Result<(), Halt> {
         let rounds = self.rounds.as_ref().filter(|_| !points.is_empty());
         rounds.map_or(Ok(()), |rounds| {
             let sharded = self.sharded(&rounds.paper, round, points);
@@ -270,7 +267,7 @@ impl<'p> Explorer<'p> {
     fn stored<'r>(
         &self,
         studies: &'r [Ran<'r>],
-        points: &[ReadingChoice],
+        points: &[Interpretation],
         round: Round,
     ) -> Result<Vec<(&'r Study, &'r Study, Manifest, Records)>, Failure> {
         let run = |ran: &'r Ran<'r>| {
@@ -284,7 +281,7 @@ impl<'p> Explorer<'p> {
     fn judge_run<'r>(
         &'r self,
         runs: Vec<Vec<(&'r Study, &'r Study, Manifest, Records)>>,
-        points: &[ReadingChoice],
+        points: &[Interpretation],
     ) -> Result<(Vec<Glances>, Vec<Together>), Failure> {
         let evidence = judge::read(self.paper, default_point(self.paper), self.places)?;
         self.judge_under(evidence.with(runs.into_iter().flatten().collect()), points)
@@ -295,7 +292,7 @@ impl<'p> Explorer<'p> {
     pub fn judge_under(
         &self,
         evidence: Evidence<'_>,
-        points: &[ReadingChoice],
+        points: &[Interpretation],
     ) -> Result<(Vec<Glances>, Vec<Together>), Failure> {
         let evidence = evidence.remembering(&judge::polylines(self.places));
         let found = self.judge_each(&evidence, points);
@@ -306,7 +303,7 @@ impl<'p> Explorer<'p> {
     fn judge_each(
         &self,
         evidence: &Evidence<'_>,
-        points: &[ReadingChoice],
+        points: &[Interpretation],
     ) -> Result<(Vec<Glances>, Vec<Together>), Failure> {
         let (mut found, mut sets) = (Vec::new(), Vec::new());
         let bar = Bar::default();
@@ -326,7 +323,7 @@ impl<'p> Explorer<'p> {
     pub fn run(
         &self,
         study: &Study,
-        points: &[ReadingChoice],
+        points: &[Interpretation],
         round: Round,
     ) -> Result<(Manifest, Records), Failure> {
         let folder = self.folder.join(round.name());
@@ -368,9 +365,9 @@ pub fn within(
     budget: u64,
     spent: &mut u64,
     each: &[(&Study, u64)],
-    points: &[ReadingChoice],
+    points: &[Interpretation],
     places: BTreeSet<usize>,
-) -> (Vec<usize>, Vec<ReadingChoice>) {
+) -> (Vec<usize>, Vec<Interpretation>) {
     let (mut chosen, mut some, mut needed) = (Vec::new(), Vec::new(), 0);
     for place in places {
         some.push(points[place].clone());
@@ -387,6 +384,6 @@ pub fn within(
 }
 
 /// How many trials `points` take, each study running those apart that it tells apart.
-fn trials(each: &[(&Study, u64)], points: &[ReadingChoice]) -> u64 {
+fn trials(each: &[(&Study, u64)], points: &[Interpretation]) -> u64 {
     each.iter().map(|(study, count)| study.as_trials_see(points).len() as u64 * count).sum()
 }

@@ -13,7 +13,7 @@ use crate::analysis::verdict::Verdicts;
 use clap::Args;
 use std::collections::BTreeSet;
 use std::fs;
-use study::ReadingChoice;
+use study::Interpretation;
 use study::lock::Lock;
 use study::manifest::Manifest;
 use study::paper::Paper;
@@ -23,9 +23,9 @@ use study::paper::Paper;
 pub struct Judge {
     #[command(flatten)]
     which: Which,
-    /// Judge under these readings, which must have been run: `corner_cutting=forbid_any,ties=lifo`
-    #[arg(long, value_name = "READINGS")]
-    readings: Option<String>,
+    /// Judge under these options, which must have been run: `corner_cutting=forbid_any,ties=lifo`
+    #[arg(long, value_name = "OPTIONS")]
+    with: Option<String>,
     /// Write nothing; say whether the stored verdicts are those that the stored run gives
     #[arg(long)]
     check: bool,
@@ -34,10 +34,10 @@ pub struct Judge {
 impl Judge {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
-        let how = How { quick: false, seed: None, readings: self.readings, threads: None };
+        let how = How { quick: false, seed: None, with: self.with, threads: None };
         let places = Places::find(&self.which, &how.variant())?;
         let paper = super::load::load(&places, &how)?;
-        let point = how.point(&paper.readings())?;
+        let point = how.interpretation(&paper.choices)?;
         if self.check {
             return check(&paper, point, &places).map_err(Failure::in_check);
         }
@@ -49,7 +49,7 @@ impl Judge {
 }
 
 /// Judges again and refuses stored verdicts that are not what comes out, to the byte.
-fn check(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<(), Failure> {
+fn check(paper: &Paper, point: Interpretation, places: &Places) -> Result<(), Failure> {
     let (stored, path) = (Verdicts::read_as_they_stand(&places.runs)?, Verdicts::path(&places.runs));
     check_explorations(&stored, places)?;
     let evidence = read(paper, point, places)?;
@@ -126,7 +126,7 @@ fn check_manifests(evidence: &Evidence<'_>, places: &Places) -> Result<(), Failu
 }
 
 /// Judges `paper` under `point` by its stored run and writes the verdicts beside it.
-pub fn judge(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<Verdicts, Failure> {
+pub fn judge(paper: &Paper, point: Interpretation, places: &Places) -> Result<Verdicts, Failure> {
     let evidence = read(paper, point, places)?.remembering(&polylines(places));
     let verdicts = judged(&evidence, places)?;
     evidence.keep_polylines();
@@ -151,7 +151,7 @@ pub fn polylines(places: &Places) -> std::path::PathBuf {
 }
 
 /// The stored run of `paper`, to be judged under `point`.
-pub fn read<'a>(paper: &'a Paper, point: ReadingChoice, places: &Places) -> Result<Evidence<'a>, Failure> {
+pub fn read<'a>(paper: &'a Paper, point: Interpretation, places: &Places) -> Result<Evidence<'a>, Failure> {
     doing(&format!("{}: judging {} claims", paper.id, paper.claims.len()));
     Ok(Evidence::read(paper, point, &places.runs)?)
 }

@@ -30,7 +30,7 @@ pub struct List {
 enum What {
     Papers,
     Studies,
-    Readings,
+    Choices,
     Robots,
     Planners,
     Stages,
@@ -75,7 +75,7 @@ struct Found {
 impl Found {
     /// The papers and robots that can be read, if a kind that needs them is asked for, and how reading each went.
     fn read(is_wanted: impl Fn(&[What]) -> bool) -> (Self, Vec<Result<(), Failure>>) {
-        let papers = is_wanted(&[What::Papers, What::Studies, What::Readings]).then(loaded);
+        let papers = is_wanted(&[What::Papers, What::Studies, What::Choices]).then(loaded);
         let (papers, mut results) = papers.unwrap_or_default();
         let read = is_wanted(&[What::Robots]).then(robots);
         let (robots, faults) = read.unwrap_or_default();
@@ -107,7 +107,7 @@ fn singular(what: What) -> &'static str {
     match what {
         What::Papers => "paper",
         What::Studies => "study",
-        What::Readings => "reading",
+        What::Choices => "choice",
         What::Robots => "robot",
         What::Planners => "planner",
         What::Stages => "stage",
@@ -158,7 +158,7 @@ fn items(what: What) -> Option<Vec<Item>> {
         What::Rules => catalogue::rules(),
         What::Figures => catalogue::figures(),
         What::Files => catalogue::files(),
-        What::Papers | What::Studies | What::Readings | What::Robots | What::Metrics => return None,
+        What::Papers | What::Studies | What::Choices | What::Robots | What::Metrics => return None,
     })
 }
 
@@ -177,13 +177,13 @@ fn rows(what: What, Found { papers, robots }: &Found) -> Vec<(String, String)> {
             };
             studies.map(|study| (format!("{}/{}", study.paper, study.name), about(study))).collect()
         }
-        What::Readings => papers
+        What::Choices => papers
             .iter()
-            .flat_map(|paper| paper.readings().into_iter().map(move |reading| (paper, reading)))
-            .map(|(paper, reading)| {
-                let options: Vec<&str> = reading.options.keys().map(String::as_str).collect();
-                let about = format!("{} (default {}): {}", options.join(" | "), reading.default, reading.why);
-                (format!("{}/{}", paper.id, reading.id), about)
+            .flat_map(|paper| paper.choices.iter().map(move |choice| (paper, choice)))
+            .map(|(paper, choice)| {
+                let options: Vec<&str> = choice.options.keys().map(String::as_str).collect();
+                let about = format!("{} (default {}): {}", options.join(" | "), choice.default, choice.why);
+                (format!("{}/{}", paper.id, choice.id), about)
             })
             .collect(),
         What::Robots => robots.clone(),

@@ -25,6 +25,6 @@ pub fn load(places: &Places, how: &How) -> Result<Paper, Failure> {
     let paper = gather(places, &mut faults)?;
     let Some(paper) = paper.filter(|_| faults.is_empty()) else { return Err(faults.error().into()) };
     let paper = how.apply(paper);
-    how.check_readings(&paper)?;
+    how.check_with(&paper)?;
     Ok(paper)
 }

@@ -141,7 +141,7 @@ enum Command {
     Audit(audit::Audit),
     /// Write a JSON Schema of every kind of TOML file, for editors
     Schema(schema::Schema),
-    /// List papers, studies, planners, tasks, criteria, rules, metrics, figure kinds, readings and more
+    /// List papers, studies, planners, tasks, criteria, rules, metrics, figure kinds, choices and more
     List(list::List),
 }
 
@@ -164,9 +164,9 @@ struct How {
     /// The root of every seed, instead of the studies' own
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
     seed: Option<u64>,
-    /// Readings: `all`, or `corner_cutting=forbid_any,ties=lifo`
-    #[arg(long, value_name = "READINGS")]
-    readings: Option<String>,
+    /// Options of choices: `corner_cutting=forbid_any,ties=lifo`, or `all`: every other option in turn
+    #[arg(long, value_name = "OPTIONS")]
+    with: Option<String>,
     /// Threads for the trials; the machine's number if absent
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: Option<u32>,
@@ -175,7 +175,7 @@ struct How {
 impl How {
     /// As the specs say.
     fn plain(threads: Option<u32>) -> Self {
-        Self { quick: false, seed: None, readings: None, threads }
+        Self { quick: false, seed: None, with: None, threads }
     }
 }
 
@@ -284,6 +284,10 @@ fn all(results: Vec<Result<(), Failure>>, what: &str) -> Result<(), Failure> {
 
 /// Runs the command that the process was called with.
 pub fn run() -> ExitCode {
+    if let Some(message) = renamed(std::env::args().skip(1)) {
+        let _ = writeln!(io::stderr(), "replan: {message}");
+        return ExitCode::from(2);
+    }
     let done = match Cli::parse().command {
         Command::New(command) => command.run(),
         Command::Repro(command) => command.run(),
@@ -316,6 +320,18 @@ pub fn run() -> ExitCode {
             ExitCode::from(failure.code)
         }
     }
+}
+
+/// Words of the command line that were renamed: what was typed one after another, and what is typed now.
+const RENAMED: [(&[&str], &str); 2] = [(&["--readings"], "--with"), (&["list", "readings"], "list choices")];
+
+/// That `words` have a word that was renamed, if they do.
+fn renamed(words: impl Iterator<Item = String>) -> Option<String> {
+    let words: Vec<String> =
+        words.map(|word| word.split('=').next().unwrap_or_default().to_owned()).collect();
+    let is_typed = |old: &[&str]| words.windows(old.len()).any(|typed| typed == old);
+    let (old, new) = RENAMED.iter().find(|(old, _)| is_typed(old))?;
+    Some(format!("`{}` is now `{new}`", old.join(" ")))
 }
 
 /// The command line as it would be typed for the same results: what only talks is left out.

@@ -7,7 +7,7 @@ use super::rounds::{Round, Rounds, at_work};
 use super::sharded::Sharded;
 use super::{Again, Failure, How, Which};
 use std::path::Path;
-use study::ReadingChoice;
+use study::Interpretation;
 use study::plan::{Plan, PlannedRound};
 
 /// A shard of an exploration or a confirmation, as the command line asks for it.
@@ -27,7 +27,7 @@ impl OneShard<'_> {
     pub fn run(
         &self,
         first: Round,
-        points: impl Fn(&Explorer<'_>) -> Result<Vec<ReadingChoice>, Failure>,
+        points: impl Fn(&Explorer<'_>) -> Result<Vec<Interpretation>, Failure>,
     ) -> Result<(), Failure> {
         let sharded = sharded(self.paper, self.threads, self.parts, first, points)?;
         let folder = sharded.folder(self.parts);
@@ -41,7 +41,7 @@ pub fn sharded(
     threads: Option<u32>,
     parts: &Path,
     first: Round,
-    points: impl Fn(&Explorer<'_>) -> Result<Vec<ReadingChoice>, Failure>,
+    points: impl Fn(&Explorer<'_>) -> Result<Vec<Interpretation>, Failure>,
 ) -> Result<Sharded, Failure> {
     let which = Which { paper: named.to_owned(), out: None };
     let places = Places::find(&which, "")?;
@@ -59,9 +59,9 @@ pub fn sharded(
         return Ok(explorer.sharded(named, first, &points(&explorer)?));
     }
     let (round, planned) = planned(&folder, first)?;
-    let readings = paper.readings();
-    let point = |options| ReadingChoice::new(&readings, options).map_err(Failure::input);
-    let points: Vec<ReadingChoice> = planned.readings.iter().map(point).collect::<Result<_, _>>()?;
+    let choices = &paper.choices;
+    let point = |options| Interpretation::new(choices, options).map_err(Failure::input);
+    let points: Vec<Interpretation> = planned.readings.iter().map(point).collect::<Result<_, _>>()?;
     Ok(explorer.sharded(named, round, &points))
 }
 

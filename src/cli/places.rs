@@ -11,7 +11,7 @@ use std::fs;
 use std::iter;
 use std::path::{Component, Path, PathBuf};
 use study::paper::Paper;
-use study::{Inputs, ReadingChoice, Study};
+use study::{Inputs, Interpretation, Study};
 
 /// Where the papers of the project lie.
 const EXPERIMENTS: &str = "experiments";
@@ -216,7 +216,7 @@ impl How {
             parts.push("quick".to_owned());
         }
         parts.extend(self.seed.map(|seed| format!("seed-{seed}")));
-        parts.extend(self.readings.as_deref().map(|readings| format!("readings-{}", study::slug(readings))));
+        parts.extend(self.with.as_deref().map(|with| format!("with-{}", study::slug(with))));
         parts.join("-")
     }
 
@@ -230,65 +230,62 @@ impl How {
         paper
     }
 
-    /// The readings to run, of which the first is the one that claims are judged under.
+    /// The interpretations to run, of which the first is the one that claims are judged under.
     ///
     /// # Errors
-    /// An unknown reading or option.
-    pub fn points(&self, study: &Study) -> Result<Vec<ReadingChoice>, Failure> {
-        match self.readings.as_deref() {
-            None => Ok(vec![self.point(&study.readings)?]),
-            Some("all") => Ok(study.trial_points()?),
-            Some(_) => Ok(vec![self.point(&study.readings)?.for_trials(&study.readings)]),
+    /// An unknown option, or one that cannot be run.
+    pub fn interpretations(&self, study: &Study) -> Result<Vec<Interpretation>, Failure> {
+        match self.with.as_deref() {
+            None => Ok(vec![self.interpretation(&study.choices)?]),
+            Some("all") => Ok(study.trial_interpretations()?),
+            Some(_) => Ok(vec![self.interpretation(&study.choices)?.for_trials(&study.choices)]),
         }
     }
 
-    /// That every study has the readings asked for: before anything is written.
+    /// That every study has the options asked for: before anything is written.
     ///
     /// # Errors
-    /// Those of [`points`](Self::points).
-    pub fn check_points(&self, paper: &Paper) -> Result<(), Failure> {
-        paper.studies.iter().try_for_each(|study| self.points(study).map(|_| ()))
+    /// Those of [`interpretations`](Self::interpretations).
+    pub fn check_interpretations(&self, paper: &Paper) -> Result<(), Failure> {
+        paper.studies.iter().try_for_each(|study| self.interpretations(study).map(|_| ()))
     }
 
-    /// The reading that claims are judged under, over `readings`.
+    /// The interpretation that claims are judged under, over `choices`.
     ///
     /// # Errors
-    /// An option that is not among a reading's. Readings that a study does not have are left to others.
-    pub fn point(&self, readings: &[study::Reading]) -> Result<ReadingChoice, Failure> {
+    /// An option that a choice does not have. Choices that a study does not inherit are left to others.
+    pub fn interpretation(&self, choices: &[study::Choice]) -> Result<Interpretation, Failure> {
         let mut chosen = BTreeMap::new();
-        for part in
-            self.readings.as_deref().filter(|text| *text != "all").iter().flat_map(|text| text.split(','))
+        for part in self.with.as_deref().filter(|text| *text != "all").iter().flat_map(|text| text.split(','))
         {
             let Some((id, option)) = part.split_once('=') else {
                 return Err(Failure::input(format!(
-                    "--readings: `{part}` is not `reading=option`; `all` or `a=x,b=y` is accepted"
+                    "--with: `{part}` is not `choice=option`; `all` or `a=x,b=y` is accepted"
                 )));
             };
-            if readings.iter().any(|reading| reading.id == id)
+            if choices.iter().any(|choice| choice.id == id)
                 && let Some(other) = chosen.insert(id.to_owned(), option.to_owned())
             {
                 return Err(Failure::input(format!(
-                    "--readings: `{id}` is given twice, as `{other}` and as `{option}`; one option is accepted"
+                    "--with: `{id}` is given twice, as `{other}` and as `{option}`; one option is accepted"
                 )));
             }
         }
-        ReadingChoice::new(readings, &chosen)
-            .map_err(|message| Failure::input(format!("--readings: {message}")))
+        Interpretation::new(choices, &chosen).map_err(|message| Failure::input(format!("--with: {message}")))
     }
 
-    /// Refuses readings that no study of the paper has.
+    /// Refuses choices that the paper does not have.
     ///
     /// # Errors
-    /// The first unknown reading, with those that exist.
-    pub fn check_readings(&self, paper: &Paper) -> Result<(), Failure> {
-        let known = paper.readings();
-        for part in
-            self.readings.as_deref().filter(|text| *text != "all").iter().flat_map(|text| text.split(','))
+    /// The first unknown choice, with those that exist.
+    pub fn check_with(&self, paper: &Paper) -> Result<(), Failure> {
+        let known = &paper.choices;
+        for part in self.with.as_deref().filter(|text| *text != "all").iter().flat_map(|text| text.split(','))
         {
             let id = part.split('=').next().unwrap_or(part);
-            if !known.iter().any(|reading| reading.id == id) {
-                let ids: Vec<&str> = known.iter().map(|reading| reading.id.as_str()).collect();
-                return Err(Failure::input(format!("--readings: {}", none_called("reading", id, ids))));
+            if !known.iter().any(|choice| choice.id == id) {
+                let ids: Vec<&str> = known.iter().map(|choice| choice.id.as_str()).collect();
+                return Err(Failure::input(format!("--with: {}", none_called("choice", id, ids))));
             }
         }
         Ok(())

@@ -10,7 +10,7 @@ use crate::render::report::{self, Chapter};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
-use study::ReadingChoice;
+use study::Interpretation;
 use study::lock::Lock;
 use study::paper::Paper;
 
@@ -31,7 +31,7 @@ impl Render {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
         let places = Places::find(&self.which, "")?;
-        let how = How { quick: false, seed: None, readings: None, threads: None };
+        let how = How { quick: false, seed: None, with: None, threads: None };
         let paper = super::load::load(&places, &how)?;
         let stop = stop_flag();
         if self.check {
@@ -74,7 +74,7 @@ pub fn macros(paper: &str) -> Result<Option<String>, Failure> {
         return Ok(None);
     }
     let places = Places::find(&Which { paper: paper.to_owned(), out: None }, "")?;
-    let how = How { quick: false, seed: None, readings: None, threads: None };
+    let how = How { quick: false, seed: None, with: None, threads: None };
     let paper = super::load::load(&places, &how)?;
     let drawn = draw(&paper, &places, Some("numbers"), stop_flag())?;
     let made = drawn.outputs.files.first().map(|file| String::from_utf8_lossy(&file.bytes).into_owned());
@@ -102,7 +102,7 @@ pub fn check_report(paper: &Paper, places: &Places) -> Result<(), Failure> {
 
 fn draw(paper: &Paper, places: &Places, only: Option<&str>, stop: &AtomicBool) -> Result<Drawn, Failure> {
     let verdicts = Verdicts::read(&places.runs)?;
-    let point = ReadingChoice::new(&paper.readings(), &verdicts.reading).map_err(|message| {
+    let point = Interpretation::new(&paper.choices, &verdicts.reading).map_err(|message| {
         Failure::touched(format!("the stored verdicts are of other readings ({message}); judge again"))
     })?;
     doing(&format!("{}: drawing its figures and tables", paper.id));

@@ -13,7 +13,7 @@ use clap::Args;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use study::ReadingChoice;
+use study::Interpretation;
 use study::clock::timed;
 use study::paper::Paper;
 use study::store::write_whole;
@@ -75,7 +75,7 @@ impl Report {
 /// Writes the page of the paper at `places` into `folder`; gives its line of the index. What cannot be shown is said in the
 /// page's first line, and is a failure all the same.
 fn write(places: &Places, folder: &Path) -> Result<[String; 3], (Option<[String; 3]>, Failure)> {
-    let how = How { quick: false, seed: None, readings: None, threads: None };
+    let how = How { quick: false, seed: None, with: None, threads: None };
     let paper = super::load::load(places, &how).map_err(|failure| (None, failure))?;
     let file = folder.join(format!("{}.html", paper.id));
     let line = |said: String| [paper.id.clone(), paper.source.title.clone(), said];
@@ -105,7 +105,7 @@ struct Made {
 
 fn made(paper: &Paper, places: &Places, folder: &Path) -> Result<Made, Failure> {
     let verdicts = Verdicts::read(&places.runs)?;
-    let point = ReadingChoice::new(&paper.readings(), &verdicts.reading).map_err(|message| {
+    let point = Interpretation::new(&paper.choices, &verdicts.reading).map_err(|message| {
         Failure::input(format!("the stored verdicts are of other readings ({message}); judge again"))
     })?;
     doing(&format!("{}: writing its page", paper.id));

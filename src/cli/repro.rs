@@ -40,13 +40,13 @@ impl Repro {
             return trial::run(&paper, &places, &self.how, name);
         }
         render::check_report(&paper, &places)?;
-        self.how.check_points(&paper)?;
+        self.how.check_interpretations(&paper)?;
         let (lock, stop) = (Lock::take(&places.runs)?, stop_flag());
         for report in run_studies(&paper, &places, &self.how, &lock, self.again)? {
             say!("{}", summary(&report, false));
         }
         safe_point(stop, "the records are kept")?;
-        let point = self.how.point(&paper.readings())?;
+        let point = self.how.interpretation(&paper.choices)?;
         let judged = judge::judge(&paper, point, &places)?;
         verdicts::print(&judged);
         let outputs = draw(&paper, &places, &judged, self.again, stop)?;

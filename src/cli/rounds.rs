@@ -10,7 +10,7 @@ use crate::analysis::across::stored::differing;
 use std::path::{Path, PathBuf};
 use study::paper::Paper;
 use study::plan::{Plan, PlannedRound};
-use study::{ReadingChoice, StudyError};
+use study::{Interpretation, StudyError};
 
 /// A round.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,7 +56,7 @@ impl Round {
     }
 
     /// It under `points`, as a plan has it.
-    pub fn planned(self, paper: &Paper, points: &[ReadingChoice]) -> PlannedRound {
+    pub fn planned(self, paper: &Paper, points: &[Interpretation]) -> PlannedRound {
         let readings = points.iter().map(|point| differing(paper, point)).collect();
         PlannedRound { command: self.command().to_owned(), name: self.name().to_owned(), readings }
     }

@@ -16,7 +16,7 @@ use study::paper::Paper;
 use study::plan::Plan;
 use study::session::{self, Options, Report};
 use study::shard;
-use study::{ReadingChoice, Study};
+use study::{Interpretation, Study};
 
 /// Runs the studies of a paper.
 #[derive(Args)]
@@ -49,7 +49,7 @@ impl Run {
         }
         let places = Places::find(&self.which, &self.how.variant())?;
         let paper = load(&places, &self.how)?;
-        self.how.check_points(&paper)?;
+        self.how.check_interpretations(&paper)?;
         let lock = Lock::take(&places.runs)?;
         if self.clock {
             return read_clocks(&paper, &places, &self.how, &lock);
@@ -96,7 +96,7 @@ fn run_study(
     lock: &Lock,
     again: Again,
 ) -> Result<Report, Failure> {
-    let (points, bar) = (how.points(study)?, Bar::default());
+    let (points, bar) = (how.interpretations(study)?, Bar::default());
     let options = options(paper, (&points, &bar), places, how, lock);
     Ok(session::run(study, &Options { fresh: again.fresh, record: again.record, ..options })?)
 }
@@ -104,7 +104,7 @@ fn run_study(
 /// How a whole run of a study of `paper` is to be done, reusing what is stored.
 fn options<'a>(
     paper: &Paper,
-    (points, bar): (&'a [ReadingChoice], &'a Bar),
+    (points, bar): (&'a [Interpretation], &'a Bar),
     places: &'a Places,
     how: &How,
     lock: &'a Lock,
@@ -128,7 +128,7 @@ fn options<'a>(
 /// Reads the clock of every timed study once more.
 fn read_clocks(paper: &Paper, places: &Places, how: &How, lock: &Lock) -> Result<(), Failure> {
     for study in paper.studies.iter().filter(|study| study.timing.is_some()) {
-        let (points, bar) = (how.points(study)?, Bar::default());
+        let (points, bar) = (how.interpretations(study)?, Bar::default());
         let number = session::read_clock(study, &options(paper, (&points, &bar), places, how, lock))?;
         say!("{}: session {number} of the clock", study.name);
     }

@@ -14,7 +14,7 @@ use study::paper::Paper;
 use study::plan::{Plan, PlannedRound, Wanted};
 use study::runner::BuiltStudy;
 use study::session::{self, Options};
-use study::{ReadingChoice, Study};
+use study::{Interpretation, Study};
 
 /// Studies, how they are run, and the readings of each.
 pub struct Sharded {
@@ -23,7 +23,7 @@ pub struct Sharded {
     /// How they are run.
     pub how: How,
     /// The studies with their readings.
-    pub runs: Vec<(Study, Vec<ReadingChoice>)>,
+    pub runs: Vec<(Study, Vec<Interpretation>)>,
     claims: String,
     named: String,
     round: Option<PlannedRound>,
@@ -45,7 +45,7 @@ impl Sharded {
     /// # Errors
     /// Those of loading the paper.
     pub fn of_plan(plan: &Plan, out: PathBuf) -> Result<Self, Failure> {
-        let how = How { quick: plan.quick, seed: plan.seed, readings: plan.readings.clone(), threads: None };
+        let how = How { quick: plan.quick, seed: plan.seed, with: plan.with.clone(), threads: None };
         let which = Which { paper: plan.paper.clone(), out: Some(out) };
         let places = Places::find(&which, &how.variant())?;
         Self::at(&plan.paper, &how, places)
@@ -53,7 +53,7 @@ impl Sharded {
 
     fn at(named: &str, how: &How, places: Places) -> Result<Self, Failure> {
         let paper = load(&places, how)?;
-        let run = |study: &Study| Ok((study.clone(), how.points(study)?));
+        let run = |study: &Study| Ok((study.clone(), how.interpretations(study)?));
         let runs = paper.studies.iter().map(run).collect::<Result<_, Failure>>()?;
         let (claims, named) = (claims_hash(&paper), named.to_owned());
         Ok(Self { places, how: how.clone(), runs, claims, named, round: None })
@@ -65,7 +65,7 @@ impl Sharded {
         places: &Places,
         threads: Option<usize>,
         round: PlannedRound,
-        runs: Vec<(Study, Vec<ReadingChoice>)>,
+        runs: Vec<(Study, Vec<Interpretation>)>,
     ) -> Self {
         let how = How::plain(threads.and_then(|threads| threads.try_into().ok()));
         let (claims, named) = (claims_hash(paper), named.to_owned());
@@ -74,8 +74,8 @@ impl Sharded {
 
     /// What is asked of a plan that cuts it into so many shards.
     pub fn wanted(&self, shards: usize) -> Wanted {
-        let How { quick, seed, readings, .. } = self.how.clone();
-        Wanted { paper: self.named.clone(), shards, quick, seed, readings, round: self.round.clone() }
+        let How { quick, seed, with, .. } = self.how.clone();
+        Wanted { paper: self.named.clone(), shards, quick, seed, with, round: self.round.clone() }
     }
 
     /// Where its plan and its parts lie within `parts`.

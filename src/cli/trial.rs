@@ -19,7 +19,7 @@ pub fn run(paper: &Paper, places: &Places, how: &How, name: &str) -> Result<(), 
             none_called("study", study_name, known)
         ))
     })?;
-    let points = how.points(study)?;
+    let points = how.interpretations(study)?;
     doing(&format!("{}: running trial {name}", paper.id));
     let names = study.names();
     let (batch, stored) = session::run_one(study, &points, &places.inputs, &places.runs, trial)?;

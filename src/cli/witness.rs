@@ -33,9 +33,9 @@ pub struct Witness {
     /// A number besides those of claims: `A*:path_cost_cells=17.65`
     #[arg(long, value_name = "CONTENDER:METRIC=NUMBER")]
     also: Vec<String>,
-    /// The reading to search under: `meeting=both_closed,ties=lifo`, or `any`; the defaults if absent
-    #[arg(long, value_name = "READINGS")]
-    readings: Option<String>,
+    /// The interpretation to search under: `meeting=both_closed,ties=lifo`, or `any`; the defaults if absent
+    #[arg(long, value_name = "OPTIONS")]
+    with: Option<String>,
     /// The root of every search's seed
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
     seed: u64,
@@ -67,12 +67,12 @@ impl Witness {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
         let places = Places::find(&Which { paper: self.paper.clone(), out: None }, "")?;
-        let how = How { quick: false, seed: None, readings: self.reading(), threads: None };
+        let how = How { quick: false, seed: None, with: self.options(), threads: None };
         let paper = load(&places, &how)?;
         let (study, group) = Hunt::place(&paper, &self.claims).map_err(Failure::input)?;
-        let under = match self.readings.as_deref() {
+        let under = match self.with.as_deref() {
             Some("any") => Under::Any,
-            _ => Under::One(how.point(&paper.readings())?),
+            _ => Under::One(how.interpretation(&paper.choices)?),
         };
         let besides = self.also.iter().map(|text| besides(text, study)).collect::<Result<_, _>>()?;
         let (claims, seed, maps) = (self.claims.clone(), self.seed, self.maps);
@@ -88,16 +88,16 @@ impl Witness {
         Ok(())
     }
 
-    /// The readings as other commands are told them.
-    fn reading(&self) -> Option<String> {
-        self.readings.clone().filter(|readings| readings != "any")
+    /// The options as other commands take them.
+    fn options(&self) -> Option<String> {
+        self.with.clone().filter(|with| with != "any")
     }
 
     /// What was asked, in words.
     fn asked(&self) -> String {
         let also: Vec<String> = self.also.iter().map(|also| format!(", {also}")).collect();
         let also = also.concat();
-        let under = self.readings.as_deref().unwrap_or("default");
+        let under = self.with.as_deref().unwrap_or("default");
         format!("for {}{also}; reading {under}, seed {}", self.claims.join(", "), self.seed)
     }
 

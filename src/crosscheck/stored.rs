@@ -14,7 +14,7 @@ use study::manifest::Manifest;
 use study::name::Names;
 use study::record::{Kept, Row, Status};
 use study::store::{open_exhibits, read_numbers};
-use study::{Inputs, ReadingChoice, Study, StudyError};
+use study::{Inputs, Interpretation, Study, StudyError};
 
 /// Which paths of a study are judged.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -114,7 +114,7 @@ impl StoredPaths {
                 format!("there are no problems `{}`; there are {}", self.problems, known.join(", "));
             misnamed("problems", message)
         })?;
-        let point = ReadingChoice::new(&study.readings, &BTreeMap::new());
+        let point = Interpretation::new(&study.choices, &BTreeMap::new());
         let point = point.expect("a loaded study's defaults are among its options");
         let prepared = group.family(&point, inputs)?.prepare(0);
         Ok(prepared.map_err(|invalid| misnamed("problems", invalid.0))?.world)

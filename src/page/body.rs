@@ -88,7 +88,7 @@ impl Body<'_> {
     fn navigation(&self, is_without_curves: bool) -> String {
         let parts = [
             ("claims", "Claims", true),
-            ("readings", "Readings", !self.evidence.paper.readings().is_empty()),
+            ("readings", "Readings", !self.evidence.paper.choices.is_empty()),
             ("tables", "Tables", self.has_tables()),
             ("curves", "Curves", !is_without_curves),
             ("replays", "Replays", !self.replayed.is_empty()),

@@ -48,9 +48,13 @@ fn said(axis: &Axis, option: &AxisOption) -> String {
     if option.name == axis.default {
         marks.push("the default");
     }
-    if !option.votes {
+    if !option.is_meant {
         marks.push("a probe");
     }
+    if option.cannot_run.is_some() {
+        marks.push("cannot be run here");
+    }
+    marks.extend(option.cannot_run.as_deref());
     marks.extend(option.cites.as_deref());
     let marks = if marks.is_empty() { String::new() } else { format!(": {}", escaped(&marks.join("; "))) };
     format!("<li><code>{}</code>{marks}</li>", escaped(&option.name))

@@ -4,7 +4,7 @@ use crate::analysis::claims::{claims_hash, records};
 use crate::analysis::evidence::{Evidence, Run, default_point};
 use crate::analysis::verdict::Verdicts;
 use study::paper::Paper;
-use study::{Reading, ReadingChoice, Study};
+use study::{Choice, Interpretation, Study};
 
 /// What every output of a quick run says.
 pub const QUICK: &str = "Quick run: few replicates, not the study's result.";
@@ -12,7 +12,7 @@ pub const QUICK: &str = "Quick run: few replicates, not the study's result.";
 /// The sentences that every output of these verdicts carries; none for a full run under the default readings.
 pub fn marks(paper: &Paper, verdicts: &Verdicts) -> Vec<String> {
     let quick = verdicts.quick.then(|| QUICK.to_owned());
-    let point = ReadingChoice::new(&paper.readings(), &verdicts.reading).ok();
+    let point = Interpretation::new(&paper.choices, &verdicts.reading).ok();
     let other = point.filter(|point| *point != default_point(paper));
     let reading = other.map(|point| {
         format!(
@@ -23,16 +23,12 @@ pub fn marks(paper: &Paper, verdicts: &Verdicts) -> Vec<String> {
     quick.into_iter().chain(reading).collect()
 }
 
-/// Which studies lack a part of the reading that trials were run under, so that claims on them are judged without it.
+/// Which studies leave out a part of the interpretation that trials were run under, so that claims on them are judged without it.
 fn untouched(paper: &Paper, verdicts: &Verdicts) -> Option<String> {
-    let readings = paper.readings();
-    let is_away = |reading: &&Reading| {
-        reading.touches_trials()
-            && verdicts.reading.get(&reading.id).is_some_and(|option| *option != reading.default)
-    };
-    let away: Vec<&Reading> = readings.iter().filter(is_away).collect();
-    let lacks =
-        |study: &&Study| away.iter().any(|reading| !study.readings.iter().any(|own| own.id == reading.id));
+    let is_away =
+        |choice: &&Choice| verdicts.reading.get(&choice.id).is_some_and(|option| *option != choice.default);
+    let away: Vec<&Choice> = paper.choices.iter().filter(is_away).collect();
+    let lacks = |study: &&Study| away.iter().any(|choice| study.leaves_out.contains(&choice.id));
     let names: Vec<String> =
         paper.studies.iter().filter(lacks).map(|study| format!("`{}`", study.name)).collect();
     (!names.is_empty()).then(|| {

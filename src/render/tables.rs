@@ -262,7 +262,7 @@ fn rounded(estimate: &Estimate, decimals: usize) -> String {
 mod tests {
     use super::*;
     use std::path::Path;
-    use study::{Inputs, ReadingChoice};
+    use study::{Inputs, Interpretation};
 
     #[test]
     fn a_file_of_numbers_says_that_inputs_are_stand_ins_where_they_are() {
@@ -285,7 +285,7 @@ mod tests {
                 claims: Vec::new(),
                 together: Vec::new(),
             };
-            let evidence = Evidence::read(&paper, ReadingChoice::default(), root).unwrap();
+            let evidence = Evidence::read(&paper, Interpretation::default(), root).unwrap();
             let text = numbers(&evidence, &verdicts).unwrap();
             assert_eq!(text.contains("\n% Stand-in environments: "), has, "{text}");
         }

@@ -3,18 +3,20 @@
 mod check;
 mod each;
 mod load;
+mod shared;
 mod sizes;
 
+use super::choice::{self, Choice, Interpretation};
 use super::contender::{Contender, Sweep, SweepPoint};
 use super::error::StudyError;
 use super::group::Group;
 use super::key::{KeyColumns, SweepKey, SweepValue, Text};
 use super::name::{self, Names};
 use super::prepared;
-use super::reading::{self, Reading, ReadingChoice};
-use super::spec::{BudgetSpec, ExploreSpec, FigureSpec, QuickSpec, TimingSpec, TrialsSpec};
+use super::spec::{BudgetSpec, ExploredStudy, FigureSpec, QuickSpec, TimingSpec, TrialsSpec};
 use super::task;
 use base::settings::{Document, Settings, none_called};
+pub use shared::Shared;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -45,10 +47,12 @@ pub struct Study {
     pub contenders: Vec<Contender>,
     /// Factors that the paper varies.
     pub sweeps: Vec<Sweep>,
-    /// The readings.
-    pub readings: Vec<Reading>,
-    /// What `replan explore` runs of it under every reading.
-    pub explore: Option<ExploreSpec>,
+    /// The choices of its paper that touch what it runs or what is said of it, but for those that it leaves out.
+    pub choices: Vec<Choice>,
+    /// The choices that touch what it runs and that it leaves out.
+    pub leaves_out: Vec<String>,
+    /// What `replan explore` runs of it under every interpretation.
+    pub explore: Option<ExploredStudy>,
     /// Limits on each trial.
     pub budget: BudgetSpec,
     /// How clocks are read.
@@ -93,30 +97,30 @@ impl Study {
         self.groups.iter().any(|own| own.label == group && own.family.is_drawn)
     }
 
-    /// The default point and, for every other option, the point that differs in it alone.
+    /// The defaults and, for every other option, the interpretation that differs in it alone.
     ///
     /// # Errors
-    /// A reading whose default is not among its options.
-    pub fn single_options(&self) -> Result<Vec<ReadingChoice>, StudyError> {
-        reading::single_options(&self.readings)
-            .map_err(|message| StudyError::from(self.document.error_at("reading", message)))
+    /// A choice whose default is not among its options.
+    pub fn single_options(&self) -> Result<Vec<Interpretation>, StudyError> {
+        choice::single_options(&self.choices)
+            .map_err(|message| StudyError::from(self.document.error_at("", message)))
     }
 
-    /// The points of [`single_options`](Self::single_options) as trials see them: those that run the same trials appear once.
+    /// [`single_options`](Self::single_options) as trials see them: those that run the same trials appear once.
     ///
     /// # Errors
     /// As [`single_options`](Self::single_options).
-    pub fn trial_points(&self) -> Result<Vec<ReadingChoice>, StudyError> {
+    pub fn trial_interpretations(&self) -> Result<Vec<Interpretation>, StudyError> {
         Ok(self.as_trials_see(&self.single_options()?))
     }
 
-    /// `points` of the paper's readings as trials of the study see them: those that run the same trials appear once.
-    pub fn as_trials_see(&self, points: &[ReadingChoice]) -> Vec<ReadingChoice> {
-        let mut seen: Vec<ReadingChoice> = Vec::new();
-        for point in points {
-            let point = point.for_trials(&self.readings);
-            if !seen.contains(&point) {
-                seen.push(point);
+    /// `interpretations` of the paper as trials of the study see them: those that run the same trials appear once.
+    pub fn as_trials_see(&self, interpretations: &[Interpretation]) -> Vec<Interpretation> {
+        let mut seen: Vec<Interpretation> = Vec::new();
+        for one in interpretations {
+            let one = one.for_trials(&self.choices);
+            if !seen.contains(&one) {
+                seen.push(one);
             }
         }
         seen
@@ -132,9 +136,9 @@ impl Study {
         self
     }
 
-    /// The study cut down to what is explored of it under each reading: no clock is read, and nothing is kept for figures.
+    /// The study cut down to what is explored of it under each interpretation: no clock is read, and nothing is kept for figures.
     #[must_use]
-    pub fn explored(mut self, explore: &ExploreSpec, draws: u32) -> Self {
+    pub fn explored(mut self, explore: &ExploredStudy, draws: u32) -> Self {
         for group in &mut self.groups {
             group.replicates = group.replicates.min(draws);
         }
@@ -198,17 +202,17 @@ impl Study {
         Names::new(
             self.groups.iter().map(|group| (group.label.as_str(), group.is_numbered)),
             self.contenders.iter().map(|contender| (contender.label.as_str(), contender.is_numbered)),
-            self.readings.iter().map(|reading| (reading.id.as_str(), reading.default.as_str())),
+            self.choices.iter().map(|choice| (choice.id.as_str(), choice.default.as_str())),
         )
     }
 
     /// The columns of its records' keys besides those that every study has.
     pub fn key_columns(&self) -> KeyColumns {
         let sweep = |sweep: &Sweep| (sweep.key.as_str().into(), sweep.of.as_str().into());
-        let moving = self.readings.iter().filter(|reading| reading.touches_trials());
+        let moving = self.choices.iter().filter(|choice| choice.touches_trials);
         KeyColumns {
             sweeps: self.sweeps.iter().map(sweep).collect(),
-            readings: moving.map(|reading| reading.id.as_str().into()).collect(),
+            readings: moving.map(|choice| choice.id.as_str().into()).collect(),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Contenders: pipelines of a planner and stages under a label, at one point of the sweeps.
 
+use super::choice::Interpretation;
 use super::key::{SweepKey, SweepValue};
-use super::reading::ReadingChoice;
 use super::{name, planner};
 use base::settings::{Faults, Place, Settings, SettingsError};
 use engine::planner::{Build, Entry, Invalid, Plan, Planner, Request, Stage};
@@ -23,7 +23,7 @@ pub struct Contender {
     pub is_numbered: bool,
     /// The planner, then the stages that tidy its plan.
     pub stages: Vec<StageUse>,
-    /// Readings, with the option, that its settings take in place of the one in hand.
+    /// Choices, with the option, that its settings take in place of the one in hand.
     pub departs: BTreeMap<String, String>,
 }
 
@@ -56,10 +56,10 @@ impl Contender {
     ///
     /// # Errors
     /// The settings errors of all entries.
-    pub fn pipeline(&self, point: &ReadingChoice, sweep: &SweepPoint) -> Result<Pipeline, SettingsError> {
+    pub fn pipeline(&self, point: &Interpretation, sweep: &SweepPoint) -> Result<Pipeline, SettingsError> {
         let (mut planner, mut stages, mut faults) = (None, Vec::new(), Faults::default());
         for stage in &self.stages {
-            let settings = stage.effective(point, sweep);
+            let settings = stage.effective(&self.label, point, sweep);
             match stage.entry.build {
                 Build::Planner(build) => planner = faults.keep(build(&settings)),
                 Build::Stage(build) => stages.extend(faults.keep(build(&settings))),
@@ -71,11 +71,11 @@ impl Contender {
     }
 
     /// What else is wrong with the settings of its stages, where some of them are not accepted: one fault hides no other.
-    pub fn check_rest(&self, point: &ReadingChoice, sweep: &SweepPoint, faults: &mut Faults) {
+    pub fn check_rest(&self, point: &Interpretation, sweep: &SweepPoint, faults: &mut Faults) {
         for stage in &self.stages {
             let built = |settings: &Settings| stage.built(settings).err();
             let (schema, example) = (stage.entry.settings.schema(), stage.entry.example);
-            let found = stage.effective(point, sweep).faults_beside(&schema, example, built);
+            let found = stage.effective(&self.label, point, sweep).faults_beside(&schema, example, built);
             for fault in found {
                 faults.add(fault);
             }
@@ -95,9 +95,9 @@ impl StageUse {
         }
     }
 
-    /// Its settings with the reading's and the sweep's laid on top.
-    pub fn effective(&self, point: &ReadingChoice, sweep: &SweepPoint) -> Settings {
-        let read = point.over_stage(self.entry.name, self.settings.clone());
+    /// Its settings in the contender called `label` with the interpretation's and the sweep's laid on top.
+    pub fn effective(&self, label: &str, interpretation: &Interpretation, sweep: &SweepPoint) -> Settings {
+        let read = interpretation.over_stage(label, self.entry.name, self.settings.clone());
         match sweep.over.get(self.entry.name) {
             Some((table, places)) => {
                 read.overlaid_from(table, &format!("sweep {}", name::sweep(&sweep.key)), places.clone())

@@ -1,122 +1,100 @@
-//! Which readings of a paper are explored: points in the product of its readings.
+//! Which interpretations of a paper are explored: points in the product of its choices.
 
 use super::checked::Study;
+use super::choice::{Choice, Interpretation, single_options};
 use super::contender::{Contender, StageUse, Sweep};
 use super::group::Group;
-use super::reading::{Reading, ReadingChoice, single_options};
 use super::spec::OptionSpec;
 use base::hash::sha256;
 use base::seed::{self, Stream};
 use rand::RngExt as _;
-use schemars::JsonSchema;
-use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// How far a paper's readings are explored, besides its defaults, every other option by itself and what contenders depart to.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ExplorePaper {
-    /// How many settings of readings are drawn from the product of options that vote, at most and without repetition.
-    #[schemars(range(max = 10_000))]
-    pub sample: u32,
-    /// How many trials `replan explore` may run in all, and `replan confirm` once more.
-    #[schemars(range(min = 1, max = 1_000_000_000_000_u64))]
-    pub trials: u64,
-    /// Studies that run only under readings that are compatible with what the paper's studies are fitted to, as those that run
-    /// under all say.
-    #[serde(default)]
-    pub where_compatible: Vec<String>,
-}
-
-impl ExplorePaper {
-    /// Whether `study` runs only under readings that are compatible.
-    pub fn is_late(&self, study: &Study) -> bool {
-        self.where_compatible.contains(&study.name)
-    }
-}
-
-/// The points to explore: those that must be, and those to be added in this order while the budget lasts.
+/// The interpretations to explore: those that must be, and those to be added in this order while the budget lasts.
 #[derive(Debug)]
-pub struct Points {
+pub struct Interpretations {
     /// The defaults, every other option by itself, and what contenders depart to.
-    pub alone: Vec<ReadingChoice>,
-    /// Points drawn from the product of options that vote.
-    pub drawn: Vec<Vec<ReadingChoice>>,
+    pub alone: Vec<Interpretation>,
+    /// Those drawn from the product of options that vote.
+    pub drawn: Vec<Vec<Interpretation>>,
 }
 
-/// The points of `readings`, of which `sample` settings are drawn from `seed` with equal chance for every voting option; contenders
-/// depart to those in `departures`, under which alone their trials count.
+/// The interpretations of `choices`, of which `sample` settings are drawn from `seed` with equal chance for every voting option;
+/// contenders depart to those in `departures`, under which alone their trials count.
 ///
-/// Each setting of the readings that are not fitted stands with every option of those that are.
+/// Each setting of the choices that are not fitted stands with every option of those that are.
 ///
 /// # Errors
-/// A reading whose default is not among its options.
-pub fn points(
-    readings: &[Reading],
-    departures: Vec<ReadingChoice>,
+/// A choice whose default is not among its options.
+pub fn interpretations(
+    choices: &[Choice],
+    departures: Vec<Interpretation>,
     sample: u32,
     seed: u64,
-) -> Result<Points, String> {
+) -> Result<Interpretations, String> {
     let mut known = BTreeSet::new();
-    let mut new = |points: Vec<ReadingChoice>| -> Vec<ReadingChoice> {
-        points.into_iter().filter(|point| known.insert(point.name().to_owned())).collect()
+    let mut new = |all: Vec<Interpretation>| -> Vec<Interpretation> {
+        all.into_iter().filter(|one| known.insert(one.name().to_owned())).collect()
     };
     let mut alone = Vec::new();
-    for point in single_options(readings)?.into_iter().chain(departures) {
-        alone.extend(new(with_fitted(readings, &point)?));
+    for single in single_options(choices)?.into_iter().chain(departures) {
+        alone.extend(new(with_fitted(choices, &single)?));
     }
-    let moving: Vec<&Reading> = readings.iter().filter(|reading| !reading.fitted).collect();
-    let voting = |reading: &&Reading| reading.options.keys().filter(|name| reading.votes(name)).count();
+    let moving: Vec<&Choice> = choices.iter().filter(|choice| !choice.fitted).collect();
+    let voting = |choice: &&Choice| choice.options.keys().filter(|name| choice.votes(name)).count();
     let product = moving.iter().map(voting).fold(1_usize, usize::saturating_mul);
-    let (mut drawn, mut seen, mut stream) = (Vec::new(), BTreeSet::new(), seed::stream(seed));
+    let mut drawn = Vec::new();
+    let mut seen = BTreeSet::new();
+    let mut stream = seed::stream(seed);
     while seen.len() < product && drawn.len() < sample as usize {
-        let choices = draw(&moving, &mut stream);
-        if seen.insert(choices.clone()) {
-            let points = new(with_fitted(readings, &ReadingChoice::new(readings, &choices)?)?);
-            if !points.is_empty() {
-                drawn.push(points);
+        let options = draw(&moving, &mut stream);
+        if seen.insert(options.clone()) {
+            let all = new(with_fitted(choices, &Interpretation::new(choices, &options)?)?);
+            if !all.is_empty() {
+                drawn.push(all);
             }
         }
     }
-    Ok(Points { alone, drawn })
+    Ok(Interpretations { alone, drawn })
 }
 
-/// A voting option of each reading; the default of one that none votes in.
-fn draw(readings: &[&Reading], stream: &mut Stream) -> BTreeMap<String, String> {
-    let pick = |reading: &&Reading| {
-        let voting: Vec<&String> = reading.options.keys().filter(|name| reading.votes(name)).collect();
+/// A voting option of each choice; the default of one that none votes in.
+fn draw(choices: &[&Choice], stream: &mut Stream) -> BTreeMap<String, String> {
+    let pick = |choice: &&Choice| {
+        let voting: Vec<&String> = choice.options.keys().filter(|name| choice.votes(name)).collect();
         let option = match voting.len() {
-            0 => &reading.default,
+            0 => &choice.default,
             count => voting[stream.random_range(0..count)],
         };
-        (reading.id.clone(), option.clone())
+        (choice.id.clone(), option.clone())
     };
-    readings.iter().map(pick).collect()
+    choices.iter().map(pick).collect()
 }
 
-/// `point` with every option of the fitted readings that stands with the others.
-fn with_fitted(readings: &[Reading], point: &ReadingChoice) -> Result<Vec<ReadingChoice>, String> {
-    let mut all = vec![point.choices().clone()];
-    for reading in readings.iter().filter(|reading| reading.fitted) {
-        let each = |choices: &BTreeMap<String, String>| {
+/// `interpretation` with every option of the fitted choices that can be run and stands with the others.
+fn with_fitted(choices: &[Choice], interpretation: &Interpretation) -> Result<Vec<Interpretation>, String> {
+    let mut all = vec![interpretation.options().clone()];
+    for choice in choices.iter().filter(|choice| choice.fitted) {
+        let each = |options: &BTreeMap<String, String>| {
             let with = |option: &String| {
-                let mut choices = choices.clone();
-                choices.insert(reading.id.clone(), option.clone());
-                choices
+                let mut options = options.clone();
+                options.insert(choice.id.clone(), option.clone());
+                options
             };
-            // The option in hand comes first, so that a point stands before its variations.
-            let own = choices[&reading.id].clone();
-            let others = reading.options.keys().filter(|option| **option != own);
+            // The option in hand comes first, so that an interpretation stands before its variations.
+            let own = options[&choice.id].clone();
+            let others = choice.options.keys().filter(|option| **option != own && choice.can_run(option));
             std::iter::once(with(&own)).chain(others.map(with)).collect::<Vec<_>>()
         };
         all = all.iter().flat_map(each).collect();
     }
-    let points: Result<Vec<_>, _> = all.iter().map(|choices| ReadingChoice::new(readings, choices)).collect();
-    Ok(points?.into_iter().filter(ReadingChoice::is_asked).collect())
+    let found: Result<Vec<_>, _> = all.iter().map(|options| Interpretation::new(choices, options)).collect();
+    Ok(found?.into_iter().filter(Interpretation::is_allowed).collect())
 }
 
-/// A hash of all that trials of `study` depend on under any reading, as its spec and the program say; words and figures do not count.
+/// A hash of all that trials of `study`, and the meaning of what they counted, depend on under any interpretation, as the specs and
+/// the program say; words and figures do not count.
 pub fn stamp(study: &Study) -> String {
     let stage = |stage: &StageUse| {
         format!("{} {} {:?}", stage.entry.name, stage.entry.revision, stage.settings.table())
@@ -130,11 +108,12 @@ pub fn stamp(study: &Study) -> String {
         format!("{} {stages:?} {:?}", contender.label, contender.departs)
     };
     let option = |(name, option): (&String, &Arc<OptionSpec>)| {
-        format!("{name} {:?} {:?} {:?} {:?}", option.problem, option.stage, option.metric, option.digits)
+        let OptionSpec { metric, digits, .. } = option.as_ref();
+        format!("{name} {:?} {metric:?} {digits:?}", study.what_sets(option))
     };
-    let reading = |reading: &Reading| {
-        let options: Vec<String> = reading.options.iter().map(option).collect();
-        format!("{} {} {options:?}", reading.id, reading.default)
+    let choice = |choice: &Choice| {
+        let options: Vec<String> = choice.options.iter().map(option).collect();
+        format!("{} {} {options:?}", choice.id, choice.default)
     };
     let sweeps = study.sweeps.iter().map(swept).collect::<Vec<_>>().join(", ");
     let text = format!(
@@ -150,7 +129,7 @@ pub fn stamp(study: &Study) -> String {
         study.explore,
         study.groups.iter().map(group).collect::<Vec<_>>(),
         study.contenders.iter().map(contender).collect::<Vec<_>>(),
-        study.readings.iter().map(reading).collect::<Vec<_>>(),
+        study.choices.iter().map(choice).collect::<Vec<_>>(),
     );
     sha256(text.as_bytes())[..16].to_owned()
 }
@@ -165,13 +144,13 @@ mod tests {
     use super::super::spec::BoundsSpec;
     use super::*;
 
-    /// A reading with the options 0 to `count - 1`, of which those below `cited` cite the paper.
-    fn reading(id: &str, count: usize, cited: usize, fitted: bool) -> Reading {
+    /// A choice with the options 0 to `count - 1`, of which those below `cited` cite the paper.
+    fn choice(id: &str, count: usize, cited: usize, fitted: bool) -> Choice {
         let option = |i: usize| {
             let paper = (i < cited).then(|| "section 1".to_owned());
             (i.to_string(), Arc::new(OptionSpec { paper, ..OptionSpec::default() }))
         };
-        Reading {
+        Choice {
             place: None,
             id: id.to_owned(),
             why: String::new(),
@@ -179,21 +158,23 @@ mod tests {
             fitted,
             bounds: None,
             options: (0..count).map(option).collect(),
+            touches_trials: false,
         }
     }
 
-    fn names(points: &[ReadingChoice]) -> Vec<&str> {
-        points.iter().map(ReadingChoice::name).collect()
+    fn names(all: &[Interpretation]) -> Vec<&str> {
+        all.iter().map(Interpretation::name).collect()
     }
 
     #[test]
     fn a_sample_of_the_product_repeats_nothing_and_holds_no_probe() {
-        let readings = [reading("a", 3, 2, false), reading("b", 4, 4, false), reading("c", 2, 0, false)];
+        let choices = [choice("a", 3, 2, false), choice("b", 4, 4, false), choice("c", 2, 0, false)];
         for seed in 0..20 {
-            let found = points(&readings, Vec::new(), 5, seed).unwrap();
+            let found = interpretations(&choices, Vec::new(), 5, seed).unwrap();
             let alone = ["default", "a=1", "a=2", "b=1", "b=2", "b=3", "c=1"];
             assert_eq!(names(&found.alone), alone, "seed {seed}");
-            let all: Vec<ReadingChoice> = points(&readings, Vec::new(), 1000, seed).unwrap().drawn.concat();
+            let all: Vec<Interpretation> =
+                interpretations(&choices, Vec::new(), 1000, seed).unwrap().drawn.concat();
             // Of 2 x 4 settings that vote, 5 are the defaults or one option by itself.
             assert_eq!(
                 names(&all).iter().collect::<BTreeSet<_>>().len(),
@@ -203,50 +184,49 @@ mod tests {
             );
             assert!(names(&all).iter().all(|name| !name.contains("a=2") && !name.contains("c=1")));
         }
-        let some = |seed| points(&readings, Vec::new(), 2, seed).unwrap().drawn.concat();
+        let some = |seed| interpretations(&choices, Vec::new(), 2, seed).unwrap().drawn.concat();
         assert!((1..20).any(|seed| some(seed) != some(0)), "every seed draws the same");
     }
 
     #[test]
-    fn a_fitted_reading_stands_with_every_setting_of_the_others() {
-        let readings = [reading("a", 2, 2, false), reading("f", 3, 3, true)];
-        let found = points(&readings, Vec::new(), 9, 1).unwrap();
+    fn a_fitted_choice_stands_with_every_setting_of_the_others() {
+        let choices = [choice("a", 2, 2, false), choice("f", 3, 3, true)];
+        let found = interpretations(&choices, Vec::new(), 9, 1).unwrap();
         assert_eq!(names(&found.alone), ["default", "f=1", "f=2", "a=1", "a=1,f=1", "a=1,f=2"]);
         assert!(found.drawn.is_empty());
     }
 
     #[test]
     fn an_option_is_asked_with_those_alone_that_it_names() {
-        let only = |reading: &mut Reading, id: &str| {
+        let only = |choice: &mut Choice, id: &str| {
             let only_with = [(id.to_owned(), vec!["1".to_owned()])].into();
             let paper = Some("section 1".to_owned());
             let option = OptionSpec { paper, only_with, ..OptionSpec::default() };
-            reading.options.insert("2".to_owned(), Arc::new(option));
+            choice.options.insert("2".to_owned(), Arc::new(option));
         };
-        let mut fitted = reading("f", 3, 3, true);
+        let mut fitted = choice("f", 3, 3, true);
         only(&mut fitted, "a");
-        let readings = [reading("a", 3, 3, false), fitted.clone()];
-        let found = points(&readings, Vec::new(), 9, 1).unwrap();
+        let choices = [choice("a", 3, 3, false), fitted.clone()];
+        let found = interpretations(&choices, Vec::new(), 9, 1).unwrap();
         assert_eq!(names(&found.alone), ["default", "f=1", "a=1", "a=1,f=1", "a=1,f=2", "a=2", "a=2,f=1"]);
-        let mut moving = reading("b", 3, 3, false);
+        let mut moving = choice("b", 3, 3, false);
         only(&mut moving, "a");
-        let all = points(&[reading("a", 2, 2, false), moving], Vec::new(), 99, 1).unwrap();
+        let all = interpretations(&[choice("a", 2, 2, false), moving], Vec::new(), 99, 1).unwrap();
         assert_eq!(names(&all.alone), ["default", "a=1", "b=1"]);
-        let drawn: BTreeSet<String> =
-            all.drawn.concat().iter().map(|point| point.name().to_owned()).collect();
+        let drawn: BTreeSet<String> = all.drawn.concat().iter().map(|one| one.name().to_owned()).collect();
         assert_eq!(drawn, ["a=1,b=1", "a=1,b=2"].map(str::to_owned).into());
-        // A study without the other reading asks for all options.
-        assert_eq!(points(&[fitted], Vec::new(), 9, 1).unwrap().alone.len(), 3);
+        // A study without the other choice asks for all options.
+        assert_eq!(interpretations(&[fitted], Vec::new(), 9, 1).unwrap().alone.len(), 3);
     }
 
     #[test]
-    fn an_option_votes_by_its_words_or_within_bounds_and_a_reading_without_any_keeps_its_default() {
-        let votes = |reading: &Reading| -> Vec<String> {
-            reading.options.keys().filter(|name| reading.votes(name)).cloned().collect()
+    fn an_option_votes_by_its_words_or_within_bounds_and_a_choice_without_any_keeps_its_default() {
+        let votes = |choice: &Choice| -> Vec<String> {
+            choice.options.keys().filter(|name| choice.votes(name)).cloned().collect()
         };
-        assert_eq!(votes(&reading("a", 3, 2, false)), ["0", "1"]);
-        assert_eq!(votes(&reading("a", 3, 0, false)), ["0"]);
-        let mut numbers = reading("a", 4, 0, false);
+        assert_eq!(votes(&choice("a", 3, 2, false)), ["0", "1"]);
+        assert_eq!(votes(&choice("a", 3, 0, false)), ["0"]);
+        let mut numbers = choice("a", 4, 0, false);
         numbers.bounds = Some(BoundsSpec { least: 1.0, greatest: 2.0, source: "a handbook".to_owned() });
         for (name, option) in &mut numbers.options {
             let value = name.parse().ok();

@@ -1,9 +1,9 @@
 //! Groups of problems drawn from one family.
 
+use super::choice::Interpretation;
 use super::error::StudyError;
 use super::family::{Entry, Family};
 use super::inputs::Inputs;
-use super::reading::ReadingChoice;
 use base::settings::{Faults, Settings, SettingsError};
 use std::sync::Arc;
 use toml::Table;
@@ -34,13 +34,13 @@ impl Group {
     ///
     /// # Errors
     /// A settings error of the family, or an input file that is missing or wrong.
-    pub fn family(&self, point: &ReadingChoice, inputs: &Inputs) -> Result<Box<dyn Family>, StudyError> {
+    pub fn family(&self, point: &Interpretation, inputs: &Inputs) -> Result<Box<dyn Family>, StudyError> {
         (self.family.build)(&self.settings_under(point), inputs)
     }
 
     /// What else is wrong with its settings and the files that they name, where some of them are not accepted: one fault hides no
     /// other.
-    pub fn check_rest(&self, point: &ReadingChoice, inputs: &Inputs, faults: &mut Faults) {
+    pub fn check_rest(&self, point: &Interpretation, inputs: &Inputs, faults: &mut Faults) {
         let built = |settings: &Settings| self.built(settings, inputs).err();
         let (schema, example) = (self.family.settings.schema(), self.family.example);
         let found = self.settings_under(point).faults_beside(&schema, example, built);
@@ -60,9 +60,14 @@ impl Group {
         }
     }
 
-    /// The family's settings under the reading `point`.
-    pub fn settings_under(&self, point: &ReadingChoice) -> Settings {
-        point.over_problem(self.settings.clone())
+    /// The family's settings under an interpretation.
+    pub fn settings_under(&self, interpretation: &Interpretation) -> Settings {
+        interpretation.over_problem(self.settings.clone(), |over| self.accepts(over))
+    }
+
+    /// Whether `over` sets something, and the family has all that it sets.
+    pub fn accepts(&self, over: &Table) -> bool {
+        !over.is_empty() && over.keys().all(|key| self.family.settings.has(key))
     }
 }
 
@@ -80,7 +85,7 @@ impl Families {
     pub fn of(
         &mut self,
         group: &Group,
-        point: &ReadingChoice,
+        point: &Interpretation,
         inputs: &Inputs,
     ) -> Result<Arc<dyn Family>, StudyError> {
         let settings = group.settings_under(point);

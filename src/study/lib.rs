@@ -1,6 +1,6 @@
 //! Studies: from a spec to what happened.
 //!
-//! [`Study::load`] turns a spec into checked types; [`run`](session::run) turns these into records that
+//! [`Paper::load`](paper::Paper::load) turns a spec into checked types; [`run`](session::run) turns these into records that
 //! [`store`] keeps; [`manifest`] says what the records depend on. Families pose problems, prepared objects are
 //! what many trials share, tasks say what is done with both. Nothing here judges a claim or draws a figure.
 //!
@@ -15,8 +15,8 @@ pub mod name;
 pub mod parquet;
 pub mod spec;
 
+mod choice;
 pub mod explore;
-mod reading;
 pub mod record;
 
 pub mod planner;
@@ -54,10 +54,10 @@ pub mod merge;
 
 pub mod rerun;
 
-pub use checked::{Study, columns_of, labels_of, recorded_mark, sweeps_of};
+pub use checked::{Shared, Study, columns_of, labels_of, recorded_mark, sweeps_of};
+pub use choice::{Choice, Interpretation};
 pub use contender::{Contender, StageUse, Sweep};
 pub use error::StudyError;
 pub use group::{Families, Group};
 pub use inputs::Inputs;
 pub use name::slug;
-pub use reading::{Reading, ReadingChoice};

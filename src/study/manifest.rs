@@ -6,10 +6,10 @@ mod held;
 pub use hashes::Hashes;
 
 use super::checked::Study;
+use super::choice::Interpretation;
 use super::defaults::defaults;
 use super::error::StudyError;
 use super::key::{ReadingKey, Text};
-use super::reading::ReadingChoice;
 use super::runner::{BuiltStudy, SESSION};
 use super::shard::{Portion, Shard};
 use super::store::{Staged, part_path};
@@ -108,14 +108,14 @@ impl Manifest {
     /// [`StudyError::Io`] if an input file has gone.
     pub fn new(
         study: &Study,
-        points: &[ReadingChoice],
+        points: &[Interpretation],
         built: &BuiltStudy<'_>,
         claims: String,
         command: String,
         quick: bool,
     ) -> Result<Self, StudyError> {
         let inputs = built.inputs()?;
-        let (axes, readings) = (study.key_columns().readings, points.iter().map(|p| p.key(&study.readings)));
+        let (axes, readings) = (study.key_columns().readings, points.iter().map(|p| p.key(&study.choices)));
         let option = |(_, option): &(Text, Text)| option.to_string();
         let readings = readings.map(|key| key.options().iter().map(option).collect()).collect();
         let problems = problem_hashes(study, points, built)?;

@@ -2,6 +2,7 @@
 //!
 //! The claims' checks stay tables here; they are understood on the floor that judges.
 
+mod choices;
 mod claim;
 mod ids;
 mod ledger;
@@ -18,10 +19,9 @@ pub use report::{CLAIMS, FIGURES, OVER_READINGS, ReportSpec, filled};
 
 use self::results::ResultsSpec;
 pub use self::tables::{OursSpec, TableRow, TableSpec};
-use super::explore::ExplorePaper;
 pub use super::spec::Digits;
-use super::spec::StudySpec;
-use super::{Inputs, Reading, ReadingChoice, Study, StudyError, files};
+use super::spec::{BudgetSpec, ChoiceSpec, ExploreSpec, StudySpec};
+use super::{Choice, Inputs, Interpretation, Shared, Study, StudyError, files};
 use base::settings::{Accepted, Document, Faults, schema_of};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -46,8 +46,15 @@ struct PaperSpec {
     /// How many numbered things the paper has, each of which then needs a row in the ledger; none if absent.
     #[serde(default)]
     prints: Prints,
-    /// How far its readings are explored; needed where a study is.
-    explore: Option<ExplorePaper>,
+    /// What it leaves open: each choice once, for all studies that it touches.
+    #[serde(default, rename = "choice")]
+    choices: Vec<ChoiceSpec>,
+    /// How far that is explored.
+    explore: Option<ExploreSpec>,
+    /// The root of every seed when `replan confirm` runs a study once more that does not say another.
+    second_seed: Option<u64>,
+    /// Limits on each trial of studies that say no others.
+    budget: Option<BudgetSpec>,
     /// Everything that it prints, and what answers it; nothing is held against the paper's own list of prints if absent.
     #[serde(default)]
     ledger: Vec<LedgerRow>,
@@ -71,6 +78,39 @@ impl PaperSpec {
         let prints = (self.prints == Prints::default()).then_some("paper: prints = nothing");
         let ledger = self.ledger.is_empty().then_some("paper: ledger = nothing");
         prints.into_iter().chain(ledger).map(str::to_owned).collect()
+    }
+
+    /// What it says for all studies.
+    fn shared(&mut self, document: &Arc<Document>, faults: &mut Faults) -> Shared {
+        Shared {
+            choices: Shared::choices(std::mem::take(&mut self.choices), document, faults),
+            explore: self.explore.clone(),
+            second_seed: self.second_seed,
+            budget: self.budget,
+        }
+    }
+}
+
+impl Study {
+    /// Reads and checks the study in `path`, with what the paper.toml beside it says for all studies.
+    ///
+    /// # Errors
+    /// Every name that does not exist, every settings table that its entry does not understand, every label
+    /// that is used twice: all of them at once, each with file, line, column, what was found and what is accepted.
+    pub fn load(path: &Path, inputs: &Inputs) -> Result<Self, StudyError> {
+        let mut faults = Faults::default();
+        let paper = path.with_file_name("paper.toml");
+        let shared = if paper.is_file() {
+            let document = Document::open(&paper)?;
+            document.read::<PaperSpec>()?.shared(&document, &mut faults)
+        } else {
+            Shared::default()
+        };
+        let study = Self::gather(&Document::open(path)?, &shared, inputs, &mut faults)?;
+        match study {
+            Some(study) if faults.is_empty() => Ok(study),
+            _ => Err(faults.error().into()),
+        }
     }
 }
 
@@ -122,8 +162,10 @@ pub struct Paper {
     pub report: ReportSpec,
     /// How many numbered things it has.
     pub prints: Prints,
-    /// How far its readings are explored; not at all if absent.
-    pub explore: Option<ExplorePaper>,
+    /// What it leaves open.
+    pub choices: Vec<Choice>,
+    /// How far that is explored; not at all if absent.
+    pub explore: Option<ExploreSpec>,
     /// Everything it prints.
     pub ledger: Vec<LedgerRow>,
     /// What it says.
@@ -190,7 +232,13 @@ impl Paper {
         let files = files::beside(folder)?;
         let written = Document::open(&path)?;
         let document = written.salvaged(&schema("paper"), faults);
-        let spec = faults.keep(document.read::<PaperSpec>());
+        let mut spec = faults.keep(document.read::<PaperSpec>());
+        let shared = spec.as_mut().map(|spec| spec.shared(&document, faults)).unwrap_or_default();
+        if spec.is_none() {
+            // What studies lack may be written there.
+            faults.unread("budget");
+            faults.unread("choice");
+        }
         let (mut studies, mut others) = (Vec::new(), Vec::new());
         for path in &files {
             let Some(document) = faults.keep(Document::open(path)) else { continue };
@@ -198,7 +246,7 @@ impl Paper {
                 files::STUDY => {
                     // Settings stay as they are written: who reads them tells what is wrong there, and what else is.
                     let document = document.salvaged(&schema_of::<StudySpec>(), faults);
-                    studies.extend(Study::gather(&document, inputs, faults)?);
+                    studies.extend(Study::gather(&document, &shared, inputs, faults)?);
                 }
                 kind => others.push((path.clone(), kind)),
             }
@@ -209,7 +257,7 @@ impl Paper {
             return Err(StudyError::Missing { path: folder.to_owned(), what });
         }
         let Some(spec) = spec else { return Ok(None) };
-        Self::assemble(folder, &document, spec, (studies, others), faults).map(Some)
+        Self::assemble(folder, &document, (spec, shared.choices), (studies, others), faults).map(Some)
     }
 
     /// The paper in `folder` whose paper.toml is `document`, with studies that were loaded.
@@ -218,7 +266,9 @@ impl Paper {
     /// As [`load`](Self::load), but for those of the studies.
     pub fn of(folder: &Path, document: &Arc<Document>, studies: Vec<Study>) -> Result<Self, StudyError> {
         let mut faults = Faults::default();
-        let paper = Self::assemble(folder, document, document.read()?, (studies, Vec::new()), &mut faults)?;
+        let mut spec: PaperSpec = document.read()?;
+        let choices = spec.shared(document, &mut faults).choices;
+        let paper = Self::assemble(folder, document, (spec, choices), (studies, Vec::new()), &mut faults)?;
         faults.done()?;
         Ok(paper)
     }
@@ -226,7 +276,7 @@ impl Paper {
     fn assemble(
         folder: &Path,
         document: &Arc<Document>,
-        spec: PaperSpec,
+        (spec, choices): (PaperSpec, Vec<Choice>),
         (mut studies, others): Files,
         faults: &mut Faults,
     ) -> Result<Self, StudyError> {
@@ -241,6 +291,7 @@ impl Paper {
             source: spec.source,
             report: spec.report,
             prints: spec.prints,
+            choices,
             explore: spec.explore,
             ledger: spec.ledger,
             claims,
@@ -260,32 +311,42 @@ impl Paper {
         self.studies.iter().find(|study| study.name == name)
     }
 
-    /// The readings of all studies.
-    ///
-    /// Studies may share a reading's name; they then mean the same by it, and the first one speaks for it. Sources and changes
-    /// may stand in any of them.
-    pub fn readings(&self) -> Vec<Reading> {
-        let mut readings: Vec<Reading> = Vec::new();
-        for reading in self.studies.iter().flat_map(|study| &study.readings) {
-            match readings.iter_mut().find(|known| known.id == reading.id) {
-                Some(known) => known.complete(reading),
-                None => readings.push(reading.clone()),
-            }
-        }
-        readings
-    }
-
-    /// The readings that contenders depart to, each once.
+    /// The interpretations that contenders depart to, each once.
     ///
     /// # Panics
-    /// If a contender departs from a reading that the paper does not have: such a paper is refused when it is loaded.
-    pub fn departures(&self) -> Vec<ReadingChoice> {
-        let readings = self.readings();
+    /// If a contender departs from a choice that the paper does not have: such a paper is refused when it is loaded.
+    pub fn departures(&self) -> Vec<Interpretation> {
         let departing = self.studies.iter().flat_map(|study| &study.contenders);
         let all: BTreeSet<_> =
             departing.map(|own| &own.departs).filter(|departs| !departs.is_empty()).collect();
-        let point = |departs| ReadingChoice::new(&readings, departs).expect("the paper has these readings");
-        all.into_iter().map(point).collect()
+        let departed =
+            |departs| Interpretation::new(&self.choices, departs).expect("the paper has these choices");
+        all.into_iter().map(departed).collect()
+    }
+
+    /// The studies that the claim called `id`, its parts and theirs look at.
+    pub fn studies_of(&self, id: &str) -> Vec<&Study> {
+        let Some(claim) = self.claim(id) else { return Vec::new() };
+        let own = claim.studies();
+        let parts = claim.parts.ids().iter().flat_map(|part| self.studies_of(part));
+        let named = self.studies.iter().filter(|study| own.contains(&study.name.as_str()));
+        named.chain(parts).collect()
+    }
+
+    /// The options under which the paper may mean `claim`, which looks at `studies`, and that cannot be run, in words:
+    /// `corners = lost: why`.
+    pub fn not_run(&self, claim: &Claim, studies: &[&Study]) -> Vec<String> {
+        let inherited = |choice: &&Choice| {
+            studies.iter().any(|study| study.choices.iter().any(|own| own.id == choice.id))
+        };
+        let mut found = Vec::new();
+        for choice in self.choices.iter().filter(inherited) {
+            let premise = claim.holds_when.get(&choice.id);
+            let is_meant = |name: &str| premise.is_none_or(|options| options.iter().any(|own| own == name));
+            let options = choice.not_run().filter(|(name, _)| is_meant(name));
+            found.extend(options.map(|(name, why)| format!("{} = {name}: {why}", choice.id)));
+        }
+        found
     }
 
     /// The figures of all its studies.

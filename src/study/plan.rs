@@ -28,8 +28,8 @@ pub struct Plan {
     pub quick: bool,
     /// The root of every seed, if it is not the studies' own.
     pub seed: Option<u64>,
-    /// The readings that were asked for, if any were.
-    pub readings: Option<String>,
+    /// The options that were asked for, if any were.
+    pub with: Option<String>,
     /// How many units each shard runs.
     pub units: Vec<usize>,
     /// What each shard's units cost, in nanoseconds of one core, as far as the first draw of each problem group tells.
@@ -85,8 +85,8 @@ pub struct Wanted {
     pub quick: bool,
     /// The root of every seed, if it is not the studies' own.
     pub seed: Option<u64>,
-    /// The readings asked for.
-    pub readings: Option<String>,
+    /// The options asked for.
+    pub with: Option<String>,
     /// The round of an exploration or a confirmation.
     pub round: Option<PlannedRound>,
 }
@@ -144,7 +144,7 @@ impl Plan {
             units: built.units().len(),
             cost_ns: costs(built),
         };
-        let Wanted { paper, shards, quick, seed, readings, round } = wanted.clone();
+        let Wanted { paper, shards, quick, seed, with, round } = wanted.clone();
         let (units, cost_ns, made_by) = (vec![0; shards], vec![0; shards], MadeBy::here().clone());
         let studies_planned = studies.iter().map(planned).collect();
         let mut plan = Self {
@@ -152,7 +152,7 @@ impl Plan {
             shards,
             quick,
             seed,
-            readings,
+            with,
             units,
             cost_ns,
             made_by,
@@ -227,7 +227,7 @@ impl Plan {
             words.push("--quick".to_owned());
         }
         words.extend(self.seed.iter().flat_map(|seed| ["--seed".to_owned(), seed.to_string()]));
-        words.extend(self.readings.iter().flat_map(|readings| ["--readings".to_owned(), readings.clone()]));
+        words.extend(self.with.iter().flat_map(|with| ["--with".to_owned(), with.clone()]));
         words
     }
 
@@ -270,12 +270,12 @@ impl Plan {
     ) -> Result<(), StudyError> {
         let mut other = Other(Vec::new());
         let mut differs = |what: &str, planned: String, asked: String| other.note(what, &planned, &asked);
-        let shown = |readings: &Option<String>| readings.clone().unwrap_or_else(|| "the default".to_owned());
+        let shown = |with: &Option<String>| with.clone().unwrap_or_else(|| "the default".to_owned());
         let names = |names: &mut dyn Iterator<Item = &str>| names.collect::<Vec<_>>().join(", ");
         differs("command", command(self.round.as_ref()), command(wanted.round.as_ref()));
         differs("shards", self.shards.to_string(), wanted.shards.to_string());
         differs("quick", self.quick.to_string(), wanted.quick.to_string());
-        differs("readings", shown(&self.readings), shown(&wanted.readings));
+        differs("options", shown(&self.with), shown(&wanted.with));
         differs(
             "studies",
             names(&mut self.studies.iter().map(|study| study.name.as_str())),

@@ -1,8 +1,8 @@
 //! Reruns a seeded sample of stored trials and compares every row.
 
+use super::choice::Interpretation;
 use super::key::{DrawKey, TrialKey};
 use super::manifest::Manifest;
-use super::reading::ReadingChoice;
 use super::record::Row;
 use super::runner::BuiltStudy;
 use super::store::read_numbers;
@@ -37,10 +37,10 @@ pub fn rerun(
 ) -> Result<Rerun, StudyError> {
     let manifest = Manifest::read(folder, &study.name)?;
     let records = read_numbers(folder, &study.name, &manifest.files)?;
-    let points: Vec<ReadingChoice> = study
-        .trial_points()?
+    let points: Vec<Interpretation> = study
+        .trial_interpretations()?
         .into_iter()
-        .filter(|point| manifest.covers(&point.key(&study.readings)))
+        .filter(|point| manifest.covers(&point.key(&study.choices)))
         .collect();
     let built = BuiltStudy::new(study, &points, inputs)?;
     let recorded: BTreeSet<&str> = study.recorded().collect();

@@ -7,13 +7,13 @@
 mod timed;
 
 use super::checked::Study;
+use super::choice::Interpretation;
 use super::error::StudyError;
 use super::family::Family;
 use super::group::{Families, Group};
 use super::inputs::Inputs;
 use super::key::{DrawKey, ReadingKey, Text, TrialKey};
 use super::name::Names;
-use super::reading::ReadingChoice;
 use super::record::{Batch, Row};
 use super::store::Journal;
 use super::task::Task;
@@ -67,7 +67,7 @@ pub struct BuiltStudy<'a> {
     inputs: &'a Inputs,
     terms: Terms<'a>,
     task: Box<dyn Task>,
-    points: &'a [ReadingChoice],
+    points: &'a [Interpretation],
     readings: Vec<ReadingKey>,
     families: Vec<Vec<Arc<dyn Family>>>,
     entrants: Vec<Vec<Entrant<'a>>>,
@@ -80,7 +80,7 @@ impl<'a> BuiltStudy<'a> {
     /// Those of families and pipelines; none in a study that was loaded with the same inputs.
     pub fn new(
         study: &'a Study,
-        points: &'a [ReadingChoice],
+        points: &'a [Interpretation],
         inputs: &'a Inputs,
     ) -> Result<Self, StudyError> {
         let (mut families, mut entrants, mut built) = (Vec::new(), Vec::new(), Families::default());
@@ -101,7 +101,7 @@ impl<'a> BuiltStudy<'a> {
         let (paper, name, keeps) = (&study.paper, &study.name, study.kept().collect());
         let (names, seed, budget) = (study.names(), study.seed, study.budget);
         let terms = Terms { paper, study: name, names, seed, budget, keeps };
-        let readings = points.iter().map(|point| point.key(&study.readings)).collect();
+        let readings = points.iter().map(|point| point.key(&study.choices)).collect();
         let task = (study.task.build)(&study.task_settings)?;
         Ok(Self { study, inputs, terms, task, points, readings, families, entrants })
     }

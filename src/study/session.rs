@@ -1,10 +1,10 @@
 //! A run from beginning to end: resume or reuse, trials, clock, records, manifest.
 
 use super::checked::Study;
+use super::choice::Interpretation;
 use super::lock::Lock;
 use super::manifest::{MadeBy, Manifest, Session};
 use super::name::Names;
-use super::reading::ReadingChoice;
 use super::record::{Batch, Row, Status, Timing};
 use super::reuse::{self, Before, Gathered, Keeps, Reusable, moved};
 use super::runner::{BuiltStudy, Progress, SESSION};
@@ -26,7 +26,7 @@ pub struct Options<'a> {
     /// The right to write where records go.
     pub lock: &'a Lock,
     /// The readings to run; the first is the one that clocks are read under.
-    pub points: &'a [ReadingChoice],
+    pub points: &'a [Interpretation],
     /// Where input files are.
     pub inputs: &'a Inputs,
     /// The command line, for the manifest.
@@ -283,7 +283,7 @@ pub(super) fn write(
 /// [`StudyError::UnknownTrial`].
 pub fn run_one(
     study: &Study,
-    points: &[ReadingChoice],
+    points: &[Interpretation],
     inputs: &Inputs,
     folder: &Path,
     trial: &str,

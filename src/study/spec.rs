@@ -18,7 +18,7 @@ pub struct StudySpec {
     pub question: String,
     /// The root of every seed.
     pub seed: u64,
-    /// The root of every seed when `replan confirm` runs it once more.
+    /// The root of every seed when `replan confirm` runs it once more; the paper's if absent.
     pub second_seed: Option<u64>,
     /// What is done with the problems; `plan` if absent.
     pub task: Option<Spanned<String>>,
@@ -28,8 +28,8 @@ pub struct StudySpec {
     /// Inputs were searched for so that claims would hold: at best *attainable*.
     #[serde(default)]
     pub searched: bool,
-    /// Claims that something in the study was chosen to meet: at best *fitted*. The study was calibrated to them, so that a
-    /// reading under which one of them is contradicted is not what the paper means.
+    /// Claims that something in the study was chosen to meet: at best *fitted*. The study was calibrated to them, so that an
+    /// interpretation under which one of them is contradicted is not what the paper means.
     #[serde(default)]
     pub fitted_to: Vec<Spanned<String>>,
     /// Groups of problems.
@@ -41,13 +41,11 @@ pub struct StudySpec {
     /// Factors that the paper varies.
     #[serde(default, rename = "sweep")]
     pub sweeps: Vec<SweepSpec>,
-    /// Ways to fill in what the paper leaves open.
-    #[serde(default, rename = "reading")]
-    pub readings: Vec<ReadingSpec>,
-    /// What `replan explore` runs of it under every reading; it is not explored if absent.
-    pub explore: Option<ExploreSpec>,
-    /// Limits on each trial.
-    pub budget: BudgetSpec,
+    /// Choices of the paper that touch what the study runs and that it does not inherit, by name; `all` stands for all of them.
+    #[serde(default)]
+    pub leaves_out: Vec<Spanned<String>>,
+    /// Limits on each trial; the paper's if absent.
+    pub budget: Option<BudgetSpec>,
     /// How clocks are read.
     pub timing: Option<TimingSpec>,
     /// Trials whose exhibits are kept besides those that figures name.
@@ -106,7 +104,8 @@ pub struct ContenderSpec {
     /// How many seeds it runs on each problem, 1 if absent; more than 1 only where it draws.
     #[schemars(range(min = 1, max = 100_000))]
     pub repeats: Option<u32>,
-    /// Readings of other studies, with the option, that its settings take: a witness that it gives counts under these alone.
+    /// Choices that its study leaves out or that do not touch it, with the option that its settings take: a witness that it
+    /// gives counts under these alone.
     #[serde(default)]
     pub departs: BTreeMap<String, String>,
 }
@@ -135,27 +134,31 @@ pub struct SweepSpec {
     pub values: Spanned<Vec<toml::Value>>,
 }
 
-/// A way to fill in what the paper leaves open.
+/// Something that the paper leaves open.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct ReadingSpec {
+pub struct ChoiceSpec {
     /// Its name.
     pub id: Spanned<String>,
     /// What the paper leaves open, and why the default was taken.
     pub why: String,
     /// The option taken unless asked otherwise.
     pub default: Spanned<String>,
-    /// The default was chosen so that the claims in `fitted_to` hold: for each setting of the other readings the options
+    /// The default was chosen so that the claims in `fitted_to` hold: for each setting of the other choices the options
     /// count with which most of them do.
     #[serde(default)]
     pub fitted: bool,
     /// Of options that are numbers: which of them vote, and who says so.
     pub bounds: Option<BoundsSpec>,
+    /// Where the paper's text says so, with its words, for every option that cites nothing itself.
+    pub paper: Option<String>,
+    /// The practice that does so, with its source, for every option that cites nothing itself.
+    pub practice: Option<String>,
     /// The options.
     pub option: Spanned<BTreeMap<String, OptionSpec>>,
 }
 
-/// The numbers of a reading that vote.
+/// The numbers of a choice that vote.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoundsSpec {
@@ -167,7 +170,7 @@ pub struct BoundsSpec {
     pub source: String,
 }
 
-/// What one option of a reading changes, and who might mean it. An option that cites neither the paper nor a practice, nor is a
+/// What one option of a choice sets, and who might mean it. An option that cites neither the paper nor a practice, nor is a
 /// number within sourced bounds, is a probe: what it does is printed and never counted.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -176,19 +179,25 @@ pub struct OptionSpec {
     pub paper: Option<String>,
     /// The practice that does so, with its source.
     pub practice: Option<String>,
-    /// The number that it stands for, where the reading has `bounds`.
+    /// The number that it stands for, where the choice has `bounds`.
     pub value: Option<f64>,
-    /// The options of other readings, by the reading's name, with one of which alone it is explored; with all, if none are named.
+    /// The options of other choices, by the choice's name, with one of which alone it is explored; with all, if none are named.
     #[serde(default)]
     pub only_with: BTreeMap<String, Vec<String>>,
-    /// Settings laid over every problem's.
+    /// Why it cannot be run: claims on studies that inherit the choice then stay undecided.
+    pub cannot_run: Option<String>,
+    /// Settings laid over those of every problem whose family has all of them.
     #[serde(default)]
     #[schemars(with = "AnyTable")]
     pub problem: Table,
-    /// Settings laid over those of a planner or stage, by its name.
+    /// Settings laid over those of a planner or stage, by its name, in every contender that uses it.
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, AnyTable>")]
     pub stage: BTreeMap<String, Table>,
+    /// Settings laid over those of one contender, by its label and by the name of its planner or stage.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, BTreeMap<String, AnyTable>>")]
+    pub contender: BTreeMap<String, BTreeMap<String, Table>>,
     /// What a metric's name stands for under this option: no trial is rerun.
     #[serde(default)]
     pub metric: BTreeMap<String, String>,
@@ -208,22 +217,68 @@ pub enum Digits {
     Unknown,
 }
 
-/// What is run of a study under every reading that its paper explores.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+/// How far a paper's choices are explored, besides its defaults, every other option by itself and what contenders depart to. Tables
+/// go by the names of studies.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExploreSpec {
+    /// How many settings of choices are drawn from the product of options that vote, at most and without repetition.
+    #[schemars(range(max = 10_000))]
+    pub sample: u32,
+    /// How many trials `replan explore` may run in all, and `replan confirm` once more.
+    #[schemars(range(min = 1, max = 1_000_000_000_000_u64))]
+    pub trials: u64,
+    /// The studies that are explored, each with the draws kept of each problem group.
+    pub draws: BTreeMap<String, Count>,
+    /// Draws kept of each group under interpretations that leave a claim open or turn it; `draws` if absent.
+    #[serde(default)]
+    pub more_draws: BTreeMap<String, Count>,
+    /// Seeds kept of each contender; all of them if absent.
+    #[serde(default)]
+    pub repeats: BTreeMap<String, Count>,
+    /// The study whose claims a study answers under other interpretations than the defaults, by groups and contenders of the same
+    /// labels; its own if absent.
+    #[serde(default)]
+    pub stands_for: BTreeMap<String, String>,
+    /// Studies that run only under interpretations that are compatible with what the paper's studies are fitted to, as those that
+    /// run under all say.
+    #[serde(default)]
+    pub where_compatible: Vec<String>,
+}
+
+/// A number of draws or of seeds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize, JsonSchema)]
+#[serde(transparent)]
+pub struct Count(#[schemars(range(min = 1, max = 1_000_000))] pub u32);
+
+/// What is run of one study under every interpretation that its paper explores.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ExploredStudy {
     /// Draws kept of each problem group.
-    #[schemars(range(min = 1, max = 1_000_000))]
     pub draws: u32,
-    /// Draws kept of each group under readings that leave a claim open or turn it; `draws` if absent.
-    #[schemars(range(min = 1, max = 1_000_000))]
+    /// Draws kept of each group under interpretations that leave a claim open or turn it.
     pub more_draws: Option<u32>,
     /// Seeds kept of each contender; all of them if absent.
-    #[schemars(range(min = 1, max = 100_000))]
     pub repeats: Option<u32>,
-    /// The study whose claims it answers under other readings than the defaults, by groups and contenders of the same labels;
-    /// its own if absent.
+    /// The study whose claims it answers, if not its own.
     pub stands_for: Option<String>,
+}
+
+impl ExploreSpec {
+    /// What is run of the study called `name`; none if it is not explored.
+    pub fn study(&self, name: &str) -> Option<ExploredStudy> {
+        Some(ExploredStudy {
+            draws: self.draws.get(name)?.0,
+            more_draws: self.more_draws.get(name).map(|count| count.0),
+            repeats: self.repeats.get(name).map(|count| count.0),
+            stands_for: self.stands_for.get(name).cloned(),
+        })
+    }
+
+    /// Whether the study called `name` runs only under interpretations that are compatible.
+    pub fn is_late(&self, name: &str) -> bool {
+        self.where_compatible.iter().any(|late| late == name)
+    }
 }
 
 /// Limits on each trial.

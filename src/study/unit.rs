@@ -1,11 +1,11 @@
 //! Units of work: one prepared object with everything that runs on it.
 
+use super::choice::Interpretation;
 use super::contender::{Contender, Pipeline, SweepPoint};
 use super::family::{Family, Query};
 use super::group::Group;
 use super::key::{DrawKey, Text, TrialKey};
 use super::name::Names;
-use super::reading::ReadingChoice;
 use super::spec::{BudgetSpec, TrialsSpec};
 use base::seed;
 use std::collections::BTreeSet;
@@ -39,7 +39,7 @@ pub struct Unit<'a> {
     /// The group's family under this reading.
     pub family: &'a dyn Family,
     /// The reading.
-    pub point: &'a ReadingChoice,
+    pub point: &'a Interpretation,
     /// Who runs on it.
     pub entrants: Vec<&'a Entrant<'a>>,
     /// The draw's seed; the same under every reading and for every contender.

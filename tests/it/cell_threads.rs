@@ -61,7 +61,7 @@ fn records(home: &Path, threads: usize) -> Vec<(String, Vec<u8>)> {
     let inputs = Inputs { roots: vec![root] };
     let study = Study::load(&home.join("p").join("s.toml"), &inputs).unwrap();
     let folder = home.join(format!("runs{threads}"));
-    let points = study.trial_points().unwrap();
+    let points = study.trial_interpretations().unwrap();
     let options = Options {
         lock: &Lock::take(&folder).unwrap(),
         points: &points[..1],

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use study::family::Query;
 use study::paper::Paper;
 use study::prepared::Prepared;
-use study::{Inputs, ReadingChoice, family, task};
+use study::{Inputs, Interpretation, family, task};
 
 fn everything() -> Vec<(&'static str, Vec<Item>)> {
     vec![
@@ -187,7 +187,7 @@ fn builds_somewhere(
     let settings = example(item);
     let mut said = BTreeSet::new();
     let builds = papers.iter().any(|paper| {
-        let point = ReadingChoice::new(&paper.readings(), &BTreeMap::new()).unwrap();
+        let point = Interpretation::new(&paper.choices, &BTreeMap::new()).unwrap();
         paper.claims.iter().any(|claim| {
             let context = Context { claim, settings: &settings, paper, point: &point };
             build(&context).map_err(|error| said.insert(error.to_string())).is_ok()

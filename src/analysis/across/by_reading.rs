@@ -9,7 +9,7 @@ use super::stored::{Exploration, ExploredResult};
 use super::{Stored, counted_as, default_classes};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use study::Reading;
+use study::Choice;
 use study::paper::Paper;
 
 /// What was explored of a paper.
@@ -43,8 +43,12 @@ pub struct AxisOption {
     pub name: String,
     /// The paper's text or the practice that it cites.
     pub cites: Option<String>,
-    /// Whether it votes; a probe is shown and never counted.
-    pub votes: bool,
+    /// Whether the paper may mean it; a probe is shown and never counted.
+    #[serde(rename = "votes")]
+    pub is_meant: bool,
+    /// Why it cannot be run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cannot_run: Option<String>,
 }
 
 /// A claim under the readings.
@@ -92,18 +96,19 @@ pub struct Alone {
 
 /// What the paper leaves open, with the options of each.
 pub fn axes(paper: &Paper) -> Vec<Axis> {
-    let option = |reading: &Reading, name: &String| {
+    let option = |reading: &Choice, name: &String| {
         let spec = &reading.options[name];
         let cites = spec.paper.clone().or_else(|| spec.practice.clone());
-        AxisOption { name: name.clone(), cites, votes: reading.votes(name) }
+        let is_meant = reading.is_meant(name);
+        AxisOption { name: name.clone(), cites, is_meant, cannot_run: spec.cannot_run.clone() }
     };
-    let axis = |reading: &Reading| Axis {
+    let axis = |reading: &Choice| Axis {
         id: reading.id.clone(),
         why: reading.why.clone(),
         default: reading.default.clone(),
         options: reading.options.keys().map(|name| option(reading, name)).collect(),
     };
-    paper.readings().iter().map(axis).collect()
+    paper.choices.iter().map(axis).collect()
 }
 
 /// What is `stored` of the claims of `verdicts`; none if nothing was explored.

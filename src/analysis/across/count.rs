@@ -7,12 +7,12 @@ use super::glance::Sight;
 use super::stored::{Exploration, ExploredClaim, ExploredResult, Now};
 use std::collections::{BTreeMap, BTreeSet};
 use study::paper::Paper;
-use study::{Reading, Study};
+use study::{Choice, Study};
 
 /// The readings of a paper.
 pub struct Axes {
-    /// Each reading.
-    pub readings: Vec<Reading>,
+    /// Each choice.
+    pub choices: Vec<Choice>,
     /// The claims that some study was calibrated to.
     pub(super) calibration: BTreeSet<String>,
     /// The paper as it is now.
@@ -75,17 +75,17 @@ impl Axes {
     /// Those of `paper`.
     pub fn of(paper: &Paper) -> Self {
         let calibration = paper.studies.iter().flat_map(|study| study.fitted_to.iter().cloned()).collect();
-        Self { readings: paper.readings(), calibration, now: Now::of(paper) }
+        Self { choices: paper.choices.clone(), calibration, now: Now::of(paper) }
     }
 
     /// The option that `reading`, by what differs from the defaults, takes on `axis`.
-    pub fn option<'r>(axis: &'r Reading, reading: &'r BTreeMap<String, String>) -> &'r str {
+    pub fn option<'r>(axis: &'r Choice, reading: &'r BTreeMap<String, String>) -> &'r str {
         reading.get(&axis.id).unwrap_or(&axis.default)
     }
 
     /// Whether every option of `reading` votes.
     pub fn votes(&self, reading: &BTreeMap<String, String>) -> bool {
-        self.readings.iter().all(|axis| axis.votes(Self::option(axis, reading)))
+        self.choices.iter().all(|axis| axis.votes(Self::option(axis, reading)))
     }
 
     /// The readings of `first` that count for the claim called `id`; `default` are the claims' classes in the default run.
@@ -117,7 +117,7 @@ impl Axes {
         counted
     }
 
-    /// Whether readings change trials, but none of those of the studies, or of what stands for them, that `claim` looks at.
+    /// Whether choices touch trials, but none of those of the studies, or of what stands for them, that `claim` looks at.
     fn is_of_defaults(&self, paper: &Paper, claim: &ExploredClaim) -> bool {
         let stands_for =
             |study: &Study| study.explore.as_ref().and_then(|explore| explore.stands_for.clone());
@@ -126,9 +126,9 @@ impl Axes {
                 || stands_for(study).is_some_and(|other| claim.studies.contains(&other))
         };
         let mut asked = paper.studies.iter().filter(is_asked).peekable();
-        self.readings.iter().any(Reading::touches_trials)
+        self.choices.iter().any(|choice| choice.touches_trials)
             && asked.peek().is_some()
-            && asked.all(|study| study.readings.is_empty())
+            && asked.all(|study| study.choices.iter().all(|choice| !choice.touches_trials))
     }
 
     /// The readings of `first` that vote and are compatible with every calibration claim; all that vote if none is.
@@ -145,7 +145,7 @@ impl Axes {
     /// How each setting of the readings that are not fitted agrees with the calibration claims under each option of the one
     /// that is; none if no reading is fitted.
     pub fn fits(&self, first: &Exploration, default: &BTreeMap<String, Verdict>) -> Vec<SettingFit> {
-        let Some(fitted) = self.readings.iter().find(|axis| axis.fitted) else { return Vec::new() };
+        let Some(fitted) = self.choices.iter().find(|axis| axis.fitted) else { return Vec::new() };
         let voting = (0..first.readings.len()).filter(|place| self.votes(&first.readings[*place]));
         let best: BTreeSet<usize> = self.fitting(first, default).into_iter().collect();
         let calibration: Vec<&str> = self.calibration.iter().map(String::as_str).collect();
@@ -204,7 +204,7 @@ impl Axes {
 
     /// The options that a reading takes where nothing is fitted.
     fn unfitted<'r>(&'r self, first: &'r Exploration, place: usize) -> Vec<&'r str> {
-        let axes = self.readings.iter().filter(|axis| !axis.fitted);
+        let axes = self.choices.iter().filter(|axis| !axis.fitted);
         axes.map(|axis| Self::option(axis, &first.readings[place])).collect()
     }
 }

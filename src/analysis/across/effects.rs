@@ -33,7 +33,7 @@ pub(super) type Found = (String, String, (Effect, Verdict));
 pub(super) fn each(axes: &Axes, first: &Exploration, id: &str, default: Verdict, voting: bool) -> Vec<Found> {
     let Some(base) = first.result(id, 0) else { return Vec::new() };
     let mut all = Vec::new();
-    for axis in &axes.readings {
+    for axis in &axes.choices {
         for option in axis.options.keys().filter(|option| **option != axis.default) {
             let alone = BTreeMap::from([(axis.id.clone(), option.clone())]);
             let Some(result) = first.place(&alone).and_then(|place| first.result(id, place)) else {

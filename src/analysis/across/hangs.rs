@@ -5,7 +5,7 @@ use super::count::{Axes, Group};
 use super::glance::Sight;
 use super::stored::{Exploration, ExploredResult};
 use std::collections::BTreeMap;
-use study::Reading;
+use study::Choice;
 
 /// In a few words what the readings make of the claim called `id`.
 pub fn said(
@@ -103,9 +103,9 @@ fn hangs(
     parts: Parts,
 ) -> String {
     let class = parts.name.name();
-    let moving = axes.readings.iter().filter(|axis| moves(axis, first, id));
+    let moving = axes.choices.iter().filter(|axis| moves(axis, first, id));
     let splits = moving.map(|axis| (axis, split(axis, first, groups, votes, parts)));
-    let splits: Vec<(&Reading, Split<'_>)> = splits.collect();
+    let splits: Vec<(&Choice, Split<'_>)> = splits.collect();
     let right = |split: &Split<'_>| split.values().map(|[one, other]| one.max(other)).sum::<usize>();
     let count = |side| votes.iter().filter(|vote| parts.side(**vote) == Some(side)).count();
     let (asked, others) = (count(true), count(false));
@@ -144,7 +144,7 @@ fn shares(split: &Split<'_>) -> String {
 }
 
 /// Whether no option of `axis` has readings on both sides; a result stands under all of its readings, not under the first alone.
-fn is_clean(axis: &Reading, first: &Exploration, groups: &[Group], votes: &[Verdict], parts: Parts) -> bool {
+fn is_clean(axis: &Choice, first: &Exploration, groups: &[Group], votes: &[Verdict], parts: Parts) -> bool {
     let mut sides: BTreeMap<&str, bool> = BTreeMap::new();
     let spoken = groups.iter().zip(votes).filter_map(|(group, vote)| Some((group, parts.side(*vote)?)));
     spoken.into_iter().all(|(group, side)| {
@@ -154,14 +154,14 @@ fn is_clean(axis: &Reading, first: &Exploration, groups: &[Group], votes: &[Verd
 }
 
 /// What was found under `option` of `axis` where all else is at its default.
-fn alone<'f>(axis: &Reading, option: &str, first: &'f Exploration, id: &str) -> Option<&'f ExploredResult> {
+fn alone<'f>(axis: &Choice, option: &str, first: &'f Exploration, id: &str) -> Option<&'f ExploredResult> {
     let place = first.place(&BTreeMap::from([(axis.id.clone(), option.to_owned())]))?;
     first.result(id, place)
 }
 
 /// Whether some voting option of `axis` by itself gives other results than the defaults, or was not looked at: nothing hangs on
 /// an axis that moves nothing.
-fn moves(axis: &Reading, first: &Exploration, id: &str) -> bool {
+fn moves(axis: &Choice, first: &Exploration, id: &str) -> bool {
     let Some(base) = first.result(id, 0) else { return true };
     let voting = axis.options.keys().filter(|option| **option != axis.default && axis.votes(option));
     let found: Vec<_> = voting.map(|option| alone(axis, option, first, id)).collect();
@@ -173,7 +173,7 @@ fn moves(axis: &Reading, first: &Exploration, id: &str) -> bool {
 
 /// Whether each option of `axis` brings by itself, all else at its default, the side that its results are on, as far as that was
 /// looked at: in a sample of combinations an axis may part by chance what others decide.
-fn decides(axis: &Reading, split: &Split<'_>, first: &Exploration, id: &str, parts: Parts) -> bool {
+fn decides(axis: &Choice, split: &Split<'_>, first: &Exploration, id: &str, parts: Parts) -> bool {
     let counted =
         split.iter().filter(|(option, counts)| **option != axis.default && counts.iter().any(|n| *n > 0));
     counted.into_iter().all(|(option, [asked, _])| {
@@ -184,7 +184,7 @@ fn decides(axis: &Reading, split: &Split<'_>, first: &Exploration, id: &str, par
 
 /// By option of `axis`, how many results are on either side; a result under several options belongs to the first.
 fn split<'a>(
-    axis: &'a Reading,
+    axis: &'a Choice,
     first: &'a Exploration,
     groups: &[Group],
     votes: &[Verdict],

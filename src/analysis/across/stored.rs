@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use study::explore::stamp;
 use study::paper::Paper;
 use study::store::write_whole;
-use study::{ReadingChoice, Study, StudyError};
+use study::{Interpretation, Study, StudyError};
 
 /// Readings of a paper under which its claims were judged.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -88,12 +88,12 @@ fn shown(value: f64) -> f64 {
 }
 
 /// What a reading is, by the options that differ from the defaults.
-pub fn differing(paper: &Paper, point: &ReadingChoice) -> BTreeMap<String, String> {
-    let readings = paper.readings();
+pub fn differing(paper: &Paper, point: &Interpretation) -> BTreeMap<String, String> {
+    let readings = &paper.choices;
     let is_default = |id: &String, option: &String| {
         readings.iter().any(|reading| reading.id == *id && reading.default == *option)
     };
-    let other = point.choices().iter().filter(|(id, option)| !is_default(id, option));
+    let other = point.options().iter().filter(|(id, option)| !is_default(id, option));
     other.map(|(id, option)| (id.clone(), option.clone())).collect()
 }
 
@@ -101,7 +101,7 @@ impl Exploration {
     /// That of `glances` under `points`; `more` are those of points, by their places, that ran once more with more draws.
     pub fn of(
         paper: &Paper,
-        points: &[ReadingChoice],
+        points: &[Interpretation],
         glances: &[BTreeMap<String, Glance>],
         more: &BTreeMap<usize, BTreeMap<String, Glance>>,
     ) -> Self {

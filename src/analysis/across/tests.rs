@@ -9,7 +9,7 @@ use super::hangs::said;
 use super::stored::{Exploration, ExploredClaim, ExploredResult, Now, results};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
-use study::Reading;
+use study::Choice;
 use study::spec::OptionSpec;
 
 fn groups(classes: &[Verdict]) -> Vec<Group> {
@@ -99,7 +99,7 @@ fn what_stands_alone_against_most_must_be_confirmed_whichever_way_it_speaks() {
 
 /// Readings with these defaults.
 fn axes(defaults: &[(&str, &str)]) -> Axes {
-    let axis = |(id, default): &(&str, &str)| Reading {
+    let axis = |(id, default): &(&str, &str)| Choice {
         id: (*id).to_owned(),
         why: String::new(),
         default: (*default).to_owned(),
@@ -176,7 +176,7 @@ fn a_claim_does_not_hang_on_an_axis_whose_options_bring_the_same_alone() {
             ..Exploration::default()
         };
         let mut axes = axes(&[("sets", "all"), ("update", "lowered")]);
-        for (axis, other) in axes.readings.iter_mut().zip(["rim", "never"]) {
+        for (axis, other) in axes.choices.iter_mut().zip(["rim", "never"]) {
             let cited = OptionSpec { practice: Some("a handbook".to_owned()), ..OptionSpec::default() };
             let names = [axis.default.clone(), other.to_owned()];
             axis.options = names.map(|name| (name, Arc::new(cited.clone()))).into();

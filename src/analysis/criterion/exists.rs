@@ -23,7 +23,7 @@ use serde::Deserialize;
 use std::collections::BTreeSet;
 use study::paper::Paper;
 use study::record::Row;
-use study::{ReadingChoice, Study};
+use study::{Interpretation, Study};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -261,7 +261,7 @@ impl<'a> Attained<'a> {
     fn met_elsewhere(&self, evidence: &Evidence<'_>) -> Vec<String> {
         let default = default_point(self.paper);
         let points = if evidence.point == default { self.paper.departures() } else { Vec::new() };
-        let met = |point: ReadingChoice| {
+        let met = |point: Interpretation| {
             let (name, view) = (point.name().to_owned(), evidence.under(point));
             let found = self.eligible(&view);
             let first = found.iter().find(|seen| !seen.selected && self.is_met(seen.value))?;

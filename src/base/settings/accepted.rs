@@ -1,5 +1,6 @@
 //! The schema of a type: what its TOML may be, from the type itself.
 
+use super::schema::Node;
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::Value;
@@ -34,6 +35,17 @@ impl Accepted {
     /// The schema by itself, with the definitions that it refers to under `$defs`.
     pub fn schema(&self) -> Arc<Value> {
         (self.whole)()
+    }
+
+    /// The keys that have a meaning.
+    pub fn keys(&self) -> Vec<String> {
+        let schema = self.schema();
+        Node::root(&schema).properties().map(|(key, _)| key.to_owned()).collect()
+    }
+
+    /// Whether `key` has a meaning.
+    pub fn has(&self, key: &str) -> bool {
+        Node::root(&self.schema()).property(key).is_some()
     }
 
     /// The schema by itself, with the definitions that `generator` has made besides its own.

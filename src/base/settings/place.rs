@@ -1,7 +1,7 @@
 //! Where tables and values of settings stand, and what an error about them is told at.
 
-use super::Document;
 use super::document::{inner, part_of, span_of};
+use super::{Document, SettingsError};
 use std::ops::Range;
 use std::sync::Arc;
 use toml::de::DeValue;
@@ -46,6 +46,15 @@ impl Place {
     pub fn of_value(&self, key: &str, named: &[&str], value: &[&str]) -> Self {
         let named = Some((key.to_owned(), self.inside(named).steps));
         Self { named, ..self.inside(value) }
+    }
+
+    /// An error at the table, or at the innermost value on the way to it that there is.
+    pub fn error(&self, message: impl Into<String>) -> SettingsError {
+        let span = self.document.parsed().map_or(0..0, |whole| {
+            let found = self.steps.iter().try_fold(whole, |value, step| inner(value, step).ok_or(value));
+            found.unwrap_or_else(|innermost| innermost).span()
+        });
+        self.document.error(span, message)
     }
 
     fn at(&self, steps: &[String]) -> Option<&Written<'_>> {

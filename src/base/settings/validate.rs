@@ -265,7 +265,24 @@ fn keys(node: Node<'_>, subject: Subject<'_>, table: &DeTable<'_>, found: &mut F
     }
 }
 
+/// Keys that were renamed or moved, and what is written now.
+const RENAMED: [(&str, &str); 3] = [
+    (
+        "reading",
+        "what the paper leaves open is a `[[choice]]` of paper.toml, written once for all studies; `leaves_out` names those that a \
+         study does not inherit",
+    ),
+    ("choice", "choices are written in paper.toml, once for all studies"),
+    (
+        "explore",
+        "`[explore]` is written in paper.toml, with `draws = { STUDY = N }` for each study that is explored",
+    ),
+];
+
 fn unknown(node: Node<'_>, name: &str) -> String {
+    if let Some((_, now)) = RENAMED.iter().find(|(was, _)| *was == name) {
+        return format!("`{name}` is no key here: {now}");
+    }
     let known: Vec<&str> = node.properties().map(|(key, _)| key).collect();
     let hint = did_you_mean(name, known.iter().copied());
     let known: Vec<String> = known.iter().map(|key| format!("`{key}`")).collect();

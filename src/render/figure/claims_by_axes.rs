@@ -61,8 +61,8 @@ const SETTINGS: &str = "The defaults, every other option that votes with the res
 /// `words` along the axis.
 fn settings(scene: &Scene<'_>, words: &str) -> Result<Sheet, RenderError> {
     let rows: &[SettingFit] = scene.verdicts.explored.as_ref().map_or(&[], |explored| &explored.fits);
-    let readings = scene.evidence.paper.readings();
-    let Some(fitted) = readings.iter().find(|reading| reading.fitted).filter(|_| !rows.is_empty()) else {
+    let choices = &scene.evidence.paper.choices;
+    let Some(fitted) = choices.iter().find(|choice| choice.fitted).filter(|_| !rows.is_empty()) else {
         return Ok(Sheet::new(Width::Double, 1, ROW_PT).titled("No reading was explored."));
     };
     let options: Vec<&str> = fitted.options.keys().map(String::as_str).collect();
@@ -132,9 +132,9 @@ impl Kind for ClaimsByAxes {
             return settings(scene, words);
         }
         let rows = Self::rows(scene);
-        let readings = scene.evidence.paper.readings();
+        let choices = &scene.evidence.paper.choices;
         let is_moving = |id: &&str| rows.iter().any(|(_, across)| across.effects.contains_key(*id));
-        let axes: Vec<&str> = readings.iter().map(|reading| reading.id.as_str()).filter(is_moving).collect();
+        let axes: Vec<&str> = choices.iter().map(|choice| choice.id.as_str()).filter(is_moving).collect();
         if rows.is_empty() || axes.is_empty() {
             // A quick run, or one whose readings were not explored, has nothing to show; that is no fault of the figure's.
             return Ok(Sheet::new(Width::Double, 1, ROW_PT).titled("No explored reading moves a claim."));

@@ -4,27 +4,27 @@ use super::chapter::Page;
 use super::{item, links, paragraph};
 use crate::analysis::verdict::{Effect, Judged};
 use crate::render::prose::markdown;
-use study::Reading;
+use study::Choice;
 use study::spec::OptionSpec;
 
 impl Page<'_> {
     /// What the paper leaves open, and what each reading does.
     pub(super) fn readings(&self, text: &mut String) {
-        let readings = self.evidence.paper.readings();
-        if !readings.is_empty() {
+        let choices = &self.evidence.paper.choices;
+        if !choices.is_empty() {
             self.explored(text);
         }
-        if readings.is_empty() {
-            *text += "The studies have no readings.\n";
+        if choices.is_empty() {
+            *text += "The paper leaves nothing open that was varied.\n";
         }
-        for reading in readings {
+        for reading in choices {
             let option = |name: &String| {
                 if *name == reading.default { format!("**{name}** (default)") } else { name.clone() }
             };
             let options: Vec<String> = reading.options.keys().map(option).collect();
             let about = format!("`{}`: {}. {}", reading.id, options.join(", "), markdown(&reading.why));
             *text += &item(0, &about);
-            text.extend(votes(&reading).iter().map(|line| item(1, &markdown(line))));
+            text.extend(votes(reading).iter().map(|line| item(1, &markdown(line))));
             text.extend(self.moves(&reading.id).iter().map(|line| item(1, line)));
         }
     }
@@ -77,7 +77,7 @@ impl Page<'_> {
 }
 
 /// Which options vote and by what, and which are probes.
-fn votes(reading: &Reading) -> Vec<String> {
+fn votes(reading: &Choice) -> Vec<String> {
     let source = |name: &str, option: &OptionSpec| {
         let bounds = reading.bounds.as_ref().filter(|_| option.value.is_some());
         let own = [option.paper.clone(), option.practice.clone(), bounds.map(|bounds| bounds.source.clone())];
@@ -86,8 +86,12 @@ fn votes(reading: &Reading) -> Vec<String> {
     };
     let voting = reading.options.iter().filter(|(name, _)| reading.votes(name));
     let mut lines: Vec<String> = voting.filter_map(|(name, option)| source(name, option)).collect();
+    let lost = reading.not_run().map(|(name, why)| {
+        format!("{name} cannot be run here: {why}; claims on studies that inherit the choice stay undecided")
+    });
+    lines.extend(lost);
     let probes: Vec<&str> =
-        reading.options.keys().filter(|name| !reading.votes(name)).map(String::as_str).collect();
+        reading.options.keys().filter(|name| !reading.is_meant(name)).map(String::as_str).collect();
     if !probes.is_empty() {
         lines.push(format!("probes, never counted: {}", probes.join(", ")));
     }

@@ -4,11 +4,11 @@ use super::super::error::StudyError;
 use super::super::family::Family;
 use super::super::group::Families;
 use super::super::inputs::Inputs;
+use super::super::name;
 use super::super::spec::StudySpec;
-use super::super::{name, planner};
 use super::sizes::SWEPT;
-use super::{Contender, Group, ReadingChoice, Study, Sweep, SweepPoint, labels_of, sweeps_of};
-use base::settings::{Document, Faults, Settings, SettingsError, did_you_mean, none_called};
+use super::{Contender, Group, Interpretation, Study, Sweep, SweepPoint, labels_of, sweeps_of};
+use base::settings::{Document, Faults, Settings, SettingsError, did_you_mean};
 use engine::space::WorldKind;
 use engine::space::roadmap::Extent;
 use std::collections::{BTreeMap, BTreeSet};
@@ -32,8 +32,6 @@ impl Study {
         faults.keep((self.task.build)(&self.task_settings));
         faults.keep((self.task.build)(&self.quick_task_settings()));
         self.check_sweeps(faults);
-        self.check_defaults(faults);
-        self.check_stages_of_readings(faults);
         self.check_what_defaults_hide(inputs, faults);
         let mut known = Families::default();
         if let Some(points) = keep(faults, self.single_options())? {
@@ -56,74 +54,46 @@ impl Study {
         Ok(())
     }
 
-    /// Refuses readings whose default is not one of their options, and leaves them out.
-    fn check_defaults(&mut self, faults: &mut Faults) {
-        for (index, reading) in self.readings.iter_mut().enumerate() {
-            let (id, default) = (&reading.id, &reading.default);
-            if reading.options.contains_key(default) {
-                continue;
-            }
-            let known: Vec<&str> = reading.options.keys().map(String::as_str).collect();
-            let hint = did_you_mean(default, known.iter().copied());
-            let message =
-                format!("reading `{id}` has no option `{default}`{hint}; it has {}", known.join(", "));
-            faults.add(self.document.error_at(&format!("reading.{index}.default"), message));
-            faults.unread(id);
-            reading.options.clear();
-        }
-        self.readings.retain(|reading| !reading.options.is_empty());
-    }
-
-    /// Refuses options that change a planner or stage which does not exist; one that this study does not use may be another
-    /// study's.
-    fn check_stages_of_readings(&self, faults: &mut Faults) {
-        for (index, reading) in self.readings.iter().enumerate() {
-            let stages =
-                reading.options.iter().flat_map(|(o, change)| change.stage.keys().map(move |s| (o, s)));
-            for (option, stage) in stages.filter(|(_, stage)| planner::find(stage).is_none()) {
-                let known = planner::all().map(|entry| entry.name);
-                let message = none_called("planner or stage", stage, known);
-                let place = format!("reading.{index}.option.{option}.stage.{stage}");
-                faults.add(self.document.error_at(&place, message));
-            }
-        }
-    }
-
     /// Refuses defaults that lay something else over what contenders or problems say: they would never run as they are written.
     fn check_what_defaults_hide(&self, inputs: &Inputs, faults: &mut Faults) {
-        for (index, reading) in self.readings.iter().enumerate() {
-            let Some(default) = reading.options.get(&reading.default) else { continue };
+        for choice in &self.choices {
+            let default = &choice.options[&choice.default];
             let uses =
                 self.contenders.iter().flat_map(|own| own.stages.iter().map(move |stage| (own, stage)));
-            let stages = uses.filter_map(|(own, stage)| {
-                let over = default.stage.get(stage.entry.name)?;
-                let wrong = |settings: &Settings| stage.built(settings).err();
-                Some((format!("contender `{}` says", own.label), hidden(&stage.settings, over, wrong)))
+            let stages = uses.flat_map(|(own, stage)| {
+                let entry = stage.entry.name;
+                let of_one = default.contender.get(&own.label).and_then(|all| all.get(entry));
+                let laid = default.stage.get(entry).into_iter().chain(of_one);
+                laid.map(move |over| {
+                    let wrong = |settings: &Settings| stage.built(settings).err();
+                    (format!("contender `{}` says", own.label), hidden(&stage.settings, over, wrong))
+                })
             });
-            let problems = self.groups.iter().map(|group| {
+            let posed = self.groups.iter().filter(|group| group.accepts(&default.problem));
+            let problems = posed.map(|group| {
                 let wrong = |settings: &Settings| group.built(settings, inputs).err();
                 (format!("problems `{}` say", group.label), hidden(&group.settings, &default.problem, wrong))
             });
             for (whose, hidden) in stages.chain(problems) {
                 for key in faults.keep(hidden).unwrap_or_default() {
                     let message = format!(
-                        "the default of reading `{}` changes the `{key}` that {whose}; the same, or no reading of it in this \
-                         study, is accepted",
-                        reading.id
+                        "the default of choice `{}` changes the `{key}` that {whose} in study `{}`; the same there, or \
+                         `leaves_out = [\"{}\"]` in the study, is accepted",
+                        choice.id, self.name, choice.id
                     );
-                    faults.add(self.document.error_at(&format!("reading.{index}.default"), message));
+                    faults.add(choice.error(&["default"], message));
                 }
             }
         }
     }
 
-    /// Refuses problems whose start or goal is in collision under the default reading.
+    /// Refuses problems whose start or goal is in collision under the defaults.
     ///
-    /// Under other readings, and in groups that vary another group of their family, an end may be in collision: the
+    /// Under other interpretations, and in groups that vary another group of their family, an end may be in collision: the
     /// trials are then rows that say so. The families of the groups are given back.
     fn check_ends(
         &self,
-        default: &ReadingChoice,
+        default: &Interpretation,
         inputs: &Inputs,
         known: &mut Families,
         faults: &mut Faults,
@@ -146,7 +116,7 @@ impl Study {
 
     fn check_point(
         &self,
-        point: &ReadingChoice,
+        point: &Interpretation,
         inputs: &Inputs,
         known: &mut Families,
         faults: &mut Faults,
@@ -278,7 +248,7 @@ fn hidden(
     let keys = settings.hidden_by(over);
     let mut beside = over.clone();
     beside.retain(|key, _| !keys.iter().any(|hidden| hidden == key));
-    let as_written = settings.overlaid(&beside, "the default of a reading");
+    let as_written = settings.overlaid(&beside, "the default of a choice");
     if keys.is_empty() { Ok(keys) } else { wrong(&as_written).map_or(Ok(keys), Err) }
 }
 

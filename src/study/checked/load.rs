@@ -4,40 +4,27 @@ use super::super::contender::StageUse;
 use super::super::error::StudyError;
 use super::super::inputs::Inputs;
 use super::super::name::slug;
-use super::super::spec::{ContenderSpec, ProblemsSpec, ReadingSpec, StudySpec, SweepSpec};
+use super::super::spec::{BudgetSpec, ContenderSpec, ProblemsSpec, StudySpec, SweepSpec};
 use super::super::{family, planner, task};
 use super::check::check_selections;
-use super::{Contender, Group, Reading, Settings, Study, Sweep, columns_of, each, labels_of, sweeps_of};
+use super::{Contender, Group, Settings, Shared, Study, Sweep, columns_of, each, labels_of, sweeps_of};
 use base::settings::{Document, Faults, Place, SettingsError, Spanned, did_you_mean, none_called, schema_of};
 use engine::planner::{Build, Entry};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::ops::Range;
-use std::path::Path;
 use std::sync::Arc;
 use toml::Table;
 
 impl Study {
-    /// Reads and checks the study in `path`.
-    ///
-    /// # Errors
-    /// Every name that does not exist, every settings table that its entry does not understand, every label
-    /// that is used twice: all of them at once, each with file, line, column, what was found and what is accepted.
-    pub fn load(path: &Path, inputs: &Inputs) -> Result<Self, StudyError> {
-        let mut faults = Faults::default();
-        let study = Self::gather(&Document::open(path)?, inputs, &mut faults)?;
-        match study {
-            Some(study) if faults.is_empty() => Ok(study),
-            _ => Err(faults.error().into()),
-        }
-    }
-
-    /// The study in `document` as far as it can be read, if at all; everything that is wrong goes to `faults`.
+    /// The study in `document`, of a paper that says what is `shared`, as far as it can be read, if at all; everything that is wrong
+    /// goes to `faults`.
     ///
     /// # Errors
     /// What the system refuses.
     pub(crate) fn gather(
         document: &Arc<Document>,
+        shared: &Shared,
         inputs: &Inputs,
         faults: &mut Faults,
     ) -> Result<Option<Self>, StudyError> {
@@ -52,22 +39,35 @@ impl Study {
             return Ok(None);
         };
         spec.problems = each::expanded(spec.problems, document, inputs, faults);
-        let mut study = Self::resolve(name, spec, document, faults);
+        let leaves_out = std::mem::take(&mut spec.leaves_out);
+        let mut study = Self::resolve(name, spec, document, shared, faults);
+        study.inherit(&shared.choices, &leaves_out, faults);
         study.check(inputs, faults)?;
         Ok(Some(study))
     }
 
     /// The study as far as its names exist; what does not goes to `faults`.
-    fn resolve(name: String, spec: StudySpec, document: &Arc<Document>, faults: &mut Faults) -> Self {
+    fn resolve(
+        name: String,
+        spec: StudySpec,
+        document: &Arc<Document>,
+        shared: &Shared,
+        faults: &mut Faults,
+    ) -> Self {
         check_labels(&spec, document, &name, faults);
         check_selections(&spec, document, &name, faults);
+        let budget = spec.budget.or(shared.budget).unwrap_or_else(|| {
+            let message = "missing `[budget]` with `expansions`: limits on each trial, here or in paper.toml for all studies";
+            faults.add(document.error_at("", message).about("budget"));
+            BudgetSpec { expansions: 1 }
+        });
         let known = task::REGISTRY.iter().map(|entry| entry.name);
         let named = spec.task.as_ref().map(|task| look_up(document, "task", task, task::find, known));
         Self {
             paper: spec.paper.into_inner(),
             question: spec.question,
             seed: spec.seed,
-            second_seed: spec.second_seed,
+            second_seed: spec.second_seed.or(shared.second_seed),
             task: named.and_then(|named| faults.keep(named)).unwrap_or_else(task::default),
             task_settings: optional(
                 document,
@@ -84,11 +84,12 @@ impl Study {
                 &name,
                 faults,
             ),
+            explore: shared.explore.as_ref().and_then(|explore| explore.study(&name)),
             name,
             sweeps: spec.sweeps.into_iter().enumerate().map(|(at, spec)| sweep(document, at, spec)).collect(),
-            readings: readings(spec.readings, document),
-            explore: spec.explore,
-            budget: spec.budget,
+            choices: Vec::new(),
+            leaves_out: Vec::new(),
+            budget,
             timing: spec.timing,
             keeps: spec.keeps,
             quick: spec.quick,
@@ -145,7 +146,6 @@ fn check_labels(spec: &StudySpec, document: &Document, study: &str, faults: &mut
     }
     unique(document, "problem group", spec.problems.iter().map(|p| &p.label), faults);
     unique(document, "contender", spec.contenders.iter().map(|c| &c.label), faults);
-    unique(document, "reading", spec.readings.iter().map(|r| &r.id), faults);
 }
 
 fn unique<'a>(
@@ -191,28 +191,6 @@ fn optional(
 fn sweep(document: &Arc<Document>, index: usize, spec: SweepSpec) -> Sweep {
     let place = Place::of_table(document, &["sweep", &index.to_string()]);
     Sweep { key: spec.key.into_inner(), of: spec.of.into_inner(), values: spec.values.into_inner(), place }
-}
-
-fn readings(specs: Vec<ReadingSpec>, document: &Arc<Document>) -> Vec<Reading> {
-    let place = |index: usize| Place::of_table(document, &["reading", &index.to_string(), "option"]);
-    specs.into_iter().enumerate().map(|(index, spec)| reading(spec, place(index))).collect()
-}
-
-fn reading(spec: ReadingSpec, place: Place) -> Reading {
-    Reading {
-        place: Some(place),
-        id: spec.id.into_inner(),
-        why: spec.why,
-        default: spec.default.into_inner(),
-        fitted: spec.fitted,
-        bounds: spec.bounds,
-        options: spec
-            .option
-            .into_inner()
-            .into_iter()
-            .map(|(name, option)| (name, Arc::new(option)))
-            .collect(),
-    }
 }
 
 fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, SettingsError> {

@@ -7,7 +7,7 @@ use super::{Contender, Group, Study, columns_of, labels_of};
 use base::settings::Faults;
 use std::sync::Arc;
 
-/// The most trials of a study, all readings that it explores counted.
+/// The most trials of a study, all interpretations that it explores counted.
 const TRIALS: f64 = 1e7;
 /// The most timed runs of a study.
 const TIMED: f64 = 1e7;

@@ -1,8 +1,8 @@
 //! What each problem group and contender depends on, as hashes.
 
+use crate::choice::Interpretation;
 use crate::contender::SweepPoint;
 use crate::name;
-use crate::reading::ReadingChoice;
 use crate::runner::BuiltStudy;
 use crate::{Study, StudyError};
 use base::hash::sha256;
@@ -14,7 +14,7 @@ pub type Hashes = BTreeMap<String, BTreeMap<String, Vec<usize>>>;
 /// What each problem group of `study` depends on under `points`.
 pub(super) fn problem_hashes(
     study: &Study,
-    points: &[ReadingChoice],
+    points: &[Interpretation],
     built: &BuiltStudy<'_>,
 ) -> Result<Hashes, StudyError> {
     let mut hashes = Hashes::new();
@@ -50,7 +50,7 @@ pub(super) fn problem_hashes(
 /// What each contender of `study` depends on under `points`.
 pub(super) fn contender_hashes(
     study: &Study,
-    points: &[ReadingChoice],
+    points: &[Interpretation],
     built: &BuiltStudy<'_>,
 ) -> Result<Hashes, StudyError> {
     let mut hashes = Hashes::new();
@@ -62,8 +62,8 @@ pub(super) fn contender_hashes(
                 let entry = stage.entry;
                 text += &format!("\n{} {}", entry.name, entry.revision);
                 for sweep in &sweeps {
-                    text +=
-                        &format!(" {} {:?}", name::sweep(&sweep.key), stage.effective(point, sweep).table());
+                    let settings = stage.effective(&contender.label, point, sweep);
+                    text += &format!(" {} {:?}", name::sweep(&sweep.key), settings.table());
                 }
             }
             let is_own = |of: &Option<String>| of.as_ref().is_none_or(|label| *label == contender.label);

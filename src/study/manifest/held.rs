@@ -1,7 +1,7 @@
 //! What a stored manifest says that the study and its inputs do not bear out: for `replan judge --check`.
 
 use super::Manifest;
-use crate::reading::ReadingChoice;
+use crate::choice::Interpretation;
 use crate::runner::BuiltStudy;
 use crate::{Inputs, Study, StudyError};
 
@@ -43,7 +43,7 @@ impl Manifest {
     }
 
     /// The readings that it lists.
-    fn points(&self, study: &Study) -> Result<Vec<ReadingChoice>, String> {
+    fn points(&self, study: &Study) -> Result<Vec<Interpretation>, String> {
         if self.readings.is_empty() {
             return Err("`readings` lists none".to_owned());
         }
@@ -52,7 +52,7 @@ impl Manifest {
                 return Err(format!("`readings` has {} options for {} axes", options.len(), self.axes.len()));
             }
             let chosen = self.axes.iter().cloned().zip(options.iter().cloned()).collect();
-            ReadingChoice::new(&study.readings, &chosen).map_err(|message| format!("`readings`: {message}"))
+            Interpretation::new(&study.choices, &chosen).map_err(|message| format!("`readings`: {message}"))
         };
         self.readings.iter().map(point).collect()
     }

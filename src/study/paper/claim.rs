@@ -1,6 +1,6 @@
 //! What a paper says: claims, what they ask, and the claims that they are made of.
 
-use super::{Digits, ReadingChoice};
+use super::{Digits, Interpretation};
 use base::settings::{AnyTable, Document, Faults, Settings, SettingsError, Spanned};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -23,7 +23,7 @@ pub(super) struct ClaimSpec {
     pub(super) printed: Option<Spanned<String>>,
     /// The number's unit; absent if the paper gives none.
     pub(super) unit: Option<String>,
-    /// How the number's digits end, where the claim says so; otherwise the reading decides.
+    /// How the number's digits end, where the claim says so; otherwise the interpretation decides.
     pub(super) digits: Option<Digits>,
     /// What the paper leaves out, if that makes it untestable; checks then only show what can be shown.
     pub(super) untestable: Option<String>,
@@ -31,7 +31,7 @@ pub(super) struct ClaimSpec {
     pub(super) theorem: Option<String>,
     /// What was changed in how it is judged after a run had been seen, and why.
     pub(super) changed_after_run: Option<String>,
-    /// The readings under which alone it is meant, each with the options that count: a premise that the paper states.
+    /// The choices under some of whose options alone it is meant, each with those options: a premise that the paper states.
     #[serde(default)]
     pub(super) holds_when: BTreeMap<String, Vec<String>>,
     /// How it is judged: the settings of each criterion, by the criterion's name.
@@ -75,7 +75,7 @@ pub struct Claim {
     pub printed: Option<String>,
     /// The number's unit; absent if the paper gives none.
     pub unit: Option<String>,
-    /// How the number's digits end, where the claim says so; otherwise the reading decides.
+    /// How the number's digits end, where the claim says so; otherwise the interpretation decides.
     pub digits: Option<Digits>,
     /// What the paper leaves out, if that makes it untestable; checks then only show what can be shown.
     pub untestable: Option<String>,
@@ -83,7 +83,7 @@ pub struct Claim {
     pub theorem: Option<String>,
     /// What was changed in how it is judged after a run had been seen, and why.
     pub changed_after_run: Option<String>,
-    /// The readings under which alone it is meant, each with the options that count.
+    /// The choices under some of whose options alone it is meant, each with those options.
     pub holds_when: BTreeMap<String, Vec<String>>,
     /// How it is judged, and what is shown beside: rules and criteria by name.
     asked: Vec<(Asked, String, Settings)>,
@@ -133,11 +133,16 @@ impl Claim {
         self.asked.iter().map(|(asked, name, settings)| (*asked, name.as_str(), settings))
     }
 
-    /// Whether it is meant under the reading `point`: what it takes for granted holds there.
-    pub fn is_meant(&self, point: &ReadingChoice) -> bool {
-        self.holds_when
-            .iter()
-            .all(|(id, options)| point.choices().get(id).is_some_and(|option| options.contains(option)))
+    /// Whether it is meant under `interpretation`: what it takes for granted holds there.
+    pub fn is_meant(&self, interpretation: &Interpretation) -> bool {
+        let taken = interpretation.options();
+        let mut premises = self.holds_when.iter();
+        premises.all(|(id, options)| taken.get(id).is_some_and(|option| options.contains(option)))
+    }
+
+    /// The names of the studies that its criteria look at.
+    pub fn studies(&self) -> Vec<&str> {
+        self.criteria().flat_map(|(_, settings)| studies_in(settings.table())).collect()
     }
 
     /// Whether it holds the same number against the same trials, in the same way.
@@ -200,6 +205,22 @@ pub(super) fn claim(document: &Arc<Document>, spec: &ClaimSpec, faults: &mut Fau
         asked,
         parts,
     }
+}
+
+/// The studies that settings name, at any depth.
+fn studies_in(table: &Table) -> Vec<&str> {
+    let mut found = Vec::new();
+    for (key, value) in table {
+        match value {
+            toml::Value::String(name) if key == "study" => found.push(name.as_str()),
+            toml::Value::Table(inner) => found.extend(studies_in(inner)),
+            toml::Value::Array(all) => {
+                found.extend(all.iter().filter_map(toml::Value::as_table).flat_map(studies_in));
+            }
+            _ => {}
+        }
+    }
+    found
 }
 
 /// What the number that the claim `id` prints is called where it may be unread.

@@ -74,7 +74,7 @@ impl House {
         fs::write(self.at("p/s.toml"), spec).unwrap();
         let inputs = Inputs { roots: vec![folder.to_owned(), PathBuf::new()] };
         let paper = Paper::load(folder, &inputs).unwrap();
-        let points = paper.studies[0].trial_points().unwrap();
+        let points = paper.studies[0].trial_interpretations().unwrap();
         let options = Options {
             lock: &Lock::take(&self.at(out)).unwrap(),
             points: &points,

@@ -52,7 +52,7 @@ variants = [
 fn facts(folder: &Path, threads: usize) -> BTreeMap<String, Vec<u8>> {
     let inputs = Inputs { roots: vec![folder.join("p")] };
     let paper = Paper::load(&folder.join("p"), &inputs).unwrap();
-    let points = paper.studies[0].trial_points().unwrap();
+    let points = paper.studies[0].trial_interpretations().unwrap();
     let out = folder.join(threads.to_string());
     let lock = Lock::take(&out).unwrap();
     let options = Options {
@@ -152,7 +152,7 @@ fn single_variants_are_run_again_without_the_others_and_give_the_stored_rows() {
         let inputs = Inputs { roots: vec![folder.path().join("p")] };
         let paper = Paper::load(&folder.path().join("p"), &inputs).unwrap();
         let (study, runs) = (&paper.studies[0], folder.path().join("2"));
-        let points = study.trial_points().unwrap();
+        let points = study.trial_interpretations().unwrap();
         for trial in ["w/swept", part, whole] {
             let (batch, stored) = run_one(study, &points, &inputs, &runs, trial).unwrap();
             assert_eq!(batch.rows, [stored.expect("it was run")], "{task}: {trial}");
@@ -232,7 +232,7 @@ fn units_that_share_what_is_prepared_give_what_each_gives_alone() {
     let paper = Paper::load(&root.join("experiments/fu2018"), &inputs).unwrap();
     for name in ["particle", "stages"] {
         let study = paper.study(name).unwrap();
-        let points = study.trial_points().unwrap();
+        let points = study.trial_interpretations().unwrap();
         let built = BuiltStudy::new(study, &points[..1], &inputs).unwrap();
         let first = built.units().remove(0);
         // The other asks for less and in another order, so that what the first learned would show.

@@ -15,7 +15,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use study::paper::Paper;
-use study::{Inputs, ReadingChoice};
+use study::{Inputs, Interpretation};
 
 const MANIFEST: &str = "scenarios.manifest.toml";
 
@@ -24,7 +24,7 @@ fn used(paper: &Paper, folder: &Path) -> Result<(), String> {
     let evidence = Evidence::read(paper, default_point(paper), folder).map_err(|e| e.to_string())?;
     claims::judge(&evidence).map_err(|e| e.to_string())?;
     let verdicts = Verdicts::read(folder).map_err(|e| e.to_string())?;
-    ReadingChoice::new(&paper.readings(), &verdicts.reading).map_err(|e| format!("verdicts.toml: {e}"))?;
+    Interpretation::new(&paper.choices, &verdicts.reading).map_err(|e| format!("verdicts.toml: {e}"))?;
     let outputs = output::outputs(&evidence, &verdicts, None, &AtomicBool::new(false));
     let outputs = outputs.map_err(|e| format!("verdicts.toml: {e}"))?;
     output::chapter(&folder.join("report.md"), &evidence, &verdicts, folder, &outputs.undrawn)

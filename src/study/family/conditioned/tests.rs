@@ -87,7 +87,7 @@ fn a_listed_draw_is_what_a_search_finds() {
     let root = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
     let inputs = Inputs { roots: vec![root.to_owned()] };
     let study = crate::Study::load(&root.join("experiments/zhang/conditioned.toml"), &inputs).unwrap();
-    let point = crate::ReadingChoice::new(&study.readings, &BTreeMap::new()).unwrap();
+    let point = crate::Interpretation::new(&study.choices, &BTreeMap::new()).unwrap();
     let mut longest = 0.0_f64;
     for group in &study.groups {
         let listed = group.family(&point, &inputs).unwrap();
