@@ -44,8 +44,8 @@ path = "parents"
 "#,
     build: Build::Planner(|settings| {
         let read: RoadmapAstar = settings.read()?;
-        if read.neighbour_mm.is_some() == read.neighbour_share.is_some() {
-            return Err(settings.error("exactly one of neighbour_mm and neighbour_share is accepted"));
+        if read.neighbour_mm.is_some() == read.neighbour_times.is_some() {
+            return Err(settings.error("exactly one of neighbour_mm and neighbour_times is accepted"));
         }
         Ok(Box::new(read))
     }),
@@ -57,12 +57,12 @@ struct RoadmapAstar {
     /// How many samples: N.
     #[schemars(range(min = 1))]
     samples: u32,
-    /// How far apart neighbours may be: ρ; given like this or as `neighbour_share`.
+    /// How far apart neighbours may be: ρ; given like this or as `neighbour_times`.
     #[schemars(extend("exclusiveMinimum" = 0))]
     neighbour_mm: Option<f64>,
-    /// The same as a share of the radius that the roadmap was built up to.
-    #[schemars(extend("exclusiveMinimum" = 0), range(max = 1.0))]
-    neighbour_share: Option<f64>,
+    /// The same as a multiple of the problem's `radius_mm`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    neighbour_times: Option<f64>,
     /// Whether all that the roadmap was built up to are neighbours, whatever ρ is.
     any_distance: Option<bool>,
     /// At most this many nearest samples are neighbours of a node.
@@ -112,24 +112,26 @@ enum PathSetting {
 
 impl RoadmapAstar {
     fn extent(&self) -> Extent {
-        Extent { samples: self.samples, radius_mm: self.neighbour_mm.filter(|_| !self.is_unlimited()) }
+        let [radius_mm, times] =
+            [self.neighbour_mm, self.neighbour_times].map(|limit| limit.filter(|_| !self.is_unlimited()));
+        Extent { samples: self.samples, radius_mm, times }
     }
 
     fn is_unlimited(&self) -> bool {
         self.any_distance == Some(true)
     }
 
-    /// How far apart neighbours may be on a roadmap that was built up to `radius_mm`.
-    fn neighbour_mm(&self, radius_mm: f64) -> f64 {
-        if self.is_unlimited() {
-            return radius_mm;
-        }
-        self.neighbour_mm.unwrap_or_else(|| self.neighbour_share.map_or(radius_mm, |share| share * radius_mm))
+    /// How far apart neighbours may be on the roadmap.
+    fn neighbour_mm(&self, map: &Roadmap) -> f64 {
+        let in_units = self.neighbour_times.map(|times| times * map.unit_mm());
+        let limit = self.neighbour_mm.or(in_units).filter(|_| !self.is_unlimited());
+        limit.unwrap_or(map.radius_mm())
     }
 
     fn part<'a>(&self, posed: &Posed<'a>) -> Result<Part<'a>, Invalid> {
         let prefix = posed.map.prefix(self.samples).map_err(Invalid)?;
-        let built = Extent { samples: self.samples, radius_mm: Some(posed.map.radius_mm()) };
+        let [radius_mm, times] = [posed.map.radius_mm(), posed.map.times()].map(Some);
+        let built = Extent { samples: self.samples, radius_mm, times };
         if let Some(lack) = built.lacks(&self.extent()) {
             return Err(Invalid(lack));
         }
@@ -139,7 +141,7 @@ impl RoadmapAstar {
             CostSetting::Nothing => EdgeCost::Nothing,
         };
         let nearest = self.nearest.map(|count| count as usize);
-        Ok(Part::new(posed, prefix, self.neighbour_mm(posed.map.radius_mm()), nearest, cost))
+        Ok(Part::new(posed, prefix, self.neighbour_mm(posed.map), nearest, cost))
     }
 
     fn counts(&self, part: &Part<'_>, counters: &Counters, [shots, checked]: [u64; 2]) -> Counts {

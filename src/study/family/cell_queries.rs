@@ -16,9 +16,9 @@ use base::settings::{Accepted, Document, Faults, Settings, SettingsError};
 use engine::kinematics::ik::Branch;
 use engine::kinematics::{AXES, FARTHEST_MM, Joints, Robot};
 use engine::planner::Invalid;
-use engine::space::WorldKind;
 use engine::space::cell::{self, Cell, EdgeEnd, LineRules, Lines, Scene, SpeedRule};
 use engine::space::roadmap::{Counted, Extent, Local, Near, Sample};
+use engine::space::{World, WorldKind};
 use groups::{posed, read_queries};
 use rand::RngExt as _;
 use schemars::JsonSchema;
@@ -99,6 +99,9 @@ struct CellQueries {
     #[serde(default = "once")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     radius_times: f64,
+    /// By how much it is multiplied at least, for planners whose neighbours may be farther apart.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    built_times: Option<f64>,
     /// How far two samples may be apart in joint space, by the root of the sum of squares over the joints.
     #[schemars(range(min = 0.001, max = 36_000))]
     radius_deg: Option<f64>,
@@ -195,6 +198,11 @@ fn once() -> f64 {
 }
 
 impl CellQueries {
+    /// How many times `radius_mm` the roadmap is built up to.
+    fn times(&self) -> f64 {
+        self.built_times.map_or(self.radius_times, |least| self.radius_times.max(least))
+    }
+
     /// `scene` with the heights that the settings give its boxes, or without its obstacles.
     fn furnished(&self, settings: &Settings, scene: Scene) -> Result<Scene, SettingsError> {
         if !self.obstacles {
@@ -252,8 +260,8 @@ struct Posed {
 impl Posed {
     fn new(settings: &Settings, inputs: &Inputs) -> Result<Self, SettingsError> {
         let read: CellQueries = settings.read()?;
-        let CellQueries { radius_mm, radius_times, radius_deg, nearest, .. } = read;
-        let radius_mm = radius_mm.map(|radius_mm| radius_mm * radius_times);
+        let CellQueries { radius_mm, radius_deg, nearest, .. } = read;
+        let radius_mm = radius_mm.map(|radius_mm| radius_mm * read.times());
         let near = Neighbours { radius_mm, radius_deg, nearest }.rule(settings)?;
         let mut faults = Faults::default();
         let robot =
@@ -358,6 +366,9 @@ impl Family for Posed {
         let lines = Lines::new(self.cell.clone(), self.read.rules());
         let local = Local::Arm(Box::new(lines.clone()));
         let mut prepared = nested_roadmap::prepare(local, samples, draws, self.near, counted);
+        if let (World::Roadmap(map), Some(unit_mm)) = (&mut prepared.world, self.read.radius_mm) {
+            map.set_unit(unit_mm, self.read.times());
+        }
         prepared.exhibits = picture::exhibits(&lines, &self.queries);
         Ok(prepared)
     }
@@ -375,7 +386,7 @@ impl Family for Posed {
     }
 
     fn extent(&self) -> Option<Extent> {
-        Some(nested_roadmap::extent(self.read.samples, self.near))
+        Some(nested_roadmap::extent(self.read.samples, self.near, self.read.times()))
     }
 
     fn stance(&self, q_rad: &[f64]) -> Option<Stance> {

@@ -213,7 +213,7 @@ impl Family for Posed {
     }
 
     fn extent(&self) -> Option<Extent> {
-        Some(nested_roadmap::extent(self.read.samples, self.near))
+        Some(nested_roadmap::extent(self.read.samples, self.near, 1.0))
     }
 
     fn stance(&self, q_rad: &[f64]) -> Option<Stance> {

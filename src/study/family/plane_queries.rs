@@ -186,7 +186,7 @@ impl Family for Drawn {
     }
 
     fn extent(&self) -> Option<Extent> {
-        Some(Extent { samples: self.read.samples, radius_mm: Some(self.read.radius_mm) })
+        Some(nested_roadmap::extent(self.read.samples, Near::Places(self.read.radius_mm), 1.0))
     }
 
     fn inputs(&self) -> &[PathBuf] {

@@ -70,10 +70,10 @@ impl Neighbours {
     }
 }
 
-/// How large a roadmap of so many samples is.
-pub fn extent(samples: u32, near: Near) -> Extent {
+/// How large a roadmap of so many samples is that is built up to `times` its unit.
+pub fn extent(samples: u32, near: Near, times: f64) -> Extent {
     let radius_mm = if let Near::Places(radius_mm) = near { Some(radius_mm) } else { None };
-    Extent { samples, radius_mm }
+    Extent { samples, radius_mm, times: radius_mm.map(|_| times) }
 }
 
 /// The roadmap of `samples`, joined with those that are `near`.

@@ -175,18 +175,18 @@ fn under(world: &World, threshold: &str) -> Plan {
 }
 
 #[test]
-fn a_share_of_the_radius_is_the_threshold_of_as_many_millimetres() {
+fn a_multiple_of_the_unit_is_the_threshold_of_as_many_millimetres() {
     let mut differ = 0;
     for number in 0..30 {
         let world = world(number);
         let asked = |threshold: &str| under(&world, threshold);
-        let half = asked("neighbour_share = 0.5");
+        let half = asked("neighbour_times = 0.5");
         assert_eq!(half.path, asked(&format!("neighbour_mm = {}", 0.5 * RADIUS_MM)).path, "roadmap {number}");
-        differ += u32::from(half.path != asked("neighbour_share = 1").path);
+        differ += u32::from(half.path != asked("neighbour_times = 1").path);
     }
     assert!(differ > 5, "{differ} of 30 differ");
-    let both = built(&format!("samples = 9\nneighbour_mm = 9\nneighbour_share = 1\ncost = 'hops'\n{NEVER}"));
-    assert!(both.err().unwrap().to_string().contains("exactly one of neighbour_mm and neighbour_share"));
+    let both = built(&format!("samples = 9\nneighbour_mm = 9\nneighbour_times = 1\ncost = 'hops'\n{NEVER}"));
+    assert!(both.err().unwrap().to_string().contains("exactly one of neighbour_mm and neighbour_times"));
 }
 
 #[test]
@@ -248,13 +248,13 @@ fn at_any_distance_the_whole_radius_counts_whatever_the_threshold() {
     for number in 0..30 {
         let world = world(number);
         let asked = |threshold: &str| under(&world, threshold);
-        let far = asked("neighbour_share = 0.3\nany_distance = true");
-        assert_eq!(far.path, asked("neighbour_share = 1").path, "roadmap {number}");
+        let far = asked("neighbour_times = 0.3\nany_distance = true");
+        assert_eq!(far.path, asked("neighbour_times = 1").path, "roadmap {number}");
         assert_eq!(
-            asked("neighbour_share = 0.3\nany_distance = false").path,
-            asked("neighbour_share = 0.3").path
+            asked("neighbour_times = 0.3\nany_distance = false").path,
+            asked("neighbour_times = 0.3").path
         );
-        differ += u32::from(far.path != asked("neighbour_share = 0.3").path);
+        differ += u32::from(far.path != asked("neighbour_times = 0.3").path);
     }
     assert!(differ > 5, "{differ} of 30 differ");
 }

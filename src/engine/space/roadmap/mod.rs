@@ -47,8 +47,10 @@ pub enum Counted {
 pub struct Extent {
     /// How many samples, or draws where draws are counted.
     pub samples: u32,
-    /// How far apart neighbours may be; none for a planner that takes a share of what was built.
+    /// How far apart neighbours may be; none for a planner that takes all that was built or a multiple of the roadmap's unit.
     pub radius_mm: Option<f64>,
+    /// The same in the roadmap's unit; none for a planner that takes millimetres.
+    pub times: Option<f64>,
 }
 
 impl Extent {
@@ -59,10 +61,14 @@ impl Extent {
             let asked = wanted.samples;
             return Some(format!("{asked} samples are asked for; the roadmap was built with {samples}"));
         }
-        let (asked, built) = wanted.radius_mm.zip(self.radius_mm)?;
-        (asked > built).then(|| {
-            format!("neighbours up to {asked} mm are asked for; the roadmap was built up to {built} mm")
-        })
+        let lacks = |wanted: Option<f64>, built: Option<f64>, unit: &str| {
+            let (asked, built) = wanted.zip(built).filter(|(asked, built)| asked > built)?;
+            Some(format!(
+                "neighbours up to {asked} {unit} are asked for; the roadmap was built up to {built} {unit}"
+            ))
+        };
+        let in_mm = lacks(wanted.radius_mm, self.radius_mm, "mm");
+        in_mm.or_else(|| lacks(wanted.times, self.times, "times its unit"))
     }
 }
 
@@ -74,6 +80,8 @@ pub struct Roadmap {
     samples: Vec<Sample>,
     nodes: Vec<Node>,
     near: Samples,
+    unit_mm: f64,
+    times: f64,
     numbers: BTreeMap<Vec<u64>, u32>,
     links: Vec<Links>,
     tally: Tally,
@@ -154,7 +162,25 @@ impl Roadmap {
         tally.checked = scratch.checked();
         let links = links.into_iter().map(Arc::new).collect();
         let memory = Mutex::new(Memory { scratch, ..Memory::default() });
-        Self { local, counted, samples, nodes, near, numbers, links, tally, memory }
+        let unit_mm = near.radius_mm();
+        Self { local, counted, samples, nodes, near, unit_mm, times: 1.0, numbers, links, tally, memory }
+    }
+
+    /// Makes `unit_mm`, of which the radius is `times` as much, the distance that planners may take multiples of; without it that is
+    /// the radius.
+    pub fn set_unit(&mut self, unit_mm: f64, times: f64) {
+        self.unit_mm = unit_mm;
+        self.times = times;
+    }
+
+    /// How many units the radius is.
+    pub fn times(&self) -> f64 {
+        self.times
+    }
+
+    /// The distance that planners may take multiples of.
+    pub fn unit_mm(&self) -> f64 {
+        self.unit_mm
     }
 
     /// The robot and its local paths.

@@ -242,6 +242,8 @@ fn a_radius_is_multiplied_and_nothing_else_is() {
     let near = |over: &str| Posed::new(&settings(over), &inputs(None)).unwrap().near;
     assert_eq!(near(""), Near::Places(500.0));
     assert_eq!(near("radius_times = 1.25"), Near::Places(625.0));
+    assert_eq!(near("built_times = 1.28"), Near::Places(640.0));
+    assert_eq!(near("radius_times = 1.6\nbuilt_times = 1.28"), Near::Places(800.0));
 }
 
 /// Settings without a radius of places.
