@@ -90,7 +90,7 @@ fn main() {
     fs::write(home.join("s.toml"), study()).unwrap();
     let inputs = Inputs { roots: vec![home.clone()] };
     let paper = Paper::load(&home, &inputs).unwrap();
-    let (study, points) = (&paper.studies[0], paper.studies[0].trial_points().unwrap());
+    let (study, points) = (&paper.studies[0], paper.studies[0].trial_interpretations().unwrap());
     let built = BuiltStudy::new(study, &points, &inputs).unwrap();
     let manifest = Manifest::new(study, &points, &built, String::new(), String::new(), false).unwrap();
     let studies = [(built, manifest)];
@@ -99,7 +99,7 @@ fn main() {
         shards: SHARDS,
         quick: false,
         seed: None,
-        readings: None,
+        with: None,
         round: None,
     };
     let (planning, plan) = clock::timed(|| Plan::agreed(&parts, &wanted, &studies).unwrap());

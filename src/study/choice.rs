@@ -35,7 +35,7 @@ impl Choice {
         let ChoiceSpec { id, why, default, fitted, bounds, paper, practice, option } = spec;
         // A source of the whole choice is that of every option that has none of its own.
         let sourced = |mut option: OptionSpec| {
-            if option.paper.is_none() && option.practice.is_none() {
+            if !option.probe && option.paper.is_none() && option.practice.is_none() {
                 (option.paper, option.practice) = (paper.clone(), practice.clone());
             }
             Arc::new(option)

@@ -150,9 +150,9 @@ pub struct ChoiceSpec {
     pub fitted: bool,
     /// Of options that are numbers: which of them vote, and who says so.
     pub bounds: Option<BoundsSpec>,
-    /// Where the paper's text says so, with its words, for every option that cites nothing itself.
+    /// Where the paper's text says so, with its words, for every option that cites nothing itself and is no probe.
     pub paper: Option<String>,
-    /// The practice that does so, with its source, for every option that cites nothing itself.
+    /// The practice that does so, with its source, for every option that cites nothing itself and is no probe.
     pub practice: Option<String>,
     /// The options.
     pub option: Spanned<BTreeMap<String, OptionSpec>>,
@@ -179,6 +179,9 @@ pub struct OptionSpec {
     pub paper: Option<String>,
     /// The practice that does so, with its source.
     pub practice: Option<String>,
+    /// Whether it is a probe though its choice cites something for every option that cites nothing.
+    #[serde(default)]
+    pub probe: bool,
     /// The number that it stands for, where the choice has `bounds`.
     pub value: Option<f64>,
     /// The options of other choices, by the choice's name, with one of which alone it is explored; with all, if none are named.

@@ -20,6 +20,7 @@ title = "A toy"
 [explore]
 sample = 20
 trials = 100_000
+draws = { draws = 20, room = 1 }
 
 [[claim]]
 id = "fewer"
@@ -46,31 +47,27 @@ printed = "4"
 check.prints_as.of = { study = "room", problems = "room", metric = "expansions", contender = "A*" }
 "#;
 
-/// The readings of both studies: `hurry` touches A* alone, `idle` nothing that is run.
-pub const READINGS: &str = r#"
-[[reading]]
+/// The choices of the paper: `hurry` touches A* alone, `idle` gives a name a meaning that no claim speaks of.
+pub const CHOICES: &str = r#"
+[[choice]]
 id = "hurry"
 why = "the weight is not printed"
 default = "three"
-[reading.option.three]
+[choice.option.three]
 paper = "section 1: the weight is three"
 stage.astar = { weight = 3 }
-[reading.option.none]
+[choice.option.none]
 stage.astar = { weight = 0 }
 
-[[reading]]
+[[choice]]
 id = "idle"
 why = "nobody asks"
 default = "a"
-[reading.option.a]
 paper = "section 1"
-stage.joint_astar = { ties = "fifo" }
-[reading.option.b]
-paper = "section 1"
-stage.joint_astar = { ties = "lifo" }
-[reading.option.c]
-paper = "section 1"
-stage.joint_astar = { ties = "larger_g" }
+[choice.option]
+a = { metric = { idle = "expansions" } }
+b = { metric = { idle = "opened" } }
+c = { metric = { idle = "closed" } }
 "#;
 
 const DRAWS: &str = r#"
@@ -78,8 +75,6 @@ paper = "toy"
 question = "Who expands fewer?"
 seed = 7
 second_seed = 8
-[explore]
-draws = 20
 [budget]
 expansions = 10_000
 [[problems]]
@@ -107,8 +102,6 @@ question = "What does A* do in an empty room?"
 seed = 7
 second_seed = 8
 fitted_to = []
-[explore]
-draws = 1
 [budget]
 expansions = 10_000
 [[problems]]
@@ -144,9 +137,9 @@ impl Toy {
         fs::create_dir(bench.at("toy")).unwrap();
         let mut unused: Vec<&str> = edits.iter().map(|(from, _)| *from).collect();
         let files = [
-            ("paper.toml", PAPER.to_owned()),
-            ("draws.toml", format!("{DRAWS}{READINGS}")),
-            ("room.toml", format!("{ROOM}{READINGS}")),
+            ("paper.toml", format!("{PAPER}{CHOICES}")),
+            ("draws.toml", DRAWS.to_owned()),
+            ("room.toml", ROOM.to_owned()),
             ("room.txt", ".....\n".repeat(5)),
         ];
         for (name, mut text) in files {
@@ -185,7 +178,7 @@ pub fn pair(class: &str, said: &str) -> (String, String) {
 }
 
 /// A source for the option without a weight.
-pub const CITED: (&str, &str) = ("[reading.option.none]", "[reading.option.none]\npractice = \"textbooks\"");
+pub const CITED: (&str, &str) = ("[choice.option.none]", "[choice.option.none]\npractice = \"textbooks\"");
 
 #[test]
 fn a_silly_reading_does_not_veto_and_is_printed() {
@@ -267,7 +260,7 @@ fn where_nothing_is_compatible_all_voting_readings_are_judged_and_it_is_said() {
 
 #[test]
 fn a_calibration_claim_whose_study_is_not_explored_filters_nothing() {
-    let unexplored = ("[explore]\ndraws = 1\n", "");
+    let unexplored = (", room = 1 }", " }");
     let toy = Toy::new(&[CITED, FITTED, unexplored, ("printed = \"4\"", "printed = \"7\"")]);
     let across = toy.claim("fewer").across.unwrap();
     assert_eq!((across.counted, across.none_compatible), (2, false), "{across:?}");
@@ -362,9 +355,8 @@ fn a_budget_without_room_and_votes_without_sources_are_refused_where_they_stand(
     let said = toy.0.run(&["explore", "./toy"]);
     assert_eq!(said.code, Some(2));
     assert!(said.err.contains("./toy/paper.toml:7:10: the defaults and every other option"), "{}", said.err);
-    toy.0.edit("toy/draws.toml", "paper = \"section 1: the weight is three\"", "");
-    toy.0.edit("toy/room.toml", "paper = \"section 1: the weight is three\"", "");
-    toy.0.edit("toy/draws.toml", "[reading.option.none]", "[reading.option.none]\npractice = \"x\"");
+    toy.0.edit("toy/paper.toml", "paper = \"section 1: the weight is three\"", "");
+    toy.0.edit("toy/paper.toml", "[choice.option.none]", "[choice.option.none]\npractice = \"x\"");
     let said = toy.0.run(&["check", "./toy"]);
     assert!(said.err.contains("the default `three` needs `paper` or `practice`"), "{}", said.err);
 }
@@ -373,8 +365,8 @@ fn a_budget_without_room_and_votes_without_sources_are_refused_where_they_stand(
 fn a_finding_that_asks_alone_gets_the_least_and_the_greatest_number_over_readings() {
     let asked = "[explore]\nsample = 20";
     let report = "[report]\nfindings = [\"{fewer:percents}\"]\n\n[explore]\nsample = 20";
-    let hurried = "[reading.option.none]\nstage.astar = { weight = 0 }";
-    let voting = "[reading.option.none]\npaper = \"section 1\"\nstage.astar = { weight = 0 }";
+    let hurried = "[choice.option.none]\nstage.astar = { weight = 0 }";
+    let voting = "[choice.option.none]\npaper = \"section 1\"\nstage.astar = { weight = 0 }";
     let toy = Toy::new(&[(asked, report), (hurried, voting)]);
     let own = &toy.stored("explored.toml.gz").claims["fewer"];
     let numbers: Vec<f64> = own.results.iter().skip(1).filter_map(|result| result.value).collect();

@@ -126,14 +126,14 @@ const BROKEN: [(&str, &str, &[Mistake]); 10] = [
         ],
     ),
     (
-        "a reading whose default is no option, and a planner's word that is none",
+        "a choice whose default is no option, and a planner's word that is none",
         "grid",
         &[
             (
-                "compare.toml",
+                "paper.toml",
                 "default = \"fifo\"",
                 "default = \"first\"",
-                "compare.toml:43:11: reading `ties` has no option `first`",
+                "paper.toml:31:11: choice `ties` has no option `first`",
             ),
             (
                 "paper.toml",

@@ -1,6 +1,6 @@
 //! `replan check` finds everything that is wrong with a paper in one round, each thing once.
 
-use crate::paper::Bench;
+use crate::paper::{Bench, CONTENDERS_END};
 
 /// Every fault that `said` tells is one of `expected`, in this order, and none is missing; the lines of the files below them
 /// are left out.
@@ -24,7 +24,7 @@ fn fourteen_faults_of_as_many_kinds_are_told_in_one_round_and_once_each() {
         ("room", "replicates = 1 }]", "replicas = 1 }]"),
         ("draws", "\"delete_inflections\"", "\"delete_reflections\""),
         ("draws", "weight = 1,", "weight = -1,"),
-        ("draws", "default = \"opened\"", "default = \"open\""),
+        ("paper", "default = \"opened\"", "default = \"open\""),
         ("paper", "figures = [\"fig1\"]", "figures = [\"fig2\"]"),
         ("paper", "metric = \"path_cost_cells\"", "metric = \"path_cost\""),
         ("paper", "contenders = [\"A*\"]", "contenders = [\"B*\"]"),
@@ -39,18 +39,18 @@ fn fourteen_faults_of_as_many_kinds_are_told_in_one_round_and_once_each() {
     let expected = [
         "mini/draws.toml:24:23: weight is -1; ",
         "mini/draws.toml:30:19: contender `Two-sided` asks for stage `delete_reflections`, which does not exist (did you",
-        "mini/draws.toml:35:11: reading `nodes` has no option `open` (did you mean `opened`?); it has closed, opened",
         "mini/paper.toml:3:1: unknown key `author` (did you mean `authors`?); accepted: ",
         "mini/paper.toml:13:12: there is no figure or table `fig2` (did you mean `fig1`?); there are fig1, table1",
-        "mini/paper.toml:26:10: there is no metric `path_cost`, nor a reading that gives the name a meaning (did you",
+        "mini/paper.toml:26:10: there is no metric `path_cost`, nor a choice that gives the name a meaning (did you",
         "mini/paper.toml:27:15: there is no contender `B*`; there are A*",
         "mini/paper.toml:35:6: `is` is \"below\"; ",
         "mini/paper.toml:38:13: study `draws` has no problem group `drown` (did you mean `drawn`?); it has drawn",
+        "mini/paper.toml:53:11: choice `nodes` has no option `open` (did you mean `opened`?); it has closed, opened",
         "mini/room.toml:3:8: `seed` is \"eight\"; a whole number of 0 or more is accepted",
         "mini/room.toml:5:14: fitted_to: there is no claim `toll`",
-        "mini/room.toml:16:44: the start [3.0, 0.0] is blocked",
-        "mini/room.toml:16:59: the goal [3.0, 1.0] is blocked",
-        "mini/room.toml:27:31: unknown key `replicas` (did you mean `replicates`?); accepted: ",
+        "mini/room.toml:17:44: the start [3.0, 0.0] is blocked",
+        "mini/room.toml:17:59: the goal [3.0, 1.0] is blocked",
+        "mini/room.toml:28:31: unknown key `replicas` (did you mean `replicates`?); accepted: ",
     ];
     assert_told(&said.err, &expected);
 }
@@ -60,32 +60,32 @@ fn a_default_that_hides_what_a_contender_or_a_problem_says_is_refused() {
     let bench = Bench::new();
     let written = "problem = { corner_rule = \"allow\" }";
     let other = "problem = { corner_rule = \"forbid_any\" }\nstage.astar = { ties = \"lifo\" }";
-    bench.edit("mini/draws.toml", written, other);
+    bench.edit("mini/paper.toml", written, other);
     let said = bench.run(&["check", "./mini"]);
     assert_eq!(said.code, Some(2), "{}", said.err);
     assert_told(
         &said.err,
         &[
-            "draws.toml:44:11: the default of reading `corners` changes the `ties` that contender `A*` says; the same",
-            "draws.toml:44:11: the default of reading `corners` changes the `corner_rule` that problems `drawn` say; the same",
+            "paper.toml:61:11: the default of choice `corners` changes the `ties` that contender `A*` says in study `draws`; the",
+            "paper.toml:61:11: the default of choice `corners` changes the `corner_rule` that problems `drawn` say in study `draws`;",
         ],
     );
     // The same is no other, and what is not said is not hidden.
     let same = format!(
         "{written}\nstage.astar = {{ ties = \"fifo\" }}\nstage.delete_inflections = {{ corners = \"kept\" }}"
     );
-    bench.edit("mini/draws.toml", other, &same);
+    bench.edit("mini/paper.toml", other, &same);
     let said = bench.run(&["check", "./mini"]);
-    assert!(!said.err.contains("the default of reading"), "{}", said.err);
+    assert!(!said.err.contains("the default of choice"), "{}", said.err);
 }
 
 #[test]
-fn a_fault_is_told_once_whatever_readings_and_sweeps_lie_over_it() {
+fn a_fault_is_told_once_whatever_choices_and_sweeps_lie_over_it() {
     let bench = Bench::new();
     bench.edit("mini/draws.toml", "weight = 1,", "weight = -1,");
     bench.edit("mini/draws.toml", "size_cells = [12, 12]", "size_cells = [0, 12]");
-    let sweep = "[[sweep]]\nkey = \"ties\"\nof = \"astar\"\nvalues = [\"fifo\", \"lifo\"]\n\n[[reading]]";
-    bench.edit("mini/draws.toml", "[[reading]]", sweep);
+    let sweep = "\n[[sweep]]\nkey = \"ties\"\nof = \"astar\"\nvalues = [\"fifo\", \"lifo\"]\n";
+    bench.edit("mini/draws.toml", CONTENDERS_END, &format!("{CONTENDERS_END}{sweep}"));
     let said = bench.run(&["check", "./mini"]);
     assert_told(
         &said.err,
@@ -97,7 +97,7 @@ fn a_fault_is_told_once_whatever_readings_and_sweeps_lie_over_it() {
     bench.edit("mini/draws.toml", "size_cells = [0, 12]", "size_cells = [12, 12]");
     bench.edit("mini/draws.toml", "weight = -1,", "weight = 1,");
     bench.edit(
-        "mini/draws.toml",
+        "mini/paper.toml",
         "problem = { corner_rule = \"forbid_any\" }",
         "problem = { goal = [12, 9] }",
     );
@@ -147,8 +147,8 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
             "room",
             &[("replicates = 1 }]", "replicates = 2, contender = \"A*\", repeats = 3 }]")],
             &[
-                "room.toml:26:44: `replicates` is 2; there are 1, and no more is accepted",
-                "room.toml:26:75: `repeats` is 3; there are 1, and no more is accepted",
+                "room.toml:27:44: `replicates` is 2; there are 1, and no more is accepted",
+                "room.toml:27:75: `repeats` is 3; there are 1, and no more is accepted",
             ],
         ),
     ] {
@@ -165,8 +165,8 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
     let many: Vec<String> = (0..101).map(|value| value.to_string()).collect();
     let sweep =
         |key: &str| format!("[[sweep]]\nkey = \"{key}\"\nof = \"astar\"\nvalues = [{}]\n\n", many.join(", "));
-    let both = format!("{}{}[[reading]]", sweep("weight"), sweep("other"));
-    bench.edit("mini/draws.toml", "[[reading]]", &both);
+    let both = format!("{CONTENDERS_END}\n{}{}", sweep("weight"), sweep("other"));
+    bench.edit("mini/draws.toml", CONTENDERS_END, &both);
     let said = bench.run(&["check", "./mini"]);
     assert!(
         said.err.contains("the values of the sweeps have 10201 combinations; at most 10000 are"),
@@ -231,11 +231,11 @@ fn a_crosscheck_is_checked_with_its_paper() {
         "{}",
         said.err
     );
-    assert!(said.err.contains("mini/room.toml:15:44: the start [3.0, 0.0] is blocked"), "{}", said.err);
+    assert!(said.err.contains("mini/room.toml:16:44: the start [3.0, 0.0] is blocked"), "{}", said.err);
 }
 
 #[test]
-fn a_misspelled_metric_may_be_one_that_a_reading_introduces() {
+fn a_misspelled_metric_may_be_one_that_a_choice_introduces() {
     let bench = Bench::new();
     bench.edit("mini/paper.toml", "metric = \"nodes\"", "metric = \"nodez\"");
     let said = bench.run(&["check", "./mini"]);
@@ -253,19 +253,19 @@ fn a_misspelled_metric_may_be_one_that_a_reading_introduces() {
 }
 
 #[test]
-fn an_option_of_a_reading_changes_what_exists() {
+fn an_option_of_a_choice_changes_what_exists() {
     let bench = Bench::new();
     bench.edit(
-        "mini/draws.toml",
+        "mini/paper.toml",
         "metric = { nodes = \"closed\" }",
-        "metric = { nodes = \"colsed\" }\nstage = { asatr = { ties = \"lifo\" } }",
+        "metric = { nodes = \"colsed\" }, stage = { asatr = { ties = \"lifo\" } }",
     );
     let said = bench.run(&["check", "./mini"]);
     assert_told(
         &said.err,
         &[
-            "draws.toml:39:20: there is no metric `colsed` (did you mean `closed`?); there are ",
-            "draws.toml:40:19: there is no planner or stage `asatr` (did you mean `astar`?); there are ",
+            "paper.toml:56:31: there is no metric `colsed` (did you mean `closed`?); there are ",
+            "paper.toml:56:60: there is no planner or stage `asatr` (did you mean `astar`?); there are ",
         ],
     );
 }

@@ -89,21 +89,18 @@ fn papers_and_flags_that_do_not_exist_are_told() {
             "`zhong` is neither a paper nor a folder with a paper.toml; there is no folder `experi",
         ),
         (&["check"], "there is no paper here to check; run replan from the project's own folder"),
+        (&["repro", "./mini", "--with", "corners"], "--with: `corners` is not `choice=option`; `all` or"),
         (
-            &["repro", "./mini", "--readings", "corners"],
-            "--readings: `corners` is not `reading=option`; `all` or",
+            &["repro", "./mini", "--with", "corner=x"],
+            "--with: there is no choice `corner` (did you mean `corners`?); there are ",
         ),
         (
-            &["repro", "./mini", "--readings", "corner=x"],
-            "--readings: there is no reading `corner` (did you mean `corners`?); there are ",
+            &["repro", "./mini", "--with", "corners=x"],
+            "choice `corners` has no option `x`; it has allow, forbid_any",
         ),
         (
-            &["repro", "./mini", "--readings", "corners=x"],
-            "reading `corners` has no option `x`; it has allow, forbid_any",
-        ),
-        (
-            &["repro", "./mini", "--readings", "corners=allow,corners=forbid_any"],
-            "--readings: `corners` is given twice, as `allow` and as `forbid_any`; one option is accepted",
+            &["repro", "./mini", "--with", "corners=allow,corners=forbid_any"],
+            "--with: `corners` is given twice, as `allow` and as `forbid_any`; one option is accepted",
         ),
         (
             &["repro", "./mini", "--threads", "0"],

@@ -5,12 +5,12 @@ use std::fs;
 use std::os::unix::fs::symlink;
 
 #[test]
-fn another_seed_and_another_reading_write_elsewhere() {
+fn another_seed_and_another_option_write_elsewhere() {
     let bench = Bench::new();
     for (flags, place) in [
         (&["--seed", "9"][..], "target/replan/mini-seed-9"),
-        (&["--readings", "corners=forbid_any"], "target/replan/mini-readings-corners-forbid-any"),
-        (&["--readings", "all"], "target/replan/mini-readings-all"),
+        (&["--with", "corners=forbid_any"], "target/replan/mini-with-corners-forbid-any"),
+        (&["--with", "all"], "target/replan/mini-with-all"),
         (&["--quick", "--seed", "9"], "target/replan/mini-quick-seed-9"),
     ] {
         bench.done(&[&["repro", "./mini"], flags].concat());
@@ -18,13 +18,13 @@ fn another_seed_and_another_reading_write_elsewhere() {
     }
     assert!(!bench.at("target/replan/mini").exists());
     let trials = |place: &str| bench.facts(place)["draws.trials.parquet"].clone();
-    let all = ["seed-9", "readings-corners-forbid-any", "readings-all"]
+    let all = ["seed-9", "with-corners-forbid-any", "with-all"]
         .map(|name| trials(&format!("target/replan/mini-{name}")));
     assert!(all[0] != all[1] && all[1] != all[2] && all[0] != all[2]);
 }
 
 #[test]
-fn a_chapter_names_the_studies_that_its_reading_does_not_touch() {
+fn a_chapter_names_the_studies_that_leave_out_what_it_was_judged_under() {
     let bench = Bench::new();
     let untouched = |place: &str, flags: &[&str]| {
         bench.done(&[&["repro", "./mini"], flags].concat());
@@ -32,7 +32,7 @@ fn a_chapter_names_the_studies_that_its_reading_does_not_touch() {
         report.contains("Without all of this reading: `room`; claims")
     };
     assert!(!untouched("mini", &[]));
-    assert!(untouched("mini-readings-corners-forbid-any", &["--readings", "corners=forbid_any"]));
+    assert!(untouched("mini-with-corners-forbid-any", &["--with", "corners=forbid_any"]));
 }
 
 #[test]
@@ -99,7 +99,7 @@ fn a_run_that_is_not_a_full_one_is_refused_the_committed_places_however_they_are
     let before = bench.tree("");
     let here = bench.at("").display().to_string();
     for out in [".", "./", "experiments/..", "new/..", "new/deep/../..", &here] {
-        for flags in [&["--quick"][..], &["--seed", "5"], &["--readings", "all"], &["--quick", "--fresh"]] {
+        for flags in [&["--quick"][..], &["--seed", "5"], &["--with", "all"], &["--quick", "--fresh"]] {
             let said = bench.run(&[&["repro", "mini", "--out", out], flags].concat());
             assert_eq!(said.code, Some(2), "--out {out} {flags:?}: {}", said.err);
             assert!(said.err.contains("is where full runs are kept, and this is not one ("), "{}", said.err);

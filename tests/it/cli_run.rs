@@ -1,6 +1,6 @@
 //! Runs from the command line: where outputs go, what repeats, what is reused.
 
-use crate::paper::Bench;
+use crate::paper::{Bench, CONTENDERS_END};
 use std::fs;
 
 const RUNS: &str = "target/replan/mini/data/runs/mini";
@@ -168,8 +168,8 @@ fn a_figure_or_keep_added_later_gets_its_exhibits_and_another_timing_its_reading
     };
     bench.edit(
         "mini/draws.toml",
-        "[[reading]]",
-        "[[keep]]\nproblems = \"drawn\"\nreplicates = 2\n\n[[reading]]",
+        CONTENDERS_END,
+        &format!("{CONTENDERS_END}\n[[keep]]\nproblems = \"drawn\"\nreplicates = 2\n"),
     );
     bench.done(&["run", "./mini"]);
     let kept = bench.tree(RUNS);

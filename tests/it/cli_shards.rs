@@ -1,6 +1,6 @@
 //! Runs cut into shards: the same bytes as one machine's, whatever happens to the parts on the way; and what is refused.
 
-use crate::paper::Bench;
+use crate::paper::{Bench, CONTENDERS_END};
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::os::unix::fs::PermissionsExt as _;
@@ -20,10 +20,10 @@ fn bench() -> Bench {
     bench.edit("mini/draws.toml", "[[contender]]", group);
     bench.edit(
         "mini/draws.toml",
-        "[[reading]]",
-        "[[keep]]\nproblems = \"drawn\"\nreplicates = 9\n\n[[reading]]",
+        CONTENDERS_END,
+        &format!("{CONTENDERS_END}\n[[keep]]\nproblems = \"drawn\"\nreplicates = 9\n"),
     );
-    bench.done(&["run", "./mini", "--readings", "all", "--out", "whole"]);
+    bench.done(&["run", "./mini", "--with", "all", "--out", "whole"]);
     bench
 }
 
@@ -31,18 +31,7 @@ fn bench() -> Bench {
 fn run(bench: &Bench, numbers: &[usize], of: usize, parts: &str) {
     for number in numbers {
         let shard = format!("{number}/{of}");
-        bench.done(&[
-            "run",
-            "./mini",
-            "--readings",
-            "all",
-            "--shard",
-            &shard,
-            "--out",
-            parts,
-            "--threads",
-            "1",
-        ]);
+        bench.done(&["run", "./mini", "--with", "all", "--shard", &shard, "--out", parts, "--threads", "1"]);
     }
 }
 
@@ -65,7 +54,7 @@ fn shards_in_any_order_with_one_killed_halfway_give_the_bytes_of_one_machine() {
     let parts: Vec<usize> = (1..=7).map(|k| trials(&bench, &format!("parts-seven/{k}-of-7"))).collect();
     assert!(parts.iter().all(|rows| *rows > 10), "units are not spread: {parts:?}");
     // What is put together is a run as any: it is used again, and its clock is read on one machine.
-    let again = bench.done(&["run", "./mini", "--readings", "all", "--out", "seven"]);
+    let again = bench.done(&["run", "./mini", "--with", "all", "--out", "seven"]);
     assert!(again.contains("draws: 280 trials (140 of 140 units reused)\n"), "{again}");
     assert!(bench.facts("seven") == whole);
     let times =
@@ -76,8 +65,7 @@ fn shards_in_any_order_with_one_killed_halfway_give_the_bytes_of_one_machine() {
 /// Starts a shard and kills it as soon as it has something in its journal; whether it was at work then.
 fn kill_at_work(bench: &Bench, shard: &str, parts: &str, part: &str) -> bool {
     let journal = bench.at(&format!("{parts}/{part}/draws.journal"));
-    let arguments =
-        ["run", "./mini", "--readings", "all", "--shard", shard, "--out", parts, "--threads", "1"];
+    let arguments = ["run", "./mini", "--with", "all", "--shard", shard, "--out", parts, "--threads", "1"];
     let mut child = bench.command(&arguments).spawn().unwrap();
     let mut is_at_work = false;
     while child.try_wait().unwrap().is_none() && !is_at_work {
@@ -94,7 +82,7 @@ fn kill_at_work(bench: &Bench, shard: &str, parts: &str, part: &str) -> bool {
     child.wait().unwrap();
     let status = bench.done(&["status", parts]);
     assert!(status.contains("0 running, 1 stopped (7), 6 waiting"), "{status}");
-    let go_on = format!("to go on: replan run ./mini --out {parts} --readings all --shard 7/7");
+    let go_on = format!("to go on: replan run ./mini --out {parts} --with all --shard 7/7");
     assert!(status.contains(&go_on), "{status}");
     is_at_work && journal.exists()
 }
@@ -132,7 +120,7 @@ fn parts_that_are_missing_double_or_of_another_run_are_refused_by_name() {
     for (flags, complaint) in [
         (&["--seed", "9"][..], "2-of-3: study `draws`: seed 9, not 7"),
         (&["--quick"], "2-of-3: study `draws`: quick true, not false"),
-        (&["--readings", "corners=forbid_any"], "2-of-3: study `draws`: ran under other readings"),
+        (&["--with", "corners=forbid_any"], "2-of-3: study `draws`: ran under other readings"),
     ] {
         let _ = fs::remove_dir_all(bench.at("other"));
         shard(2, "other", flags);
@@ -168,8 +156,8 @@ fn half_written_parts_a_full_disk_and_a_second_merge_lose_nothing() {
     let bench = Bench::new();
     bench.edit(
         "mini/draws.toml",
-        "[[reading]]",
-        "[[keep]]\nproblems = \"drawn\"\nreplicates = 24\n\n[[reading]]",
+        CONTENDERS_END,
+        &format!("{CONTENDERS_END}\n[[keep]]\nproblems = \"drawn\"\nreplicates = 24\n"),
     );
     for shard in ["1/2", "2/2"] {
         bench.done(&["run", "./mini", "--shard", shard, "--out", "parts"]);
@@ -330,7 +318,7 @@ fn hyperqueue_runs_every_shard_again_where_its_process_was_killed() {
     let bench = bench();
     stub(&bench, "replan", DYING);
     let arguments = ["--engine", "hyperqueue", "--shards", "4", "--out", "parts", "--merge", "merged"];
-    bench.done(&[&["shard", "./mini", "--readings", "all"], &arguments[..]].concat());
+    bench.done(&[&["shard", "./mini", "--with", "all"], &arguments[..]].concat());
     let Some(said) = run_hyperqueue(&bench, "parts") else { return };
     assert!(said.contains("4 of 4 shards to run, try 1 of 3\n"), "{said}");
     assert!(

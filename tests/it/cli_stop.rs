@@ -1,6 +1,6 @@
 //! Runs that are stopped: by Ctrl-C or killed anywhere, the same command goes on and ends with equal bytes.
 
-use crate::paper::Bench;
+use crate::paper::{Bench, CONTENDERS_END};
 use base::seed;
 use rand::RngExt as _;
 use std::fs;
@@ -18,8 +18,8 @@ fn slow() -> Bench {
     bench.edit("mini/draws.toml", "[11, 9]", "[59, 50]");
     bench.edit(
         "mini/draws.toml",
-        "[[reading]]",
-        "[[keep]]\nproblems = \"drawn\"\nreplicates = 40\n\n[[reading]]",
+        CONTENDERS_END,
+        &format!("{CONTENDERS_END}\n[[keep]]\nproblems = \"drawn\"\nreplicates = 40\n"),
     );
     bench
 }

@@ -38,37 +38,26 @@ fn class_of<'t>(claim: &str, table: &'t str) -> &'t str {
     line.and_then(|line| line.split_whitespace().last()).unwrap_or_default()
 }
 
-const CORNERS: &str = r#"[[reading]]
-id = "corners"
-why = "not said"
-default = "allow"
-[reading.option.allow]
-practice = "one program"
-problem = { corner_rule = "allow" }
-[reading.option.forbid_any]
-practice = "another program"
-problem = { corner_rule = "forbid_any" }
-
-[[figure]]
-"#;
-
 #[test]
-fn under_any_reading_each_search_draws_one_and_the_study_agrees_under_it() {
+fn under_any_interpretation_each_search_draws_one_and_the_study_agrees_under_it() {
     let bench = Bench::new();
     bench.edit("mini/room.toml", "corner_rule = \"forbid_any\"", "corner_rule = \"allow\"");
-    bench.edit("mini/room.toml", "[[figure]]\n", CORNERS);
+    bench.edit("mini/room.toml", "leaves_out = [\"corners\"]\n", "");
+    for option in ["allow", "forbid_any"] {
+        let cited = format!("[choice.option.{option}]\npractice = \"some program\"");
+        bench.edit("mini/paper.toml", &format!("[choice.option.{option}]"), &cited);
+    }
     let (mut readings, mut attained) = (BTreeSet::new(), 0);
     for seed in 1..=8 {
         let (seed, out) = (seed.to_string(), format!("any{seed}"));
-        let ask =
-            ["witness", "./mini", "--claims", "cost", "--readings", "any", "--seed", &seed, "--out", &out];
+        let ask = ["witness", "./mini", "--claims", "cost", "--with", "any", "--seed", &seed, "--out", &out];
         let said = bench.done(&ask);
         let reading = said.lines().find_map(|line| line.strip_prefix("reading: ")).unwrap();
         let reading = reading.split(';').next().unwrap().to_owned();
         let (path, _) = bench.tree(&out).into_iter().next().unwrap();
         fs::copy(bench.at(&out).join(path), bench.at("mini/room.map.txt")).unwrap();
         let under = reading.replace("default", "corners=allow");
-        let judged = bench.done(&["repro", "./mini", "--readings", &under, "--out", &format!("{out}/run")]);
+        let judged = bench.done(&["repro", "./mini", "--with", &under, "--out", &format!("{out}/run")]);
         attained += u32::from(class_of("cost", &judged) == "attainable");
         readings.insert(reading);
     }

@@ -1,42 +1,38 @@
 //! Which readings count for a claim, on the small paper of [`across`](crate::across): those that it can tell apart, and those that
 //! say something.
 
-use crate::across::{CITED, Toy, pair};
+use crate::across::{CHOICES, CITED, Toy, pair};
 use replan::analysis::across::glance::Sight;
 use replan::analysis::verdict::Effect;
 
-/// The room's own reading table, so that the study of random maps alone has the weight as a reading.
+/// Choices of which the first touches A* and the other the search from two sides.
 const OTHERS: &str = r#"
-[[reading]]
+[[choice]]
 id = "hurry"
 why = "the weight is not printed"
 default = "three"
-[reading.option.three]
+[choice.option.three]
 paper = "section 1: the weight is three"
 stage.astar = { weight = 3 }
-[reading.option.none]
+[choice.option.none]
 practice = "textbooks"
 stage.astar = { weight = 0 }
 
-[[reading]]
+[[choice]]
 id = "reach"
 why = "how the sides meet is not printed"
 default = "any"
-[reading.option.any]
 paper = "section 1"
-stage.bidirectional = { meeting = "generated_any" }
-[reading.option.both]
-paper = "section 1"
-stage.bidirectional = { meeting = "both_closed" }
+[choice.option]
+any = { stage.bidirectional = { meeting = "generated_any" } }
+both = { stage.bidirectional = { meeting = "both_closed" } }
 "#;
 
-/// The small paper, in which the study of random maps alone has readings; contenders of the room are those of `room`.
-fn readings_of_one_study(room: &str, more: &[(&str, &str)]) -> Toy {
-    let toy = Toy::written(more);
-    let text = |name: &str| std::fs::read_to_string(toy.0.at("toy").join(name)).unwrap();
-    let without = |text: String| text.split("\n[[reading]]").next().unwrap().to_owned();
-    toy.0.write("toy/draws.toml", (without(text("draws.toml")) + OTHERS).as_bytes());
-    let rest = without(text("room.toml")).replace("[explore]\ndraws = 1\n", "");
+/// The small paper, in which the study of random maps alone inherits choices; contenders of the room are those of `room`.
+fn choices_of_one_study(room: &str, more: &[(&str, &str)]) -> Toy {
+    let toy = Toy::written(&[&[(CHOICES, OTHERS), (", room = 1 }", " }")], more].concat());
+    toy.0.edit("toy/room.toml", "fitted_to = []\n", "fitted_to = []\nleaves_out = [\"hurry\"]\n");
+    let rest = std::fs::read_to_string(toy.0.at("toy/room.toml")).unwrap();
     toy.0.write("toy/room.toml", (rest + room).as_bytes());
     toy.0.done(&["run", "./toy"]);
     toy.0.done(&["explore", "./toy"]);
@@ -45,7 +41,7 @@ fn readings_of_one_study(room: &str, more: &[(&str, &str)]) -> Toy {
 
 #[test]
 fn a_reading_that_the_study_of_a_witness_does_not_have_is_not_looked_at_if_it_touches_its_contender() {
-    let toy = readings_of_one_study("", &[]);
+    let toy = choices_of_one_study("", &[]);
     let first = toy.stored("explored.toml.gz");
     let claim = &first.claims["witness"];
     let sights: Vec<(Sight, usize)> =
@@ -60,7 +56,7 @@ fn a_reading_that_the_study_of_a_witness_does_not_have_is_not_looked_at_if_it_to
 
 #[test]
 fn what_a_study_without_readings_says_is_asked_under_the_defaults_alone() {
-    let toy = readings_of_one_study("", &[]);
+    let toy = choices_of_one_study("", &[]);
     assert_eq!(toy.said("calibrated").1, "asked under the defaults alone");
     assert_eq!(toy.said("shorter").1, "fails under 1 of 2 only, open under 1");
     // With the readings in the room too, all of them were asked.
@@ -79,7 +75,7 @@ const EITHER: (&str, &str) = ("contenders = \"A*\", in", "contenders = [\"A*\", 
 
 #[test]
 fn a_witness_by_a_contender_that_departs_counts_under_the_reading_that_it_departs_to() {
-    let toy = readings_of_one_study(DEPARTS, &[EITHER]);
+    let toy = choices_of_one_study(DEPARTS, &[EITHER]);
     assert_eq!(toy.said("witness"), pair("attainable", "met under 1 of 2, hurry = none among them"));
     let judged = toy.claim("witness");
     assert_eq!(judged.alone().name(), "undecided");
@@ -94,7 +90,7 @@ fn a_witness_by_a_contender_that_departs_counts_under_the_reading_that_it_depart
 #[test]
 fn what_contenders_depart_to_together_is_explored() {
     let both = DEPARTS.replace("{ hurry = \"none\" }", "{ hurry = \"none\", reach = \"both\" }");
-    let toy = readings_of_one_study(&both, &[EITHER, ("sample = 20", "sample = 0")]);
+    let toy = choices_of_one_study(&both, &[EITHER, ("sample = 20", "sample = 0")]);
     let first = toy.stored("explored.toml.gz");
     let together =
         [("hurry", "none"), ("reach", "both")].map(|(id, option)| (id.to_owned(), option.to_owned()));
@@ -108,10 +104,10 @@ fn a_contender_cannot_depart_from_a_reading_that_its_study_has() {
     let toy = Toy::written(&[CITED, departs]);
     let said = toy.0.run(&["check", "./toy"]);
     assert_eq!(said.code, Some(2));
-    assert!(said.err.contains("departs from reading `hurry`, which its study has"), "{}", said.err);
+    assert!(said.err.contains("departs from choice `hurry`, which its study inherits"), "{}", said.err);
     toy.0.edit("toy/room.toml", "hurry = \"none\"", "haste = \"none\"");
     let said = toy.0.run(&["check", "./toy"]);
-    assert!(said.err.contains("there is no reading `haste`; there are hurry, idle"), "{}", said.err);
+    assert!(said.err.contains("there is no choice `haste`; there are hurry, idle"), "{}", said.err);
 }
 
 /// A row that takes the best of its parts: a number that is met with a weight of three, or an input on which one is met.
@@ -140,10 +136,10 @@ fn one_default_that_decides_reproduced_against_attainable_gives_the_weaker_and_i
 
 #[test]
 fn a_reading_under_which_too_few_draws_are_solved_has_no_power_and_is_not_looked_at() {
-    let crowd = "[[reading]]\nid = \"crowd\"\nwhy = \"how much is blocked is not printed\"\ndefault = \"fifth\"\n\
-         [reading.option.fifth]\npaper = \"section 4\"\nproblem = { blocked_share = 0.2 }\n\
-         [reading.option.most]\npaper = \"section 4\"\nproblem = { blocked_share = 0.65 }\n[[contender]]\nlabel = \"Lazy\"";
-    let toy = Toy::new(&[("[[contender]]\nlabel = \"Lazy\"", crowd)]);
+    let crowd = "[[choice]]\nid = \"crowd\"\nwhy = \"how much is blocked is not printed\"\ndefault = \"fifth\"\npaper = \"section 4\"\n\
+         [choice.option]\nfifth = { problem = { blocked_share = 0.2 } }\nmost = { problem = { blocked_share = 0.65 } }\n\
+         [[claim]]\nid = \"fewer\"";
+    let toy = Toy::new(&[("[[claim]]\nid = \"fewer\"", crowd)]);
     let first = toy.stored("explored.toml.gz");
     let powerless: Vec<_> =
         first.claims["fewer"].results.iter().filter(|found| found.sight == Sight::Powerless).collect();
@@ -167,7 +163,7 @@ fn a_claim_is_judged_only_under_the_readings_under_which_it_is_meant() {
     let path = toy.0.at("toy/paper.toml");
     let text = std::fs::read_to_string(&path).unwrap();
     for (from, to, refused) in [
-        ("hurry = [\"three\"]", "hurri = [\"three\"]", "holds_when: there is no reading `hurri`"),
+        ("hurry = [\"three\"]", "hurri = [\"three\"]", "holds_when: there is no choice `hurri`"),
         ("\"three\"", "\"tree\"", "holds_when.hurry: there is no option `tree` (did you mean `three`?)"),
         ("[\"three\"]", "[]", "holds_when.hurry: names no option; the options are none, three"),
     ] {
@@ -190,14 +186,14 @@ fn what_a_claim_would_fail_under_a_reading_under_which_it_is_not_meant_is_not_he
     assert_eq!(held, ["not reproduced", "undecided"]);
 }
 
-/// A reading whose options are numbers, of which the room and the maps have the table.
-const NUMBERS: &str = "[[reading]]\nid = \"hurry\"\nwhy = \"the weight is not printed\"\ndefault = \"three\"\n\
+/// A choice whose options are numbers.
+const NUMBERS: &str = "[[choice]]\nid = \"hurry\"\nwhy = \"the weight is not printed\"\ndefault = \"three\"\n\
      bounds = { least = 1.0, greatest = 4.0, source = \"a handbook\" }\n\
-     [reading.option.three]\nvalue = 3\nstage.astar = { weight = 3 }\n[reading.option.none]\nvalue = 0\nstage.astar = { weight = 0 }\n";
+     [choice.option.three]\nvalue = 3\nstage.astar = { weight = 3 }\n[choice.option.none]\nvalue = 0\nstage.astar = { weight = 0 }\n";
 
 #[test]
 fn numbers_vote_within_their_bounds_and_bounds_that_are_not_whole_are_refused() {
-    let table = crate::across::READINGS.split("\n[[reading]]\nid = \"idle\"").next().unwrap();
+    let table = CHOICES.split("\n[[choice]]\nid = \"idle\"").next().unwrap();
     let toy = Toy::new(&[(table, NUMBERS)]);
     assert_eq!(toy.said("fewer"), pair("reproduced", "no reading moves it"));
     assert_eq!(toy.claim("fewer").across.unwrap().probes, ["hurry = none: not reproduced"]);
@@ -210,7 +206,7 @@ fn numbers_vote_within_their_bounds_and_bounds_that_are_not_whole_are_refused() 
             "option `three` has a `value`, which needs `bounds` to be held against",
         ),
         ("value = 0\n", "value = 0\npractice = \" \"\n", "option `none` cites nothing"),
-        ("value = 0\n", "value = 0\nonly_with = { haste = [] }\n", "only_with: there is no reading `haste`"),
+        ("value = 0\n", "value = 0\nonly_with = { haste = [] }\n", "only_with: there is no choice `haste`"),
         (
             "value = 0\n",
             "value = 0\nonly_with = { hurry = [\"ten\"] }\n",
@@ -222,19 +218,12 @@ fn numbers_vote_within_their_bounds_and_bounds_that_are_not_whole_are_refused() 
             "the default `three` needs `paper` or `practice`",
         ),
     ] {
-        let before = ["draws", "room"].map(|name| {
-            let path = toy.0.at(&format!("toy/{name}.toml"));
-            let text = std::fs::read_to_string(&path).unwrap();
-            assert!(text.contains(from), "{from}");
-            std::fs::write(&path, text.replace(from, to)).unwrap();
-            (path, text)
-        });
+        let text = std::fs::read(toy.0.at("toy/paper.toml")).unwrap();
+        toy.0.edit("toy/paper.toml", from, to);
         let said = toy.0.run(&["check", "./toy"]);
         assert_eq!(said.code, Some(2), "{to}");
         assert!(said.err.contains(refused), "{to}: {}", said.err);
-        for (path, text) in before {
-            std::fs::write(path, text).unwrap();
-        }
+        toy.0.write("toy/paper.toml", &text);
     }
 }
 
@@ -244,8 +233,6 @@ paper = "toy"
 question = "How long is the way?"
 seed = 7
 second_seed = 8
-[explore]
-draws = 1
 [budget]
 expansions = 10_000
 [[problems]]
@@ -271,17 +258,11 @@ blocked_ends = "invalid_problem"
 label = "A*"
 planner = "lattice_astar"
 settings = { neighbourhood = { shape = "square", radius_cells = 1 }, open_node = "lowered", ties = "fifo" }
-[[reading]]
-id = "start"
-why = "the start is not printed"
-default = "free"
-[reading.option.free]
-paper = "section 5"
-problem = { start_cm = [49, 3] }
-[reading.option.blocked]
-paper = "section 5"
-problem = { start_cm = [35, 18] }
 "#;
+
+/// The choice of its start.
+const START: &str = "[[choice]]\nid = \"start\"\nwhy = \"the start is not printed\"\ndefault = \"free\"\npaper = \"section 5\"\n\
+     [choice.option]\nfree = { problem = { start_cm = [49, 3] } }\nblocked = { problem = { start_cm = [35, 18] } }\n";
 
 const REACH: (&str, &str) = (
     "[[claim]]\nid = \"calibrated\"",
@@ -293,7 +274,8 @@ const REACH: (&str, &str) = (
 
 #[test]
 fn a_reading_under_which_the_problem_cannot_be_posed_is_not_looked_at() {
-    let toy = Toy::written(&[REACH]);
+    let explored = (", room = 1 }", ", room = 1, arm = 1 }");
+    let toy = Toy::written(&[REACH, explored, (CHOICES, &format!("{CHOICES}{START}"))]);
     toy.0.write("toy/arm.toml", ARM.as_bytes());
     toy.0.done(&["run", "./toy"]);
     toy.0.done(&["explore", "./toy"]);

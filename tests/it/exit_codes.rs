@@ -60,11 +60,11 @@ fn a_report_that_was_edited_has_one_exit_code_however_it_was_edited() {
 #[test]
 fn verdicts_of_other_readings_are_stale_under_a_check() {
     let bench = Bench::new();
-    bench.done(&["repro", "./mini", "--readings", "nodes=closed", "--out", "other"]);
-    bench.edit("mini/draws.toml", "reading.option.closed", "reading.option.shut");
+    bench.done(&["repro", "./mini", "--with", "nodes=closed", "--out", "other"]);
+    bench.edit("mini/paper.toml", "closed = { metric", "shut = { metric");
     let said = ends(&bench, &["render", "./mini", "--out", "other", "--check"], 3);
     assert!(
-        said.contains("the stored verdicts are of other readings (reading `nodes` has no option"),
+        said.contains("the stored verdicts are of other readings (choice `nodes` has no option"),
         "{said}"
     );
     ends(&bench, &["render", "./mini", "--out", "other"], 2);

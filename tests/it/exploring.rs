@@ -11,7 +11,8 @@ use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::Duration;
 
-pub const MORE: (&str, &str) = ("[explore]\ndraws = 20", "[explore]\ndraws = 12\nmore_draws = 30");
+pub const MORE: (&str, &str) =
+    ("draws = { draws = 20, room = 1 }", "draws = { draws = 12, room = 1 }\nmore_draws = { draws = 30 }");
 /// What the default reading gives, so that no claim is open under it.
 pub const MET: (&str, &str) = ("printed = \"24\"", "printed = \"4\"");
 
@@ -170,20 +171,18 @@ fn polylines_that_were_found_are_kept_and_not_searched_for_again() {
 /// A claim that one unlucky map breaks, under a hundred sizes of the map, which only draw other maps.
 fn noisy() -> Toy {
     let mut world =
-        "[[reading]]\nid = \"world\"\nwhy = \"the size is not printed\"\ndefault = \"w10\"\n".to_owned();
+        "[[choice]]\nid = \"world\"\nwhy = \"the size is not printed\"\ndefault = \"w10\"\npaper = \"section 1\"\n[choice.option]\n"
+            .to_owned();
     for width in 10..110 {
-        world += &format!(
-            "[reading.option.w{width}]\npaper = \"section 1\"\nproblem = {{ size_cells = [{width}, 12] }}\n"
-        );
+        world += &format!("w{width} = {{ problem = {{ size_cells = [{width}, 12] }} }}\n");
     }
     let claim = "[[claim]]\nid = \"near\"\nat = \"section 4\"\nsays = \"the search from two sides costs at most a tenth more\"\n\
          check.on_every = { of = { study = \"draws\", problems = \"drawn\", metric = \"path_cost_cells\", \
          contender = \"Two-sided\", against = \"A*\" }, that = \"at_most_times\", bound = 1.1 }\n[[claim]]\nid = \"fewer\"";
     let edits = [
-        ("[[claim]]\nid = \"fewer\"", claim),
-        ("[[contender]]\nlabel = \"Lazy\"", &*format!("{world}[[contender]]\nlabel = \"Lazy\"")),
+        ("[[claim]]\nid = \"fewer\"", &*format!("{world}{claim}")),
         ("goal = [11, 9]", "goal = [9, 9]"),
-        ("draws = 20", "draws = 10"),
+        ("draws = 20, room", "draws = 10, room"),
         ("size_cells = [12, 12]", "size_cells = [10, 12]"),
     ];
     Toy::unexplored(&edits)

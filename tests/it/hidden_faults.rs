@@ -1,4 +1,4 @@
-//! One fault hides no other: what is wrong in the files that a study names, in one table of settings and in an option of a reading
+//! One fault hides no other: what is wrong in the files that a study names, in one table of settings and in an option of a choice
 //! is told in one round, each at its own place, and nothing is said that follows from another fault alone.
 
 use crate::paper::Bench;
@@ -150,16 +150,19 @@ fn a_figure_of_a_pose_or_a_claim_of_a_query_that_is_not_there_is_refused() {
     assert!(told.len() == 1 && told[0].contains("there is no query of cell `hugh`"), "{told:?}");
 }
 
-/// A sweep in the template of grids, before its reading.
+/// Before what a sweep may stand in the template of grids.
+const FIGURE: &str = "# A figure, drawn";
+
+/// A sweep in the template of grids.
 fn swept(key: &str, values: &str) -> String {
-    format!("[[sweep]]\nkey = \"{key}\"\nof = \"astar\"\nvalues = {values}\n\n[[reading]]\nid = \"ties\"")
+    format!("[[sweep]]\nkey = \"{key}\"\nof = \"astar\"\nvalues = {values}\n\n{FIGURE}")
 }
 
 /// The template of grids with that sweep, both contenders of one weight.
 fn assert_swept(key: &str, values: &str, wanted: &[&str]) {
     let sweep = swept(key, values);
     let agreed = ("compare.toml", "weight = 2", "weight = 1");
-    assert_told("grid", &[agreed, ("compare.toml", "[[reading]]\nid = \"ties\"", &sweep)], wanted);
+    assert_told("grid", &[agreed, ("compare.toml", FIGURE, &sweep)], wanted);
 }
 
 #[test]
@@ -167,18 +170,18 @@ fn what_is_wrong_with_a_sweep_is_told_there_and_once() {
     assert_swept(
         "wheight",
         "[1, 2]",
-        &["compare.toml:41:7: unknown key `wheight` (did you mean `weight`?); accepted: "],
+        &["compare.toml:39:7: unknown key `wheight` (did you mean `weight`?); accepted: "],
     );
     assert_swept(
         "weight",
         "[1, \"two\"]",
-        &["compare.toml:43:14: `weight` is \"two\"; a number or \"falling\""],
+        &["compare.toml:41:14: `weight` is \"two\"; a number or \"falling\""],
     );
     for twice in ["[1, 2, 1]", "[1, 1.0]"] {
         assert_swept(
             "weight",
             twice,
-            &["compare.toml:41:7: sweep `weight` has a value twice; each once is accepted"],
+            &["compare.toml:39:7: sweep `weight` has a value twice; each once is accepted"],
         );
     }
 }
@@ -186,12 +189,12 @@ fn what_is_wrong_with_a_sweep_is_told_there_and_once() {
 #[test]
 fn a_sweep_that_would_make_two_contenders_one_is_refused() {
     let sweep = swept("weight", "[1, 2]");
-    let wanted = "compare.toml:41:7: sweep `weight` would hide that contender `A*` says 1 and contender `Weighted A*` 2; ";
-    assert_told("grid", &[("compare.toml", "[[reading]]\nid = \"ties\"", &sweep)], &[wanted]);
+    let wanted = "compare.toml:39:7: sweep `weight` would hide that contender `A*` says 1 and contender `Weighted A*` 2; ";
+    assert_told("grid", &[("compare.toml", FIGURE, &sweep)], &[wanted]);
 }
 
 #[test]
-fn a_misspelt_value_is_told_as_such_where_the_default_of_a_reading_would_hide_it() {
+fn a_misspelt_value_is_told_as_such_where_the_default_of_a_choice_would_hide_it() {
     let misspelt = ("compare.toml", "weight = 1, ties = \"fifo\"", "weight = 1, ties = \"fifoo\"");
     assert_told("grid", &[misspelt], &["compare.toml:31:33: `ties` is \"fifoo\" (did you mean `fifo`?); "]);
 }

@@ -7,6 +7,7 @@ mod audit;
 mod broken_papers;
 mod cell_threads;
 mod characteristics;
+mod choices;
 mod circles;
 mod cli_check;
 mod cli_compare;

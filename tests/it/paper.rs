@@ -55,7 +55,27 @@ columns = ["Cost", "Nodes"]
 [[table.row]]
 label = "A*"
 claims = ["cost", "nodes"]
+
+[[choice]]
+id = "nodes"
+why = "not said"
+default = "opened"
+[choice.option]
+opened = { metric = { nodes = "opened" } }
+closed = { metric = { nodes = "closed" } }
+
+[[choice]]
+id = "corners"
+why = "not said"
+default = "allow"
+[choice.option.allow]
+problem = { corner_rule = "allow" }
+[choice.option.forbid_any]
+problem = { corner_rule = "forbid_any" }
 "#;
+
+/// The end of the contenders of `draws.toml`, behind which a sweep or a `[[keep]]` may stand.
+pub const CONTENDERS_END: &str = "settings = { line_of_sight = \"exact_interior\" } }]\n";
 
 const DRAWS: &str = r#"paper = "mini"
 question = "Which side opens more?"
@@ -87,30 +107,13 @@ label = "Two-sided"
 planner = "bidirectional"
 settings = { weight = "one", meeting = "generated_any", side = "alternate", ties = "fifo" }
 then = [{ stage = "delete_inflections", settings = { line_of_sight = "exact_interior" } }]
-
-[[reading]]
-id = "nodes"
-why = "not said"
-default = "opened"
-[reading.option.opened]
-metric = { nodes = "opened" }
-[reading.option.closed]
-metric = { nodes = "closed" }
-
-[[reading]]
-id = "corners"
-why = "not said"
-default = "allow"
-[reading.option.allow]
-problem = { corner_rule = "allow" }
-[reading.option.forbid_any]
-problem = { corner_rule = "forbid_any" }
 "#;
 
 const ROOM: &str = r#"paper = "mini"
 question = "What does the room cost?"
 seed = 8
 searched = true
+leaves_out = ["corners"]
 
 [budget]
 expansions = 10_000

@@ -94,16 +94,16 @@ pub const WRONG: &[Wrong] = &[
         "mini/draws.toml:18:14: `replicates` is 0; a whole number from 1 to 1000000 is",
     ),
     wrong(
-        "draws",
+        "paper",
         "default = \"allow\"",
         "default = \"deny\"",
-        "mini/draws.toml:44:11: reading `corners` has no option `deny`; it has allow,",
+        "mini/paper.toml:61:11: choice `corners` has no option `deny`; it has allow,",
     ),
     wrong(
-        "draws",
+        "paper",
         "problem = { corner_rule = \"forbid_any\" }",
         "problem = { corner_rule = \"never\" }",
-        "draws.toml:48:27: `corner_rule` is \"never\"; \"allow\", \"forbid_both\" or \"forbid_any\" is",
+        "paper.toml:65:27: `corner_rule` is \"never\"; \"allow\", \"forbid_both\" or \"forbid_any\" is",
     ),
     wrong(
         "draws",
@@ -208,7 +208,7 @@ pub const WRONG: &[Wrong] = &[
         "paper",
         "metric = \"nodes\"",
         "metric = \"knots\"",
-        "mini/paper.toml:39:10: there is no metric `knots`, nor a reading that gives the name a meaning; the metrics are ",
+        "mini/paper.toml:39:10: there is no metric `knots`, nor a choice that gives the name a meaning; the metrics are ",
     ),
     wrong(
         "paper",

@@ -97,7 +97,7 @@ fn what_stands_alone_against_most_must_be_confirmed_whichever_way_it_speaks() {
     assert!(flips(&groups(&many(&[(9, NotReproduced), (3, Undecided)]))).is_empty());
 }
 
-/// Readings with these defaults.
+/// Choices with these defaults.
 fn axes(defaults: &[(&str, &str)]) -> Axes {
     let axis = |(id, default): &(&str, &str)| Choice {
         id: (*id).to_owned(),
@@ -106,10 +106,11 @@ fn axes(defaults: &[(&str, &str)]) -> Axes {
         fitted: false,
         bounds: None,
         options: BTreeMap::new(),
+        touches_trials: true,
         place: None,
     };
-    let readings = defaults.iter().map(axis).collect();
-    Axes { readings, calibration: BTreeSet::new(), now: Now::default() }
+    let choices = defaults.iter().map(axis).collect();
+    Axes { choices, calibration: BTreeSet::new(), now: Now::default() }
 }
 
 /// A class under the reading at `place`.

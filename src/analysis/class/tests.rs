@@ -81,7 +81,7 @@ const OUTCOMES: [Outcome; 5] =
 /// Every combination of what lowers a class.
 fn caps() -> impl Iterator<Item = Caps> {
     let clocks = [None, Some(Sessions::TooFew), Some(Sessions::Disagree), Some(Sessions::Agree)];
-    (0..128_u8).flat_map(move |bits| {
+    (0..=255_u8).flat_map(move |bits| {
         let has = move |bit: u8| bits >> bit & 1 == 1;
         clocks.into_iter().map(move |clock| Caps {
             searched: has(0),
@@ -91,6 +91,7 @@ fn caps() -> impl Iterator<Item = Caps> {
             censored: has(4),
             without_premises: has(5),
             few: has(6),
+            not_run: has(7),
             clock,
         })
     })
@@ -114,7 +115,7 @@ fn nothing_raises_a_class_and_nothing_turns_its_sign() {
 }
 
 /// What a cap makes of what holds, of what holds in sign alone, and of what fails.
-const CAPPED: [(Caps, [Verdict; 3]); 11] = {
+const CAPPED: [(Caps, [Verdict; 3]); 12] = {
     use Verdict::{Attainable, DirectionOnly, Fitted, NotReproduced, Reproduced, Undecided};
     const NONE: Caps = Caps {
         searched: false,
@@ -125,6 +126,7 @@ const CAPPED: [(Caps, [Verdict; 3]); 11] = {
         few: false,
         clock: None,
         without_premises: false,
+        not_run: false,
     };
     const OPEN: [Verdict; 3] = [Undecided; 3];
     [
@@ -136,6 +138,7 @@ const CAPPED: [(Caps, [Verdict; 3]); 11] = {
         (Caps { powerless: true, ..NONE }, [Undecided, Undecided, NotReproduced]),
         (Caps { censored: true, ..NONE }, OPEN),
         (Caps { few: true, ..NONE }, OPEN),
+        (Caps { not_run: true, ..NONE }, OPEN),
         (Caps { clock: Some(Sessions::TooFew), ..NONE }, OPEN),
         (Caps { clock: Some(Sessions::Disagree), ..NONE }, OPEN),
         (Caps { clock: Some(Sessions::Agree), ..NONE }, [Reproduced, DirectionOnly, NotReproduced]),

@@ -194,7 +194,7 @@ impl Paper {
         for (name, more) in &explore.more_draws {
             if let Some(few) = explore.draws.get(name).filter(|few| *few > more) {
                 let message = format!(
-                    "`more_draws` of `{name}` is {}, below its `draws`, {}; {0} or more are accepted",
+                    "`more_draws` of `{name}` is {}, below its `draws`, {}; {1} or more are accepted",
                     more.0, few.0
                 );
                 wrong(&["more_draws", name], message, name);

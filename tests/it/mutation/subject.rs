@@ -156,7 +156,7 @@ fn files(root: &Path, paper: usize, of: &Paper) -> Vec<File> {
         found.push(file(study.document.path().to_owned(), Role::Study(number)));
         for group in &study.groups {
             let family =
-                group.family(&default.for_trials(&study.readings), &inputs(root, &of.folder)).unwrap();
+                group.family(&default.for_trials(&study.choices), &inputs(root, &of.folder)).unwrap();
             read.extend(family.inputs().iter().map(|path| (path.clone(), number)));
         }
     }

@@ -1,0 +1,314 @@
+//! Choices that a paper declares once: what a study inherits of them, what it leaves out, and what is refused.
+
+use crate::across::{CITED, Toy};
+use crate::paper::{Bench, CONTENDERS_END};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use study::Inputs;
+use study::paper::Paper;
+use toml::{Table, Value};
+
+/// The paper in `folder` of a bench, as the program reads it.
+fn loaded(bench: &Bench, folder: &str) -> Paper {
+    let folder = bench.at(folder);
+    Paper::load(&folder, &Inputs { roots: vec![folder.clone()] }).unwrap()
+}
+
+/// The choices that the study called `name` inherits, each with whether its trials depend on it.
+fn inherited<'p>(paper: &'p Paper, name: &str) -> Vec<(&'p str, bool)> {
+    let choices = &paper.study(name).unwrap().choices;
+    choices.iter().map(|choice| (choice.id.as_str(), choice.touches_trials)).collect()
+}
+
+#[test]
+fn a_study_inherits_what_touches_it_and_may_leave_it_out() {
+    let bench = Bench::new();
+    let both = [("nodes", false), ("corners", true)];
+    assert_eq!(inherited(&loaded(&bench, "mini"), "draws"), both);
+    // What gives a name a meaning holds in every study.
+    let paper = loaded(&bench, "mini");
+    assert_eq!(inherited(&paper, "room"), both[..1]);
+    assert_eq!(paper.study("room").unwrap().leaves_out, ["corners"]);
+    bench.edit("mini/room.toml", "leaves_out = [\"corners\"]", "leaves_out = [\"all\"]");
+    assert_eq!(inherited(&loaded(&bench, "mini"), "room"), both[..1]);
+    // An option of a planner that the room does not run does not touch it.
+    let option = "problem = { corner_rule = \"forbid_any\" }";
+    bench.edit("mini/paper.toml", "problem = { corner_rule = \"allow\" }", "");
+    bench.edit("mini/paper.toml", option, "stage.bidirectional = { end = \"contact\" }");
+    bench.edit("mini/room.toml", "leaves_out = [\"all\"]\n", "");
+    let paper = loaded(&bench, "mini");
+    assert_eq!((inherited(&paper, "draws"), inherited(&paper, "room")), (both.to_vec(), both[..1].to_vec()));
+}
+
+#[test]
+fn what_all_studies_share_stands_in_the_paper_and_a_study_says_what_differs() {
+    let toy = Toy::written(&[]);
+    let shared = "second_seed = 99\n[source]\ntitle = \"A toy\"\n[budget]\nexpansions = 77\n";
+    toy.0.edit("toy/paper.toml", "[source]\ntitle = \"A toy\"\n", shared);
+    toy.0.edit("toy/draws.toml", "second_seed = 8\n[budget]\nexpansions = 10_000\n", "");
+    let paper = loaded(&toy.0, "toy");
+    let said = |name: &str| {
+        let study = paper.study(name).unwrap();
+        (study.second_seed, study.budget.expansions)
+    };
+    assert_eq!((said("draws"), said("room")), ((Some(99), 77), (Some(8), 10_000)));
+}
+
+#[test]
+fn an_option_of_one_contender_changes_its_trials_alone() {
+    let bench = Bench::new();
+    let option = "problem = { corner_rule = \"forbid_any\" }";
+    bench.edit("mini/paper.toml", "problem = { corner_rule = \"allow\" }", "");
+    bench.edit("mini/paper.toml", option, "contender.\"Slow\".astar = { weight = 0 }");
+    let slow = format!(
+        "{CONTENDERS_END}\n[[contender]]\nlabel = \"Slow\"\nplanner = \"astar\"\nsettings = {{ weight = 1, ties = \"fifo\" }}\n"
+    );
+    bench.edit("mini/draws.toml", CONTENDERS_END, &slow);
+    bench.edit("mini/room.toml", "leaves_out = [\"corners\"]\n", "");
+    assert_eq!(inherited(&loaded(&bench, "mini"), "room"), [("nodes", false)]);
+    bench.done(&["run", "./mini", "--with", "corners=allow", "--out", "one"]);
+    bench.done(&["run", "./mini", "--with", "corners=forbid_any", "--out", "other"]);
+    let expansions = |out: &str| {
+        bench.done(&["export", out, "--csv", "--out", &format!("{out}/csv")]);
+        let text = fs::read_to_string(bench.at(&format!("{out}/csv/draws.trials.csv"))).unwrap();
+        let mut lines = text.lines();
+        let head: Vec<&str> = lines.next().unwrap().split(',').collect();
+        let at = |name: &str| head.iter().position(|column| *column == name).unwrap();
+        let (contender, expansions) = (at("contender"), at("expansions"));
+        let mut sums: BTreeMap<String, u64> = BTreeMap::new();
+        for line in lines {
+            let cells: Vec<&str> = line.split(',').collect();
+            *sums.entry(cells[contender].to_owned()).or_default() +=
+                cells[expansions].parse::<u64>().unwrap();
+        }
+        sums
+    };
+    let (one, other) = (expansions("one"), expansions("other"));
+    assert_eq!((one["A*"], one["Two-sided"]), (other["A*"], other["Two-sided"]));
+    assert_eq!(one["A*"], one["Slow"]);
+    assert!(other["Slow"] > one["Slow"], "{one:?} {other:?}");
+}
+
+/// An option without a weight that the paper may mean and that cannot be run.
+const LOST: (&str, &str) = (
+    "[choice.option.none]\nstage.astar = { weight = 0 }",
+    "[choice.option.none]\npaper = \"section 2: as in our earlier work\"\ncannot_run = \"that work is lost\"",
+);
+
+#[test]
+fn an_option_that_cannot_be_run_leaves_open_what_it_touches_and_is_shown() {
+    let toy = Toy::new(&[LOST]);
+    for claim in ["fewer", "shorter", "witness", "calibrated"] {
+        assert_eq!(toy.claim(claim).verdict.name(), "undecided", "{claim}");
+        let finding = &toy.claim(claim).findings[0];
+        let settles = finding.settles.as_deref().unwrap_or_default();
+        assert!(settles.contains("hurry = none: that work is lost"), "{claim}: {settles}");
+    }
+    let explored = toy.stored("explored.toml.gz");
+    assert!(explored.readings.iter().all(|one| !one.contains_key("hurry")), "{:?}", explored.readings);
+    let said = toy.0.run(&["run", "./toy", "--with", "hurry=none"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    assert!(said.err.contains("--with: option `none` of choice `hurry` cannot be run: that work is lost"));
+    toy.0.done(&["render", "./toy"]);
+    let details = fs::read_to_string(toy.0.at("target/replan/toy/plots/toy/details.md")).unwrap();
+    assert!(details.contains("none cannot be run here: that work is lost"), "{details}");
+    // A probe says nothing of what the paper means, and a claim that is not meant under the option is not touched by it.
+    let probe = ("[choice.option.none]", "[choice.option.none]\ncannot_run = \"it is lost\"");
+    assert_eq!(Toy::new(&[probe]).claim("fewer").verdict.name(), "reproduced");
+    let when = ("id = \"fewer\"\n", "id = \"fewer\"\nholds_when = { hurry = [\"three\"] }\n");
+    let toy = Toy::new(&[LOST, when]);
+    assert_eq!(
+        [toy.claim("fewer"), toy.claim("shorter")].map(|one| one.verdict.name()),
+        ["reproduced", "undecided"]
+    );
+}
+
+/// The file, what is replaced in it, and what `check` then says of one place.
+const REFUSED: [(&str, &str, &str, &str); 18] = [
+    (
+        "paper",
+        "{ weight = 0 }",
+        "{ weight = 0 }\nproblem = { corner_rul = \"allow\" }",
+        "option `none` sets `corner_rul`, which no problem has of a study that inherits the choice (did you mean `corner_rule`?)",
+    ),
+    (
+        "paper",
+        "{ weight = 0 }",
+        "{ weight = 0 }\nproblem = { map = \"room.txt\", size_cells = [9, 9] }",
+        "option `none` sets `map`, `size_cells`, which no problem has together of a study that inherits the choice",
+    ),
+    (
+        "paper",
+        "{ weight = 0 }",
+        "{ weight = 0 }\nstage.joint_astar = { delta_deg = 1 }",
+        "option `none` sets `joint_astar`, which no study that inherits the choice runs",
+    ),
+    (
+        "paper",
+        "{ weight = 0 }",
+        "{ weight = 0 }\ncontender.\"B*\".astar = { weight = 2 }",
+        "choice `hurry`: option `none`: there is no contender `B*`; there are A*, Lazy, Two-sided",
+    ),
+    (
+        "paper",
+        "{ weight = 0 }",
+        "{ weight = 0 }\ncontender.\"Lazy\".astar = { weight = 2 }",
+        "option `none` sets `astar`, which contender `Lazy` does not use",
+    ),
+    (
+        "paper",
+        "default = \"three\"",
+        "default = \"tree\"",
+        "choice `hurry` has no option `tree` (did you mean `three`?)",
+    ),
+    (
+        "paper",
+        "paper = \"section 1: the weight is three\"",
+        "paper = \"section 1\"\ncannot_run = \"it is lost\"",
+        "the default of choice `hurry` cannot be run; another option is accepted",
+    ),
+    ("paper", "id = \"idle\"", "id = \"hurry\"", "choice `hurry` stands twice"),
+    ("paper", "id = \"idle\"", "id = \"all\"", "a choice is called `all`, which stands for every choice"),
+    ("paper", "room = 1 }", "hall = 1 }", "there is no study `hall`; there are draws, room"),
+    ("paper", "room = 1 }", "room = 0 }", "`room` is 0; a whole number from 1 to 1000000 is accepted"),
+    (
+        "paper",
+        "room = 1 }",
+        "room = 1 }\nmore_draws = { draws = 19 }",
+        "`more_draws` of `draws` is 19, below its `draws`, 20; 20 or more are accepted",
+    ),
+    ("draws", "[budget]\nexpansions = 10_000\n", "", "missing key `budget`"),
+    (
+        "draws",
+        "seed = 7",
+        "leaves_out = [\"hury\"]\nseed = 7",
+        "there is no choice `hury` (did you mean `hurry`?); there are hurry",
+    ),
+    (
+        "draws",
+        "seed = 7",
+        "leaves_out = [\"idle\"]\nseed = 7",
+        "choice `idle` sets nothing that study `draws` runs; those that do are hurry",
+    ),
+    (
+        "draws",
+        "[budget]",
+        "[explore]\ndraws = 3\n[budget]",
+        "`explore` is no key here: `[explore]` is written in paper.toml",
+    ),
+    (
+        "draws",
+        "[budget]",
+        "[[reading]]\nid = \"hurry\"\n[budget]",
+        "`reading` is no key here: what the paper leaves open is a `[[choice]]` of paper.toml",
+    ),
+    (
+        "draws",
+        "[budget]",
+        "[[choice]]\nid = \"hurry\"\n[budget]",
+        "`choice` is no key here: choices are written in paper.toml",
+    ),
+];
+
+#[test]
+fn what_a_choice_cannot_be_is_refused_once_where_it_stands() {
+    let toy = Toy::written(&[CITED]);
+    toy.0.done(&["check", "./toy"]);
+    for (file, from, to, refused) in REFUSED {
+        let name = format!("toy/{file}.toml");
+        let whole = fs::read(toy.0.at(&name)).unwrap();
+        toy.0.edit(&name, from, to);
+        let said = toy.0.run(&["check", "./toy"]);
+        assert_eq!(said.code, Some(2), "{to}: {}{}", said.out, said.err);
+        let told: Vec<&str> = said.err.lines().filter(|line| line.contains("toy/")).collect();
+        assert!(told.len() == 1 && told[0].contains(refused), "{to}\n{}", said.err);
+        assert!(told[0].contains(&format!("/toy/{file}.toml:")), "{}", told[0]);
+        toy.0.write(&name, &whole);
+    }
+}
+
+#[test]
+fn a_premise_that_the_claims_study_leaves_out_is_refused() {
+    let bench = Bench::new();
+    let when = "id = \"cost\"\nholds_when = { corners = [\"allow\"] }";
+    bench.edit("mini/paper.toml", "id = \"cost\"", when);
+    let said = bench.run(&["check", "./mini"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    let refused = "paper.toml:21:26: claim `cost` is meant under options of choice `corners`, which study `room` leaves out";
+    assert!(said.err.contains(refused), "{}", said.err);
+}
+
+#[test]
+fn words_of_the_command_line_that_were_renamed_are_answered_with_the_new_ones() {
+    let bench = Bench::new();
+    for (words, new) in [
+        (&["repro", "./mini", "--readings", "all"][..], "`--readings` is now `--with`"),
+        (&["repro", "./mini", "--readings=all"], "`--readings` is now `--with`"),
+        (&["list", "readings"], "`list readings` is now `list choices`"),
+    ] {
+        let said = bench.run(words);
+        assert_eq!(said.code, Some(2), "{}", said.err);
+        assert!(said.err.contains(new), "{words:?}: {}", said.err);
+    }
+}
+
+/// The TOML files of every committed paper: its name, that of the file, and what it says.
+fn committed() -> Vec<(String, String, Table)> {
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/experiments");
+    let mut all = Vec::new();
+    for paper in fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path()) {
+        for file in fs::read_dir(&paper).unwrap().map(|entry| entry.unwrap().path()) {
+            let name = |path: &std::path::Path| path.file_stem().unwrap().to_string_lossy().into_owned();
+            let text = fs::read_to_string(&file).unwrap();
+            all.push((name(&paper), name(&file), text.parse().unwrap()));
+        }
+    }
+    assert!(all.len() > 40, "{} files", all.len());
+    all
+}
+
+/// Notes `what` as said; panics if it was said before.
+fn once<T: Ord + std::fmt::Debug>(said: &mut BTreeSet<T>, what: T) {
+    let shown = format!("{what:?}");
+    assert!(said.insert(what), "written twice: {shown}");
+}
+
+#[test]
+fn nothing_of_choices_is_written_twice_in_the_committed_specs() {
+    let files = committed();
+    let (mut options, mut choices) = (0, 0);
+    for (paper, _, spec) in files.iter().filter(|(_, file, _)| file == "paper") {
+        let mut said = BTreeSet::new();
+        for choice in spec.get("choice").and_then(Value::as_array).into_iter().flatten() {
+            choices += 1;
+            let id = choice["id"].as_str().unwrap();
+            once(&mut said, (paper, id, "its name".to_owned()));
+            once(&mut said, (paper, "why", choice["why"].to_string()));
+            for (name, option) in choice["option"].as_table().unwrap() {
+                options += 1;
+                let option = option.as_table().unwrap();
+                // Several options may rest on one sentence: then it is the choice's.
+                for key in ["paper", "practice"] {
+                    if let Some(source) = option.get(key) {
+                        once(&mut said, (paper, id, format!("{key} {source}")));
+                        assert_ne!(choice.get(key), Some(source), "{paper}, {id} = {name}: {key} twice");
+                    }
+                }
+                let sets = ["problem", "stage", "contender", "metric", "digits"]
+                    .map(|key| option.get(key).map(|value| format!("{key} = {value}")).unwrap_or_default());
+                once(&mut said, (paper, id, format!("sets {}", sets.concat())));
+            }
+        }
+    }
+    assert!(choices > 50 && options > 150, "{choices} choices with {options} options");
+    // What the paper says for all studies, no study says again.
+    for (paper, file, study) in files.iter().filter(|(_, _, spec)| spec.contains_key("question")) {
+        let (_, _, shared) = files.iter().find(|(own, file, _)| own == paper && file == "paper").unwrap();
+        for key in ["budget", "second_seed"] {
+            assert!(
+                study.get(key).is_none() || study.get(key) != shared.get(key),
+                "{paper}/{file}: {key} twice"
+            );
+        }
+    }
+}
