@@ -3,9 +3,9 @@
 use super::checks::{Entry, REGISTRY, Test, find};
 use super::input::Input;
 use super::meaning::{rounding, roundings};
-use super::printed::Digits;
 use super::relation::Relation;
 use super::table::{Fault, Place};
+use proofs::printed::Digits;
 use std::collections::BTreeMap;
 use toml::Value;
 

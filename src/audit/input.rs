@@ -1,12 +1,12 @@
 //! What an audit is made of: tables, samples, named cells, and relations between them.
 
-use super::exact::Print;
 use super::meaning::Meaning;
-use super::printed::{Digits, Printed};
 use super::relation::{Named, Relation};
 use super::sample::{self, Sample};
 use super::statistic::Statistic;
 use super::table::{Place, Quoted, Table, quoted};
+use proofs::exact::Print;
+use proofs::printed::{Digits, Printed};
 use std::collections::BTreeMap;
 
 /// Everything that was read.

@@ -4,9 +4,9 @@
 
 pub mod contradiction;
 
-use super::exact::{self, Exact, whole};
-use super::printed::Digits;
 use super::statistic::Statistic;
+use proofs::exact::{self, Exact, whole};
+use proofs::printed::Digits;
 
 /// Every item of an annotation, with what it says.
 pub const ITEMS: &[(&str, &str)] = &[

@@ -1,11 +1,11 @@
 //! A relation of a TOML file: a check asked of numbers by name.
 
-use super::exact::{self, Exact, Print};
 use super::meaning::{contradiction, natural};
-use super::printed::Digits;
 use super::reader::{Number, number, unit};
 use super::sample::Sample;
 use super::table::{Fault, Place, Quoted};
+use proofs::exact::{self, Exact, Print};
+use proofs::printed::Digits;
 use std::collections::BTreeMap;
 use toml::Value;
 

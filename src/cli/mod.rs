@@ -29,7 +29,6 @@ macro_rules! say {
 }
 
 mod audit;
-mod audit_file;
 pub mod catalogue;
 mod check;
 mod compare;

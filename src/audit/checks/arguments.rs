@@ -1,11 +1,11 @@
 //! What several checks say or do alike.
 
 use super::Window;
-use crate::exact::{Exact, Print, Span, decimal, mul, root_above, spelled, sub, whole};
 use crate::input::Input;
 use crate::meaning::Kind;
-use crate::printed::Digits;
 use crate::table::{Column, Quoted, Table, quoted};
+use proofs::exact::{Exact, Print, Span, decimal, mul, root_above, spelled, sub, whole};
+use proofs::printed::Digits;
 use serde_json::{Value, json};
 
 /// How the digits are read, as a premise: of each number, where they are not read alike.
@@ -112,4 +112,14 @@ pub fn spreads(print: Print, ends: [Exact; 2], factor: Exact) -> Option<Window> 
     let half = sub(ends[1], ends[0])? / whole(2);
     let ends = [whole(0), root_above(mul(mul(half, half)?, factor)?, print.printed.scale())?];
     Some(Window { ends, why: "up to the greatest that values between the ends have" })
+}
+
+/// A span as `["[", "1/2", "3/4", ")"]`: a bracket for an end that is a member, a parenthesis for one that is not.
+pub fn json_span(span: &Span) -> Value {
+    json!([
+        if span.low_closed { "[" } else { "(" },
+        spelled(span.low),
+        spelled(span.high),
+        if span.high_closed { "]" } else { ")" },
+    ])
 }

@@ -1,10 +1,10 @@
 //! Whether what is printed bold is the best of its column.
 
 use super::{Entry, Test};
-use crate::exact::Print;
 use crate::input::Input;
 use crate::meaning::{Better, Kind};
 use crate::table::{Quoted, Table, quoted};
+use proofs::exact::Print;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -2,13 +2,13 @@
 
 use super::arguments::{count, digits, shown, spreads};
 use super::{Entry, Proof, Test, Window};
-use crate::exact::{Exact, Print, div, mul, spelled, whole};
 use crate::input::Input;
 use crate::meaning::Divisor;
 use crate::relation::Named as _;
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::Quoted;
+use proofs::exact::{Exact, Print, div, mul, spelled, whole};
 use serde_json::json;
 
 /// The registry's entry.

@@ -3,14 +3,14 @@
 use super::arguments::{count, digits, gap, multiple, shown};
 use super::keys::{GRAIN, LEAST, MOST, N};
 use super::{Entry, FromRelation, Proof, Test, Window};
-use crate::exact::{Exact, Print, Span, div, mul, spelled, whole};
 use crate::input::Input;
-use crate::printed::Digits;
 use crate::relation::{Named as _, Relation};
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};
 use crate::witness::{Budget, Witness};
+use proofs::exact::{Exact, Print, Span, div, mul, spelled, whole};
+use proofs::printed::Digits;
 use serde_json::json;
 
 /// The registry's entry.

@@ -1,18 +1,17 @@
 //! Whether n values of a grain can have the printed mean and the printed deviation at once.
 
-use super::arguments::{count, digits, shown, spreads, up_to_twice};
+use super::arguments::{count, digits, json_span, shown, spreads, up_to_twice};
 use super::keys::{DIVISOR, GRAIN, LEAST, MEAN, MOST, N, SD, SE};
 use super::{Entry, FromRelation, Proof, Test, Window};
-use crate::exact;
-use crate::exact::{Exact, Print, Span, ceil, div, floor, mul, spelled, whole};
 use crate::input::Input;
 use crate::meaning::Divisor;
-use crate::reach::{Asked, is_met};
 use crate::relation::{Named as _, Relation};
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};
-use crate::witness::{Budget, Moments, Witness, counted, extremes};
+use crate::witness::{Budget, Moments, Witness, counted};
+use proofs::exact::{Exact, Print, Span, ceil, div, floor, mul, spelled, whole};
+use proofs::reach::{Asked, extremes, is_met};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
@@ -22,7 +21,7 @@ pub static ENTRY: Entry = Entry {
     about: "can n values of a grain have the printed mean and the printed deviation at once?",
     example: "time [mean, integers, n=10] = 3.5 with time [sd] = 0.01",
     premises: "mean and deviation, and the least and greatest value if they are printed, are of the same n values; each is a multiple of the grain; the deviation divides by n - 1 or n",
-    source: "Anaya, The GRIMMER test, PeerJ Preprints 4:e2400v1 (2016); Allard, Analytic-GRIMMER (2018); exact by crate::reach",
+    source: "Anaya, The GRIMMER test, PeerJ Preprints 4:e2400v1 (2016); Allard, Analytic-GRIMMER (2018); exact by proofs::reach",
     tests,
     relation: Some(FromRelation { keys: &[MEAN, SD, SE, N, GRAIN, LEAST, MOST, DIVISOR], build }),
 };
@@ -222,7 +221,7 @@ impl Moment {
     fn step(squares: &Squares) -> Option<Value> {
         Some(json!({
             "sum": squares.sum.to_string(),
-            "windows": squares.windows.iter().map(exact::span).collect::<Vec<_>>(),
+            "windows": squares.windows.iter().map(json_span).collect::<Vec<_>>(),
             "least": squares.least.to_string(),
             "most": squares.most.map(|most| most.to_string()),
             "not_met": squares.gaps()?.iter().map(ToString::to_string).collect::<Vec<_>>(),

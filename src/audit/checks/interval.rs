@@ -2,10 +2,10 @@
 
 use super::arguments::digits;
 use super::{Entry, FromRelation, Proof, Test, none};
-use crate::exact::{Exact, Print, Span, decimal, spelled, sub, whole};
 use crate::input::Input;
 use crate::relation::Relation;
 use crate::table::{Fault, Quoted};
+use proofs::exact::{Exact, Print, Span, decimal, spelled, sub, whole};
 use serde_json::json;
 use stats::interval::Interval;
 use stats::proportion::{clopper_pearson, normal_multiplier, wilson};

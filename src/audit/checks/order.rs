@@ -2,12 +2,12 @@
 
 use super::arguments::digits;
 use super::{Entry, Proof, Test};
-use crate::exact::{Exact, Print, spelled};
 use crate::input::Input;
 use crate::relation::Named as _;
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::Quoted;
+use proofs::exact::{Exact, Print, spelled};
 use serde_json::json;
 
 /// The registry's entry.

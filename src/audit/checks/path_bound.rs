@@ -3,13 +3,13 @@
 use super::arguments::{digits, shown};
 use super::keys::{FROM, OF_PATH, TO};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::bounds::{Moves, against, apart};
-use crate::exact::{Exact, Print, spelled, whole};
 use crate::input::Input;
 use crate::meaning::{Kind, Meaning};
 use crate::relation::Relation;
 use crate::statistic::Statistic;
 use crate::table::{Column, Fault, Quoted};
+use proofs::bounds::{Moves, against, apart};
+use proofs::exact::{Exact, Print, spelled, whole};
 use serde_json::json;
 
 /// The registry's entry.

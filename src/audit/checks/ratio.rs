@@ -1,14 +1,13 @@
 //! Whether a printed quotient is that of two printed cells.
 
-use super::arguments::{digits, shown_span};
+use super::arguments::{digits, json_span, shown_span};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::exact;
-use crate::exact::{Print, Span};
-use crate::form::Form;
 use crate::input::Input;
 use crate::meaning::Kind;
 use crate::relation::Relation;
 use crate::table::{Fault, Quoted, Table, named_by, quoted};
+use proofs::exact::{Print, Span};
+use proofs::form::Form;
 use serde_json::{Value, json};
 
 /// The registry's entry.
@@ -104,7 +103,7 @@ impl Test for Formed {
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
-        let step = |(form, span): &(Form, Span)| json!({ "form": form.name(), "span": exact::span(span) });
+        let step = |(form, span): &(Form, Span)| json!({ "form": form.name(), "span": json_span(span) });
         let steps: Vec<Value> = self.allowed(prints)?.iter().map(step).collect();
         let forms: Vec<&str> = self.forms.iter().map(|form| form.name()).collect();
         Some(Proof { given: json!({ "forms": forms }), steps: Value::Array(steps) })

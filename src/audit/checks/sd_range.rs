@@ -2,13 +2,13 @@
 
 use super::arguments::{count, digits, shown, spreads};
 use super::{Entry, Proof, Test, Window};
-use crate::exact::{Exact, Print, Span, add, div, mul, spelled, sub, whole};
 use crate::input::Input;
 use crate::meaning::Divisor;
 use crate::relation::Named as _;
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::Quoted;
+use proofs::exact::{Exact, Print, Span, add, div, mul, spelled, sub, whole};
 use serde_json::json;
 
 /// The registry's entry.

@@ -1,14 +1,13 @@
 //! Whether the mean of a sum is the sum of the means.
 
-use super::arguments::{digits, shown_span, spans};
+use super::arguments::{digits, json_span, shown_span, spans};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::exact;
-use crate::exact::{Exact, Print, Span, mul, spelled, whole};
 use crate::input::Input;
 use crate::meaning::Kind;
 use crate::relation::Relation;
 use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted, Table, named_by, quoted};
+use proofs::exact::{Exact, Print, Span, mul, spelled, whole};
 use serde_json::json;
 
 /// The registry's entry.
@@ -111,6 +110,6 @@ impl Test for SumOfMeans {
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
         let given = json!({ "cut": self.cut.map(spelled) });
-        Some(Proof { given, steps: json!([{ "sum": exact::span(&self.allowed(prints)?) }]) })
+        Some(Proof { given, steps: json!([{ "sum": json_span(&self.allowed(prints)?) }]) })
     }
 }

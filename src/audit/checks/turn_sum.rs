@@ -4,18 +4,18 @@ use super::arguments::digits;
 use super::keys::{FROM, LENGTH, TO, TURNS};
 use super::lattice::{between, moves};
 use super::{Entry, FromRelation, Proof, Test, Window};
-use crate::Cell;
-use crate::exact::{Print, spelled, whole};
 use crate::input::Input;
-use crate::lattice::Octile;
 use crate::meaning::{Kind, Lattice};
 use crate::octile_turns::octile_turn_sums;
 use crate::relation::Relation;
 use crate::table::{Fault, Quoted, Table, named_by, quoted};
+use proofs::exact::{Print, spelled, whole};
+use proofs::lattice::Octile;
+use proofs::turns::Cell;
+use proofs::turns::Convention;
 use serde_json::{Value, json};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
-use turns::Convention;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -23,7 +23,7 @@ pub static ENTRY: Entry = Entry {
     about: "can an 8-connected path of the printed length turn by the printed sum of angles?",
     example: "turn sum 229.17 beside length 14.65 from 22:15 to 26:28",
     premises: "moves go to one of eight neighbours; the sum is of changes of direction, or of the angles between moves",
-    source: "enumeration over moves (crate::octile_turns); for any-angle paths see the package turns",
+    source: "enumeration over moves (octile_turns.rs); for any-angle paths see proofs::turns",
     tests,
     relation: Some(FromRelation { keys: &[TURNS, LENGTH, FROM, TO], build }),
 };
