@@ -99,9 +99,14 @@ pub fn spelled(a: Exact) -> String {
     a.to_string()
 }
 
+/// The nearest float, or one next to it.
+pub fn float(a: Exact) -> f64 {
+    *a.numer() as f64 / *a.denom() as f64
+}
+
 /// A value in decimals for people, rounded to `decimals` places.
 pub fn decimal(a: Exact, decimals: usize) -> String {
-    format!("{:.decimals$}", *a.numer() as f64 / *a.denom() as f64)
+    format!("{:.decimals$}", float(a))
 }
 
 /// The rational that a decimal (`0.25`, `-3`) or a fraction (`1/64`) spells; none if it is neither.

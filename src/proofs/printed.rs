@@ -16,7 +16,7 @@ pub struct NotANumber {
 }
 
 /// How the digits of a printed number end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Digits {
     /// Rounded to nearest; a tie may have gone either way.
     Rounded,
@@ -33,6 +33,7 @@ pub enum Digits {
     /// Rounded to nearest or cut off.
     Unknown,
     /// Any of the above.
+    #[default]
     Any,
 }
 

@@ -1,8 +1,8 @@
 //! What several checks say or do alike.
 
-use super::Window;
+use super::{Test, Window};
 use crate::input::Input;
-use crate::meaning::Kind;
+use crate::sample::Sample;
 use crate::table::{Column, Quoted, Table, quoted};
 use proofs::exact::{Exact, Print, Span, decimal, mul, root_above, spelled, sub, whole};
 use proofs::printed::Digits;
@@ -48,15 +48,41 @@ pub fn each_number(
     give: &mut dyn FnMut(&Table, &Column, usize, Quoted),
 ) {
     // Where rows are statistics, a cell is none of the values.
-    let has_values =
-        |table: &Table| table.columns.iter().all(|column| column.meaning.kind != Kind::Statistics);
-    for (index, table) in input.tables.iter().enumerate().filter(|(_, table)| has_values(table)) {
+    let of_values = input.tables.iter().enumerate().filter(|(_, table)| table.statistics().is_none());
+    for (index, table) in of_values {
         for (at, column) in table.columns.iter().enumerate().filter(|(_, column)| is_meant(column)) {
             for row in 0..table.rows.len() {
                 if let Some(number) = quoted(index, table, row, at) {
                     give(table, column, row, number);
                 }
             }
+        }
+    }
+}
+
+/// Gives the tests that `of_sample` makes of samples.
+pub fn each_of_sample<T: Test + 'static>(
+    input: &Input,
+    of_sample: impl Fn(&Sample) -> Option<T>,
+    give: &mut dyn FnMut(Box<dyn Test>),
+) {
+    input.each_sample(&mut |sample| {
+        if let Some(test) = of_sample(sample) {
+            give(Box::new(test));
+        }
+    });
+}
+
+/// Gives the tests that `of_cell` makes of cells, by number of the table, row and column.
+pub fn each_of_cell<T: Test + 'static>(
+    input: &Input,
+    of_cell: impl Fn(usize, &Table, usize, usize) -> Option<T>,
+    give: &mut dyn FnMut(Box<dyn Test>),
+) {
+    for (index, table) in input.tables.iter().enumerate() {
+        for column in 0..table.columns.len() {
+            let tests = (0..table.rows.len()).filter_map(|row| of_cell(index, table, row, column));
+            tests.for_each(|test| give(Box::new(test)));
         }
     }
 }

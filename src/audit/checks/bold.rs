@@ -2,7 +2,7 @@
 
 use super::{Entry, Test};
 use crate::input::Input;
-use crate::meaning::{Better, Kind};
+use crate::meaning::Better;
 use crate::table::{Quoted, Table, quoted};
 use proofs::exact::Print;
 
@@ -25,8 +25,7 @@ struct Bold {
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
     for (index, table) in input.tables.iter().enumerate() {
-        let has_statistics = table.columns.iter().any(|column| column.meaning.kind == Kind::Statistics);
-        for at in (0..table.columns.len()).filter(|_| !has_statistics) {
+        for at in (0..table.columns.len()).filter(|_| table.statistics().is_none()) {
             in_column(index, table, at, give);
         }
     }

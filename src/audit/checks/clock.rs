@@ -2,9 +2,8 @@
 
 use super::arguments::{digits, each_number, gap, multiple};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::input::Input;
+use crate::input::{Input, Relation};
 use crate::meaning::Kind;
-use crate::relation::Relation;
 use crate::table::{Fault, Quoted};
 use proofs::clock::ticks;
 use proofs::exact::{Exact, Print, spelled, whole};

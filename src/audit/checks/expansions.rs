@@ -2,9 +2,8 @@
 
 use super::arguments::{count, digits, each_number, up_to_twice};
 use super::{Entry, FromRelation, Proof, Test, Window};
-use crate::input::Input;
+use crate::input::{Input, Relation};
 use crate::meaning::Kind;
-use crate::relation::Relation;
 use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};
 use proofs::exact::{Print, mul, spelled, sub, whole};

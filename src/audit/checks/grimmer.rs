@@ -1,16 +1,15 @@
 //! Whether n values of a grain can have the printed mean and the printed deviation at once.
 
-use super::arguments::{count, digits, json_span, shown, spreads, up_to_twice};
+use super::arguments::{count, digits, each_of_sample, json_span, shown, spreads, up_to_twice};
 use super::keys::{DIVISOR, GRAIN, LEAST, MEAN, MOST, N, SD, SE};
 use super::{Entry, FromRelation, Proof, Test, Window};
-use crate::input::Input;
+use crate::input::{Input, Relation};
 use crate::meaning::Divisor;
-use crate::relation::{Named as _, Relation};
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};
 use crate::witness::{Budget, Moments, Witness, counted};
-use proofs::exact::{Exact, Print, Span, ceil, div, floor, mul, spelled, whole};
+use proofs::exact::{Exact, Print, Span, ceil, div, float, floor, mul, spelled, whole};
 use proofs::reach::{Asked, extremes, is_met};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -52,14 +51,8 @@ const STEPS: u64 = 5000;
 const GAPS: i128 = 500;
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    input.each_sample(&mut |sample| {
-        if sample.trials.is_none()
-            && !sample.is_binary()
-            && let Some(test) = of_sample(sample)
-        {
-            give(Box::new(test));
-        }
-    });
+    let is_meant = |sample: &Sample| sample.trials.is_none() && !sample.is_binary();
+    each_of_sample(input, |sample| of_sample(sample).filter(|_| is_meant(sample)), give);
 }
 
 /// The test of a sample's mean and deviation.
@@ -209,13 +202,7 @@ impl Moment {
     }
 
     fn divisors(&self) -> Vec<i128> {
-        let n = i128::from(self.n);
-        let all = match self.divisor {
-            Divisor::Sample => vec![n - 1],
-            Divisor::Population => vec![n],
-            Divisor::Either => vec![n - 1, n],
-        };
-        all.into_iter().filter(|divisor| *divisor > 0).collect()
+        self.divisor.of(self.n.into())
     }
 
     fn step(squares: &Squares) -> Option<Value> {
@@ -382,7 +369,7 @@ impl Moment {
             let about = whole(least) - div(whole(sum.checked_mul(sum)?), n)?;
             let factor = if self.is_error { n } else { whole(1) };
             let variance = div(about, mul(whole(divisor), factor)?)?;
-            Some((*variance.numer() as f64 / *variance.denom() as f64).sqrt())
+            Some(float(variance).sqrt())
         };
         let sums = (first..=last.min(first.checked_add(SUMS)?)).map(of).collect::<Option<Vec<_>>>()?;
         let least = sums.into_iter().min_by(f64::total_cmp)?;

@@ -3,9 +3,8 @@
 use super::arguments::digits;
 use super::keys::OF_PATH;
 use super::{Entry, FromRelation, Proof, Test};
-use crate::input::Input;
+use crate::input::{Input, Relation};
 use crate::meaning::{Kind, Lattice, Meaning};
-use crate::relation::Relation;
 use crate::table::{Column, Fault, Quoted};
 use crate::witness::{Budget, Witness};
 use proofs::exact::{Exact, Print, Span, add, div, floor, mul, spelled, whole};

@@ -4,8 +4,7 @@
 //! whether any data can print them; everything else (readings of digits, power, mend, ranking) is asked by
 //! [`report`](super::report) in one way for all.
 
-use super::input::Input;
-use super::relation::Relation;
+use super::input::{Input, Relation};
 use super::table::{Fault, Quoted};
 use super::witness::{Budget, Witness};
 use proofs::exact::{Exact, Print};

@@ -2,8 +2,7 @@
 
 use super::arguments::digits;
 use super::{Entry, FromRelation, Test, Window, none};
-use crate::input::Input;
-use crate::relation::Relation;
+use crate::input::{Input, Relation};
 use crate::table::{Fault, Quoted};
 use proofs::exact::{Exact, Print, whole};
 

@@ -3,7 +3,6 @@
 use super::arguments::{count, digits, gap, shown};
 use super::{Entry, Proof, Test};
 use crate::input::Input;
-use crate::relation::Named as _;
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::Quoted;

@@ -1,10 +1,9 @@
 //! Whether a printed quotient is that of two printed cells.
 
-use super::arguments::{digits, json_span, shown_span};
+use super::arguments::{digits, each_of_cell, json_span, shown_span};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::input::Input;
+use crate::input::{Input, Relation};
 use crate::meaning::Kind;
-use crate::relation::Relation;
 use crate::table::{Fault, Quoted, Table, named_by, quoted};
 use proofs::exact::{Print, Span};
 use proofs::form::Form;
@@ -39,19 +38,14 @@ pub(super) struct Formed {
 }
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    for (index, table) in input.tables.iter().enumerate() {
-        if table.columns.iter().any(|column| column.meaning.kind == Kind::Statistics) {
-            continue;
-        }
-        for at in 0..table.columns.len() {
-            let rows = 0..table.rows.len();
-            rows.filter_map(|row| in_row(index, table, row, at)).for_each(|test| give(Box::new(test)));
-        }
-    }
+    each_of_cell(input, of_cell, give);
 }
 
-fn in_row(index: usize, table: &Table, row: usize, at: usize) -> Option<Formed> {
+fn of_cell(index: usize, table: &Table, row: usize, at: usize) -> Option<Formed> {
     let meaning = &table.columns[at].meaning;
+    if table.statistics().is_some() {
+        return None;
+    }
     // A mean, or an extreme, of quotients is not the quotient of the means.
     let [a, b] = meaning.ratio.as_ref().filter(|_| !matches!(meaning.kind, Kind::Of(_)))?;
     let cell = |at| quoted(index, table, row, at);

@@ -2,8 +2,7 @@
 
 use super::arguments::{count, digits, shown};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::input::Input;
-use crate::relation::Relation;
+use crate::input::{Input, Relation};
 use crate::sample::{self, Sample};
 use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted, named_by};

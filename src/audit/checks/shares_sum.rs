@@ -2,9 +2,8 @@
 
 use super::arguments::{count, digits, json_span, shown_span, spans};
 use super::{Entry, FromRelation, Proof, Test, Window};
-use crate::input::Input;
+use crate::input::{Input, Relation};
 use crate::meaning::{Count, Kind};
-use crate::relation::Relation;
 use crate::table::{Fault, Quoted, Table, quoted};
 use proofs::exact::{Exact, Print, Span, div, spelled, whole};
 use serde_json::json;

@@ -2,8 +2,7 @@
 
 use super::ratio::Formed;
 use super::{Entry, FromRelation, Test, none};
-use crate::input::Input;
-use crate::relation::Relation;
+use crate::input::{Input, Relation};
 use crate::table::Fault;
 use proofs::form::Form;
 

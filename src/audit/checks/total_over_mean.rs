@@ -1,9 +1,9 @@
 //! How many values a total over a mean says there were.
 
-use super::arguments::{digits, json_span, shown};
+use super::arguments::{digits, each_of_sample, json_span, shown};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::input::Input;
-use crate::relation::{Named as _, Relation};
+use crate::input::{Input, Relation};
+use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};
 use proofs::exact::{Exact, Print, Span, spelled, whole};
@@ -40,12 +40,12 @@ struct TotalOverMean {
 }
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    input.each_sample(&mut |sample| {
-        if let (Some(total), Some(mean)) = (sample.get(Statistic::Total), sample.get(Statistic::Mean)) {
-            let numbers = [total.clone(), mean.clone()];
-            give(Box::new(TotalOverMean { numbers, n: sample.n, unit: whole(1) }));
-        }
-    });
+    each_of_sample(input, of_sample, give);
+}
+
+fn of_sample(sample: &Sample) -> Option<TotalOverMean> {
+    let numbers = [sample.get(Statistic::Total)?.clone(), sample.get(Statistic::Mean)?.clone()];
+    Some(TotalOverMean { numbers, n: sample.n, unit: whole(1) })
 }
 
 fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {

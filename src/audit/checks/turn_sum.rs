@@ -1,13 +1,12 @@
 //! Whether an 8-connected path of the printed length can turn by the printed sum of angles.
 
-use super::arguments::digits;
+use super::arguments::{digits, each_of_cell};
 use super::keys::{FROM, LENGTH, TO, TURNS};
 use super::lattice::{between, moves};
 use super::{Entry, FromRelation, Proof, Test, Window};
-use crate::input::Input;
+use crate::input::{Input, Relation};
 use crate::meaning::{Kind, Lattice};
 use crate::octile_turns::octile_turn_sums;
-use crate::relation::Relation;
 use crate::table::{Fault, Quoted, Table, named_by, quoted};
 use proofs::exact::{Print, spelled, whole};
 use proofs::lattice::Octile;
@@ -40,15 +39,10 @@ struct TurnSum {
 const MOVES: u32 = 31;
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    for (index, table) in input.tables.iter().enumerate() {
-        for length in 0..table.columns.len() {
-            let rows = 0..table.rows.len();
-            rows.filter_map(|row| in_row(index, table, row, length)).for_each(|test| give(Box::new(test)));
-        }
-    }
+    each_of_cell(input, of_cell, give);
 }
 
-fn in_row(index: usize, table: &Table, row: usize, length: usize) -> Option<TurnSum> {
+fn of_cell(index: usize, table: &Table, row: usize, length: usize) -> Option<TurnSum> {
     let meaning = &table.columns[length].meaning;
     let turns = named_by(&table.columns, length, meaning.turns.as_deref()?)?;
     let displacement = super::lattice::displacement(meaning).filter(|_| meaning.kind == Kind::Value)?;

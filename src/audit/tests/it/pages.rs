@@ -4,7 +4,7 @@
 use replan_audit::checks::{Entry, REGISTRY};
 use replan_audit::output;
 use replan_audit::reader::{Format, read};
-use replan_audit::report::{Options, Report, audit};
+use replan_audit::report::{Class, Options, Report, audit};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -41,7 +41,7 @@ fn the_page_of_public_tables_says_what_the_audit_finds() {
     let mut page = PREAMBLE.to_owned();
     for name in ["vamp", "curobo", "rdt", "zhang", "fu2018", "planar"] {
         let (about, report) = audited(name);
-        page += &output::section(&format!("[{name}.toml](audit/{name}.toml)"), &about, &report);
+        page += &section(&format!("[{name}.toml](audit/{name}.toml)"), &about, &report);
     }
     let path = repository("docs/AUDIT_TABLES.md");
     if is_writing() {
@@ -91,4 +91,41 @@ fn the_page_on_checks_has_every_check_with_its_example_premises_mathematics_and_
         assert!(section.starts_with(&head), "docs/AUDIT.md should have\n### {head}");
         assert!(section.contains(&format!("\n- source: {source}\n")), "{name}: {source}");
     }
+}
+
+/// Checks of which what is possible is worth a line on the page of public tables.
+const POSSIBLE: [&str; 6] = ["clock", "grim", "lattice", "ratio_label", "reduction", "total_over_mean"];
+
+/// What is impossible or a signal, and what each check did, as a section of Markdown under `title`.
+fn section(title: &str, about: &str, report: &Report) -> String {
+    let mut text = format!("## {title}\n\n{}\n\n", about.trim());
+    let found = report.findings.iter().filter(|finding| finding.class < Class::Possible);
+    for finding in found {
+        text += &format!(
+            "- **{}** ({}): {}: {}",
+            finding.class.name(),
+            finding.check,
+            finding.name,
+            finding.said
+        );
+        if let Some(power) = finding.power {
+            text += &format!(". The check {power}");
+        }
+        if let Some(mend) = &finding.mend {
+            text += &format!("; the least change is {} from {} to {}", mend.name, mend.from, mend.to);
+        }
+        if !finding.follows.is_empty() {
+            text += &format!("; with it these are possible too: {}", finding.follows.join(", "));
+        }
+        text += &format!(". Premises: {}.\n", finding.premises.join("; "));
+    }
+    let possible = report.findings.iter().filter(|finding| finding.class == Class::Possible);
+    for finding in possible.filter(|finding| POSSIBLE.contains(&finding.check)) {
+        text += &format!("- possible ({}): {}: {}.\n", finding.check, finding.name, finding.said);
+    }
+    text += "\nIn all:\n\n";
+    for line in output::summary(report) {
+        text += &format!("- {line}\n");
+    }
+    text + "\n"
 }
