@@ -302,7 +302,7 @@ pub fn run() -> ExitCode {
         Command::Witness(command) => command.run(),
         Command::Conformance(command) => command.run(),
         Command::Crosscheck(command) => command.run(),
-        Command::Audit(command) => command.run(),
+        Command::Audit(_) => audit::run(),
         Command::List(command) => command.run(),
         Command::Schema(command) => command.run(),
     };
