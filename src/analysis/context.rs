@@ -2,9 +2,9 @@
 
 use super::metric::{self, Metric};
 use super::selection_spec::Labels;
-use audit::exact::Print;
-use audit::printed::{Digits, Printed};
 use base::settings::{Faults, Settings, SettingsError, did_you_mean, none_called};
+use proofs::exact::Print;
+use proofs::printed::{Digits, Printed};
 use std::collections::BTreeSet;
 use study::paper::{self, Claim, Paper};
 use study::{Interpretation, Study, columns_of, labels_of};
@@ -51,7 +51,7 @@ fn place_of(paper: &Paper, claim: &Claim) -> String {
 /// # Errors
 /// What it prints is no number that we take, told where it is printed.
 pub fn printed(paper: &Paper, claim: &Claim) -> Result<Option<Printed>, SettingsError> {
-    let refused = |e: audit::AuditError| {
+    let refused = |e: proofs::printed::NotANumber| {
         let place = format!("claim.{}.printed", place_of(paper, claim));
         let message = format!("claim `{}`: {e}", claim.id);
         paper.document.error_at(&place, message).about(&paper::printed_by(&claim.id))

@@ -4,6 +4,7 @@ use super::metric::{self, Metric};
 use super::polylines::Polylines;
 use base::hash::sha256;
 use engine::planner::Exhibit;
+use proofs::turns::{Polyline, TurnQuery};
 use rayon::prelude::*;
 use stats::summary;
 use std::collections::BTreeMap;
@@ -17,7 +18,6 @@ use study::paper::Paper;
 use study::record::{PreparedRow, Row, Status};
 use study::store::{KeptExhibits, Records, read_numbers};
 use study::{Interpretation, Study, StudyError};
-use turns::{Polyline, TurnQuery};
 
 /// A paper with the stored runs of its studies.
 pub struct Evidence<'a> {
@@ -106,7 +106,7 @@ impl<'a> Evidence<'a> {
         self
     }
 
-    /// [`shortest_polyline`](turns::shortest_polyline), searched once however many rules ask under however many
+    /// [`shortest_polyline`](proofs::turns::shortest_polyline), searched once however many rules ask under however many
     /// readings.
     ///
     /// # Panics

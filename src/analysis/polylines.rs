@@ -4,12 +4,12 @@
 //! found; losing it costs time alone.
 
 use base::hash::sha256;
+use proofs::turns::{Polyline, TurnQuery, shortest_polyline};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use study::store::write_whole;
-use turns::{Polyline, TurnQuery, shortest_polyline};
 
 /// Answers by what names them.
 type Answers = BTreeMap<String, Option<Polyline>>;
@@ -61,15 +61,15 @@ impl Polylines {
 /// What names the answer to `query`: its words, and those of the code that answers.
 fn named(query: &TurnQuery) -> String {
     static CODE: OnceLock<String> = OnceLock::new();
-    let code = CODE.get_or_init(|| sha256(turns::SOURCE.concat().as_bytes()));
+    let code = CODE.get_or_init(|| sha256(proofs::turns::SOURCE.concat().as_bytes()));
     sha256(format!("{code} {query:?}").as_bytes())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proofs::turns::Convention;
     use stats::interval::Interval;
-    use turns::Convention;
 
     #[test]
     fn what_is_kept_is_found_again_and_a_damaged_file_costs_time_alone() {

@@ -1,11 +1,10 @@
 //! What a relation asks: the check that it names, and the test that this check makes of it.
 
 use super::checks::{Entry, REGISTRY, Test, find};
-use super::input::Input;
+use super::input::{Input, Relation};
 use super::meaning::{rounding, roundings};
-use super::printed::Digits;
-use super::relation::Relation;
 use super::table::{Fault, Place};
+use proofs::printed::Digits;
 use std::collections::BTreeMap;
 use toml::Value;
 

@@ -4,8 +4,9 @@
 //! premises in words, and the steps. Integers and rationals are exact: rationals are texts such as `3/8`.
 //! `crosscheck/certificates` verifies them with nothing but Python's `fractions`.
 
+use super::checks::arguments::json_span;
 use super::checks::{Proof, Test};
-use super::exact::{Print, span};
+use proofs::exact::Print;
 use serde_json::{Value, json};
 
 /// The value of the field `format`.
@@ -19,7 +20,7 @@ pub fn of(check: &str, test: &dyn Test, prints: &[Print], proof: &Proof) -> Valu
             "printed": print.printed.to_string(),
             "significant": print.printed.significant(),
             "digits": print.digits.name(),
-            "span": span(&print.span()),
+            "span": json_span(&print.span()),
         })
     });
     json!({

@@ -1,13 +1,13 @@
 //! What an audit is made of: tables, samples, named cells, and relations between them.
 
-use super::exact::Print;
 use super::meaning::Meaning;
-use super::printed::{Digits, Printed};
-use super::relation::{Named, Relation};
 use super::sample::{self, Sample};
 use super::statistic::Statistic;
 use super::table::{Place, Quoted, Table, quoted};
+use proofs::exact::Print;
+use proofs::printed::{Digits, Printed};
 use std::collections::BTreeMap;
+use toml::Value;
 
 /// Everything that was read.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -20,6 +20,21 @@ pub struct Input {
     pub relations: Vec<Relation>,
     /// Cells by name.
     cells: BTreeMap<String, Quoted>,
+}
+
+/// A check asked of numbers by name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Relation {
+    /// The check's name.
+    pub check: String,
+    /// What it is called; may be empty.
+    pub name: String,
+    /// Where it stands.
+    pub place: Place,
+    /// How digits end.
+    pub digits: Digits,
+    /// Its other keys.
+    pub(super) keys: BTreeMap<String, Value>,
 }
 
 impl Input {
@@ -55,10 +70,9 @@ impl Input {
         let numbers = statistics.iter().map(quoted).collect();
         self.samples.push(sample::of_meaning(name, meaning, sample::number(meaning), numbers));
     }
-}
 
-impl Named for Input {
-    fn cells(&self, name: &str) -> Vec<Quoted> {
+    /// The cells of this name: one that was named, or `table/row/column`, of which a table may have several.
+    pub fn cells(&self, name: &str) -> Vec<Quoted> {
         if let Some(cell) = self.cells.get(name) {
             return vec![cell.clone()];
         }
@@ -77,7 +91,8 @@ impl Named for Input {
         found
     }
 
-    fn samples(&self, name: &str) -> Vec<Sample> {
+    /// The samples of this name: those in a column of a table of statistics are called `table/column`.
+    pub fn samples(&self, name: &str) -> Vec<Sample> {
         let mut found = Vec::new();
         self.each_sample(&mut |sample| {
             if sample.name == name || sample.path == name {
@@ -87,7 +102,8 @@ impl Named for Input {
         found
     }
 
-    fn each_sample(&self, give: &mut dyn FnMut(&Sample)) {
+    /// Gives every sample: those written down, and those in the rows and columns of tables.
+    pub fn each_sample(&self, give: &mut dyn FnMut(&Sample)) {
         self.samples.iter().for_each(&mut *give);
         for (index, table) in self.tables.iter().enumerate() {
             sample::each(index, table, give);

@@ -4,9 +4,9 @@
 
 pub mod contradiction;
 
-use super::exact::{self, Exact, whole};
-use super::printed::Digits;
 use super::statistic::Statistic;
+use proofs::exact::{self, Exact, whole};
+use proofs::printed::Digits;
 
 /// Every item of an annotation, with what it says.
 pub const ITEMS: &[(&str, &str)] = &[
@@ -56,7 +56,7 @@ pub enum Count {
 }
 
 /// What kind of number a column holds.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum Kind {
     /// Text, or not to be looked at.
     Skip,
@@ -70,6 +70,7 @@ pub enum Kind {
     /// A statistic of n values.
     Of(Statistic),
     /// A number of its own, or what rows' statistics are of.
+    #[default]
     Value,
     /// The number of samples.
     Samples,
@@ -85,18 +86,19 @@ pub enum Better {
 }
 
 /// How a standard deviation divides.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Divisor {
     /// By n − 1.
     Sample,
     /// By n.
     Population,
     /// Either.
+    #[default]
     Either,
 }
 
 /// What a column is.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Meaning {
     /// The kind of number.
     pub kind: Kind,
@@ -153,32 +155,15 @@ pub struct Lattice {
     pub diagonal: Option<Exact>,
 }
 
-impl Default for Meaning {
-    fn default() -> Self {
-        Self {
-            kind: Kind::Value,
-            n: None,
-            grain: None,
-            least: None,
-            most: None,
-            seeds: None,
-            spread: None,
-            divisor: Divisor::Either,
-            is_linear: false,
-            digits: Digits::Any,
-            significant: None,
-            of: None,
-            parts: None,
-            sum: Vec::new(),
-            ratio: None,
-            lattice: None,
-            ends: [None, None],
-            turns: None,
-            free: None,
-            rises: None,
-            better: None,
-            unit: None,
-        }
+impl Divisor {
+    /// What it may be for n values, above 0.
+    pub fn of(self, n: i128) -> Vec<i128> {
+        let all = match self {
+            Self::Sample => vec![n - 1],
+            Self::Population => vec![n],
+            Self::Either => vec![n - 1, n],
+        };
+        all.into_iter().filter(|divisor| *divisor > 0).collect()
     }
 }
 

@@ -62,7 +62,7 @@ fn unread_spread(table: &Table, at: usize) -> Option<String> {
     let cell = table.rows.iter().filter_map(|row| row.get(at)).find(|cell| cell.spread.is_some())?;
     let Column { name, meaning, .. } = &table.columns[at];
     let has_mean = matches!(meaning.kind, Kind::Share { .. } | Kind::Of(Statistic::Mean));
-    let what = if table.columns.iter().any(|column| column.meaning.kind == Kind::Statistics) {
+    let what = if table.statistics().is_some() {
         "rows are statistics, so that a deviation has a row of its own"
     } else if !has_mean {
         "say `mean, n=N` and `±sd` or `±se`, if it is a mean with its deviation or standard error"
@@ -230,41 +230,4 @@ pub fn list() -> String {
         text += &format!("  {item}\n      {says}\n");
     }
     text
-}
-
-/// Checks of which what is possible is worth a line on the page of public tables.
-const POSSIBLE: [&str; 6] = ["clock", "grim", "lattice", "ratio_label", "reduction", "total_over_mean"];
-
-/// What is impossible or a signal, and what each check did, as a section of Markdown under `title`.
-pub fn section(title: &str, about: &str, report: &Report) -> String {
-    let mut text = format!("## {title}\n\n{}\n\n", about.trim());
-    let found = report.findings.iter().filter(|finding| finding.class < Class::Possible);
-    for finding in found {
-        text += &format!(
-            "- **{}** ({}): {}: {}",
-            finding.class.name(),
-            finding.check,
-            finding.name,
-            finding.said
-        );
-        if let Some(power) = finding.power {
-            text += &format!(". The check {power}");
-        }
-        if let Some(mend) = &finding.mend {
-            text += &format!("; the least change is {} from {} to {}", mend.name, mend.from, mend.to);
-        }
-        if !finding.follows.is_empty() {
-            text += &format!("; with it these are possible too: {}", finding.follows.join(", "));
-        }
-        text += &format!(". Premises: {}.\n", finding.premises.join("; "));
-    }
-    let possible = report.findings.iter().filter(|finding| finding.class == Class::Possible);
-    for finding in possible.filter(|finding| POSSIBLE.contains(&finding.check)) {
-        text += &format!("- possible ({}): {}: {}.\n", finding.check, finding.name, finding.said);
-    }
-    text += "\nIn all:\n\n";
-    for line in summary(report) {
-        text += &format!("- {line}\n");
-    }
-    text + "\n"
 }

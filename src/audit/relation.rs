@@ -1,40 +1,12 @@
-//! A relation of a TOML file: a check asked of numbers by name.
+//! What the keys of a relation say, and the numbers that they name.
 
-use super::exact::{self, Exact, Print};
+use super::input::{Input, Relation};
 use super::meaning::{contradiction, natural};
-use super::printed::Digits;
 use super::reader::{Number, number, unit};
 use super::sample::Sample;
-use super::table::{Fault, Place, Quoted};
-use std::collections::BTreeMap;
+use super::table::{Fault, Quoted};
+use proofs::exact::{self, Exact, Print};
 use toml::Value;
-
-/// What relations name.
-pub trait Named {
-    /// The cells of this name: one that was named, or `table/row/column`, of which a table may have several.
-    fn cells(&self, name: &str) -> Vec<Quoted>;
-
-    /// The samples of this name: those in a column of a table of statistics are called `table/column`.
-    fn samples(&self, name: &str) -> Vec<Sample>;
-
-    /// Gives every sample: those written down, and those in the rows and columns of tables.
-    fn each_sample(&self, give: &mut dyn FnMut(&Sample));
-}
-
-/// A check asked of numbers by name.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Relation {
-    /// The check's name.
-    pub check: String,
-    /// What it is called; may be empty.
-    pub name: String,
-    /// Where it stands.
-    pub place: Place,
-    /// How digits end.
-    pub digits: Digits,
-    /// Its other keys.
-    pub(super) keys: BTreeMap<String, Value>,
-}
 
 impl Relation {
     /// A fault at its place.
@@ -130,52 +102,44 @@ impl Relation {
     ///
     /// # Errors
     /// If it is missing, names no cell, or is no number.
-    pub fn number(&self, key: &str, named: &dyn Named) -> Result<Quoted, Fault> {
+    pub fn number(&self, key: &str, input: &Input) -> Result<Quoted, Fault> {
         let text = self.text(key)?.ok_or_else(|| {
             self.fault(format!(
                 "`{key}` is missing; a printed number or the name of a cell in quotes is accepted"
             ))
         })?;
-        self.resolve(key, text, named)
+        self.resolve(key, text, input)
     }
 
     /// Printed numbers, each by name or as it stands.
     ///
     /// # Errors
     /// If the list is missing, or one of them names no cell or is no number.
-    pub fn numbers(&self, key: &str, named: &dyn Named) -> Result<Vec<Quoted>, Fault> {
+    pub fn numbers(&self, key: &str, input: &Input) -> Result<Vec<Quoted>, Fault> {
         let list = self.keys.get(key).and_then(Value::as_array).filter(|list| !list.is_empty());
         let accepted = "a list of printed numbers or names of cells in quotes is accepted";
         let list = list.ok_or_else(|| self.fault(format!("`{key}` is missing or no list; {accepted}")))?;
         let one = |value: &Value| {
             let text =
                 value.as_str().ok_or_else(|| self.fault(format!("`{key}` holds {value}; {accepted}")))?;
-            self.resolve(key, text, named)
+            self.resolve(key, text, input)
         };
         list.iter().map(one).collect()
-    }
-
-    /// Printed numbers, if the key is there.
-    ///
-    /// # Errors
-    /// As [`numbers`](Self::numbers).
-    pub fn numbers_if(&self, key: &str, named: &dyn Named) -> Result<Vec<Quoted>, Fault> {
-        if self.has(key) { self.numbers(key, named) } else { Ok(Vec::new()) }
     }
 
     /// A sample, by name.
     ///
     /// # Errors
     /// If the key is missing or names none.
-    pub fn sample(&self, key: &str, named: &dyn Named) -> Result<Sample, Fault> {
+    pub fn sample(&self, key: &str, input: &Input) -> Result<Sample, Fault> {
         let name = self.text(key)?.unwrap_or_default();
-        let mut found = named.samples(name);
+        let mut found = input.samples(name);
         match (found.pop(), found.len()) {
             (Some(sample), 0) => Ok(sample),
             (Some(_), others) => Err(self.ambiguous(key, name, others + 1, "samples")),
             (None, _) => {
                 let mut known = Vec::new();
-                named.each_sample(&mut |sample| known.push(sample.path.clone()));
+                input.each_sample(&mut |sample| known.push(sample.path.clone()));
                 known.truncate(20);
                 let known = known.join(", ");
                 Err(self.fault(format!("`{key}` is `{name}`, which names no sample; there are: {known}")))
@@ -193,8 +157,8 @@ impl Relation {
     ///
     /// # Errors
     /// If it names no cell and is no number, or names several cells.
-    pub fn resolve(&self, key: &str, text: &str, named: &dyn Named) -> Result<Quoted, Fault> {
-        let mut cells = named.cells(text);
+    pub fn resolve(&self, key: &str, text: &str, input: &Input) -> Result<Quoted, Fault> {
+        let mut cells = input.cells(text);
         match (cells.pop(), cells.len()) {
             (Some(quoted), 0) => return Ok(quoted),
             (Some(_), others) => return Err(self.ambiguous(key, text, others + 1, "cells")),

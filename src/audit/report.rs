@@ -12,13 +12,13 @@ pub use unseen::Unseen;
 
 use super::asked;
 use super::checks::{Entry, Proof, REGISTRY, Test};
-use super::exact::Print;
 use super::input::Input;
-use super::printed::Digits;
 use super::table::{Fault, Place};
 use super::witness::{Budget, Witness};
 use doubt::doubts;
 use mend::Refusal;
+use proofs::exact::Print;
+use proofs::printed::Digits;
 use std::collections::BTreeMap;
 use strength::power;
 use unseen::Seen;
@@ -323,18 +323,3 @@ fn as_typed(test: &dyn Test, prints: &[Print]) -> &'static str {
 fn listed(names: &[&str]) -> String {
     if names.is_empty() { "a mixture of ways".to_owned() } else { names.join(", ") }
 }
-
-#[cfg(test)]
-mod boundaries;
-#[cfg(test)]
-mod false_alarms;
-#[cfg(test)]
-mod pages;
-#[cfg(test)]
-mod power;
-#[cfg(test)]
-mod said;
-#[cfg(test)]
-mod simulation;
-#[cfg(test)]
-mod tests;

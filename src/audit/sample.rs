@@ -3,10 +3,10 @@
 //! A share k of n is the mean of n values that are 0 or the whole; a mean over seeds is one of S values that are shares of
 //! T trials each. So everything that is asked of means, deviations and quantiles is asked of samples alone.
 
-use super::exact::{Exact, Print, div, whole};
 use super::meaning::{Count, Divisor, Kind, Meaning};
 use super::statistic::Statistic;
 use super::table::{Column, Quoted, Table, named_by, quoted};
+use proofs::exact::{Exact, Print, div, whole};
 
 /// Values behind printed statistics.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 //! Statistics of a sample, and the words that name them.
 
-use super::exact::{self, whole};
+use proofs::exact::{self, whole};
 
 /// A statistic of a sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,8 +1,8 @@
 //! Tables as they are printed: cells as strings with their places, and what each column is said to be.
 
-use super::exact::Print;
 use super::meaning::{Kind, Meaning};
-use super::printed::Printed;
+use proofs::exact::Print;
+use proofs::printed::Printed;
 use std::fmt;
 
 /// Where something stands in a text: the line, from 1, and the cell in it, from 1; cell 0 is the line itself.

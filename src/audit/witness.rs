@@ -1,5 +1,6 @@
 //! Data behind what is printed: outcome vectors that give a cell.
 
+use proofs::reach::extremes;
 use std::collections::BTreeMap;
 
 /// How far a search for data may go.
@@ -120,48 +121,6 @@ impl Moments {
     }
 }
 
-/// The least and the greatest sum of squares of `n` whole numbers with this sum, between two ends where they are given.
-/// The least is above the greatest if there are no such numbers. None if 128 bits do not suffice.
-pub fn extremes(n: u64, sum: i128, [least, most]: [Option<i128>; 2]) -> Option<(i128, Option<i128>)> {
-    let n = i128::from(n);
-    let (base, rest) = divided(sum, n);
-    if least.is_some_and(|least| base < least) || most.is_some_and(|most| base + i128::from(rest > 0) > most)
-    {
-        return Some((1, Some(0)));
-    }
-    let square = |x: i128| x.checked_mul(x);
-    let even =
-        square(base)?.checked_mul(n - rest)?.checked_add(square(base.checked_add(1)?)?.checked_mul(rest)?)?;
-    // One end alone implies the other: all values but one stand at it.
-    let rest_at = |end: i128| sum.checked_sub(end.checked_mul(n - 1)?);
-    let [least, most] = match (least, most) {
-        (None, None) => return Some((even, None)),
-        (Some(least), None) => [least, rest_at(least)?],
-        (None, Some(most)) => [rest_at(most)?, most],
-        (Some(least), Some(most)) => [least, most],
-    };
-    if least == most {
-        return Some((even, Some(even)));
-    }
-    // As many at the ends as the sum allows, and one between them.
-    let above = sum.checked_sub(n.checked_mul(least)?)?;
-    let (high, between) = divided(above, most - least);
-    let mut spread = square(most)?.checked_mul(high)?;
-    if high < n {
-        let middle = square(least + between)?;
-        spread = spread.checked_add(middle)?.checked_add(square(least)?.checked_mul(n - high - 1)?)?;
-    }
-    Some((even, Some(spread)))
-}
-
-/// Quotient and rest of a division, the rest not negative. 64 bits mostly suffice, and a processor divides these by itself.
-fn divided(a: i128, by: i128) -> (i128, i128) {
-    match (i64::try_from(a), i64::try_from(by)) {
-        (Ok(a), Ok(by)) if by > 0 => (i128::from(a.div_euclid(by)), i128::from(a.rem_euclid(by))),
-        _ => (a.div_euclid(by), a.rem_euclid(by)),
-    }
-}
-
 /// Values with how often each occurs: `0 ×7, 1 ×3`.
 pub fn counted(values: &[i128], spelled: impl Fn(i128) -> String) -> String {
     let mut counts: BTreeMap<i128, usize> = BTreeMap::new();
@@ -179,56 +138,4 @@ fn next(state: &mut u64) -> u64 {
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     z ^ (z >> 31)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_search_finds_every_multiset_once() {
-        // The oracle writes out all vectors of four values from 0 to 5.
-        let mut all: BTreeMap<(i128, i128), std::collections::BTreeSet<Vec<i128>>> = BTreeMap::new();
-        for code in 0..6_i128.pow(4) {
-            let mut vector: Vec<i128> = (0..4).map(|place| code / 6_i128.pow(place) % 6).collect();
-            vector.sort_unstable_by(|a, b| b.cmp(a));
-            let moments = (vector.iter().sum(), vector.iter().map(|x| x * x).sum());
-            all.entry(moments).or_default().insert(vector);
-        }
-        for sum in 0..=20 {
-            for squares in 0..=100 {
-                for seed in [None, Some(7)] {
-                    let mut budget = Budget { steps: 10_000, most: 100, seed };
-                    let mut found = Vec::new();
-                    let moments = Moments { n: 4, least: 0, most: 5, sum, squares };
-                    let is_all = moments.search(&mut budget, &mut |vector| {
-                        found.push(vector.to_vec());
-                        true
-                    });
-                    found.sort();
-                    let oracle: Vec<_> = all.get(&(sum, squares)).into_iter().flatten().cloned().collect();
-                    assert_eq!((is_all, found), (true, oracle), "{sum} {squares}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn extremes_are_met_and_not_passed() {
-        for n in 1..=4_u32 {
-            for sum in -8..=12_i128 {
-                let vectors = (0..6_i128.pow(n))
-                    .map(|code| (0..n).map(|at| code / 6_i128.pow(at) % 6 - 2).collect::<Vec<_>>());
-                let squares: Vec<i128> = vectors
-                    .filter(|v| v.iter().sum::<i128>() == sum)
-                    .map(|v| v.iter().map(|x| x * x).sum())
-                    .collect();
-                let (least, most) = extremes(u64::from(n), sum, [Some(-2), Some(3)]).unwrap();
-                match (squares.iter().min(), squares.iter().max()) {
-                    (Some(&low), Some(&high)) => assert_eq!((least, most), (low, Some(high)), "{n} {sum}"),
-                    _ => assert!(least > most.unwrap(), "{n} {sum}"),
-                }
-            }
-        }
-    }
 }

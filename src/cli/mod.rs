@@ -2,7 +2,7 @@
 //!
 //! Exit codes: 0 done; 1 the system refused (disk, permissions, a busy folder); 2 wrong words on the command line or
 //! wrong input files; 3 a check said no: something is not as stored, is worse than a gate allows, is judged otherwise, is impossible, or an independent judge
-//! disagrees; 4 a tool is missing: Python or the network for `crosscheck`, a planner from outside; 130 interrupted, and what was done is kept.
+//! disagrees; 4 a tool is missing: Python or the network for `crosscheck`, `replan-audit`, a planner from outside; 130 interrupted, and what was done is kept.
 //!
 //! A stored file that is edited, damaged, gone, or of a spec that has changed is the answer that a check gives: code 3 under
 //! `--check` and `--rerun`. A command that needs it as its input ends with code 2, and so does a check where nothing was ever
@@ -29,7 +29,6 @@ macro_rules! say {
 }
 
 mod audit;
-mod audit_file;
 pub mod catalogue;
 mod check;
 mod compare;
@@ -307,7 +306,7 @@ pub fn run() -> ExitCode {
         Command::Witness(command) => command.run(),
         Command::Conformance(command) => command.run(),
         Command::Crosscheck(command) => command.run(),
-        Command::Audit(command) => command.run(),
+        Command::Audit(_) => audit::run(),
         Command::List(command) => command.run(),
         Command::Schema(command) => command.run(),
     };

@@ -8,7 +8,7 @@ use crate::analysis::verdict::Verdicts;
 use crate::render::output::{self, Outputs};
 use crate::render::report::{self, Chapter};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 use study::Interpretation;
 use study::lock::Lock;
@@ -63,22 +63,6 @@ pub fn write(paper: &Paper, places: &Places, stop: &AtomicBool) -> Result<Output
     let drawn = draw(paper, places, None, stop)?;
     put(paper, places, &drawn, stop)?;
     Ok(drawn.outputs)
-}
-
-/// The macros that the stored run and verdicts of `paper` give now; none if there is no such paper here.
-///
-/// # Errors
-/// If the paper or its stored run cannot be read.
-pub fn macros(paper: &str) -> Result<Option<String>, Failure> {
-    if !Path::new("experiments").join(paper).is_dir() {
-        return Ok(None);
-    }
-    let places = Places::find(&Which { paper: paper.to_owned(), out: None }, "")?;
-    let how = How { quick: false, seed: None, with: None, threads: None };
-    let paper = super::load::load(&places, &how)?;
-    let drawn = draw(&paper, &places, Some("numbers"), stop_flag())?;
-    let made = drawn.outputs.files.first().map(|file| String::from_utf8_lossy(&file.bytes).into_owned());
-    Ok(made)
 }
 
 /// Refuses `outputs` of which figures are missing, each with its reason.

@@ -4,12 +4,12 @@ use super::progress::{Bar, safe_point, stop_flag};
 use super::{Failure, How, Which, load::load, places::Places};
 use crate::analysis::metric;
 use crate::analysis::witness::{Hunt, OnMap, Under, Wanted, Witness as Found};
-use audit::exact::Print;
-use audit::printed::Digits;
 use base::grid::to_text_map;
 use base::hash::sha256;
 use base::settings::{Document, none_called};
 use clap::Args;
+use proofs::exact::Print;
+use proofs::printed::Digits;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use study::paper::Paper;
@@ -183,8 +183,9 @@ fn besides(text: &str, study: &study::Study) -> Result<Wanted, Failure> {
     let found = known.iter().find(|own| own.name == metric).ok_or_else(|| {
         Failure::input(format!("--also: {}", none_called("metric", metric, known.iter().map(|own| own.name))))
     })?;
-    let printed =
-        number.parse().map_err(|error: audit::AuditError| Failure::input(format!("--also: {error}")))?;
+    let printed = number
+        .parse()
+        .map_err(|error: proofs::printed::NotANumber| Failure::input(format!("--also: {error}")))?;
     Ok(Wanted {
         name: text.to_owned(),
         contender: contender.to_owned(),

@@ -1,8 +1,8 @@
 //! Laws that hold for every input, tried on inputs from a written seed.
 
-use audit::printed::{Digits, Printed};
 use base::seed;
 use base::settings::Settings;
+use proofs::printed::{Digits, Printed};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use study::slug;

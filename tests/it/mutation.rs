@@ -5,7 +5,6 @@
 //! well or with an error that names a file and a place in it. What is accepted must run, too: that is tried on small papers
 //! ([`running`]). `REPLAN_MUTATIONS` sets how many cases there are.
 
-mod audited;
 mod damage;
 mod running;
 mod stored;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Folders of `src` that are packages of their own; what is in none of them belongs to the package `replan`.
-pub const PACKAGES: [&str; 8] = ["audit", "base", "engine", "external", "stats", "study", "turns", "verify"];
+pub const PACKAGES: [&str; 8] = ["audit", "base", "engine", "external", "proofs", "stats", "study", "verify"];
 
 /// One file below `src`.
 pub struct File {

@@ -2,9 +2,9 @@
 //! machine stays untestable; this says what can be said of its digits.
 
 use super::{Entry, refused, rule};
-use audit::clock::Tick;
-use audit::proof;
 use base::settings::Accepted;
+use proofs::clock::Tick;
+use proofs::proof;
 use schemars::JsonSchema;
 use serde::Deserialize;
 

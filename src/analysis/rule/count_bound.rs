@@ -1,10 +1,10 @@
 //! Whether a printed number of nodes is at most what A* can open or close on any map.
 
 use super::{Entry, refused, rule};
-use audit::fvalues::CountBound;
-use audit::lattice::Octile;
-use audit::proof::{self, Ends};
 use base::settings::Accepted;
+use proofs::fvalues::CountBound;
+use proofs::lattice::Octile;
+use proofs::proof::{self, Ends};
 use schemars::JsonSchema;
 use serde::Deserialize;
 

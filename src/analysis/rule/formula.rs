@@ -1,11 +1,11 @@
 //! Whether a formula of the paper, evaluated as it is printed, gives what the text says of it.
 //!
-//! What is one paper's mathematics is no rule of its own: it stands under a name in [`audit::formula::REGISTRY`].
+//! What is one paper's mathematics is no rule of its own: it stands under a name in [`proofs::formula::REGISTRY`].
 
 use super::{Entry, decided, rule};
 use crate::analysis::found::Found;
-use audit::formula;
 use base::settings::Accepted;
+use proofs::formula;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;

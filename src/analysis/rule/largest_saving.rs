@@ -1,8 +1,8 @@
 //! Whether a printed saving on a printed path length is possible for any path between the two cells.
 
 use super::{Entry, refused, rule};
-use audit::proof::{self, Ends};
 use base::settings::Accepted;
+use proofs::proof::{self, Ends};
 use schemars::JsonSchema;
 use serde::Deserialize;
 

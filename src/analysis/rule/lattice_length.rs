@@ -1,8 +1,8 @@
 //! Whether a printed length is that of any 8-connected path between the two cells.
 
 use super::{Entry, refused, rule};
-use audit::proof;
 use base::settings::Accepted;
+use proofs::proof;
 use schemars::JsonSchema;
 use serde::Deserialize;
 

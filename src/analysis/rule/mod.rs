@@ -1,7 +1,7 @@
 //! Rules: arithmetic and geometry of printed numbers alone; one a file, all in [`REGISTRY`].
 //!
 //! A rule proves that a claim cannot be, or says that it can; it looks at no trial. The proof and its words are the package
-//! [`audit::proof`]'s: a rule looks up what the claim names and asks for it.
+//! [`proofs::proof`]'s: a rule looks up what the claim names and asks for it.
 
 mod clock_ticks;
 mod count_bound;
@@ -19,8 +19,8 @@ use super::context::Context;
 use super::criterion::{Criterion, Entry};
 use super::evidence::Evidence;
 use super::found::Found;
-use audit::proof::Proof;
 use base::settings::SettingsError;
+use proofs::proof::Proof;
 
 /// A rule: a criterion that selects no trial. The evidence only remembers what other claims have asked.
 struct Rule<F>(F);

@@ -1,8 +1,8 @@
 //! Whether a printed percentage is what the printed cells give.
 
 use super::{Entry, refused, rule};
-use audit::proof;
 use base::settings::Accepted;
+use proofs::proof;
 use schemars::JsonSchema;
 use serde::Deserialize;
 

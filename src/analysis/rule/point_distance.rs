@@ -3,8 +3,8 @@
 use super::{Entry, decided, rule};
 use crate::analysis::found::Found;
 use crate::analysis::verdict::Estimate;
-use audit::proof;
 use base::settings::Accepted;
+use proofs::proof;
 use schemars::JsonSchema;
 use serde::Deserialize;
 

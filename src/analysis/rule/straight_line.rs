@@ -1,10 +1,10 @@
 //! Whether a printed length is at least the straight line between its ends.
 
 use super::{Entry, refused, rule};
-use audit::bounds::apart;
-use audit::exact::parse;
-use audit::proof;
 use base::settings::Accepted;
+use proofs::bounds::apart;
+use proofs::exact::parse;
+use proofs::proof;
 use schemars::JsonSchema;
 use serde::Deserialize;
 

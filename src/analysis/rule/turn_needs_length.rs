@@ -1,11 +1,11 @@
 //! How long a path must be to have a printed turn sum, and whether that leaves room under another printed length.
 
 use super::{Entry, check_search, refused, rule};
-use audit::proof::{self, Ends, Search};
 use base::settings::Accepted;
+use proofs::proof::{self, Ends, Search};
+use proofs::turns::Convention;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use turns::Convention;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -4,15 +4,14 @@ use super::arguments::{digits, up_to_twice};
 use super::keys::{FROM, LENGTH, TO, TURNS};
 use super::lattice::between;
 use super::{Entry, FromRelation, Test, Window, none};
-use crate::exact::{Exact, Print, floor, whole};
-use crate::input::Input;
-use crate::relation::Relation;
+use crate::input::{Input, Relation};
 use crate::table::{Fault, Quoted};
-use crate::{Cell, distance};
+use proofs::exact::{Exact, Print, floor, whole};
+use proofs::turns::{Cell, distance};
+use proofs::turns::{Convention, Polyline, TurnQuery, shortest_polyline};
 use stats::interval::Interval;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use turns::{Convention, Polyline, TurnQuery, shortest_polyline};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -20,7 +19,7 @@ pub static ENTRY: Entry = Entry {
     about: "has any polyline through cell centres the printed length and the printed sum of turns?",
     example: "turn sum 229.17 with length 13.70 from 22:15 to 26:28",
     premises: "bends are cell centres; the sum is of changes of direction, or of the angles between segments; a signal, since the search is by floats",
-    source: "best-first search from both ends (crate::turns); the same as the papers' claims",
+    source: "best-first search from both ends (proofs::turns); the same as the papers' claims",
     tests: none,
     relation: Some(FromRelation {
         keys: &[

@@ -1,11 +1,11 @@
 //! What several checks say or do alike.
 
-use super::Window;
-use crate::exact::{Exact, Print, Span, decimal, mul, root_above, spelled, sub, whole};
+use super::{Test, Window};
 use crate::input::Input;
-use crate::meaning::Kind;
-use crate::printed::Digits;
+use crate::sample::Sample;
 use crate::table::{Column, Quoted, Table, quoted};
+use proofs::exact::{Exact, Print, Span, decimal, mul, root_above, spelled, sub, whole};
+use proofs::printed::Digits;
 use serde_json::{Value, json};
 
 /// How the digits are read, as a premise: of each number, where they are not read alike.
@@ -48,15 +48,41 @@ pub fn each_number(
     give: &mut dyn FnMut(&Table, &Column, usize, Quoted),
 ) {
     // Where rows are statistics, a cell is none of the values.
-    let has_values =
-        |table: &Table| table.columns.iter().all(|column| column.meaning.kind != Kind::Statistics);
-    for (index, table) in input.tables.iter().enumerate().filter(|(_, table)| has_values(table)) {
+    let of_values = input.tables.iter().enumerate().filter(|(_, table)| table.statistics().is_none());
+    for (index, table) in of_values {
         for (at, column) in table.columns.iter().enumerate().filter(|(_, column)| is_meant(column)) {
             for row in 0..table.rows.len() {
                 if let Some(number) = quoted(index, table, row, at) {
                     give(table, column, row, number);
                 }
             }
+        }
+    }
+}
+
+/// Gives the tests that `of_sample` makes of samples.
+pub fn each_of_sample<T: Test + 'static>(
+    input: &Input,
+    of_sample: impl Fn(&Sample) -> Option<T>,
+    give: &mut dyn FnMut(Box<dyn Test>),
+) {
+    input.each_sample(&mut |sample| {
+        if let Some(test) = of_sample(sample) {
+            give(Box::new(test));
+        }
+    });
+}
+
+/// Gives the tests that `of_cell` makes of cells, by number of the table, row and column.
+pub fn each_of_cell<T: Test + 'static>(
+    input: &Input,
+    of_cell: impl Fn(usize, &Table, usize, usize) -> Option<T>,
+    give: &mut dyn FnMut(Box<dyn Test>),
+) {
+    for (index, table) in input.tables.iter().enumerate() {
+        for column in 0..table.columns.len() {
+            let tests = (0..table.rows.len()).filter_map(|row| of_cell(index, table, row, column));
+            tests.for_each(|test| give(Box::new(test)));
         }
     }
 }
@@ -112,4 +138,14 @@ pub fn spreads(print: Print, ends: [Exact; 2], factor: Exact) -> Option<Window> 
     let half = sub(ends[1], ends[0])? / whole(2);
     let ends = [whole(0), root_above(mul(mul(half, half)?, factor)?, print.printed.scale())?];
     Some(Window { ends, why: "up to the greatest that values between the ends have" })
+}
+
+/// A span as `["[", "1/2", "3/4", ")"]`: a bracket for an end that is a member, a parenthesis for one that is not.
+pub fn json_span(span: &Span) -> Value {
+    json!([
+        if span.low_closed { "[" } else { "(" },
+        spelled(span.low),
+        spelled(span.high),
+        if span.high_closed { "]" } else { ")" },
+    ])
 }

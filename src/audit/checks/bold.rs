@@ -1,10 +1,10 @@
 //! Whether what is printed bold is the best of its column.
 
 use super::{Entry, Test};
-use crate::exact::Print;
 use crate::input::Input;
-use crate::meaning::{Better, Kind};
+use crate::meaning::Better;
 use crate::table::{Quoted, Table, quoted};
+use proofs::exact::Print;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -25,8 +25,7 @@ struct Bold {
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
     for (index, table) in input.tables.iter().enumerate() {
-        let has_statistics = table.columns.iter().any(|column| column.meaning.kind == Kind::Statistics);
-        for at in (0..table.columns.len()).filter(|_| !has_statistics) {
+        for at in (0..table.columns.len()).filter(|_| table.statistics().is_none()) {
             in_column(index, table, at, give);
         }
     }

@@ -2,12 +2,11 @@
 
 use super::arguments::{digits, each_number, gap, multiple};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::clock::ticks;
-use crate::exact::{Exact, Print, spelled, whole};
-use crate::input::Input;
+use crate::input::{Input, Relation};
 use crate::meaning::Kind;
-use crate::relation::Relation;
 use crate::table::{Fault, Quoted};
+use proofs::clock::ticks;
+use proofs::exact::{Exact, Print, spelled, whole};
 use serde_json::json;
 
 /// The registry's entry.
@@ -16,7 +15,7 @@ pub static ENTRY: Entry = Entry {
     about: "is a single time a whole number of the clock's ticks?",
     example: "time [tick=1/64] = 0.020",
     premises: "each number is one reading of a clock with that tick, not a mean",
-    source: "multiples of a rational (crate::clock)",
+    source: "multiples of a rational (proofs::clock)",
     tests,
     relation: Some(FromRelation {
         keys: &[

@@ -1,14 +1,13 @@
 //! Whether mean and deviation of values that are 0 or the whole fit each other: one is a function of the other.
 
-use super::arguments::{count, digits, shown, spreads};
+use super::arguments::{count, digits, each_of_sample, shown, spreads};
 use super::{Entry, Proof, Test, Window};
-use crate::exact::{Exact, Print, div, mul, spelled, whole};
 use crate::input::Input;
 use crate::meaning::Divisor;
-use crate::relation::Named as _;
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::Quoted;
+use proofs::exact::{Exact, Print, div, float, mul, spelled, whole};
 use serde_json::json;
 
 /// The registry's entry.
@@ -34,18 +33,13 @@ struct Debit {
 const COUNTS: i128 = 20_000;
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    input.each_sample(&mut |sample| {
-        if sample.is_binary()
-            && !sample.is_count
-            && sample.trials.is_none()
-            && let Some(test) = of_sample(sample)
-        {
-            give(Box::new(test));
-        }
-    });
+    each_of_sample(input, of_sample, give);
 }
 
 fn of_sample(sample: &Sample) -> Option<Debit> {
+    if !sample.is_binary() || sample.is_count || sample.trials.is_some() {
+        return None;
+    }
     let numbers = [sample.get(Statistic::Sd)?.clone(), sample.get(Statistic::Mean)?.clone()];
     let n = sample.n.filter(|n| *n > 1)?;
     Some(Debit { numbers, n, all: sample.most?, divisor: sample.divisor })
@@ -65,12 +59,7 @@ impl Debit {
     fn variances_of(&self, k: i128) -> Option<Vec<Exact>> {
         let n = i128::from(self.n);
         let about = mul(mul(self.all, self.all)?, Exact::new(k.checked_mul(n - k)?, n))?;
-        let divisors = match self.divisor {
-            Divisor::Sample => vec![n - 1],
-            Divisor::Population => vec![n],
-            Divisor::Either => vec![n - 1, n],
-        };
-        divisors.into_iter().map(|divisor| div(about, whole(divisor))).collect()
+        self.divisor.of(n).into_iter().map(|divisor| div(about, whole(divisor))).collect()
     }
 }
 
@@ -91,11 +80,10 @@ impl Test for Debit {
 
     fn said(&self, prints: &[Print], is_possible: bool) -> String {
         let [sd, mean] = [prints[0].printed, prints[1].printed];
-        let root = |value: Exact| (*value.numer() as f64 / *value.denom() as f64).sqrt();
         let listed = self.variances(prints[1]).unwrap_or_default();
         let shown_ones = listed.iter().take(3).map(|(k, variances)| {
             let roots: Vec<String> =
-                variances.iter().map(|variance| format!("{:.4}", root(*variance))).collect();
+                variances.iter().map(|variance| format!("{:.4}", float(*variance).sqrt())).collect();
             format!("{k} of {} gives {}", self.n, roots.join(" or "))
         });
         let shown_ones: Vec<String> = shown_ones.collect();
@@ -123,11 +111,7 @@ impl Test for Debit {
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
-        let divisors = match self.divisor {
-            Divisor::Sample => vec![self.n - 1],
-            Divisor::Population => vec![self.n],
-            Divisor::Either => vec![self.n - 1, self.n],
-        };
+        let divisors = self.divisor.of(self.n.into());
         let divisors: Vec<String> = divisors.iter().map(ToString::to_string).collect();
         let given = json!({ "n": self.n.to_string(), "whole": spelled(self.all), "divisors": divisors });
         let step = |(k, variances): &(i128, Vec<Exact>)| {

@@ -2,12 +2,11 @@
 
 use super::arguments::{count, digits, each_number, up_to_twice};
 use super::{Entry, FromRelation, Proof, Test, Window};
-use crate::exact::{Print, mul, spelled, sub, whole};
-use crate::input::Input;
+use crate::input::{Input, Relation};
 use crate::meaning::Kind;
-use crate::relation::Relation;
 use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};
+use proofs::exact::{Print, mul, spelled, sub, whole};
 use serde_json::json;
 
 /// The registry's entry.
@@ -16,7 +15,7 @@ pub static ENTRY: Entry = Entry {
     about: "are there no more expansions than free cells?",
     example: "expanded [free=900] = 1024",
     premises: "a cell is expanded once at most, as with a consistent heuristic; the count is of distinct cells",
-    source: "Hart, Nilsson & Raphael (1968), lemma 2; with known ends and length see crate::fvalues",
+    source: "Hart, Nilsson & Raphael (1968), lemma 2; with known ends and length see proofs::fvalues",
     tests,
     relation: Some(FromRelation {
         keys: &[

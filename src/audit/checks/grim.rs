@@ -1,16 +1,15 @@
 //! Whether a mean of whole numbers, or a share of trials, can be what is printed, given how many there were.
 
-use super::arguments::{count, digits, gap, multiple, shown};
+use super::arguments::{count, digits, each_of_sample, gap, multiple, shown};
 use super::keys::{GRAIN, LEAST, MOST, N};
 use super::{Entry, FromRelation, Proof, Test, Window};
-use crate::exact::{Exact, Print, Span, div, mul, spelled, whole};
-use crate::input::Input;
-use crate::printed::Digits;
-use crate::relation::{Named as _, Relation};
+use crate::input::{Input, Relation};
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};
 use crate::witness::{Budget, Witness};
+use proofs::exact::{Exact, Print, Span, div, float, mul, spelled, whole};
+use proofs::printed::Digits;
 use serde_json::json;
 
 /// The registry's entry.
@@ -55,11 +54,7 @@ struct Grim {
 }
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    input.each_sample(&mut |sample| {
-        if let Some(test) = of_sample(sample) {
-            give(Box::new(test));
-        }
-    });
+    each_of_sample(input, of_sample, give);
 }
 
 fn of_sample(sample: &Sample) -> Option<Grim> {
@@ -106,7 +101,6 @@ impl Grim {
 
 /// What programs make of a mean of `count` grains in floats, by the order in which they multiply and divide.
 fn floats(count: Exact, grim: &Grim) -> [f64; 2] {
-    let float = |value: Exact| *value.numer() as f64 / *value.denom() as f64;
     let (count, n, grain) = (float(count), grim.n as f64, float(grim.grain));
     [count / n * grain, count * grain / n]
 }

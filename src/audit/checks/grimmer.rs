@@ -1,18 +1,16 @@
 //! Whether n values of a grain can have the printed mean and the printed deviation at once.
 
-use super::arguments::{count, digits, shown, spreads, up_to_twice};
+use super::arguments::{count, digits, each_of_sample, json_span, shown, spreads, up_to_twice};
 use super::keys::{DIVISOR, GRAIN, LEAST, MEAN, MOST, N, SD, SE};
 use super::{Entry, FromRelation, Proof, Test, Window};
-use crate::exact;
-use crate::exact::{Exact, Print, Span, ceil, div, floor, mul, spelled, whole};
-use crate::input::Input;
+use crate::input::{Input, Relation};
 use crate::meaning::Divisor;
-use crate::reach::{Asked, is_met};
-use crate::relation::{Named as _, Relation};
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};
-use crate::witness::{Budget, Moments, Witness, counted, extremes};
+use crate::witness::{Budget, Moments, Witness, counted};
+use proofs::exact::{Exact, Print, Span, ceil, div, float, floor, mul, spelled, whole};
+use proofs::reach::{Asked, extremes, is_met};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
@@ -22,7 +20,7 @@ pub static ENTRY: Entry = Entry {
     about: "can n values of a grain have the printed mean and the printed deviation at once?",
     example: "time [mean, integers, n=10] = 3.5 with time [sd] = 0.01",
     premises: "mean and deviation, and the least and greatest value if they are printed, are of the same n values; each is a multiple of the grain; the deviation divides by n - 1 or n",
-    source: "Anaya, The GRIMMER test, PeerJ Preprints 4:e2400v1 (2016); Allard, Analytic-GRIMMER (2018); exact by crate::reach",
+    source: "Anaya, The GRIMMER test, PeerJ Preprints 4:e2400v1 (2016); Allard, Analytic-GRIMMER (2018); exact by proofs::reach",
     tests,
     relation: Some(FromRelation { keys: &[MEAN, SD, SE, N, GRAIN, LEAST, MOST, DIVISOR], build }),
 };
@@ -53,14 +51,8 @@ const STEPS: u64 = 5000;
 const GAPS: i128 = 500;
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    input.each_sample(&mut |sample| {
-        if sample.trials.is_none()
-            && !sample.is_binary()
-            && let Some(test) = of_sample(sample)
-        {
-            give(Box::new(test));
-        }
-    });
+    let is_meant = |sample: &Sample| sample.trials.is_none() && !sample.is_binary();
+    each_of_sample(input, |sample| of_sample(sample).filter(|_| is_meant(sample)), give);
 }
 
 /// The test of a sample's mean and deviation.
@@ -210,19 +202,13 @@ impl Moment {
     }
 
     fn divisors(&self) -> Vec<i128> {
-        let n = i128::from(self.n);
-        let all = match self.divisor {
-            Divisor::Sample => vec![n - 1],
-            Divisor::Population => vec![n],
-            Divisor::Either => vec![n - 1, n],
-        };
-        all.into_iter().filter(|divisor| *divisor > 0).collect()
+        self.divisor.of(self.n.into())
     }
 
     fn step(squares: &Squares) -> Option<Value> {
         Some(json!({
             "sum": squares.sum.to_string(),
-            "windows": squares.windows.iter().map(exact::span).collect::<Vec<_>>(),
+            "windows": squares.windows.iter().map(json_span).collect::<Vec<_>>(),
             "least": squares.least.to_string(),
             "most": squares.most.map(|most| most.to_string()),
             "not_met": squares.gaps()?.iter().map(ToString::to_string).collect::<Vec<_>>(),
@@ -383,7 +369,7 @@ impl Moment {
             let about = whole(least) - div(whole(sum.checked_mul(sum)?), n)?;
             let factor = if self.is_error { n } else { whole(1) };
             let variance = div(about, mul(whole(divisor), factor)?)?;
-            Some((*variance.numer() as f64 / *variance.denom() as f64).sqrt())
+            Some(float(variance).sqrt())
         };
         let sums = (first..=last.min(first.checked_add(SUMS)?)).map(of).collect::<Option<Vec<_>>>()?;
         let least = sums.into_iter().min_by(f64::total_cmp)?;

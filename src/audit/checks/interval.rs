@@ -2,10 +2,9 @@
 
 use super::arguments::digits;
 use super::{Entry, FromRelation, Proof, Test, none};
-use crate::exact::{Exact, Print, Span, decimal, spelled, sub, whole};
-use crate::input::Input;
-use crate::relation::Relation;
+use crate::input::{Input, Relation};
 use crate::table::{Fault, Quoted};
+use proofs::exact::{Exact, Print, Span, decimal, float, spelled, sub, whole};
 use serde_json::json;
 use stats::interval::Interval;
 use stats::proportion::{clopper_pearson, normal_multiplier, wilson};
@@ -70,7 +69,7 @@ impl KofN {
     /// The intervals that count, by method, as shares.
     fn intervals(&self) -> Vec<(&'static str, Interval)> {
         let (k, n) = (self.k as usize, self.n as usize);
-        let level = *self.level.numer() as f64 / *self.level.denom() as f64;
+        let level = float(self.level);
         let z = normal_multiplier(level);
         let about = |share: f64, trials: f64| {
             let half = z * (share * (1.0 - share) / trials).sqrt();
@@ -88,7 +87,7 @@ impl KofN {
     }
 
     fn fits(&self, interval: Interval, prints: &[Print]) -> bool {
-        let all = *self.all.numer() as f64 / *self.all.denom() as f64;
+        let all = float(self.all);
         let is_in = |end: f64, print: Print| print.printed.agrees(end * all, print.digits);
         // Ends that leave 0 to 1 are printed as they are, or cut.
         let either = |end: f64, print| is_in(end, print) || is_in(end.clamp(0.0, 1.0), print);
@@ -97,15 +96,14 @@ impl KofN {
 
     /// Which printed end Clopper and Pearson's misses, and on which side its own lies; none if it is not clearly outside.
     fn miss(&self, interval: Interval, prints: &[Print]) -> Option<(&'static str, &'static str)> {
-        let all = *self.all.numer() as f64 / *self.all.denom() as f64;
+        let all = float(self.all);
         let ends = [("low", interval.low, prints[0]), ("high", interval.high, prints[1])];
         ends.into_iter().find_map(|(which, end, print)| {
             let Span { low, high, .. } = print.span();
-            let float = |end: Exact| *end.numer() as f64 / *end.denom() as f64 / all;
-            if end > float(high) + 1e-12 {
+            if end > float(high) / all + 1e-12 {
                 Some((which, "above"))
             } else {
-                (end < float(low) - 1e-12).then_some((which, "below"))
+                (end < float(low) / all - 1e-12).then_some((which, "below"))
             }
         })
     }
@@ -122,7 +120,7 @@ impl Test for KofN {
 
     fn said(&self, prints: &[Print], is_possible: bool) -> String {
         let verb = if is_possible { "is" } else { "is none of the intervals" };
-        let all = *self.all.numer() as f64 / *self.all.denom() as f64;
+        let all = float(self.all);
         let places = prints[0].printed.decimals() as usize + 1;
         let listed = self.intervals().into_iter().map(|(name, interval)| {
             format!("{name} {:.places$} to {:.places$}", interval.low * all, interval.high * all)

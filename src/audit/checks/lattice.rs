@@ -3,14 +3,13 @@
 use super::arguments::digits;
 use super::keys::OF_PATH;
 use super::{Entry, FromRelation, Proof, Test};
-use crate::Cell;
-use crate::exact::{Exact, Print, Span, add, div, floor, mul, spelled, whole};
-use crate::input::Input;
-use crate::lattice::{Octile, Step, joins, lengths_printing};
+use crate::input::{Input, Relation};
 use crate::meaning::{Kind, Lattice, Meaning};
-use crate::relation::Relation;
 use crate::table::{Column, Fault, Quoted};
 use crate::witness::{Budget, Witness};
+use proofs::exact::{Exact, Print, Span, add, div, floor, mul, spelled, whole};
+use proofs::lattice::{Octile, Step, joins, lengths_printing};
+use proofs::turns::Cell;
 use serde_json::json;
 
 /// The registry's entry.

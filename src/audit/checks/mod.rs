@@ -4,11 +4,10 @@
 //! whether any data can print them; everything else (readings of digits, power, mend, ranking) is asked by
 //! [`report`](super::report) in one way for all.
 
-use super::exact::{Exact, Print};
-use super::input::Input;
-use super::relation::Relation;
+use super::input::{Input, Relation};
 use super::table::{Fault, Quoted};
 use super::witness::{Budget, Witness};
+use proofs::exact::{Exact, Print};
 use serde_json::Value;
 
 mod any_angle_turns;

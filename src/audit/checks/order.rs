@@ -1,13 +1,12 @@
 //! Whether least value, quantiles, greatest value and mean stand in their order.
 
-use super::arguments::digits;
+use super::arguments::{digits, each_of_sample};
 use super::{Entry, Proof, Test};
-use crate::exact::{Exact, Print, spelled};
 use crate::input::Input;
-use crate::relation::Named as _;
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::Quoted;
+use proofs::exact::{Exact, Print, spelled};
 use serde_json::json;
 
 /// The registry's entry.
@@ -30,7 +29,7 @@ struct Order {
 }
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    input.each_sample(&mut |sample| of_sample(sample).into_iter().for_each(|test| give(Box::new(test))));
+    each_of_sample(input, of_sample, give);
 }
 
 fn of_sample(sample: &Sample) -> Option<Order> {

@@ -2,10 +2,9 @@
 
 use super::arguments::digits;
 use super::{Entry, FromRelation, Test, Window, none};
-use crate::exact::{Exact, Print, whole};
-use crate::input::Input;
-use crate::relation::Relation;
+use crate::input::{Input, Relation};
 use crate::table::{Fault, Quoted};
+use proofs::exact::{Exact, Print, whole};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

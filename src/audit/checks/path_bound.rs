@@ -3,13 +3,12 @@
 use super::arguments::{digits, shown};
 use super::keys::{FROM, OF_PATH, TO};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::bounds::{Moves, against, apart};
-use crate::exact::{Exact, Print, spelled, whole};
-use crate::input::Input;
+use crate::input::{Input, Relation};
 use crate::meaning::{Kind, Meaning};
-use crate::relation::Relation;
 use crate::statistic::Statistic;
 use crate::table::{Column, Fault, Quoted};
+use proofs::bounds::{Moves, against, apart};
+use proofs::exact::{Exact, Print, float, spelled, whole};
 use serde_json::json;
 
 /// The registry's entry.
@@ -87,10 +86,8 @@ impl Test for PathBound {
     }
 
     fn said(&self, prints: &[Print], is_possible: bool) -> String {
-        let bound = against(prints[0], self.apart, self.moves).map_or(f64::NAN, |(_, [a, b])| {
-            let float = |value: Exact| *value.numer() as f64 / *value.denom() as f64;
-            float(a) + float(b).sqrt()
-        });
+        let bound = against(prints[0], self.apart, self.moves)
+            .map_or(f64::NAN, |(_, [a, b])| float(a) + float(b).sqrt());
         let what = match self.moves {
             Moves::Any => "the straight line",
             Moves::Eight => "the octile distance",

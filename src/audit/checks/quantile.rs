@@ -2,12 +2,11 @@
 
 use super::arguments::{count, digits, gap, shown};
 use super::{Entry, Proof, Test};
-use crate::exact::{Exact, Print, add, mul, spelled, whole};
 use crate::input::Input;
-use crate::relation::Named as _;
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::Quoted;
+use proofs::exact::{Exact, Print, add, mul, spelled, whole};
 use serde_json::{Value, json};
 
 /// The registry's entry.

@@ -1,14 +1,12 @@
 //! Whether a printed quotient is that of two printed cells.
 
-use super::arguments::{digits, shown_span};
+use super::arguments::{digits, each_of_cell, json_span, shown_span};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::exact;
-use crate::exact::{Print, Span};
-use crate::form::Form;
-use crate::input::Input;
+use crate::input::{Input, Relation};
 use crate::meaning::Kind;
-use crate::relation::Relation;
 use crate::table::{Fault, Quoted, Table, named_by, quoted};
+use proofs::exact::{Print, Span};
+use proofs::form::Form;
 use serde_json::{Value, json};
 
 /// The registry's entry.
@@ -40,19 +38,14 @@ pub(super) struct Formed {
 }
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    for (index, table) in input.tables.iter().enumerate() {
-        if table.columns.iter().any(|column| column.meaning.kind == Kind::Statistics) {
-            continue;
-        }
-        for at in 0..table.columns.len() {
-            let rows = 0..table.rows.len();
-            rows.filter_map(|row| in_row(index, table, row, at)).for_each(|test| give(Box::new(test)));
-        }
-    }
+    each_of_cell(input, of_cell, give);
 }
 
-fn in_row(index: usize, table: &Table, row: usize, at: usize) -> Option<Formed> {
+fn of_cell(index: usize, table: &Table, row: usize, at: usize) -> Option<Formed> {
     let meaning = &table.columns[at].meaning;
+    if table.statistics().is_some() {
+        return None;
+    }
     // A mean, or an extreme, of quotients is not the quotient of the means.
     let [a, b] = meaning.ratio.as_ref().filter(|_| !matches!(meaning.kind, Kind::Of(_)))?;
     let cell = |at| quoted(index, table, row, at);
@@ -104,7 +97,7 @@ impl Test for Formed {
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
-        let step = |(form, span): &(Form, Span)| json!({ "form": form.name(), "span": exact::span(span) });
+        let step = |(form, span): &(Form, Span)| json!({ "form": form.name(), "span": json_span(span) });
         let steps: Vec<Value> = self.allowed(prints)?.iter().map(step).collect();
         let forms: Vec<&str> = self.forms.iter().map(|form| form.name()).collect();
         Some(Proof { given: json!({ "forms": forms }), steps: Value::Array(steps) })

@@ -2,12 +2,11 @@
 
 use super::arguments::{count, digits, shown};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::exact::{Exact, Print, add, div, mul, spelled, sub, whole};
-use crate::input::Input;
-use crate::relation::Relation;
+use crate::input::{Input, Relation};
 use crate::sample::{self, Sample};
 use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted, named_by};
+use proofs::exact::{Exact, Print, add, div, mul, spelled, sub, whole};
 use serde_json::json;
 
 /// The registry's entry.

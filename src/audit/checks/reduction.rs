@@ -2,10 +2,9 @@
 
 use super::ratio::Formed;
 use super::{Entry, FromRelation, Test, none};
-use crate::form::Form;
-use crate::input::Input;
-use crate::relation::Relation;
+use crate::input::{Input, Relation};
 use crate::table::Fault;
+use proofs::form::Form;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

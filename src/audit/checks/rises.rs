@@ -2,11 +2,10 @@
 
 use super::arguments::digits;
 use super::{Entry, FromRelation, Proof, Test};
-use crate::exact::Print;
-use crate::input::Input;
+use crate::input::{Input, Relation};
 use crate::meaning::Kind;
-use crate::relation::Relation;
 use crate::table::{Fault, Quoted, Table, quoted};
+use proofs::exact::Print;
 use serde_json::json;
 
 /// The registry's entry.

@@ -2,13 +2,12 @@
 
 use super::arguments::{count, digits, shown, spreads};
 use super::{Entry, Proof, Test, Window};
-use crate::exact::{Exact, Print, Span, add, div, mul, spelled, sub, whole};
 use crate::input::Input;
 use crate::meaning::Divisor;
-use crate::relation::Named as _;
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::Quoted;
+use proofs::exact::{Exact, Print, Span, add, div, float, mul, spelled, sub, whole};
 use serde_json::json;
 
 /// The registry's entry.
@@ -120,11 +119,11 @@ impl Test for SdRange {
     }
 
     fn said(&self, prints: &[Print], is_possible: bool) -> String {
-        let root = |value: Exact| (*value.numer() as f64 / *value.denom() as f64).sqrt();
         let sd = prints[0].printed;
         let places = sd.decimals() as usize + 2;
-        let end =
-            |value: Option<Exact>| value.map_or("?".to_owned(), |value| format!("{:.places$}", root(value)));
+        let end = |value: Option<Exact>| {
+            value.map_or("?".to_owned(), |value| format!("{:.places$}", float(value).sqrt()))
+        };
         let [min, max] = self.range(prints);
         let verb = if is_possible { "is within" } else { "is outside" };
         let least = self.least(prints).map_or("0".to_owned(), |least| end(Some(least)));

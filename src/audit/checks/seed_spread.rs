@@ -1,8 +1,9 @@
 //! Whether shares of trials, one a seed, can have the printed mean and spread over the seeds.
 
+use super::arguments::each_of_sample;
 use super::{Entry, Test, grimmer};
 use crate::input::Input;
-use crate::relation::Named as _;
+use crate::sample::Sample;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -16,11 +17,6 @@ pub static ENTRY: Entry = Entry {
 };
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    input.each_sample(&mut |sample| {
-        if sample.trials.is_some()
-            && let Some(test) = grimmer::of_sample(sample)
-        {
-            give(Box::new(test));
-        }
-    });
+    let of_seeds = |sample: &Sample| grimmer::of_sample(sample).filter(|_| sample.trials.is_some());
+    each_of_sample(input, of_seeds, give);
 }

@@ -1,13 +1,11 @@
 //! Whether the shares of one whole sum to one.
 
-use super::arguments::{count, digits, shown_span, spans};
+use super::arguments::{count, digits, json_span, shown_span, spans};
 use super::{Entry, FromRelation, Proof, Test, Window};
-use crate::exact;
-use crate::exact::{Exact, Print, Span, div, spelled, whole};
-use crate::input::Input;
+use crate::input::{Input, Relation};
 use crate::meaning::{Count, Kind};
-use crate::relation::Relation;
 use crate::table::{Fault, Quoted, Table, quoted};
+use proofs::exact::{Exact, Print, Span, div, spelled, whole};
 use serde_json::json;
 
 /// The registry's entry.
@@ -124,7 +122,7 @@ impl Test for SharesSum {
         let given = |n: Option<u64>| json!({ "whole": spelled(self.all), "n": n.map(|n| n.to_string()) });
         let sum = Self::sum(prints)?;
         if !sum.contains(self.all) {
-            let steps = json!([{ "sum": exact::span(&sum), "misses": spelled(self.all) }]);
+            let steps = json!([{ "sum": json_span(&sum), "misses": spelled(self.all) }]);
             return Some(Proof { given: given(None), steps });
         }
         let ends = |(first, last): (i128, i128)| json!([first.to_string(), last.to_string()]);

@@ -1,14 +1,12 @@
 //! Whether the mean of a sum is the sum of the means.
 
-use super::arguments::{digits, shown_span, spans};
+use super::arguments::{digits, each_of_cell, json_span, shown_span, spans};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::exact;
-use crate::exact::{Exact, Print, Span, mul, spelled, whole};
-use crate::input::Input;
+use crate::input::{Input, Relation};
 use crate::meaning::Kind;
-use crate::relation::Relation;
 use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted, Table, named_by, quoted};
+use proofs::exact::{Exact, Print, Span, mul, spelled, whole};
 use serde_json::json;
 
 /// The registry's entry.
@@ -40,18 +38,12 @@ struct SumOfMeans {
 }
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    for (index, table) in input.tables.iter().enumerate() {
-        for total in (0..table.columns.len()).filter(|at| !table.columns[*at].meaning.sum.is_empty()) {
-            let rows = (0..table.rows.len()).filter(|row| is_additive(table, *row, total));
-            rows.filter_map(|row| in_row(index, table, row, total)).for_each(|test| give(Box::new(test)));
-        }
-    }
+    each_of_cell(input, of_cell, give);
 }
 
 /// Whether the cell holds something that adds up: a mean, a total, or a value of its own.
 fn is_additive(table: &Table, row: usize, column: usize) -> bool {
-    let statistics = table.columns.iter().position(|column| column.meaning.kind == Kind::Statistics);
-    let statistic = match (statistics, &table.columns[column].meaning.kind) {
+    let statistic = match (table.statistics(), &table.columns[column].meaning.kind) {
         (Some(at), _) => Statistic::named(&table.rows[row][at].text),
         (None, Kind::Of(statistic)) => Some(*statistic),
         (None, kind) => return matches!(kind, Kind::Value | Kind::Share { .. }),
@@ -59,8 +51,11 @@ fn is_additive(table: &Table, row: usize, column: usize) -> bool {
     matches!(statistic, Some(Statistic::Mean | Statistic::Total))
 }
 
-fn in_row(index: usize, table: &Table, row: usize, total: usize) -> Option<SumOfMeans> {
+fn of_cell(index: usize, table: &Table, row: usize, total: usize) -> Option<SumOfMeans> {
     let columns = &table.columns;
+    if columns[total].meaning.sum.is_empty() || !is_additive(table, row, total) {
+        return None;
+    }
     let parts = columns[total].meaning.sum.iter();
     let parts = parts.map(|name| quoted(index, table, row, named_by(columns, total, name)?));
     let numbers =
@@ -111,6 +106,6 @@ impl Test for SumOfMeans {
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
         let given = json!({ "cut": self.cut.map(spelled) });
-        Some(Proof { given, steps: json!([{ "sum": exact::span(&self.allowed(prints)?) }]) })
+        Some(Proof { given, steps: json!([{ "sum": json_span(&self.allowed(prints)?) }]) })
     }
 }

@@ -1,13 +1,12 @@
 //! How many values a total over a mean says there were.
 
-use super::arguments::{digits, shown};
+use super::arguments::{digits, each_of_sample, json_span, shown};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::exact;
-use crate::exact::{Exact, Print, Span, spelled, whole};
-use crate::input::Input;
-use crate::relation::{Named as _, Relation};
+use crate::input::{Input, Relation};
+use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};
+use proofs::exact::{Exact, Print, Span, spelled, whole};
 use serde_json::json;
 
 /// The registry's entry.
@@ -41,12 +40,12 @@ struct TotalOverMean {
 }
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    input.each_sample(&mut |sample| {
-        if let (Some(total), Some(mean)) = (sample.get(Statistic::Total), sample.get(Statistic::Mean)) {
-            let numbers = [total.clone(), mean.clone()];
-            give(Box::new(TotalOverMean { numbers, n: sample.n, unit: whole(1) }));
-        }
-    });
+    each_of_sample(input, of_sample, give);
+}
+
+fn of_sample(sample: &Sample) -> Option<TotalOverMean> {
+    let numbers = [sample.get(Statistic::Total)?.clone(), sample.get(Statistic::Mean)?.clone()];
+    Some(TotalOverMean { numbers, n: sample.n, unit: whole(1) })
 }
 
 fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
@@ -115,7 +114,7 @@ impl Test for TotalOverMean {
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
         let given = json!({ "n": self.n.map(|n| n.to_string()), "unit": spelled(self.unit) });
         let excluded = self.n.map_or_else(|| "every whole number above 0".to_owned(), |n| n.to_string());
-        let quotient = exact::span(&self.quotient(prints)?);
+        let quotient = json_span(&self.quotient(prints)?);
         Some(Proof { given, steps: json!([{ "quotient": quotient, "excludes": excluded }]) })
     }
 }

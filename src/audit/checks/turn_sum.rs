@@ -1,21 +1,20 @@
 //! Whether an 8-connected path of the printed length can turn by the printed sum of angles.
 
-use super::arguments::digits;
+use super::arguments::{digits, each_of_cell};
 use super::keys::{FROM, LENGTH, TO, TURNS};
 use super::lattice::{between, moves};
 use super::{Entry, FromRelation, Proof, Test, Window};
-use crate::Cell;
-use crate::exact::{Print, spelled, whole};
-use crate::input::Input;
-use crate::lattice::Octile;
+use crate::input::{Input, Relation};
 use crate::meaning::{Kind, Lattice};
 use crate::octile_turns::octile_turn_sums;
-use crate::relation::Relation;
 use crate::table::{Fault, Quoted, Table, named_by, quoted};
+use proofs::exact::{Print, spelled, whole};
+use proofs::lattice::Octile;
+use proofs::turns::Cell;
+use proofs::turns::Convention;
 use serde_json::{Value, json};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
-use turns::Convention;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -23,7 +22,7 @@ pub static ENTRY: Entry = Entry {
     about: "can an 8-connected path of the printed length turn by the printed sum of angles?",
     example: "turn sum 229.17 beside length 14.65 from 22:15 to 26:28",
     premises: "moves go to one of eight neighbours; the sum is of changes of direction, or of the angles between moves",
-    source: "enumeration over moves (crate::octile_turns); for any-angle paths see the package turns",
+    source: "enumeration over moves (octile_turns.rs); for any-angle paths see proofs::turns",
     tests,
     relation: Some(FromRelation { keys: &[TURNS, LENGTH, FROM, TO], build }),
 };
@@ -40,15 +39,10 @@ struct TurnSum {
 const MOVES: u32 = 31;
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    for (index, table) in input.tables.iter().enumerate() {
-        for length in 0..table.columns.len() {
-            let rows = 0..table.rows.len();
-            rows.filter_map(|row| in_row(index, table, row, length)).for_each(|test| give(Box::new(test)));
-        }
-    }
+    each_of_cell(input, of_cell, give);
 }
 
-fn in_row(index: usize, table: &Table, row: usize, length: usize) -> Option<TurnSum> {
+fn of_cell(index: usize, table: &Table, row: usize, length: usize) -> Option<TurnSum> {
     let meaning = &table.columns[length].meaning;
     let turns = named_by(&table.columns, length, meaning.turns.as_deref()?)?;
     let displacement = super::lattice::displacement(meaning).filter(|_| meaning.kind == Kind::Value)?;

@@ -2,7 +2,7 @@
 //! would come out as impossible.
 
 use super::{Kind, Meaning};
-use crate::exact::{Exact, whole};
+use proofs::exact::{Exact, whole};
 
 /// Whether both say something, and not the same.
 fn differ<T: PartialEq>(a: &T, b: &T, unsaid: &T) -> bool {

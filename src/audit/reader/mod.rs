@@ -3,7 +3,7 @@
 //! Nothing here judges. What cannot be read is a [`Fault`] with its place; all faults of a text are given together. Cells
 //! stay strings, since trailing zeros count.
 
-mod cells;
+pub mod cells;
 mod counts;
 mod csv;
 mod guess;
@@ -15,10 +15,10 @@ pub use cells::{Number, number, unit};
 
 use super::input::Input;
 use super::meaning::{Kind, Meaning, contradiction};
-use super::printed::Printed;
 use super::sample::groups;
 use super::statistic::Statistic;
 use super::table::{Cell, Column, Fault, Place, Table, named_by};
+use proofs::printed::Printed;
 
 /// How a text is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,10 +5,10 @@
 
 use super::{Class, Finding};
 use crate::checks::Test;
-use crate::exact::Print;
 use crate::input::Input;
-use crate::printed::{Digits, Printed};
 use crate::table::Place;
+use proofs::exact::Print;
+use proofs::printed::{Digits, Printed};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The least change of one printed number that makes the finding possible.

@@ -1,8 +1,8 @@
 //! How much of what could be printed a test refuses: its power.
 
 use crate::checks::{Test, Window};
-use crate::exact::{Exact, Print, ceil, floor, mul, whole};
-use crate::printed::Printed;
+use proofs::exact::{Exact, Print, ceil, floor, mul, whole};
+use proofs::printed::Printed;
 use std::fmt;
 
 /// The share of printable values that a check would have refused.

@@ -1,0 +1,235 @@
+//! The program as people call it: lines, exit codes, standard input, files that it writes.
+
+use std::fs;
+use std::io::Write as _;
+use std::os::unix::fs::PermissionsExt as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use tempfile::TempDir;
+
+/// A folder of its own, and the program run in it.
+struct Bench(TempDir);
+
+struct Said {
+    code: Option<i32>,
+    out: String,
+    err: String,
+}
+
+impl Bench {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn at(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn write(&self, name: &str, bytes: &[u8]) {
+        fs::create_dir_all(self.at(name).parent().unwrap()).unwrap();
+        fs::write(self.at(name), bytes).unwrap();
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_replan-audit"));
+        command.current_dir(self.0.path()).args(arguments);
+        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        command
+    }
+
+    fn run(&self, arguments: &[&str]) -> Said {
+        said(&self.command(arguments).output().unwrap())
+    }
+
+    /// Runs the program, which must succeed, and gives what it printed.
+    fn done(&self, arguments: &[&str]) -> String {
+        let said = self.run(arguments);
+        assert_eq!(said.code, Some(0), "{arguments:?}\n{}{}", said.out, said.err);
+        said.out
+    }
+}
+
+fn said(output: &Output) -> Said {
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+    Said { code: output.status.code(), out: text(&output.stdout), err: text(&output.stderr) }
+}
+
+const TABLE: &str = "| planner | success [% of 250] |\n|-|-|\n| A | 33.3 |\n| B | 33.2 |\n";
+
+#[test]
+fn an_impossible_table_is_told_in_a_line_with_exit_code_3() {
+    let bench = Bench::new();
+    bench.write("t.md", TABLE.as_bytes());
+    let said = bench.run(&["t.md", "--certificates", "proofs"]);
+    assert_eq!(said.code, Some(3), "{}", said.err);
+    let first = said.out.lines().next().unwrap();
+    assert!(
+        first.starts_with("t.md:3:2: impossible: success of A: 33.3 is the mean of no 250 values"),
+        "{first}"
+    );
+    assert_eq!(said.err, "replan: t.md: 1 finding is impossible under the premises named\n");
+    assert!(bench.at("proofs/001_3_grim.json").is_file());
+}
+
+#[test]
+fn a_possible_table_ends_with_0_and_shows_its_data_if_asked() {
+    let bench = Bench::new();
+    bench.write("t.md", TABLE.replace("33.3", "33.6").as_bytes());
+    let said = bench.done(&["t.md", "--witness"]);
+    assert!(said.contains("data (all of them, 1 of 100000 steps): 84 × 2/5 of 250"), "{said}");
+    let json = bench.done(&["t.md", "--json"]);
+    assert!(json.contains("\"check\": \"grim\"") && json.contains("\"power\""), "{json}");
+    assert!(json.contains("\"guessed\"") && json.contains("planner [label]"), "{json}");
+}
+
+#[test]
+fn samples_of_other_methods_are_not_taken_for_one() {
+    let bench = Bench::new();
+    for possible in [
+        "planner,stat,time\nA,min,1\nA,mean,2.00\nA,max,3\nB,min,9\nB,mean,10.00\nB,max,11\n",
+        "stat,time\nmin,1\nmean,2.00\nmax,3\nmin,9\nmean,10.00\nmax,11\n",
+        "p,time [min],time [max],time [min],time [max]\nx,1,3,9,11\n",
+    ] {
+        bench.write("t.csv", possible.as_bytes());
+        assert_eq!(bench.run(&["t.csv"]).code, Some(0), "{possible}");
+    }
+    let second = "p,a [mean],a [min],a [mean],a [min]\nx,2.0,1,5.0,7\n";
+    bench.write("t.csv", second.as_bytes());
+    assert_eq!(bench.run(&["t.csv"]).code, Some(3), "the second sample is not looked at");
+    let quotients = "| p | time [mean, n=2] | it [mean, n=2] | r [mean, n=2, ratio=time/it] |\n|-|-|-|-|\n| x | 5.00 | 2.00 | 2.00 |\n";
+    bench.write("t.md", quotients.as_bytes());
+    assert_eq!(bench.run(&["t.md"]).code, Some(0), "times 1, 9 and 1, 3 iterations");
+}
+
+#[test]
+fn a_text_that_includes_others_says_that_they_were_not_read() {
+    let bench = Bench::new();
+    bench.write("numbers.tex", b"\\newcommand{\\nodes}{45}\n");
+    bench.write("paper.tex", b"\\input{numbers}\nWe open \\nodes{} nodes.\n\\input{sections/two}\n");
+    let said = bench.run(&["--coverage", "paper.tex", "--macros", "numbers.tex"]);
+    assert_eq!(said.code, Some(3), "{}", said.err);
+    let unread: Vec<&str> = said.out.lines().filter(|line| line.contains("is included")).collect();
+    assert_eq!(unread, ["paper.tex: `sections/two` is included and was not read; ask about it by itself"]);
+}
+
+#[test]
+fn standard_input_is_read_and_wrong_input_ends_with_2() {
+    let bench = Bench::new();
+    let mut child = bench.command(&["-"]).stdin(Stdio::piped()).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(TABLE.replace("33.3", "33,3").as_bytes()).unwrap();
+    let said = said(&child.wait_with_output().unwrap());
+    assert_eq!(said.code, Some(2));
+    assert!(
+        said.err.starts_with("replan: stdin:3:2: column `success`: `33,3` has a decimal comma"),
+        "{}",
+        said.err
+    );
+}
+
+#[test]
+fn a_stub_of_a_csv_is_a_csv_and_no_data_can_not_be_asked_for() {
+    let bench = Bench::new();
+    bench.write("t.csv", b"planner,Success rate (%),Time (s)\nA,33.2 %,1.2 s\n");
+    let said = bench.done(&["t.csv", "--stub", "header.csv"]);
+    let stub =
+        "planner [label],Success rate (%) [% of ?, higher is better],Time (s) [mean, n=?, lower is better]";
+    assert_eq!(std::fs::read_to_string(bench.at("header.csv")).unwrap(), format!("{stub}\n"));
+    assert!(said.contains(&format!("correct the header: {stub}")), "{said}");
+    let said = bench.run(&["t.csv", "--witness", "0"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+}
+
+#[test]
+fn a_spread_that_no_check_looks_at_is_asked_for() {
+    let bench = Bench::new();
+    bench.write("t.md", b"| p | success [% of 250] |\n|-|-|\n| A | 33.2 (1.2) |\n");
+    let said = bench.done(&["t.md"]);
+    let first = said.lines().next().unwrap();
+    assert_eq!(
+        first,
+        "t.md:3:2: column `success`: what stands behind 33.2 (1.2) is not looked at; say `±sd` if it is the deviation or `±se` if it is the standard error"
+    );
+    let json = bench.done(&["t.md", "--json"]);
+    assert!(json.contains("\"unread_spreads\": [") && json.contains("t.md:3:2: column `success`"), "{json}");
+}
+
+#[test]
+fn a_device_without_end_and_bytes_that_are_no_text_are_wrong_input() {
+    let bench = Bench::new();
+    bench.write("t.md", b"| a |\n|-|\n| \xff |\n");
+    for (file, told) in [
+        ("/dev/zero", "/dev/zero: it holds more than 512 MiB; at most 512 MiB are accepted"),
+        ("t.md", "t.md: byte 12 is not UTF-8; UTF-8 text is expected"),
+        ("gone.md", "gone.md: No such file or directory"),
+    ] {
+        let said = bench.run(&[file]);
+        assert!(said.code == Some(2) && said.err.contains(told), "{}", said.err);
+    }
+}
+
+#[test]
+fn output_that_a_full_disk_loses_is_the_systems_refusal() {
+    let full = fs::File::create("/dev/full").unwrap();
+    let ended = Bench::new().command(&["--list"]).stdout(full).output().unwrap();
+    assert_eq!(ended.status.code(), Some(1));
+    assert!(said(&ended).err.starts_with("replan: standard output: "));
+}
+
+/// The macros of `text`, checked with a stand-in for `replan` that finds the plots of the paper current, or fails.
+fn covered(bench: &Bench, first: &str, value: u32, is_current: bool) -> Said {
+    let check = "[ \"$*\" = 'render --check --only numbers -- mini' ]";
+    let ends = if is_current { "" } else { " && echo 'replan: not current: numbers.tex' >&2 && exit 3" };
+    bench.write("replan", format!("#!/bin/sh\n{check}{ends}\n").as_bytes());
+    fs::set_permissions(bench.at("replan"), fs::Permissions::from_mode(0o755)).unwrap();
+    let macros = |value: u32| format!("{first}\\newcommand{{\\nodes}}{{{value}}}\n");
+    bench.write("experiments/mini/paper.toml", b"");
+    bench.write("plots/mini/numbers.tex", macros(45).as_bytes());
+    bench.write("numbers.tex", macros(value).as_bytes());
+    let mut command = bench.command(&["--coverage", "paper.tex", "--macros", "numbers.tex"]);
+    said(&command.env("REPLAN", bench.at("replan")).output().unwrap())
+}
+
+const FIRST: &str = "% made by `replan render mini --only numbers`\n";
+
+#[test]
+fn a_number_that_no_macro_backs_ends_with_3() {
+    let bench = Bench::new();
+    bench.write("paper.tex", b"We open 31415 nodes on eleven maps.\n");
+    let said = covered(&bench, FIRST, 45, true);
+    assert_eq!(said.code, Some(3));
+    let lines: Vec<&str> = said.out.lines().collect();
+    assert_eq!(
+        lines,
+        ["paper.tex:1:9: 31415 is backed by no macro", "paper.tex:1:24: eleven is backed by no macro"]
+    );
+    bench.write("paper.tex", b"We open many nodes on eleven maps. % typed: eleven\n");
+    let said = covered(&bench, FIRST, 45, true);
+    assert_eq!((said.code, &*said.out), (Some(0), ""), "{}", said.err);
+}
+
+#[test]
+fn a_macro_that_the_papers_plots_do_not_have_is_stale() {
+    let bench = Bench::new();
+    bench.write("paper.tex", b"No number.\n");
+    let said = covered(&bench, FIRST, 31415, true);
+    assert_eq!((said.code, &*said.out), (Some(3), "numbers.tex:2:1: \\nodes is 31415, but now it is 45\n"));
+}
+
+#[test]
+fn macros_of_which_nobody_can_tell_whether_they_are_stale_do_not_pass() {
+    let bench = Bench::new();
+    bench.write("paper.tex", b"We open \\nodes{} nodes.\n");
+    for (first, is_current, why) in [
+        ("", true, "its first line must be as `replan render PAPER` writes it"),
+        ("% made by `replan render other --only numbers`\n", true, "its first line must be"),
+        (FIRST, false, "not current: numbers.tex\n"),
+    ] {
+        let said = covered(&bench, first, 45, is_current);
+        let told = format!("numbers.tex:1: whether its values are stale cannot be told; {why}");
+        assert!(said.code == Some(3) && said.out.starts_with(&told), "{}", said.out);
+        assert_eq!(said.out.lines().count(), 1);
+    }
+    let mut gone = bench.command(&["--coverage", "paper.tex", "--macros", "numbers.tex"]);
+    let said = said(&gone.env("REPLAN", Path::new("no/such/replan")).output().unwrap());
+    assert!(said.out.contains("`no/such/replan`, which checks them, cannot be run: No such"), "{}", said.out);
+}

@@ -1,0 +1,16 @@
+//! Tests of the audit from outside: the library, the program, and what its page and schema say of both.
+
+mod boundaries;
+mod cells;
+mod command;
+mod contradictions;
+mod coverage;
+mod false_alarms;
+mod octile_turns;
+mod package;
+mod pages;
+mod power;
+mod report;
+mod said;
+mod simulation;
+mod witness;
