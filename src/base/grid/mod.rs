@@ -119,6 +119,12 @@ impl Grid2 {
         self.cell(x, y).is_some_and(|cell| self.is_free(cell))
     }
 
+    /// Which cells of row `y` are blocked, by column; nothing outside the grid.
+    pub(super) fn blocked_row(&self, y: i32) -> &[bool] {
+        let width = self.width as usize;
+        if self.holds(0, y) { &self.blocked[y as usize * width..][..width] } else { &[] }
+    }
+
     /// Marks `cell` as blocked or free.
     ///
     /// # Panics

@@ -20,7 +20,7 @@ pub enum CornerRule {
 
 impl CornerRule {
     /// Whether a diagonal move between two cells that flank it is legal, given which of them are free.
-    pub fn permits(self, flanks_free: [bool; 2]) -> bool {
+    pub const fn permits(self, flanks_free: [bool; 2]) -> bool {
         match self {
             CornerRule::Allow => true,
             CornerRule::ForbidBoth => flanks_free[0] || flanks_free[1],
@@ -39,7 +39,21 @@ pub struct Moves {
 impl Moves {
     /// The legal moves of `grid`; a blocked cell has none.
     pub fn new(grid: &Grid2, corners: CornerRule) -> Self {
-        let masks = (0..grid.cell_count()).map(|cell| mask(grid, corners, cell)).collect();
+        let masks_of = &MASKS[corners as usize];
+        let mut masks = Vec::with_capacity(grid.cell_count() as usize);
+        for y in 0..grid.height() as i32 {
+            let rows = [-1, 0, 1].map(|dy| grid.blocked_row(y + dy));
+            let column = |x: usize| {
+                let free = |row: &[bool]| usize::from(row.get(x).is_some_and(|blocked| !blocked));
+                free(rows[0]) | free(rows[1]) << 1 | free(rows[2]) << 2
+            };
+            // Three columns of three bits; the cell in hand is in the middle.
+            let mut around = column(0) << 6;
+            for x in 0..grid.width() as usize {
+                around = around >> 3 | column(x + 1) << 6;
+                masks.push(masks_of[around]);
+            }
+        }
         Self { width: grid.width(), masks }
     }
 
@@ -90,19 +104,31 @@ impl Moves {
     }
 }
 
-fn mask(grid: &Grid2, corners: CornerRule, cell: u32) -> u8 {
-    if !grid.is_free(cell) {
-        return 0;
+/// The mask of a cell by its corner rule and by which cells around it are free: bit `3 (dx + 1) + dy + 1`.
+static MASKS: [[u8; 512]; 3] =
+    [masks(CornerRule::Allow), masks(CornerRule::ForbidBoth), masks(CornerRule::ForbidAny)];
+
+const fn masks(corners: CornerRule) -> [u8; 512] {
+    const fn is_free(around: usize, dx: i32, dy: i32) -> bool {
+        around >> (3 * (dx + 1) + dy + 1) & 1 == 1
     }
-    let [x, y] = grid.xy(cell);
-    let mut mask = 0;
-    for (bit, [dx, dy]) in DIRECTIONS.into_iter().enumerate() {
-        let diagonal = dx != 0 && dy != 0;
-        let flanks_free = [grid.is_free_xy(x + dx, y), grid.is_free_xy(x, y + dy)];
-        let legal = grid.is_free_xy(x + dx, y + dy) && (!diagonal || corners.permits(flanks_free));
-        mask |= u8::from(legal) << bit;
+    let mut masks = [0; 512];
+    let mut around = 0;
+    while around < 512 {
+        let mut bit = 0;
+        while bit < 8 {
+            let [dx, dy] = DIRECTIONS[bit];
+            let flanks_free = [is_free(around, dx, 0), is_free(around, 0, dy)];
+            let is_straight = dx == 0 || dy == 0;
+            let is_legal = is_free(around, 0, 0)
+                && is_free(around, dx, dy)
+                && (is_straight || corners.permits(flanks_free));
+            masks[around] |= (is_legal as u8) << bit;
+            bit += 1;
+        }
+        around += 1;
     }
-    mask
+    masks
 }
 
 #[cfg(test)]
@@ -124,6 +150,30 @@ mod tests {
             let rules = [CornerRule::Allow, CornerRule::ForbidBoth, CornerRule::ForbidAny];
             assert_eq!(rules.map(|rule| up_right(map, rule)), legal, "{map}");
         }
+    }
+
+    #[test]
+    fn masks_are_what_each_cell_and_its_flanks_say() {
+        let mut legal = 0;
+        for seed in 0..60 {
+            let size = [[1, 1], [1, 6], [6, 1], [9, 7]][seed as usize % 4];
+            let grid = independent_cells(&mut seed::stream(seed), size, 0.35, &[]).unwrap();
+            for rule in [CornerRule::Allow, CornerRule::ForbidBoth, CornerRule::ForbidAny] {
+                let moves = Moves::new(&grid, rule);
+                for cell in 0..grid.cell_count() {
+                    let [x, y] = grid.xy(cell);
+                    for (bit, [dx, dy]) in DIRECTIONS.into_iter().enumerate() {
+                        let flanks_free = [grid.is_free_xy(x + dx, y), grid.is_free_xy(x, y + dy)];
+                        let may_turn = dx == 0 || dy == 0 || rule.permits(flanks_free);
+                        let expected = grid.is_free(cell) && grid.is_free_xy(x + dx, y + dy) && may_turn;
+                        let found = moves.mask(cell) >> bit & 1 == 1;
+                        assert_eq!(found, expected, "seed {seed}, {rule:?}, [{x}, {y}] by [{dx}, {dy}]");
+                        legal += u32::from(expected);
+                    }
+                }
+            }
+        }
+        assert!(legal > 2_000, "only {legal} legal moves drawn");
     }
 
     #[test]
