@@ -3,6 +3,7 @@
 //! What a spec or a command line names may be anything: a device never ends, and a pipe may never begin. So only regular files
 //! are read, and none larger than [`MOST_BYTES`].
 
+use crate::text;
 use std::fs::File;
 use std::io::{self, Error, Read};
 use std::path::Path;
@@ -23,15 +24,12 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     read_all(&mut File::open(path)?)
 }
 
-/// As [`read`], as text.
+/// As [`read`], as text: see [`text::decoded`].
 ///
 /// # Errors
-/// As [`read`]; bytes that are not UTF-8.
+/// As [`read`]; another encoding than UTF-8.
 pub fn read_text(path: &Path) -> io::Result<String> {
-    String::from_utf8(read(path)?).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        Error::other(format!("byte {at} is not UTF-8; UTF-8 text is accepted"))
-    })
+    text::decoded(read(path)?).map_err(Error::other)
 }
 
 /// All that `from` gives: a file, a pipe, standard input.

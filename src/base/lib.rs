@@ -4,10 +4,13 @@
 //! The modules below are floors, lowest first; blank lines part the floors. A module names only modules on lower
 //! floors. Nothing here plans and nothing here judges, so that the verifier can stand on it alone.
 
-pub mod file;
 pub mod hash;
+pub mod ignored;
 pub mod seed;
 pub mod slug;
+pub mod text;
+
+pub mod file;
 
 pub mod settings;
 

@@ -6,8 +6,10 @@ use std::ops::Range;
 /// Beyond this many metres a length is taken for one in millimetres: no robot and no scene around one is as large.
 pub const FAR_M: f64 = 10.0;
 
-/// How far the length of a quaternion may be from 1: files print six digits or more.
-const UNIT: f64 = 1e-4;
+/// How far the length of a quaternion may be from 1: two digits that are written by hand.
+const UNIT: f64 = 1e-2;
+/// Beyond this its digits are few enough to be told of.
+const ROUNDED: f64 = 1e-4;
 
 /// A place and an orientation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -194,22 +196,22 @@ impl Source<'_> {
         }
     }
 
-    /// The pose of a place and a quaternion of length 1, real part first.
+    /// The pose of a place and a quaternion of length 1, real part first; and whether its length was made 1 visibly.
     pub fn pose(
         self,
         at: &Range<usize>,
         key: &str,
         [x, y, z, w, a, b, c]: [f64; 7],
-    ) -> Result<Pose, SettingsError> {
+    ) -> Result<(Pose, bool), SettingsError> {
         let (origin_m, wxyz) = (self.metres(at, key, [x, y, z])?, self.finite(at, key, [w, a, b, c])?);
         let length = wxyz.iter().map(|part| part * part).sum::<f64>().sqrt();
         if (length - 1.0).abs() > UNIT {
             let message = format!(
-                "{key} has the quaternion {wxyz:?} of length {length:.4}; length 1 is accepted, and the order w, x, y, z"
+                "{key} has the quaternion {w}, {a}, {b}, {c} (w, x, y, z) of length {length:.4}; 0.99 to 1.01 is accepted"
             );
             return Err(self.fault(at, message));
         }
-        Ok(Pose::from_quaternion(origin_m, wxyz))
+        Ok((Pose::from_quaternion(origin_m, wxyz), (length - 1.0).abs() > ROUNDED))
     }
 }
 

@@ -1,7 +1,8 @@
 //! YAML and JSON files in memory, each value with its place: of JSON, which is YAML too, nothing more is known here.
 
-use crate::settings::{Document, SettingsError};
+use crate::settings::{Document, SettingsError, did_you_mean};
 use crate::solid::Source;
+use crate::text::brief;
 use saphyr_parser::{Event, Parser, ScanError};
 use std::ops::Range;
 
@@ -81,6 +82,14 @@ impl Yaml<'_> {
         Ok(self.table(of)?.iter().find(|(name, _)| name == key).map(|(_, value)| value))
     }
 
+    /// Refuses every key of a table but these.
+    pub fn only(self, of: &Node, known: &[&str]) -> Result<(), SettingsError> {
+        match self.table(of)?.iter().find(|(key, _)| !known.contains(&key.as_str())) {
+            None => Ok(()),
+            Some((key, node)) => Err(self.0.fault(&node.at, unknown(key, known))),
+        }
+    }
+
     /// The entries of a table.
     pub fn table(self, of: &Node) -> Result<&[(String, Node)], SettingsError> {
         match &of.data {
@@ -102,6 +111,18 @@ impl Yaml<'_> {
         match &of.data {
             Data::Word(word) => Ok(word),
             _ => Err(self.0.fault(&of.at, format!("found {}; a word is accepted", of.what()))),
+        }
+    }
+
+    /// Yes or no, in the words of YAML 1.1 or as 1 and 0, in quotes or without.
+    pub fn truth(self, of: &Node, key: &str) -> Result<bool, SettingsError> {
+        match self.word(of)?.to_lowercase().as_str() {
+            "true" | "yes" | "on" | "y" | "1" => Ok(true),
+            "false" | "no" | "off" | "n" | "0" => Ok(false),
+            _ => Err(self.0.fault(
+                &of.at,
+                format!("{key} is {}; true or false, yes or no, 1 or 0 is accepted", of.what()),
+            )),
         }
     }
 
@@ -142,19 +163,25 @@ impl Node {
         matches!(self.data, Data::List(_))
     }
 
-    /// Whether it is a list that holds a table.
+    /// Whether it is a table or a list that holds one.
     pub fn has_tables(&self) -> bool {
         let is_table = |element: &Self| matches!(element.data, Data::Table(_));
-        matches!(&self.data, Data::List(elements) if elements.iter().any(is_table))
+        matches!(&self.data, Data::List(elements) if elements.iter().any(is_table)) || is_table(self)
     }
 
     fn what(&self) -> String {
         match &self.data {
-            Data::Word(word) => format!("`{word}`"),
+            Data::Word(word) => format!("`{}`", brief(word)),
             Data::List(elements) => format!("a list of {}", elements.len()),
             Data::Table(_) => "a table".to_owned(),
         }
     }
+}
+
+/// The message that `key` is none of the `known` ones.
+pub(crate) fn unknown(key: &str, known: &[&str]) -> String {
+    let hint = did_you_mean(key, known.iter().copied());
+    format!("unknown key `{}`{hint}; accepted: {}", brief(key), known.join(", "))
 }
 
 /// A key that a table has already, and where the second value stands.

@@ -1,14 +1,16 @@
-//! Judges paths of a robot of any number of turning joints among convex solids, straight in the space of joint angles.
+//! Judges paths of a robot of any number of joints that turn or slide among convex solids, straight in joint space.
 //!
 //! Everything is worked out again by other means than planners use: forward kinematics by products of 4 × 4 matrices of quaternions'
-//! rotations, contact by parry3d with true cylinders, at a quarter of the planner's step. Lengths are metres and angles radians.
+//! rotations, contact by parry3d with true cylinders, at a quarter of the planner's step. Lengths are metres and angles radians; what
+//! counts steps takes a metre of a slide for a radian. Joints that turn without end have no limits and go the shorter way round.
 
-use base::robot::Robot;
+use base::robot::{Joint, Kind, Robot};
 use base::solid::{Form, Pose as Place, Solid};
 use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector3, Vector4};
 use parry3d::math::{Matrix, Pose, Rotation, Vector};
 use parry3d::query;
 use parry3d::shape::{Ball, ConvexPolyhedron, Cuboid, Cylinder, SharedShape};
+use std::f64::consts::TAU;
 
 /// How many steps of ours make one of the planner's.
 const FINER: f64 = 4.0;
@@ -16,8 +18,8 @@ const FINER: f64 = 4.0;
 /// Into how many pieces a leg is cut where it is only shown.
 const SEEN: u32 = 24;
 
-/// How far from a limit rounding may take a joint.
-const LIMIT_RAD: f64 = 1e-9;
+/// How far from a limit rounding may take a joint, radians or metres.
+const LIMIT: f64 = 1e-9;
 
 /// A robot among obstacles.
 pub struct Case {
@@ -39,7 +41,7 @@ impl std::fmt::Debug for Case {
 pub struct Motion {
     /// The way of the tip.
     pub length_m: f64,
-    /// The sum of all joints' changes.
+    /// The sum of the changes of all joints that turn.
     pub travel_rad: f64,
 }
 
@@ -77,7 +79,7 @@ impl Case {
     pub fn motion(&self, path: &[Vec<f64>], [start, goal]: [&[f64]; 2]) -> Result<Motion, String> {
         let count = self.robot.joints.len();
         if path.iter().any(|q| q.len() != count || q.iter().any(|angle| !angle.is_finite())) {
-            return Err(format!("a configuration is not made of {count} angles"));
+            return Err(format!("a configuration is not made of {count} numbers"));
         }
         if path.first().map(Vec::as_slice) != Some(start) || path.last().map(Vec::as_slice) != Some(goal) {
             return Err("the path does not go from start to goal".to_owned());
@@ -85,14 +87,16 @@ impl Case {
         self.refusal(&path[0]).map_or(Ok(()), |refusal| Err(format!("at the start, {refusal}")))?;
         let mut motion = Motion { length_m: 0.0, travel_rad: 0.0 };
         for (index, leg) in path.windows(2).enumerate() {
-            let change = leg[0].iter().zip(&leg[1]).map(|(a, b)| (b - a).abs());
-            motion.travel_rad += change.clone().sum::<f64>();
+            let to = self.reached(leg);
+            let change = leg[0].iter().zip(&to).map(|(a, b)| (b - a).abs());
+            let turns =
+                change.clone().zip(&self.robot.joints).filter(|(_, joint)| joint.kind != Kind::Slides);
+            motion.travel_rad += turns.map(|(by, _)| by).sum::<f64>();
             let steps = (change.fold(0.0, f64::max) / self.step_rad).ceil().max(1.0) as u32;
             let mut at = self.tip(&leg[0]);
             for step in 1..=steps {
                 let share = f64::from(step) / f64::from(steps);
-                let q: Vec<f64> =
-                    leg[0].iter().zip(&leg[1]).map(|(a, b)| a * (1.0 - share) + b * share).collect();
+                let q = between(&leg[0], &to, share);
                 if let Some(refusal) = self.refusal(&q) {
                     return Err(format!("leg {}: {refusal}", index + 1));
                 }
@@ -107,14 +111,20 @@ impl Case {
     /// The tip's places along `path`, 25 a leg, one after another, millimetres.
     pub fn way_mm(&self, path: &[Vec<f64>]) -> Vec<f64> {
         let legs = path.windows(2).flat_map(|leg| {
-            (0..=SEEN).map(|step| {
-                let share = f64::from(step) / f64::from(SEEN);
-                let q: Vec<f64> =
-                    leg[0].iter().zip(&leg[1]).map(|(a, b)| a * (1.0 - share) + b * share).collect();
-                self.tip(&q) * 1e3
-            })
+            let to = self.reached(leg);
+            (0..=SEEN)
+                .map(move |step| self.tip(&between(&leg[0], &to, f64::from(step) / f64::from(SEEN))) * 1e3)
         });
         legs.flat_map(|at| [at.x, at.y, at.z]).collect()
+    }
+
+    /// Where a leg ends, counted on from its start: what turns without end is half a turn away at most.
+    fn reached(&self, leg: &[Vec<f64>]) -> Vec<f64> {
+        let to = |(joint, (a, b)): (&Joint, (&f64, &f64))| match joint.kind {
+            Kind::TurnsOn => a + libm::remainder(b - a, TAU),
+            Kind::Turns | Kind::Slides => *b,
+        };
+        self.robot.joints.iter().zip(leg[0].iter().zip(&leg[1])).map(to).collect()
     }
 
     /// The straight distance between the tip's places in two configurations.
@@ -125,12 +135,16 @@ impl Case {
     /// Base and links in the world.
     pub fn frames(&self, q: &[f64]) -> Vec<Matrix4<f64>> {
         let mut frames = vec![Matrix4::identity()];
-        for (joint, angle) in self.robot.joints.iter().zip(q) {
-            let (s, c) = libm::sincos(0.5 * angle);
-            let [x, y, z] = joint.axis.map(|part| part * s);
-            let turned = UnitQuaternion::new_unchecked(Quaternion::new(c, x, y, z));
+        for (joint, value) in self.robot.joints.iter().zip(q) {
+            let moved = if joint.kind == Kind::Slides {
+                Matrix4::new_translation(&(Vector3::from(joint.axis) * *value))
+            } else {
+                let (s, c) = libm::sincos(0.5 * value);
+                let [x, y, z] = joint.axis.map(|part| part * s);
+                UnitQuaternion::new_unchecked(Quaternion::new(c, x, y, z)).to_homogeneous()
+            };
             let last = frames[frames.len() - 1];
-            frames.push(last * matrix(&joint.before) * turned.to_homogeneous());
+            frames.push(last * matrix(&joint.before) * moved);
         }
         frames
     }
@@ -143,11 +157,13 @@ impl Case {
 
     /// What is wrong with the robot at `q`.
     fn refusal(&self, q: &[f64]) -> Option<String> {
-        let outside = self.robot.joints.iter().zip(q).position(|(joint, angle)| {
-            *angle < joint.limits_rad[0] - LIMIT_RAD || *angle > joint.limits_rad[1] + LIMIT_RAD
+        let outside = self.robot.joints.iter().zip(q).position(|(joint, value)| {
+            let [lower, upper] = joint.limits;
+            joint.kind != Kind::TurnsOn && !(lower - LIMIT..=upper + LIMIT).contains(value)
         });
         if let Some(joint) = outside {
-            return Some(format!("joint {} is outside its limits at {:.4} rad", joint + 1, q[joint]));
+            let unit = if self.robot.joints[joint].kind == Kind::Slides { "m" } else { "rad" };
+            return Some(format!("joint {} is outside its limits at {:.4} {unit}", joint + 1, q[joint]));
         }
         let frames = self.frames(q);
         let links = self.robot.solids.iter().map(|(link, _)| *link);
@@ -166,6 +182,11 @@ impl Case {
             .find(|[a, b]| touch(&placed[*a], &self.parts[*a].1, &placed[*b], &self.parts[*b].1))?;
         Some(format!("part {} touches part {}", pair[0] + 1, pair[1] + 1))
     }
+}
+
+/// The configuration at `share` of the way from one to another.
+fn between(from: &[f64], to: &[f64], share: f64) -> Vec<f64> {
+    from.iter().zip(to).map(|(a, b)| a * (1.0 - share) + b * share).collect()
 }
 
 fn touch(a: &Pose, one: &SharedShape, b: &Pose, other: &SharedShape) -> bool {
@@ -216,7 +237,6 @@ fn pose(frame: &Matrix4<f64>) -> Pose {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use base::robot::Joint;
 
     fn place(x: f64, z: f64) -> Place {
         Place { origin_m: [x, 0.0, z], ..Place::IDENTITY }
@@ -228,16 +248,19 @@ mod tests {
             name: "nod".to_owned(),
             before: Place::IDENTITY,
             axis: [0.0, 1.0, 0.0],
-            limits_rad: [-2.0, 2.0],
-            speed_rad_s: 1.0,
+            kind: Kind::Turns,
+            limits: [-2.0, 2.0],
+            speed: Some(1.0),
         };
         let solid = Solid { name: "rod".to_owned(), pose: place(0.0, 0.5), form: Form::Cylinder(0.05, 1.0) };
         Robot {
             name: "rod".to_owned(),
             joints: vec![joint],
             solids: vec![(1, solid)],
+            owners: vec!["rod".to_owned()],
             tip: place(0.0, 1.0),
             files: Vec::new(),
+            notes: Vec::new(),
         }
     }
 
@@ -277,7 +300,7 @@ mod tests {
         );
         assert_eq!(
             case.motion(&[vec![0.0, 1.0]], [&[0.0], &[1.0]]).unwrap_err(),
-            "a configuration is not made of 1 angles"
+            "a configuration is not made of 1 numbers"
         );
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{MAX_CELLS, MAX_SIDE_CELLS, MAX_SIDE_NODES};
 use crate::file;
+use crate::text::{brief, visible};
 use std::path::{Path, PathBuf};
 
 /// Why a grid, a map file or a scenario file was refused.
@@ -48,7 +49,7 @@ pub enum GridError {
         accepted: usize,
     },
     /// A character that stands for no kind of cell.
-    #[error("line {line}, column {column}: found `{found}`; a cell is one of {accepted}")]
+    #[error("line {line}, column {column}: found `{}`; a cell is one of {accepted}", visible(&found.to_string()))]
     Letter {
         /// Line in the file, from 1.
         line: usize,
@@ -60,7 +61,7 @@ pub enum GridError {
         accepted: &'static str,
     },
     /// A line of a file's head or a field of a record does not read as it must.
-    #[error("line {line}: found `{found}`; accepted is {accepted}")]
+    #[error("line {line}: found `{}`; accepted is {accepted}", brief(found))]
     Text {
         /// Line in the file, from 1.
         line: usize,
@@ -93,17 +94,8 @@ pub enum GridError {
 
 /// Reads the file at `path` and parses it, so that every error names the file once.
 pub(super) fn read<T>(path: &Path, parse: impl Fn(&str) -> Result<T, GridError>) -> Result<T, GridError> {
-    file::read(path)
+    file::read_text(path)
         .map_err(|error| GridError::Unreadable { reason: error.to_string() })
-        .and_then(|bytes| {
-            String::from_utf8(bytes).map_err(|error| {
-                let at = error.utf8_error().valid_up_to();
-                let line = error.as_bytes()[..at].split(|byte| *byte == b'\n').count();
-                GridError::Unreadable {
-                    reason: format!("line {line}, byte {at} of the file is not UTF-8 text"),
-                }
-            })
-        })
         .and_then(|text| parse(&text))
         .map_err(|source| GridError::InFile { path: path.to_owned(), source: Box::new(source) })
 }

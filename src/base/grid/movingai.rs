@@ -26,8 +26,8 @@ pub struct Scenario {
     pub start: u32,
     /// Goal cell.
     pub goal: u32,
-    /// Length of the shortest path as printed, in cells.
-    pub optimal_length_cells: f64,
+    /// Length of the shortest path as printed, in cells; `None` if it is printed as -1 or infinite: there is no path.
+    pub optimal_length_cells: Option<f64>,
 }
 
 /// The grid in a `.map` text.
@@ -154,9 +154,11 @@ impl Record<'_> {
         if let Some([width, height]) = size {
             self.check_size(grid, width, height)?;
         }
-        let optimal_length_cells: f64 = self.field(length, "a length of 0 or more")?;
-        if !(0.0..f64::INFINITY).contains(&optimal_length_cells) {
-            return Err(wrong_text(self.line, length, "a length of 0 or more"));
+        let accepted = "a length of 0 or more, or -1 or inf where there is no path";
+        let printed: f64 = self.field(length, accepted)?;
+        let has_path = (0.0..f64::INFINITY).contains(&printed);
+        if !has_path && printed != -1.0 && printed != f64::INFINITY {
+            return Err(wrong_text(self.line, length, accepted));
         }
         Ok(Scenario {
             line: self.line,
@@ -164,7 +166,7 @@ impl Record<'_> {
             map: map.into(),
             start: self.cell(grid, ends[0], ends[1])?,
             goal: self.cell(grid, ends[2], ends[3])?,
-            optimal_length_cells,
+            optimal_length_cells: has_path.then_some(printed),
         })
     }
 
@@ -249,8 +251,24 @@ mod tests {
             assert_eq!((grid.xy(query.start), grid.xy(query.goal)), ([0, 1], [6, 0]), "{text}");
             assert_eq!(
                 (query.bucket, &query.map[..], query.optimal_length_cells),
-                (3, "m.map", 6.414_213_56)
+                (3, "m.map", Some(6.414_213_56))
             );
+        }
+    }
+
+    #[test]
+    fn a_length_of_minus_one_or_infinity_says_that_there_is_no_path() {
+        let grid = parse_movingai_map(MAP).unwrap();
+        for (length, read) in
+            [("-1", None), ("-1.0", None), ("inf", None), ("Infinity", None), ("0", Some(0.0))]
+        {
+            let [query] = &parse_scenarios(&format!("0 m 0 0 1 1 {length}\n"), &grid).unwrap()[..] else {
+                panic!()
+            };
+            assert_eq!(query.optimal_length_cells, read, "{length}");
+        }
+        for length in ["-2", "-inf", "NaN"] {
+            assert!(parse_scenarios(&format!("0 m 0 0 1 1 {length}\n"), &grid).is_err(), "{length}");
         }
     }
 
@@ -273,8 +291,16 @@ mod tests {
                 "0 m -1 0 1 1 1\n",
                 "line 1: found `-1 0`; accepted is a cell with x below 7 and y below 2".into(),
             ),
-            ("0 m 0 0 1 1 far\n", "line 1: found `far`; accepted is a length of 0 or more".into()),
-            ("0 m 0 0 1 1 NaN\n", "line 1: found `NaN`; accepted is a length of 0 or more".into()),
+            (
+                "0 m 0 0 1 1 far\n",
+                "line 1: found `far`; accepted is a length of 0 or more, or -1 or inf where there is no path"
+                    .into(),
+            ),
+            (
+                "0 m 0 0 1 1 NaN\n",
+                "line 1: found `NaN`; accepted is a length of 0 or more, or -1 or inf where there is no path"
+                    .into(),
+            ),
             ("x m 0 0 1 1 1\n", "line 1: found `x`; accepted is a bucket number of 0 or more".into()),
         ] {
             assert_eq!(parse_scenarios(text, &grid).unwrap_err().to_string(), message, "{text:?}");

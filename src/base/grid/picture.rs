@@ -1,34 +1,35 @@
-//! Maps from pictures: PNG and PGM images, and the occupancy maps of ROS, which are an image with a YAML file beside it.
+//! Maps from files of every kind: images, the occupancy maps of ROS, Moving AI maps, text.
 //!
-//! An image alone is free where it is brighter than half, blocked elsewhere; what is transparent is white. The first row of pixels is the
-//! highest y. A ROS map has thresholds of its own: with `p` the darkness of a pixel from 0 to 1 (its brightness with `negate`), a cell is
-//! blocked where `p > occupied_thresh`, free where `p < free_thresh`, unknown in between; what is unknown is blocked. Its `resolution`
-//! must be a length and is not used, nor is the place in its `origin`: cells are cells here, counted from the lower left pixel. A map that
-//! is turned, by a yaw in its `origin`, is refused, and so is a key that the format does not have.
-//!
-//! Source: the page "Map format" of <https://wiki.ros.org/map_server>.
+//! An image alone is free where it is brighter than half by the mean of its colours, blocked elsewhere; what is transparent is white.
+//! The first row of pixels is the highest y.
 
+use super::image::{Image, Pixel};
+use super::ros::Head;
 use super::{Grid2, GridError, parse_text_map, read_movingai_map, read_text_map};
-use crate::settings::{Document, SettingsError};
-use crate::solid::Source;
-use crate::yaml::{Node, Yaml};
-use std::io::{BufReader, Cursor};
 use std::path::{Path, PathBuf};
 
-/// Above this brightness a pixel of an image alone is free.
-const HALF: u8 = 127;
+/// A map as it was read.
+#[derive(Debug)]
+pub struct FileMap {
+    /// The map.
+    pub grid: Grid2,
+    /// The files that it was read from.
+    pub files: Vec<PathBuf>,
+    /// What a reader of results should know of how they were taken, a sentence each.
+    pub notes: Vec<String>,
+}
 
-/// The map in the file at `path` and the files that it was read from: an image (`.png`, `.pgm`), a ROS map (`.yaml`), a Moving AI map
-/// (`.map`), or a text map.
+/// The map in the file at `path`: an image (`.png`, `.pgm`), a ROS map (`.yaml`), a Moving AI map (`.map`), or a text map.
 ///
 /// # Errors
 /// [`GridError::InFile`] or [`GridError::Told`] around what is wrong.
-pub fn read_map(path: &Path) -> Result<(Grid2, Vec<PathBuf>), GridError> {
+pub fn read_map(path: &Path) -> Result<FileMap, GridError> {
     let ending = path.extension().map(|end| end.to_string_lossy().to_lowercase()).unwrap_or_default();
-    let alone = |grid: Grid2| (grid, vec![path.to_owned()]);
+    let alone = |grid: Grid2| FileMap { grid, files: vec![path.to_owned()], notes: Vec::new() };
     match ending.as_str() {
-        "png" | "pgm" => {
-            Picture::open(path).and_then(|picture| picture.grid(|bright| bright > HALF)).map(alone)
+        "png" | "pgm" | "pnm" | "pbm" | "ppm" | "jpg" | "jpeg" | "bmp" | "gif" | "tif" | "tiff" | "webp" => {
+            let on_white = |pixel: Pixel| pixel.bright * pixel.opaque + (1.0 - pixel.opaque);
+            grid(path, &Image::open(path)?, |pixel| on_white(pixel) > 0.5).map(alone)
         }
         "yaml" | "yml" => read_ros_map(path),
         // A text map may be called `.map` too; the format of Moving AI begins with its type.
@@ -47,182 +48,24 @@ pub fn read_map(path: &Path) -> Result<(Grid2, Vec<PathBuf>), GridError> {
 }
 
 /// The ROS map whose YAML file is at `path`, and both of its files.
-fn read_ros_map(path: &Path) -> Result<(Grid2, Vec<PathBuf>), GridError> {
+fn read_ros_map(path: &Path) -> Result<FileMap, GridError> {
     let head = Head::read(path).map_err(|error| GridError::Told { said: error.to_string() })?;
-    let grid = Picture::open(&head.image)?.grid(|bright| {
-        let share = f64::from(bright) / 255.0;
-        let dark = if head.is_negated { share } else { 1.0 - share };
-        dark < head.free_below
-    })?;
-    Ok((grid, vec![path.to_owned(), head.image]))
+    let image = Image::open(&head.image)?;
+    let grid = grid(&head.image, &image, |pixel| head.is_free(pixel.bright_with_opacity))?;
+    let notes = head.notes(&image);
+    Ok(FileMap { grid, files: vec![path.to_owned(), head.image], notes })
 }
 
-/// What the YAML file of a ROS map says.
-struct Head {
-    image: PathBuf,
-    is_negated: bool,
-    free_below: f64,
-}
-
-/// The keys of the format; `mode` is that of its newer versions.
-const KEYS: [&str; 7] = ["image", "mode", "resolution", "origin", "negate", "occupied_thresh", "free_thresh"];
-
-impl Head {
-    fn read(path: &Path) -> Result<Self, SettingsError> {
-        let document = Document::open(path)?;
-        let (root, yaml) = (Yaml::parse(&document)?, Yaml(Source(&document)));
-        for (key, node) in yaml.table(&root)? {
-            if !KEYS.contains(&key.as_str()) {
-                let message = format!("unknown key `{key}`; accepted: {}", KEYS.join(", "));
-                return Err(yaml.0.fault(&node.at, message));
-            }
-        }
-        let resolution = yaml.get(&root, "resolution")?;
-        yaml.0.sizes(&resolution.at, "resolution", [yaml.number(resolution, "resolution")?])?;
-        check_origin(yaml, &root)?;
-        if let Some(mode) = yaml.find(&root, "mode")?
-            && yaml.word(mode)? != "trinary"
-        {
-            let message = format!("mode is `{}`; `trinary` is accepted", yaml.word(mode)?);
-            return Err(yaml.0.fault(&mode.at, message));
-        }
-        let named = yaml.get(&root, "image")?;
-        let image = path.parent().unwrap_or(Path::new("")).join(yaml.word(named)?);
-        if !image.is_file() {
-            let message =
-                format!("there is no image `{}`; looked for {}", yaml.word(named)?, image.display());
-            return Err(yaml.0.fault(&named.at, message));
-        }
-        Ok(Self { image, is_negated: is_negated(yaml, &root)?, free_below: free_below(yaml, &root)? })
+/// The grid whose cells are free where `is_free` says so of their pixel.
+fn grid(path: &Path, image: &Image, is_free: impl Fn(Pixel) -> bool) -> Result<Grid2, GridError> {
+    let [width, height] = image.size;
+    let mut grid = Grid2::new(width, height)
+        .map_err(|source| GridError::InFile { path: path.to_owned(), source: Box::new(source) })?;
+    for (index, pixel) in (0..).zip(image.pixels()) {
+        let (x, row) = (index % width, index / width);
+        grid.set_blocked((height - 1 - row) * width + x, !is_free(pixel));
     }
-}
-
-/// The place of the lower left pixel is not used, but the map's axes are those of the world.
-fn check_origin(yaml: Yaml<'_>, root: &Node) -> Result<(), SettingsError> {
-    let Some(origin) = yaml.find(root, "origin")? else { return Ok(()) };
-    let [_, _, yaw] = yaml.exactly::<3>(origin, "origin")?;
-    if yaw == 0.0 {
-        return Ok(());
-    }
-    let message = format!("origin turns the map by the yaw {yaw}; 0 is accepted, a map along its own axes");
-    Err(yaml.0.fault(&origin.at, message))
-}
-
-fn is_negated(yaml: Yaml<'_>, root: &Node) -> Result<bool, SettingsError> {
-    let Some(node) = yaml.find(root, "negate")? else { return Ok(false) };
-    match yaml.number(node, "negate")? {
-        0.0 => Ok(false),
-        1.0 => Ok(true),
-        other => Err(yaml.0.fault(&node.at, format!("negate is {other}; 0 or 1 is accepted"))),
-    }
-}
-
-/// The darkness below which a cell is free; what is darker than `occupied_thresh` must not be.
-fn free_below(yaml: Yaml<'_>, root: &Node) -> Result<f64, SettingsError> {
-    let share = |key: &str, default: f64| {
-        let Some(node) = yaml.find(root, key)? else { return Ok((root, default)) };
-        match yaml.number(node, key)? {
-            share if (0.0..=1.0).contains(&share) => Ok((node, share)),
-            other => {
-                Err(yaml.0.fault(&node.at, format!("{key} is {other}; a number from 0 to 1 is accepted")))
-            }
-        }
-    };
-    let ((_, blocked), (node, free)) = (share("occupied_thresh", 0.65)?, share("free_thresh", 0.196)?);
-    if free <= blocked {
-        return Ok(free);
-    }
-    let message = format!("free_thresh is {free}; at most occupied_thresh, {blocked}, is accepted");
-    Err(yaml.0.fault(&node.at, message))
-}
-
-/// The brightness of every pixel, row by row from the top.
-struct Picture {
-    path: PathBuf,
-    size: [u32; 2],
-    bright: Vec<u8>,
-}
-
-impl Picture {
-    fn open(path: &Path) -> Result<Self, GridError> {
-        let inside = |reason: String| GridError::InFile {
-            path: path.to_owned(),
-            source: Box::new(GridError::Unreadable { reason }),
-        };
-        let bytes = crate::file::read(path).map_err(|error| inside(error.to_string()))?;
-        let read = if bytes.starts_with(b"P5") { pgm(&bytes) } else { png(bytes) };
-        let (size, bright) = read.map_err(inside)?;
-        Ok(Self { path: path.to_owned(), size, bright })
-    }
-
-    /// The grid whose cells are free where `is_free` says so of their brightness.
-    fn grid(&self, is_free: impl Fn(u8) -> bool) -> Result<Grid2, GridError> {
-        let [width, height] = self.size;
-        let mut grid = Grid2::new(width, height)
-            .map_err(|source| GridError::InFile { path: self.path.clone(), source: Box::new(source) })?;
-        for (index, bright) in self.bright.iter().enumerate() {
-            let (x, row) = (index as u32 % width, index as u32 / width);
-            grid.set_blocked((height - 1 - row) * width + x, !is_free(*bright));
-        }
-        Ok(grid)
-    }
-}
-
-type Pixels = Result<([u32; 2], Vec<u8>), String>;
-
-fn png(bytes: Vec<u8>) -> Pixels {
-    let mut decoder = png::Decoder::new(BufReader::new(Cursor::new(bytes)));
-    decoder.set_transformations(png::Transformations::normalize_to_color8());
-    let mut reader = decoder.read_info().map_err(|error| format!("it is no PNG image: {error}"))?;
-    let size = reader.output_buffer_size().ok_or("the image does not fit the memory")?;
-    let mut pixels = vec![0; size];
-    let frame = reader.next_frame(&mut pixels).map_err(|error| format!("it is no PNG image: {error}"))?;
-    pixels.truncate(frame.buffer_size());
-    let bright = |pixel: &[u8]| {
-        let (colour, opaque) = match pixel {
-            [grey] => (u32::from(*grey) * 1000, 255),
-            [grey, opaque] => (u32::from(*grey) * 1000, u32::from(*opaque)),
-            [red, green, blue, rest @ ..] => {
-                let sum = 299 * u32::from(*red) + 587 * u32::from(*green) + 114 * u32::from(*blue);
-                (sum, rest.first().map_or(255, |opaque| u32::from(*opaque)))
-            }
-            [] => (0, 255),
-        };
-        ((colour * opaque + 255_000 * (255 - opaque)) / 255_000) as u8
-    };
-    let channels = frame.color_type.samples();
-    Ok(([frame.width, frame.height], pixels.chunks_exact(channels).map(bright).collect()))
-}
-
-/// A binary PGM image of one byte a pixel.
-fn pgm(bytes: &[u8]) -> Pixels {
-    let (mut words, mut at) = (Vec::new(), 2);
-    while words.len() < 3 {
-        let rest = bytes.get(at..).unwrap_or_default();
-        let skipped = rest.iter().take_while(|byte| byte.is_ascii_whitespace()).count();
-        let rest = &rest[skipped..];
-        let (is_comment, ends): (bool, fn(&u8) -> bool) = if rest.first() == Some(&b'#') {
-            (true, |byte| *byte == b'\n')
-        } else {
-            (false, u8::is_ascii_whitespace)
-        };
-        let long = rest.iter().take_while(|byte| !ends(byte)).count();
-        if !is_comment {
-            let word = std::str::from_utf8(&rest[..long]).ok().and_then(|word| word.parse::<u32>().ok());
-            words.push(word.ok_or("the head of the PGM image is not `P5`, width, height and 255")?);
-        }
-        at += skipped + long;
-    }
-    let (size, pixels) = ([words[0], words[1]], bytes.get(at + 1..).unwrap_or_default());
-    let wanted = u64::from(size[0]) * u64::from(size[1]);
-    if words[2] != 255 || pixels.len() as u64 != wanted {
-        return Err(format!(
-            "the PGM image has {} bytes of pixels up to {}; {wanted} up to 255 are accepted",
-            pixels.len(),
-            words[2]
-        ));
-    }
-    Ok((size, pixels.to_vec()))
+    Ok(grid)
 }
 
 #[cfg(test)]
@@ -260,7 +103,7 @@ mod tests {
         ] {
             let path = folder.path().join(name);
             fs::write(&path, bytes).unwrap();
-            let (grid, files) = read_map(&path).unwrap();
+            let FileMap { grid, files, .. } = read_map(&path).unwrap();
             assert_eq!((free(&grid), files), (vec![[1, 0], [0, 1], [1, 1]], vec![path]), "{name}");
         }
     }
@@ -275,8 +118,17 @@ mod tests {
         ),
         ("0.05", "0", "/room.yaml:2:13: resolution has the size 0; sizes above 0 are accepted"),
         ("0.05", "50", "/room.yaml:2:13: resolution has the length 50 m; is it in millimetres?"),
-        ("0.65", "65", "/room.yaml:5:18: occupied_thresh is 65; a number from 0 to 1 is accepted"),
+        (
+            "0.65",
+            "65",
+            "occupied_thresh is 65; is it in per cent or a pixel's value? a number from 0 to 1 is accepted",
+        ),
         ("negate", "mode: scale\nnegate", "/room.yaml:4:7: mode is `scale`; `trinary` is accepted"),
+        (
+            "negate",
+            "mode: Trinary\nnegate",
+            "mode is `Trinary`; `trinary` is accepted, in small letters as map_server",
+        ),
         (
             "-2.0, 0.0]",
             "-2.0, 0.7]",
@@ -284,8 +136,16 @@ mod tests {
         ),
         ("-2.0, 0.0]", "-2.0]", "/room.yaml:3:9: origin has 2 numbers; 3 are accepted"),
         ("-2.0, 0.0]", "nan, 0.0]", "/room.yaml:3:16: origin has the number NaN; finite numbers"),
-        ("negate: 0", "negate: 2", "/room.yaml:4:9: negate is 2; 0 or 1 is accepted"),
-        ("negate: 0", "negated: 1", "/room.yaml:4:10: unknown key `negated`; accepted: image, mode, reso"),
+        (
+            "negate: 0",
+            "negate: 2",
+            "/room.yaml:4:9: negate is `2`; true or false, yes or no, 1 or 0 is accepted",
+        ),
+        (
+            "negate: 0",
+            "negated: 1",
+            "/room.yaml:4:10: unknown key `negated` (did you mean `negate`?); accepted: image, mode, reso",
+        ),
         ("negate: 0", "negate: 0\nnegate: 1", "/room.yaml:5:9: `negate` is given twice; once is accepted"),
         ("0.196", "0.7", "/room.yaml:6:14: free_thresh is 0.7; at most occupied_thresh, 0.65, is accepted"),
     ];
@@ -305,31 +165,59 @@ mod tests {
             read_map(&path)
                 .map_err(|error| error.to_string().replace(&folder.path().display().to_string(), ""))
         };
-        let (grid, files) = read(head).unwrap();
+        let FileMap { grid, files, .. } = read(head).unwrap();
         assert_eq!((free(&grid), files.len()), (vec![[0, 0], [2, 0], [0, 1]], 2), "205 is unknown to ROS");
-        assert_eq!(free(&read(&head.replace("negate: 0", "negate: 1")).unwrap().0), vec![[2, 1]]);
+        for word in ["1", "true", "Yes", "on", "'1'", "\"true\""] {
+            let negated = read(&head.replace("negate: 0", &format!("negate: {word}"))).unwrap();
+            assert_eq!(free(&negated.grid), vec![[2, 1]], "{word}");
+        }
+        for word in ["false", "No", "OFF", "'0'"] {
+            let kept = read(&head.replace("negate: 0", &format!("negate: {word}"))).unwrap();
+            assert_eq!(free(&kept.grid), free(&grid), "{word}");
+        }
         for (from, to, said) in WRONG_HEADS {
             let error = read(&head.replace(from, to)).unwrap_err();
             assert!(error.contains(said), "should say {said}\nsays {error}");
         }
     }
 
-    #[test]
-    fn what_is_no_image_is_told_with_its_file() {
+    /// The YAML file of a map of one row of three pixels, of which the middle one may be free or not, and that it is free.
+    fn middle_is_free(colour: png::ColorType, middle: &[u8], negate: bool) -> (bool, Vec<String>) {
         let folder = tempfile::tempdir().unwrap();
-        for (name, bytes, said) in [
-            ("a.png", &b"nothing"[..], "a.png: cannot be read: it is no PNG image: "),
-            (
-                "b.pgm",
-                b"P5 3 2 255\n12345",
-                "the PGM image has 5 bytes of pixels up to 255; 6 up to 255 are accepted",
-            ),
-            ("c.pgm", b"P5 3 x", "the head of the PGM image is not `P5`, width, height and 255"),
+        let white = vec![255; middle.len()];
+        let row = [&white[..], middle, &white].concat();
+        fs::write(folder.path().join("room.png"), image(colour, &[&row[..], &row].concat())).unwrap();
+        let path = folder.path().join("room.yaml");
+        let head = format!("image: room.png\nresolution: 0.05\nnegate: {negate}\nfree_thresh: 0.196\n");
+        fs::write(&path, head).unwrap();
+        let map = read_map(&path).unwrap();
+        let folder = folder.path().display().to_string();
+        (map.grid.is_free_xy(1, 0), map.notes.iter().map(|note| note.replace(&folder, "")).collect())
+    }
+
+    #[test]
+    fn colours_of_a_ros_map_count_by_their_mean_as_map_server_and_nav2_take_them() {
+        use png::ColorType::{GrayscaleAlpha, Rgb, Rgba};
+        for (colour, pixel, negate, is_free) in [
+            (Rgb, &[255, 255, 0][..], false, false), // yellow: 170, unknown, though it seems bright
+            (Rgb, &[0, 255, 255], false, false),
+            (Rgb, &[255, 165, 0], false, false),
+            (Rgb, &[255, 255, 106], false, true), // 205.3 of 255: dark by 0.195, and the threshold is 0.196
+            (Rgb, &[255, 255, 105], false, false),
+            (Rgb, &[0, 0, 255], true, false),
+            (Rgb, &[0, 0, 140], true, true),
+            (Rgba, &[255, 255, 255, 0], false, false), // transparent white: 191.25
+            (GrayscaleAlpha, &[255, 60], false, true),
+            (GrayscaleAlpha, &[255, 40], false, false),
         ] {
-            let path = folder.path().join(name);
-            fs::write(&path, bytes).unwrap();
-            let error = read_map(&path).unwrap_err().to_string();
-            assert!(error.contains(said), "should say {said}\nsays {error}");
+            assert_eq!(middle_is_free(colour, pixel, negate).0, is_free, "{pixel:?}, negate: {negate}");
         }
+        let (_, notes) = middle_is_free(Rgba, &[255; 4], false);
+        assert_eq!(notes.len(), 1, "{notes:?}");
+        assert!(
+            notes[0].starts_with("/room.png: opacity counts as a fourth colour, as in map_server"),
+            "{notes:?}"
+        );
+        assert!(middle_is_free(Rgb, &[255; 3], false).1.is_empty());
     }
 }

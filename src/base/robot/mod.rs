@@ -1,44 +1,81 @@
-//! Robots as URDF files give them: one chain of turning joints, and the solids on its links.
+//! Robots as URDF files give them: one chain of joints that turn or slide, and the solids on its links.
 //!
 //! Lengths are metres and angles radians. Link 0 is the base, link `i` is moved by joint `i`; its frame is that of the joint. Links
-//! that fixed joints join are one link.
+//! that fixed joints join are one link. Which links may touch each other, an SRDF file says.
 
+mod elements;
+mod srdf;
 mod stl;
 #[cfg(test)]
 mod tests;
+mod tree;
 mod urdf;
+mod walk;
 
+pub use srdf::{MayTouch, parse_srdf, read_srdf};
 pub use urdf::{parse_urdf, read_urdf};
 
 use crate::solid::{Pose, Solid};
+use std::f64::consts::TAU;
 use std::path::PathBuf;
 
-/// A chain of turning joints.
+/// A chain of joints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Robot {
     /// Its name.
     pub name: String,
-    /// The joints that turn, base first.
+    /// The joints that move, base first.
     pub joints: Vec<Joint>,
     /// The solids that stand for its links, each with the number of the link that it is fixed to.
     pub solids: Vec<(usize, Solid)>,
+    /// The name that the file gives the link of each solid.
+    pub owners: Vec<String>,
     /// The tip, in the frame of the last joint: the link that the most fixed joints lead to, the first in the file if several do.
     pub tip: Pose,
     /// The files that were read besides the robot's own: meshes.
     pub files: Vec<PathBuf>,
+    /// What of the file was not known and not used, a sentence each.
+    pub notes: Vec<String>,
 }
 
-/// A joint that turns.
+/// How a joint moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// It turns between limits.
+    Turns,
+    /// It turns without end: angles that whole turns part are one.
+    TurnsOn,
+    /// It slides between limits.
+    Slides,
+}
+
+/// A joint that moves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
     /// Its name.
     pub name: String,
-    /// Its frame at the angle 0, in the frame of the joint before.
+    /// How it moves.
+    pub kind: Kind,
+    /// Its frame at 0, in the frame of the joint before.
     pub before: Pose,
-    /// The axis that it turns about, of length 1, in its own frame.
+    /// The axis that it turns about or slides along, of length 1, in its own frame.
     pub axis: [f64; 3],
-    /// The least and the greatest angle.
-    pub limits_rad: [f64; 2],
-    /// The greatest speed.
-    pub speed_rad_s: f64,
+    /// The least and the greatest value, radians or metres; of one that turns on, those of one turn.
+    pub limits: [f64; 2],
+    /// The greatest speed, radians or metres a second, if the file says one above 0.
+    pub speed: Option<f64>,
+}
+
+impl Joint {
+    /// Whether it may be at `value`.
+    pub fn allows(&self, value: f64) -> bool {
+        let [lower, upper] = self.limits;
+        if self.kind == Kind::TurnsOn { value.is_finite() } else { (lower..=upper).contains(&value) }
+    }
+
+    /// How far it moves from one value to another, with a sign; one that turns on goes the shorter way round.
+    pub fn change(&self, from: f64, to: f64) -> f64 {
+        let change = to - from;
+        if self.kind == Kind::TurnsOn { libm::remainder(change, TAU) } else { change }
+    }
 }

@@ -3,17 +3,19 @@
 use crate::file;
 use std::path::{Path, PathBuf};
 
-/// Where a mesh is looked for: `package://name/rest` beside the file, and in the folders above it.
+/// How many folders above a file its meshes are looked for in.
+const ABOVE: usize = 4;
+
+/// Where a mesh is looked for: `package://name/rest` and `model://name/rest` as `rest` and as `name/rest`, in the file's folder and in
+/// those above it, nearest first; all else in the file's folder alone.
 pub(super) fn places(urdf: &Path, given: &str) -> Vec<PathBuf> {
     let folder = urdf.parent().unwrap_or(Path::new(""));
-    match given.strip_prefix("package://") {
-        Some(below) => {
-            let rest = below.split_once('/').map_or(below, |(_, rest)| rest);
-            let up = folder.join("..");
-            vec![folder.join(rest), folder.join(below), up.join(rest), up.join("..").join(below)]
-        }
-        None => vec![folder.join(given.strip_prefix("file://").unwrap_or(given))],
-    }
+    let Some(below) = ["package://", "model://"].iter().find_map(|scheme| given.strip_prefix(scheme)) else {
+        return vec![folder.join(given.strip_prefix("file://").unwrap_or(given))];
+    };
+    let rest = below.split_once('/').map_or(below, |(_, rest)| rest);
+    let above = std::iter::successors(Some(folder.to_owned()), |folder| Some(folder.join("..")));
+    above.take(ABOVE + 1).flat_map(|folder| [folder.join(rest), folder.join(below)]).collect()
 }
 
 /// The distinct vertices of the mesh in the file at `path`.
@@ -29,11 +31,11 @@ pub(super) fn read(path: &Path) -> Result<Vec<[f64; 3]>, String> {
 /// # Errors
 /// What is wrong with it.
 fn vertices(bytes: &[u8]) -> Result<Vec<[f64; 3]>, String> {
-    let facets = bytes.get(80..84).map(|count| u32::from_le_bytes([count[0], count[1], count[2], count[3]]));
-    let is_binary = facets.is_some_and(|count| bytes.len() as u64 == 84 + 50 * u64::from(count));
+    let is_binary = facets(bytes).is_some_and(|count| bytes.len() as u64 == 84 + 50 * u64::from(count));
     let mut found = if is_binary { binary(&bytes[84..]) } else { text(bytes)? };
     if let Some(vertex) = found.iter().find(|vertex| vertex.iter().any(|x| !x.is_finite())) {
-        return Err(format!("it has the vertex {vertex:?}; finite numbers are accepted"));
+        let [x, y, z] = vertex;
+        return Err(format!("it has the vertex {x} {y} {z}; finite numbers are accepted"));
     }
     found.sort_by(|a, b| {
         a.iter().zip(b).map(|(x, y)| x.total_cmp(y)).find(|o| o.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
@@ -45,6 +47,11 @@ fn vertices(bytes: &[u8]) -> Result<Vec<[f64; 3]>, String> {
     Ok(found)
 }
 
+/// How many facets the head of a binary file says there are.
+fn facets(bytes: &[u8]) -> Option<u32> {
+    bytes.get(80..84).map(|count| u32::from_le_bytes([count[0], count[1], count[2], count[3]]))
+}
+
 fn binary(facets: &[u8]) -> Vec<[f64; 3]> {
     let number = |bytes: &[u8]| f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]));
     let vertex = |bytes: &[u8]| [number(bytes), number(&bytes[4..]), number(&bytes[8..])];
@@ -53,11 +60,19 @@ fn binary(facets: &[u8]) -> Vec<[f64; 3]> {
 
 fn text(bytes: &[u8]) -> Result<Vec<[f64; 3]>, String> {
     let text = std::str::from_utf8(bytes).ok().filter(|text| text.trim_start().starts_with("solid"));
-    let Some(text) = text else {
-        return Err(format!(
-            "its {} bytes are neither a binary STL file (84 bytes and 50 a facet) nor a text that begins with `solid`",
-            bytes.len()
-        ));
+    let Some(text) = text.filter(|text| facets(bytes).is_none() || text.contains("vertex")) else {
+        let found = bytes.len();
+        return Err(match facets(bytes) {
+            Some(count) => {
+                let wanted = 84 + 50 * u64::from(count);
+                format!(
+                    "its head says {count} facets, which take {wanted} bytes as a binary STL file; it has {found}"
+                )
+            }
+            None => format!(
+                "its {found} bytes are too few for a binary STL file, and its text does not begin with `solid`"
+            ),
+        });
     };
     let mut found = Vec::new();
     for (line, text) in (1..).zip(text.lines()) {
@@ -67,10 +82,9 @@ fn text(bytes: &[u8]) -> Result<Vec<[f64; 3]>, String> {
         }
         let numbers: Vec<f64> = words.map_while(|word| word.parse().ok()).collect();
         let vertex = <[f64; 3]>::try_from(numbers);
-        found.push(
-            vertex
-                .map_err(|_| format!("line {line}: found `{}`; `vertex x y z` is accepted", text.trim()))?,
-        );
+        found.push(vertex.map_err(|_| {
+            format!("line {line}: found `{}`; `vertex x y z` is accepted", crate::text::brief(text.trim()))
+        })?);
     }
     Ok(found)
 }

@@ -62,9 +62,9 @@ fn welded_links_are_one_and_everything_is_placed_in_the_frame_of_its_joint() {
         matches!(&robot.solids[2].1.form, Form::Hull(points) if points.len() == 4 && points[3] == [0.1, 0.0, 0.0])
     );
     let [turn, nod] = &robot.joints[..] else { panic!("{:?}", robot.joints) };
-    assert_eq!((turn.axis, turn.limits_rad, turn.speed_rad_s), ([0.0, 0.0, 1.0], [-1.0, 2.0], 3.0));
+    assert_eq!((turn.axis, turn.limits, turn.speed), ([0.0, 0.0, 1.0], [-1.0, 2.0], Some(3.0)));
     assert_eq!(turn.before.point([1.0, 0.0, 0.0]), [0.0, 1.0, 0.1], "1.5708 is a right angle");
-    assert_eq!((nod.before.origin_m, nod.limits_rad[1]), ([0.3, 0.0, 0.4], std::f64::consts::PI));
+    assert_eq!((nod.before.origin_m, nod.kind), ([0.3, 0.0, 0.4], Kind::TurnsOn));
     assert_eq!(
         robot.tip.origin_m,
         [0.1, 0.0, 0.5],
@@ -73,29 +73,23 @@ fn welded_links_are_one_and_everything_is_placed_in_the_frame_of_its_joint() {
     assert_eq!(robot.files.len(), 1);
 }
 
-#[test]
-fn a_mesh_is_read_as_text_and_as_numbers() {
-    let mut binary = vec![0; 80];
-    binary.extend(2_u32.to_le_bytes());
-    for facet in [
-        [[0.0, 0.0, 0.0], [100.0, 0.0, 0.0], [0.0, 100.0, 0.0]],
-        [[0.0, 0.0, 0.0], [100.0, 0.0, 0.0], [0.0, 0.0, 50.0]],
-    ] {
-        binary.extend([0; 12]);
-        binary.extend(facet.iter().flatten().flat_map(|x: &f32| x.to_le_bytes()));
-        binary.extend([0; 2]);
-    }
-    let [numbers, text] = [&binary[..], FOOT.as_bytes()].map(|foot| read(ARM, foot).unwrap());
-    assert_eq!(numbers.solids, text.solids);
-}
-
 /// A change of the file, and what must be said of it.
 const WRONG: &[(&str, &str, &str)] = &[
     ("</robot>", "</robo>", "/two.urdf:27:1: this is no XML: expected 'robot' tag, not 'robo' at 27:1"),
     (
+        "size=\"0.2 0.2 0.1\"",
+        "size=\"${w} 0.2 0.1\"",
+        "/two.urdf:4:47: this is xacro; what `xacro` makes of it is accepted",
+    ),
+    (
+        "<link name=\"plate\"/>",
+        "<xacro:plate/>",
+        "/two.urdf:10:4: this is xacro; what `xacro` makes of it is accepted",
+    ),
+    (
         "<robot name=\"two\">",
-        "<robot name=\"two\"> <!-- ${x} -->",
-        "this is xacro; what `xacro` makes of it is accepted",
+        "<robot name=\"two\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\"><xacro:property name=\"w\" value=\"1\"/>",
+        "/two.urdf:3:63: this is xacro; what `xacro` makes of it is accepted",
     ),
     (
         "<joint name=\"tip\" type=\"fixed\">",
@@ -107,9 +101,13 @@ const WRONG: &[(&str, &str, &str)] = &[
     (
         "<limit lower=\"-1\" upper=\"2\" effort=\"1\" velocity=\"3\"/>",
         "",
-        "/two.urdf:5:3: a revolute joint needs a limit (lower, upper and velocity; continuous: velocity): joint `turn` has no `limit`",
+        "/two.urdf:5:3: joint `turn` is revolute and has no `limit`; one is accepted (lower, upper)",
     ),
-    ("upper=\"2\" ", "", "/two.urdf:8:5: the element `limit` has no `upper`; one is accepted"),
+    (
+        "lower=\"-1\" upper=\"2\" ",
+        "",
+        "/two.urdf:8:5: upper of joint `turn` is 0; more than lower, 0, is accepted",
+    ),
     (
         "upper=\"2\"",
         "upper=\"-2\"",
@@ -123,13 +121,23 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("upper=\"2\"", "upper=\"NaN\"", "/two.urdf:8:23: upper has the number NaN; finite numbers are accepted"),
     (
         "velocity=\"3\"",
-        "velocity=\"0\"",
-        "/two.urdf:8:44: the velocity of joint `turn` is 0; a number above 0 is accepted",
+        "velocity=\"-3\"",
+        "/two.urdf:8:44: the velocity of joint `turn` is -3; 0 (not told) or more is accepted",
     ),
     (
         "type=\"continuous\"",
-        "type=\"prismatic\"",
-        "/two.urdf:16:21: joint `nod` is prismatic; revolute, continuous and fixed are accepted",
+        "type=\"floating\"",
+        "/two.urdf:16:21: joint `nod` is floating; revolute, continuous, prismatic and fixed are accepted",
+    ),
+    (
+        "<axis xyz=\"0 1 0\"/>",
+        "<axis xyz=\"0 1 0\"/><mimic joint=\"turn\"/>",
+        "/two.urdf:18:47: joint `nod` follows `turn`; joints that move by themselves are accepted (one that need",
+    ),
+    (
+        "type=\"revolute\"",
+        "type=\"planar\"",
+        "joint `turn` is planar; revolute, continuous, prismatic and fixed are accepted",
     ),
     (
         "foot.stl",
@@ -157,7 +165,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     (
         "axis xyz=\"0 1 0\"",
         "axis xyz=\"0 0 0\"",
-        "/two.urdf:18:28: the axis of joint `nod` is [0.0, 0.0, 0.0]; a direction is accepted",
+        "/two.urdf:18:28: the axis of joint `nod` is 0 0 0; a direction is accepted",
     ),
     (
         "radius=\"0.05\"",
@@ -203,11 +211,11 @@ fn every_bad_input_is_refused_at_its_place() {
     for (foot, said) in [
         (
             &b"\x00\x01"[..],
-            "/meshes/foot.stl: its 2 bytes are neither a binary STL file (84 bytes and 50 a facet) nor a text",
+            "/meshes/foot.stl: its 2 bytes are too few for a binary STL file, and its text does not begin with `solid`",
         ),
         (b"solid\nvertex 0 0\n", "/meshes/foot.stl: line 2: found `vertex 0 0`; `vertex x y z` is accepted"),
         (b"solid\nvertex 0 0 0\n", "it has 1 distinct vertices; at least 4 are accepted"),
-        (b"solid\nvertex 0 nan 0\n", "it has the vertex [0.0, NaN, 0.0]; finite numbers are accepted"),
+        (b"solid\nvertex 0 nan 0\n", "it has the vertex 0 NaN 0; finite numbers are accepted"),
     ] {
         let error = read(ARM, foot).unwrap_err();
         if !error.contains(said) {
@@ -226,4 +234,149 @@ fn every_bad_input_is_refused_at_its_place() {
             .to_string()
             .contains("found the element `sdf`")
     );
+}
+
+/// A binary mesh of two facets whose head begins with `solid`, as some programs write it.
+fn binary_foot() -> Vec<u8> {
+    let mut binary = vec![b' '; 80];
+    binary[..5].copy_from_slice(b"solid");
+    binary.extend(2_u32.to_le_bytes());
+    for facet in [
+        [[0.0, 0.0, 0.0], [100.0, 0.0, 0.0], [0.0, 100.0, 0.0]],
+        [[0.0, 0.0, 0.0], [100.0, 0.0, 0.0], [0.0, 0.0, 50.0]],
+    ] {
+        binary.extend([0; 12]);
+        binary.extend(facet.iter().flatten().flat_map(|x: &f32| x.to_le_bytes()));
+        binary.extend([0; 2]);
+    }
+    binary
+}
+
+#[test]
+fn a_mesh_is_read_as_text_and_as_numbers_and_bytes_too_many_are_counted() {
+    let binary = binary_foot();
+    let [numbers, text] = [&binary[..], FOOT.as_bytes()].map(|foot| read(ARM, foot).unwrap());
+    assert_eq!(numbers.solids, text.solids);
+    let error = read(ARM, &[&binary[..], &[0; 4]].concat()).unwrap_err();
+    let said = "foot.stl: its head says 2 facets, which take 184 bytes as a binary STL file; it has 188";
+    assert!(error.contains(said), "should say {said}\nsays {error}");
+}
+
+/// Changes of the file that mean nothing, or what the format says of what is left out.
+const RIGHT: &[(&str, &str)] = &[
+    ("<!-- two joints -->", "<!-- ${x}, $(find two) -->"),
+    ("<robot name=\"two\">", "<robot name=\"two\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">"),
+    ("<?xml version=\"1.0\"?>\n", "\u{feff}"),
+    ("<limit effort=\"1\" velocity=\"1\"/>", ""),
+    ("<limit effort=\"1\" velocity=\"1\"/>", "<limit effort=\"1\"/>"),
+    ("<limit effort=\"1\" velocity=\"1\"/>", "<limit lower=\"-1\" upper=\"1\" velocity=\"0\"/>"),
+    ("package://two/meshes", "model://two/meshes"),
+    ("package://two/meshes", "meshes"),
+    (
+        "<link name=\"tool\"/>",
+        "<link name=\"tool\"><visual/><inertial/></link><transmission name=\"t\"/><gazebo/>",
+    ),
+];
+
+#[test]
+fn what_the_format_leaves_open_is_read_as_it_says() {
+    let plain = read(ARM, FOOT.as_bytes()).unwrap();
+    for (from, to) in RIGHT {
+        assert!(ARM.contains(from), "{from}");
+        let robot = read(&ARM.replacen(from, to, 1), FOOT.as_bytes()).unwrap();
+        let without_speed = |robot: &Robot| {
+            let joints = robot.joints.iter().map(|joint| Joint { speed: None, ..joint.clone() });
+            Robot { joints: joints.collect(), files: Vec::new(), ..robot.clone() }
+        };
+        assert_eq!(without_speed(&robot), without_speed(&plain), "{to}");
+    }
+    let limits = |limit: &str| {
+        let text = ARM.replacen("<limit lower=\"-1\" upper=\"2\" effort=\"1\" velocity=\"3\"/>", limit, 1);
+        let joint = read(&text, FOOT.as_bytes()).unwrap().joints[0].clone();
+        (joint.limits, joint.speed)
+    };
+    assert_eq!(
+        limits("<limit upper=\"2\" velocity=\"0\"/>"),
+        ([0.0, 2.0], None),
+        "a lower limit is 0 if it is left out"
+    );
+    assert_eq!(limits("<limit lower=\"-1\"/>"), ([-1.0, 0.0], None));
+}
+
+#[test]
+fn what_the_format_does_not_have_is_noted_by_name() {
+    let text = ARM
+        .replacen("<link name=\"plate\"/>", "<link name=\"plate\"><capsule/></link>", 1)
+        .replace("<axis ", "<axis frame=\"x\" ");
+    let notes =
+        ["`axis/@frame` is not known and not used (2 times)", "`link/capsule` is not known and not used"];
+    assert_eq!(read(&text, FOOT.as_bytes()).unwrap().notes, notes);
+    assert!(read(ARM, FOOT.as_bytes()).unwrap().notes.is_empty());
+}
+
+#[test]
+fn a_joint_that_slides_has_limits_in_metres() {
+    let slide = |limit: &str| {
+        let text = ARM.replacen("type=\"revolute\"", "type=\"prismatic\"", 1).replacen(
+            "lower=\"-1\" upper=\"2\"",
+            limit,
+            1,
+        );
+        read(&text, FOOT.as_bytes())
+    };
+    let joint = slide("lower=\"0\" upper=\"0.4\"").unwrap().joints[0].clone();
+    assert_eq!((joint.kind, joint.limits, joint.change(0.1, 7.0)), (Kind::Slides, [0.0, 0.4], 6.9));
+    let error = slide("lower=\"0\" upper=\"400\"").unwrap_err();
+    assert!(
+        error.contains("upper of joint `turn` is 400; is it in millimetres? metres are accepted"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_joint_that_turns_on_may_be_anywhere_and_goes_the_shorter_way_round() {
+    use std::f64::consts::{PI, TAU};
+    let nod = read(ARM, FOOT.as_bytes()).unwrap().joints[1].clone();
+    for (from, to, change) in
+        [(3.0, -3.0, TAU - 6.0), (-3.0, 3.0, 6.0 - TAU), (0.5, 1.0, 0.5), (9.0 * PI, PI, 0.0)]
+    {
+        assert!((nod.change(from, to) - change).abs() < 1e-12, "{from} to {to}");
+        assert!(nod.allows(from) && nod.allows(to));
+    }
+    assert!(!nod.allows(f64::NAN));
+}
+
+#[test]
+fn links_that_an_srdf_file_lets_touch_are_read_and_its_other_elements_are_known_or_named() {
+    let robot = read(ARM, FOOT.as_bytes()).unwrap();
+    let pairs = |text: &str| {
+        let document = Document::new(Path::new("two.srdf"), text.to_owned());
+        parse_srdf(&document, &robot).map_err(|error| error.to_string())
+    };
+    let srdf = "<robot name=\"two\"><group name=\"arm\"/>\n\
+                <disable_collisions link1=\"mast\" link2=\"base\" reason=\"Adjacent\"/></robot>";
+    let read = pairs(srdf).unwrap();
+    assert!(read.allows("base", "mast") && read.allows("mast", "base") && !read.allows("base", "arm"));
+    assert!(read.notes.is_empty(), "{:?}", read.notes);
+    let lost = pairs(&srdf.replace("\"base\"", "\"finger\"").replace("<group", "<pose")).unwrap();
+    let notes =
+        ["`robot/pose` is not known and not used", "no solid stands for the links `finger` of its pairs"];
+    assert_eq!(lost.notes, notes);
+    for (from, to, said) in [
+        ("\"two\"", "\"three\"", "two.srdf:1:1: the file is of the robot `three`; `two` is accepted"),
+        (
+            "disable_coll",
+            "enable_coll",
+            "two.srdf:2:1: `enable_collisions` is not read; `disable_collisions` is",
+        ),
+        (
+            "link2=\"base\"",
+            "",
+            "two.srdf:2:1: the element `disable_collisions` has no `link2`; one is accepted",
+        ),
+        ("\"mast\"", "\"${side}\"", "this is xacro"),
+    ] {
+        let error = pairs(&srdf.replacen(from, to, 1)).unwrap_err();
+        assert!(error.contains(said), "should say {said}\nsays {error}");
+    }
 }

@@ -5,6 +5,7 @@ use super::reader::{self, Refused};
 use super::validate::{Fault, faults};
 use super::{Faults, SettingsError, schema_of};
 use crate::file;
+use crate::text::{around, visible};
 use schemars::JsonSchema;
 use self_cell::self_cell;
 use serde::de::DeserializeOwned;
@@ -50,12 +51,7 @@ impl Document {
     /// [`SettingsError::Unreadable`] if it is missing, not readable, or not UTF-8 (with the first bad byte).
     pub fn open(path: &Path) -> Result<Arc<Self>, SettingsError> {
         let unreadable = |reason: String| SettingsError::Unreadable { path: path.to_owned(), reason };
-        let bytes = file::read(path).map_err(|e| unreadable(e.to_string()))?;
-        let text = String::from_utf8(bytes).map_err(|e| {
-            let at = e.utf8_error().valid_up_to();
-            unreadable(format!("byte {at} is not UTF-8; TOML files are UTF-8 text"))
-        })?;
-        Ok(Self::new(path, text))
+        Ok(Self::new(path, file::read_text(path).map_err(|e| unreadable(e.to_string()))?))
     }
 
     /// A document with the given text, as if read from `path`.
@@ -163,14 +159,16 @@ impl Document {
         let start = span.start.min(text.len());
         let before = &text[..start];
         let line_start = before.rfind('\n').map_or(0, |i| i + 1);
+        let column = text[line_start..start].chars().count();
+        let line = text[line_start..].lines().next().unwrap_or_default().trim_end();
         SettingsError::At {
             path: self.path.clone(),
             line: before.matches('\n').count() + 1,
-            column: text[line_start..start].chars().count() + 1,
+            column: column + 1,
             with: Vec::new(),
             about: Box::default(),
-            message: message.into(),
-            excerpt: printable(text[line_start..].lines().next().unwrap_or_default().trim_end()).into(),
+            message: visible(&message.into()).into_owned(),
+            excerpt: around(line, column).into(),
         }
     }
 
@@ -240,11 +238,6 @@ fn says(value: &DeValue<'_>, word: &str) -> bool {
 /// A parser's message on one line.
 pub(super) fn in_words(message: &str) -> String {
     message.trim().replace('\n', "; ")
-}
-
-/// `line` with control characters replaced, so that a binary file taken for TOML cannot steer a terminal.
-fn printable(line: &str) -> String {
-    line.chars().map(|c| if c.is_control() && c != '\t' { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }
 
 pub(super) fn parse(text: &str) -> Result<Spanned<DeValue<'_>>, toml::de::Error> {

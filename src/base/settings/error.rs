@@ -1,6 +1,6 @@
 //! What is wrong with a document: one fault, or all of a file at once.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// What is wrong with a document or a table in it.
@@ -151,8 +151,25 @@ fn below(excerpt: &str) -> String {
     if excerpt.is_empty() { String::new() } else { format!("\n    {excerpt}") }
 }
 
+/// The most faults of one file that a message tells.
+const MOST_OF_FILE: usize = 50;
+
+/// Each fault on a line of its own; of a file with very many the first ones, and how many more there are.
 fn lines(errors: &[SettingsError]) -> String {
-    errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+    let mut told: BTreeMap<Option<&PathBuf>, usize> = BTreeMap::new();
+    let mut lines = Vec::new();
+    for error in errors {
+        let count = told.entry(error.place().1).or_default();
+        *count += 1;
+        if *count <= MOST_OF_FILE {
+            lines.push(error.to_string());
+        }
+    }
+    for (path, count) in told.into_iter().filter(|(_, count)| *count > MOST_OF_FILE) {
+        let path = path.map_or_else(String::new, |path| format!("{}: ", path.display()));
+        lines.push(format!("{path}{} more faults like these", count - MOST_OF_FILE));
+    }
+    lines.join("\n")
 }
 
 fn said_with(with: &[String]) -> String {

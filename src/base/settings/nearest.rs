@@ -1,8 +1,11 @@
 //! What somebody may have meant who wrote a name that does not exist.
 
+/// A longer name is not compared: it takes the product of the lengths.
+const LONGEST: usize = 64;
+
 /// ` (did you mean X?)` with the known name nearest to `written`, or nothing if none is near.
 ///
-/// Near is at most a third of the letters added, left out, changed or swapped with their neighbour, whatever their case; a
+/// A name longer than 64 characters is near to none. Near is at most a third of the letters added, left out, changed or swapped with their neighbour, whatever their case; a
 /// name that begins with what was written, or ends in it after a `/`, is near.
 pub fn did_you_mean<'a>(written: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     nearest(written, known)
@@ -14,6 +17,9 @@ pub fn did_you_mean<'a>(written: &str, known: impl IntoIterator<Item = &'a str>)
 pub(super) fn nearest<'a>(written: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let lower = written.to_lowercase();
     let length = lower.chars().count();
+    if length > LONGEST {
+        return None;
+    }
     let apart = |name: &str| {
         let name = name.to_lowercase();
         // A name that was not written out is nearer than one with other letters.

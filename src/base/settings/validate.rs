@@ -4,6 +4,7 @@
 
 use super::nearest::{did_you_mean, nearest};
 use super::schema::Node;
+use crate::text::{brief, unseen};
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -171,9 +172,9 @@ fn tag_word<'a>(branch: Node<'a>, key: &str) -> Option<&'a str> {
 
 /// Whether it does something to a terminal or a page instead of being seen: all control characters but ends of lines and tabs, and
 /// those that turn the direction of reading.
-fn is_unseen(c: char) -> bool {
+fn acts(c: char) -> bool {
     let turns = matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    turns || (c.is_control() && !matches!(c, '\n' | '\r' | '\t'))
+    turns || (c.is_control() && unseen(c).is_some())
 }
 
 fn plain(node: Node<'_>, subject: Subject<'_>, found: &mut Found) {
@@ -195,7 +196,7 @@ fn plain(node: Node<'_>, subject: Subject<'_>, found: &mut Found) {
     match subject.value.get_ref() {
         DeValue::Table(table) => keys(node, subject, table, found),
         DeValue::Array(elements) => array(node, subject, elements, found),
-        DeValue::String(text) if text.chars().any(is_unseen) => found.push(|| {
+        DeValue::String(text) if text.chars().any(acts) => found.push(|| {
             let message =
                 format!("`{}` holds a control character; text that can be seen is accepted", subject.name);
             Fault::new(subject.span(), message)
@@ -287,7 +288,7 @@ fn unknown(node: Node<'_>, name: &str) -> String {
     let hint = did_you_mean(name, known.iter().copied());
     let known: Vec<String> = known.iter().map(|key| format!("`{key}`")).collect();
     let accepted = if known.is_empty() { "no key".to_owned() } else { known.join(", ") };
-    format!("unknown key `{name}`{hint}; accepted: {accepted}")
+    format!("unknown key `{}`{hint}; accepted: {accepted}", brief(name))
 }
 
 fn missing(node: Node<'_>, key: &str) -> String {
@@ -311,7 +312,7 @@ fn refused(subject: Subject<'_>, accepted: &str) -> Fault {
 
 fn no_such_word(subject: Subject<'_>, word: &str, known: &[&str], accepted: &str) -> Fault {
     let hint = did_you_mean(word, known.iter().copied());
-    let message = format!("`{}` is \"{word}\"{hint}; {accepted} is accepted", subject.name);
+    let message = format!("`{}` is \"{}\"{hint}; {accepted} is accepted", subject.name, brief(word));
     Fault::new(subject.span(), message)
 }
 
@@ -345,10 +346,7 @@ pub(super) fn whole(value: &DeValue<'_>) -> Option<i128> {
 
 fn shown(value: &DeValue<'_>) -> String {
     match value {
-        DeValue::String(text) if text.chars().count() > 60 => {
-            format!("\"{}…\"", text.chars().take(60).collect::<String>())
-        }
-        DeValue::String(text) => format!("\"{text}\""),
+        DeValue::String(text) => format!("\"{}\"", brief(text)),
         DeValue::Integer(whole) => whole.to_string(),
         // As a number, not as it is written: what is wrong in a table and in a copy of it is one thing.
         DeValue::Float(real) => match real.as_str().parse::<f64>() {

@@ -52,13 +52,23 @@ pub enum KinematicsError {
     },
     /// A URDF file has another number of joints than six.
     #[error(
-        "robot `{robot}` has {found} joints that turn; 6 are accepted here, and any number in problems in joint space"
+        "robot `{robot}` has {found} joints that move; 6 are accepted here, and any number in problems in joint space"
     )]
     Axes {
         /// Its name.
         robot: String,
         /// How many it has.
         found: usize,
+    },
+    /// A joint of a URDF file is none that a work cell's arm may have.
+    #[error(
+        "joint `{joint}` {why}; revolute joints with limits and a velocity are accepted here, and all kinds in problems in joint space"
+    )]
+    Unfit {
+        /// Its name.
+        joint: String,
+        /// What it is.
+        why: &'static str,
     },
     /// A robot file holds what is not accepted.
     #[error(transparent)]

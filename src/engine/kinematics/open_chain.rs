@@ -1,11 +1,11 @@
-//! Chains of any number of turning joints, by the frames of their joints: what a URDF file gives. Forward kinematics only.
+//! Chains of any number of joints that turn or slide, by the frames of their joints: what a URDF file gives. Forward kinematics only.
 
 use crate::geometry::{Frame, Vec3};
-use base::robot::Robot;
+use base::robot::{Joint, Kind, Robot};
 use base::solid::Pose;
 use nalgebra::Matrix3;
 
-/// A chain of turning joints.
+/// A chain of joints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OpenChain {
     joints: Vec<OpenJoint>,
@@ -15,12 +15,22 @@ pub struct OpenChain {
 /// A joint and the link that it moves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OpenJoint {
-    /// Its frame at the angle 0, in that of the joint before.
+    /// Its frame at 0, in that of the joint before.
     pub before: Frame,
-    /// The unit vector that it turns about, in its own frame.
+    /// The unit vector that it turns about or slides along, in its own frame.
     pub axis: Vec3,
-    /// The least and the greatest angle.
-    pub limits_rad: [f64; 2],
+    /// The joint as its file gives it.
+    pub joint: Joint,
+}
+
+impl OpenJoint {
+    /// Its frame at `value`, in that at 0.
+    fn moved(&self, value: f64) -> Frame {
+        match self.joint.kind {
+            Kind::Turns | Kind::TurnsOn => Frame::turned(&self.axis, value),
+            Kind::Slides => Frame::at(self.axis * value),
+        }
+    }
 }
 
 /// A pose as a frame.
@@ -33,10 +43,10 @@ pub fn frame(pose: &Pose) -> Frame {
 impl OpenChain {
     /// The chain of a robot.
     pub fn new(robot: &Robot) -> Self {
-        let joint = |joint: &base::robot::Joint| OpenJoint {
+        let joint = |joint: &Joint| OpenJoint {
             before: frame(&joint.before),
             axis: Vec3::from(joint.axis),
-            limits_rad: joint.limits_rad,
+            joint: joint.clone(),
         };
         Self { joints: robot.joints.iter().map(joint).collect(), tip: frame(&robot.tip) }
     }
@@ -51,15 +61,15 @@ impl OpenChain {
         &self.tip
     }
 
-    /// The base and the frame of each joint, turned, in the base.
+    /// The base and the frame of each joint, moved, in the base.
     ///
     /// # Panics
-    /// If there are more joints than angles.
+    /// If there are more joints than numbers.
     pub fn frames(&self, q: &[f64]) -> Vec<Frame> {
         let mut frames = Vec::with_capacity(self.joints.len() + 1);
         frames.push(Frame::IDENTITY);
         for (index, joint) in self.joints.iter().enumerate() {
-            frames.push(frames[index] * joint.before * Frame::turned(&joint.axis, q[index]));
+            frames.push(frames[index] * joint.before * joint.moved(q[index]));
         }
         frames
     }
@@ -71,9 +81,11 @@ impl OpenChain {
 
     /// The first joint, from 0, that is outside its limits.
     pub fn outside(&self, q: &[f64]) -> Option<usize> {
-        self.joints.iter().zip(q).position(|(joint, angle)| {
-            let [lower, upper] = joint.limits_rad;
-            !(lower..=upper).contains(angle)
-        })
+        self.joints.iter().zip(q).position(|(joint, value)| !joint.joint.allows(*value))
+    }
+
+    /// How far each joint moves from one configuration to another, with a sign.
+    pub fn change<'q>(&'q self, from: &'q [f64], to: &'q [f64]) -> impl Iterator<Item = f64> + Clone + 'q {
+        self.joints.iter().zip(from).zip(to).map(|((joint, from), to)| joint.joint.change(*from, *to))
     }
 }

@@ -1,12 +1,13 @@
-//! A robot of any number of turning joints among convex solids: where it can be, and which straight motions it can make.
+//! A robot of any number of joints among convex solids: where it can be, and which straight motions it can make.
 //!
 //! Solids are points and a radius ([`Rounded`]); a cylinder is a prism around it. Touching is contact. Links that a joint joins are
-//! never held against each other. A motion straight in the space of joint angles is checked at both ends and wherever the joint that
-//! moves most has gone one more step.
+//! never held against each other, unless an SRDF file says which links may touch. A motion straight in joint space is checked at both
+//! ends and wherever the joint that moves most has gone one more step; a metre of a joint that slides counts as a radian, and a joint
+//! that turns without end goes the shorter way round.
 
 use crate::geometry::{Frame, Placed, Rounded, Vec3, intersects_placed_placed};
 use crate::kinematics::open_chain::OpenChain;
-use base::robot::Robot;
+use base::robot::{Kind, MayTouch, Robot};
 use base::solid::Solid;
 
 /// A robot among obstacles.
@@ -22,20 +23,39 @@ pub struct JointSpace {
     step_rad: f64,
 }
 
+/// Which parts of a robot must not touch each other.
+#[derive(Debug, Clone)]
+pub enum SelfContact {
+    /// None: the robot may touch itself.
+    Unchecked,
+    /// Those of links that no joint joins.
+    Apart,
+    /// Those of links that are not one and may not touch.
+    Except(MayTouch),
+}
+
+impl SelfContact {
+    fn is_checked(&self, robot: &Robot, [a, b]: [usize; 2]) -> bool {
+        let apart = robot.solids[a].0.abs_diff(robot.solids[b].0);
+        match self {
+            Self::Unchecked => false,
+            Self::Apart => apart > 1,
+            Self::Except(may_touch) => apart > 0 && !may_touch.allows(&robot.owners[a], &robot.owners[b]),
+        }
+    }
+}
+
 fn rounded(solid: &Solid) -> Rounded {
     let (points, radius_m) = solid.rounded();
     Rounded::new(points.into_iter().map(Vec3::from).collect(), radius_m)
 }
 
 impl JointSpace {
-    /// The robot among these obstacles, its motions checked every `step_rad`; it must not touch itself if `self_collision` says so.
-    pub fn new(robot: Robot, obstacles: Vec<Solid>, self_collision: bool, step_rad: f64) -> Self {
-        let links: Vec<usize> = robot.solids.iter().map(|(link, _)| *link).collect();
-        let mut self_pairs = Vec::new();
-        for b in 0..links.len() {
-            let far = (0..b).filter(|a| self_collision && links[*a].abs_diff(links[b]) > 1);
-            self_pairs.extend(far.map(|a| [a, b]));
-        }
+    /// The robot among these obstacles, its motions checked every `step_rad`; it must not touch itself as `contact` says.
+    pub fn new(robot: Robot, obstacles: Vec<Solid>, contact: &SelfContact, step_rad: f64) -> Self {
+        let count = robot.solids.len();
+        let pairs = (0..count).flat_map(|b| (0..b).map(move |a| [a, b]));
+        let self_pairs = pairs.filter(|pair| contact.is_checked(&robot, *pair)).collect();
         Self {
             chain: OpenChain::new(&robot),
             parts: robot.solids.iter().map(|(link, solid)| (*link, rounded(solid))).collect(),
@@ -75,9 +95,9 @@ impl JointSpace {
     /// Why the robot cannot be at `q`; `None` if it can.
     pub fn refusal(&self, q: &[f64]) -> Option<String> {
         if let Some(joint) = self.chain.outside(q) {
-            let (name, [lower, upper]) =
-                (&self.robot.joints[joint].name, self.robot.joints[joint].limits_rad);
-            return Some(format!("joint `{name}` is at {} rad, outside {lower} to {upper}", q[joint]));
+            let (name, [lower, upper]) = (&self.robot.joints[joint].name, self.robot.joints[joint].limits);
+            let unit = if self.robot.joints[joint].kind == Kind::Slides { "m" } else { "rad" };
+            return Some(format!("joint `{name}` is at {} {unit}, outside {lower} to {upper}", q[joint]));
         }
         let frames = self.chain.frames(q);
         let name = |part: usize| &self.robot.solids[part].1.name;
@@ -103,12 +123,13 @@ impl JointSpace {
 
     /// Whether it can go straight from one configuration to another; counts every configuration that is checked.
     pub fn joins(&self, from: &[f64], to: &[f64], checked: &mut u64) -> bool {
-        let change = from.iter().zip(to).map(|(a, b)| (b - a).abs()).fold(0.0, f64::max);
+        let changes: Vec<f64> = self.chain.change(from, to).collect();
+        let change = changes.iter().map(|change| change.abs()).fold(0.0, f64::max);
         let steps = (change / self.step_rad).ceil().max(1.0) as u32;
         (0..=steps).all(|step| {
             *checked += 1;
             let share = f64::from(step) / f64::from(steps);
-            let q: Vec<f64> = from.iter().zip(to).map(|(a, b)| a + (b - a) * share).collect();
+            let q: Vec<f64> = from.iter().zip(&changes).map(|(a, change)| a + change * share).collect();
             self.is_free(&q)
         })
     }
@@ -151,8 +172,9 @@ mod tests {
             name: format!("joint {i}"),
             before: up(0.2),
             axis: if i.is_multiple_of(2) { [0.0, 0.0, 1.0] } else { [0.0, 1.0, 0.0] },
-            limits_rad: [-2.5, 2.5],
-            speed_rad_s: 1.0,
+            kind: Kind::Turns,
+            limits: [-2.5, 2.5],
+            speed: None,
         };
         let rod =
             |i: usize| Solid { name: format!("rod {i}"), pose: up(0.1), form: Form::Cylinder(0.03, 0.18) };
@@ -160,8 +182,10 @@ mod tests {
             name: "seven".to_owned(),
             joints: (0..7).map(joint).collect(),
             solids: (0..=7).map(|i| (i, rod(i))).collect(),
+            owners: (0..=7).map(|i| rod(i).name).collect(),
             tip: up(0.2),
             files: Vec::new(),
+            notes: Vec::new(),
         }
     }
 
@@ -172,7 +196,7 @@ mod tests {
 
     #[test]
     fn seven_axes_move_and_stop_at_what_is_in_the_way() {
-        let space = JointSpace::new(seven(), vec![ball(0.8, 0.4)], true, 0.05);
+        let space = JointSpace::new(seven(), vec![ball(0.8, 0.4)], &SelfContact::Apart, 0.05);
         let up = [0.0; 7];
         assert!((space.chain().forward(&up).origin - Vec3::z() * 1.6).norm() < 1e-12);
         assert_eq!(space.refusal(&up), None);
@@ -195,8 +219,8 @@ mod tests {
     fn a_robot_that_folds_onto_itself_is_told_unless_nobody_asks() {
         let mut folded = [0.0; 7];
         (folded[1], folded[3], folded[5]) = (0.0, 2.4, 2.4);
-        let refusal = JointSpace::new(seven(), Vec::new(), true, 0.05).refusal(&folded);
+        let refusal = JointSpace::new(seven(), Vec::new(), &SelfContact::Apart, 0.05).refusal(&folded);
         assert!(refusal.is_some_and(|text| text.contains("are in contact")), "it must touch");
-        assert!(JointSpace::new(seven(), Vec::new(), false, 0.05).is_free(&folded));
+        assert!(JointSpace::new(seven(), Vec::new(), &SelfContact::Unchecked, 0.05).is_free(&folded));
     }
 }

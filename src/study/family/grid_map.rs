@@ -4,7 +4,7 @@ use super::{Entry, Family, Query};
 use crate::StudyError;
 use crate::prepared::{Prepared, lattice};
 use crate::verification::LATTICE_COLUMNS;
-use base::grid::{Grid2, read_map};
+use base::grid::{FileMap, read_map};
 use base::settings::{Accepted, Faults};
 use engine::planner::Invalid;
 use engine::space::{LatticeWorld, WorldKind};
@@ -30,8 +30,8 @@ corner_rule = "allow"
     build: |settings, inputs| {
         let read: GridMap = settings.read()?;
         let file = inputs.locate(&read.map).map_err(|message| settings.error_at("map", message))?;
-        let (grid, inputs) = read_map(&file).map_err(|e| settings.error_at("map", e.to_string()))?;
-        let world = LatticeWorld::new(grid.clone(), read.corner_rule.into());
+        let map = read_map(&file).map_err(|e| settings.error_at("map", e.to_string()))?;
+        let world = LatticeWorld::new(map.grid.clone(), read.corner_rule.into());
         let mut faults = Faults::default();
         for (what, cell) in [("start", read.start), ("goal", read.goal)] {
             let free = world.free_cell(what, &cell.map(f64::from));
@@ -41,7 +41,7 @@ corner_rule = "allow"
         let [start, goal] = [read.start, read.goal].map(|cell| cell.map(f64::from).to_vec());
         let queries = [Query { name: String::new(), start, goal }];
         queries[0].leads_away().map_err(|message| settings.error_at("goal", message))?;
-        Ok::<Box<dyn Family>, StudyError>(Box::new(Posed { read, grid, queries, inputs }))
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Posed { read, map, queries }))
     },
 };
 
@@ -61,9 +61,8 @@ struct GridMap {
 
 struct Posed {
     read: GridMap,
-    grid: Grid2,
+    map: FileMap,
     queries: [Query; 1],
-    inputs: Vec<PathBuf>,
 }
 
 impl Family for Posed {
@@ -72,7 +71,7 @@ impl Family for Posed {
     }
 
     fn prepare(&self, _seed: u64) -> Result<Prepared, Invalid> {
-        lattice::prepare(self.grid.clone(), self.read.corner_rule, self.read.start, self.read.goal)
+        lattice::prepare(self.map.grid.clone(), self.read.corner_rule, self.read.start, self.read.goal)
     }
 
     fn queries(&self) -> &[Query] {
@@ -80,10 +79,14 @@ impl Family for Posed {
     }
 
     fn cells(&self) -> u64 {
-        u64::from(self.grid.cell_count())
+        u64::from(self.map.grid.cell_count())
+    }
+
+    fn notes(&self) -> Vec<String> {
+        self.map.notes.clone()
     }
 
     fn inputs(&self) -> &[PathBuf] {
-        &self.inputs
+        &self.map.files
     }
 }

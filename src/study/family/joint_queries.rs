@@ -8,8 +8,8 @@ use crate::prepared::Prepared;
 use crate::prepared::nested_roadmap::{self, Neighbours};
 use crate::verification::roadmap::JOINT_COLUMNS;
 use crate::{Inputs, StudyError};
-use base::problem::{Ended, Problem, parse_problem};
-use base::robot::read_urdf;
+use base::problem::{Asked, Ended, Problem, parse_problem};
+use base::robot::{Robot, read_srdf, read_urdf};
 use base::seed;
 use base::settings::{Accepted, Document, Faults, Settings, SettingsError};
 use base::solid::{Form, Pose, Solid};
@@ -17,7 +17,7 @@ use engine::geometry::Frame;
 use engine::kinematics::FARTHEST_MM;
 use engine::planner::Invalid;
 use engine::space::roadmap::{Counted, Extent, Local, Near, Sample};
-use engine::space::{JointSpace, Support, SupportEntry, WorldKind};
+use engine::space::{JointSpace, SelfContact, Support, SupportEntry, WorldKind};
 use rand::RngExt as _;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -62,21 +62,24 @@ struct JointQueries {
     /// The problem's number in the set, from 0.
     #[serde(default)]
     index: usize,
-    /// Whether the robot must not touch itself; links that a joint joins may.
+    /// Whether the robot must not touch itself; links that a joint joins may, or those that `srdf` says.
     self_collision: bool,
+    /// The file that says which links may touch each other, an SRDF file.
+    srdf: Option<String>,
     /// How many samples the roadmap is built from, drawn evenly within the joints' limits.
     #[schemars(range(min = 1, max = 100_000))]
     samples: u32,
     /// How far the tips of two samples may be apart to be tried as neighbours; given like this, as `radius_deg` or as `nearest`.
     #[schemars(range(min = 0.001, max = FARTHEST_MM))]
     radius_mm: Option<f64>,
-    /// How far two samples may be apart in joint space, by the root of the sum of squares over the joints.
+    /// How far two samples may be apart in joint space, by the root of the sum of squares over the joints; a metre of a joint that
+    /// slides counts as a radian.
     #[schemars(range(min = 0.001, max = 36_000))]
     radius_deg: Option<f64>,
     /// So many samples nearest in joint space are tried as a sample's neighbours.
     #[schemars(range(min = 1))]
     nearest: Option<u32>,
-    /// How far a joint may move between two configurations that are checked.
+    /// How far a joint may move between two configurations that are checked; a metre of a joint that slides counts as a radian.
     #[schemars(range(min = 0.1, max = 180.0))]
     step_deg: f64,
 }
@@ -88,7 +91,10 @@ struct Posed {
     /// How high the floor is, if there is one.
     floor_m: Option<f64>,
     queries: Vec<Query>,
+    /// Whether the set calls the problem valid.
+    is_valid: bool,
     ends: Result<(), SettingsError>,
+    notes: Vec<String>,
     inputs: Vec<PathBuf>,
 }
 
@@ -99,31 +105,78 @@ impl Posed {
         let near = Neighbours { radius_mm, radius_deg, nearest }.rule(settings)?;
         let mut faults = Faults::default();
         let robot = faults.keep(input(settings, inputs, "robot", &read.robot, read_urdf));
+        let asked = robot.as_ref().map(|(_, robot)| Asked {
+            robot: &robot.name,
+            joints: robot.joints.iter().map(|joint| joint.name.as_str()).collect(),
+        });
         let problem = faults.keep(input(settings, inputs, "problem", &read.problem, |file| {
             let document = Document::open(file)?;
-            Ok((parse_problem(&document, read.set.as_deref(), read.index)?, document))
+            Ok((parse_problem(&document, read.set.as_deref(), read.index, asked.as_ref())?, document))
         }));
-        let ((robot_file, robot), (problem_file, (problem, document))) = faults.or(robot.zip(problem))?;
-        let files = [robot_file, problem_file];
-        let (axes, found) = (robot.joints.len(), problem.start.angles_rad.len());
-        if axes != found {
-            let message =
-                format!("the start has {found} angles; {axes}, as `{}` has joints, are accepted", robot.name);
-            return Err(document.error(problem.start.at, message));
-        }
-        let inputs = files.into_iter().chain(robot.files.iter().cloned()).collect();
+        let contact =
+            robot.as_ref().and_then(|(_, robot)| faults.keep(read.contact(settings, inputs, robot)));
+        let read_all = robot.zip(problem).zip(contact);
+        let (((robot_file, robot), (problem_file, (problem, document))), (srdf_file, contact)) =
+            faults.or(read_all)?;
+        let files = [robot_file, problem_file].into_iter().chain(srdf_file);
+        let inputs = files.chain(robot.files.iter().cloned()).collect();
+        let notes = read.notes(&robot, &problem, &contact);
         let queries = queries(&problem);
         let support = support(settings, &read.support)?;
         let obstacles = under(&support).into_iter().chain(problem.obstacles.iter().cloned()).collect();
-        let space = JointSpace::new(robot, obstacles, read.self_collision, read.step_deg.to_radians());
+        let space = JointSpace::new(robot, obstacles, &contact, read.step_deg.to_radians());
         let ends =
             std::iter::once(("start", &problem.start)).chain(problem.goals.iter().map(|goal| ("goal", goal)));
         let mut unposed = Faults::default();
-        for (what, end) in ends {
+        // What the set itself calls invalid may well stand in an obstacle.
+        for (what, end) in ends.filter(|_| problem.is_valid) {
             unposed.keep(posed(&space, &document, what, end));
         }
-        let floor_m = support.floor_m();
-        Ok(Self { read, near, space, floor_m, queries, ends: unposed.done(), inputs })
+        let (floor_m, is_valid, ends) = (support.floor_m(), problem.is_valid, unposed.done());
+        Ok(Self { read, near, space, floor_m, queries, is_valid, ends, notes, inputs })
+    }
+}
+
+impl JointQueries {
+    /// Which parts of the robot must not touch, and the file that says so.
+    fn contact(
+        &self,
+        settings: &Settings,
+        inputs: &Inputs,
+        robot: &Robot,
+    ) -> Result<(Option<PathBuf>, SelfContact), SettingsError> {
+        let Some(srdf) = &self.srdf else {
+            return Ok((None, if self.self_collision { SelfContact::Apart } else { SelfContact::Unchecked }));
+        };
+        if !self.self_collision {
+            let message = "srdf says which links may touch, and self_collision is false; true is accepted";
+            return Err(settings.error_at("srdf", message));
+        }
+        let (file, may_touch) = input(settings, inputs, "srdf", srdf, |file| read_srdf(file, robot))?;
+        Ok((Some(file), SelfContact::Except(may_touch)))
+    }
+
+    /// What a reader of results should know of how the files were taken.
+    fn notes(&self, robot: &Robot, problem: &Problem, contact: &SelfContact) -> Vec<String> {
+        let mut notes: Vec<String> =
+            robot.notes.iter().map(|note| format!("{}: {note}", self.robot)).collect();
+        let meshes = robot.solids.iter().filter(|(_, solid)| matches!(solid.form, Form::Hull(_))).count();
+        if meshes > 0 {
+            let hulls = format!("the convex hulls of their STL vertices stand for {meshes} meshes");
+            notes.push(format!("{}: {hulls}", self.robot));
+        }
+        notes.extend(problem.notes.iter().map(|note| format!("{}: {note}", self.problem)));
+        if !problem.is_valid {
+            let index = self.index;
+            notes.push(format!(
+                "{}: the set calls problem {index} invalid; it is counted as such",
+                self.problem
+            ));
+        }
+        if let (SelfContact::Except(may_touch), Some(srdf)) = (contact, &self.srdf) {
+            notes.extend(may_touch.notes.iter().map(|note| format!("{srdf}: {note}")));
+        }
+        notes
     }
 }
 
@@ -159,8 +212,8 @@ fn queries(problem: &Problem) -> Vec<Query> {
         |index: usize| if problem.goals.len() == 1 { String::new() } else { format!("goal-{}", index + 1) };
     let query = |(index, goal): (usize, &Ended)| Query {
         name: name(index),
-        start: problem.start.angles_rad.clone(),
-        goal: goal.angles_rad.clone(),
+        start: problem.start.joints.clone(),
+        goal: goal.joints.clone(),
     };
     problem.goals.iter().enumerate().map(query).collect()
 }
@@ -168,7 +221,7 @@ fn queries(problem: &Problem) -> Vec<Query> {
 /// That the robot can stand at `end`.
 fn posed(space: &JointSpace, document: &Document, what: &str, end: &Ended) -> Result<(), SettingsError> {
     let refused = |refusal| document.error(end.at.clone(), format!("the {what} cannot be posed: {refusal}"));
-    space.refusal(&end.angles_rad).map_or(Ok(()), |refusal| Err(refused(refusal)))
+    space.refusal(&end.joints).map_or(Ok(()), |refusal| Err(refused(refusal)))
 }
 
 impl Family for Posed {
@@ -177,6 +230,9 @@ impl Family for Posed {
     }
 
     fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
+        if !self.is_valid {
+            return Err(Invalid("the problem set calls this problem invalid".to_owned()));
+        }
         let (mut stream, wanted) = (seed::stream(seed), self.read.samples);
         let (mut samples, mut draws) = (Vec::new(), 0);
         while samples.len() < wanted as usize {
@@ -189,7 +245,7 @@ impl Family for Posed {
             let joints = self.space.chain().joints().iter();
             let config: Vec<f64> = joints
                 .map(|joint| {
-                    let [low, high] = joint.limits_rad;
+                    let [low, high] = joint.joint.limits;
                     low + (high - low) * stream.random::<f64>()
                 })
                 .collect();
@@ -221,12 +277,7 @@ impl Family for Posed {
     }
 
     fn notes(&self) -> Vec<String> {
-        let solids = &self.space.robot().solids;
-        let meshes = solids.iter().filter(|(_, solid)| matches!(solid.form, Form::Hull(_))).count();
-        let note = || {
-            format!("{}: the convex hulls of their STL vertices stand for {meshes} meshes", self.read.robot)
-        };
-        (meshes > 0).then(note).into_iter().collect()
+        self.notes.clone()
     }
 
     fn inputs(&self) -> &[PathBuf] {

@@ -2,7 +2,8 @@
 //!
 //! Queries are named after their line in the file. The optimal length that the file prints for each stands in every
 //! trial's row, so that a check can hold both the verifier and the planners to it. A query whose start or goal is
-//! blocked (water, say) is an invalid problem, and its trials are rows with that status.
+//! blocked (water, say) is an invalid problem, and its trials are rows with that status. One that has no path, the file says, is
+//! asked like any other, with no optimal length.
 
 use super::{Entry, Family, Query};
 use crate::StudyError;
@@ -126,7 +127,15 @@ impl Family for Posed {
     }
 
     fn known(&self, query: usize) -> Counts {
-        Counts::from([("printed_optimal_cells", Value::Real(self.scenarios[query].optimal_length_cells))])
+        let printed = self.scenarios[query].optimal_length_cells;
+        printed.map(|length| ("printed_optimal_cells", Value::Real(length))).into_iter().collect()
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let without =
+            self.scenarios.iter().filter(|scenario| scenario.optimal_length_cells.is_none()).count();
+        let note = || format!("{}: {without} of its queries have no path, it says", self.files[1].display());
+        (without > 0).then(note).into_iter().collect()
     }
 
     fn cells(&self) -> u64 {

@@ -11,6 +11,7 @@ use crate::geometry::{Capsule, Frame, Vec3};
 use crate::kinematics::open_chain::{OpenChain, frame};
 use crate::kinematics::serial::{AXES, Chain, Joint};
 use crate::kinematics::{Arm, KinematicsError};
+use base::robot::Kind;
 use base::seed;
 use base::solid::{Form, Solid};
 use nalgebra::Matrix3;
@@ -29,13 +30,17 @@ pub(super) fn robot(read: &base::robot::Robot) -> Result<Robot, KinematicsError>
     if count != AXES {
         return Err(KinematicsError::Axes { robot: read.name.clone(), found: count });
     }
+    let mut speeds = [0.0; AXES];
+    for (speed, joint) in speeds.iter_mut().zip(&read.joints) {
+        *speed = speed_rad_s(joint)?;
+    }
     let zero = [0.0; AXES];
     let frames = open.frames(&zero);
     let rows = rows(&open, &frames);
     let joints = std::array::from_fn(|i| Joint {
-        lower_rad: read.joints[i].limits_rad[0],
-        upper_rad: read.joints[i].limits_rad[1],
-        speed_rad_s: read.joints[i].speed_rad_s,
+        lower_rad: read.joints[i].limits[0],
+        upper_rad: read.joints[i].limits[1],
+        speed_rad_s: speeds[i],
         ..rows.joints[i]
     });
     let last = rows.links[AXES].inverse();
@@ -58,6 +63,19 @@ pub(super) fn robot(read: &base::robot::Robot) -> Result<Robot, KinematicsError>
         files: read.files.clone(),
         enclosed: enclosed(&read.solids),
     })
+}
+
+/// The greatest speed of a joint that a work cell's arm may have.
+fn speed_rad_s(joint: &base::robot::Joint) -> Result<f64, KinematicsError> {
+    let unfit = |why| KinematicsError::Unfit { joint: joint.name.clone(), why };
+    match (joint.kind, joint.speed) {
+        (Kind::Slides, _) => Err(unfit("slides, which inverse kinematics does not know")),
+        (Kind::TurnsOn, _) => {
+            Err(unfit("turns without end, and paths in a cell are told apart by whole turns"))
+        }
+        (Kind::Turns, None) => Err(unfit("has no `velocity` above 0, which a cell's arm needs")),
+        (Kind::Turns, Some(speed)) => Ok(speed),
+    }
 }
 
 /// What capsules stand for, unless every solid is a sphere.

@@ -4,13 +4,14 @@ use super::plane::PlaneMap;
 use crate::kinematics::{AXES, Joints};
 use crate::space::JointSpace;
 use crate::space::cell::{Lines, Path, Pose, Rejection, Scratch};
+use base::robot::Kind;
 
 /// The robot of a roadmap and the local paths it can take.
 #[derive(Debug)]
 pub enum Local {
     /// A six-axis arm; configurations are joint angles in radians.
     Arm(Box<Lines>),
-    /// A robot of any number of joints; configurations are joint angles in radians.
+    /// A robot of any number of joints; configurations are angles in radians and slides in metres.
     Joints(Box<JointSpace>),
     /// A particle in the plane; configurations are [x, y] in millimetres.
     Plane(PlaneMap),
@@ -64,6 +65,16 @@ impl Local {
             Self::Arm(_) => AXES,
             Self::Joints(space) => space.chain().joints().len(),
             Self::Plane(_) => 2,
+        }
+    }
+
+    /// Which numbers of a configuration are angles that whole turns part from themselves.
+    pub(super) fn turn_on(&self) -> Vec<bool> {
+        match self {
+            Self::Arm(_) | Self::Plane(_) => vec![false; self.width()],
+            Self::Joints(space) => {
+                space.robot().joints.iter().map(|joint| joint.kind == Kind::TurnsOn).collect()
+            }
         }
     }
 

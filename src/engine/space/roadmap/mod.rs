@@ -145,7 +145,7 @@ impl Roadmap {
         let placed = samples.iter().zip(&nodes);
         let places_mm = placed.map(|(sample, node)| node.place_mm(&local, &sample.config)).collect();
         let numbers = samples.iter().zip(0..).map(|(sample, i)| (bits(&sample.config), i)).collect();
-        let near = Samples::new(near, &samples, places_mm);
+        let near = Samples::new(near, &samples, places_mm, local.turn_on());
         let (mut tally, mut scratch) = (Tally::default(), Scratch::default());
         let mut links = vec![Vec::new(); samples.len()];
         near.each_pair(&samples, |from, to, gap_mm| {

@@ -1,11 +1,13 @@
 //! Which samples are tried as neighbours: by the distance of their places, or by that of their configurations.
 //!
 //! Two configurations are as far apart as the root of the sum of squares of their coordinates' differences: radians for
-//! joints, with no turn taken off, and millimetres in the plane. All samples are measured in f32, sixteen side by side; those
+//! joints, with no turn taken off but for those that turn without end, which are taken the shorter way round; metres for joints that
+//! slide; and millimetres in the plane. All samples are measured in f32, sixteen side by side; those
 //! that may be near are measured again in f64, which decides.
 
 use super::{Sample, distance_mm, square_mm2};
 use fearless_simd::{Level, dispatch};
+use std::f64::consts::TAU;
 
 /// Which samples are tried as neighbours.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,6 +48,8 @@ pub(super) struct Samples {
     groups: Vec<[f32; GROUP]>,
     /// The greatest coordinate, either way.
     extent: f64,
+    /// Which coordinates are angles that whole turns part from themselves.
+    turn_on: Vec<bool>,
 }
 
 /// Buffers for the distances from one configuration.
@@ -59,21 +63,21 @@ struct Gaps {
 }
 
 impl Samples {
-    /// `samples` with their places.
-    pub(super) fn new(near: Near, samples: &[Sample], places_mm: Vec<[f64; 3]>) -> Self {
+    /// `samples` with their places; `turn_on` says which coordinates are taken the shorter way round.
+    pub(super) fn new(near: Near, samples: &[Sample], places_mm: Vec<[f64; 3]>, turn_on: Vec<bool>) -> Self {
         let axes = samples.first().map_or(0, |sample| sample.config.len());
         let (mut configs, mut groups) = (Vec::new(), Vec::new());
         if !matches!(near, Near::Places(_)) {
             groups.resize(samples.len().div_ceil(GROUP) * axes, [f32::INFINITY; GROUP]);
             for (i, sample) in samples.iter().enumerate() {
                 configs.extend_from_slice(&sample.config);
-                for (axis, value) in sample.config.iter().enumerate() {
-                    groups[i / GROUP * axes + axis][i % GROUP] = *value as f32;
+                for (axis, value) in folded(&sample.config, &turn_on).enumerate() {
+                    groups[i / GROUP * axes + axis][i % GROUP] = value;
                 }
             }
         }
         let extent = largest(&configs);
-        Self { near, places_mm, count: samples.len(), configs, groups, extent }
+        Self { near, places_mm, count: samples.len(), configs, groups, extent, turn_on }
     }
 
     pub(super) fn radius_mm(&self) -> f64 {
@@ -137,12 +141,12 @@ impl Samples {
 
     /// Whether two configurations that are no samples would be neighbours if they were.
     pub(super) fn are_near(&self, [a, b]: [&[f64]; 2], gap_mm: f64) -> bool {
-        let apart = || square(a, b);
+        let apart = || self.square(a, b);
         match self.near {
             Near::Places(radius_mm) => gap_mm <= radius_mm,
             Near::Configurations(radius) => apart() <= radius * radius,
             Near::Nearest(count) => [a, b].iter().any(|own| {
-                let nearer = |other: &[f64]| square(own, other) < apart();
+                let nearer = |other: &[f64]| self.square(own, other) < apart();
                 self.configs.chunks_exact(own.len()).filter(|other| nearer(other)).count() < count
             }),
         }
@@ -153,10 +157,20 @@ impl Samples {
         let count = self.count.div_ceil(GROUP);
         let Gaps { own, squares, least, .. } = gaps;
         own.clear();
-        own.extend(config.iter().map(|value| *value as f32));
+        own.extend(folded(config, &self.turn_on));
         squares.resize(count, [0.0; GROUP]);
         least.resize(count, 0.0);
-        dispatch!(Level::new(), _simd => write_gaps(own, &self.groups, squares, least));
+        dispatch!(Level::new(), _simd => write_gaps(own, &self.turn_on, &self.groups, squares, least));
+    }
+
+    /// The square of the distance between two configurations.
+    #[inline]
+    fn square(&self, a: &[f64], b: &[f64]) -> f64 {
+        let gap = |((a, b), turns_on): ((&f64, &f64), &bool)| {
+            let gap = a - b;
+            if *turns_on { gap - TAU * (gap / TAU).round() } else { gap }
+        };
+        a.iter().zip(b).zip(&self.turn_on).map(gap).map(|gap| gap * gap).sum()
     }
 
     /// Writes the samples near to `config` into `nearest`, `own` left out, in no order.
@@ -184,7 +198,7 @@ impl Samples {
         for (group, gaps) in squares.iter().enumerate().filter(|(group, _)| least[*group] <= rough) {
             let first = group * GROUP;
             for sample in (first..self.count).zip(gaps).filter(|(_, gap)| **gap <= rough).map(|near| near.0) {
-                let gap = square(config, &self.configs[sample * config.len()..][..config.len()]);
+                let gap = self.square(config, &self.configs[sample * config.len()..][..config.len()]);
                 if gap <= bound && Some(sample as u32) != own {
                     nearest.push((gap, sample as u32));
                 }
@@ -202,21 +216,33 @@ fn largest(config: &[f64]) -> f64 {
     config.iter().fold(0.0, |most, value| value.abs().max(most))
 }
 
-/// The square of the distance between two configurations.
-#[inline]
-fn square(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum()
+/// A configuration in f32, its coordinates that turn on within half a turn of 0.
+fn folded(config: &[f64], turn_on: &[bool]) -> impl Iterator<Item = f32> {
+    let fold = |(value, turns_on): (&f64, &bool)| {
+        if *turns_on { value - TAU * (value / TAU).round() } else { *value }
+    };
+    config.iter().zip(turn_on).map(fold).map(|value| value as f32)
 }
 
 /// Writes the squares of the distances from `own` to the samples of each group, and the least of each group.
 #[expect(clippy::inline_always, reason = "it is compiled for the instructions of its caller")]
 #[inline(always)]
-fn write_gaps(own: &[f32], groups: &[[f32; GROUP]], squares: &mut [[f32; GROUP]], least: &mut [f32]) {
+fn write_gaps(
+    own: &[f32],
+    turn_on: &[bool],
+    groups: &[[f32; GROUP]],
+    squares: &mut [[f32; GROUP]],
+    least: &mut [f32],
+) {
     for ((group, squares), least) in groups.chunks_exact(own.len()).zip(squares).zip(least) {
         let mut sums = [0.0; GROUP];
-        for (values, own) in group.iter().zip(own) {
-            for (sum, value) in sums.iter_mut().zip(values) {
-                *sum += (own - value) * (own - value);
+        for ((values, own), turns_on) in group.iter().zip(own).zip(turn_on) {
+            let gaps = values.iter().map(|value| own - value);
+            if *turns_on {
+                let turned = |gap: f32| gap.abs().min((std::f32::consts::TAU - gap.abs()).abs());
+                sums.iter_mut().zip(gaps.map(turned)).for_each(|(sum, gap)| *sum += gap * gap);
+            } else {
+                sums.iter_mut().zip(gaps).for_each(|(sum, gap)| *sum += gap * gap);
             }
         }
         *squares = sums;

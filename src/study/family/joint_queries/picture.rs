@@ -1,6 +1,7 @@
 //! What pictures of a robot among solids need, millimetres, in the form of cells: boxes by their corners, all else by capsules.
 
 use super::{Query, Stance};
+use base::robot::{Joint, Kind};
 use base::solid::{Form, Solid};
 use engine::geometry::{Capsule, Frame};
 use engine::kinematics::robot::capsule_around;
@@ -61,15 +62,18 @@ pub(super) fn stance(space: &JointSpace, q: &[f64]) -> Option<Stance> {
 }
 
 fn body(space: &JointSpace, name: String, q: &[f64]) -> Exhibit {
-    let stance = stance(space, q).expect("a query has as many angles as the robot has axes");
+    let stance = stance(space, q).expect("a query has as many numbers as the robot has joints");
     Exhibit { name, width: 7, values: stance.capsules_mm.concat() }
 }
 
-/// Joint angles in degrees, last joint and tip in millimetres, and the tip's direction.
+/// Joint angles in degrees and slides in millimetres, last joint and tip in millimetres, and the tip's direction.
 fn pose(space: &JointSpace, name: String, q: &[f64]) -> Exhibit {
     let (frames, tip) = (space.chain().frames(q), space.chain().forward(q));
     let (last, at, direction) = (frames[frames.len() - 1].origin * 1e3, tip.origin * 1e3, tip.axis(2));
-    let mut values: Vec<f64> = q.iter().map(|angle| angle.to_degrees()).collect();
+    let shown = |(joint, value): (&Joint, &f64)| {
+        if joint.kind == Kind::Slides { value * 1e3 } else { value.to_degrees() }
+    };
+    let mut values: Vec<f64> = space.robot().joints.iter().zip(q).map(shown).collect();
     values.extend([last, at, direction].iter().flat_map(|v| [v.x, v.y, v.z]));
     Exhibit { name, width: values.len(), values }
 }

@@ -1,0 +1,213 @@
+//! One problem of a set: its obstacles and its ends.
+
+use super::{Ended, Problem};
+use crate::ignored::is_ignored;
+use crate::settings::{SettingsError, did_you_mean};
+use crate::solid::{Form, Pose, Solid};
+use crate::yaml::{Node, Yaml, unknown};
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+
+/// The kinds of obstacle of VAMP's form, each a list in its problem.
+const KINDS: [&str; 3] = ["box", "cylinder", "sphere"];
+/// What a goal in joints may be called.
+const GOALS: [&str; 3] = ["goals", "goal_ik", "goal"];
+/// Two rotations of one solid are the same if they take no axis further apart than this.
+const SAME: f64 = 1e-2;
+
+/// The file, and what is told of it.
+#[derive(Clone, Copy)]
+pub(super) struct Reader<'a> {
+    pub(super) yaml: Yaml<'a>,
+    pub(super) notes: &'a RefCell<BTreeSet<String>>,
+}
+
+impl Reader<'_> {
+    pub(super) fn fault(self, at: &Node, message: impl Into<String>) -> SettingsError {
+        self.yaml.0.fault(&at.at, message)
+    }
+
+    fn note(self, message: String) {
+        self.notes.borrow_mut().insert(message);
+    }
+
+    /// Looks at the keys that are not read: those in the table of ignored keys are passed over, one that is nearly written like one
+    /// that is read is refused, and so is one with tables under it if that `may_be_solids`; all others are noted.
+    pub(super) fn rest(self, of: &Node, read: &[&str], may_be_solids: bool) -> Result<(), SettingsError> {
+        for (key, node) in self.yaml.table(of)? {
+            if read.contains(&key.as_str()) || is_ignored("problem", key) {
+                continue;
+            }
+            if may_be_solids && node.has_tables() {
+                let message = format!("obstacles are `{key}`; {} are accepted", KINDS.join(", "));
+                return Err(self.fault(node, message));
+            }
+            if !did_you_mean(key, read.iter().copied()).is_empty() {
+                return Err(self.fault(node, unknown(key, read)));
+            }
+            self.note(format!("`{key}` is not known and not used"));
+        }
+        Ok(())
+    }
+
+    /// The problem; `order` says where the number of each joint stands.
+    pub(super) fn problem(self, problem: &Node, order: Option<&[usize]>) -> Result<Problem, SettingsError> {
+        let obstacles = match self.yaml.find(problem, "obstacles")? {
+            Some(obstacles) => {
+                self.rest(problem, &[&GOALS[..], &["obstacles", "start", "valid"]].concat(), true)?;
+                self.robometrics(obstacles)?
+            }
+            None => {
+                self.rest(problem, &[&GOALS[..], &KINDS, &["start", "valid"]].concat(), true)?;
+                self.vamp(problem)?
+            }
+        };
+        let start = self.ended(self.yaml.get(problem, "start")?, "start", order)?;
+        let valid = self.yaml.find(problem, "valid")?;
+        let is_valid = valid.map_or(Ok(true), |valid| self.yaml.truth(valid, "valid"))?;
+        let goals = self.goals(problem, order)?;
+        Ok(Problem { obstacles, start, goals, is_valid, notes: Vec::new() })
+    }
+
+    fn goals(self, problem: &Node, order: Option<&[usize]>) -> Result<Vec<Ended>, SettingsError> {
+        let given: Vec<&str> =
+            GOALS.into_iter().filter(|key| problem.keys().any(|known| known == *key)).collect();
+        let [key] = given[..] else {
+            let known = problem.keys().collect::<Vec<_>>().join("`, `");
+            let message = match given[..] {
+                [first, second, ..] => {
+                    format!("a problem has both `{first}` and `{second}`; one of them is accepted")
+                }
+                _ => format!("a problem needs a goal in joints: `goals` or `goal_ik`; found are `{known}`"),
+            };
+            return Err(self.fault(problem, message));
+        };
+        let goals = self.yaml.get(problem, key)?;
+        let listed = self.yaml.list(goals)?;
+        if listed.is_empty() {
+            return Err(self.fault(problem, "the list of goals is empty; at least one is accepted"));
+        }
+        if listed.iter().all(Node::is_list) {
+            return listed.iter().map(|goal| self.ended(goal, key, order)).collect();
+        }
+        Ok(vec![self.ended(goals, key, order)?])
+    }
+
+    fn ended(self, node: &Node, key: &str, order: Option<&[usize]>) -> Result<Ended, SettingsError> {
+        let written = self.yaml.numbers(node, key)?;
+        if let Some(accepted) = order.map(<[usize]>::len).filter(|count| *count != written.len()) {
+            let found = written.len();
+            let message =
+                format!("{key} has {found} numbers; {accepted}, as the robot has joints, are accepted");
+            return Err(self.fault(node, message));
+        }
+        match written.iter().find(|angle| angle.abs() > 4.0 * std::f64::consts::PI) {
+            None => {
+                let ordered = order.map(|order| order.iter().map(|place| written[*place]).collect());
+                Ok(Ended { joints: ordered.unwrap_or(written), at: node.at.clone() })
+            }
+            Some(angle) => Err(self
+                .fault(node, format!("{key} has the angle {angle}; is it in degrees? radians are accepted"))),
+        }
+    }
+
+    fn robometrics(self, obstacles: &Node) -> Result<Vec<Solid>, SettingsError> {
+        let mut solids = Vec::new();
+        for (kind, named) in self.yaml.table(obstacles)? {
+            for (name, entry) in self.yaml.table(named)? {
+                let (form, sizes) = match kind.as_str() {
+                    "cuboid" => (self.cuboid(entry, "dims", 0.5)?, &["dims"][..]),
+                    "cylinder" => self.cylinder(entry)?,
+                    "sphere" => self.sphere(entry)?,
+                    other => {
+                        let message =
+                            format!("an obstacle is a `{other}`; cuboid, cylinder and sphere are accepted");
+                        return Err(self.fault(named, message));
+                    }
+                };
+                solids.push(Solid { name: name.clone(), pose: self.placed(entry, sizes)?, form });
+            }
+        }
+        Ok(solids)
+    }
+
+    fn vamp(self, problem: &Node) -> Result<Vec<Solid>, SettingsError> {
+        let mut solids = Vec::new();
+        for kind in KINDS {
+            let Some(entries) = self.yaml.find(problem, kind)? else { continue };
+            for (index, entry) in self.yaml.list(entries)?.iter().enumerate() {
+                let (form, sizes) = match kind {
+                    "box" => (self.cuboid(entry, "half_extents", 1.0)?, &["half_extents"][..]),
+                    "cylinder" => self.cylinder(entry)?,
+                    _ => self.sphere(entry)?,
+                };
+                let named = self.yaml.find(entry, "name")?;
+                let name = named.map_or(Ok(format!("{kind} {}", index + 1)), |name| {
+                    self.yaml.word(name).map(str::to_owned)
+                })?;
+                solids.push(Solid { name, pose: self.placed(entry, sizes)?, form });
+            }
+        }
+        Ok(solids)
+    }
+
+    fn size(self, entry: &Node, key: &str) -> Result<f64, SettingsError> {
+        let node = self.yaml.get(entry, key)?;
+        Ok(self.yaml.0.sizes(&node.at, key, [self.yaml.number(node, key)?])?[0])
+    }
+
+    fn cuboid(self, entry: &Node, key: &str, half: f64) -> Result<Form, SettingsError> {
+        let node = self.yaml.get(entry, key)?;
+        let sides = self.yaml.0.sizes(&node.at, key, self.yaml.exactly::<3>(node, key)?)?;
+        Ok(Form::Box(sides.map(|side| half * side)))
+    }
+
+    fn cylinder(self, entry: &Node) -> Result<(Form, &'static [&'static str]), SettingsError> {
+        let has_length = entry.keys().any(|key| key == "length");
+        let (length, read) =
+            if has_length { ("length", &["radius", "length"]) } else { ("height", &["radius", "height"]) };
+        Ok((Form::Cylinder(self.size(entry, "radius")?, self.size(entry, length)?), read))
+    }
+
+    fn sphere(self, entry: &Node) -> Result<(Form, &'static [&'static str]), SettingsError> {
+        Ok((Form::Sphere(self.size(entry, "radius")?), &["radius"]))
+    }
+
+    /// The pose of an obstacle: `pose`, or `position` with an orientation or without one. Beside them and its `sizes` it has a name at
+    /// most.
+    fn placed(self, entry: &Node, sizes: &[&str]) -> Result<Pose, SettingsError> {
+        const EULER: &str = "orientation_euler_xyz";
+        const QUATERNION: &str = "orientation_quat_xyzw";
+        let (yaml, source) = (self.yaml, self.yaml.0);
+        if let Some(pose) = yaml.find(entry, "pose")? {
+            yaml.only(entry, &[sizes, &["name", "pose"]].concat())?;
+            return Ok(self.unit(source.pose(&pose.at, "pose", yaml.exactly::<7>(pose, "pose")?)?));
+        }
+        let position = yaml.get(entry, "position")?;
+        yaml.only(entry, &[sizes, &["name", "position", EULER, QUATERNION]].concat())?;
+        let origin = source.metres(&position.at, "position", yaml.exactly::<3>(position, "position")?)?;
+        let turned = yaml.find(entry, EULER)?.map(|turned| yaml.exactly::<3>(turned, EULER)).transpose()?;
+        let by_angles = Pose::from_rpy(origin, turned.unwrap_or_default());
+        let Some(quaternion) = yaml.find(entry, QUATERNION)? else { return Ok(by_angles) };
+        let ([x, y, z, w], [a, b, c]) = (yaml.exactly::<4>(quaternion, QUATERNION)?, origin);
+        let (pose, was_rounded) = source.pose(&quaternion.at, QUATERNION, [a, b, c, w, x, y, z])?;
+        if turned.is_none() {
+            return Ok(self.unit((pose, was_rounded)));
+        }
+        let [one, other] = [&pose, &by_angles].map(|pose| pose.rotation.concat());
+        if one.iter().zip(other).all(|(a, b)| (a - b).abs() <= SAME) {
+            return Ok(by_angles);
+        }
+        let message =
+            format!("{QUATERNION} (x, y, z, w) is another rotation than {EULER}; one rotation is accepted");
+        Err(self.fault(quaternion, message))
+    }
+
+    /// The pose, which is noted if its quaternion was not of length 1.
+    fn unit(self, (pose, was_rounded): (Pose, bool)) -> Pose {
+        if was_rounded {
+            self.note("quaternions of few digits were made those of length 1".to_owned());
+        }
+        pose
+    }
+}

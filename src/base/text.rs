@@ -1,0 +1,121 @@
+//! Text of others: how its bytes become text, and how messages show it.
+//!
+//! Readers see no byte-order mark, and every line ends in a line feed. Messages show a character that cannot be seen by its name, and
+//! of long text no more than helps.
+
+use std::borrow::Cow;
+
+/// The most characters of a line that a message shows.
+const MOST_OF_LINE: usize = 200;
+/// The most characters of a word that a message shows.
+const MOST_OF_WORD: usize = 60;
+
+/// The text in `bytes`, without a byte-order mark and with line feeds at the ends of lines.
+///
+/// # Errors
+/// Another encoding than UTF-8, by its name or by the place of the first byte that does not fit.
+pub fn decoded(bytes: Vec<u8>) -> Result<String, String> {
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+        return Err("it is UTF-16 text; UTF-8 text is accepted".to_owned());
+    }
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let line = error.as_bytes()[..at].split(|byte| *byte == b'\n').count();
+        format!("line {line}, byte {at} of the file is not UTF-8; UTF-8 text is accepted")
+    })?;
+    let is_plain = !text.starts_with('\u{feff}') && !text.contains('\r');
+    if is_plain {
+        return Ok(text);
+    }
+    Ok(text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n"))
+}
+
+/// The name of a character that cannot be seen, or that changes what is seen around it; `None` for all others, and for ends of lines
+/// and tabs.
+pub fn unseen(c: char) -> Option<Cow<'static, str>> {
+    let name = match c {
+        '\n' | '\r' | '\t' => return None,
+        '\0' => "NUL",
+        '\u{1b}' => "escape",
+        '\u{a0}' => "no-break space",
+        '\u{ad}' => "soft hyphen",
+        '\u{200b}' => "zero-width space",
+        '\u{200c}' => "zero-width non-joiner",
+        '\u{200d}' => "zero-width joiner",
+        '\u{202f}' => "narrow no-break space",
+        '\u{2060}' => "word joiner",
+        '\u{3000}' => "wide space",
+        '\u{feff}' => "byte-order mark",
+        '\u{2000}'..='\u{200a}' | '\u{205f}' => return Some(format!("space U+{:04X}", c as u32).into()),
+        '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2061}'..='\u{206f}' => {
+            return Some(format!("U+{:04X}", c as u32).into());
+        }
+        c if c.is_control() => return Some(format!("control character U+{:04X}", c as u32).into()),
+        _ => return None,
+    };
+    Some(name.into())
+}
+
+/// `text` with the name of each character that cannot be seen in its place: `‹byte-order mark›type octile`.
+pub fn visible(text: &str) -> Cow<'_, str> {
+    if text.chars().all(|c| unseen(c).is_none()) {
+        return text.into();
+    }
+    text.chars().map(|c| unseen(c).map_or_else(|| c.to_string(), |name| format!("‹{name}›"))).collect()
+}
+
+/// A word as messages show it: visible, and its beginning if it is long.
+pub fn brief(word: &str) -> Cow<'_, str> {
+    match word.char_indices().nth(MOST_OF_WORD) {
+        Some((end, _)) => format!("{}…", visible(&word[..end])).into(),
+        None => visible(word),
+    }
+}
+
+/// A line as messages show it: visible, and no more of a long one than stands around its character number `column`, from 0.
+pub fn around(line: &str, column: usize) -> String {
+    let count = line.chars().count();
+    let first = column.saturating_sub(MOST_OF_LINE / 2).min(count.saturating_sub(MOST_OF_LINE));
+    let shown: String = line.chars().skip(first).take(MOST_OF_LINE).collect();
+    let [before, after] =
+        [first > 0, first + MOST_OF_LINE < count].map(|is_cut| if is_cut { "…" } else { "" });
+    format!("{before}{}{after}", visible(&shown))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_and_ends_of_lines_of_every_system_become_plain_text_and_other_encodings_are_named() {
+        for text in ["a\nb\n", "\u{feff}a\nb\n", "a\r\nb\r\n", "\u{feff}a\rb\r"] {
+            assert_eq!(decoded(text.into()).unwrap(), "a\nb\n", "{text:?}");
+        }
+        let utf16: Vec<u8> = "\u{feff}a".encode_utf16().flat_map(u16::to_le_bytes).collect();
+        assert_eq!(decoded(utf16).unwrap_err(), "it is UTF-16 text; UTF-8 text is accepted");
+        let latin = decoded(b"type\nm\xfcller".to_vec()).unwrap_err();
+        assert_eq!(latin, "line 2, byte 6 of the file is not UTF-8; UTF-8 text is accepted");
+    }
+
+    #[test]
+    fn what_cannot_be_seen_is_named_and_what_is_long_is_cut() {
+        assert_eq!(
+            visible("a\u{feff}b\u{a0}\t\u{7}"),
+            "a‹byte-order mark›b‹no-break space›\t‹control character U+0007›"
+        );
+        assert!(matches!(visible("größer"), Cow::Borrowed(_)));
+        assert_eq!(brief(&"x".repeat(61)), format!("{}…", "x".repeat(60)));
+        let line: String = ('a'..='z').cycle().take(10_000).collect();
+        for column in [0, 5000, 9999] {
+            let shown = around(&line, column);
+            let inner = shown.trim_matches('…');
+            let from = line.find(inner).unwrap();
+            assert_eq!(inner.chars().count(), 200, "{column}");
+            assert!(
+                (from..from + 200).contains(&(column % 26)) || column > 25 && shown.starts_with('…'),
+                "{shown}"
+            );
+        }
+        assert_eq!(around("short", 3), "short");
+    }
+}
