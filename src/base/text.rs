@@ -4,6 +4,7 @@
 //! of long text no more than helps.
 
 use std::borrow::Cow;
+use std::fmt::Debug;
 
 /// The most characters of a line that a message shows.
 const MOST_OF_LINE: usize = 200;
@@ -80,6 +81,19 @@ pub fn around(line: &str, column: usize) -> String {
     let [before, after] =
         [first > 0, first + MOST_OF_LINE < count].map(|is_cut| if is_cut { "…" } else { "" });
     format!("{before}{}{after}", visible(&shown))
+}
+
+/// A number as messages list it.
+pub trait Number: Debug {}
+
+impl Number for f64 {}
+impl Number for i32 {}
+impl Number for u32 {}
+
+/// Numbers as messages list them: `[1.0, 2.5]`, and `[1, 2]` for whole ones.
+pub fn listed<N: Number>(numbers: impl AsRef<[N]>) -> String {
+    let numbers: Vec<String> = numbers.as_ref().iter().map(|number| format!("{number:?}")).collect();
+    format!("[{}]", numbers.join(", "))
 }
 
 #[cfg(test)]

@@ -52,7 +52,7 @@ impl Conformance {
             if hello.worlds.contains(&kind) {
                 match posed(family, over) {
                     Ok((world, queries)) => solved += trial.world(kind, &world, &queries, &hello),
-                    Err(why) => say!("  passed over: no world of kind {kind:?} here: {why}"),
+                    Err(why) => say!("  passed over: no world of kind {kind} here: {why}"),
                 }
             }
         }
@@ -111,7 +111,7 @@ impl Trial {
         let greeted = greet(&mut process, &self.program);
         self.keeps("it says `hello` within ten seconds", greeted.as_ref().err().cloned());
         let Ok(hello) = greeted else { return Ok(None) };
-        let kinds: Vec<String> = hello.worlds.iter().map(|kind| format!("{kind:?}")).collect();
+        let kinds: Vec<String> = hello.worlds.iter().map(ToString::to_string).collect();
         say!("  {} {}, for {}", hello.name, hello.version, kinds.join(", "));
         let stays = (!process.quit()).then(|| "it had to be ended".to_owned());
         self.keeps("it ends within half a second after `quit`", stays);
@@ -120,7 +120,7 @@ impl Trial {
 
     /// Poses every query of one world; how many were solved.
     fn world(&mut self, kind: Kind, world: &World, queries: &[Posed], hello: &Hello) -> usize {
-        say!("{kind:?}");
+        say!("{kind}");
         let mut solved = 0;
         let mut process = None;
         for (index, query) in queries.iter().enumerate() {
@@ -133,7 +133,7 @@ impl Trial {
             }
             let late = talk.end == End::TimeSpent && talk.wall_ns as f64 * 1e-9 > self.program.limits.time_s;
             let late = (talk.is_cut_off || late)
-                .then(|| format!("{} s were not enough", self.program.limits.time_s));
+                .then(|| format!("{} s were not enough{}", self.program.limits.time_s, talk.hint()));
             self.keeps(&format!("{what} ends in time"), late);
             if talk.end == End::Solved {
                 solved += 1;

@@ -4,6 +4,7 @@ use super::places::Places;
 use super::progress::doing;
 use super::{Failure, How};
 use base::settings::none_called;
+use base::text::listed;
 use study::name::Names;
 use study::paper::Paper;
 use study::record::{Kept, Row};
@@ -48,7 +49,7 @@ fn print_exhibits(kept: &[Kept]) {
     for Kept { exhibit, .. } in kept {
         let points = exhibit.values.chunks(exhibit.width);
         let text = if exhibit.name == "path" {
-            points.map(|point| format!("{point:?}")).collect::<Vec<String>>().join(" ")
+            points.map(|point| format!("{point}", point = listed(point))).collect::<Vec<String>>().join(" ")
         } else {
             format!("{} points of {} numbers", points.len(), exhibit.width)
         };

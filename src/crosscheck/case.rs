@@ -9,6 +9,7 @@ use super::path::{Path, Pushed, drawn_paths};
 use super::sample::{Kind, Question, Sampler, Sizes};
 use super::subject::Subject;
 use super::table::{place, write_questions};
+use base::text::listed;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path as FilePath, PathBuf};
@@ -201,7 +202,7 @@ impl Case {
             .map(|(row, pair)| {
                 let Question { path, q_rad, .. } = &self.questions[*row];
                 let (name, pair) = (&self.paths[*path].name, model.pair_name(pairs[*pair]));
-                format!("path `{name}` touches {pair} at {q_rad:?}")
+                format!("path `{name}` touches {pair} at {q_rad}", q_rad = listed(q_rad))
             })
             .collect()
     }

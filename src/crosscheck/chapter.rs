@@ -5,6 +5,7 @@ use super::compare::{FRAME_TOLERANCE, Line, TIE_M};
 use super::control::Control;
 use super::planar::LINK_RADIUS_M;
 use super::sample::Kind;
+use base::text::listed;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
@@ -276,13 +277,13 @@ pub fn list(outcomes: &[Outcome]) -> Vec<String> {
     for outcome in outcomes {
         for found in &outcome.disagreements {
             all.push(format!(
-                "{}, {} of {}, {} configuration {} {:?}: ours {}, MuJoCo {}",
+                "{}, {} of {}, {} configuration {} {}: ours {}, MuJoCo {}",
                 outcome.case,
                 found.question,
                 found.of,
                 found.kind.name(),
                 found.row,
-                found.q_rad,
+                listed(&found.q_rad),
                 found.ours,
                 found.theirs
             ));

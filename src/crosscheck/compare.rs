@@ -5,6 +5,7 @@ use super::model::{Model, Pair};
 use super::sample::{Kind, Question};
 use super::subject::Subject;
 use super::table::{Table, place};
+use base::text::listed;
 use engine::geometry::Frame;
 use std::path::Path;
 
@@ -226,8 +227,8 @@ impl Asked<'_> {
                 let theirs: Vec<f64> = theirs.collect();
                 let largest = largest_difference(&ours, &theirs);
                 let found = || Disagreement {
-                    ours: format!("{:?} m", &ours[..3]),
-                    theirs: format!("{:?} m", &theirs[..3]),
+                    ours: format!("{} m", listed(&ours[..3])),
+                    theirs: format!("{} m", listed(&theirs[..3])),
                     ..self.disagreement("frame", row, names[index].clone())
                 };
                 compared.measure("frame", question.kind, largest, FRAME_TOLERANCE, found);

@@ -77,7 +77,7 @@ impl Wrong {
         }
         let (still, by_m, listed) = best.unwrap_or((0, Vec3::zeros(), Vec::new()));
         let name = subject.model().stills.get(still).map_or("nothing", |still| still.name.as_str());
-        let what = format!("`{name}` shifted by {:?} mm", (by_m * 1e3).as_slice());
+        let what = format!("`{name}` shifted by {} mm", base::text::listed(by_m * 1e3));
         let model =
             if listed.is_empty() { subject.model().clone() } else { subject.model().shifted(still, &by_m) };
         Self { model, what, questions, listed }

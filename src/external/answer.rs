@@ -79,20 +79,27 @@ impl<'a> Space<'a> {
     /// # Errors
     /// A sentence about the first question that cannot be answered.
     pub fn answer(&mut self, ask: &Ask) -> Result<Answer, String> {
+        let Ask { id, valid, motion, fractions, fk, ik } = ask;
         self.asked.batches += 1;
-        self.asked.valid += ask.valid.len() as u64;
-        self.asked.motion += ask.motion.len() as u64;
-        self.asked.fk += ask.fk.len() as u64;
-        self.asked.ik += ask.ik.len() as u64;
-        let valid = self.are_valid(&ask.valid)?;
-        let motion: Vec<bool> =
-            ask.motion.iter().map(|[from, to]| self.is_free(from, to)).collect::<Result<_, _>>()?;
-        let ends = ask.motion.iter().zip(&motion).filter(|_| ask.fractions);
-        let free_until =
-            ends.map(|([from, to], free)| if *free { 1.0 } else { self.free_until(from, to) }).collect();
-        let fk = ask.fk.iter().map(|q| self.forward(q)).collect::<Result<_, _>>()?;
-        let ik = ask.ik.iter().map(|pose| self.inverse(pose)).collect::<Result<_, _>>()?;
-        Ok(Answer { id: ask.id, valid, motion, free_until, fk, ik })
+        self.asked.valid += count(valid);
+        self.asked.motion += count(motion);
+        self.asked.fk += count(fk);
+        self.asked.ik += count(ik);
+        let valid = valid.as_ref().map(|states| self.are_valid(states)).transpose()?;
+        let free = |space: &mut Self, [from, to]: &[Vec<f64>; 2]| space.is_free(from, to);
+        let are_free =
+            motion.as_ref().map(|all| all.iter().map(|one| free(self, one)).collect::<Result<Vec<_>, _>>());
+        let are_free = are_free.transpose()?;
+        let ends = motion.as_ref().zip(are_free.as_ref()).filter(|_| *fractions);
+        let free_until = ends.map(|(all, are_free)| {
+            let until = |([from, to], is_free): (&[Vec<f64>; 2], &bool)| {
+                if *is_free { 1.0 } else { self.free_until(from, to) }
+            };
+            all.iter().zip(are_free).map(until).collect()
+        });
+        let fk = fk.as_ref().map(|all| all.iter().map(|q| self.forward(q)).collect()).transpose()?;
+        let ik = ik.as_ref().map(|all| all.iter().map(|pose| self.inverse(pose)).collect()).transpose()?;
+        Ok(Answer { id: *id, valid, motion: are_free, free_until, fk, ik })
     }
 
     /// Whether the configuration is free.
@@ -260,6 +267,11 @@ impl<'a> Space<'a> {
         };
         Some(path.windows(2).map(leg).sum())
     }
+}
+
+/// How many questions a list holds.
+fn count<T>(asked: &Option<Vec<T>>) -> u64 {
+    asked.as_ref().map_or(0, |all| all.len() as u64)
 }
 
 /// Half a degree.

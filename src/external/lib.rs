@@ -17,4 +17,4 @@ pub mod world;
 pub use answer::{Asked, Space};
 pub use describe::describe;
 pub use process::{Clock, Process, Program, Start};
-pub use talk::{End, Query, Talk, greet, solve};
+pub use talk::{COUNTERS, End, Query, Talk, greet, solve};

@@ -108,42 +108,42 @@ pub struct Ask {
     /// A number that the answer bears.
     pub id: u64,
     /// Whether each configuration is free.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub valid: Vec<Vec<f64>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub valid: Option<Vec<Vec<f64>>>,
     /// Whether the motion between each two configurations is free, both ends included.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub motion: Vec<[Vec<f64>; 2]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<Vec<[Vec<f64>; 2]>>,
     /// Also up to which fraction each motion is free.
     #[serde(default)]
     pub fractions: bool,
     /// Where the tip is in each of an arm's postures, given as joint angles.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub fk: Vec<Vec<f64>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fk: Option<Vec<Vec<f64>>>,
     /// All postures, as joint angles, with the tip in each pose.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub ik: Vec<Pose>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ik: Option<Vec<Pose>>,
 }
 
-/// Answers, in the order of the questions.
+/// Answers, in the order of the questions: a list for each list of questions, an empty one too.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Answer {
     /// The number of the questions.
     pub id: u64,
     /// To `valid`.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub valid: Vec<bool>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub valid: Option<Vec<bool>>,
     /// To `motion`.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub motion: Vec<bool>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<Vec<bool>>,
     /// A fraction of each motion up to which it is free: 1 for a free one. What fails, fails after it.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub free_until: Vec<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub free_until: Option<Vec<f64>>,
     /// To `fk`.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub fk: Vec<Pose>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fk: Option<Vec<Pose>>,
     /// To `ik`.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub ik: Vec<Vec<Vec<f64>>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ik: Option<Vec<Vec<Vec<f64>>>>,
 }
 
 /// The best path so far.
@@ -172,7 +172,8 @@ pub struct Found {
     /// The path's cost in the world's unit; the verifier refuses one that is not the path's. Absent if it was not worked out.
     #[serde(default)]
     pub cost: Option<f64>,
-    /// What the planner counted. Known names become columns: `expansions`, `iterations`, `samples`, `own_wall_ns`.
+    /// What the planner counted. Known names become columns: `expansions`, `iterations`, `samples`, whole numbers, and
+    /// `own_wall_ns`; a number that is none of its column refuses the result.
     #[serde(default)]
     pub counters: BTreeMap<String, f64>,
 }

@@ -2,6 +2,7 @@
 
 use super::end::{MARK, end_all};
 use super::message::{FromPlanner, Hello, Limits, ToPlanner};
+use base::text::around;
 use rustix::process::{Pid, Resource, Rlimit, prlimit};
 use std::collections::VecDeque;
 use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
@@ -131,10 +132,12 @@ impl Process {
             }
             Err(RecvTimeoutError::Timeout) => return Ok(None),
         };
-        serde_json::from_str(&line).map(Some).map_err(|error| {
-            let start: String = line.chars().take(80).collect();
-            format!("the planner wrote `{start}`, which is no message: {error}")
-        })
+        serde_json::from_str(&line).map(Some).map_err(|error| no_message(&line, &error))
+    }
+
+    /// Whether it has written nothing since its output counts from 0.
+    pub(super) fn is_silent(&self) -> bool {
+        self.written.load(Ordering::Relaxed) == 0
     }
 
     /// What comes next from the planner. One that has ended may have left others who hold its output open.
@@ -191,6 +194,19 @@ impl Drop for Process {
     }
 }
 
+/// What is wrong with a line, shown around its place; numbers that other languages write and JSON has none of by name.
+fn no_message(line: &str, error: &serde_json::Error) -> String {
+    let column = error.column().saturating_sub(1);
+    let at: String = line.chars().skip(column.saturating_sub(1)).take(10).collect();
+    let number =
+        ["NaN", "-Infinity", "Infinity", "-nan", "nan", "-inf", "inf"].into_iter().find(|n| at.contains(n));
+    let why = match number {
+        Some(number) => format!("JSON has no number `{number}`, at column {}", column + 1),
+        None => error.to_string(),
+    };
+    format!("the planner wrote `{}`, which is no message: {why}", around(line, column))
+}
+
 fn write_lines(mut stdin: ChildStdin, lines: &Receiver<String>) {
     for line in lines {
         if stdin.write_all(line.as_bytes()).and_then(|()| stdin.write_all(b"\n")).is_err() {
@@ -216,7 +232,7 @@ fn read_lines(stdout: ChildStdout, said: &SyncSender<Said>, written: &AtomicU64,
             return;
         }
         if end.is_some() {
-            let text = String::from_utf8_lossy(&line).trim().to_owned();
+            let text = String::from_utf8_lossy(&line).trim_start_matches('\u{feff}').trim().to_owned();
             line.clear();
             if !text.is_empty() && said.send(Said::Line(text)).is_err() {
                 return;

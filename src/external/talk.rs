@@ -4,12 +4,23 @@ use super::answer::{Asked, Space};
 use super::message::{Found, FromPlanner, Hello, Limits, PROTOCOL, Solve, Status, ToPlanner};
 use super::process::{Clock, Process, Program};
 use super::world::World;
+use base::text::listed;
 use std::collections::BTreeMap;
 use std::time::Duration;
 
 /// A result is waited for this much longer than a planner is given, so that one that looks at the clock itself is not cut off
 /// while it writes.
 const GRACE_S: f64 = 0.25;
+
+/// What keeps most planners silent that are at work.
+const SILENT: &str = "; it wrote nothing: an output that is buffered must be flushed after each line";
+
+/// The counters that become columns of whole numbers.
+const WHOLE: [&str; 3] = ["expansions", "iterations", "samples"];
+/// The counters that become columns.
+pub const COUNTERS: [&str; 4] = [WHOLE[0], WHOLE[1], WHOLE[2], "own_wall_ns"];
+/// No whole number above it is certain in JSON as most languages read it.
+const MOST_COUNTED: f64 = 9_007_199_254_740_992.0;
 
 /// How a conversation ended.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,6 +60,8 @@ pub struct Talk {
     pub is_cut_off: bool,
     /// The end of the planner's log by then.
     pub log: String,
+    /// Whether it wrote nothing at all.
+    pub was_silent: bool,
 }
 
 impl Talk {
@@ -64,7 +77,13 @@ impl Talk {
             answering_ns: 0,
             is_cut_off: false,
             log: String::new(),
+            was_silent: false,
         }
+    }
+
+    /// Why its time ran out, as far as it can be seen from outside.
+    pub fn hint(&self) -> &'static str {
+        if self.was_silent { SILENT } else { "" }
     }
 
     /// A conversation that did not come about.
@@ -106,7 +125,8 @@ pub fn greet(process: &mut Process, program: &Program) -> Result<Hello, String> 
         Ok(Some(_)) => return Err(with_log(process, "the planner's first line is no `hello`")),
         Ok(None) => {
             let seconds = program.hello_s;
-            return Err(with_log(process, &format!("the planner said no `hello` within {seconds} s")));
+            let hint = if process.is_silent() { SILENT } else { "" };
+            return Err(with_log(process, &format!("the planner said no `hello` within {seconds} s{hint}")));
         }
         Err(why) => return Err(with_log(process, &why)),
     };
@@ -152,7 +172,21 @@ pub fn solve(
             Err(why) => break End::Broken(with_log(process, &why)),
         }
     };
-    Talk { log: process.log(), ..held.finish(end) }
+    let was_silent = process.is_silent();
+    Talk { log: process.log(), was_silent, ..held.finish(end) }
+}
+
+/// Refuses what a counter's column cannot hold.
+fn check_counters(counters: &BTreeMap<String, f64>) -> Result<(), String> {
+    for (name, value) in counters {
+        let is_whole = WHOLE.contains(&name.as_str());
+        let accepted = if is_whole { "a whole number from 0 to 2^53" } else { "a number of 0 or more" };
+        let fits = *value >= 0.0 && (!is_whole || (value.fract() == 0.0 && *value <= MOST_COUNTED));
+        if COUNTERS.contains(&name.as_str()) && !(fits && value.is_finite()) {
+            return Err(format!("the planner counts {value} `{name}`; {accepted} is accepted"));
+        }
+    }
+    Ok(())
 }
 
 struct Conversation<'a, 'w> {
@@ -207,9 +241,9 @@ impl Conversation<'_, '_> {
         let width = self.space.width();
         match path.iter().position(|at| at.len() != width || at.iter().any(|x| !x.is_finite())) {
             Some(index) => Err(format!(
-                "point {} of a path is {:?}; {width} finite numbers are accepted",
+                "point {} of a path is {}; {width} finite numbers are accepted",
                 index + 1,
-                path[index]
+                listed(&path[index])
             )),
             None => Ok(()),
         }
@@ -218,6 +252,7 @@ impl Conversation<'_, '_> {
     fn result(&mut self, found: Found) -> Result<End, String> {
         self.own(found.id)?;
         self.check(&found.path)?;
+        check_counters(&found.counters)?;
         self.talk.counters = found.counters;
         Ok(match found.status {
             Status::Solved => {

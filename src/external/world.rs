@@ -19,6 +19,18 @@ pub enum Kind {
     Plane,
 }
 
+impl std::fmt::Display for Kind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Grid => "grid",
+            Self::PlanarArm => "planar_arm",
+            Self::Cell => "cell",
+            Self::Polyhedra => "polyhedra",
+            Self::Plane => "plane",
+        })
+    }
+}
+
 /// What is planned in.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]

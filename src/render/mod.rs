@@ -57,7 +57,7 @@ pub enum RenderError {
         least_pt: f64,
     },
     /// A character that the embedded font cannot draw.
-    #[error("the embedded font DejaVu Sans has no glyph for {found:?}, used in `{text}`")]
+    #[error("the embedded font DejaVu Sans has no glyph for `{found}`, used in `{text}`")]
     MissingGlyph {
         /// The character.
         found: char,

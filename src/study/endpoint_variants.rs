@@ -6,6 +6,7 @@ use crate::name::slug;
 use crate::prepared::lattice::CornerSetting;
 use crate::prepared::workspace_map::{ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
 use base::grid::{Grid2, Moves};
+use base::text::listed;
 use engine::length_inversion::Match;
 use engine::search::{Octile, ScaledOctile, Ties};
 use engine::space::{ArmRules, ArmWorld, HopRule, Obstacle, Zone};
@@ -235,7 +236,7 @@ pub fn fault(cases: &[Case], variants: &[Variant]) -> Option<(String, String)> {
     let is_odd = |case: &Case| case.hops == [0, 0] || case.hops.iter().any(|hops| *hops > MOST_HOPS);
     if let Some((index, case)) = cases.iter().enumerate().find(|(_, case)| is_odd(case)) {
         let accepted = format!("at least one hop and at most {MOST_HOPS} of a kind are accepted");
-        return Some((format!("cases.{index}.hops"), format!("hops is {:?}; {accepted}", case.hops)));
+        return Some((format!("cases.{index}.hops"), format!("hops is {}; {accepted}", listed(case.hops))));
     }
     for (index, variant) in variants.iter().enumerate() {
         let name = slug(&variant.label);

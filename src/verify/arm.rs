@@ -16,6 +16,7 @@ mod tests;
 pub use body::Body;
 
 use base::grid::CornerRule;
+use base::text::listed;
 
 /// Gaps that are not proved to be wider than this are contact.
 const RESOLUTION_CM: f64 = 1e-7;
@@ -104,14 +105,18 @@ impl Case<'_> {
     pub fn audit(&self, answer: &Answer<'_>) -> Result<Audit, String> {
         let points: Option<Vec<[i32; 2]>> = answer.path.iter().map(|point| self.point(point)).collect();
         let points = points.ok_or("a point of the path is not a point of the lattice")?;
-        let ends = (points.first().copied(), points.last().copied());
-        if ends.0.is_none() || ends != (self.point(self.start), self.point(self.goal)) {
-            return Err(format!("the path goes from {:?} to {:?}, not from start to goal", ends.0, ends.1));
+        let (Some(first), Some(last)) = (points.first(), points.last()) else {
+            return Err("the path is empty".to_owned());
+        };
+        if (Some(*first), Some(*last)) != (self.point(self.start), self.point(self.goal)) {
+            let [first, last] = [first, last].map(|point| listed(self.at(*point)));
+            return Err(format!("the path goes from {first} to {last}, not from start to goal"));
         }
         let mut postures = Vec::new();
         for point in &points {
             let free = self.free_posture(*point);
-            postures.push(free.ok_or_else(|| format!("the arm may not stand at {:?}", self.at(*point)))?);
+            postures
+                .push(free.ok_or_else(|| format!("the arm may not stand at {}", listed(self.at(*point))))?);
         }
         let (mut joint_travel_deg, mut largest_joint_step_deg) = ([0.0; 2], 0.0_f64);
         let (mut unsafe_hops, mut deepest_cm) = (0, 0.0_f64);
@@ -135,12 +140,20 @@ impl Case<'_> {
     fn hit(&self, pair: &[[i32; 2]], postures: &[[f64; 2]]) -> Result<Option<f64>, String> {
         let [from, to] = [self.at(pair[0]), self.at(pair[1])];
         let motion = self.motion([pair[0], pair[1]], [postures[0], postures[1]]).ok_or_else(|| {
-            format!("the tip cannot go straight from {from:?} to {to:?}: the arm jumps or comes too near to its base")
+            format!(
+                "the tip cannot go straight from {from} to {to}: the arm jumps or comes too near to its base",
+                from = listed(from),
+                to = listed(to)
+            )
         })?;
         match self.is_clear(&motion) {
             true => Ok(None),
             false if self.hops == Hops::EndPoints => Ok(Some(self.depth_cm(&motion))),
-            false => Err(format!("the arm hits an obstacle between {from:?} and {to:?}")),
+            false => Err(format!(
+                "the arm hits an obstacle between {from} and {to}",
+                from = listed(from),
+                to = listed(to)
+            )),
         }
     }
 
@@ -154,13 +167,22 @@ impl Case<'_> {
         let step = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
         let (from, to) = (self.at(pair[0]), self.at(pair[1]));
         if step == [0, 0] {
-            return Some(format!("the path stands still at {from:?}"));
+            return Some(format!("the path stands still at {from}", from = listed(from)));
         }
         if steps.is_some_and(|steps| !steps.contains(&step)) {
-            return Some(format!("the hop from {from:?} to {to:?} is none of the planner's"));
+            return Some(format!(
+                "the hop from {from} to {to} is none of the planner's",
+                from = listed(from),
+                to = listed(to)
+            ));
         }
-        (!self.corner_is_free(pair[0], step))
-            .then(|| format!("the hop from {from:?} to {to:?} cuts a corner, which the corner rule forbids"))
+        (!self.corner_is_free(pair[0], step)).then(|| {
+            format!(
+                "the hop from {from} to {to} cuts a corner, which the corner rule forbids",
+                from = listed(from),
+                to = listed(to)
+            )
+        })
     }
 
     fn judged_length(&self, answer: &Answer<'_>, points: &[[i32; 2]]) -> Result<(f64, Option<f64>), String> {

@@ -11,6 +11,7 @@ mod search;
 pub use landmarks::Landmarks;
 
 use base::grid::{CornerRule, Grid2};
+use base::text::listed;
 
 /// How far a claimed cost may be from the recomputed one, relative: room for another order of summation.
 const COST_TOLERANCE: f64 = 1e-9;
@@ -53,9 +54,12 @@ impl Case<'_> {
         let Some(points) = points else {
             return Some("a point of the path is not a cell centre of the map".to_owned());
         };
-        let ends = (points.first().copied(), points.last().copied());
-        if ends != (self.cell(self.start), self.cell(self.goal)) {
-            return Some(format!("the path goes from {:?} to {:?}, not from start to goal", ends.0, ends.1));
+        let (Some(first), Some(last)) = (points.first(), points.last()) else {
+            return Some("the path is empty".to_owned());
+        };
+        if (Some(*first), Some(*last)) != (self.cell(self.start), self.cell(self.goal)) {
+            let [first, last] = [first, last].map(listed);
+            return Some(format!("the path goes from {first} to {last}, not from start to goal"));
         }
         if let Some(refusal) = points.windows(2).find_map(|pair| self.refuse_step(pair, answer)) {
             return Some(refusal);
@@ -73,15 +77,24 @@ impl Case<'_> {
         let (from, to) = (pair[0], pair[1]);
         let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
         if [dx, dy] == [0, 0] {
-            return Some(format!("the path stands still at {from:?}"));
+            return Some(format!("the path stands still at {from}", from = listed(from)));
         }
         if answer.in_graph && (dx.abs() > 1 || dy.abs() > 1) {
-            return Some(format!("the step from {from:?} to {to:?} is not one of the eight moves"));
+            return Some(format!(
+                "the step from {from} to {to} is not one of the eight moves",
+                from = listed(from),
+                to = listed(to)
+            ));
         }
         let (xs, ys) = (from[0].min(to[0])..=from[0].max(to[0]), from[1].min(to[1])..=from[1].max(to[1]));
         for cell in ys.flat_map(|y| xs.clone().map(move |x| [x, y])) {
             if enters(from, to, cell) && !self.grid.is_free_xy(cell[0], cell[1]) {
-                return Some(format!("the segment from {from:?} to {to:?} enters the blocked cell {cell:?}"));
+                return Some(format!(
+                    "the segment from {from} to {to} enters the blocked cell {cell}",
+                    from = listed(from),
+                    to = listed(to),
+                    cell = listed(cell)
+                ));
             }
         }
         let refusal = self.refuse_corners(from, [dx, dy]);
@@ -104,8 +117,9 @@ impl Case<'_> {
         let cells_before = [(step_x - unit[0]) / 2, (step_y - unit[1]) / 2];
         (0..parts).find_map(|part| {
             let at = [from[0] + part * step_x + cells_before[0], from[1] + part * step_y + cells_before[1]];
-            (!self.may_step(at, unit))
-                .then(|| format!("the path cuts the corner after {at:?}, which the corner rule forbids"))
+            (!self.may_step(at, unit)).then(|| {
+                format!("the path cuts the corner after {at}, which the corner rule forbids", at = listed(at))
+            })
         })
     }
 

@@ -1,6 +1,7 @@
 //! Judges paths of a particle among convex polygons, in sixteenths of a millimetre: in integers, exactly.
 //!
 //! Coordinates of maps and samples are multiples of a sixteenth, so nothing is rounded. Touching is contact.
+use base::text::listed;
 
 /// A point in sixteenths of a millimetre.
 type Point = [i64; 2];
@@ -30,8 +31,9 @@ impl Case {
     /// If a corner is no multiple of a sixteenth of a millimetre.
     pub fn new(polygons_mm: &[Vec<[f64; 2]>]) -> Result<Self, String> {
         let corner = |point: &[f64; 2]| {
-            exact(point)
-                .ok_or_else(|| format!("corner {point:?} is no multiple of a sixteenth of a millimetre"))
+            exact(point).ok_or_else(|| {
+                format!("corner {point} is no multiple of a sixteenth of a millimetre", point = listed(point))
+            })
         };
         let polygon = |corners: &Vec<[f64; 2]>| corners.iter().map(corner).collect::<Result<_, _>>();
         Ok(Self { obstacles: polygons_mm.iter().map(polygon).collect::<Result<_, _>>()? })

@@ -3,6 +3,7 @@
 //! The solids' planes come from parry's hull of their vertices, not from the planner's; a segment is clipped by
 //! them. Solids are grown as the studies mean it, by moving their planes out, so that corners stay sharp. A path may touch a solid to within [`TOLERANCE_CM`], the room that two ways of rounding need.
 
+use base::text::listed;
 use parry3d::math::Vector;
 use parry3d::shape::ConvexPolyhedron;
 
@@ -91,16 +92,16 @@ impl Case<'_> {
             return Some(refusal);
         }
         if let Some(point) = points.iter().find(|point| !self.is_in_domain(**point)) {
-            return Some(format!("the path leaves the domain at {point:?}"));
+            return Some(format!("the path leaves the domain at {point}", point = listed(point)));
         }
         for pair in points.windows(2) {
             let entered =
                 self.solids.iter().position(|solid| solid.is_entered(pair[0], pair[1], self.growth));
             if let Some(index) = entered {
                 return Some(format!(
-                    "the segment from {:?} to {:?} enters obstacle {}",
-                    pair[0],
-                    pair[1],
+                    "the segment from {} to {} enters obstacle {}",
+                    listed(pair[0]),
+                    listed(pair[1]),
                     index + 1
                 ));
             }
@@ -113,8 +114,13 @@ impl Case<'_> {
             return Some("a solved plan has no path".to_owned());
         };
         let off = distance(*first, self.start).max(distance(*last, self.goal));
-        (off > TOLERANCE_CM)
-            .then(|| format!("the path goes from {first:?} to {last:?}, not from start to goal"))
+        (off > TOLERANCE_CM).then(|| {
+            format!(
+                "the path goes from {first} to {last}, not from start to goal",
+                first = listed(first),
+                last = listed(last)
+            )
+        })
     }
 
     fn is_in_domain(&self, point: Point) -> bool {

@@ -178,12 +178,25 @@ fn without_its_program_a_run_says_what_to_install_and_stored_trials_stay_readabl
 
 #[test]
 fn conformance_keeps_count_of_what_is_broken_and_its_exit_code_says_so() {
-    let cases = ["crash", "other-id", "rubbish-first"];
+    let cases = ["crash", "other-id", "rubbish-first", "no-cost", "counter-in-parts", "nowhere", "hang"];
     let bench = bench(&CASES.iter().filter(|case| cases.contains(&case.name)).collect::<Vec<_>>());
     for (name, broken) in [
         ("crash", "BROKEN  query 1 ends with a result: the planner ended before its result"),
         ("other-id", "BROKEN  query 1 ends with a result: the planner answers query 77"),
         ("rubbish-first", "BROKEN  it says `hello` within ten seconds: the planner wrote `Welcome!`"),
+        ("no-cost", "which is no message: JSON has no number `-Infinity`, at column"),
+        (
+            "counter-in-parts",
+            "BROKEN  query 1 ends with a result: the planner counts 1.5 `samples`; a whole number",
+        ),
+        (
+            "nowhere",
+            "BROKEN  query 1 is solved and the verifier accepts its path: rejected: the path is empty",
+        ),
+        (
+            "hang",
+            "BROKEN  query 1 ends in time: 2 s were not enough; it wrote nothing: an output that is buffered",
+        ),
     ] {
         let said = bench.run(&["conformance", "--", "sh", &format!("outside/{name}.sh")]);
         assert!(said.out.contains(broken), "{name}: should say {broken}\nsays {}{}", said.out, said.err);

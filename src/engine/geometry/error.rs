@@ -1,5 +1,6 @@
 //! What makes a shape impossible.
 
+use base::text::listed;
 use thiserror::Error;
 
 /// A shape that cannot be built; the message says what was found and what would be accepted.
@@ -76,7 +77,10 @@ pub enum GeometryError {
         plane: usize,
     },
     /// The half-spaces do not close.
-    #[error("the polyhedron is unbounded along {direction:?}; its planes must enclose it on every side")]
+    #[error(
+        "the polyhedron is unbounded along {}; its planes must enclose it on every side",
+        listed(direction)
+    )]
     Unbounded {
         /// A direction in which one can leave for ever.
         direction: [f64; 3],

@@ -36,11 +36,11 @@ pub enum Value {
 }
 
 impl Value {
-    /// The number as a float.
+    /// The number as a float; the sum of nothing, which is -0, as 0.
     pub fn as_f64(self) -> f64 {
         match self {
             Self::Count(count) => count as f64,
-            Self::Real(real) => real,
+            Self::Real(real) => real + 0.0,
         }
     }
 }

@@ -11,6 +11,7 @@ use crate::search::{
 use crate::space::{PolyhedraWorld, WorldKind};
 use base::grid::STEPS_26;
 use base::settings::Accepted;
+use base::text::listed;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -154,7 +155,7 @@ pub(super) fn search(
 ) -> Result<Found, Invalid> {
     let Posed { world, start, goal } = *posed;
     let first = entrance(world, &start).ok_or_else(|| {
-        Invalid(format!("no free node of the lattice is seen from the start {:?}", start.as_slice()))
+        Invalid(format!("no free node of the lattice is seen from the start {}", listed(start)))
     })?;
     let h = |node: u32| (world.point(node) - goal).norm();
     let is_goal = |node: u32| {

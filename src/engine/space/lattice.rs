@@ -12,6 +12,7 @@ pub use pruning::Pruning;
 pub use table::JumpTable;
 
 use base::grid::{CornerRule, Grid2, Moves};
+use base::text::listed;
 use std::sync::{Arc, OnceLock};
 
 /// Where the runs of a search by jump points end.
@@ -80,13 +81,20 @@ impl LatticeWorld {
     pub fn free_cell(&self, what: &str, point: &[f64]) -> Result<u32, String> {
         let outside = || {
             let (width, height) = (self.grid.width(), self.grid.height());
-            format!("the {what} {point:?} is not a cell of the map; cells are 0..{width} by 0..{height}")
+            format!(
+                "the {what} {point} is not a cell of the map; cells are 0..{width} by 0..{height}",
+                point = listed(point)
+            )
         };
         let [x, y] = *point else { return Err(outside()) };
         if x.fract() != 0.0 || y.fract() != 0.0 {
             return Err(outside());
         }
         let cell = self.grid.cell(x as i32, y as i32).ok_or_else(outside)?;
-        if self.grid.is_free(cell) { Ok(cell) } else { Err(format!("the {what} {point:?} is blocked")) }
+        if self.grid.is_free(cell) {
+            Ok(cell)
+        } else {
+            Err(format!("the {what} {point} is blocked", point = listed(point)))
+        }
     }
 }

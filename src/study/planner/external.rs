@@ -6,10 +6,11 @@
 
 use crate::clock;
 use base::settings::{Accepted, Settings, SettingsError};
+use base::text::listed;
 use engine::planner::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Value};
 use engine::space::WorldKind;
 use external::message::{Limits, Seeding};
-use external::{End, Process, Program, Query, Space, Talk, describe, greet, solve};
+use external::{COUNTERS, End, Process, Program, Query, Space, Talk, describe, greet, solve};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -54,9 +55,6 @@ install = "Python 3.10 or later"
 
 /// How long a planner may take to say `hello`, in seconds.
 const HELLO_S: f64 = 10.0;
-
-/// What a planner may count itself, by the names of columns.
-const COUNTERS: [&str; 4] = ["expansions", "iterations", "samples", "own_wall_ns"];
 
 /// A seed that every language can read from JSON is below 2⁵³.
 const SEED_BITS: u32 = 53;
@@ -138,7 +136,7 @@ impl External {
         let hello = process.hello.clone().expect("it was greeted");
         if !hello.worlds.contains(&world.kind()) {
             let (name, kind) = (&hello.name, world.kind());
-            return Ok(broken(format!("{name} does not plan in worlds of kind {kind:?}, its `hello` says")));
+            return Ok(broken(format!("{name} does not plan in worlds of kind {kind}, its `hello` says")));
         }
         let (start, goal) = (request.start, request.goal);
         let (id, seed) = (self.queries.fetch_add(1, Ordering::Relaxed), request.seed >> (64 - SEED_BITS));
@@ -171,7 +169,7 @@ impl Planner for External {
         let mut space = Space::new(request.world, self.any_angle);
         for (what, end) in [("start", request.start), ("goal", request.goal)] {
             if space.is_valid(end) != Ok(true) {
-                return Err(Invalid(format!("the {what} {end:?} is not free")));
+                return Err(Invalid(format!("the {what} {end} is not free", end = listed(end))));
             }
         }
         let (talk, promises) = self.talk(request, &mut space)?;
@@ -225,7 +223,7 @@ fn ended(talk: &Talk, time_s: f64) -> (Ending, Option<String>) {
             (Ending::BudgetSpent, Some("a limit of the planner's own was reached".to_owned()))
         }
         End::TimeSpent => {
-            let spent = format!("{time_s} s were spent");
+            let spent = format!("{time_s} s were spent{}", talk.hint());
             (Ending::TimeSpent, Some(log.map_or(spent.clone(), |log| format!("{spent}; {log}"))))
         }
         End::Broken(why) => (Ending::Crashed, Some(why.clone())),
@@ -247,9 +245,7 @@ fn counts(talk: &Talk) -> Counts {
     ]);
     let counters: &BTreeMap<String, f64> = &talk.counters;
     for name in COUNTERS {
-        let Some(found) = counters.get(name).filter(|found| found.is_finite() && **found >= 0.0) else {
-            continue;
-        };
+        let Some(found) = counters.get(name) else { continue };
         let value = if name.ends_with("_ns") { Value::Real(*found) } else { Value::Count(*found as u64) };
         counts.insert(name, value);
     }

@@ -34,7 +34,8 @@ pub const SILENT: Case = case(
     "silent",
     "echo 'still loading' >&2; sleep 100",
     "crashed",
-    "the planner said no `hello` within 10 s; its log ends: still loading",
+    "the planner said no `hello` within 10 s; it wrote nothing: an output that is buffered must be flushed after each line; its \
+     log ends: still loading",
 );
 
 /// Returns the straight line whatever the world, so that its path is shorter than any there is.
@@ -73,7 +74,8 @@ pub const CASES: &[Case] = &[
         "hang",
         "hello; query; echo 'still searching' >&2; sleep 100",
         "time_spent",
-        "0.5 s were spent; its log ends: still searching",
+        "0.5 s were spent; it wrote nothing: an output that is buffered must be flushed after each line; its log ends: still \
+         searching",
     ),
     case("spin", "hello; query; while :; do :; done", "time_spent", "0.5 s were spent"),
     case(
@@ -89,7 +91,56 @@ pub const CASES: &[Case] = &[
         "crashed",
         "`Segmentation fault`, which is no message",
     ),
-    case("no-number", "hello; query; result '[[0,NaN]]'; query", "crashed", "which is no message"),
+    case(
+        "no-number",
+        "hello; query; result '[[0,NaN]]'; query",
+        "crashed",
+        "which is no message: JSON has no number `NaN`, at column",
+    ),
+    case(
+        "no-cost",
+        r#"hello; query; result "[$start,$goal]" ',"cost":-Infinity'; query"#,
+        "crashed",
+        "JSON has no number `-Infinity`, at column",
+    ),
+    case(
+        "long-line",
+        r#"hello; query; result "[$(yes '[0,0],' | head -n 500 | tr -d '\n')[0,nan]]"; query"#,
+        "crashed",
+        "[0,0],[0,0],[0,nan]]}`, which is no message: JSON has no number `nan`, at column 3",
+    ),
+    case("marked", r"printf '\357\273\277'; hello; while query; do straight; done", "solved", ""),
+    case(
+        "counter-too-large",
+        r#"hello; query; result "[$start,$goal]" ',"counters":{"expansions":1e17}'; query"#,
+        "crashed",
+        "the planner counts 100000000000000000 `expansions`; a whole number from 0 to 2^53 is accepted",
+    ),
+    case(
+        "counter-in-parts",
+        r#"hello; query; result "[$start,$goal]" ',"counters":{"samples":1.5}'; query"#,
+        "crashed",
+        "the planner counts 1.5 `samples`; a whole number from 0",
+    ),
+    case(
+        "counter-below-0",
+        r#"hello; query; result "[$start,$goal]" ',"counters":{"own_wall_ns":-1}'; query"#,
+        "crashed",
+        "the planner counts -1 `own_wall_ns`; a number of 0 or more is accepted",
+    ),
+    case(
+        "counters-of-its-own",
+        r#"hello; query; result "[$start,$goal]" ',"counters":{"own_wall_ns":0.5,"mine":-1.5}'; query"#,
+        "solved",
+        "",
+    ),
+    case(
+        "empty-question",
+        r#"hello; query; echo '{"type":"ask","id":1,"valid":[],"motion":[],"fractions":true}'; read -r answer
+  case $answer in *'"valid":[],"motion":[],"free_until":[]}') straight;; *) echo "$answer" >&2; exit 1;; esac; query"#,
+        "solved",
+        "",
+    ),
     case(
         "unknown-key",
         r#"hello; query; result "[$start,$goal]" ',"lenght":3'; query"#,
@@ -120,7 +171,7 @@ pub const CASES: &[Case] = &[
         "other-world",
         "world=plane; hello; query; straight",
         "crashed",
-        "does not plan in worlds of kind Grid",
+        "does not plan in worlds of kind grid",
     ),
     case(
         "other-id",
@@ -166,7 +217,7 @@ pub const CASES: &[Case] = &[
         "rejected",
         "not from start to goal",
     ),
-    case("nowhere", "hello; query; result '[]'; query", "rejected", "not from start to goal"),
+    case("nowhere", "hello; query; result '[]'; query", "rejected", "the path is empty"),
     case(
         "through-a-wall",
         r#"hello; query; result "[$start,[0,0],[299,0],$goal]"; query"#,

@@ -38,7 +38,7 @@ impl TipLattice {
             // So many that a step's own digits say nothing of whether it divides the side.
             if steps > MAX_POINTS as f64 {
                 let message = format!(
-                    "step_cm is {step_cm:?}, which makes {:.1e} points along {name} alone; at most {MAX_POINTS} in all are accepted",
+                    "step_cm is {step_cm}, which makes {:.1e} points along {name} alone; at most {MAX_POINTS} in all are accepted",
                     steps.round()
                 );
                 return Err(("step_cm", message));
@@ -56,7 +56,7 @@ impl TipLattice {
         let points = u64::from(size[0]) * u64::from(size[1]);
         if points > MAX_POINTS {
             let message = format!(
-                "step_cm is {step_cm:?}, which makes {} × {} points; at most {MAX_POINTS} in all are accepted",
+                "step_cm is {step_cm}, which makes {} × {} points; at most {MAX_POINTS} in all are accepted",
                 size[0], size[1]
             );
             return Err(("step_cm", message));

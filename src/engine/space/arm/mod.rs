@@ -23,6 +23,7 @@ use crate::geometry::Vec2;
 use crate::geometry::planar::{Segment2, Touch};
 use crate::kinematics::planar_2r::{ElbowRule, Planar2r};
 use base::grid::{Columns, CornerRule, DIRECTIONS, Grid2, Moves};
+use base::text::listed;
 use hops::Hops;
 use sweep::Sweep;
 use tip_line::TipLine;
@@ -221,19 +222,29 @@ impl ArmWorld {
     /// A sentence about `what` (start or goal): no lattice point, or forbidden and why.
     pub fn free_cell(&self, what: &str, point: &[f64]) -> Result<u32, String> {
         let cell = self.rules.lattice.cell(point).ok_or_else(|| {
-            format!("the {what} {point:?} is not a point of the workspace; {}", self.rules.lattice)
+            format!(
+                "the {what} {point} is not a point of the workspace; {}",
+                self.rules.lattice,
+                point = listed(point)
+            )
         })?;
         let at = self.rules.lattice.point(cell);
         let [_, outer] = self.rules.arm.reach();
         match self.zones[cell as usize] {
             Zone::Free => Ok(cell),
             Zone::OuterReach | Zone::InnerReach => Err(format!(
-                "the {what} {point:?} is {:.4} cm from the base; the arm may stand from {} to {outer} cm",
+                "the {what} {point} is {:.4} cm from the base; the arm may stand from {} to {outer} cm",
                 at.norm(),
-                self.rules.nearest_cm()
+                self.rules.nearest_cm(),
+                point = listed(point)
             )),
-            Zone::Obstacle => Err(format!("the {what} {point:?} lies in {}", self.culprit(&at))),
-            Zone::Link => Err(format!("with the tip on the {what} {point:?} a link hits an obstacle")),
+            Zone::Obstacle => {
+                Err(format!("the {what} {point} lies in {}", self.culprit(&at), point = listed(point)))
+            }
+            Zone::Link => Err(format!(
+                "with the tip on the {what} {point} a link hits an obstacle",
+                point = listed(point)
+            )),
         }
     }
 

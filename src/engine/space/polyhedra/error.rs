@@ -2,6 +2,7 @@
 
 use crate::geometry::{GeometryError, Vec3};
 use base::grid::GridError;
+use base::text::listed;
 
 /// Why there is no such world.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -15,7 +16,11 @@ pub enum PolyhedraError {
         source: GeometryError,
     },
     /// The domain has no extent.
-    #[error("the domain goes from {min:?} to {max:?}; every side must be a positive finite length")]
+    #[error(
+        "the domain goes from {} to {}; every side must be a positive finite length",
+        listed(min),
+        listed(max)
+    )]
     Domain {
         /// Its lower corner.
         min: [f64; 3],
@@ -44,9 +49,9 @@ pub enum PolyhedraError {
 /// Why a point cannot be a start or a goal.
 pub(super) fn outside(what: &str, point: &Vec3, min: &Vec3, max: &Vec3) -> String {
     format!(
-        "the {what} {:?} is outside the domain; it goes from {:?} to {:?}",
-        point.as_slice(),
-        min.as_slice(),
-        max.as_slice()
+        "the {what} {} is outside the domain; it goes from {} to {}",
+        listed(point),
+        listed(min),
+        listed(max)
     )
 }

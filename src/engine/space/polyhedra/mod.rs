@@ -20,6 +20,7 @@ pub use scene::{SCENE_FILE, Scene, read_scene};
 
 use crate::geometry::{Aabb, Convex, Segment, Vec3};
 use base::grid::Grid3;
+use base::text::listed;
 
 /// What blocks, where, and how finely it is searched.
 #[derive(Debug, Clone)]
@@ -225,7 +226,10 @@ impl PolyhedraWorld {
     /// A sentence if it is no point in space, outside the domain, or in an obstacle.
     pub fn free_point(&self, what: &str, point: &[f64]) -> Result<Vec3, String> {
         let [x, y, z] = *point else {
-            return Err(format!("the {what} {point:?} is not a point in space; [x, y, z] is accepted"));
+            return Err(format!(
+                "the {what} {point} is not a point in space; [x, y, z] is accepted",
+                point = listed(point)
+            ));
         };
         let at = Vec3::new(x, y, z);
         let (min, max) = (&self.domain.min, &self.domain.max);
@@ -235,9 +239,15 @@ impl PolyhedraWorld {
         match self.obstacles.iter().position(|obstacle| self.holds(obstacle, &at)) {
             Some(index) if self.growth > 0.0 => {
                 let grown = format!("grown by {} cm", self.growth);
-                Err(format!("the {what} {point:?} is inside obstacle {} {grown}", index + 1))
+                Err(format!(
+                    "the {what} {point} is inside obstacle {} {grown}",
+                    index + 1,
+                    point = listed(point)
+                ))
             }
-            Some(index) => Err(format!("the {what} {point:?} is inside obstacle {}", index + 1)),
+            Some(index) => {
+                Err(format!("the {what} {point} is inside obstacle {}", index + 1, point = listed(point)))
+            }
             None => Ok(at),
         }
     }

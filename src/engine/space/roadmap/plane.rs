@@ -4,6 +4,7 @@ use crate::geometry::Vec2;
 use crate::geometry::planar::{
     ConvexPolygon, Segment2, Touch, intersects_point_polygon, intersects_segment_polygon,
 };
+use base::text::listed;
 
 /// Polygons in the rectangle from the origin to `size_mm`; touching a polygon is contact.
 #[derive(Debug, Clone)]
@@ -32,11 +33,14 @@ impl PlaneMap {
     pub fn refusal(&self, point: [f64; 2]) -> Option<String> {
         let [width, height] = self.size_mm;
         if !(0.0..=width).contains(&point[0]) || !(0.0..=height).contains(&point[1]) {
-            return Some(format!("{point:?} is outside the map of {width} × {height} mm"));
+            return Some(format!(
+                "{point} is outside the map of {width} × {height} mm",
+                point = listed(point)
+            ));
         }
         let at = Vec2::from(point);
         let hit = self.polygons.iter().position(|p| intersects_point_polygon(&at, p, Touch::Contact));
-        hit.map(|index| format!("{point:?} is in obstacle {}", index + 1))
+        hit.map(|index| format!("{point} is in obstacle {}", index + 1, point = listed(point)))
     }
 
     /// Whether the straight way between two points meets no obstacle.
