@@ -1,7 +1,7 @@
-"""MuJoCo's forward kinematics of the URDF robots in data/robots, for a Rust test to hold ours against.
+"""MuJoCo's forward kinematics of the URDF robots in data/robots and of one with all kinds of joints, for a Rust test.
 
-Writes tests/it/crosscheck/urdf/<robot>.json: joint angles drawn from a written seed within the limits, and
-the place and the rotation, row by row, of every link that MuJoCo knows. Run from the root of the repository
+Writes tests/it/crosscheck/urdf/<robot>.json: angles and slides drawn from a written seed within the limits, or
+within two turns where a joint has none, and the place and the rotation, row by row, of every link that MuJoCo knows. Run from the root of the repository
 after a URDF file has changed:
 
     python crosscheck/urdf_frames.py
@@ -15,6 +15,7 @@ import numpy as np
 
 COUNT = 200
 SEED = 22
+FAR_RAD = 4 * np.pi
 COMPILER = '<mujoco><compiler fusestatic="false" boundmass="0.01" boundinertia="0.01"/></mujoco>'
 
 
@@ -23,7 +24,8 @@ def answers(path: Path) -> dict:
     text = path.read_text().replace("</robot>", f"{COMPILER}</robot>")
     model = mujoco.MjModel.from_xml_string(text)
     data = mujoco.MjData(model)
-    low, high = model.jnt_range.T
+    limited = model.jnt_limited.astype(bool)
+    low, high = (np.where(limited, side, end) for side, end in zip(model.jnt_range.T, (-FAR_RAD, FAR_RAD), strict=True))
     angles = np.random.default_rng(SEED).uniform(low, high, (COUNT, model.njnt))
     names = [model.body(index).name for index in range(1, model.nbody)]
     frames: dict[str, list[list[float]]] = {name: [] for name in names}
@@ -45,7 +47,7 @@ def main() -> None:
     """Answer for every URDF robot."""
     folder = Path("tests/it/crosscheck/urdf")
     folder.mkdir(exist_ok=True)
-    for path in sorted(Path("data/robots").glob("*.urdf")):
+    for path in sorted([*Path("data/robots").glob("*.urdf"), *folder.glob("*.urdf")]):
         text = json.dumps(answers(path)).replace("], [", "],\n [")
         (folder / f"{path.stem}.json").write_text(text + "\n")
         print(path.stem)

@@ -9,6 +9,7 @@ pub mod ignored;
 pub mod seed;
 pub mod slug;
 pub mod text;
+pub mod units;
 
 pub mod file;
 

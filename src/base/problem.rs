@@ -69,7 +69,7 @@ pub fn parse_problem(
     refuse_moveit(reader, &root)?;
     let sets = reader.yaml.find(&root, "problems")?.unwrap_or(&root);
     let mut order = asked.map(|asked| (0..asked.joints.len()).collect());
-    if !std::ptr::eq(sets, &root) {
+    if !std::ptr::eq(sets, &raw const root) {
         reader.rest(&root, &["problems", "robot", "joints"], false)?;
         if let Some(asked) = asked {
             check_robot(reader, &root, asked.robot)?;

@@ -6,6 +6,9 @@ use std::ops::Range;
 /// Beyond this many metres a length is taken for one in millimetres: no robot and no scene around one is as large.
 pub const FAR_M: f64 = 10.0;
 
+/// Beyond this many radians, two turns, an angle is taken for one in degrees.
+pub const FAR_RAD: f64 = 4.0 * std::f64::consts::PI;
+
 /// How far the length of a quaternion may be from 1: two digits that are written by hand.
 const UNIT: f64 = 1e-2;
 /// Beyond this its digits are few enough to be told of.
@@ -177,6 +180,21 @@ impl Source<'_> {
                     found * 1e-3
                 ),
             )),
+        }
+    }
+
+    /// `N` angles in radians, all finite; one beyond two turns is taken for one in degrees.
+    pub fn radians<const N: usize>(
+        self,
+        at: &Range<usize>,
+        key: &str,
+        angles: [f64; N],
+    ) -> Result<[f64; N], SettingsError> {
+        let angles = self.finite(at, key, angles)?;
+        match angles.iter().find(|angle| angle.abs() > FAR_RAD) {
+            None => Ok(angles),
+            Some(found) => Err(self
+                .fault(at, format!("{key} has the angle {found}; is it in degrees? radians are accepted"))),
         }
     }
 

@@ -81,10 +81,10 @@ impl<'a> Space<'a> {
     pub fn answer(&mut self, ask: &Ask) -> Result<Answer, String> {
         let Ask { id, valid, motion, fractions, fk, ik } = ask;
         self.asked.batches += 1;
-        self.asked.valid += count(valid);
-        self.asked.motion += count(motion);
-        self.asked.fk += count(fk);
-        self.asked.ik += count(ik);
+        self.asked.valid += count(valid.as_ref());
+        self.asked.motion += count(motion.as_ref());
+        self.asked.fk += count(fk.as_ref());
+        self.asked.ik += count(ik.as_ref());
         let valid = valid.as_ref().map(|states| self.are_valid(states)).transpose()?;
         let free = |space: &mut Self, [from, to]: &[Vec<f64>; 2]| space.is_free(from, to);
         let are_free =
@@ -270,8 +270,8 @@ impl<'a> Space<'a> {
 }
 
 /// How many questions a list holds.
-fn count<T>(asked: &Option<Vec<T>>) -> u64 {
-    asked.as_ref().map_or(0, |all| all.len() as u64)
+fn count<T>(asked: Option<&Vec<T>>) -> u64 {
+    asked.map_or(0, |all| all.len() as u64)
 }
 
 /// Half a degree.

@@ -184,7 +184,7 @@ impl Plan {
         if plan.shards == 0 || counts.iter().any(|count| *count != plan.shards) {
             return Err(StudyError::stored(
                 &path,
-                format!("{} shards with {counts:?} of their numbers", plan.shards),
+                format!("{} shards with {} and {} of their numbers", plan.shards, counts[0], counts[1]),
             ));
         }
         Ok(plan)

@@ -156,6 +156,27 @@ fn planners_find_a_path_exactly_where_their_graph_has_one() {
 }
 
 #[test]
+fn a_goal_that_is_the_start_is_reached_at_no_cost_by_every_planner() {
+    for subject in planners() {
+        let mut reached = 0;
+        for case in worlds(subject.entry.needs).iter().take(6) {
+            let here = Request { goal: &case.start, ..request(case, PLENTY, true) };
+            let what = format!("{} on {}", subject.name, case.name);
+            let plan = subject.planner.plan(&here).unwrap_or_else(|invalid| panic!("{what}: {invalid}"));
+            assert_eq!(plan.ending, Ending::Solved, "{what}: {:?}", plan.reason);
+            assert!(
+                !plan.path.is_empty() && plan.path.iter().all(|at| *at == case.start),
+                "{what}: {:?}",
+                plan.path
+            );
+            assert!(plan.cost.is_none_or(|cost| cost == 0.0), "{what}: {:?}", plan.cost);
+            reached += 1;
+        }
+        assert_eq!(reached, 6, "{}", subject.name);
+    }
+}
+
+#[test]
 fn no_planner_is_refused_and_optimal_ones_cost_what_the_oracle_finds() {
     let (mut above, mut excused) = (BTreeMap::new(), BTreeSet::new());
     for subject in planners() {

@@ -28,6 +28,7 @@ mod documented;
 mod exit_codes;
 mod exploring;
 mod external;
+mod files;
 mod floors;
 mod follow_on;
 mod guards;

@@ -215,7 +215,7 @@ mod tests {
                     );
                 }
                 (Err(error), Err(said)) => {
-                    assert!(error.starts_with(said), "{shown}: {error}\nis not {said}")
+                    assert!(error.starts_with(said), "{shown}: {error}\nis not {said}");
                 }
                 (found, expected) => panic!("{shown}: {found:?} is not {expected:?}"),
             }

@@ -52,16 +52,11 @@ impl Reader<'_> {
 
     /// The problem; `order` says where the number of each joint stands.
     pub(super) fn problem(self, problem: &Node, order: Option<&[usize]>) -> Result<Problem, SettingsError> {
-        let obstacles = match self.yaml.find(problem, "obstacles")? {
-            Some(obstacles) => {
-                self.rest(problem, &[&GOALS[..], &["obstacles", "start", "valid"]].concat(), true)?;
-                self.robometrics(obstacles)?
-            }
-            None => {
-                self.rest(problem, &[&GOALS[..], &KINDS, &["start", "valid"]].concat(), true)?;
-                self.vamp(problem)?
-            }
-        };
+        let written = self.yaml.find(problem, "obstacles")?;
+        let solids = if written.is_some() { &["obstacles"][..] } else { &KINDS };
+        self.rest(problem, &[&GOALS[..], solids, &["start", "valid"]].concat(), true)?;
+        let obstacles =
+            written.map_or_else(|| self.vamp(problem), |obstacles| self.robometrics(obstacles))?;
         let start = self.ended(self.yaml.get(problem, "start")?, "start", order)?;
         let valid = self.yaml.find(problem, "valid")?;
         let is_valid = valid.map_or(Ok(true), |valid| self.yaml.truth(valid, "valid"))?;
@@ -101,14 +96,11 @@ impl Reader<'_> {
                 format!("{key} has {found} numbers; {accepted}, as the robot has joints, are accepted");
             return Err(self.fault(node, message));
         }
-        match written.iter().find(|angle| angle.abs() > 4.0 * std::f64::consts::PI) {
-            None => {
-                let ordered = order.map(|order| order.iter().map(|place| written[*place]).collect());
-                Ok(Ended { joints: ordered.unwrap_or(written), at: node.at.clone() })
-            }
-            Some(angle) => Err(self
-                .fault(node, format!("{key} has the angle {angle}; is it in degrees? radians are accepted"))),
+        for number in &written {
+            self.yaml.0.radians(&node.at, key, [*number])?;
         }
+        let ordered = order.map(|order| order.iter().map(|place| written[*place]).collect());
+        Ok(Ended { joints: ordered.unwrap_or(written), at: node.at.clone() })
     }
 
     fn robometrics(self, obstacles: &Node) -> Result<Vec<Solid>, SettingsError> {
@@ -187,7 +179,8 @@ impl Reader<'_> {
         yaml.only(entry, &[sizes, &["name", "position", EULER, QUATERNION]].concat())?;
         let origin = source.metres(&position.at, "position", yaml.exactly::<3>(position, "position")?)?;
         let turned = yaml.find(entry, EULER)?.map(|turned| yaml.exactly::<3>(turned, EULER)).transpose()?;
-        let by_angles = Pose::from_rpy(origin, turned.unwrap_or_default());
+        let rpy = yaml.0.radians(&position.at, EULER, turned.unwrap_or_default())?;
+        let by_angles = Pose::from_rpy(origin, rpy);
         let Some(quaternion) = yaml.find(entry, QUATERNION)? else { return Ok(by_angles) };
         let ([x, y, z, w], [a, b, c]) = (yaml.exactly::<4>(quaternion, QUATERNION)?, origin);
         let (pose, was_rounded) = source.pose(&quaternion.at, QUATERNION, [a, b, c, w, x, y, z])?;

@@ -73,7 +73,7 @@ pub(super) fn unread(root: Node<'_, '_>, format: &str, read: &[(&str, &[&str])])
     found.into_iter().map(told).collect()
 }
 
-impl<'a> Elements<'a> {
+impl Elements<'_> {
     pub(super) fn fault(self, at: &Range<usize>, message: impl Into<String>) -> SettingsError {
         self.0.fault(at, message)
     }
@@ -116,7 +116,7 @@ impl<'a> Elements<'a> {
     /// A finite number in an attribute.
     pub(super) fn number(self, of: Node<'_, '_>, key: &'static str) -> Result<f64, SettingsError> {
         self.text(of, key)?;
-        Ok(self.number_or(of, key, 0.0)?)
+        self.number_or(of, key, 0.0)
     }
 
     /// A finite number in an attribute, or what the format says where it is not there.

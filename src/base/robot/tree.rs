@@ -5,7 +5,6 @@ use crate::settings::SettingsError;
 use crate::solid::Pose;
 use roxmltree::Node;
 use std::collections::{BTreeMap, BTreeSet};
-use std::f64::consts::PI;
 
 /// The links and joints of a file.
 pub(super) struct Tree<'a, 'input> {
@@ -106,10 +105,7 @@ impl<'a, 'input> Tree<'a, 'input> {
         let xyz = self.xml.numbers::<3>(origin, "xyz")?.unwrap_or([0.0; 3]);
         let rpy = self.xml.numbers::<3>(origin, "rpy")?.unwrap_or([0.0; 3]);
         let xyz = self.xml.0.metres(&place(origin, "xyz"), "xyz", xyz)?;
-        if let Some(angle) = rpy.iter().find(|angle| angle.abs() > 4.0 * PI) {
-            let message = format!("rpy has the angle {angle}; is it in degrees? radians are accepted");
-            return Err(self.xml.fault(&place(origin, "rpy"), message));
-        }
+        let rpy = self.xml.0.radians(&place(origin, "rpy"), "rpy", rpy)?;
         Ok(Pose::from_rpy(xyz, rpy))
     }
 }

@@ -4,7 +4,7 @@ use super::elements::{Elements, child, elements, place};
 use super::tree::Tree;
 use super::{Joint, Kind, Robot, stl};
 use crate::settings::SettingsError;
-use crate::solid::{FAR_M, Form, Pose, Solid};
+use crate::solid::{FAR_M, FAR_RAD, Form, Pose, Solid};
 use roxmltree::Node;
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
@@ -216,7 +216,7 @@ fn limits(xml: Elements<'_>, name: &str, kind: Kind, limit: Node<'_, '_>) -> Res
     for (key, value) in [("lower", lower), ("upper", upper)] {
         let (most, asked) = match kind {
             Kind::Slides => (FAR_M, "is it in millimetres? metres are accepted"),
-            Kind::Turns | Kind::TurnsOn => (4.0 * PI, "is it in degrees? radians are accepted"),
+            Kind::Turns | Kind::TurnsOn => (FAR_RAD, "is it in degrees? radians are accepted"),
         };
         if value.abs() > most {
             return fault(key, format!("{key} of joint `{name}` is {value}; {asked}"));

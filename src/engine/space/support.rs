@@ -4,6 +4,7 @@
 
 use crate::geometry::{Frame, GeometryError, HalfSpace, OrientedBox, Solid, Vec3};
 use crate::kinematics::FARTHEST_MM;
+use base::units::asked_in_degrees;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -64,9 +65,14 @@ impl SupportEntry {
     /// The entry, checked.
     ///
     /// # Errors
-    /// A sentence for a pedestal without height or sides, and where nothing is under the arm for no reason; with the key that it is
+    /// A sentence for a turn in radians, a pedestal without height or sides, and where nothing is under the arm for no reason; with the key that it is
     /// about.
     pub fn support(&self) -> Result<Support, (&'static str, String)> {
+        let (Self::Floor { yaw_deg, .. } | Self::Pedestal { yaw_deg, .. } | Self::Nothing { yaw_deg, .. }) =
+            self;
+        if let Some((_, message)) = asked_in_degrees("yaw_deg", &[*yaw_deg]) {
+            return Err(("yaw_deg", message));
+        }
         match self {
             Self::Floor { base_mm, yaw_deg } => {
                 let base = frame(*base_mm, *yaw_deg);

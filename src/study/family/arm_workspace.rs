@@ -159,9 +159,7 @@ impl ArmWorkspace {
                     Direction::StartToGoal => [start, goal],
                     Direction::GoalToStart => [goal, start],
                 };
-                let query = Query { name: String::new(), start: start.to_vec(), goal: goal.to_vec() };
-                query.leads_away().map_err(|message| settings.error_at("goal_cm", message))?;
-                Ok(vec![query])
+                Ok(vec![Query { name: String::new(), start: start.to_vec(), goal: goal.to_vec() }])
             }
             (None, None) => Ok(Vec::new()),
             (start, _) => {

@@ -20,19 +20,6 @@ pub struct Query {
     pub goal: Vec<f64>,
 }
 
-impl Query {
-    /// Refuses a goal that is the start, where there is nothing to plan.
-    ///
-    /// # Errors
-    /// A sentence that says where both are.
-    pub(super) fn leads_away(&self) -> Result<(), String> {
-        if self.start != self.goal {
-            return Ok(());
-        }
-        Err(format!("the goal {:?} is where the start is; a goal elsewhere is accepted", self.goal))
-    }
-}
-
 /// Where the parts of an arm are at one configuration, in millimetres.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stance {

@@ -40,7 +40,6 @@ corner_rule = "allow"
         faults.done()?;
         let [start, goal] = [read.start, read.goal].map(|cell| cell.map(f64::from).to_vec());
         let queries = [Query { name: String::new(), start, goal }];
-        queries[0].leads_away().map_err(|message| settings.error_at("goal", message))?;
         Ok::<Box<dyn Family>, StudyError>(Box::new(Posed { read, map, queries }))
     },
 };

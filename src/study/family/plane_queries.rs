@@ -6,6 +6,7 @@ use crate::prepared::{Prepared, nested_roadmap};
 use crate::verification::roadmap::PLANE_COLUMNS;
 use base::seed;
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
+use base::text::listed;
 use engine::geometry::Vec2;
 use engine::geometry::planar::ConvexPolygon;
 use engine::kinematics::FARTHEST_MM;
@@ -42,10 +43,8 @@ radius_mm = 220
         let plane = faults.keep(map.plane(&document));
         let plane = faults.or(plane)?;
         let posed = map.posed(&plane, &document);
-        let goal_at = map.goal_mm.span();
         let [start, goal] = [map.start_mm, map.goal_mm].map(|point| point.into_inner().to_vec());
         let queries = [Query { name: String::new(), start, goal }];
-        queries[0].leads_away().map_err(|message| document.error(goal_at, message))?;
         Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn { read, plane, queries, posed, inputs: [file] }))
     },
 };
@@ -119,7 +118,7 @@ impl MapFile {
         };
         let mut faults = Faults::default();
         if !document.is_part("size_mm") && !self.size_mm.iter().all(|side| side.is_finite() && *side > 0.0) {
-            let message = format!("size_mm is {:?}; two lengths above 0 are accepted", self.size_mm);
+            let message = format!("size_mm is {}; two lengths above 0 are accepted", listed(self.size_mm));
             faults.add(document.error_at("size_mm", message));
         }
         let polygons = faults.keep_each(self.obstacles.iter().map(polygon));

@@ -103,7 +103,6 @@ where
         let keep_free = ends.map(Option::unwrap_or_default);
         let [from, to] = [start, goal].map(|cell| cell.map(f64::from).to_vec());
         let queries = [Query { name: String::new(), start: from, goal: to }];
-        queries[0].leads_away().map_err(|message| settings.error_at("goal", message))?;
         Ok(Self { frame, keep_free, queries, blocked, draw })
     }
 

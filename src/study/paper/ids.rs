@@ -4,6 +4,7 @@
 use super::rules::names_of;
 use super::{ClaimSpec, Paper};
 use base::settings::{Document, Faults};
+use base::text::brief;
 use std::collections::BTreeSet;
 
 /// What is wrong with `name`, which stands in tables and links, if anything is.
@@ -12,7 +13,8 @@ fn wrong(what: &str, name: &str) -> Option<String> {
     let is_accepted = !name.is_empty() && name.chars().all(is_plain);
     (!is_accepted).then(|| {
         format!(
-            "the {what} is called {name:?}; one or more of a to z, A to Z, 0 to 9, `_`, `.` and `-` are accepted as its name"
+            "the {what} is called \"{}\"; one or more of a to z, A to Z, 0 to 9, `_`, `.` and `-` are accepted as its name",
+            brief(name)
         )
     })
 }

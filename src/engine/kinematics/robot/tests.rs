@@ -142,6 +142,9 @@ fn rows_in_metres_and_limits_in_radians_are_asked_about() {
     let radians = said(&scaled(["lower_deg", "upper_deg"], 1_f64.to_radians())).unwrap_err();
     let asked = "are limits in radians? degrees are accepted (6.28";
     assert!(radians.starts_with("up6.toml:") && radians.contains(asked), "{radians}");
+    let turns = said(&scaled(["alpha_deg", "offset_deg"], 1_f64.to_radians())).unwrap_err();
+    let asked = "alpha_deg is -1.5707963267948966; is it in radians? degrees are accepted (-1.5707963267948966 rad is -90.0°)";
+    assert!(turns.starts_with("up6.toml:") && turns.contains(asked), "{turns}");
     assert!(said(&scaled(["a_mm", "d_mm"], 0.1)).is_ok_and(|robot| robot.notes().is_empty()), "a small arm");
 }
 

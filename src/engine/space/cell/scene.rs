@@ -4,6 +4,7 @@ use crate::geometry::{Capsule, Convex, Frame, GeometryError, OrientedBox, Solid,
 use crate::kinematics::FARTHEST_MM;
 use crate::space::SupportEntry;
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
+use base::units::asked_in_degrees;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::ops::Range;
@@ -133,7 +134,9 @@ impl BoxEntry {
                 format!("`max_mm[{axis}]` is {high}; a number above `min_mm[{axis}]`, {low}, is accepted");
             (format!("max_mm.{axis}"), message)
         };
-        let faults: Vec<Wrong> = (0..3).filter(turned_over).map(told).collect();
+        let asked =
+            asked_in_degrees("yaw_deg", &[self.yaw_deg]).map(|(_, message)| ("yaw_deg".to_owned(), message));
+        let faults: Vec<Wrong> = (0..3).filter(turned_over).map(told).chain(asked).collect();
         if !faults.is_empty() {
             return Err(faults);
         }

@@ -3,6 +3,7 @@
 use super::Query;
 use crate::name;
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned, none_called};
+use base::units::asked_in_degrees;
 use engine::kinematics::Joints;
 use engine::space::cell::Cell;
 use schemars::JsonSchema;
@@ -56,6 +57,11 @@ pub(super) fn read_queries(written: &Arc<Document>) -> Result<Placed, SettingsEr
             let message =
                 format!("pose `{}` has the angle {number}; finite angles are accepted", name.get_ref());
             faults.add(document.error(name.span(), message));
+            return None;
+        }
+        let key = format!("an angle of pose `{}`", name.get_ref());
+        if let Some((index, message)) = asked_in_degrees(&key, found) {
+            faults.add(document.error_at(&format!("pose_deg.{}.{index}", name.get_ref()), message));
             return None;
         }
         Some(found.map(f64::to_radians).to_vec())

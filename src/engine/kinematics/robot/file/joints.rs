@@ -9,6 +9,7 @@ use crate::{
     },
 };
 use base::settings::{Faults, SettingsError, Spanned};
+use base::units::asked_in_degrees;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -99,6 +100,13 @@ fn other_units(source: &Source, entries: &[Spanned<JointEntry>]) -> Vec<Settings
             size.to_degrees()
         );
         faults.push(fault_at(source, index, key, message));
+    }
+    let turns: [(&'static str, fn(&JointEntry) -> f64); 2] =
+        [("alpha_deg", |joint| joint.alpha_deg), ("offset_deg", |joint| joint.offset_deg)];
+    for (key, of) in turns {
+        let angles: Vec<f64> = entries.iter().map(|entry| of(entry.get_ref())).collect();
+        let asked = asked_in_degrees(key, &angles);
+        faults.extend(asked.map(|(index, message)| fault_at(source, index, key, message)));
     }
     faults
 }

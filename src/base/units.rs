@@ -1,0 +1,47 @@
+//! Angles in degrees that seem to be written in radians.
+
+use std::f64::consts::{FRAC_PI_4, TAU};
+
+/// How near to a multiple of an eighth of a turn an angle is that was rounded to two digits behind the point.
+const ROUNDED_RAD: f64 = 2e-3;
+
+/// Of angles in degrees the first that seems to be in radians, by its number, and what is asked about it: a multiple of an eighth of a
+/// turn as it is written in radians, among angles of which none is beyond a turn in radians.
+pub fn asked_in_degrees(key: &str, angles_deg: &[f64]) -> Option<(usize, String)> {
+    let is_eighth = |angle: &f64| {
+        let eighths = (angle / FRAC_PI_4).round();
+        eighths != 0.0 && (angle - eighths * FRAC_PI_4).abs() < ROUNDED_RAD
+    };
+    let index = angles_deg.iter().position(is_eighth)?;
+    let is_small = |angle: &f64| angle.abs() < TAU + ROUNDED_RAD;
+    let angle = angles_deg[index];
+    let message = format!(
+        "{key} is {angle}; is it in radians? degrees are accepted ({angle} rad is {:.1}°)",
+        angle.to_degrees()
+    );
+    angles_deg.iter().all(is_small).then_some((index, message))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn right_angles_in_radians_are_asked_about_and_small_angles_in_degrees_are_not() {
+        for (text, index) in [
+            ("0 1.5708 -1.5708", Some(1)),
+            ("3.14", Some(0)),
+            ("-0.785", Some(0)),
+            ("0.3 6.2832", Some(1)),
+            ("90 1.5708", None),
+            ("1.5 3 6", None),
+            ("0 0", None),
+            ("", None),
+        ] {
+            let angles: Vec<f64> = text.split_whitespace().map(|angle| angle.parse().unwrap()).collect();
+            assert_eq!(asked_in_degrees("alpha_deg", &angles).map(|asked| asked.0), index, "{text}");
+        }
+        let asked = asked_in_degrees("yaw_deg", &["1.5708".parse().unwrap()]).unwrap().1;
+        assert_eq!(asked, "yaw_deg is 1.5708; is it in radians? degrees are accepted (1.5708 rad is 90.0°)");
+    }
+}

@@ -1,0 +1,276 @@
+//! Files of others, from the file to the row: what is asked is what their authors mean.
+
+use crate::paper::Bench;
+use std::fs;
+use std::path::Path;
+use study::reuse;
+
+const PAPER: &str =
+    "[source]\ntitle = \"Files\"\nauthors = \"N. N.\"\n\n[prints]\nfigures = 0\ntables = 0\nequations = 0\n";
+
+/// An arm of two rods that nod about y, before limits and kinds of its joints are put in.
+const ROBOT: &str = r#"<?xml version="1.0"?>
+<robot name="pair">
+<link name="foot"><collision><origin xyz="0 0 0.1"/><geometry><box size="0.06 0.06 0.16"/></geometry></collision></link>
+<joint name="low" type="[low]"><parent link="foot"/><child link="shin"/><origin xyz="0 0 0.2"/><axis xyz="[along]"/>[limit]</joint>
+<link name="shin"><collision><origin xyz="0 0 0.14"/><geometry><cylinder radius="0.03" length="0.2"/></geometry></collision></link>
+<joint name="high" type="revolute"><parent link="shin"/><child link="hand"/><origin xyz="0 0 0.3"/><axis xyz="0 1 0"/>
+<limit lower="-2.5" upper="2.5" effort="1" velocity="1"/></joint>
+<link name="hand"><collision><origin xyz="0 0 0.14"/><geometry><sphere radius="0.04"/></geometry></collision></link>
+</robot>
+"#;
+
+/// A query of the arm, by what its robot and its problem file say, and what becomes of it.
+struct Arm {
+    name: &'static str,
+    low: &'static str,
+    along: &'static str,
+    limit: &'static str,
+    problem: &'static str,
+    /// The status, and what the row says: joint travel in degrees, or the beginning of the reason.
+    row: (&'static str, Result<f64, &'static str>),
+}
+
+const NODS: &str = "0 1 0";
+const TURN: &str = "<limit lower=\"-3\" upper=\"3\" velocity=\"2\"/>";
+const THERE: &str = r#"{"problems": {"set": [{"start": [0.3, 0.2], "goals": [[-0.4, 0.5]]}]}}"#;
+
+const ARMS: &[Arm] = &[
+    Arm {
+        name: "plain",
+        low: "revolute",
+        along: NODS,
+        limit: TURN,
+        problem: THERE,
+        row: ("solved", Ok(1.0)),
+    },
+    // 3.1 to -3.1 rad is 0.0832 rad the shorter way round, and 6.2 the other.
+    Arm {
+        name: "round",
+        low: "continuous",
+        along: NODS,
+        limit: "",
+        problem: r#"{"problems": {"set": [{"start": [3.1, 0.1], "goals": [[-3.1, 0.1]]}]}}"#,
+        row: ("solved", Ok(0.083_185_307_179_586_23)),
+    },
+    Arm {
+        name: "beyond",
+        low: "continuous",
+        along: NODS,
+        limit: "<limit effort=\"1\"/>",
+        problem: r#"{"problems": {"set": [{"start": [-3.5, 0.1], "goals": [[3.3, 0.1]]}]}}"#,
+        row: ("solved", Ok(0.516_814_692_820_414)),
+    },
+    // A slide of 0.3 m is no turn.
+    Arm {
+        name: "lift",
+        low: "prismatic",
+        along: "0 0 1",
+        limit: "<limit lower=\"0\" upper=\"0.4\"/>",
+        problem: r#"{"problems": {"set": [{"start": [0.05, 0.2], "goals": [[0.35, 0.5]]}]}}"#,
+        row: ("solved", Ok(0.3)),
+    },
+    Arm {
+        name: "invalid",
+        low: "revolute",
+        along: NODS,
+        limit: TURN,
+        problem: r#"{"problems": {"set": [{"valid": false, "start": [0.3, 0.2], "goals": [[-0.4, 0.5]],
+                    "sphere": [{"position": [0, 0, 0.4], "radius": 0.1}]}]}}"#,
+        row: ("invalid_problem", Err("the problem set calls this problem invalid")),
+    },
+    Arm {
+        name: "by-name",
+        low: "revolute",
+        along: NODS,
+        limit: "<limit lower=\"-0.5\" upper=\"0.5\"/>",
+        problem: r#"{"robot": "pair", "joints": ["high", "low"], "problems": {"set": [{"start": [2.0, 0.3], "goals": [[1.5, 0.3]]}]}}"#,
+        row: ("solved", Ok(0.5)),
+    },
+    Arm {
+        name: "there-already",
+        low: "revolute",
+        along: NODS,
+        limit: TURN,
+        problem: r#"{"problems": {"set": [{"start": [0.3, 0.2], "goals": [[0.3, 0.2]]}]}}"#,
+        row: ("solved", Ok(0.0)),
+    },
+];
+
+fn joint_group(name: &str) -> String {
+    format!(
+        "\n[[problems]]\nlabel = \"{name}\"\nfamily = \"joint_queries\"\nreplicates = 1\n[problems.settings]\nrobot = \"{name}.urdf\"\n\
+         problem = \"{name}.json\"\nself_collision = true\nsamples = 30\nradius_deg = 170\nstep_deg = 4\n\
+         support = {{ under = \"nothing\", why = \"a test\", base_mm = [0, 0, 0], yaw_deg = 0 }}\n"
+    )
+}
+
+fn study(groups: &str, contender: &str) -> String {
+    format!(
+        "paper = \"files\"\nquestion = \"What is meant?\"\nseed = 9\n\n[budget]\nexpansions = 100_000\n{groups}\n[[contender]]\n{contender}\n"
+    )
+}
+
+/// A straight shot at the goal, so that the path is the query itself.
+const STRAIGHT: &str = "label = \"straight\"\nplanner = \"direct\"";
+
+#[test]
+fn joints_move_as_their_urdf_file_means_and_go_where_the_problem_file_names_them() {
+    let bench = Bench::empty();
+    bench.write("files/paper.toml", PAPER.as_bytes());
+    let mut groups = String::new();
+    for arm in ARMS {
+        let robot =
+            ROBOT.replace("[low]", arm.low).replace("[along]", arm.along).replace("[limit]", arm.limit);
+        bench.write(&format!("files/{}.urdf", arm.name), robot.as_bytes());
+        bench.write(&format!("files/{}.json", arm.name), arm.problem.as_bytes());
+        groups += &joint_group(arm.name);
+    }
+    bench.write("files/arms.toml", study(&groups, STRAIGHT).as_bytes());
+    let said = bench.done(&["check", "./files"]);
+    assert!(said.contains("invalid.json: the set calls problem 0 invalid; it is counted as such"), "{said}");
+    bench.done(&["run", "./files"]);
+    let (_, records) = reuse::stored(&bench.at("target/replan/files/data/runs/files"), "arms").unwrap();
+    for arm in ARMS {
+        let row = records.batch.rows.iter().find(|row| *row.key.on.group == *arm.name).unwrap();
+        let reason = row.reason.clone().unwrap_or_default();
+        assert_eq!(row.status.name(), arm.row.0, "{}: {reason}", arm.name);
+        match arm.row.1 {
+            Ok(turned_rad) => {
+                let travel_deg = row.value("joint_travel_deg").unwrap();
+                assert!((travel_deg - turned_rad.to_degrees()).abs() < 1e-9, "{}: {travel_deg}", arm.name);
+            }
+            Err(said) => assert!(reason.starts_with(said), "{}: {reason}", arm.name),
+        }
+    }
+}
+
+#[test]
+fn an_srdf_file_decides_which_links_are_held_against_each_other() {
+    let bench = Bench::empty();
+    bench.write("files/paper.toml", PAPER.as_bytes());
+    let robot = ROBOT.replace("[low]", "revolute").replace("[along]", NODS).replace("[limit]", TURN);
+    bench.write("files/fold.urdf", robot.as_bytes());
+    // Folded, so that the hand is in the foot; shin and hand, which a joint joins, are apart.
+    let problem = r#"{"problems": {"set": [{"start": [0.0, 0.0], "goals": [[2.4, 2.4]]}]}}"#;
+    bench.write("files/fold.json", problem.as_bytes());
+    let group = joint_group("fold").replace("self_collision", "srdf = \"fold.srdf\"\nself_collision");
+    bench.write("files/arms.toml", study(&group, STRAIGHT).as_bytes());
+    let pair = |other: &str| {
+        format!(
+            "<robot name=\"pair\"><disable_collisions link1=\"{other}\" link2=\"hand\" reason=\"Never\"/>\
+                 <disable_collisions link1=\"foot\" link2=\"shin\" reason=\"Adjacent\"/></robot>"
+        )
+    };
+    bench.write("files/fold.srdf", pair("shin").as_bytes());
+    let refused = bench.run(&["check", "./files"]).err;
+    let said = "the goal cannot be posed: parts `foot` and `hand` are in contact";
+    assert!(refused.contains(said), "should say {said}\nsays {refused}");
+    bench.write("files/fold.srdf", pair("foot").replace("shin", "tail").as_bytes());
+    let said = bench.done(&["check", "./files"]);
+    assert!(said.contains("fold.srdf: no solid stands for the links `tail` of its pairs"), "{said}");
+    bench.edit("files/arms.toml", "self_collision = true", "self_collision = false");
+    let refused = bench.run(&["check", "./files"]).err;
+    assert!(refused.contains("srdf says which links may touch, and self_collision is false"), "{refused}");
+}
+
+/// Groups of queries whose goal is their start, one a family that is given both.
+const HERE: &str = r#"
+[[problems]]
+label = "map"
+family = "grid_map"
+settings = { map = "room.map.txt", start = [0, 0], goal = [0, 0], corner_rule = "allow" }
+
+[[problems]]
+label = "benchmark"
+family = "movingai"
+settings = { map = "room.map", scenarios = "room.scen" }
+
+[[problems]]
+label = "drawn"
+family = "random_cells"
+replicates = 2
+settings = { size_cells = [8, 8], blocked_share = 0.2, start = [3, 3], goal = [3, 3], corner_rule = "allow" }
+"#;
+
+#[test]
+fn a_goal_that_is_the_start_and_one_without_a_way_are_queries_like_any_other_in_every_family() {
+    let bench = Bench::empty();
+    bench.write("files/paper.toml", PAPER.as_bytes());
+    bench.write("files/room.map.txt", "\u{feff}.#.\r\n.#.\r\n".as_bytes());
+    bench.write(
+        "files/room.map",
+        "\u{feff}type octile\r\nheight 2\r\nwidth 3\r\nmap\r\n.@.\r\n.@.\r\n".as_bytes(),
+    );
+    let scenarios =
+        "\u{feff}version 1\n0\troom.map\t3\t2\t0\t0\t0\t0\t0\n0\troom.map\t3\t2\t0\t0\t2\t0\t-1\n";
+    bench.write("files/room.scen", scenarios.as_bytes());
+    bench.write(
+        "files/grids.toml",
+        study(HERE, "label = \"A*\"\nplanner = \"astar\"\nsettings = { weight = 1 }").as_bytes(),
+    );
+    let said = bench.done(&["check", "./files"]);
+    assert!(said.contains("room.scen: 1 of its queries have no path, it says"), "{said}");
+    bench.done(&["run", "./files"]);
+    let (_, records) = reuse::stored(&bench.at("target/replan/files/data/runs/files"), "grids").unwrap();
+    let rows = records.batch.rows;
+    assert_eq!(rows.len(), 5);
+    for row in &rows {
+        if row.key.query.as_deref() == Some("line-3") {
+            assert_eq!(
+                (row.status.name(), row.value("printed_optimal_cells")),
+                ("no_path", None),
+                "{:?}",
+                row.reason
+            );
+            continue;
+        }
+        assert_eq!(row.status.name(), "solved", "{:?}: {:?}", row.key, row.reason);
+        for (column, value) in &row.values {
+            assert!(value.as_f64() != 0.0 || value.as_f64().is_sign_positive(), "{column} is -0");
+        }
+        assert_eq!(row.value("path_cost_cells"), Some(0.0));
+    }
+}
+
+#[test]
+fn the_page_of_files_shows_every_key_that_is_passed_over() {
+    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/FILES.md")).unwrap();
+    let table: Vec<&str> = page.lines().filter(|line| line.starts_with("| ")).collect();
+    let rows = base::ignored::IGNORED;
+    let rows: Vec<String> =
+        rows.iter().map(|row| format!("| {} | `{}` | {} |", row.format, row.key, row.why)).collect();
+    let start = table.iter().position(|line| *line == "| format | key | why |").unwrap();
+    assert_eq!(table[start + 1..], rows, "docs/FILES.md should hold\n{}", rows.join("\n"));
+}
+
+/// Files whose `{:?}` makes no message: keys of what was judged, text to hash, numbers written with all their digits.
+const NO_MESSAGES: &[&str] = &[
+    "analysis/",
+    "audit/",
+    "base/settings/validate.rs",
+    "base/text.rs",
+    "crosscheck/mjcf.rs",
+    "study/explore.rs",
+    "study/family/conditioned.rs",
+    "study/manifest",
+];
+
+#[test]
+fn no_message_shows_values_as_rust_debugs_them() {
+    let mut found = Vec::new();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for file in crate::source::files() {
+        let path = file.path.to_str().unwrap();
+        if NO_MESSAGES.iter().any(|start| path.starts_with(start)) || path.contains("tests") {
+            continue;
+        }
+        let text = fs::read_to_string(root.join(&file.path)).unwrap();
+        let code = text.split("#[cfg(test)]\n").next().unwrap_or_default();
+        let is_shown =
+            |line: &str| (line.contains(":?}") || line.contains(":#?}")) && !line.contains("sha256(");
+        let shown = code.lines().enumerate().filter(|(_, line)| is_shown(line));
+        found.extend(shown.map(|(index, line)| format!("{path}:{}: {}", index + 1, line.trim())));
+    }
+    assert_eq!(found, [""; 0], "\n{}", found.join("\n"));
+}
