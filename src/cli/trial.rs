@@ -49,7 +49,7 @@ fn print_exhibits(kept: &[Kept]) {
     for Kept { exhibit, .. } in kept {
         let points = exhibit.values.chunks(exhibit.width);
         let text = if exhibit.name == "path" {
-            points.map(|point| format!("{point}", point = listed(point))).collect::<Vec<String>>().join(" ")
+            points.map(listed).collect::<Vec<String>>().join(" ")
         } else {
             format!("{} points of {} numbers", points.len(), exhibit.width)
         };
