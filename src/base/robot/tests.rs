@@ -101,7 +101,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     (
         "<limit lower=\"-1\" upper=\"2\" effort=\"1\" velocity=\"3\"/>",
         "",
-        "/two.urdf:5:3: joint `turn` is revolute and has no `limit`; one is accepted (lower, upper)",
+        "/two.urdf:5:3: joint `turn` has no `limit`; one is accepted (lower, upper)",
     ),
     (
         "lower=\"-1\" upper=\"2\" ",

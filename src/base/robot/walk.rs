@@ -101,18 +101,7 @@ impl<'a, 'input> Walk<'_, 'a, 'input> {
     fn joint(&self, joint: Node<'a, 'input>, before: Pose) -> Result<Joint, SettingsError> {
         let xml = self.tree.xml;
         let name = xml.text(joint, "name")?;
-        let written = xml.text(joint, "type")?;
-        let kind = match written {
-            "revolute" => Kind::Turns,
-            "continuous" => Kind::TurnsOn,
-            "prismatic" => Kind::Slides,
-            other => {
-                let message = format!(
-                    "joint `{name}` is {other}; revolute, continuous, prismatic and fixed are accepted"
-                );
-                return Err(xml.fault(&place(joint, "type"), message));
-            }
-        };
+        let kind = kind(xml, name, joint)?;
         let axis = child(joint, "axis").map(|axis| xml.numbers::<3>(axis, "xyz")).transpose()?.flatten();
         let axis = axis.unwrap_or([1.0, 0.0, 0.0]);
         let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -126,26 +115,12 @@ impl<'a, 'input> Walk<'_, 'a, 'input> {
             (Kind::TurnsOn, _) => [-PI, PI],
             (_, Some(limit)) => limits(xml, name, kind, limit)?,
             (_, None) => {
-                let message =
-                    format!("joint `{name}` is {written} and has no `limit`; one is accepted (lower, upper)");
+                let message = format!("joint `{name}` has no `limit`; one is accepted (lower, upper)");
                 return Err(xml.fault(&joint.range(), message));
             }
         };
-        let speed = limit.map_or(Ok(0.0), |limit| xml.number_or(limit, "velocity", 0.0))?;
-        if let Some(limit) = limit.filter(|_| speed < 0.0) {
-            let message =
-                format!("the velocity of joint `{name}` is {speed}; 0 (not told) or more is accepted");
-            return Err(xml.fault(&place(limit, "velocity"), message));
-        }
-        let axis = axis.map(|x| x / length);
-        Ok(Joint {
-            name: name.to_owned(),
-            kind,
-            before,
-            axis,
-            limits,
-            speed: Some(speed).filter(|s| *s > 0.0),
-        })
+        let speed = limit.map_or(Ok(None), |limit| speed(xml, name, limit))?;
+        Ok(Joint { name: name.to_owned(), kind, before, axis: axis.map(|x| x / length), limits, speed })
     }
 
     fn solid(&mut self, link: &str, pose: Pose, collision: Node<'a, 'input>) -> Result<Solid, SettingsError> {
@@ -207,6 +182,30 @@ impl<'a, 'input> Walk<'_, 'a, 'input> {
         }
         Ok(Form::Hull(points))
     }
+}
+
+/// How a joint moves, by its type.
+fn kind(xml: Elements<'_>, name: &str, joint: Node<'_, '_>) -> Result<Kind, SettingsError> {
+    match xml.text(joint, "type")? {
+        "revolute" => Ok(Kind::Turns),
+        "continuous" => Ok(Kind::TurnsOn),
+        "prismatic" => Ok(Kind::Slides),
+        other => {
+            let message =
+                format!("joint `{name}` is {other}; revolute, continuous, prismatic and fixed are accepted");
+            Err(xml.fault(&place(joint, "type"), message))
+        }
+    }
+}
+
+/// The greatest speed, if there is one above 0: files write 0 for one that is not known.
+fn speed(xml: Elements<'_>, name: &str, limit: Node<'_, '_>) -> Result<Option<f64>, SettingsError> {
+    let speed = xml.number_or(limit, "velocity", 0.0)?;
+    if speed >= 0.0 {
+        return Ok(Some(speed).filter(|speed| *speed > 0.0));
+    }
+    let message = format!("the velocity of joint `{name}` is {speed}; 0 (not told) or more is accepted");
+    Err(xml.fault(&place(limit, "velocity"), message))
 }
 
 /// The limits of a joint that does not turn on; one that is left out is 0.
