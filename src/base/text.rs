@@ -92,8 +92,13 @@ impl Number for u32 {}
 
 /// Numbers as messages list them: `[1.0, 2.5]`, and `[1, 2]` for whole ones.
 pub fn listed<N: Number>(numbers: impl AsRef<[N]>) -> String {
-    let numbers: Vec<String> = numbers.as_ref().iter().map(|number| format!("{number:?}")).collect();
+    let numbers: Vec<String> = numbers.as_ref().iter().map(written).collect();
     format!("[{}]", numbers.join(", "))
+}
+
+/// A number in its fewest digits, and with an exponent where those would be many.
+pub fn written<N: Number>(number: &N) -> String {
+    format!("{number:?}")
 }
 
 #[cfg(test)]

@@ -249,7 +249,11 @@ fn a_map_or_verdicts_that_are_no_text_are_told_with_the_byte_and_a_paper_without
     );
     bench.write("mini/room.map.txt", b"; a room\n..\xff.\n");
     let said = bench.run(&["check", "./mini"]);
-    assert!(said.err.contains("line 2, byte 11 of the file is not UTF-8; UTF-8 text is accepted"), "{}", said.err);
+    assert!(
+        said.err.contains("line 2, byte 11 of the file is not UTF-8; UTF-8 text is accepted"),
+        "{}",
+        said.err
+    );
     for study in ["draws", "room"] {
         fs::remove_file(bench.at(&format!("mini/{study}.toml"))).unwrap();
     }

@@ -4,7 +4,7 @@
 
 use super::nearest::{did_you_mean, nearest};
 use super::schema::Node;
-use crate::text::{brief, unseen};
+use crate::text::{brief, unseen, written};
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -350,7 +350,7 @@ fn shown(value: &DeValue<'_>) -> String {
         DeValue::Integer(whole) => whole.to_string(),
         // As a number, not as it is written: what is wrong in a table and in a copy of it is one thing.
         DeValue::Float(real) => match real.as_str().parse::<f64>() {
-            Ok(number) if number.is_finite() => format!("{number:?}"),
+            Ok(number) if number.is_finite() => written(&number),
             Ok(number) => number.to_string().to_lowercase(),
             Err(_) => real.to_string(),
         },

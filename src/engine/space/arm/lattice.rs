@@ -2,6 +2,7 @@
 
 use crate::geometry::Vec2;
 use base::grid::Grid2;
+use base::text::written;
 use std::fmt;
 
 /// How far a coordinate may be from a lattice point, in steps, and still be meant as it.
@@ -38,7 +39,8 @@ impl TipLattice {
             // So many that a step's own digits say nothing of whether it divides the side.
             if steps > MAX_POINTS as f64 {
                 let message = format!(
-                    "step_cm is {step_cm}, which makes {:.1e} points along {name} alone; at most {MAX_POINTS} in all are accepted",
+                    "step_cm is {}, which makes {:.1e} points along {name} alone; at most {MAX_POINTS} in all are accepted",
+                    written(&step_cm),
                     steps.round()
                 );
                 return Err(("step_cm", message));
@@ -56,8 +58,10 @@ impl TipLattice {
         let points = u64::from(size[0]) * u64::from(size[1]);
         if points > MAX_POINTS {
             let message = format!(
-                "step_cm is {step_cm}, which makes {} × {} points; at most {MAX_POINTS} in all are accepted",
-                size[0], size[1]
+                "step_cm is {}, which makes {} × {} points; at most {MAX_POINTS} in all are accepted",
+                written(&step_cm),
+                size[0],
+                size[1]
             );
             return Err(("step_cm", message));
         }

@@ -160,7 +160,7 @@ fn the_shipped_panda_stands_and_has_too_many_axes_for_rows() {
     let refusal = Robot::load(Path::new(&file)).unwrap_err().to_string();
     assert_eq!(
         refusal,
-        "robot `panda` has 7 joints that turn; 6 are accepted here, and any number in problems in joint space"
+        "robot `panda` has 7 joints that move; 6 are accepted here, and any number in problems in joint space"
     );
     let read = base::robot::read_urdf(Path::new(&file)).unwrap();
     let open = OpenChain::new(&read);
