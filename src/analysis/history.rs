@@ -6,7 +6,7 @@
 //! study that decides it had been stored before it changed.
 
 use super::meaning::{DIGITS, FORM, meanings};
-use super::verdict::Verdicts;
+use super::verdict::{Judged, Verdicts};
 use base::hash::sha256;
 use base::settings::Document;
 use serde::{Deserialize, Serialize};
@@ -25,6 +25,15 @@ const HEAD: &str =
 /// What holds of a history whose first entry found stored runs and does not say where it takes claims over from.
 const BEGINS_LATE: &str = "The history of claims begins with runs that were stored already: of earlier changes only what claims \
                            themselves say is known.";
+
+/// How many changed claims a sentence names.
+const LISTED: usize = 8;
+
+/// What stands where no reason is given for a change.
+const NO_REASON: &str = "changed after its data were seen, without a reason given";
+
+/// What is said of a change that the claim itself told of when the history began.
+const BEFORE: &str = "entry 1, before it began";
 
 /// How the last line of an entry begins.
 const SEAL: &str = "# SHA-256 of the text above: ";
@@ -165,7 +174,9 @@ impl History {
             return Err(touched("entries are gone on which the stored verdicts rest"));
         }
         let mut history = Self::default();
-        entries.iter().for_each(|entry| history.add(entry));
+        for entry in &entries {
+            history.add(entry);
+        }
         Ok(Self { text, ..history })
     }
 
@@ -260,8 +271,10 @@ impl History {
             }
             let mut studies =
                 before.iter().flat_map(|before| before.stated.studies()).chain(stated.studies());
-            let is_changed = if is_first { now.reasons.contains(id) } else { !is_known(id, stated) };
-            let is_after = is_changed && !is_other_form && studies.any(is_seen);
+            let is_after = match is_first {
+                true => now.reasons.contains(id) && !now.records.is_empty(),
+                false => !is_known(id, stated) && !is_other_form && studies.any(is_seen),
+            };
             let list = if is_after { &mut after_data } else { &mut claims };
             list.insert(id.clone(), stated.clone());
         }
@@ -306,7 +319,7 @@ impl History {
             gone.retain(|_, known| known.stated.hash() != stated.hash());
             if is_after {
                 changes.push(match own {
-                    _ if number == 1 => "entry 1".to_owned(),
+                    _ if number == 1 => BEFORE.to_owned(),
                     Some(known) => format!("entry {number}: {} to {}", known.stated.hash(), stated.hash()),
                     None => format!("entry {number}: written then, {}", stated.hash()),
                 });
@@ -320,13 +333,51 @@ impl History {
     }
 }
 
+impl Judged {
+    /// When and why its meaning was changed after its data had been seen; `None` if it was not.
+    pub fn changed(&self) -> Option<String> {
+        let is_told = |change: &&String| self.changed_after_run.is_none() || *change != BEFORE;
+        let entries: Vec<&str> = self.changes.iter().filter(is_told).map(String::as_str).collect();
+        let entries = (!entries.is_empty()).then(|| format!(" (`history.toml`: {})", entries.join("; ")));
+        let why = self.changed_after_run.as_deref().or(entries.as_ref().map(|_| NO_REASON))?;
+        Some(format!("{why}{}", entries.unwrap_or_default()))
+    }
+}
+
+impl Verdicts {
+    /// What is to be known at once of claims and when they were written, a sentence each.
+    pub fn changed(&self) -> Vec<String> {
+        let gone = self.history.is_none().then(|| {
+            "No history of claims lies beside this run: whether a claim was changed after its data were seen is not known."
+                .to_owned()
+        });
+        let is_unexplained =
+            |judged: &&Judged| judged.changed_after_run.is_none() && !judged.changes.is_empty();
+        let unexplained =
+            self.claims.iter().filter(is_unexplained).map(|judged| format!("`{}`", judged.claim));
+        let changed = listed(
+            "Changed after their data were seen, without a reason given",
+            &unexplained.collect::<Vec<_>>(),
+        );
+        let withdrawn = listed("Withdrawn after their data were seen", &self.withdrawn);
+        gone.into_iter().chain(self.remarks.iter().cloned()).chain(changed).chain(withdrawn).collect()
+    }
+}
+
+/// A sentence that names the first of `all`; `None` if there are none.
+fn listed(what: &str, all: &[String]) -> Option<String> {
+    let first = all.iter().take(LISTED).cloned().collect::<Vec<String>>().join(", ");
+    let rest = if all.len() > LISTED { format!(" and {} more", all.len() - LISTED) } else { String::new() };
+    (!all.is_empty()).then(|| format!("{what}: {first}{rest}."))
+}
+
 /// The seal of each entry of `text`; `None` if one is not that of the text above it, or text stands behind the last.
 fn seals(text: &str) -> Option<Vec<&str>> {
     let (mut seals, mut end) = (Vec::new(), 0);
     for line in text.split_inclusive('\n') {
         if let Some(seal) = line.strip_prefix(SEAL) {
             let seal = seal.trim_end();
-            (sha256(text[..end].as_bytes()) == seal).then(|| seals.push(seal))?;
+            (sha256(&text.as_bytes()[..end]) == seal).then(|| seals.push(seal))?;
         }
         end += line.len();
     }
@@ -336,7 +387,7 @@ fn seals(text: &str) -> Option<Vec<&str>> {
 /// The seal of the history that the verdicts in `folder` were judged with.
 fn judged_with(folder: &Path) -> Option<String> {
     let text = fs::read_to_string(folder.join("verdicts.toml")).ok()?;
-    let head = text.lines().take_while(|line| !line.starts_with('['));
-    let seal = head.filter_map(|line| line.strip_prefix("history = \"")).next()?;
+    let mut head = text.lines().take_while(|line| !line.starts_with('['));
+    let seal = head.find_map(|line| line.strip_prefix("history = \""))?;
     Some(seal.trim_end_matches('"').to_owned())
 }

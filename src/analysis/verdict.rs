@@ -185,12 +185,6 @@ pub enum Fit {
     Refused,
 }
 
-/// How many changed claims a sentence names.
-const LISTED: usize = 8;
-
-/// What stands where no reason is given for a change.
-const NO_REASON: &str = "changed after its data were seen, without a reason given";
-
 /// A claim with what was found about it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -238,17 +232,6 @@ impl Judged {
     /// Whether it counts by itself: it is no part of a sentence or row, and no theorem.
     pub fn is_counted(&self) -> bool {
         self.part_of.is_none() && self.theorem.is_none()
-    }
-
-    /// When and why its meaning was changed after its data had been seen; `None` if it was not.
-    pub fn changed(&self) -> Option<String> {
-        let entries = self.changes.join("; ");
-        match (&self.changed_after_run, &*entries) {
-            (None, "") => None,
-            (Some(why), "") => Some(why.clone()),
-            (Some(why), _) => Some(format!("{why} (`history.toml`: {entries})")),
-            (None, _) => Some(format!("{NO_REASON} (`history.toml`: {entries})")),
-        }
     }
 
     /// What tables say of it: its verdict or, of what must hold, that it was asserted.
@@ -396,35 +379,10 @@ impl Verdicts {
         self.claims.iter().filter(is_violated).map(|judged| judged.claim.as_str()).collect()
     }
 
-    /// What is to be known at once of claims and when they were written, a sentence each.
-    pub fn changed(&self) -> Vec<String> {
-        let gone = self.history.is_none().then(|| {
-            "No history of claims lies beside this run: whether a claim was changed after its data were seen is not known."
-                .to_owned()
-        });
-        let is_unexplained =
-            |judged: &&Judged| judged.changed_after_run.is_none() && !judged.changes.is_empty();
-        let unexplained =
-            self.claims.iter().filter(is_unexplained).map(|judged| format!("`{}`", judged.claim));
-        let changed = listed(
-            "Changed after their data were seen, without a reason given",
-            &unexplained.collect::<Vec<_>>(),
-        );
-        let withdrawn = listed("Withdrawn after their data were seen", &self.withdrawn);
-        gone.into_iter().chain(self.remarks.iter().cloned()).chain(changed).chain(withdrawn).collect()
-    }
-
     /// The claim called `id`.
     pub fn claim(&self, id: &str) -> Option<&Judged> {
         self.claims.iter().find(|judged| judged.claim == id)
     }
-}
-
-/// A sentence that names the first of `all`; `None` if there are none.
-fn listed(what: &str, all: &[String]) -> Option<String> {
-    let first = all.iter().take(LISTED).cloned().collect::<Vec<String>>().join(", ");
-    let rest = if all.len() > LISTED { format!(" and {} more", all.len() - LISTED) } else { String::new() };
-    (!all.is_empty()).then(|| format!("{what}: {first}{rest}."))
 }
 
 #[cfg(test)]

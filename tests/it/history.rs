@@ -321,7 +321,13 @@ fn without_its_history_a_stored_run_says_so() {
     assert!(report.contains("An earlier history of claims was removed."), "{report}");
     assert!(report.contains("begins with runs that were stored already"), "{report}");
     let details = text(&bench, DETAILS).replace('\n', " ");
-    assert!(details.contains("a slip (`history.toml`: entry 1)"), "{details}");
+    assert!(details.contains("[`length`](#length): a slip."), "{details}");
+    bench.edit(PAPER, "changed_after_run = \"a slip\"\n", "");
+    let shown = bench.done(&["repro", "./mini"]);
+    assert!(
+        shown.contains("Changed after their data were seen, without a reason given: `length`."),
+        "{shown}"
+    );
 }
 
 #[test]
