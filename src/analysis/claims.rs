@@ -5,6 +5,7 @@ use super::context::{self, Context};
 use super::criterion::{self, Criterion};
 use super::evidence::{Evidence, Run, default_point};
 use super::found::Found;
+use super::meaning::{self, built};
 use super::metric;
 use super::rule;
 use super::settle::{nothing_decides, parts_settle, settles};
@@ -55,11 +56,6 @@ fn check_metrics(paper: &Paper, faults: &mut Faults) {
             faults.add(choice.error(&["option", option, "metric", name], message));
         }
     }
-}
-
-/// The hash of what claims say and how they are judged, for manifests: wording and ledger do not count.
-pub fn claims_hash(paper: &Paper) -> String {
-    sha256(paper.claims.iter().map(question).collect::<String>().as_bytes())
 }
 
 /// What a claim says and how it is judged, in a line.
@@ -114,8 +110,6 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
         set.fail.extend::<Vec<String>>(out);
         set.fail.sort();
     }
-    let hash = claims_hash(paper);
-    let changed = evidence.runs().filter(|run| run.manifest.claims != hash);
     Ok(Verdicts {
         paper: paper.id.clone(),
         command: evidence.runs().next().map_or_else(String::new, |run| run.manifest.command.clone()),
@@ -123,7 +117,10 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
         reading: evidence.point.options().clone(),
         explored: None,
         records: records(evidence),
-        claims_changed_since: changed.map(|run| run.study.name.clone()).collect(),
+        meanings: meaning::digest(paper),
+        history: None,
+        remarks: Vec::new(),
+        withdrawn: Vec::new(),
         claims,
         together,
     })
@@ -132,29 +129,6 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
 /// By study the hash of the records that `evidence` is read from.
 pub fn records(evidence: &Evidence<'_>) -> BTreeMap<String, String> {
     evidence.runs().map(|run| (run.study.name.clone(), run.manifest.records_hash())).collect()
-}
-
-/// The criterion or rule called `name`, built.
-fn built<'a>(
-    asked: Asked,
-    name: &str,
-    context: &Context<'a>,
-) -> Result<Box<dyn Criterion + 'a>, SettingsError> {
-    let (what, registry, found) = match asked {
-        Asked::Rule => ("rule", rule::REGISTRY, rule::find(name)),
-        Asked::Decides | Asked::Shown => ("criterion", criterion::REGISTRY, criterion::find(name)),
-    };
-    let key = match asked {
-        Asked::Rule => "rule",
-        Asked::Decides => "check",
-        Asked::Shown => "shows",
-    };
-    let unknown = || {
-        let known = registry.iter().map(|entry| entry.name);
-        let message = format!("claim `{}`: {}", context.claim.id, none_called(what, name, known));
-        context.error_at_key([key, name], message)
-    };
-    (found.ok_or_else(unknown)?.build)(context)
 }
 
 /// A finding, how the trials behind it came about, and what they are.
@@ -221,6 +195,7 @@ fn judged(evidence: &Evidence<'_>, claim: &Claim, verdict: Verdict, mut findings
         theorem: claim.theorem.clone(),
         part_of: evidence.paper.whole_of(&claim.id).map(|whole| whole.id.clone()),
         changed_after_run: claim.changed_after_run.clone(),
+        changes: Vec::new(),
         second: None,
         across: None,
         reading: evidence.point.name().to_owned(),

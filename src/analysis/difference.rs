@@ -43,7 +43,10 @@ fn heads(stored: &Verdicts, now: &Verdicts) -> Vec<String> {
         unlike("command", &stored.command, &now.command),
         unlike("quick", &stored.quick, &now.quick),
         unlike("reading", &stored.reading, &now.reading),
-        unlike("claims_changed_since", &stored.claims_changed_since, &now.claims_changed_since),
+        unlike("hash of what the claims mean", &stored.meanings, &now.meanings),
+        unlike("seal of the history", &stored.history, &now.history),
+        unlike("remarks on the history", &stored.remarks, &now.remarks),
+        unlike("withdrawn claims", &stored.withdrawn, &now.withdrawn),
     ];
     let other = now.records.iter().filter(|(study, hash)| stored.records.get(*study) != Some(hash));
     let other = other.map(|(study, _)| format!("records of study `{study}`: judged before from others"));

@@ -212,6 +212,9 @@ pub struct Judged {
     /// What was changed in how it is judged after a run had been seen, and why.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub changed_after_run: Option<String>,
+    /// What it meant was changed after its data had been seen: each time, as `history.toml` has it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub changes: Vec<String>,
     /// Its class under the default reading on the second seed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub second: Option<Verdict>,
@@ -305,8 +308,17 @@ pub struct Verdicts {
     /// By study the hash of the records that the claims were judged from.
     #[serde(default)]
     pub records: BTreeMap<String, String>,
-    /// Studies whose claims changed after their run: a margin may have moved after seeing the data.
-    pub claims_changed_since: Vec<String>,
+    /// A hash of what the claims mean.
+    pub meanings: String,
+    /// The last seal of the history of claims; absent if there is no history.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub history: Option<String>,
+    /// What that history cannot show, a sentence each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub remarks: Vec<String>,
+    /// Claims that the paper had until after their data had been seen, each with the entry of the history.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub withdrawn: Vec<String>,
     /// What of the readings was explored; absent if nothing was.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub explored: Option<Explored>,

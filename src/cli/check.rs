@@ -4,7 +4,9 @@ use super::load::gather;
 use super::places::{Places, papers};
 use super::progress::doing;
 use super::{Failure, Which, all, counted};
+use crate::analysis::compare::stored_studies;
 use crate::analysis::evidence::default_point;
+use crate::analysis::history::History;
 use crate::crosscheck::Spec;
 use base::settings::Faults;
 use clap::Args;
@@ -59,6 +61,7 @@ impl Check {
         for note in notes(&paper, &places) {
             say!("  {note}");
         }
+        history(&places).map_err(Failure::in_check)?;
         for (path, kind) in &paper.others {
             say!("  {} is taken for a {kind}, not for a study", path.display());
         }
@@ -67,6 +70,19 @@ impl Check {
         }
         Ok(())
     }
+}
+
+/// Says if there is no history of the claims of runs that are stored.
+fn history(places: &Places) -> Result<(), Failure> {
+    History::read(&places.runs)?;
+    let path = History::path(&places.runs);
+    if !path.exists() && !stored_studies(&places.runs).is_empty() {
+        say!(
+            "  {}: there is no history of claims for the stored runs; `replan judge` begins one",
+            path.display()
+        );
+    }
+    Ok(())
 }
 
 /// How input files were taken, each sentence once.

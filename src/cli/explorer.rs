@@ -144,7 +144,7 @@ impl<'p> Explorer<'p> {
         };
         let runs = self.studies_in(round).into_iter().map(run).collect();
         let planned = round.planned(self.paper, points);
-        Sharded::of_round((named, self.paper), self.places, self.threads, planned, runs)
+        Sharded::of_round(named, self.places, self.threads, planned, runs)
     }
 
     /// The studies that are explored, cut down to `draws` of each group.
@@ -335,7 +335,6 @@ impl<'p> Explorer<'p> {
                 points: &study.as_trials_see(points),
                 inputs: &self.places.inputs,
                 command: command_line(),
-                claims: claims::claims_hash(self.paper),
                 portion: None,
                 quick: false,
                 record: false,

@@ -2,13 +2,14 @@
 
 use super::places::Places;
 use super::progress::doing;
-use super::{Failure, How, Which, verdicts};
+use super::{Failure, How, Which, command_line, verdicts};
 use crate::analysis::across::stored::Exploration;
 use crate::analysis::across::{self, Stored};
 use crate::analysis::claims;
 use crate::analysis::compare::stored_studies;
 use crate::analysis::difference::differences;
 use crate::analysis::evidence::{Evidence, default_point};
+use crate::analysis::history::History;
 use crate::analysis::verdict::Verdicts;
 use clap::Args;
 use std::collections::BTreeSet;
@@ -54,8 +55,15 @@ fn check(paper: &Paper, point: Interpretation, places: &Places) -> Result<(), Fa
     check_explorations(&stored, places)?;
     let evidence = read(paper, point, places)?;
     check_manifests(&evidence, places)?;
-    let now = judged(&evidence, places)?;
+    let history = History::read(&places.runs)?;
+    let now = judged(&evidence, places, &history)?;
     let mut found = differences(&stored, &now);
+    if history.lacks(paper, &places.runs)? {
+        found.push(format!(
+            "{}: has no entry for what is stored and asked now",
+            History::path(&places.runs).display()
+        ));
+    }
     if found.is_empty() && fs::read(&path)? != now.text().as_bytes() {
         found.push("the same verdicts in other words than `replan judge` writes".to_owned());
     }
@@ -128,20 +136,27 @@ fn check_manifests(evidence: &Evidence<'_>, places: &Places) -> Result<(), Failu
 /// Judges `paper` under `point` by its stored run and writes the verdicts beside it.
 pub fn judge(paper: &Paper, point: Interpretation, places: &Places) -> Result<Verdicts, Failure> {
     let evidence = read(paper, point, places)?.remembering(&polylines(places));
-    let verdicts = judged(&evidence, places)?;
+    let history = History::note(paper, &places.runs, &command_line())?;
+    let verdicts = judged(&evidence, places, &history)?;
     evidence.keep_polylines();
     verdicts.write(&places.runs)?;
     Ok(verdicts)
 }
 
-/// The verdicts by `evidence`; across readings if it is a full run under the defaults and readings were explored.
-fn judged(evidence: &Evidence<'_>, places: &Places) -> Result<Verdicts, Failure> {
-    if evidence.point != default_point(evidence.paper) || evidence.runs().any(|run| run.manifest.quick) {
-        return Ok(claims::judge(evidence)?);
-    }
-    let (verdicts, stored) = rayon::join(|| claims::judge(evidence), || Stored::read(&places.runs));
+/// The verdicts by `evidence` with the history of their claims; across readings if it is a full run under the defaults and
+/// readings were explored.
+fn judged(evidence: &Evidence<'_>, places: &Places, history: &History) -> Result<Verdicts, Failure> {
+    let is_default = evidence.point == default_point(evidence.paper);
+    let is_explored = is_default && !evidence.runs().any(|run| run.manifest.quick);
+    let (verdicts, stored) = rayon::join(
+        || claims::judge(evidence),
+        || if is_explored { Stored::read(&places.runs).map(Some) } else { Ok(None) },
+    );
     let mut verdicts = verdicts?;
-    across::apply(evidence.paper, &mut verdicts, &stored?);
+    if let Some(stored) = stored? {
+        across::apply(evidence.paper, &mut verdicts, &stored);
+    }
+    history.apply(&mut verdicts);
     Ok(verdicts)
 }
 

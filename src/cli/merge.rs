@@ -2,11 +2,14 @@
 
 use super::confirm::confirm;
 use super::explore::explore;
+use super::load::load;
 use super::rounds::{Rounds, at_work};
 use super::sharded::Sharded;
-use super::{Failure, Which};
+use super::{Failure, Which, command_line};
+use crate::analysis::history::History;
 use clap::Args;
 use std::path::PathBuf;
+use study::lock::Lock;
 use study::manifest::MadeBy;
 use study::plan::Plan;
 
@@ -43,7 +46,10 @@ impl Merge {
             return Err(Failure::input("--out <DIR> is missing: where `replan run --out` would write"));
         };
         let sharded = Sharded::of_plan(plan, out.clone())?;
-        sharded.put_together(plan, &self.parts, &sharded.places.runs)?;
+        let runs = &sharded.places.runs;
+        sharded.put_together(plan, &self.parts, runs)?;
+        let (paper, lock) = (load(&sharded.places, &sharded.how)?, Lock::take(runs)?);
+        History::note(&paper, lock.folder(), &command_line())?;
         if sharded.runs.iter().any(|(study, _)| study.timing.is_some()) {
             let command = plan.unsharded(Some(out));
             say!("no clock was read; one machine reads it: replan {}", command.join(" "));

@@ -4,7 +4,7 @@ use super::places::Places;
 use super::progress::{doing, safe_point, stop_flag};
 use super::{Failure, How, Which, counted};
 use crate::analysis::evidence::Evidence;
-use crate::analysis::verdict::Verdicts;
+use crate::analysis::history::History;
 use crate::render::output::{self, Outputs};
 use crate::render::report::{self, Chapter};
 use clap::Args;
@@ -85,7 +85,7 @@ pub fn check_report(paper: &Paper, places: &Places) -> Result<(), Failure> {
 }
 
 fn draw(paper: &Paper, places: &Places, only: Option<&str>, stop: &AtomicBool) -> Result<Drawn, Failure> {
-    let verdicts = Verdicts::read(&places.runs)?;
+    let verdicts = History::verdicts(&places.runs)?;
     let point = Interpretation::new(&paper.choices, &verdicts.reading).map_err(|message| {
         Failure::touched(format!("the stored verdicts are of other readings ({message}); judge again"))
     })?;

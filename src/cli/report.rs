@@ -5,7 +5,7 @@ use super::progress::doing;
 use super::{Failure, How, Which};
 use crate::analysis::across::Stored;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::verdict::Verdicts;
+use crate::analysis::history::History;
 use crate::page;
 use crate::render::output::Output;
 use crate::render::state;
@@ -104,7 +104,7 @@ struct Made {
 }
 
 fn made(paper: &Paper, places: &Places, folder: &Path) -> Result<Made, Failure> {
-    let verdicts = Verdicts::read(&places.runs)?;
+    let verdicts = History::verdicts(&places.runs)?;
     let point = Interpretation::new(&paper.choices, &verdicts.reading).map_err(|message| {
         Failure::input(format!("the stored verdicts are of other readings ({message}); judge again"))
     })?;

@@ -7,7 +7,7 @@ use super::rounds::at_work;
 use super::sharded::Sharded;
 use super::summary::summary;
 use super::{Again, Failure, How, Which, command_line};
-use crate::analysis::claims;
+use crate::analysis::history::History;
 use clap::Args;
 use std::path::Path;
 use study::lock::Lock;
@@ -52,7 +52,7 @@ impl Run {
         self.how.check_interpretations(&paper)?;
         let lock = Lock::take(&places.runs)?;
         if self.clock {
-            return read_clocks(&paper, &places, &self.how, &lock);
+            return between_notes(&paper, &lock, || read_clocks(&paper, &places, &self.how, &lock));
         }
         for report in run_studies(&paper, &places, &self.how, &lock, self.again)? {
             say!("{}", summary(&report, self.why));
@@ -84,12 +84,24 @@ pub fn run_studies(
     again: Again,
 ) -> Result<Vec<Report>, Failure> {
     doing(&format!("{}: looking for what has changed since it was run", paper.id));
-    paper.studies.iter().map(|study| run_study(paper, study, places, how, lock, again)).collect()
+    let run = |study| run_study(study, places, how, lock, again);
+    between_notes(paper, lock, || paper.studies.iter().map(run).collect())
+}
+
+/// Runs something of `paper`: what its claims mean is written down before their data can be seen, and the records afterwards.
+fn between_notes<T>(
+    paper: &Paper,
+    lock: &Lock,
+    run: impl FnOnce() -> Result<T, Failure>,
+) -> Result<T, Failure> {
+    History::note(paper, lock.folder(), &command_line())?;
+    let done = run()?;
+    History::note(paper, lock.folder(), &command_line())?;
+    Ok(done)
 }
 
 /// Runs what is stale of one study.
 fn run_study(
-    paper: &Paper,
     study: &Study,
     places: &Places,
     how: &How,
@@ -97,13 +109,12 @@ fn run_study(
     again: Again,
 ) -> Result<Report, Failure> {
     let (points, bar) = (how.interpretations(study)?, Bar::default());
-    let options = options(paper, (&points, &bar), places, how, lock);
+    let options = options((&points, &bar), places, how, lock);
     Ok(session::run(study, &Options { fresh: again.fresh, record: again.record, ..options })?)
 }
 
-/// How a whole run of a study of `paper` is to be done, reusing what is stored.
+/// How a whole run of a study is to be done, reusing what is stored.
 fn options<'a>(
-    paper: &Paper,
     (points, bar): (&'a [Interpretation], &'a Bar),
     places: &'a Places,
     how: &How,
@@ -114,7 +125,6 @@ fn options<'a>(
         points,
         inputs: &places.inputs,
         command: command_line(),
-        claims: claims::claims_hash(paper),
         portion: None,
         quick: how.quick,
         fresh: false,
@@ -129,7 +139,7 @@ fn options<'a>(
 fn read_clocks(paper: &Paper, places: &Places, how: &How, lock: &Lock) -> Result<(), Failure> {
     for study in paper.studies.iter().filter(|study| study.timing.is_some()) {
         let (points, bar) = (how.interpretations(study)?, Bar::default());
-        let number = session::read_clock(study, &options(paper, (&points, &bar), places, how, lock))?;
+        let number = session::read_clock(study, &options((&points, &bar), places, how, lock))?;
         say!("{}: session {number} of the clock", study.name);
     }
     Ok(())

@@ -5,12 +5,13 @@ use super::places::Places;
 use super::progress::{Bar, doing, stop_flag};
 use super::summary::summary;
 use super::{Again, Failure, How, Which, command_line, counted};
-use crate::analysis::claims::claims_hash;
+use crate::analysis::history::History;
+use crate::analysis::meaning::meanings;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use study::lock::Lock;
 use study::manifest::Manifest;
 use study::merge::Parts;
-use study::paper::Paper;
 use study::plan::{Plan, PlannedRound, Wanted};
 use study::runner::BuiltStudy;
 use study::session::{self, Options};
@@ -24,7 +25,8 @@ pub struct Sharded {
     pub how: How,
     /// The studies with their readings.
     pub runs: Vec<(Study, Vec<Interpretation>)>,
-    claims: String,
+    /// What each claim means.
+    claims: BTreeMap<String, Vec<String>>,
     named: String,
     round: Option<PlannedRound>,
 }
@@ -55,27 +57,28 @@ impl Sharded {
         let paper = load(&places, how)?;
         let run = |study: &Study| Ok((study.clone(), how.interpretations(study)?));
         let runs = paper.studies.iter().map(run).collect::<Result<_, Failure>>()?;
-        let (claims, named) = (claims_hash(&paper), named.to_owned());
-        Ok(Self { places, how: how.clone(), runs, claims, named, round: None })
+        let claims = meanings(&paper)?;
+        Ok(Self { places, how: how.clone(), runs, claims, named: named.to_owned(), round: None })
     }
 
-    /// One round of an exploration of `paper`, which the command line called `named`.
+    /// One round of an exploration of the paper that the command line called `named`.
     pub fn of_round(
-        (named, paper): (&str, &Paper),
+        named: &str,
         places: &Places,
         threads: Option<usize>,
         round: PlannedRound,
         runs: Vec<(Study, Vec<Interpretation>)>,
     ) -> Self {
         let how = How::plain(threads.and_then(|threads| threads.try_into().ok()));
-        let (claims, named) = (claims_hash(paper), named.to_owned());
-        Self { places: places.clone(), how, runs, claims, named, round: Some(round) }
+        let claims = BTreeMap::new();
+        Self { places: places.clone(), how, runs, claims, named: named.to_owned(), round: Some(round) }
     }
 
     /// What is asked of a plan that cuts it into so many shards.
     pub fn wanted(&self, shards: usize) -> Wanted {
         let How { quick, seed, with, .. } = self.how.clone();
-        Wanted { paper: self.named.clone(), shards, quick, seed, with, round: self.round.clone() }
+        let (paper, round, claims) = (self.named.clone(), self.round.clone(), self.claims.clone());
+        Wanted { paper, shards, quick, seed, with, round, claims }
     }
 
     /// Where its plan and its parts lie within `parts`.
@@ -92,8 +95,7 @@ impl Sharded {
         doing(&format!("{}: building its problems", self.named));
         for (study, points) in &self.runs {
             let built = BuiltStudy::new(study, points, &self.places.inputs)?;
-            let (claims, command) = (self.claims.clone(), command_line());
-            let manifest = Manifest::new(study, points, &built, claims, command, self.how.quick)?;
+            let manifest = Manifest::new(study, points, &built, command_line(), self.how.quick)?;
             studies.push((built, manifest));
         }
         Ok(studies)
@@ -123,7 +125,6 @@ impl Sharded {
                 points,
                 inputs: &self.places.inputs,
                 command: command_line(),
-                claims: self.claims.clone(),
                 portion: Some(portion),
                 quick: self.how.quick,
                 fresh: again.fresh,
@@ -146,6 +147,9 @@ impl Sharded {
         let studies = self.studies()?;
         let parts = Parts::checked(plan, folder, &studies)?;
         let lock = Lock::take(runs)?;
+        if plan.round.is_none() {
+            History::note_planned(&plan.claims, runs, &command_line())?;
+        }
         for ((place, (study, _)), (built, manifest)) in self.runs.iter().enumerate().zip(&studies) {
             let trials = parts.merge((place, study), built, manifest.clone(), lock.folder())?;
             let trials = counted(trials, ["trial", "trials"]);

@@ -3,7 +3,8 @@
 use super::places::Places;
 use super::verdicts::{COLUMNS, print};
 use super::{Failure, Which, export::check_stored};
-use crate::analysis::verdict::{Finding, Judged, Verdicts};
+use crate::analysis::history::History;
+use crate::analysis::verdict::{Finding, Judged};
 use crate::render::prose::wrapped;
 use crate::render::report::across_lines;
 use crate::render::tables::short;
@@ -29,7 +30,7 @@ impl Show {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
         let places = Places::find(&Which { paper: self.paper, out: self.out }, "")?;
-        let verdicts = Verdicts::read(&places.runs)?;
+        let verdicts = History::verdicts(&places.runs)?;
         check_stored(&places.runs)?;
         let Some(id) = self.claim else {
             print(&verdicts);
@@ -57,7 +58,7 @@ fn shown(judged: &Judged) -> String {
         ("second seed", judged.second.map(|class| class.name().to_owned())),
         ("part of", judged.part_of.clone()),
         ("must hold", judged.theorem.clone()),
-        ("changed after a run", judged.changed_after_run.clone()),
+        ("changed after a run", judged.changed()),
     ] {
         text += &said
             .map_or_else(String::new, |said| wrapped("  ", &format!("{what}: {said}"), 4, COLUMNS) + "\n");

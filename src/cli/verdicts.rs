@@ -43,12 +43,7 @@ fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
     for said in [Some(classes), parts, asserted, quick].into_iter().flatten() {
         text += &(wrapped("", &said, 2, COLUMNS) + "\n");
     }
-    for said in explored(verdicts) {
-        text += &(wrapped("", &said, 2, COLUMNS) + "\n");
-    }
-    if !verdicts.claims_changed_since.is_empty() {
-        let studies = verdicts.claims_changed_since.join(", ");
-        let said = format!("claims or margins changed after the run of {studies}; run it again with --fresh");
+    for said in explored(verdicts).into_iter().chain(verdicts.changed()) {
         text += &(wrapped("", &said, 2, COLUMNS) + "\n");
     }
     text

@@ -177,7 +177,7 @@ impl Body<'_> {
         text += &line("word for word", &judged.quote);
         text += &line("a part of", &whole);
         text += &line("must hold", &judged.theorem);
-        text += &line("changed after a run", &judged.changed_after_run);
+        text += &line("changed after a run", &judged.changed());
         text + &judged.findings.iter().map(|finding| self.finding(finding)).collect::<String>()
     }
 

@@ -1,7 +1,8 @@
 //! What stands on everything drawn or written of records that are not the study's own: quick runs, other readings, stale ones.
 
-use crate::analysis::claims::{claims_hash, records};
+use crate::analysis::claims::records;
 use crate::analysis::evidence::{Evidence, Run, default_point};
+use crate::analysis::meaning::digest;
 use crate::analysis::verdict::Verdicts;
 use study::paper::Paper;
 use study::{Choice, Interpretation, Study};
@@ -49,29 +50,22 @@ pub fn state(evidence: &Evidence<'_>, verdicts: &Verdicts) -> Vec<String> {
     if !verdicts.quick && evidence.runs().any(|run| run.manifest.quick) {
         said.push(QUICK.to_owned());
     }
-    let asked = paper.claims.iter().map(|claim| (&claim.id, &claim.printed));
-    if !asked.eq(verdicts.claims.iter().map(|judged| (&judged.claim, &judged.printed))) {
+    said.extend(verdicts.changed());
+    if digest(paper) != verdicts.meanings {
         said.push(format!(
             "Stale: the stored verdicts are on other claims than paper.toml has now; run `replan judge {}`.",
             paper.id
         ));
     }
-    let (stored, claims) = (records(evidence), claims_hash(paper));
+    let stored = records(evidence);
     let again = evidence.runs().filter(|run| {
         let name = &run.study.name;
         stored.get(name) != verdicts.records.get(name)
     });
-    let changed = evidence.runs().filter(|run| run.manifest.claims != claims);
-    let (again, changed) = (listed(again), listed(changed));
+    let again = listed(again);
     if !again.is_empty() {
         said.push(format!(
             "Stale: records of study {again} are others than the claims were judged from; run `replan judge {}`.",
-            paper.id
-        ));
-    }
-    if !changed.is_empty() {
-        said.push(format!(
-            "Stale: claims or margins changed after study {changed} was run; run `replan repro {} --fresh`.",
             paper.id
         ));
     }

@@ -281,7 +281,10 @@ mod tests {
                 reading: std::collections::BTreeMap::new(),
                 explored: None,
                 records: std::collections::BTreeMap::new(),
-                claims_changed_since: Vec::new(),
+                meanings: String::new(),
+                history: None,
+                remarks: Vec::new(),
+                withdrawn: Vec::new(),
                 claims: Vec::new(),
                 together: Vec::new(),
             };

@@ -41,8 +41,6 @@ pub struct Manifest {
     pub readings: Vec<Vec<String>>,
     /// SHA-256 of the spec.
     pub spec: String,
-    /// SHA-256 of the paper's claims.
-    pub claims: String,
     /// One hash of everything below that trials depend on.
     pub depends: String,
     /// The contenders whose trials are bound to a clock: they were recorded, and no run repeats them unless asked.
@@ -110,7 +108,6 @@ impl Manifest {
         study: &Study,
         points: &[Interpretation],
         built: &BuiltStudy<'_>,
-        claims: String,
         command: String,
         quick: bool,
     ) -> Result<Self, StudyError> {
@@ -130,7 +127,6 @@ impl Manifest {
             axes: axes.iter().map(ToString::to_string).collect(),
             readings,
             spec: sha256(study.document.text().as_bytes()),
-            claims,
             depends,
             recorded: study.recorded().map(str::to_owned).collect(),
             defaults: defaults(study),

@@ -78,13 +78,11 @@ impl<'a> Parts<'a> {
         let (mut rows, mut prepared, mut exhibits) = (Vec::new(), Vec::new(), Vec::new());
         for number in 1..=self.plan.shards {
             let part = self.plan.part(self.folder, number);
-            let Manifest { files, claims, .. } = Manifest::read(&part, &study.name)?;
+            let Manifest { files, .. } = Manifest::read(&part, &study.name)?;
             let batch = read_numbers(&part, &study.name, &files)?.batch;
             rows.push(batch.rows);
             prepared.push(batch.prepared);
             exhibits.push(open_exhibits(&part, &study.name, &files)?);
-            // Trials that were seen under former claims stay marked.
-            manifest.claims = if claims == manifest.claims { manifest.claims } else { claims };
         }
         let wrong =
             |reason: String| StudyError::stored(self.folder, format!("study `{}`: {reason}", study.name));

@@ -39,6 +39,9 @@ pub struct Plan {
     /// Which round of an exploration or a confirmation it is, if it is no plain run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub round: Option<PlannedRound>,
+    /// What each claim meant when the plan was made: its hash, and the studies that decide it.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub claims: BTreeMap<String, Vec<String>>,
     /// The studies, in the order of their names.
     #[serde(rename = "study")]
     pub studies: Vec<PlannedStudy>,
@@ -89,6 +92,8 @@ pub struct Wanted {
     pub with: Option<String>,
     /// The round of an exploration or a confirmation.
     pub round: Option<PlannedRound>,
+    /// What each claim means now, for a plan that is made.
+    pub claims: BTreeMap<String, Vec<String>>,
 }
 
 /// What is known of one shard from its folder alone.
@@ -144,7 +149,7 @@ impl Plan {
             units: built.units().len(),
             cost_ns: costs(built),
         };
-        let Wanted { paper, shards, quick, seed, with, round } = wanted.clone();
+        let Wanted { paper, shards, quick, seed, with, round, claims } = wanted.clone();
         let (units, cost_ns, made_by) = (vec![0; shards], vec![0; shards], MadeBy::here().clone());
         let studies_planned = studies.iter().map(planned).collect();
         let mut plan = Self {
@@ -157,6 +162,7 @@ impl Plan {
             cost_ns,
             made_by,
             round,
+            claims,
             studies: studies_planned,
         };
         let costs = plan.unit_costs(studies);

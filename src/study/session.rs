@@ -31,8 +31,6 @@ pub struct Options<'a> {
     pub inputs: &'a Inputs,
     /// The command line, for the manifest.
     pub command: String,
-    /// SHA-256 of the paper's claims.
-    pub claims: String,
     /// The units to run, of a run that is cut into shards; all if absent. A shard reads no clock: readings on several machines,
     /// or beside other shards, are of no session.
     pub portion: Option<&'a Portion>,
@@ -66,8 +64,7 @@ impl Options<'_> {
 
     /// The manifest of the run, without record files yet.
     fn manifest(&self, study: &Study, built: &BuiltStudy<'_>) -> Result<Manifest, StudyError> {
-        let (claims, command) = (self.claims.clone(), self.command.clone());
-        Manifest::new(study, self.points, built, claims, command, self.quick)
+        Manifest::new(study, self.points, built, self.command.clone(), self.quick)
     }
 }
 
@@ -159,10 +156,6 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     }
     let found = options.reusable(&built, &manifest, stored.as_ref());
     let counts = Counts { resumed, units, reused: found.units.len(), kept: found.kept() };
-    if let Some((before, _)) = stored.as_ref().filter(|_| counts.reused + counts.kept > 0) {
-        // These trials were seen under the former claims, so that a margin which has moved since stays marked.
-        manifest.claims.clone_from(&before.claims);
-    }
     done = found.units.into_iter().chain(done).collect();
     built.check_programs(only, &done, &found.parts)?;
     let (journal, parts) = (Mutex::new(journal), &found.parts);

@@ -67,7 +67,6 @@ fn records(home: &Path, threads: usize) -> Vec<(String, Vec<u8>)> {
         points: &points[..1],
         inputs: &inputs,
         command: String::new(),
-        claims: String::new(),
         quick: false,
         fresh: true,
         record: false,

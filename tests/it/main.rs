@@ -33,6 +33,7 @@ mod floors;
 mod follow_on;
 mod guards;
 mod hidden_faults;
+mod history;
 mod jump_points;
 mod latex;
 mod laws;

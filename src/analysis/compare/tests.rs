@@ -17,7 +17,6 @@ fn manifest(seed: u64) -> Manifest {
         axes: Vec::new(),
         readings: vec![Vec::new()],
         spec: String::new(),
-        claims: String::new(),
         depends: String::new(),
         recorded: Vec::new(),
         defaults: Vec::new(),

@@ -14,7 +14,7 @@ fn of_any_two_claims_those_count_that_are_no_parts_and_no_theorems() {
     let all =
         Verdict::ALL.into_iter().flat_map(|one| kinds.map(|[part, theorem]| judged(one, part, theorem)));
     let all: Vec<Judged> = all.collect();
-    let text = "paper = 'a'\ncommand = ''\nquick = false\nreading = {}\nclaims_changed_since = []";
+    let text = "paper = 'a'\ncommand = ''\nquick = false\nreading = {}\nmeanings = ''";
     let mut verdicts: Verdicts = toml::from_str(text).unwrap();
     for (one, two) in all.iter().flat_map(|one| all.iter().map(move |two| (one, two))) {
         verdicts.claims = vec![one.clone(), two.clone()];

@@ -70,19 +70,25 @@ impl Page<'_> {
         }
     }
 
-    /// What was changed after a run, each reason with its claims.
+    /// Claims that were changed after their data had been seen, and why.
     fn changes(&self, text: &mut String) {
-        let mut claims: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+        let mut claims: BTreeMap<String, Vec<&str>> = BTreeMap::new();
         for judged in &self.verdicts.claims {
-            if let Some(why) = &judged.changed_after_run {
+            if let Some(why) = judged.changed() {
                 claims.entry(why).or_default().push(&judged.claim);
             }
         }
-        if claims.is_empty() {
-            *text += "Nothing in how claims are judged was changed after a run had been seen.\n";
+        let withdrawn = &self.verdicts.withdrawn;
+        if claims.is_empty() && withdrawn.is_empty() && self.verdicts.history.is_some() {
+            *text += "No claim was changed after its data had been seen.\n";
         }
+        text.extend(
+            withdrawn
+                .iter()
+                .map(|claim| item(0, &format!("{claim}: withdrawn after its data had been seen."))),
+        );
         for (why, claims) in claims {
-            *text += &item(0, &format!("{}: {}.", links(&claims), markdown(why)));
+            *text += &item(0, &format!("{}: {}.", links(&claims), markdown(&why)));
         }
     }
 
@@ -236,7 +242,7 @@ fn evidence<'a>(judged: &'a Judged, verdicts: &Verdicts, known: &mut BTreeMap<St
     if let Some(whole) = &judged.part_of {
         about += &format!(". A part of {}", links(&[whole]));
     }
-    if judged.changed_after_run.is_some() {
+    if judged.changed().is_some() {
         about += ". [Changed after a run](#changes)";
     }
     text += &(wrapped("", &about, 0, COLUMNS) + ".\n\n");

@@ -7,7 +7,7 @@ use crate::{Inputs, Study, StudyError};
 
 impl Manifest {
     /// What it says otherwise than a run of `study` as it is now would, one sentence each. The record files are held against it
-    /// where they are read; what cannot be found out again (the command, the machine, the claims as they were) is believed.
+    /// where they are read; what cannot be found out again (the command, the machine) is believed.
     ///
     /// # Errors
     /// Those of [`Manifest::new`].
@@ -19,7 +19,7 @@ impl Manifest {
             Err(message) => return Ok(vec![message]),
         };
         let built = BuiltStudy::new(&study, &points, inputs)?;
-        let now = Self::new(&study, &points, &built, self.claims.clone(), self.command.clone(), self.quick)?;
+        let now = Self::new(&study, &points, &built, self.command.clone(), self.quick)?;
         let mut found = now.differs_from(self);
         for (key, is_same) in [
             ("study", self.study == now.study),

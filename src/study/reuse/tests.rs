@@ -80,7 +80,6 @@ impl House {
             points: &points,
             inputs: &inputs,
             command: String::new(),
-            claims: String::new(),
             quick: false,
             fresh: false,
             record: false,

@@ -60,7 +60,6 @@ fn facts(folder: &Path, threads: usize) -> BTreeMap<String, Vec<u8>> {
         points: &points,
         inputs: &inputs,
         command: String::new(),
-        claims: String::new(),
         quick: false,
         fresh: false,
         record: false,

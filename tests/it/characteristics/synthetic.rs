@@ -125,7 +125,6 @@ fn manifest() -> Manifest {
         defaults: Vec::new(),
         readings: vec![Vec::new()],
         spec: String::new(),
-        claims: String::new(),
         depends: String::new(),
         made_by: MadeBy::default(),
         shard: None,
