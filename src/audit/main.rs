@@ -18,7 +18,7 @@ use std::process::{Command, ExitCode};
 
 /// Asks of a printed table, by arithmetic alone, whether any data could have given it.
 #[derive(Parser)]
-#[command(bin_name = "replan audit", version, about, after_help = EXAMPLES, max_term_width = 100)]
+#[command(bin_name = "replan audit", version, after_help = EXAMPLES, max_term_width = 100)]
 struct Audit {
     /// A table (CSV, Markdown) or relations (TOML); `-` for standard input
     #[arg(required_unless_present_any = ["list", "coverage"])]
