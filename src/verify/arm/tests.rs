@@ -91,7 +91,7 @@ fn what_is_not_as_claimed_is_refused() {
     refuse(Answer { cost: Some(1.9), ..answer }, "the claimed length is 1.9 cm");
     refuse(Answer { cost: None, ..answer }, "claims no length");
     refuse(Answer { path: &path[..2], ..answer }, "not from start to goal");
-    refuse(Answer { path: &[], ..answer }, "not from start to goal");
+    refuse(Answer { path: &[], ..answer }, "the path is empty");
     let leap = [path[0].clone(), path[2].clone()];
     refuse(Answer { path: &leap, ..answer }, "is none of the planner's");
     let still = [path[0].clone(), path[0].clone(), path[1].clone(), path[2].clone()];
