@@ -92,7 +92,7 @@ fn main() {
     let paper = Paper::load(&home, &inputs).unwrap();
     let (study, points) = (&paper.studies[0], paper.studies[0].trial_interpretations().unwrap());
     let built = BuiltStudy::new(study, &points, &inputs).unwrap();
-    let manifest = Manifest::new(study, &points, &built, String::new(), String::new(), false).unwrap();
+    let manifest = Manifest::new(study, &points, &built, String::new(), false).unwrap();
     let studies = [(built, manifest)];
     let wanted = Wanted {
         paper: "large".to_owned(),
@@ -101,6 +101,7 @@ fn main() {
         seed: None,
         with: None,
         round: None,
+        claims: std::collections::BTreeMap::new(),
     };
     let (planning, plan) = clock::timed(|| Plan::agreed(&parts, &wanted, &studies).unwrap());
     let values: Vec<&'static str> = study.columns().into_iter().collect();
