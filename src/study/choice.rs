@@ -2,7 +2,7 @@
 
 use super::key::ReadingKey;
 use super::name;
-use super::spec::{BoundsSpec, ChoiceSpec, Digits, OptionSpec};
+use super::spec::{BoundsSpec, ChoiceSpec, Digits, OptionSpec, ROBOT_WITH, SCENE_WITH};
 use base::settings::{Document, Place, Settings, SettingsError, did_you_mean, none_called};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -33,10 +33,18 @@ impl Choice {
     /// The choice that `spec` writes, number `index` in `document`.
     pub fn read(spec: ChoiceSpec, document: &Arc<Document>, index: usize) -> Self {
         let ChoiceSpec { id, why, default, fitted, bounds, paper, practice, option } = spec;
-        // A source of the whole choice is that of every option that has none of its own.
+        // A source of the whole choice is that of every option that has none of its own; what is laid over files is a setting of
+        // the problems that name them.
         let sourced = |mut option: OptionSpec| {
             if !option.probe && option.paper.is_none() && option.practice.is_none() {
                 (option.paper, option.practice) = (paper.clone(), practice.clone());
+            }
+            let files = [
+                (ROBOT_WITH, std::mem::take(&mut option.robot)),
+                (SCENE_WITH, std::mem::take(&mut option.scene)),
+            ];
+            for (key, over) in files.into_iter().filter(|(_, over)| !over.is_empty()) {
+                option.problem.insert(key.to_owned(), over.into());
             }
             Arc::new(option)
         };
@@ -141,8 +149,13 @@ struct Change {
 impl Change {
     /// `settings` with `over`, which stands under `steps` in the option, laid on top.
     fn over(&self, settings: &Settings, over: &Table, steps: &[&str]) -> Settings {
-        let places = self.place.iter().map(|place| place.inside(steps)).collect();
-        settings.overlaid_from(over, &self.by, places)
+        let of_file = |place: &Place| {
+            [("robot", ROBOT_WITH), ("scene", SCENE_WITH)]
+                .map(|(key, laid)| place.of_value(laid, &[key], &[key]))
+        };
+        let places =
+            self.place.iter().flat_map(|place| [place.inside(steps)].into_iter().chain(of_file(place)));
+        settings.overlaid_from(over, &self.by, places.collect())
     }
 }
 

@@ -170,6 +170,11 @@ pub struct BoundsSpec {
     pub source: String,
 }
 
+/// The setting of a problem that is laid over its robot file.
+pub const ROBOT_WITH: &str = "robot_with";
+/// The setting of a problem that is laid over its scene file.
+pub const SCENE_WITH: &str = "scene_with";
+
 /// What one option of a choice sets, and who might mean it. An option that cites neither the paper nor a practice, nor is a
 /// number within sourced bounds, is a probe: what it does is printed and never counted.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
@@ -201,6 +206,15 @@ pub struct OptionSpec {
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, BTreeMap<String, AnyTable>>")]
     pub contender: BTreeMap<String, BTreeMap<String, Table>>,
+    /// What is laid over the robot file of every problem whose family can: elements of lists go by their number from 0 or their
+    /// `name`.
+    #[serde(default)]
+    #[schemars(with = "AnyTable")]
+    pub robot: Table,
+    /// The same over the scene file.
+    #[serde(default)]
+    #[schemars(with = "AnyTable")]
+    pub scene: Table,
     /// What a metric's name stands for under this option: no trial is rerun.
     #[serde(default)]
     pub metric: BTreeMap<String, String>,

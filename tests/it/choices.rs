@@ -2,10 +2,12 @@
 
 use crate::across::{CITED, Toy};
 use crate::paper::{Bench, CONTENDERS_END};
+use engine::space::World;
+use engine::space::roadmap::Local;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use study::Inputs;
 use study::paper::Paper;
+use study::{Inputs, Interpretation};
 use toml::{Table, Value};
 
 /// The paper in `folder` of a bench, as the program reads it.
@@ -87,6 +89,58 @@ fn an_option_of_one_contender_changes_its_trials_alone() {
     assert_eq!((one["A*"], one["Two-sided"]), (other["A*"], other["Two-sided"]));
     assert_eq!(one["A*"], one["Slow"]);
     assert!(other["Slow"] > one["Slow"], "{one:?} {other:?}");
+}
+
+#[test]
+fn an_option_is_laid_over_the_files_of_a_robot_and_of_its_scene() {
+    let bench = Bench::new();
+    bench.done(&["new", "./arm", "--from", "cell"]);
+    let over =
+        |robot: &str, scene: &str| format!("long = {{ robot = {{ {robot} }}, scene = {{ {scene} }} }}");
+    let [robot, scene] = ["tool.length_mm = 160", "box.wall.max_mm = [900, 40, 700]"];
+    bench.edit("arm/paper.toml", "short = { problem = { tool_mm = 100 } }", "short = {}");
+    bench.edit("arm/paper.toml", "long = { problem = { tool_mm = 160 } }", &over(robot, scene));
+    let built = |paper: &Paper, option: &str| {
+        let study = &paper.studies[0];
+        let taken = [("tool".to_owned(), option.to_owned())].into();
+        let interpretation = Interpretation::new(&study.choices, &taken).unwrap();
+        let inputs = Inputs { roots: vec![bench.at("arm")] };
+        let prepared = study.groups[0].family(&interpretation, &inputs).unwrap().prepare(1).unwrap();
+        let World::Roadmap(map) = prepared.world else { panic!("an arm's world is a roadmap") };
+        let Local::Arm(lines) = map.local() else { panic!("it is that of an arm in a cell") };
+        let scene = lines.cell().scene();
+        let wall = scene.obstacles().iter().find(|obstacle| obstacle.name == "wall").unwrap();
+        (lines.cell().robot().tool_length_m(), wall.solid.aabb().max.z)
+    };
+    let paper = loaded(&bench, "arm");
+    let [short, long] = ["short", "long"].map(|option| built(&paper, option));
+    assert_eq!(long, (0.16, 0.7));
+    assert!(short.0 < 0.16 && short.1 == 0.55, "{short:?}");
+    for (robot, scene, refused) in [
+        ("tool.length = 160", scene, "unknown key `length` (did you mean `length_mm`?)"),
+        (
+            robot,
+            "box.wal.max_mm = [9, 9, 9]",
+            "scene_with.box: there is no table `wal`; a number from 0 or a `name`",
+        ),
+        (robot, "box.wall.max_mm = [900, 40]", "`max_mm` is an array of 2; "),
+    ] {
+        let text = fs::read(bench.at("arm/paper.toml")).unwrap();
+        bench.edit(
+            "arm/paper.toml",
+            &over("tool.length_mm = 160", "box.wall.max_mm = [900, 40, 700]"),
+            &over(robot, scene),
+        );
+        let said = bench.run(&["check", "./arm"]);
+        assert_eq!(said.code, Some(2), "{}", said.err);
+        let told: Vec<&str> = said.err.lines().filter(|line| line.contains("arm/")).collect();
+        assert!(
+            told.len() == 1 && told[0].contains("arm/paper.toml:34:") && told[0].contains(refused),
+            "{}",
+            said.err
+        );
+        bench.write("arm/paper.toml", &text);
+    }
 }
 
 /// An option without a weight that the paper may mean and that cannot be run.
@@ -234,7 +288,7 @@ fn a_premise_that_the_claims_study_leaves_out_is_refused() {
     bench.edit("mini/paper.toml", "id = \"cost\"", when);
     let said = bench.run(&["check", "./mini"]);
     assert_eq!(said.code, Some(2), "{}", said.err);
-    let refused = "paper.toml:21:26: claim `cost` is meant under options of choice `corners`, which study `room` leaves out";
+    let refused = "paper.toml:22:26: claim `cost` is meant under options of choice `corners`, which study `room` leaves out";
     assert!(said.err.contains(refused), "{}", said.err);
 }
 

@@ -164,7 +164,7 @@ fn a_claim_is_judged_only_under_the_readings_under_which_it_is_meant() {
     let text = std::fs::read_to_string(&path).unwrap();
     for (from, to, refused) in [
         ("hurry = [\"three\"]", "hurri = [\"three\"]", "holds_when: there is no choice `hurri`"),
-        ("\"three\"", "\"tree\"", "holds_when.hurry: there is no option `tree` (did you mean `three`?)"),
+        ("[\"three\"]", "[\"tree\"]", "holds_when.hurry: there is no option `tree` (did you mean `three`?)"),
         ("[\"three\"]", "[]", "holds_when.hurry: names no option; the options are none, three"),
     ] {
         std::fs::write(&path, text.replace(from, to)).unwrap();

@@ -114,12 +114,14 @@ fn a_value_of_the_wrong_kind_hides_nothing_that_makes_no_sense_in_its_table() {
 
 #[test]
 fn what_an_option_lays_over_settings_is_told_at_its_own_key() {
-    let of_problem = ("cell.toml", "problem = { tool_mm = 160 }", "problem = { tool_mm = -160 }");
-    assert_told("cell", &[of_problem], &["cell.toml:57:23: `tool_mm` is -160"]);
-    let unknown = ("cell.toml", "problem = { tool_mm = 160 }", "problem = { tol_mm = 160 }");
-    assert_told("cell", &[unknown], &["cell.toml:57:13: unknown key `tol_mm`"]);
-    let of_stage = ("compare.toml", "ties = \"lifo\" } }", "ties = \"lilo\" } }");
-    assert_told("grid", &[of_stage], &["compare.toml:47:28: `ties` is \"lilo\""]);
+    let of_problem = ("paper.toml", "problem = { tool_mm = 160 }", "problem = { tool_mm = -160 }");
+    assert_told("cell", &[of_problem], &["paper.toml:34:32: `tool_mm` is -160"]);
+    let unknown = ("paper.toml", "problem = { tool_mm = 160 }", "problem = { tol_mm = 160 }");
+    let wanted = "paper.toml:34:20: choice `tool`: option `long` sets `tol_mm`, which no problem has of a study that inherits the choice \
+         (did you mean `tool_mm`?)";
+    assert_told("cell", &[unknown], &[wanted]);
+    let of_stage = ("paper.toml", "ties = \"lifo\" } }", "ties = \"lilo\" } }");
+    assert_told("grid", &[of_stage], &["paper.toml:34:33: `ties` is \"lilo\""]);
     // What the option does not touch is told where it stands, once.
     let other = ("compare.toml", "settings = { weight = 2,", "settings = { weight = -2,");
     assert_told("grid", &[other], &["compare.toml:36:23: weight is -2"]);
@@ -141,10 +143,10 @@ fn a_figure_of_a_pose_or_a_claim_of_a_query_that_is_not_there_is_refused() {
     assert_told(
         "cell",
         &[pose],
-        &["cell.toml:65:82: there is no query of cell `hugh` (did you mean `high`?); there are high, low"],
+        &["cell.toml:54:82: there is no query of cell `hugh` (did you mean `high`?); there are high, low"],
     );
     let end = ("cell.toml", "\"high/goal\", \"C\"", "\"high/end\", \"C\"");
-    assert_told("cell", &[end], &["cell.toml:65:82: `high/end` is no end of a query"]);
+    assert_told("cell", &[end], &["cell.toml:54:82: `high/end` is no end of a query"]);
     let query = ("paper.toml", "problems = \"cell\", ", "problems = \"cell\", query = \"hugh\", ");
     let told = told("cell", &[query]);
     assert!(told.len() == 1 && told[0].contains("there is no query of cell `hugh`"), "{told:?}");
@@ -210,19 +212,19 @@ fn queries_that_records_could_not_tell_apart_are_refused() {
 fn a_ratio_to_a_printed_zero_is_refused() {
     let zero = ("paper.toml", "printed = \"60\"", "printed = \"0\"");
     let ratio = ("paper.toml", "margin = 5", "margin = 5\nprinted_ratio = [\"nodes\", \"nodes\"]");
-    let wanted = "paper.toml:61:27: claim `nodes` prints 0; a number to divide by is accepted";
+    let wanted = "paper.toml:71:27: claim `nodes` prints 0; a number to divide by is accepted";
     assert_told("grid", &[zero, ratio], &[wanted]);
 }
 
 #[test]
 fn what_nothing_could_speak_against_is_refused() {
     let own = ("paper.toml", "against = \"8 neighbours\"", "against = \"24 neighbours\"");
-    let wanted = "paper.toml:52:87: `24 neighbours` is held against itself; another contender is accepted";
+    let wanted = "paper.toml:62:87: `24 neighbours` is held against itself; another contender is accepted";
     assert_told("arm", &[own], &[wanted]);
     let any =
         ("paper.toml", "[claim.check.on_every]", "[claim.check.share]\nhits = \"lower\"\naccepted = [0, 1]");
     let that = ("paper.toml", "that = \"lower\"\n", "");
-    let wanted = "paper.toml:53:12: every share lies between 0 and 1; bounds that refuse some are accepted";
+    let wanted = "paper.toml:63:12: every share lies between 0 and 1; bounds that refuse some are accepted";
     assert_told("arm", &[any, that], &[wanted]);
 }
 
@@ -239,6 +241,6 @@ fn contenders_that_are_on_both_sides_are_refused() {
         "of = { study = \"lengths\", problems = \"case 1\", metric",
     );
     let that = ("paper.toml", "that = \"lower\"\n", "");
-    let wanted = "paper.toml:53:10: `24 neighbours` is held against itself; another contender is accepted";
+    let wanted = "paper.toml:63:10: `24 neighbours` is held against itself; another contender is accepted";
     assert_told("arm", &[both, of, that], &[wanted]);
 }

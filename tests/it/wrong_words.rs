@@ -97,13 +97,13 @@ pub const WRONG: &[Wrong] = &[
         "paper",
         "default = \"allow\"",
         "default = \"deny\"",
-        "mini/paper.toml:61:11: choice `corners` has no option `deny`; it has allow,",
+        "mini/paper.toml:62:11: choice `corners` has no option `deny`; it has allow,",
     ),
     wrong(
         "paper",
         "problem = { corner_rule = \"forbid_any\" }",
         "problem = { corner_rule = \"never\" }",
-        "paper.toml:65:27: `corner_rule` is \"never\"; \"allow\", \"forbid_both\" or \"forbid_any\" is",
+        "paper.toml:66:27: `corner_rule` is \"never\"; \"allow\", \"forbid_both\" or \"forbid_any\" is",
     ),
     wrong(
         "draws",
@@ -128,7 +128,7 @@ pub const WRONG: &[Wrong] = &[
         "room",
         "start = [0, 0]",
         "start = [3, 0]",
-        "mini/room.toml:15:44: the start [3.0, 0.0] is blocked",
+        "mini/room.toml:16:44: the start [3.0, 0.0] is blocked",
     ),
     wrong(
         "room",
@@ -146,25 +146,25 @@ pub const WRONG: &[Wrong] = &[
         "room",
         "\"grid_search\"",
         "\"grid_saerch\"",
-        "mini/room.toml:24:8: figure `fig1` is of kind `grid_saerch`, which does not exist (did you mean `grid_search`?); the kinds are ",
+        "mini/room.toml:25:8: figure `fig1` is of kind `grid_saerch`, which does not exist (did you mean `grid_search`?); the kinds are ",
     ),
     wrong(
         "room",
         "contenders = [\"A*\"]",
         "contenders = [\"B*\"]",
-        "mini/room.toml:27:49: no contender is called `B*`; they are A*",
+        "mini/room.toml:28:49: no contender is called `B*`; they are A*",
     ),
     wrong(
         "room",
         "shows = [{ problems = \"room\"",
         "shows = [{ problems = \"hall\"",
-        "mini/room.toml:26:23: no problem group is called `hall`",
+        "mini/room.toml:27:23: no problem group is called `hall`",
     ),
     wrong(
         "room",
         "shows = [{ problems = \"room\", replicates = 1 }]\n",
         "",
-        "mini/room.toml:23:6: figure `fig1` draws what is kept of trials on `room`, and none is kept; accepted is shows = [",
+        "mini/room.toml:24:6: figure `fig1` draws what is kept of trials on `room`, and none is kept; accepted is shows = [",
     ),
     wrong(
         "draws",
@@ -176,7 +176,7 @@ pub const WRONG: &[Wrong] = &[
         "room",
         "id = \"fig1\"",
         "id = \"../fig1\"",
-        "mini/room.toml:23:6: the id `../fig1` names files; a to z, 0 to 9 and _",
+        "mini/room.toml:24:6: the id `../fig1` names files; a to z, 0 to 9 and _",
     ),
     wrong(
         "room",
@@ -189,7 +189,7 @@ pub const WRONG: &[Wrong] = &[
         "room",
         "settings = { problems = [\"room\"], contenders = [\"A*\"] }",
         "",
-        "mini/room.toml:23:6: figure `fig1` has no settings: missing key `problems` (",
+        "mini/room.toml:24:6: figure `fig1` has no settings: missing key `problems` (",
     ),
     wrong(
         "room",
@@ -251,7 +251,7 @@ pub const WRONG: &[Wrong] = &[
         "kind = \"grid_search\"\ncaption = \"A search in a room.\"\nshows = [{ problems = \"room\", replicates = 1 }]\nsettings = { problems = [\"room\"], contenders = [\"A*\"] }",
         "kind = \"sweep_curves\"\ncaption = \"What is saved.\"\nsettings = { rows = [{ contender = \"A*\" }], saving = { problems = [\"room\"], metric = \"nodes\", \
          contender = \"A*\", against = \"A*\", over = \"obstacles\" } }",
-        "mini/room.toml:26:21: `saving` takes no `rows` beside it",
+        "mini/room.toml:27:21: `saving` takes no `rows` beside it",
     ),
     wrong("paper", "id = \"nodes\"", "id = \"cost\"", "claim `cost` stands twice"),
     wrong(

@@ -57,7 +57,7 @@ impl Study {
         check_labels(&spec, document, &name, faults);
         check_selections(&spec, document, &name, faults);
         let budget = spec.budget.or(shared.budget).unwrap_or_else(|| {
-            let message = "missing `[budget]` with `expansions`: limits on each trial, here or in paper.toml for all studies";
+            let message = "missing key `budget` (Limits on each trial); a table is accepted, here or in paper.toml for all studies";
             faults.add(document.error_at("", message).about("budget"));
             BudgetSpec { expansions: 1 }
         });

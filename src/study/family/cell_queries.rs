@@ -5,14 +5,14 @@ mod picture;
 
 pub use groups::GROUPS_FILE;
 
-use super::input::{input, load_robot};
+use super::input::{input, load_robot, load_scene};
 use super::{Entry, Family, Query, Stance};
 use crate::prepared::Prepared;
 use crate::prepared::nested_roadmap::{self, Neighbours};
 use crate::verification::roadmap::ARM_COLUMNS;
 use crate::{Inputs, StudyError};
 use base::seed;
-use base::settings::{Accepted, Document, Faults, Settings, SettingsError};
+use base::settings::{Accepted, AnyTable, Document, Faults, Settings, SettingsError};
 use engine::kinematics::ik::Branch;
 use engine::kinematics::{AXES, FARTHEST_MM, Joints, Robot};
 use engine::planner::Invalid;
@@ -25,6 +25,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use toml::Table;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -68,8 +69,14 @@ const AROUND_DEG: f64 = 20.0;
 struct CellQueries {
     /// The robot file.
     robot: String,
+    /// What is laid over the robot file: elements of lists go by their number from 0 or their `name`.
+    #[schemars(with = "Option<AnyTable>")]
+    robot_with: Option<Table>,
     /// The scene file.
     scene: String,
+    /// What is laid over the scene file.
+    #[schemars(with = "Option<AnyTable>")]
+    scene_with: Option<Table>,
     /// Whether the scene's obstacles stand there; what the robot stands on always does.
     obstacles: bool,
     /// How high boxes of the scene are, by name, instead of what its file says.
@@ -216,7 +223,7 @@ impl CellQueries {
 
     /// The robot in `file`, with the tool that is asked for.
     fn robot(&self, settings: &Settings, file: &Path) -> Result<Robot, SettingsError> {
-        let robot = load_robot(settings, file)?;
+        let robot = load_robot(settings, file, self.robot_with.as_ref())?;
         let Some(tool_mm) = self.tool_mm else { return Ok(robot) };
         robot
             .with_tool_length(tool_mm * 1e-3)
@@ -266,7 +273,9 @@ impl Posed {
         let mut faults = Faults::default();
         let robot =
             faults.keep(input(settings, inputs, "robot", &read.robot, |file| read.robot(settings, file)));
-        let scene = faults.keep(input(settings, inputs, "scene", &read.scene, Scene::load));
+        let scene = faults.keep(input(settings, inputs, "scene", &read.scene, |file| {
+            load_scene(settings, file, read.scene_with.as_ref(), Scene::parse)
+        }));
         let placed = faults.keep(input(settings, inputs, "queries", &read.queries, |file| {
             let document = Document::open(file)?;
             Ok((read_queries(&document)?, document))

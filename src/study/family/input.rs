@@ -1,9 +1,13 @@
 //! Input files that a family's settings name, each fault of one at its own place.
 
+use super::overlay::overlaid;
 use crate::Inputs;
-use base::settings::{Settings, SettingsError};
+use crate::spec::{ROBOT_WITH, SCENE_WITH};
+use base::settings::{Document, Settings, SettingsError};
 use engine::kinematics::{KinematicsError, Robot};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use toml::Table;
 
 /// Where the file is that the settings call `name` at `key`, and what `read` makes of it.
 ///
@@ -21,13 +25,37 @@ pub(super) fn input<T>(
     Ok((file, value))
 }
 
-/// The robot in `file`, which the settings name at `robot`.
+/// The robot in `file`, which the settings name at `robot`, with what they have under `robot_with` laid over the file.
 ///
 /// # Errors
-/// What is wrong in the file, at its place there; what has no place there, at the key.
-pub(super) fn load_robot(settings: &Settings, file: &Path) -> Result<Robot, SettingsError> {
-    Robot::load(file).map_err(|error| match error {
+/// What is wrong in the file, at its place there; what has no place there or is laid over it, at the key.
+pub(super) fn load_robot(
+    settings: &Settings,
+    file: &Path,
+    with: Option<&Table>,
+) -> Result<Robot, SettingsError> {
+    let loaded = match with {
+        None => Robot::load(file),
+        Some(with) => Robot::parse(overlaid(settings, ROBOT_WITH, with, file)?.text(), file),
+    };
+    loaded.map_err(|error| match error {
+        KinematicsError::File(fault) if with.is_some() => settings.error_at(ROBOT_WITH, fault.message()),
         KinematicsError::File(fault) => fault,
         other => settings.error_at("robot", other.to_string()),
     })
+}
+
+/// What `read` makes of the scene in `file`, with what the settings have under `scene_with` laid over it.
+///
+/// # Errors
+/// As [`load_robot`].
+pub(super) fn load_scene<S>(
+    settings: &Settings,
+    file: &Path,
+    with: Option<&Table>,
+    read: impl FnOnce(&Arc<Document>) -> Result<S, SettingsError>,
+) -> Result<S, SettingsError> {
+    let Some(with) = with else { return read(&Document::open(file)?) };
+    let document = overlaid(settings, SCENE_WITH, with, file)?;
+    read(&document).map_err(|fault| settings.error_at(SCENE_WITH, fault.message()))
 }

@@ -11,6 +11,7 @@ mod grid_map;
 mod input;
 mod joint_queries;
 mod movingai;
+mod overlay;
 pub(super) mod plane_queries;
 mod polyhedra_scene;
 mod random_bars;

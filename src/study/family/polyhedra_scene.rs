@@ -1,23 +1,24 @@
 //! One scene of polyhedra from a file, with written queries, or queries drawn from balls around them; with an arm,
 //! or without.
 
-use super::input::{input, load_robot};
+use super::input::{input, load_robot, load_scene};
 use super::{Entry, Family, Query, Stance};
 use crate::prepared::{Prepared, polyhedra};
 use crate::verification::CARRIED_COLUMNS;
 use crate::{Inputs, StudyError};
 use base::seed;
-use base::settings::{Accepted, Faults, Settings, SettingsError};
+use base::settings::{Accepted, AnyTable, Faults, Settings, SettingsError};
 use engine::geometry::{Capsule, Vec3};
 use engine::kinematics::Robot;
 use engine::planner::Invalid;
-use engine::space::polyhedra::{CarriedArm, DOWN, PolyhedraError, Scene, read_scene};
+use engine::space::polyhedra::{CarriedArm, DOWN, PolyhedraError, Scene, parse_scene};
 use engine::space::roadmap::joints;
 use engine::space::{PolyhedraWorld, WorldKind};
 use rand::RngExt as _;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
+use toml::Table;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -47,6 +48,9 @@ const MM_PER_CM: f64 = 10.0;
 struct SceneSettings {
     /// The scene file.
     scene: String,
+    /// What is laid over the scene file: elements of lists go by their number from 0 or their `name`.
+    #[schemars(with = "Option<AnyTable>")]
+    scene_with: Option<Table>,
     /// The side of a lattice cell.
     step_cm: f64,
     /// By how much the tip keeps away from the obstacles.
@@ -60,6 +64,9 @@ struct SceneSettings {
     contact: Contact,
     /// The robot file of the arm whose tip the point is; a point alone if absent.
     robot: Option<String>,
+    /// What is laid over the robot file.
+    #[schemars(with = "Option<AnyTable>")]
+    robot_with: Option<Table>,
     /// The body that stands for the robot's links.
     body: Option<String>,
 }
@@ -114,7 +121,9 @@ struct Posed {
 fn posed(settings: &Settings, inputs: &Inputs) -> Result<Posed, StudyError> {
     let read: SceneSettings = settings.read()?;
     let mut faults = Faults::default();
-    let scene = faults.keep(input(settings, inputs, "scene", &read.scene, read_scene));
+    let scene = faults.keep(input(settings, inputs, "scene", &read.scene, |file| {
+        load_scene(settings, file, read.scene_with.as_ref(), parse_scene)
+    }));
     let robot = faults.keep(read.robot(settings, inputs)).flatten();
     if let Some(radius) = read.scatter_cm
         && !(radius.is_finite() && radius > 0.0)
@@ -169,7 +178,8 @@ impl SceneSettings {
                 return Err(settings.error_at(given, "robot and body are given together or not at all"));
             }
         };
-        input(settings, inputs, "robot", robot, |file| load_robot(settings, file)).map(Some)
+        input(settings, inputs, "robot", robot, |file| load_robot(settings, file, self.robot_with.as_ref()))
+            .map(Some)
     }
 }
 

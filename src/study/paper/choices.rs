@@ -2,7 +2,7 @@
 
 use super::{Claim, Paper};
 use crate::spec::{BoundsSpec, Count, OptionSpec};
-use crate::{Choice, Interpretation, Study, columns_of, labels_of};
+use crate::{Choice, Interpretation, Study, columns_of, labels_of, planner};
 use base::settings::{Faults, SettingsError, did_you_mean, none_called};
 use std::collections::{BTreeMap, BTreeSet};
 use toml::Table;
@@ -82,7 +82,8 @@ impl Paper {
                     format!("option `{name}` sets {}", unposed(&option.problem, &studies)),
                 );
             }
-            for entry in option.stage.keys() {
+            // What does not exist was refused already.
+            for entry in option.stage.keys().filter(|entry| planner::find(entry).is_some()) {
                 if !studies.iter().any(|study| uses(study, None, entry)) {
                     let message = format!(
                         "option `{name}` sets `{entry}`, which no study that inherits the choice runs"
@@ -99,9 +100,10 @@ impl Paper {
                     idle(&["option", name, "contender", label], format!("option `{name}`: {message}"));
                     continue;
                 }
-                for entry in
-                    own.keys().filter(|entry| !studies.iter().any(|study| uses(study, Some(label), entry)))
-                {
+                for entry in own.keys().filter(|entry| {
+                    planner::find(entry).is_some()
+                        && !studies.iter().any(|study| uses(study, Some(label), entry))
+                }) {
                     let message =
                         format!("option `{name}` sets `{entry}`, which contender `{label}` does not use");
                     idle(&["option", name, "contender", label, entry], message);

@@ -16,7 +16,7 @@ pub use apart::Apart;
 pub use arm::{CarriedArm, Contact, DOWN};
 pub use error::PolyhedraError;
 pub use motion::{Motion, motion};
-pub use scene::{SCENE_FILE, Scene, read_scene};
+pub use scene::{SCENE_FILE, Scene, parse_scene, read_scene};
 
 use crate::geometry::{Aabb, Convex, Segment, Vec3};
 use base::grid::Grid3;

@@ -188,10 +188,14 @@ impl Shape {
 /// A [`SettingsError`] with line and column for what is not TOML, not known or missing, and for an obstacle that
 /// is not convex, unbounded, flat or has a plane twice.
 pub fn read_scene(path: &Path) -> Result<Scene, SettingsError> {
-    scene(&Document::open(path)?)
+    parse_scene(&Document::open(path)?)
 }
 
-pub(super) fn scene(written: &Arc<Document>) -> Result<Scene, SettingsError> {
+/// The scene that `written` describes.
+///
+/// # Errors
+/// As [`read_scene`], but for a file that cannot be read.
+pub fn parse_scene(written: &Arc<Document>) -> Result<Scene, SettingsError> {
     let mut faults = Faults::default();
     let Some((file, document)) = written.read_rest::<SceneFile>(&mut faults) else {
         return Err(faults.error());

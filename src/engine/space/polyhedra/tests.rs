@@ -11,7 +11,7 @@ use std::path::Path;
 fn parse(text: &str) -> Result<Scene, String> {
     let head = "name = 'x'\nsource = 'test'\ndomain = { min = [0, 0, 0], max = [10, 10, 10] }\n";
     let document = Document::new(Path::new("s.toml"), format!("{head}{text}"));
-    scene::scene(&document).map_err(|e| e.to_string())
+    scene::parse_scene(&document).map_err(|e| e.to_string())
 }
 
 fn unit_planes(last: &str) -> String {
