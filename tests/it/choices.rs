@@ -110,12 +110,13 @@ fn an_option_is_laid_over_the_files_of_a_robot_and_of_its_scene() {
         let Local::Arm(lines) = map.local() else { panic!("it is that of an arm in a cell") };
         let scene = lines.cell().scene();
         let wall = scene.obstacles().iter().find(|obstacle| obstacle.name == "wall").unwrap();
-        (lines.cell().robot().tool_length_m(), wall.solid.aabb().max.z)
+        [lines.cell().robot().tool_length_m(), wall.solid.aabb().max.z]
+            .map(|metres| (metres * 1e3).round() as u32)
     };
     let paper = loaded(&bench, "arm");
     let [short, long] = ["short", "long"].map(|option| built(&paper, option));
-    assert_eq!(long, (0.16, 0.7));
-    assert!(short.0 < 0.16 && short.1 == 0.55, "{short:?}");
+    assert_eq!(long, [160, 700]);
+    assert!(short[0] < 160 && short[1] == 550, "{short:?}");
     for (robot, scene, refused) in [
         ("tool.length = 160", scene, "unknown key `length` (did you mean `length_mm`?)"),
         (
