@@ -4,6 +4,7 @@
 //! takes more than a minute of one core or 2 GB.
 
 use engine::planner::{Exhibit, Value};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use study::Inputs;
@@ -101,7 +102,7 @@ fn main() {
         seed: None,
         with: None,
         round: None,
-        claims: std::collections::BTreeMap::new(),
+        claims: BTreeMap::new(),
     };
     let (planning, plan) = clock::timed(|| Plan::agreed(&parts, &wanted, &studies).unwrap());
     let values: Vec<&'static str> = study.columns().into_iter().collect();

@@ -5,7 +5,7 @@ use super::context::{self, Context};
 use super::criterion::{self, Criterion};
 use super::evidence::{Evidence, Run, default_point};
 use super::found::Found;
-use super::meaning::{self, built};
+use super::meaning;
 use super::metric;
 use super::rule;
 use super::settle::{nothing_decides, parts_settle, settles};
@@ -129,6 +129,29 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
 /// By study the hash of the records that `evidence` is read from.
 pub fn records(evidence: &Evidence<'_>) -> BTreeMap<String, String> {
     evidence.runs().map(|run| (run.study.name.clone(), run.manifest.records_hash())).collect()
+}
+
+/// The criterion or rule called `name`, built.
+fn built<'a>(
+    asked: Asked,
+    name: &str,
+    context: &Context<'a>,
+) -> Result<Box<dyn Criterion + 'a>, SettingsError> {
+    let (what, registry, found) = match asked {
+        Asked::Rule => ("rule", rule::REGISTRY, rule::find(name)),
+        Asked::Decides | Asked::Shown => ("criterion", criterion::REGISTRY, criterion::find(name)),
+    };
+    let key = match asked {
+        Asked::Rule => "rule",
+        Asked::Decides => "check",
+        Asked::Shown => "shows",
+    };
+    let unknown = || {
+        let known = registry.iter().map(|entry| entry.name);
+        let message = format!("claim `{}`: {}", context.claim.id, none_called(what, name, known));
+        context.error_at_key([key, name], message)
+    };
+    (found.ok_or_else(unknown)?.build)(context)
 }
 
 /// A finding, how the trials behind it came about, and what they are.

@@ -3,7 +3,7 @@
 //! `history.toml` lies beside the runs and only grows: an entry is added where claims or records are others than in the entries
 //! before it. Each entry ends in a seal, the SHA-256 of all text above it, so that an edit of an earlier one is found. A claim
 //! is the same as long as its hash is ([`meaning`](super::meaning)), whatever it is called. Its data were seen if records of a
-//! study that decides it had been stored before it changed.
+//! study that it asks had been stored before it changed.
 
 use super::meaning::{DIGITS, FORM, meanings};
 use super::verdict::{Judged, Verdicts};
@@ -85,7 +85,7 @@ struct Entry {
     /// By study a hash of its records.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     records: BTreeMap<String, String>,
-    /// New and changed claims whose data had not been seen, by id: the hash and the studies that decide it.
+    /// New and changed claims whose data had not been seen, by id: the hash and the studies that it asks.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     claims: BTreeMap<String, Stated>,
     /// Those whose data had been seen.
@@ -93,7 +93,7 @@ struct Entry {
     after_data: BTreeMap<String, Stated>,
 }
 
-/// A claim in an entry: the hash of what it means, and behind it the studies that decide it.
+/// A claim in an entry: the hash of what it means, and behind it the studies that it asks.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(transparent)]
 struct Stated(Vec<String>);
@@ -127,15 +127,15 @@ struct Now {
 
 impl Now {
     /// What `paper` asks and what is stored of it in `folder`; a run that cannot be read is no record.
-    fn of(paper: &Paper, folder: &Path) -> Result<Self, StudyError> {
+    fn of(paper: &Paper, folder: &Path) -> Self {
         let hash =
             |name: &String| Some(Manifest::read(folder, name).ok()?.records_hash()[..DIGITS].to_owned());
         let names = paper.studies.iter().map(|study| &study.name);
         let records = names.filter_map(|name| Some((name.clone(), hash(name)?))).collect();
         let changed = paper.claims.iter().filter(|claim| claim.changed_after_run.is_some());
         let reasons = changed.map(|claim| claim.id.clone()).collect();
-        let stated = meanings(paper)?.into_iter().map(|(id, words)| (id, Stated(words)));
-        Ok(Self { claims: stated.collect(), reasons, records })
+        let stated = meanings(paper).into_iter().map(|(id, words)| (id, Stated(words)));
+        Self { claims: stated.collect(), reasons, records }
     }
 }
 
@@ -184,9 +184,9 @@ impl History {
     /// holds the folder's lock.
     ///
     /// # Errors
-    /// Those of [`read`](Self::read), of building criteria, and of writing.
+    /// Those of [`read`](Self::read) and of writing.
     pub fn note(paper: &Paper, folder: &Path, command: &str) -> Result<Self, StudyError> {
-        Self::read(folder)?.noting(&Now::of(paper, folder)?, folder, command)
+        Self::read(folder)?.noting(&Now::of(paper, folder), folder, command)
     }
 
     /// As [`note`](Self::note), for what the claims meant when shards of a run were planned.
@@ -206,11 +206,8 @@ impl History {
     }
 
     /// Whether an entry is missing for what `paper` asks and its runs in `folder` store.
-    ///
-    /// # Errors
-    /// Those of building criteria.
-    pub fn lacks(&self, paper: &Paper, folder: &Path) -> Result<bool, StudyError> {
-        Ok(self.entry(&Now::of(paper, folder)?, "").is_some())
+    pub fn lacks(&self, paper: &Paper, folder: &Path) -> bool {
+        self.entry(&Now::of(paper, folder), "").is_some()
     }
 
     /// The verdicts in `folder`, as they were judged; without a history if that is gone.
@@ -271,9 +268,10 @@ impl History {
             }
             let mut studies =
                 before.iter().flat_map(|before| before.stated.studies()).chain(stated.studies());
-            let is_after = match is_first {
-                true => now.reasons.contains(id) && !now.records.is_empty(),
-                false => !is_known(id, stated) && !is_other_form && studies.any(is_seen),
+            let is_after = if is_first {
+                now.reasons.contains(id) && !now.records.is_empty()
+            } else {
+                !is_known(id, stated) && !is_other_form && studies.any(is_seen)
             };
             let list = if is_after { &mut after_data } else { &mut claims };
             list.insert(id.clone(), stated.clone());

@@ -5,12 +5,9 @@
 //! the number that it prints or, where it must be met as well, by what it means. A word of specs that is renamed keeps its hash by a line of [`RENAMED`]; any other change of the text that is
 //! hashed needs a new [`FORM`], which histories of claims record as such.
 
-use super::context::Context;
-use super::criterion::{self, Criterion};
-use super::evidence::default_point;
-use super::rule;
+use super::{criterion, rule};
 use base::hash::sha256;
-use base::settings::{Settings, SettingsError, none_called};
+use base::settings::Settings;
 use std::collections::{BTreeMap, BTreeSet};
 use study::paper::{Asked, Claim, Paper, Parts};
 use toml::{Table, Value};
@@ -35,26 +32,14 @@ const GIVEN: &str = "given";
 /// The keys of words that are shown and decide nothing.
 const WORD_KEYS: [&str; 3] = ["chosen", "label", "premises"];
 
-/// What every claim of `paper` means, by id: the hash, and behind it the studies whose trials decide the claim.
-///
-/// # Errors
-/// Those of building its criteria.
-pub fn meanings(paper: &Paper) -> Result<BTreeMap<String, Vec<String>>, SettingsError> {
-    let mut studies: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
-    let point = default_point(paper);
-    for claim in &paper.claims {
-        let own = studies.entry(&claim.id).or_default();
-        for (asked, name, settings) in claim.asked().filter(|(asked, ..)| *asked != Asked::Shown) {
-            let criterion = built(asked, name, &Context { claim, settings, paper, point: &point })?;
-            own.extend(criterion.studies().iter().map(|study| study.name.clone()));
-        }
-    }
+/// What every claim of `paper` means, by id: the hash, and behind it the studies whose trials the claim and its parts ask.
+pub fn meanings(paper: &Paper) -> BTreeMap<String, Vec<String>> {
     let meaning = |claim: &Claim| {
-        let all = std::iter::once(&claim.id).chain(claim.parts.ids());
-        let studies: BTreeSet<_> = all.filter_map(|id| studies.get(id.as_str())).flatten().collect();
-        std::iter::once(hash(paper, claim)).chain(studies.into_iter().cloned()).collect()
+        let parts = claim.parts.ids().iter().filter_map(|id| paper.claim(id));
+        let studies: BTreeSet<&str> = parts.chain([claim]).flat_map(Claim::studies).collect();
+        std::iter::once(hash(paper, claim)).chain(studies.into_iter().map(str::to_owned)).collect()
     };
-    Ok(paper.claims.iter().map(|claim| (claim.id.clone(), meaning(claim))).collect())
+    paper.claims.iter().map(|claim| (claim.id.clone(), meaning(claim))).collect()
 }
 
 /// One hash of the claims of `paper`, by their ids and what they mean.
@@ -149,30 +134,4 @@ fn canonical(paper: &Paper, key: &str, value: &Value, given: &dyn Fn(&Claim) -> 
         },
         other => number(other).map_or_else(|| other.to_string(), |value| value.to_string()),
     })
-}
-
-/// The criterion or rule called `name`, built.
-///
-/// # Errors
-/// There is none such; those of building it.
-pub fn built<'a>(
-    asked: Asked,
-    name: &str,
-    context: &Context<'a>,
-) -> Result<Box<dyn Criterion + 'a>, SettingsError> {
-    let (what, registry, found) = match asked {
-        Asked::Rule => ("rule", rule::REGISTRY, rule::find(name)),
-        Asked::Decides | Asked::Shown => ("criterion", criterion::REGISTRY, criterion::find(name)),
-    };
-    let key = match asked {
-        Asked::Rule => "rule",
-        Asked::Decides => "check",
-        Asked::Shown => "shows",
-    };
-    let unknown = || {
-        let known = registry.iter().map(|entry| entry.name);
-        let message = format!("claim `{}`: {}", context.claim.id, none_called(what, name, known));
-        context.error_at_key([key, name], message)
-    };
-    (found.ok_or_else(unknown)?.build)(context)
 }

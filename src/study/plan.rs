@@ -40,7 +40,7 @@ pub struct Plan {
     /// Which round of an exploration or a confirmation it is, if it is no plain run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub round: Option<PlannedRound>,
-    /// What each claim meant when the plan was made: its hash, and the studies that decide it.
+    /// What each claim meant when the plan was made: its hash, and the studies that it asks.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub claims: BTreeMap<String, Vec<String>>,
     /// The studies, in the order of their names.

@@ -118,8 +118,8 @@ fn a_margin_that_moves_after_the_run_is_reported_for_good() {
 fn a_change_is_reported_where_trials_are_recorded_and_recorded_again() {
     let bench = bench();
     let outside = "\n[[contender]]\nlabel = \"Outside\"\nplanner = \"external\"\nsettings = { command = [\"sh\", \"-c\", \"exit 0\"], \
-                   files = [], version = \"1\", time_s = 5.0, memory_mb = 128, output_mb = 4, install = \"a shell\" }\n\n[[reading]]";
-    bench.edit("mini/draws.toml", "\n[[reading]]", outside);
+                   files = [], version = \"1\", time_s = 5.0, memory_mb = 128, output_mb = 4, install = \"a shell\" }\n\n[[contender]]";
+    bench.edit("mini/draws.toml", "\n[[contender]]", outside);
     bench.edit("mini/draws.toml", "replicates = 24", "replicates = 12");
     let first = bench.done(&["repro", "./mini"]);
     assert!(!first.contains("Changed after"), "{first}");

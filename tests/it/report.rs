@@ -259,10 +259,8 @@ fn chapters_of_missing_quick_stale_and_damaged_runs_say_so_in_their_first_line()
     );
     bench.done(&["judge", "./mini"]);
     bench.done(&["render", "./mini"]);
-    assert!(
-        first_line(&bench)
-            .starts_with("**Stale: claims or margins changed after study `draws`, `room` was run")
-    );
+    let changed = "**Changed after their data were seen, without a reason given: `cost`.";
+    assert!(first_line(&bench).starts_with(changed), "{}", first_line(&bench));
     bench.done(&["repro", "./mini", "--quick", "--out", "quick"]);
     let quick = read(&bench.at("quick/paper_repro.md"));
     assert!(quick.contains("<a id=\"mini\"></a>\n\n**Quick run: "), "{quick}");
