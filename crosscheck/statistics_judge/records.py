@@ -54,9 +54,9 @@ class Table:
         """A column of numbers; null is NaN."""
         return pc.cast(self.table.column(name), pa.float64()).to_numpy(zero_copy_only=False).astype(float)
 
-    def sweep(self, name: str) -> list[str]:
+    def sweep(self, name: str) -> list[str | None]:
         """A column of a sweep's values as TOML writes them."""
-        return [str(value).lower() if isinstance(value, bool) else str(value) for value in self.listed(name)]
+        return [None if value is None else spelled(value) for value in self.listed(name)]
 
     def listed(self, name: str) -> list[Any]:
         """A column as Python values."""
@@ -98,11 +98,19 @@ class Study:
             found += stored if "each" in group else [group["label"]]
         return found
 
-    def sweep_points(self) -> list[str]:
-        """The points of its sweeps, named as trials name them."""
-        sweeps = self.spec.get("sweep", [])
-        values = [[f"{sweep['key']}={spelled(value)}" for value in sweep["values"]] for sweep in sweeps]
-        return [",".join(point) for point in itertools.product(*values)]
+    def sweep_points(self, groups: list[str]) -> list[str]:
+        """The points of its sweeps on problem groups, named as trials name them: those over problems first."""
+        found: dict[str, None] = {}
+        for group in groups:
+            over = [sweep for sweep in self.sweeps if is_over(sweep, group)]
+            values = [[f"{sweep['key']}={spelled(value)}" for value in sweep["values"]] for sweep in over]
+            found |= dict.fromkeys(",".join(point) for point in itertools.product(*values))
+        return list(found)
+
+    @property
+    def sweeps(self) -> list[dict[str, Any]]:
+        """Its sweeps, those over problems first."""
+        return sorted(self.spec.get("sweep", []), key=lambda sweep: "of" in sweep)
 
     @cached_property
     def trials(self) -> Table:
@@ -117,13 +125,14 @@ class Study:
     @cached_property
     def sweep(self) -> tuple[Places, list[str]]:
         """The point of the sweeps of each trial."""
-        keys = [sweep["key"] for sweep in self.spec.get("sweep", [])]
+        keys = list(dict.fromkeys(sweep["key"] for sweep in self.sweeps))
         if not keys:
             return np.zeros(self.count, dtype=np.int64), [""]
         columns = [self.trials.sweep(f"sweep_{key}") for key in keys]
+        # A sweep over problems is null on groups that are none of its own.
         return coded(
             [
-                ",".join(f"{k}={v}" for k, v in zip(keys, row, strict=True))
+                ",".join(f"{k}={v}" for k, v in zip(keys, row, strict=True) if v is not None)
                 for row in zip(*columns, strict=True)
             ]
         )
@@ -230,6 +239,12 @@ class Study:
     def sessions(self) -> int:
         """How many sessions of the clock are stored."""
         return max(self.clock, default=0)
+
+
+def is_over(sweep: dict[str, Any], group: str) -> bool:
+    """Whether a sweep varies what trials on a problem group do: all do that are over a planner or stage."""
+    labels = sweep.get("problems", ["*"])
+    return any(group.startswith(one[:-1]) if one.endswith("*") else group == one for one in labels)
 
 
 def spelled(value: object) -> str:

@@ -43,6 +43,11 @@ class Cases:
             self.solved_values(self.base) if self.base is not None else np.full(len(self.own), np.nan)
         )
 
+    def sweep_points(self) -> list[str]:
+        """The points of the sweeps on the problem groups of its cases."""
+        groups, names = self.study.trials.words("group")
+        return self.study.sweep_points([names[place] for place in np.unique(groups[self.own])])
+
     def raw(self, metric: Metric) -> Reals:
         """A metric of every case, solved or not."""
         return self.study.values(metric, self.session)[self.own]
@@ -163,7 +168,14 @@ DRAWN = frozenset(
 
 def is_drawn(study: Study, group: str) -> bool:
     """Whether a problem group's seed decides what is posed in it."""
-    return any(own["label"] == group and own["family"] in DRAWN for own in study.spec.get("problems", []))
+    own = [own for own in study.spec.get("problems", []) if own["label"] == group]
+    return any(one["family"] in DRAWN or draws_ends(one.get("settings", {})) for one in own)
+
+
+def draws_ends(settings: dict[str, Any]) -> bool:
+    """Whether a start or a goal is drawn: it is neither left out nor written as coordinates."""
+    ends = [settings.get(f"{end}{unit}", []) for end in ("start", "goal") for unit in ("", "_cm")]
+    return not all(isinstance(end, list) for end in ends)
 
 
 def matched(study: Study, rows: Places, others: Places) -> tuple[Places, Places]:

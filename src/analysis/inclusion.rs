@@ -30,7 +30,7 @@ impl Inclusion {
         other: &str,
     ) -> Result<Self, SettingsError> {
         let point = point.for_trials(&study.choices);
-        let sweep = study.sweep_points().swap_remove(0);
+        let sweep = study.contender_points().swap_remove(0);
         let planner = |label: &str| -> Result<Option<Box<dyn Planner>>, SettingsError> {
             let found = study.contenders.iter().find(|contender| contender.label == label);
             let built = found.map(|contender| contender.pipeline(&point, &sweep));

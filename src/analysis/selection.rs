@@ -6,6 +6,7 @@ use super::metric::Metric;
 use super::selection_spec::SelectionSpec;
 use base::settings::{Faults, SettingsError};
 use std::collections::BTreeMap;
+use study::contender::SweepPoint;
 use study::key::SweepKey;
 use study::name;
 use study::record::{Row, Status};
@@ -164,6 +165,11 @@ impl<'a> Selection<'a> {
     /// Whether it reads a clock.
     pub fn is_clock(&self) -> bool {
         self.metric.is_some_and(Metric::is_clock)
+    }
+
+    /// The points of the sweeps that its trials can have.
+    pub fn sweep_points(&self) -> Vec<SweepPoint> {
+        self.study.sweep_points_of(|label| self.groups.iter().any(|group| group == label))
     }
 
     /// The stored run that it looks at.

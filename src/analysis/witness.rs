@@ -108,7 +108,12 @@ impl<'a> Hunt<'a> {
     pub fn place(paper: &'a Paper, claims: &[String]) -> Result<(&'a Study, &'a Group), String> {
         let point = Interpretation::new(&paper.choices, &BTreeMap::new())?;
         let asked = asked(paper, &point, claims)?;
-        let on_map = |group: &&Group| group.family.name == "grid_map" && group.replicates == 1;
+        let on_map = |group: &&Group| {
+            group.family.name == "grid_map"
+                && !group.is_drawn
+                && group.points.len() == 1
+                && group.replicates == 1
+        };
         for study in paper.studies.iter().filter(|study| study.searched) {
             let mut groups = study.groups.iter().filter(on_map);
             let all = |group: &&Group| asked.iter().all(|one| one.looks_at(&study.name, &group.label));
@@ -303,7 +308,7 @@ impl Ground {
         for contender in hunt.study.contenders.iter().filter(|own| all || labels.contains(&&own.label)) {
             pipelines.push((contender.label.clone(), contender.pipeline(&laid, &SweepPoint::default())?));
         }
-        let family = hunt.group.family(&laid, hunt.inputs)?;
+        let family = hunt.group.family(&hunt.group.points[0], &laid, hunt.inputs)?;
         let world = family.draw(0).map_err(|invalid| refused(invalid.0))?;
         let lattice = world.as_lattice().expect("a map of cells is a lattice");
         let (grid, query) = (lattice.grid(), &family.queries()[0]);

@@ -75,7 +75,7 @@ fn notes(paper: &Paper, places: &Places) -> BTreeSet<String> {
     for study in &paper.studies {
         let point = default_point(paper).for_trials(&study.choices);
         // A family that cannot be built was told of before.
-        let families = study.groups.iter().filter_map(|group| group.family(&point, &places.inputs).ok());
+        let families = study.posed().filter_map(|(group, at)| group.family(at, &point, &places.inputs).ok());
         notes.extend(families.flat_map(|family| family.notes()));
     }
     notes

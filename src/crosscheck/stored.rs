@@ -116,7 +116,7 @@ impl StoredPaths {
         })?;
         let point = Interpretation::new(&study.choices, &BTreeMap::new());
         let point = point.expect("a loaded study's defaults are among its options");
-        let prepared = group.family(&point, inputs)?.prepare(0);
+        let prepared = group.family(&group.points[0], &point, inputs)?.prepare(0);
         Ok(prepared.map_err(|invalid| misnamed("problems", invalid.0))?.world)
     }
 }

@@ -94,7 +94,7 @@ pub fn recorded_mark<'a>(labels: impl Iterator<Item = &'a str>) -> Option<String
 impl Study {
     /// Whether the seed decides anything of what is posed in a problem group: one draw is then one of many.
     pub fn is_drawn(&self, group: &str) -> bool {
-        self.groups.iter().any(|own| own.label == group && own.family.is_drawn)
+        self.groups.iter().any(|own| own.label == group && own.is_drawn)
     }
 
     /// The defaults and, for every other option, the interpretation that differs in it alone.
@@ -151,26 +151,33 @@ impl Study {
         self
     }
 
-    /// Every combination of the sweeps' values, the first sweep varying slowest; one empty point without sweeps.
+    /// Every point of the sweeps over contenders, the first sweep varying slowest; one empty point without such sweeps.
+    pub fn contender_points(&self) -> Vec<SweepPoint> {
+        SweepPoint::all(self.sweeps.iter().filter(|sweep| sweep.entry().is_some()))
+    }
+
+    /// Every problem group with every point of the sweeps over its settings.
+    pub fn posed(&self) -> impl Iterator<Item = (&Group, &SweepPoint)> {
+        self.groups.iter().flat_map(|group| group.points.iter().map(move |point| (group, point)))
+    }
+
+    /// Every point of the sweeps that a trial can have: those over problems vary slowest; one empty point without sweeps.
     pub fn sweep_points(&self) -> Vec<SweepPoint> {
-        let mut points = vec![(Vec::new(), SweepPoint::default())];
-        for sweep in &self.sweeps {
-            let key: Text = sweep.key.as_str().into();
-            let values = sweep.key_values().expect("a checked sweep has values that records can have");
-            let values: Vec<_> = values.into_iter().zip(&sweep.values).enumerate().collect();
-            let with = |(keys, point): &(Vec<(Text, SweepValue)>, SweepPoint),
-                        (index, (value, written)): &(usize, (_, &toml::Value))| {
-                let (mut keys, mut next) = (keys.clone(), point.clone());
-                keys.push((key.clone(), SweepValue::clone(value)));
-                let (over, places) = next.over.entry(sweep.of.clone()).or_default();
-                over.insert(sweep.key.clone(), (*written).clone());
-                places.push(sweep.place.of_value(&sweep.key, &["key"], &["values", &index.to_string()]));
-                (keys, next)
-            };
-            points =
-                points.iter().flat_map(|point| values.iter().map(move |value| with(point, value))).collect();
+        self.sweep_points_of(|_| true)
+    }
+
+    /// The points of [`sweep_points`](Self::sweep_points) that a trial can have on a problem group whose label `is_meant`.
+    pub fn sweep_points_of(&self, is_meant: impl Fn(&str) -> bool) -> Vec<SweepPoint> {
+        let contenders = self.contender_points();
+        let mut posed: Vec<&SweepPoint> = Vec::new();
+        for (_, point) in self.posed().filter(|(group, _)| is_meant(&group.label)) {
+            if posed.iter().all(|known| known.key != point.key) {
+                posed.push(point);
+            }
         }
-        points.into_iter().map(|(keys, point)| SweepPoint { key: SweepKey::new(keys), ..point }).collect()
+        let none = SweepPoint::default();
+        let posed = if posed.is_empty() { vec![&none] } else { posed };
+        posed.iter().flat_map(|posed| contenders.iter().map(|own| posed.and(own))).collect()
     }
 
     /// The point of the sweeps that people write as `text`: empty without sweeps.
@@ -182,7 +189,9 @@ impl Study {
         let known: Vec<String> = points.iter().map(|point| name::sweep(&point.key)).collect();
         let found = known.iter().position(|name| name == text);
         found.map(|place| points[place].key.clone()).ok_or_else(|| {
-            format!("study `{}` has no sweep `{text}`; it has {}", self.name, known.join(", "))
+            // Groups that no sweep is over have a point without a name.
+            let named: Vec<&str> = known.iter().map(String::as_str).filter(|name| !name.is_empty()).collect();
+            format!("study `{}` has no sweep `{text}`; it has {}", self.name, named.join(", "))
         })
     }
 
@@ -208,10 +217,19 @@ impl Study {
 
     /// The columns of its records' keys besides those that every study has.
     pub fn key_columns(&self) -> KeyColumns {
-        let sweep = |sweep: &Sweep| (sweep.key.as_str().into(), sweep.of.as_str().into());
+        let sweep = |sweep: &Sweep| Some((sweep.key.as_str().into(), sweep.entry()?.into()));
         let moving = self.choices.iter().filter(|choice| choice.touches_trials);
+        let mut posed: Vec<(Text, SweepValue)> = Vec::new();
+        for (key, value) in self.posed().flat_map(|(_, point)| point.key.values()) {
+            if posed.iter().all(|(known, _)| known != key) {
+                posed.push((key.clone(), value.clone()));
+            }
+        }
+        // In the order of the sweeps, whatever group has the first.
+        posed.sort_by_key(|(key, _)| self.sweeps.iter().position(|sweep| *sweep.key == **key));
         KeyColumns {
-            sweeps: self.sweeps.iter().map(sweep).collect(),
+            posed,
+            sweeps: self.sweeps.iter().filter_map(sweep).collect(),
             readings: moving.map(|choice| choice.id.as_str().into()).collect(),
         }
     }

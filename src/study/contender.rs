@@ -98,12 +98,7 @@ impl StageUse {
     /// Its settings in the contender called `label` with the interpretation's and the sweep's laid on top.
     pub fn effective(&self, label: &str, interpretation: &Interpretation, sweep: &SweepPoint) -> Settings {
         let read = interpretation.over_stage(label, self.entry.name, self.settings.clone());
-        match sweep.over.get(self.entry.name) {
-            Some((table, places)) => {
-                read.overlaid_from(table, &format!("sweep {}", name::sweep(&sweep.key)), places.clone())
-            }
-            None => read,
-        }
+        sweep.over_stage(self.entry.name, read)
     }
 }
 
@@ -112,15 +107,43 @@ impl StageUse {
 pub struct Sweep {
     /// The setting.
     pub key: String,
-    /// The planner or stage whose setting it is.
-    pub of: String,
+    /// Whose setting it is.
+    pub of: Swept,
+    /// Its number among the study's sweeps as they are written, from 0.
+    pub number: usize,
     /// Its values, in the paper's order.
     pub values: Vec<toml::Value>,
     /// Where it stands.
     pub place: Place,
 }
 
+/// Whose setting a sweep varies.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Swept {
+    /// That of a planner or stage.
+    Entry(String),
+    /// That of problem groups, by label; `*` at the end stands for any ending.
+    Problems(Vec<String>),
+}
+
 impl Sweep {
+    /// The planner or stage whose setting it is.
+    pub fn entry(&self) -> Option<&str> {
+        match &self.of {
+            Swept::Entry(name) => Some(name),
+            Swept::Problems(_) => None,
+        }
+    }
+
+    /// Whether it varies a setting of the problem group called `label`.
+    pub fn is_over(&self, label: &str) -> bool {
+        let is_meant = |pattern: &String| match pattern.strip_suffix('*') {
+            Some(beginning) => label.starts_with(beginning),
+            None => pattern == label,
+        };
+        matches!(&self.of, Swept::Problems(patterns) if patterns.iter().any(is_meant))
+    }
+
     /// Its values as records have them: all of one kind, words where kinds are mixed; `None` for a value that is neither a
     /// number nor a word nor a truth value.
     pub fn key_values(&self) -> Option<Vec<SweepValue>> {
@@ -144,12 +167,60 @@ impl Sweep {
     }
 }
 
-/// One value of every sweep.
+/// One value of each of some sweeps.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SweepPoint {
     /// What names it in records; empty without sweeps.
     pub key: SweepKey,
-    pub(super) over: BTreeMap<String, (Table, Vec<Place>)>,
+    /// What it lays over settings and where that stands, by planner or stage; over problems under an empty name.
+    over: BTreeMap<String, (Table, Vec<Place>)>,
+}
+
+impl SweepPoint {
+    /// Every combination of the values of `sweeps`, the first sweep varying slowest; one empty point without sweeps.
+    pub fn all<'s>(sweeps: impl Iterator<Item = &'s Sweep>) -> Vec<Self> {
+        let mut points = vec![Self::default()];
+        for sweep in sweeps {
+            let values = sweep.key_values().expect("a checked sweep has values that records can have");
+            let values: Vec<_> = values.into_iter().zip(&sweep.values).enumerate().collect();
+            let with = |point: &Self, (index, (value, written)): &(usize, (SweepValue, &toml::Value))| {
+                let mut next = point.clone();
+                next.key = point.key.and(&SweepKey::new(vec![(sweep.key.as_str().into(), value.clone())]));
+                let (over, places) =
+                    next.over.entry(sweep.entry().unwrap_or_default().to_owned()).or_default();
+                over.insert(sweep.key.clone(), (*written).clone());
+                places.push(sweep.place.of_value(&sweep.key, &["key"], &["values", &index.to_string()]));
+                next
+            };
+            points =
+                points.iter().flat_map(|point| values.iter().map(move |value| with(point, value))).collect();
+        }
+        points
+    }
+
+    /// What lies in both: `other` is a point of other sweeps.
+    #[must_use]
+    pub fn and(&self, other: &Self) -> Self {
+        let over = self.over.clone().into_iter().chain(other.over.clone()).collect();
+        Self { key: self.key.and(&other.key), over }
+    }
+
+    /// The settings of a problem with what it lays over them.
+    #[must_use]
+    pub fn over_problem(&self, settings: Settings) -> Settings {
+        self.over_stage("", settings)
+    }
+
+    /// The settings of the planner or stage called `entry` with what it lays over them.
+    #[must_use]
+    pub fn over_stage(&self, entry: &str, settings: Settings) -> Settings {
+        match self.over.get(entry) {
+            Some((table, places)) => {
+                settings.overlaid_from(table, &format!("sweep {}", name::sweep(&self.key)), places.clone())
+            }
+            None => settings,
+        }
+    }
 }
 
 impl Pipeline {

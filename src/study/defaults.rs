@@ -22,7 +22,11 @@ pub fn defaults(study: &Study) -> Vec<String> {
     let task = study.task_settings.clone().completed(study.task.settings);
     all.extend(said(&format!("task {}", study.task.name), &task));
     for group in &study.groups {
-        all.extend(said(&format!("problem group `{}`, {}", group.label, group.family.name), &group.settings));
+        let is_swept =
+            |key: &str| study.sweeps.iter().any(|sweep| sweep.key == key && sweep.is_over(&group.label));
+        let filled = group.settings.filled().filter(|(key, _)| !is_swept(key));
+        let whose = format!("problem group `{}`, {}", group.label, group.family.name);
+        all.extend(filled.map(|(key, value)| format!("{whose}: {key} = {value}")));
     }
     for contender in &study.contenders {
         for stage in &contender.stages {

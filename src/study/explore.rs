@@ -2,7 +2,7 @@
 
 use super::checked::Study;
 use super::choice::{Choice, Interpretation, single_options};
-use super::contender::{Contender, StageUse, Sweep};
+use super::contender::{Contender, StageUse, Sweep, Swept};
 use super::group::Group;
 use super::spec::OptionSpec;
 use base::hash::sha256;
@@ -136,7 +136,11 @@ pub fn stamp(study: &Study) -> String {
 
 /// A sweep as stamps always had it: where it stands is no part of it.
 fn swept(Sweep { key, of, values, .. }: &Sweep) -> String {
-    format!("Sweep {{ key: {key:?}, of: {of:?}, values: {values:?} }}")
+    let of = match of {
+        Swept::Entry(name) => format!("of: {name:?}"),
+        Swept::Problems(labels) => format!("problems: {labels:?}"),
+    };
+    format!("Sweep {{ key: {key:?}, {of}, values: {values:?} }}")
 }
 
 #[cfg(test)]

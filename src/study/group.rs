@@ -1,9 +1,11 @@
 //! Groups of problems drawn from one family.
 
 use super::choice::Interpretation;
+use super::contender::SweepPoint;
 use super::error::StudyError;
 use super::family::{Entry, Family};
 use super::inputs::Inputs;
+use super::key::SweepKey;
 use base::settings::{Faults, Settings, SettingsError};
 use std::sync::Arc;
 use toml::Table;
@@ -25,25 +27,39 @@ pub struct Group {
     pub is_numbered: bool,
     /// The family's settings.
     pub settings: Settings,
-    /// The names of the queries asked of every draw; none where the family could not be built.
+    /// The points of the sweeps over its settings; one empty point without such sweeps.
+    pub points: Vec<SweepPoint>,
+    /// The names of the queries of every instance; none where the family could not be built.
     pub queries: Vec<String>,
+    /// Whether the seed decides anything of what is posed.
+    pub is_drawn: bool,
 }
 
 impl Group {
-    /// The family under the reading `point`.
+    /// The point of the sweeps over its settings that is called `key`; the first if none is.
+    pub fn point(&self, key: &SweepKey) -> &SweepPoint {
+        self.points.iter().find(|point| point.key == *key).unwrap_or(&self.points[0])
+    }
+
+    /// The family at the point `at` of the sweeps, under the reading `point`.
     ///
     /// # Errors
     /// A settings error of the family, or an input file that is missing or wrong.
-    pub fn family(&self, point: &Interpretation, inputs: &Inputs) -> Result<Box<dyn Family>, StudyError> {
-        (self.family.build)(&self.settings_under(point), inputs)
+    pub fn family(
+        &self,
+        at: &SweepPoint,
+        point: &Interpretation,
+        inputs: &Inputs,
+    ) -> Result<Box<dyn Family>, StudyError> {
+        (self.family.build)(&self.settings_under(at, point), inputs)
     }
 
     /// What else is wrong with its settings and the files that they name, where some of them are not accepted: one fault hides no
     /// other.
-    pub fn check_rest(&self, point: &Interpretation, inputs: &Inputs, faults: &mut Faults) {
+    pub fn check_rest(&self, at: &SweepPoint, point: &Interpretation, inputs: &Inputs, faults: &mut Faults) {
         let built = |settings: &Settings| self.built(settings, inputs).err();
         let (schema, example) = (self.family.settings.schema(), self.family.example);
-        let found = self.settings_under(point).faults_beside(&schema, example, built);
+        let found = self.settings_under(at, point).faults_beside(&schema, example, built);
         for fault in found {
             faults.add(fault);
         }
@@ -60,9 +76,10 @@ impl Group {
         }
     }
 
-    /// The family's settings under an interpretation.
-    pub fn settings_under(&self, interpretation: &Interpretation) -> Settings {
-        interpretation.over_problem(self.settings.clone(), |over| self.accepts(over))
+    /// The family's settings under an interpretation, with those of the point `at` of the sweeps on top.
+    pub fn settings_under(&self, at: &SweepPoint, interpretation: &Interpretation) -> Settings {
+        let read = interpretation.over_problem(self.settings.clone(), |over| self.accepts(over));
+        at.over_problem(read)
     }
 
     /// Whether `over` sets something, and the family has all that it sets.
@@ -78,17 +95,17 @@ pub struct Families {
 }
 
 impl Families {
-    /// The family of `group` under the reading `point`, built if it was not yet.
+    /// The family of `group` at the point `at` of the sweeps, under the reading `point`, built if it was not yet.
     ///
     /// # Errors
     /// Those of [`Group::family`].
     pub fn of(
         &mut self,
-        group: &Group,
+        (group, at): (&Group, &SweepPoint),
         point: &Interpretation,
         inputs: &Inputs,
     ) -> Result<Arc<dyn Family>, StudyError> {
-        let settings = group.settings_under(point);
+        let settings = group.settings_under(at, point);
         let is_it = |(entry, table, _): &&(&'static Entry, Table, Arc<dyn Family>)| {
             std::ptr::eq(*entry, group.family) && table == settings.table()
         };

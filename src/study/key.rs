@@ -39,11 +39,14 @@ impl PartialOrd for ReadingKey {
     }
 }
 
-/// What names a prepared object: a draw of a problem group under a reading.
+/// What names a prepared object: an instance of a problem group, at a point of the sweeps over its settings, under a reading.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct DrawKey {
     /// The problem group's label.
     pub group: Text,
+    /// The values of the sweeps over its settings; empty without such sweeps.
+    #[serde(default, skip_serializing_if = "SweepKey::is_empty")]
+    pub sweep: SweepKey,
     /// Which independent draw of the group: the unit of replication.
     pub draw: u32,
     /// The reading.
@@ -130,6 +133,27 @@ impl SweepKey {
         Self(values.into())
     }
 
+    /// Whether there are no sweeps.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Its values, and after them those of `other`.
+    #[must_use]
+    pub fn and(&self, other: &Self) -> Self {
+        match (self.is_empty(), other.is_empty()) {
+            (true, _) => other.clone(),
+            (_, true) => self.clone(),
+            _ => Self(self.0.iter().chain(&*other.0).cloned().collect()),
+        }
+    }
+
+    /// What it has after the values of `first`, with which it begins.
+    #[must_use]
+    pub fn after(&self, first: &Self) -> Self {
+        if first.is_empty() { self.clone() } else { Self(self.0[first.0.len()..].into()) }
+    }
+
     /// Each sweep's setting and its value.
     pub fn values(&self) -> &[(Text, SweepValue)] {
         &self.0
@@ -167,7 +191,7 @@ pub struct TrialKey {
     pub query: Option<Text>,
     /// The contender's label, or the variant's in a study that has variants.
     pub contender: Text,
-    /// The sweeps' values.
+    /// The sweeps' values: those over the problem's settings first.
     pub sweep: SweepKey,
     /// Which of the contender's seeds; which finding of a variant, counted from 1.
     pub repeat: u32,
@@ -192,7 +216,9 @@ impl PartialOrd for TrialKey {
 /// The columns of keys that a study adds to those that every study has.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct KeyColumns {
-    /// The setting of each sweep, and the planner or stage whose setting it is.
+    /// Each setting of problems that is swept, and one of its values: the others are of the same kind.
+    pub posed: Vec<(Text, SweepValue)>,
+    /// The setting of each other sweep, and the planner or stage whose setting it is.
     pub sweeps: Vec<(Text, Text)>,
     /// Each reading that touches trials.
     pub readings: Vec<Text>,

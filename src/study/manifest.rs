@@ -9,7 +9,8 @@ use super::checked::Study;
 use super::choice::Interpretation;
 use super::defaults::defaults;
 use super::error::StudyError;
-use super::key::{ReadingKey, Text};
+use super::key::{DrawKey, ReadingKey, Text};
+use super::name;
 use super::runner::{BuiltStudy, SESSION};
 use super::shard::{Portion, Shard};
 use super::store::{Staged, part_path};
@@ -61,7 +62,7 @@ pub struct Manifest {
     /// Where and by what clocks were read.
     #[serde(default, rename = "session")]
     pub sessions: Vec<Session>,
-    /// What each problem group depends on.
+    /// What each problem group depends on, at each point of the sweeps over it.
     pub problems: Hashes,
     /// What each contender depends on.
     pub contenders: Hashes,
@@ -216,9 +217,9 @@ impl Manifest {
         self.readings.iter().position(is_same).filter(|_| are_axes)
     }
 
-    /// What the problem group called `group` depends on under the reading.
-    pub fn problem(&self, reading: &ReadingKey, group: &str) -> Option<&str> {
-        hash_of(&self.problems, group, self.place(reading)?)
+    /// What the problem group of `on` depends on at its point of the sweeps, under its reading.
+    pub fn problem(&self, on: &DrawKey) -> Option<&str> {
+        hash_of(&self.problems, &name::group(&on.group, &on.sweep), self.place(&on.reading)?)
     }
 
     /// What the contender called `label` depends on under the reading.

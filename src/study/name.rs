@@ -40,15 +40,16 @@ impl Names {
         }
     }
 
-    /// `group[/draw][/reading]`.
+    /// `group[/sweep][/draw][/reading]`.
     pub fn prepared(&self, key: &DrawKey) -> String {
         self.problem(key, None) + &self.reading_part(&key.reading)
     }
 
-    /// `group[/draw][/query]`: what is to be solved, whatever the reading.
+    /// `group[/sweep][/draw][/query]`: what is to be solved, whatever the reading.
     pub fn problem(&self, key: &DrawKey, query: Option<&str>) -> String {
         let group = self.groups.get(&*key.group);
-        let mut name = group.map_or_else(|| slug(&key.group), |group| group.slug.clone());
+        let label = group.map_or_else(|| slug(&key.group), |group| group.slug.clone());
+        let mut name = self::group(&label, &key.sweep);
         if group.is_some_and(|group| group.is_numbered) {
             name += &format!("/{}", key.draw);
         }
@@ -58,14 +59,15 @@ impl Names {
         name
     }
 
-    /// `group[/draw][/query]/contender[/sweep][/repeat][/reading]`.
+    /// `group[/sweep][/draw][/query]/contender[/sweep][/repeat][/reading]`: sweeps over settings of the problem, then the others.
     pub fn trial(&self, key: &TrialKey) -> String {
         let mut name = self.problem(&key.on, key.query.as_deref());
         let contender = self.contenders.get(&*key.contender);
         name.push('/');
         name += &contender.map_or_else(|| slug(&key.contender), |contender| contender.slug.clone());
-        if !key.sweep.values().is_empty() {
-            name += &format!("/{}", sweep(&key.sweep));
+        let swept = key.sweep.after(&key.on.sweep);
+        if !swept.is_empty() {
+            name += &format!("/{}", sweep(&swept));
         }
         match (contender.map(|contender| contender.is_numbered), key.repeat) {
             (Some(true), repeat) => name += &format!("/{repeat}"),
@@ -102,6 +104,11 @@ impl Names {
 pub fn choice<'a>(other: impl Iterator<Item = (&'a str, &'a str)>) -> String {
     let parts: Vec<String> = other.map(|(id, option)| format!("{id}={option}")).collect();
     if parts.is_empty() { "default".to_owned() } else { parts.join(",") }
+}
+
+/// What the problem group called `label` is called at a point of the sweeps over it: `label[/setting=value,…]`.
+pub fn group(label: &str, at: &SweepKey) -> String {
+    if at.is_empty() { label.to_owned() } else { format!("{label}/{}", sweep(at)) }
 }
 
 /// `setting=value,…`.
@@ -143,7 +150,7 @@ mod tests {
     fn key(group: &str, draw: u32, corners: &str, contender: &str, repeat: u32) -> TrialKey {
         let options = [("corners", corners), ("ties", "fifo")];
         let reading = ReadingKey::new(options.map(|(id, option)| (id.into(), option.into())).into());
-        let on = Arc::new(DrawKey { group: group.into(), draw, reading });
+        let on = Arc::new(DrawKey { group: group.into(), sweep: SweepKey::default(), draw, reading });
         TrialKey { on, query: None, contender: contender.into(), sweep: SweepKey::default(), repeat }
     }
 

@@ -7,6 +7,7 @@ use super::StudyError;
 use super::clock;
 use super::lock::Lock;
 use super::manifest::{MadeBy, Manifest};
+use super::name;
 use super::runner::BuiltStudy;
 use super::shard::{self, Portion, Shard};
 use super::store::{journal_units, write_first};
@@ -255,7 +256,7 @@ impl Plan {
     fn unit_costs(&self, studies: &[(BuiltStudy<'_>, Manifest)]) -> Vec<u64> {
         let mut costs = Vec::new();
         for (planned, (built, _)) in self.studies.iter().zip(studies) {
-            let cost = |group: &str| planned.cost_ns.get(group).copied().unwrap_or(1);
+            let cost = |group: String| planned.cost_ns.get(&group).copied().unwrap_or(1);
             costs.extend(built.groups_of_units().map(cost));
         }
         costs
@@ -362,13 +363,13 @@ const WARM_NS: u64 = 50_000_000;
 fn costs(built: &BuiltStudy<'_>) -> BTreeMap<String, u64> {
     let mut costs = BTreeMap::new();
     for unit in built.units() {
-        if !costs.contains_key(unit.group.label.as_str()) {
+        let group = name::group(&unit.key.group, &unit.key.sweep);
+        costs.entry(group).or_insert_with(|| {
             let cost = || clock::timed(|| built.run_unit(&unit)).0;
             let first = cost();
             // What is over soon is as much warming up as work: the second time is measured then.
-            let cost = if first < WARM_NS { first.min(cost()) } else { first };
-            costs.insert(unit.group.label.clone(), cost);
-        }
+            if first < WARM_NS { first.min(cost()) } else { first }
+        });
     }
     costs
 }

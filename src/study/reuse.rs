@@ -104,7 +104,7 @@ impl Reusable {
         let mut stored = by_draw(&records.batch);
         for (index, unit) in built.units().iter().enumerate() {
             let reading = &unit.key.reading;
-            let problem = |of: &Manifest| of.problem(reading, &unit.key.group).map(str::to_owned);
+            let problem = |of: &Manifest| of.problem(&unit.key).map(str::to_owned);
             let Some(batch) = stored.remove(&unit.key) else { continue };
             if problem(manifest) != problem(before) || batch.prepared.is_empty() {
                 continue;
@@ -256,8 +256,8 @@ impl<'r, 'a> Gathered<'r, 'a> {
 pub fn moved(manifest: &Manifest, before: &Manifest, old: &Batch, new: &Batch, names: &Names) -> Vec<String> {
     let old: BTreeMap<&TrialKey, &Row> = old.rows.iter().map(|row| (&row.key, row)).collect();
     let unchanged = |row: &&Row| {
-        let (reading, group, label) = (&row.key.on.reading, &row.key.on.group, &row.key.contender);
-        manifest.problem(reading, group) == before.problem(reading, group)
+        let (reading, label) = (&row.key.on.reading, &row.key.contender);
+        manifest.problem(&row.key.on) == before.problem(&row.key.on)
             && manifest.contender(reading, label) == before.contender(reading, label)
     };
     let differs = |row: &&Row| old.get(&row.key).is_some_and(|stored| *stored != *row);

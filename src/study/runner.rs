@@ -1,19 +1,20 @@
 //! Runs a study: units of work in parallel, each kept in the journal as soon as it is done.
 //!
 //! A unit is one prepared object with all its trials, so that parallelism and resume follow what is costly.
-//! Units are numbered by reading, problem group and replicate; results are put together in that order, so the
+//! Units are numbered by reading, problem group, point of the sweeps over it and replicate; results are put together in that order, so the
 //! number of threads and the order of completion change nothing.
 
 mod timed;
 
 use super::checked::Study;
 use super::choice::Interpretation;
+use super::contender::SweepPoint;
 use super::error::StudyError;
 use super::family::Family;
 use super::group::{Families, Group};
 use super::inputs::Inputs;
 use super::key::{DrawKey, ReadingKey, Text, TrialKey};
-use super::name::Names;
+use super::name::{self, Names};
 use super::record::{Batch, Row};
 use super::store::Journal;
 use super::task::Task;
@@ -85,10 +86,10 @@ impl<'a> BuiltStudy<'a> {
     ) -> Result<Self, StudyError> {
         let (mut families, mut entrants, mut built) = (Vec::new(), Vec::new(), Families::default());
         let labels: Vec<Text> = study.contenders.iter().map(|c| c.label.as_str().into()).collect();
-        let sweeps = study.sweep_points();
+        let sweeps = study.contender_points();
         for point in points {
-            let of = |group| built.of(group, point, inputs);
-            families.push(study.groups.iter().map(of).collect::<Result<Vec<_>, _>>()?);
+            let of = |posed| built.of(posed, point, inputs);
+            families.push(study.posed().map(of).collect::<Result<Vec<_>, _>>()?);
             let mut line_up = Vec::new();
             for (contender, label) in study.contenders.iter().zip(&labels) {
                 for sweep in &sweeps {
@@ -109,40 +110,49 @@ impl<'a> BuiltStudy<'a> {
     /// Every unit, in the order of records.
     pub fn units(&self) -> Vec<Unit<'_>> {
         let mut units = Vec::new();
-        let labels: Vec<Text> = self.study.groups.iter().map(|group| group.label.as_str().into()).collect();
+        let posed: Vec<(&Group, Text, &SweepPoint)> =
+            self.study.posed().map(|(group, at)| (group, group.label.as_str().into(), at)).collect();
         for reading in 0..self.points.len() {
-            for (place, label) in labels.iter().enumerate() {
-                for draw in 0..self.study.groups[place].replicates {
-                    let key = DrawKey { group: label.clone(), draw, reading: self.readings[reading].clone() };
-                    units.push(self.unit(key, reading, place));
+            for (place, (group, label, at)) in posed.iter().enumerate() {
+                for draw in 0..group.replicates {
+                    let reading_key = self.readings[reading].clone();
+                    let key =
+                        DrawKey { group: label.clone(), sweep: at.key.clone(), draw, reading: reading_key };
+                    units.push(self.unit(key, group, reading, place));
                 }
             }
         }
         units
     }
 
-    /// The label of each unit's problem group, in the order of records.
-    pub fn groups_of_units(&self) -> impl Iterator<Item = &str> {
-        let groups = || self.study.groups.iter();
-        let of_group = |group: &'a Group| (0..group.replicates).map(move |_| group.label.as_str());
-        self.points.iter().flat_map(move |_| groups().flat_map(of_group))
+    /// What each unit's problem group is called at its point of the sweeps, in the order of records.
+    pub fn groups_of_units(&self) -> impl Iterator<Item = String> {
+        let of_group = |(group, at): (&'a Group, &'a SweepPoint)| {
+            vec![name::group(&group.label, &at.key); group.replicates as usize]
+        };
+        self.points.iter().flat_map(move |_| self.study.posed().flat_map(of_group))
     }
 
-    /// The unit called `key`: of the reading and the problem group at these places.
-    fn unit(&self, key: DrawKey, reading: usize, group: usize) -> Unit<'_> {
-        let (family, group) = (self.families[reading][group].as_ref(), &self.study.groups[group]);
+    /// The unit called `key`: of the reading and of the problem group at its point of the sweeps at these places.
+    fn unit<'s>(&'s self, key: DrawKey, group: &'s Group, reading: usize, place: usize) -> Unit<'s> {
         let number = key.draw.to_string();
-        let names: &[&str] = match &group.draw {
-            Some(draw) => &[&self.study.paper, "draw", draw, &number],
-            None => &[&self.study.paper, &self.study.name, "problem", &group.label, &number],
+        let at = name::sweep(&key.sweep);
+        let mut names: Vec<&str> = match &group.draw {
+            // Points of a sweep share the seeds of a group whose instances have a name.
+            Some(draw) => vec![&self.study.paper, "draw", draw],
+            None => vec![&self.study.paper, &self.study.name, "problem", &group.label],
         };
+        if group.draw.is_none() && !at.is_empty() {
+            names.push(&at);
+        }
+        names.push(&number);
         Unit {
             terms: &self.terms,
             group,
-            family,
+            family: self.families[reading][place].as_ref(),
             point: &self.points[reading],
             entrants: self.entrants[reading].iter().collect(),
-            seed: seed::derive(self.study.seed, names),
+            seed: seed::derive(self.study.seed, &names),
             key: Arc::new(key),
             keeps_all: false,
             wanted: None,
@@ -155,24 +165,24 @@ impl<'a> BuiltStudy<'a> {
     /// [`StudyError::Io`] if one has gone.
     pub fn inputs(&self) -> Result<BTreeMap<String, String>, StudyError> {
         let mut all = BTreeMap::new();
-        for reading in 0..self.points.len() {
-            for group in 0..self.study.groups.len() {
-                all.extend(self.inputs_of(reading, group)?);
+        for (reading, families) in self.families.iter().enumerate() {
+            for place in 0..families.len() {
+                all.extend(self.inputs_of(reading, place)?);
             }
         }
         Ok(all)
     }
 
-    /// As [`inputs`](Self::inputs), of one problem group under one reading, both by their places.
+    /// As [`inputs`](Self::inputs), of one problem group at one point of the sweeps under one reading, by their places.
     ///
     /// # Errors
     /// As [`inputs`](Self::inputs).
-    pub fn inputs_of(&self, reading: usize, group: usize) -> Result<BTreeMap<String, String>, StudyError> {
+    pub fn inputs_of(&self, reading: usize, place: usize) -> Result<BTreeMap<String, String>, StudyError> {
         let hash = |path: &PathBuf| {
             let bytes = fs::read(path).map_err(StudyError::io(path, "reading an input file"))?;
             Ok((self.inputs.spelled(path), sha256(&bytes)))
         };
-        self.families[reading][group].inputs().iter().map(hash).collect()
+        self.families[reading][place].inputs().iter().map(hash).collect()
     }
 
     /// The SHA-256 of every file that the contender called `label` depends on under the reading at this place.

@@ -80,7 +80,8 @@ pub struct ProblemsSpec {
     #[schemars(range(min = 1, max = 1_000_000))]
     pub replicates: Option<u32>,
     /// What its draws are called: groups of one paper whose draws have one name get the same seeds, draw by draw, so that
-    /// what their settings do can be compared in pairs. The study and the label if absent.
+    /// what their settings do can be compared in pairs, and so do the points of a sweep over the group. The study, the label
+    /// and the point of the sweep if absent.
     pub draw: Option<String>,
     /// The family's settings.
     #[schemars(with = "AnyTable")]
@@ -121,14 +122,16 @@ pub struct StageSpec {
     pub settings: Option<Spanned<Table>>,
 }
 
-/// A factor that the paper varies.
+/// A factor that the paper varies: a setting of a planner or stage, or of problems.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SweepSpec {
-    /// The setting that it fills, in every planner or stage named by `of`.
+    /// The setting that it fills.
     pub key: Spanned<String>,
-    /// The planner or stage whose setting it is.
-    pub of: Spanned<String>,
+    /// The planner or stage whose setting it is; `problems` stands in its place if it is a setting of problems.
+    pub of: Option<Spanned<String>>,
+    /// The problem groups whose setting it is, by label; `*` at the end of one stands for any ending.
+    pub problems: Option<Spanned<Vec<String>>>,
     /// The values, in the paper's order.
     #[schemars(with = "Vec<AnyValue>")]
     pub values: Spanned<Vec<toml::Value>>,

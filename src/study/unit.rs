@@ -50,7 +50,7 @@ pub struct Unit<'a> {
     pub wanted: Option<BTreeSet<TrialKey>>,
 }
 
-/// A contender at one point of the sweeps, ready to run.
+/// A contender at one point of the sweeps over contenders, ready to run.
 pub struct Entrant<'a> {
     /// The contender.
     pub contender: &'a Contender,
@@ -63,7 +63,7 @@ pub struct Entrant<'a> {
 }
 
 impl Unit<'_> {
-    /// The queries asked of this draw.
+    /// The queries of this instance.
     pub fn queries(&self) -> Vec<Query> {
         self.family.queries_for(self.seed)
     }
@@ -79,7 +79,7 @@ impl Unit<'_> {
             on: self.key.clone(),
             query: query_key(query),
             contender: entrant.label.clone(),
-            sweep: entrant.sweep.key.clone(),
+            sweep: self.key.sweep.and(&entrant.sweep.key),
             repeat,
         }
     }

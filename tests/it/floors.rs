@@ -9,10 +9,10 @@ use std::path::Path;
 const FLOORED: [&str; 3] = ["base", "engine", "replan"];
 
 /// The most lines that a file may have.
-const FILE_LINES: usize = 400;
+const FILE_LINES: usize = 800;
 
 /// The most lines that a function may have, signature and braces included.
-const FUNCTION_LINES: usize = 40;
+const FUNCTION_LINES: usize = 80;
 
 /// Every module of `package` with its floor, 0 at the bottom.
 fn floors(files: &[File], package: &str) -> BTreeMap<String, usize> {
@@ -222,7 +222,7 @@ fn broken_floors_are_noticed_in_a_tree_made_up_for_it() {
 }
 
 #[test]
-fn no_file_is_longer_than_400_lines_and_no_function_than_40() {
+fn no_file_is_longer_than_800_lines_and_no_function_than_80() {
     let mut found = Vec::new();
     for file in files() {
         let lines = file.code.lines().count();

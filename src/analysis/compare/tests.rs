@@ -35,7 +35,12 @@ fn manifest(seed: u64) -> Manifest {
 fn run(seed: u64, group: &str, contender: &str, expansions: &[Option<u64>]) -> StoredRun {
     let mut batch = Batch::default();
     for (draw, count) in (0..).zip(expansions) {
-        let on = Arc::new(DrawKey { group: group.into(), draw, reading: ReadingKey::default() });
+        let on = Arc::new(DrawKey {
+            group: group.into(),
+            sweep: SweepKey::default(),
+            draw,
+            reading: ReadingKey::default(),
+        });
         let (kind, values) = (String::new(), Values::default());
         let drawn = seed::derive(seed, &[&draw.to_string()]);
         batch.prepared.push(PreparedRow { key: on.clone(), kind, seed: drawn, reason: None, values });

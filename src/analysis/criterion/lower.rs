@@ -71,7 +71,7 @@ impl<'a> Lower<'a> {
         let of = Selection::new(context, &settings.of)?;
         of.contender(context)?;
         of.against(context)?;
-        if of.metric.is_none() && of.study.sweeps.is_empty() {
+        if of.metric.is_none() && of.sweep_points().iter().all(|point| point.key.is_empty()) {
             let message = format!("`of` needs a `metric`: study `{}` sweeps nothing", of.study.name);
             return Err(context
                 .settings
@@ -139,7 +139,7 @@ impl<'a> Lower<'a> {
     /// The curve of each draw: how many points more of its queries are solved than by the other, along the sweep. What did not
     /// end is not solved or, if so wanted, is solved on the one side alone.
     fn curves(&self, draws: &[Draw<'_>], unended: [bool; 2]) -> Vec<Vec<f64>> {
-        let points = self.of.study.sweep_points();
+        let points = self.of.sweep_points();
         let is_solved = |row: &Row, unended: bool| row.is_solved() || unended && is_unended(row);
         let at = |draw: &Draw<'_>, point: &SweepPoint| {
             let draw = draw.at(&point.key);
@@ -170,7 +170,7 @@ impl<'a> Lower<'a> {
         let Some(Band { mean, band, .. }) = self.band(&draws, [false; 2]) else {
             return Found::too_few(units, draws.len(), FEWEST_DRAWS);
         };
-        let points = self.of.study.sweep_points();
+        let points = self.of.sweep_points();
         let at = |index: usize| name::sweep(&points[index].key);
         let sign = if self.way == Way::Higher { 1.0 } else { -1.0 };
         let signed = |index: usize| sign * mean[index];

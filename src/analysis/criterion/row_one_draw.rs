@@ -84,7 +84,7 @@ impl<'a> RowOneDraw<'a> {
             let spec = SelectionSpec { contender, against: row.against.clone(), ..settings.of.clone() };
             let of = Selection::new(context, &spec)?;
             let (cells, count) = if row.statistics.is_empty() {
-                let points = of.study.sweep_points();
+                let points = of.sweep_points();
                 let count = points.len();
                 (Cells::Sweep(points), count)
             } else {

@@ -166,7 +166,7 @@ impl Settings {
         let value = parse(text).map_err(|e| self.error(in_words(e.message())))?;
         let mut all = Faults::default();
         for fault in faults(schema, &value) {
-            let (path, is_key) = path_to(&value, &fault.span);
+            let (path, is_key) = path_to(&value, &fault.span).unwrap_or_default();
             let path = path.trim_end_matches('.');
             let sought = if is_key { Sought::Key(path) } else { Sought::Value(path) };
             all.add(self.placed(fault.message, sought));
@@ -261,28 +261,24 @@ fn part_in(table: &Table, path: &str, key: &str) -> bool {
     value.is_some_and(|value| value.get(key).is_some())
 }
 
-/// The keys and numbers of elements that lead to the innermost value around `span`, and whether it is its key that stands there.
-fn path_to(value: &Written<'_>, span: &Range<usize>) -> (String, bool) {
-    let around = |inner: &Range<usize>| inner.start <= span.start && span.end <= inner.end;
-    let step = match value.get_ref() {
-        _ if value.span() == *span => None,
-        DeValue::Table(table) => table
-            .iter()
-            .find(|(key, inner)| around(&key.span()) || around(&inner.span()))
-            .map(|(key, inner)| (key.get_ref().to_string(), inner, key.span() == *span)),
+/// The keys and numbers of elements that lead to what has exactly this span, and whether it is a key.
+fn path_to(value: &Written<'_>, span: &Range<usize>) -> Option<(String, bool)> {
+    if value.span() == *span {
+        return Some((String::new(), false));
+    }
+    let inside = |step: String, inner: &Written<'_>| {
+        path_to(inner, span).map(|(rest, is_key)| (format!("{step}.{rest}"), is_key))
+    };
+    match value.get_ref() {
+        // What stands under a header of its own lies outside the span of its table.
+        DeValue::Table(table) => table.iter().find_map(|(key, inner)| {
+            let step = key.get_ref().to_string();
+            if key.span() == *span { Some((step, true)) } else { inside(step, inner) }
+        }),
         DeValue::Array(array) => {
-            let found = array.iter().enumerate().find(|(_, inner)| around(&inner.span()));
-            found.map(|(index, inner)| (index.to_string(), inner, false))
+            array.iter().enumerate().find_map(|(index, inner)| inside(index.to_string(), inner))
         }
         _ => None,
-    };
-    match step {
-        None => (String::new(), false),
-        Some((step, _, true)) => (step, true),
-        Some((step, inner, false)) => {
-            let (rest, is_key) = path_to(inner, span);
-            (format!("{step}.{rest}"), is_key)
-        }
     }
 }
 

@@ -65,7 +65,8 @@ pub fn scene(evidence: &Evidence<'_>, case: &Case<'_>, inputs: &Inputs) -> Resul
         (None, Some(vertices)) => (polyhedra(vertices, run.exhibit(on, "bodies_faces")), None),
         (None, None) => return Ok(None),
     };
-    let family = case.group.family(&evidence.point.within(&run.study.choices), inputs)?;
+    let family =
+        case.group.family(case.group.point(&on.sweep), &evidence.point.within(&run.study.choices), inputs)?;
     let lanes: Vec<Lane> = case.rows.iter().filter_map(|row| lane(case, family.as_ref(), row)).collect();
     let floor = match run.exhibit(on, "floor") {
         Some(floor) => floor.values.first().copied(),

@@ -78,7 +78,7 @@ impl CostOverTime {
     fn draws(&self, scene: &Scene<'_>, contender: &str) -> Vec<Vec<Found>> {
         let rows = scene.run.rows(&self.read.problems, contender);
         let of_draw = |rows: &[&Row]| rows.iter().map(|row| self.found(scene, row)).collect();
-        rows.chunk_by(|a, b| a.draw() == b.draw()).map(of_draw).collect()
+        rows.chunk_by(|a, b| a.key.on == b.key.on).map(of_draw).collect()
     }
 
     fn all(&self, scene: &Scene<'_>) -> Vec<(&String, Vec<Option<Estimate>>)> {

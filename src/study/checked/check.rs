@@ -1,5 +1,6 @@
 //! What is checked of a study whose names were looked up: everything is built once, under every single option.
 
+use super::super::contender::Swept;
 use super::super::error::StudyError;
 use super::super::family::Family;
 use super::super::group::Families;
@@ -8,11 +9,12 @@ use super::super::name;
 use super::super::spec::StudySpec;
 use super::sizes::SWEPT;
 use super::{Contender, Group, Interpretation, Study, Sweep, SweepPoint, labels_of, sweeps_of};
-use base::settings::{Document, Faults, Settings, SettingsError, did_you_mean};
+use base::settings::{Document, Faults, Settings, SettingsError, did_you_mean, none_called};
 use engine::space::WorldKind;
 use engine::space::roadmap::Extent;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::mem::discriminant;
 use std::path::Path;
 use std::sync::Arc;
 use toml::Table;
@@ -41,14 +43,17 @@ impl Study {
             let families = self.check_ends(&points[0], inputs, &mut known, faults)?;
             self.check_sizes(&families, faults);
             check_query_names(&families, faults);
-            let queries =
-                |family: &dyn Family| family.queries().iter().map(|query| query.name.clone()).collect();
-            let named: Vec<(usize, Vec<String>)> =
-                families.iter().map(|(group, family)| (group.place, queries(family.as_ref()))).collect();
-            drop(families);
+            let built: Vec<(String, Arc<dyn Family>)> =
+                families.iter().map(|(group, family)| (group.label.clone(), family.clone())).collect();
             for group in &mut self.groups {
-                let own = named.iter().find(|(place, _)| *place == group.place);
-                group.queries = own.map(|(_, queries)| queries.clone()).unwrap_or_default();
+                for (_, family) in built.iter().filter(|(label, _)| *label == group.label) {
+                    group.is_drawn |= family.draws_ends();
+                    for query in family.queries() {
+                        if !group.queries.contains(&query.name) {
+                            group.queries.push(query.name.clone());
+                        }
+                    }
+                }
             }
         }
         Ok(())
@@ -99,8 +104,8 @@ impl Study {
         faults: &mut Faults,
     ) -> Result<Vec<(&Group, Arc<dyn Family>)>, StudyError> {
         let (mut families, mut posed) = (Vec::new(), BTreeMap::new());
-        for group in &self.groups {
-            let Some(family) = keep(faults, known.of(group, default, inputs))? else { continue };
+        for (group, at) in self.posed() {
+            let Some(family) = keep(faults, known.of((group, at), default, inputs))? else { continue };
             let ends = family.check_ends();
             let of_family = posed.entry(group.family.name).or_insert(ends.clone());
             if ends.is_ok() {
@@ -122,15 +127,15 @@ impl Study {
         faults: &mut Faults,
     ) -> Result<(), StudyError> {
         let mut families: Vec<(&Group, Arc<dyn Family>)> = Vec::new();
-        for group in &self.groups {
-            match keep(faults, known.of(group, point, inputs))? {
+        for (group, at) in self.posed() {
+            match keep(faults, known.of((group, at), point, inputs))? {
                 Some(family) => families.push((group, family)),
-                None => group.check_rest(point, inputs, faults),
+                None => group.check_rest(at, point, inputs, faults),
             }
         }
         let kinds: BTreeSet<_> = families.iter().map(|(_, family)| family.world()).collect();
         for contender in &self.contenders {
-            for sweep in self.sweep_points() {
+            for sweep in self.contender_points() {
                 let Some(pipeline) = faults.keep(contender.pipeline(point, &sweep)) else {
                     contender.check_rest(point, &sweep, faults);
                     continue;
@@ -170,13 +175,15 @@ impl Study {
     fn check_sweeps(&mut self, faults: &mut Faults) {
         let used = self.stage_names();
         let (mut keys, mut kept, mut points) = (BTreeSet::new(), Vec::new(), 1_usize);
-        for (index, sweep) in std::mem::take(&mut self.sweeps).into_iter().enumerate() {
-            let wrong = unnamed(&sweep).or((!keys.insert(sweep.key.clone()))
-                .then_some("is the second over this setting; one is accepted"));
-            if let Some(wrong) = wrong {
+        // Settings of problems that some sweep would have filled.
+        let mut unfilled = BTreeSet::new();
+        for sweep in std::mem::take(&mut self.sweeps) {
+            let is_again = !keys.insert(sweep.key.clone()) && !self.may_share_column(&kept, &sweep);
+            if let Some(wrong) = unnamed(&sweep).or(is_again.then_some(IS_AGAIN)) {
                 let message = format!("sweep `{}` {wrong}", sweep.key);
-                faults.add(self.document.error_at(&format!("sweep.{index}.key"), message));
+                faults.add(self.document.error_at(&format!("sweep.{}.key", sweep.number), message));
                 faults.unread(sweeps_of(&self.name));
+                unfilled.insert(sweep.key);
                 continue;
             }
             points = points.saturating_mul(sweep.values.len());
@@ -184,31 +191,97 @@ impl Study {
                 let message = format!(
                     "the values of the sweeps have {points} combinations; at most {SWEPT} are accepted"
                 );
-                faults.add(self.document.error_at(&format!("sweep.{index}.values"), message));
+                faults.add(self.document.error_at(&format!("sweep.{}.values", sweep.number), message));
                 faults.unread(sweeps_of(&self.name));
                 break;
             }
-            if !used.contains(sweep.of.as_str()) {
-                let hint = did_you_mean(&sweep.of, used.iter().copied());
-                let message = format!(
-                    "sweep `{}` is over `{}`, which no contender uses{hint}; they use {}",
-                    sweep.key,
-                    sweep.of,
-                    Vec::from_iter(used.clone()).join(", ")
-                );
-                faults.add(self.document.error_at(&format!("sweep.{index}.of"), message).about(&sweep.of));
+            match &sweep.of {
+                Swept::Entry(of) if !used.contains(of.as_str()) => {
+                    let hint = did_you_mean(of, used.iter().copied());
+                    let message = format!(
+                        "sweep `{}` is over `{of}`, which no contender uses{hint}; they use {}",
+                        sweep.key,
+                        Vec::from_iter(used.clone()).join(", ")
+                    );
+                    faults.add(
+                        self.document.error_at(&format!("sweep.{}.of", sweep.number), message).about(of),
+                    );
+                }
+                Swept::Entry(_) => {}
+                Swept::Problems(patterns) => {
+                    if !self.names_groups(&sweep, patterns, faults) {
+                        faults.unread(sweeps_of(&self.name));
+                        unfilled.insert(sweep.key.clone());
+                    }
+                    self.check_what_groups_say(&sweep, faults);
+                }
             }
-            self.check_what_sweep_hides(&sweep, index, faults);
+            self.check_what_sweep_hides(&sweep, faults);
             kept.push(sweep);
         }
         self.sweeps = kept;
+        for group in &mut self.groups {
+            group.points = SweepPoint::all(self.sweeps.iter().filter(|sweep| sweep.is_over(&group.label)));
+            let accepts = |key: &&String| group.family.settings.has(key);
+            let lacks = |key: &String| !group.settings.table().contains_key(key);
+            if unfilled.iter().filter(accepts).any(lacks) {
+                // That the setting is missing follows from what was said of the sweep.
+                group.points.clear();
+            }
+        }
+    }
+
+    /// Whether the values of `sweep` can stand in one column with those of the sweeps before it over the same setting.
+    fn may_share_column(&self, before: &[Sweep], sweep: &Sweep) -> bool {
+        let kind = |sweep: &Sweep| sweep.key_values()?.first().map(discriminant);
+        let goes_with = |other: &Sweep| {
+            let is_shared = |group: &Group| sweep.is_over(&group.label) && other.is_over(&group.label);
+            [sweep, other].iter().all(|one| one.entry().is_none())
+                && kind(sweep) == kind(other)
+                && !self.groups.iter().any(is_shared)
+        };
+        before.iter().filter(|other| other.key == sweep.key).all(goes_with)
+    }
+
+    /// Whether each label of a sweep over problems is that of a group; what is not goes to `faults`. That there is no label was
+    /// said when the sweep was read.
+    fn names_groups(&self, sweep: &Sweep, patterns: &[String], faults: &mut Faults) -> bool {
+        let mut all = !patterns.is_empty();
+        for (place, pattern) in patterns.iter().enumerate() {
+            let alone = Sweep { of: Swept::Problems(vec![pattern.clone()]), ..sweep.clone() };
+            if !self.groups.iter().any(|group| alone.is_over(&group.label)) {
+                let known = self.groups.iter().map(|group| group.label.as_str());
+                let message = none_called("problem group", pattern, known);
+                let fault =
+                    self.document.error_at(&format!("sweep.{}.problems.{place}", sweep.number), message);
+                faults.add(fault.about(pattern).about(&labels_of(&self.name)));
+                all = false;
+            }
+        }
+        all
+    }
+
+    /// Refuses a sweep over a setting that a group says itself: it would hide that.
+    fn check_what_groups_say(&self, sweep: &Sweep, faults: &mut Faults) {
+        let value = Table::from_iter([(sweep.key.clone(), toml::Value::Array(Vec::new()))]);
+        for group in self.groups.iter().filter(|group| sweep.is_over(&group.label)) {
+            if !group.settings.hidden_by(&value).is_empty() {
+                let message = format!(
+                    "sweep `{}` would hide that problems `{}` say {}; a group that leaves it out is accepted",
+                    sweep.key,
+                    group.label,
+                    group.settings.table()[&sweep.key]
+                );
+                faults.add(self.document.error_at(&format!("sweep.{}.key", sweep.number), message));
+            }
+        }
     }
 
     /// Refuses a sweep over a setting that contenders differ in: it would make them one.
-    fn check_what_sweep_hides(&self, sweep: &Sweep, index: usize, faults: &mut Faults) {
+    fn check_what_sweep_hides(&self, sweep: &Sweep, faults: &mut Faults) {
         let stages = self.contenders.iter().flat_map(|own| own.stages.iter().map(move |stage| (own, stage)));
         let said: Vec<_> = stages
-            .filter(|(_, stage)| stage.entry.name == sweep.of)
+            .filter(|(_, stage)| sweep.entry() == Some(stage.entry.name))
             .filter_map(|(own, stage)| Some((own, stage.settings.table().get(&sweep.key)?)))
             .collect();
         let Some((first, value)) = said.first() else { return };
@@ -218,7 +291,7 @@ impl Study {
                  contenders agree on is accepted",
                 sweep.key, first.label, other.label
             );
-            faults.add(self.document.error_at(&format!("sweep.{index}.key"), message));
+            faults.add(self.document.error_at(&format!("sweep.{}.key", sweep.number), message));
         }
     }
 
@@ -226,6 +299,10 @@ impl Study {
         self.contenders.iter().flat_map(|c| &c.stages).map(|stage| stage.entry.name).collect()
     }
 }
+
+/// What is wrong with a second sweep over a setting.
+const IS_AGAIN: &str = "is the second over this setting; one is accepted, or one for each of several problem groups, with values of \
+                        one kind";
 
 /// Why records could not name the values of `sweep`, if they could not.
 fn unnamed(sweep: &Sweep) -> Option<&'static str> {

@@ -1,6 +1,6 @@
 //! From a spec to checked types: what is wrong is said with file, line, column, what was found and what is accepted.
 
-use super::super::contender::StageUse;
+use super::super::contender::{StageUse, SweepPoint, Swept};
 use super::super::error::StudyError;
 use super::super::inputs::Inputs;
 use super::super::name::slug;
@@ -86,7 +86,7 @@ impl Study {
             ),
             explore: shared.explore.as_ref().and_then(|explore| explore.study(&name)),
             name,
-            sweeps: spec.sweeps.into_iter().enumerate().map(|(at, spec)| sweep(document, at, spec)).collect(),
+            sweeps: sweeps(spec.sweeps, document, faults),
             choices: Vec::new(),
             leaves_out: Vec::new(),
             budget,
@@ -188,9 +188,31 @@ fn optional(
     table.map_or_else(|| Settings::absent(document, at, whose), |table| Settings::written(document, table))
 }
 
-fn sweep(document: &Arc<Document>, index: usize, spec: SweepSpec) -> Sweep {
-    let place = Place::of_table(document, &["sweep", &index.to_string()]);
-    Sweep { key: spec.key.into_inner(), of: spec.of.into_inner(), values: spec.values.into_inner(), place }
+fn sweeps(specs: Vec<SweepSpec>, document: &Arc<Document>, faults: &mut Faults) -> Vec<Sweep> {
+    let mut sweep = |(number, spec): (usize, SweepSpec)| {
+        let place = Place::of_table(document, &["sweep", &number.to_string()]);
+        let found = match (&spec.of, &spec.problems) {
+            (Some(_), Some(_)) => Some("both `of` and `problems`"),
+            (None, None) => Some("neither `of` nor `problems`"),
+            (None, Some(problems)) if problems.get_ref().is_empty() => Some("no label among its `problems`"),
+            _ => None,
+        };
+        if let Some(found) = found {
+            let message = format!(
+                "sweep `{}` has {found}; `of`, a planner or stage, or `problems`, labels of groups, is accepted",
+                spec.key.get_ref()
+            );
+            faults.add(document.error(spec.key.span(), message));
+        }
+        let of = match spec.of.filter(|_| found.is_none()) {
+            Some(of) => Swept::Entry(of.into_inner()),
+            None => Swept::Problems(
+                spec.problems.filter(|_| found.is_none()).map(Spanned::into_inner).unwrap_or_default(),
+            ),
+        };
+        Sweep { key: spec.key.into_inner(), of, number, values: spec.values.into_inner(), place }
+    };
+    specs.into_iter().enumerate().map(&mut sweep).collect()
 }
 
 fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, SettingsError> {
@@ -210,7 +232,9 @@ fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, Setting
         draw: spec.draw.clone(),
         is_numbered: replicates > 1,
         settings: settings.completed(family.settings),
+        points: vec![SweepPoint::default()],
         queries: Vec::new(),
+        is_drawn: family.is_drawn,
     })
 }
 

@@ -53,7 +53,7 @@ impl Study {
     }
 
     fn check_trials(&self, families: &[(&Group, Arc<dyn Family>)], faults: &mut Faults) {
-        let swept = self.sweep_points().len();
+        let swept = self.contender_points().len();
         let each = families
             .iter()
             .map(|(group, family)| f64::from(group.replicates) * family.queries().len().max(1) as f64);

@@ -1,22 +1,26 @@
-//! A planar arm among obstacles, its tip on a lattice, from one start to one goal.
+//! A planar arm among obstacles, its tip on a lattice; start and goal are written, or drawn with each instance.
 
+use super::ends::{Ends, PlaneEnd, is_within};
 use super::{Entry, Family, Query};
 use crate::StudyError;
 use crate::prepared::workspace_map::{self, ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
 use crate::prepared::{Prepared, lattice};
 use crate::verification::ARM_COLUMNS;
+use base::seed::Stream;
 use base::settings::{Accepted, Faults, Settings, SettingsError};
 use engine::kinematics::FARTHEST_CM;
 use engine::kinematics::planar_2r::Planar2r;
 use engine::planner::Invalid;
 use engine::space::{ArmRules, ArmWorld, Obstacle, TipLattice, WorldKind};
+use rand::RngExt as _;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::num::NonZeroU32;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "arm_workspace",
-    about: "a planar arm among obstacles, its tip on a lattice, from one start to one goal",
+    about: "a planar arm among obstacles, its tip on a lattice; start and goal are written, or drawn with each instance",
     revision: 1,
     is_drawn: false,
     prepared: workspace_map::ENTRY.name,
@@ -81,10 +85,14 @@ struct ArmWorkspace {
     shapes_in_turn: Vec<ShapeSetting>,
     /// x and y of the middle of each obstacle.
     obstacles_cm: Vec<[f64; 2]>,
-    /// Absent, as the goal, where the study looks for both.
-    start_cm: Option<[f64; 2]>,
-    /// x and y of the goal; absent where the study looks for it.
-    goal_cm: Option<[f64; 2]>,
+    /// x and y of the start; `drawn` with each instance among free points; or limits within which it is drawn, as
+    /// in `{ x = [0, 9], y = 3 }`. Absent, as the goal, where the study looks for both.
+    start_cm: Option<PlaneEnd<f64>>,
+    /// The goal, written or drawn as a start is.
+    goal_cm: Option<PlaneEnd<f64>>,
+    /// How many queries an instance has, each with ends of its own; 1 if absent.
+    #[schemars(range(max = 10_000))]
+    queries: Option<NonZeroU32>,
     /// Which of the two ends a search begins at.
     #[serde(default)]
     direction: Direction,
@@ -127,12 +135,12 @@ impl ArmWorkspace {
         let lattice = TipLattice::new(self.x_cm, self.y_cm, self.step_cm)
             .map_err(|(key, message)| settings.error_at(key, message));
         let (arm, lattice) = (faults.keep(arm), faults.keep(lattice));
-        let queries = faults.keep(self.queries(settings));
+        let ends = faults.keep(self.ends(settings));
         let obstacles =
             faults.keep(self.obstacles().map_err(|(key, message)| settings.error_at(&key, message)));
         let limit = self.q2_limit_rad().map_err(|message| settings.error_at("theta2_limit_deg", message));
-        let (limit, posed) = (faults.keep(limit), arm.zip(lattice).zip(queries).zip(obstacles));
-        let ((((arm, lattice), queries), obstacles), q2_limit_rad) = faults.or(posed.zip(limit))?;
+        let (limit, posed) = (faults.keep(limit), arm.zip(lattice).zip(ends).zip(obstacles));
+        let ((((arm, lattice), ends), obstacles), q2_limit_rad) = faults.or(posed.zip(limit))?;
         let rules = ArmRules {
             arm,
             q2_limit_rad,
@@ -148,22 +156,32 @@ impl ArmWorkspace {
             (Err(error), BlockedEnds::Refused) => return Err(error),
             (found, _) => found.err().map(|error| Invalid(error.to_string())),
         };
-        Ok(Posed { rules, obstacles, queries, goal_cm: self.goal_cm, blocked })
+        let goal_cm = match self.goal_cm {
+            Some(PlaneEnd::Written(goal)) => Some(goal),
+            _ => None,
+        };
+        Ok(Posed { rules, obstacles, ends, goal_cm, blocked })
     }
 
-    /// The query from the start to the goal; none where the study looks for both.
-    fn queries(&self, settings: &Settings) -> Result<Vec<Query>, SettingsError> {
-        match (self.start_cm, self.goal_cm) {
+    /// The queries from the start to the goal; `None` where the study looks for both.
+    fn ends(&self, settings: &Settings) -> Result<Option<Ends>, SettingsError> {
+        match (&self.start_cm, &self.goal_cm) {
             (Some(start), Some(goal)) => {
+                let whole = [self.x_cm, self.y_cm];
+                let mut faults = Faults::default();
+                let start = faults.keep(start.place(settings, "start_cm", whole));
+                let goal = faults.keep(goal.place(settings, "goal_cm", whole));
+                let (start, goal) = faults.or(start.zip(goal))?;
                 let [start, goal] = match self.direction {
                     Direction::StartToGoal => [start, goal],
                     Direction::GoalToStart => [goal, start],
                 };
-                let query = Query { name: String::new(), start: start.to_vec(), goal: goal.to_vec() };
-                query.leads_away().map_err(|message| settings.error_at("goal_cm", message))?;
-                Ok(vec![query])
+                Ends::new(start, goal, self.queries, |key, message| {
+                    settings.error_at(if key == "goal" { "goal_cm" } else { key }, message)
+                })
+                .map(Some)
             }
-            (None, None) => Ok(Vec::new()),
+            (None, None) => Ok(None),
             (start, _) => {
                 let (given, missing) =
                     if start.is_some() { ("start_cm", "goal_cm") } else { ("goal_cm", "start_cm") };
@@ -183,9 +201,11 @@ impl ArmWorkspace {
 
     fn check_ends(&self, world: &ArmWorld, settings: &Settings) -> Result<(), SettingsError> {
         let mut faults = Faults::default();
-        for (what, key, point) in [("start", "start_cm", self.start_cm), ("goal", "goal_cm", self.goal_cm)] {
-            let free = point.map_or(Ok(0), |point| world.free_cell(what, &point));
-            faults.keep(free.map_err(|message| settings.error_at(key, message)));
+        for (what, key, end) in [("start", "start_cm", &self.start_cm), ("goal", "goal_cm", &self.goal_cm)] {
+            if let Some(PlaneEnd::Written(point)) = end {
+                let free = world.free_cell(what, point);
+                faults.keep(free.map_err(|message| settings.error_at(key, message)));
+            }
         }
         faults.done()
     }
@@ -217,10 +237,28 @@ impl ArmWorkspace {
 struct Posed {
     rules: ArmRules,
     obstacles: Vec<Obstacle>,
-    queries: Vec<Query>,
+    /// `None` where the study looks for start and goal.
+    ends: Option<Ends>,
+    /// The goal, if it is written.
     goal_cm: Option<[f64; 2]>,
     /// Why the problem cannot be posed.
     blocked: Option<Invalid>,
+}
+
+impl Posed {
+    fn arm_world(&self) -> ArmWorld {
+        ArmWorld::new(self.rules, self.obstacles.clone())
+    }
+
+    fn drawn(&self, world: &ArmWorld, seed: u64) -> Result<Vec<Query>, Invalid> {
+        let draw = |stream: &mut Stream, limits: &[[f64; 2]]| {
+            let cell = stream.random_range(0..world.grid().cell_count());
+            let point = world.rules().lattice.point(cell);
+            let point = vec![point.x, point.y];
+            (is_within(&point, limits) && world.grid().is_free(cell)).then_some(point)
+        };
+        self.ends.as_ref().map_or(Ok(Vec::new()), |ends| ends.drawn(seed, draw))
+    }
 }
 
 impl Family for Posed {
@@ -228,16 +266,26 @@ impl Family for Posed {
         WorldKind::Arm
     }
 
-    fn prepare(&self, _seed: u64) -> Result<Prepared, Invalid> {
+    fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
         if let Some(blocked) = &self.blocked {
             return Err(blocked.clone());
         }
-        let world = ArmWorld::new(self.rules, self.obstacles.clone());
+        let world = self.arm_world();
+        self.drawn(&world, seed)?;
         Ok(workspace_map::prepare(world, self.goal_cm))
     }
 
     fn queries(&self) -> &[Query] {
-        &self.queries
+        self.ends.as_ref().map_or(&[], Ends::queries)
+    }
+
+    fn queries_for(&self, seed: u64) -> Vec<Query> {
+        let drawn = self.draws_ends().then(|| self.drawn(&self.arm_world(), seed).ok()).flatten();
+        drawn.unwrap_or_else(|| self.queries().to_vec())
+    }
+
+    fn draws_ends(&self) -> bool {
+        self.ends.as_ref().is_some_and(Ends::are_drawn)
     }
 }
 

@@ -5,13 +5,14 @@ mod picture;
 
 pub use groups::GROUPS_FILE;
 
+use super::ends::{Ends, SpaceLimits, is_within};
 use super::input::{input, load_robot};
 use super::{Entry, Family, Query, Stance};
 use crate::prepared::Prepared;
 use crate::prepared::nested_roadmap::{self, Neighbours};
 use crate::verification::roadmap::ARM_COLUMNS;
 use crate::{Inputs, StudyError};
-use base::seed;
+use base::seed::{self, Stream};
 use base::settings::{Accepted, Document, Faults, Settings, SettingsError};
 use engine::kinematics::ik::Branch;
 use engine::kinematics::{AXES, FARTHEST_MM, Joints, Robot};
@@ -24,6 +25,7 @@ use rand::RngExt as _;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 
 /// The registry's entry.
@@ -80,8 +82,13 @@ struct CellQueries {
     /// Instead of the robot file's tool.
     #[schemars(range(min = 0, max = FARTHEST_MM))]
     tool_mm: Option<f64>,
-    /// The file with the groups of poses that are started from and planned to.
-    queries: String,
+    /// The file with the groups of poses that are started from and planned to; or how many queries are drawn with
+    /// each instance, from and to free configurations of the region.
+    queries: Queries,
+    /// Where the tip is at a start that is drawn, as in `{ x = [0, 500], z = [300, 900] }`; anywhere if absent.
+    start_mm: Option<SpaceLimits>,
+    /// Where the tip is at a goal that is drawn; anywhere if absent.
+    goal_mm: Option<SpaceLimits>,
     /// How many samples the roadmap is built from.
     #[schemars(range(min = 1, max = 100_000))]
     samples: u32,
@@ -126,6 +133,16 @@ struct CellQueries {
     end: EndSetting,
     /// The tool's speed; without it the path has no time.
     speed: Option<SpeedSetting>,
+}
+
+/// Where queries come from.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "a file of groups, or how many queries are drawn, is accepted")]
+enum Queries {
+    /// A file.
+    File(String),
+    /// So many are drawn.
+    Drawn(#[schemars(range(max = 10_000))] NonZeroU32),
 }
 
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
@@ -214,6 +231,19 @@ impl CellQueries {
         scene.map_err(|message| settings.error_at("heights_mm", message))
     }
 
+    /// How queries are drawn, if they are.
+    fn drawn(&self, settings: &Settings) -> Result<Option<Ends>, SettingsError> {
+        let count = match &self.queries {
+            Queries::File(_) => None,
+            Queries::Drawn(count) => Some(*count),
+        };
+        if count.is_some() && matches!(self.region, Region::OneBranch | Region::AroundPoses) {
+            let message = "region goes by the poses of queries that a file holds; full or front is accepted where they are drawn";
+            return Err(settings.error_at("region", message));
+        }
+        Ends::of_tips(settings, count, [&self.start_mm, &self.goal_mm])
+    }
+
     /// The robot in `file`, with the tool that is asked for.
     fn robot(&self, settings: &Settings, file: &Path) -> Result<Robot, SettingsError> {
         let robot = load_robot(settings, file)?;
@@ -253,6 +283,8 @@ struct Posed {
     bounds_rad: [[f64; 2]; AXES],
     branch: Option<Branch>,
     queries: Vec<Query>,
+    /// How queries are drawn, if they are.
+    drawn: Option<Ends>,
     ends: Result<(), SettingsError>,
     inputs: Vec<PathBuf>,
 }
@@ -267,23 +299,48 @@ impl Posed {
         let robot =
             faults.keep(input(settings, inputs, "robot", &read.robot, |file| read.robot(settings, file)));
         let scene = faults.keep(input(settings, inputs, "scene", &read.scene, Scene::load));
-        let placed = faults.keep(input(settings, inputs, "queries", &read.queries, |file| {
-            let document = Document::open(file)?;
-            Ok((read_queries(&document)?, document))
-        }));
-        let all = robot.zip(scene).zip(placed);
-        let (((robot_file, robot), (scene_file, scene)), (queries_file, (placed, document))) =
-            faults.or(all)?;
-        let files = [robot_file, scene_file, queries_file];
+        let drawn = faults.keep(read.drawn(settings));
+        let placed = match &read.queries {
+            Queries::Drawn(_) => None,
+            Queries::File(file) => faults.keep(input(settings, inputs, "queries", file, |file| {
+                let document = Document::open(file)?;
+                Ok((read_queries(&document)?, document))
+            })),
+        };
+        let all = robot.zip(scene).zip(drawn);
+        let (((robot_file, robot), (scene_file, scene)), drawn) = faults.or(all)?;
         let scene = read.furnished(settings, scene)?;
         let cell = Cell::new(robot, scene, read.self_collision);
-        let ends = posed(&cell, &document, &placed);
-        let (queries, _) = placed;
+        let mut inputs = vec![robot_file, scene_file];
+        let (queries, ends) = match placed {
+            Some((file, (placed, document))) => {
+                inputs.push(file);
+                let ends = posed(&cell, &document, &placed);
+                (placed.0, ends)
+            }
+            None => (drawn.iter().flat_map(Ends::queries).cloned().collect(), Ok(())),
+        };
         let bounds_rad = bounds_rad(&cell, &read, &queries);
-        let home: Joints = queries[0].start.as_slice().try_into().expect("a pose has six angles");
-        let branch = (read.region == Region::OneBranch).then(|| cell.robot().arm().branch_of(&home));
-        let inputs = files.into_iter().chain(cell.robot().files().iter().cloned()).collect();
-        Ok(Self { read, near, cell, bounds_rad, branch, queries, ends, inputs })
+        let branch = (read.region == Region::OneBranch).then(|| {
+            let home: Joints = queries[0].start.as_slice().try_into().expect("a pose has six angles");
+            cell.robot().arm().branch_of(&home)
+        });
+        inputs.extend(cell.robot().files().iter().cloned());
+        Ok(Self { read, near, cell, bounds_rad, branch, queries, drawn, ends, inputs })
+    }
+
+    /// The queries of the instance that belongs to `seed`.
+    fn queries_drawn(&self, seed: u64) -> Result<Vec<Query>, Invalid> {
+        let Some(drawn) = &self.drawn else { return Ok(self.queries.clone()) };
+        drawn.drawn(seed, |stream, limits| {
+            let q = self.draw_configuration(stream);
+            let tip_mm: [f64; 3] = (self.cell.robot().arm().chain().forward(&q).origin * 1e3).into();
+            (is_within(&tip_mm, limits) && self.cell.is_free(&q)).then(|| q.to_vec())
+        })
+    }
+
+    fn draw_configuration(&self, stream: &mut Stream) -> Joints {
+        self.bounds_rad.map(|[low, high]| low + (high - low) * stream.random::<f64>())
     }
 
     /// Free configurations, as many as were asked for, and how many draws they took; fewer if the draws run out.
@@ -294,13 +351,12 @@ impl Posed {
             CountedSetting::Accepted => accepted >= wanted as usize || draws / DRAWS_PER_SAMPLE >= wanted,
             CountedSetting::Drawn => draws >= wanted,
         };
-        let mut draw =
-            || -> Joints { self.bounds_rad.map(|[low, high]| low + (high - low) * stream.random::<f64>()) };
         let fits =
             |q: &Joints| self.branch.is_none_or(|branch| self.cell.robot().arm().branch_of(q) == branch);
         while !is_done(samples.len(), draws) {
             // What is drawn beyond the last sample is dropped: the stream serves nothing else.
-            let drawn: [Joints; DRAWN_TOGETHER] = std::array::from_fn(|_| draw());
+            let drawn: [Joints; DRAWN_TOGETHER] =
+                std::array::from_fn(|_| self.draw_configuration(&mut stream));
             for (q, is_free) in drawn.iter().zip(self.cell.are_free(&drawn)) {
                 if is_done(samples.len(), draws) {
                     break;
@@ -352,6 +408,7 @@ impl Family for Posed {
     }
 
     fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
+        let queries = self.queries_drawn(seed)?;
         let (samples, draws) = self.samples(seed);
         let counted = match self.read.counted {
             CountedSetting::Accepted => Counted::Accepted,
@@ -369,12 +426,20 @@ impl Family for Posed {
         if let (World::Roadmap(map), Some(unit_mm)) = (&mut prepared.world, self.read.radius_mm) {
             map.set_unit(unit_mm, self.read.times());
         }
-        prepared.exhibits = picture::exhibits(&lines, &self.queries);
+        prepared.exhibits = picture::exhibits(&lines, &queries);
         Ok(prepared)
     }
 
     fn queries(&self) -> &[Query] {
         &self.queries
+    }
+
+    fn queries_for(&self, seed: u64) -> Vec<Query> {
+        self.queries_drawn(seed).unwrap_or_else(|_| self.queries.clone())
+    }
+
+    fn draws_ends(&self) -> bool {
+        self.drawn.is_some()
     }
 
     fn check_ends(&self) -> Result<(), SettingsError> {

@@ -58,6 +58,10 @@ of = [
         read.check(settings)?;
         let families = read.families(settings, inputs)?;
         let planner = read.planner(settings)?;
+        if families.iter().any(|family| family.draws_ends()) {
+            let message = "`of` has families that draw a start or goal; written ones are accepted";
+            return Err(settings.error_at("of", message).into());
+        }
         let queries = families[0].queries().to_vec();
         if queries.len() != 1 || families.iter().any(|family| family.queries() != queries) {
             return Err(settings

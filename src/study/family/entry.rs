@@ -12,15 +12,20 @@ use std::path::PathBuf;
 /// One question asked of a prepared object.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Query {
-    /// Its name within the draw; empty where a draw has one query only.
+    /// Its name within the instance; empty where an instance has one query only.
     pub name: String,
-    /// The start configuration.
+    /// The start configuration; empty where it is drawn with an instance that is not known.
     pub start: Vec<f64>,
-    /// The goal configuration.
+    /// The goal configuration; likewise.
     pub goal: Vec<f64>,
 }
 
 impl Query {
+    /// Its start and its goal.
+    pub(super) fn ends(&self) -> [&[f64]; 2] {
+        [&self.start, &self.goal]
+    }
+
     /// Refuses a goal that is the start, where there is nothing to plan.
     ///
     /// # Errors
@@ -63,13 +68,19 @@ pub trait Family: Send + Sync {
         self.prepare(seed).map(|prepared| prepared.world)
     }
 
-    /// The queries asked of every draw.
+    /// The queries of every instance: their names and, where nothing of them is drawn, their ends.
     fn queries(&self) -> &[Query];
 
-    /// The queries asked of the draw that belongs to `seed`: those of every draw, unless the family draws them too.
+    /// The queries of the instance that belongs to `seed`, of the same names: those of every instance, unless the family draws
+    /// their ends.
     fn queries_for(&self, seed: u64) -> Vec<Query> {
         let _ = seed;
         self.queries().to_vec()
+    }
+
+    /// Whether starts or goals are drawn with each instance.
+    fn draws_ends(&self) -> bool {
+        false
     }
 
     /// That every start and goal written in its settings or files can be stood at.

@@ -1,5 +1,7 @@
-//! One map from a file of any kind, with one start and one goal.
+//! One map from a file of any kind; start and goal are written, or drawn with each instance.
 
+use super::ends::{Ends, PlaneEnd};
+use super::random_maps::{draw_cell, ends_on};
 use super::{Entry, Family, Query};
 use crate::StudyError;
 use crate::prepared::{Prepared, lattice};
@@ -10,12 +12,13 @@ use engine::planner::Invalid;
 use engine::space::{LatticeWorld, WorldKind};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::num::NonZeroU32;
 use std::path::PathBuf;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "grid_map",
-    about: "one map from a file (text, PNG, ROS, Moving AI), one start and one goal",
+    about: "one map from a file (text, PNG, ROS, Moving AI); start and goal are written, or drawn with each instance",
     revision: 1,
     is_drawn: false,
     prepared: lattice::ENTRY.name,
@@ -33,15 +36,16 @@ corner_rule = "allow"
         let (grid, inputs) = read_map(&file).map_err(|e| settings.error_at("map", e.to_string()))?;
         let world = LatticeWorld::new(grid.clone(), read.corner_rule.into());
         let mut faults = Faults::default();
-        for (what, cell) in [("start", read.start), ("goal", read.goal)] {
-            let free = world.free_cell(what, &cell.map(f64::from));
-            faults.keep(free.map_err(|message| settings.error_at(what, message)));
+        for (what, end) in [("start", &read.start), ("goal", &read.goal)] {
+            if let PlaneEnd::Written(cell) = end {
+                let free = world.free_cell(what, &cell.map(f64::from));
+                faults.keep(free.map_err(|message| settings.error_at(what, message)));
+            }
         }
         faults.done()?;
-        let [start, goal] = [read.start, read.goal].map(|cell| cell.map(f64::from).to_vec());
-        let queries = [Query { name: String::new(), start, goal }];
-        queries[0].leads_away().map_err(|message| settings.error_at("goal", message))?;
-        Ok::<Box<dyn Family>, StudyError>(Box::new(Posed { read, grid, queries, inputs }))
+        let size = [grid.width(), grid.height()];
+        let ends = ends_on(settings, size, [&read.start, &read.goal], read.queries)?;
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Posed { corners: read.corner_rule, grid, ends, inputs }))
     },
 };
 
@@ -51,19 +55,29 @@ struct GridMap {
     /// The map file: text (`.` free, `#` blocked), an image (`.png`, `.pgm`: free where it is bright), a ROS map (`.yaml`) or a Moving AI
     /// map (`.map`).
     map: String,
-    /// The column and row of the start cell, counted from 0 at the lower left.
-    start: [u32; 2],
-    /// The column and row of the goal cell, counted from 0 at the lower left.
-    goal: [u32; 2],
+    /// The column and row of the start cell, counted from 0 at the lower left; `drawn` with each instance
+    /// among free cells; or limits within which it is drawn, as in `{ x = [0, 9], y = 3 }`.
+    start: PlaneEnd<u32>,
+    /// The goal cell, written or drawn as a start is.
+    goal: PlaneEnd<u32>,
+    /// How many queries an instance has, each with ends of its own; 1 if absent.
+    #[schemars(range(max = 10_000))]
+    queries: Option<NonZeroU32>,
     /// When a diagonal move past blocked cells is allowed.
     corner_rule: lattice::CornerSetting,
 }
 
 struct Posed {
-    read: GridMap,
+    corners: lattice::CornerSetting,
     grid: Grid2,
-    queries: [Query; 1],
+    ends: Ends,
     inputs: Vec<PathBuf>,
+}
+
+impl Posed {
+    fn drawn(&self, seed: u64) -> Result<Vec<Query>, Invalid> {
+        self.ends.drawn(seed, |stream, limits| draw_cell(&self.grid, stream, limits))
+    }
 }
 
 impl Family for Posed {
@@ -71,12 +85,21 @@ impl Family for Posed {
         WorldKind::Lattice
     }
 
-    fn prepare(&self, _seed: u64) -> Result<Prepared, Invalid> {
-        lattice::prepare(self.grid.clone(), self.read.corner_rule, self.read.start, self.read.goal)
+    fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
+        let queries = self.drawn(seed)?;
+        lattice::prepare(self.grid.clone(), self.corners, queries.iter().map(Query::ends))
     }
 
     fn queries(&self) -> &[Query] {
-        &self.queries
+        self.ends.queries()
+    }
+
+    fn queries_for(&self, seed: u64) -> Vec<Query> {
+        self.drawn(seed).unwrap_or_else(|_| self.queries().to_vec())
+    }
+
+    fn draws_ends(&self) -> bool {
+        self.ends.are_drawn()
     }
 
     fn cells(&self) -> u64 {

@@ -2,6 +2,7 @@
 
 mod picture;
 
+use super::ends::{Ends, SpaceLimits, is_within};
 use super::input::input;
 use super::{Entry, Family, Query, Stance};
 use crate::prepared::Prepared;
@@ -10,7 +11,7 @@ use crate::verification::roadmap::JOINT_COLUMNS;
 use crate::{Inputs, StudyError};
 use base::problem::{Ended, Problem, parse_problem};
 use base::robot::read_urdf;
-use base::seed;
+use base::seed::{self, Stream};
 use base::settings::{Accepted, Document, Faults, Settings, SettingsError};
 use base::solid::{Form, Pose, Solid};
 use engine::geometry::Frame;
@@ -21,6 +22,7 @@ use engine::space::{JointSpace, Support, SupportEntry, WorldKind};
 use rand::RngExt as _;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::num::NonZeroU32;
 use std::path::PathBuf;
 
 /// The registry's entry.
@@ -79,6 +81,13 @@ struct JointQueries {
     /// How far a joint may move between two configurations that are checked.
     #[schemars(range(min = 0.1, max = 180.0))]
     step_deg: f64,
+    /// How many queries are drawn with each instance, between free configurations, in place of the problem file's.
+    #[schemars(range(max = 10_000))]
+    queries: Option<NonZeroU32>,
+    /// Where the tip is at a start that is drawn, as in `{ x = [0, 500], z = [300, 900] }`; anywhere if absent.
+    start_mm: Option<SpaceLimits>,
+    /// Where the tip is at a goal that is drawn; anywhere if absent.
+    goal_mm: Option<SpaceLimits>,
 }
 
 struct Posed {
@@ -88,6 +97,8 @@ struct Posed {
     /// How high the floor is, if there is one.
     floor_m: Option<f64>,
     queries: Vec<Query>,
+    /// How queries are drawn, if they are.
+    drawn: Option<Ends>,
     ends: Result<(), SettingsError>,
     inputs: Vec<PathBuf>,
 }
@@ -112,18 +123,19 @@ impl Posed {
             return Err(document.error(problem.start.at, message));
         }
         let inputs = files.into_iter().chain(robot.files.iter().cloned()).collect();
-        let queries = queries(&problem);
+        let drawn = Ends::of_tips(settings, read.queries, [&read.start_mm, &read.goal_mm])?;
+        let queries = drawn.as_ref().map_or_else(|| queries(&problem), |drawn| drawn.queries().to_vec());
         let support = support(settings, &read.support)?;
         let obstacles = under(&support).into_iter().chain(problem.obstacles.iter().cloned()).collect();
         let space = JointSpace::new(robot, obstacles, read.self_collision, read.step_deg.to_radians());
         let ends =
             std::iter::once(("start", &problem.start)).chain(problem.goals.iter().map(|goal| ("goal", goal)));
         let mut unposed = Faults::default();
-        for (what, end) in ends {
+        for (what, end) in ends.filter(|_| drawn.is_none()) {
             unposed.keep(posed(&space, &document, what, end));
         }
         let floor_m = support.floor_m();
-        Ok(Self { read, near, space, floor_m, queries, ends: unposed.done(), inputs })
+        Ok(Self { read, near, space, floor_m, queries, drawn, ends: unposed.done(), inputs })
     }
 }
 
@@ -171,12 +183,29 @@ fn posed(space: &JointSpace, document: &Document, what: &str, end: &Ended) -> Re
     space.refusal(&end.angles_rad).map_or(Ok(()), |refusal| Err(refused(refusal)))
 }
 
+impl Posed {
+    fn draw_configuration(&self, stream: &mut Stream) -> Vec<f64> {
+        let within = |[low, high]: [f64; 2]| low + (high - low) * stream.random::<f64>();
+        self.space.chain().joints().iter().map(|joint| joint.limits_rad).map(within).collect()
+    }
+
+    fn queries_drawn(&self, seed: u64) -> Result<Vec<Query>, Invalid> {
+        let Some(drawn) = &self.drawn else { return Ok(self.queries.clone()) };
+        drawn.drawn(seed, |stream, limits| {
+            let q = self.draw_configuration(stream);
+            let tip_mm: [f64; 3] = (self.space.chain().forward(&q).origin * 1e3).into();
+            (is_within(&tip_mm, limits) && self.space.is_free(&q)).then_some(q)
+        })
+    }
+}
+
 impl Family for Posed {
     fn world(&self) -> WorldKind {
         WorldKind::Roadmap
     }
 
     fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
+        let queries = self.queries_drawn(seed)?;
         let (mut stream, wanted) = (seed::stream(seed), self.read.samples);
         let (mut samples, mut draws) = (Vec::new(), 0);
         while samples.len() < wanted as usize {
@@ -186,13 +215,7 @@ impl Family for Posed {
                     "{found} of {wanted} free configurations were found in {draws} draws"
                 )));
             }
-            let joints = self.space.chain().joints().iter();
-            let config: Vec<f64> = joints
-                .map(|joint| {
-                    let [low, high] = joint.limits_rad;
-                    low + (high - low) * stream.random::<f64>()
-                })
-                .collect();
+            let config = self.draw_configuration(&mut stream);
             if self.space.is_free(&config) {
                 samples.push(Sample { config, drawn_after: draws });
             }
@@ -200,12 +223,20 @@ impl Family for Posed {
         }
         let local = Local::Joints(Box::new(self.space.clone()));
         let mut prepared = nested_roadmap::prepare(local, samples, draws, self.near, Counted::Accepted);
-        prepared.exhibits = picture::exhibits(&self.space, self.floor_m, &self.queries);
+        prepared.exhibits = picture::exhibits(&self.space, self.floor_m, &queries);
         Ok(prepared)
     }
 
     fn queries(&self) -> &[Query] {
         &self.queries
+    }
+
+    fn queries_for(&self, seed: u64) -> Vec<Query> {
+        self.queries_drawn(seed).unwrap_or_else(|_| self.queries.clone())
+    }
+
+    fn draws_ends(&self) -> bool {
+        self.drawn.is_some()
     }
 
     fn check_ends(&self) -> Result<(), SettingsError> {

@@ -6,6 +6,7 @@
 mod arm_workspace;
 pub(super) mod cell_queries;
 mod conditioned;
+mod ends;
 mod entry;
 mod grid_map;
 mod input;
@@ -15,6 +16,7 @@ pub(super) mod plane_queries;
 mod polyhedra_scene;
 mod random_bars;
 mod random_cells;
+mod random_maps;
 mod random_polyhedra;
 mod random_rectangles;
 

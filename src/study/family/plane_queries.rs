@@ -1,11 +1,12 @@
-//! A particle among polygons, with one start and one goal, on roadmaps drawn from a seed.
+//! A particle among polygons, on roadmaps drawn from a seed; start and goal are written, or drawn too.
 
+use super::ends::{Ends, PlaneEnd};
 use super::{Entry, Family, Query};
 use crate::StudyError;
 use crate::prepared::{Prepared, nested_roadmap};
 use crate::verification::roadmap::PLANE_COLUMNS;
-use base::seed;
-use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
+use base::seed::{self, Stream};
+use base::settings::{Accepted, Document, Faults, Settings, SettingsError, Spanned};
 use engine::geometry::Vec2;
 use engine::geometry::planar::ConvexPolygon;
 use engine::kinematics::FARTHEST_MM;
@@ -15,12 +16,13 @@ use engine::space::roadmap::{Counted, Extent, Local, Near, PlaneMap, Sample};
 use rand::RngExt as _;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::num::NonZeroU32;
 use std::path::PathBuf;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "plane_queries",
-    about: "a particle among polygons, one start and one goal, on roadmaps of free points drawn at random",
+    about: "a particle among polygons, on roadmaps of free points drawn at random; start and goal are written, or drawn too",
     revision: 1,
     is_drawn: true,
     prepared: nested_roadmap::ENTRY.name,
@@ -41,12 +43,26 @@ radius_mm = 220
         };
         let plane = faults.keep(map.plane(&document));
         let plane = faults.or(plane)?;
-        let posed = map.posed(&plane, &document);
-        let goal_at = map.goal_mm.span();
-        let [start, goal] = [map.start_mm, map.goal_mm].map(|point| point.into_inner().to_vec());
-        let queries = [Query { name: String::new(), start, goal }];
-        queries[0].leads_away().map_err(|message| document.error(goal_at, message))?;
-        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn { read, plane, queries, posed, inputs: [file] }))
+        let [start, goal] = [
+            EndOf { what: "start", key: "start_mm", written: &map.start_mm, over: read.start_mm.as_ref() },
+            EndOf { what: "goal", key: "goal_mm", written: &map.goal_mm, over: read.goal_mm.as_ref() },
+        ];
+        let mut unposed = Faults::default();
+        for end in [&start, &goal] {
+            unposed.keep(end.posed(&plane, settings, &document));
+        }
+        let whole = plane.size_mm().map(|side| [0.0, side]);
+        let mut faults = Faults::default();
+        let mut place = |end: &EndOf<'_>| faults.keep(end.end().place(settings, end.key, whole));
+        let (from, to) = (place(&start), place(&goal));
+        let (from, to) = faults.or(from.zip(to))?;
+        let ends = Ends::new(from, to, read.queries, |key, message| match (key, goal.over) {
+            ("goal", None) => document.error(goal.written.span(), message),
+            ("goal", Some(_)) => settings.error_at(goal.key, message),
+            _ => settings.error_at(key, message),
+        })?;
+        let drawn = Drawn { ends, posed: unposed.done(), plane, read, inputs: [file] };
+        Ok::<Box<dyn Family>, StudyError>(Box::new(drawn))
     },
 };
 
@@ -64,6 +80,39 @@ struct PlaneQueries {
     /// How far two samples may be apart to be tried as neighbours.
     #[schemars(range(min = 0.001, max = FARTHEST_MM))]
     radius_mm: f64,
+    /// x and y of the start, in place of the map file's; `drawn` with each instance among free points; or limits
+    /// within which it is drawn, as in `{ x = [0, 90], y = 30 }`.
+    start_mm: Option<PlaneEnd<f64>>,
+    /// The goal, written or drawn as a start is, in place of the map file's.
+    goal_mm: Option<PlaneEnd<f64>>,
+    /// How many queries an instance has, each with ends of its own; 1 if absent.
+    #[schemars(range(max = 10_000))]
+    queries: Option<NonZeroU32>,
+}
+
+/// An end as the map file writes it, and as the settings do in its place.
+struct EndOf<'a> {
+    what: &'static str,
+    key: &'static str,
+    written: &'a Spanned<[f64; 2]>,
+    over: Option<&'a PlaneEnd<f64>>,
+}
+
+impl EndOf<'_> {
+    fn end(&self) -> PlaneEnd<f64> {
+        self.over.cloned().unwrap_or(PlaneEnd::Written(*self.written.get_ref()))
+    }
+
+    /// That the particle can stand there, if it is written.
+    fn posed(&self, plane: &PlaneMap, settings: &Settings, document: &Document) -> Result<(), SettingsError> {
+        let PlaneEnd::Written(at) = self.end() else { return Ok(()) };
+        let Some(refusal) = plane.refusal(at) else { return Ok(()) };
+        let message = format!("the {} cannot be posed: {refusal}", self.what);
+        Err(match self.over {
+            Some(_) => settings.error_at(self.key, message),
+            None => document.error(self.written.span(), message),
+        })
+    }
 }
 
 /// What a file of polygons may hold.
@@ -94,18 +143,6 @@ struct ObstacleEntry {
 }
 
 impl MapFile {
-    /// That the particle can stand at both ends.
-    fn posed(&self, plane: &PlaneMap, document: &Document) -> Result<(), SettingsError> {
-        let mut faults = Faults::default();
-        for (what, end) in [("start", &self.start_mm), ("goal", &self.goal_mm)] {
-            if let Some(refusal) = plane.refusal(*end.get_ref()) {
-                let message = format!("the {what} cannot be posed: {refusal}");
-                faults.add(document.error(end.span(), message));
-            }
-        }
-        faults.done()
-    }
-
     fn plane(&self, document: &Document) -> Result<PlaneMap, SettingsError> {
         let polygon = |entry: &Spanned<ObstacleEntry>| {
             let corners = &entry.get_ref().corners_mm;
@@ -131,9 +168,26 @@ impl MapFile {
 struct Drawn {
     read: PlaneQueries,
     plane: PlaneMap,
-    queries: [Query; 1],
+    ends: Ends,
     posed: Result<(), SettingsError>,
     inputs: [PathBuf; 1],
+}
+
+impl Drawn {
+    /// A free point of the raster within limits, if the one that is drawn is free.
+    fn draw_point(&self, stream: &mut Stream, limits: &[[f64; 2]]) -> Option<Vec<f64>> {
+        let mut coordinate = |axis: usize| {
+            let [low, high] = limits[axis];
+            let range = (low / RASTER_MM).ceil() as u32..=(high / RASTER_MM) as u32;
+            (!range.is_empty()).then(|| f64::from(stream.random_range(range)) * RASTER_MM)
+        };
+        let point = [coordinate(0)?, coordinate(1)?];
+        self.plane.refusal(point).is_none().then(|| point.to_vec())
+    }
+
+    fn drawn(&self, seed: u64) -> Result<Vec<Query>, Invalid> {
+        self.ends.drawn(seed, |stream, limits| self.draw_point(stream, limits))
+    }
 }
 
 impl Family for Drawn {
@@ -142,17 +196,16 @@ impl Family for Drawn {
     }
 
     fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
+        self.drawn(seed)?;
         let mut stream = seed::stream(seed);
         let (mut samples, mut draws) = (Vec::new(), 0);
-        let [columns, rows] = self.plane.size_mm().map(|side| (side / RASTER_MM) as u32);
+        let whole = self.plane.size_mm().map(|side| [0.0, side]);
         while samples.len() < self.read.samples as usize {
             if draws / 1000 > self.read.samples {
                 return Err(Invalid(format!("{} free points were found in {draws} draws", samples.len())));
             }
-            let cell = [stream.random_range(0..=columns), stream.random_range(0..=rows)];
-            let point = cell.map(|count| f64::from(count) * RASTER_MM);
-            if self.plane.refusal(point).is_none() {
-                samples.push(Sample { config: point.to_vec(), drawn_after: draws });
+            if let Some(config) = self.draw_point(&mut stream, &whole) {
+                samples.push(Sample { config, drawn_after: draws });
             }
             draws += 1;
         }
@@ -174,7 +227,15 @@ impl Family for Drawn {
     }
 
     fn queries(&self) -> &[Query] {
-        &self.queries
+        self.ends.queries()
+    }
+
+    fn queries_for(&self, seed: u64) -> Vec<Query> {
+        self.drawn(seed).unwrap_or_else(|_| self.queries().to_vec())
+    }
+
+    fn draws_ends(&self) -> bool {
+        self.ends.are_drawn()
     }
 
     fn check_ends(&self) -> Result<(), SettingsError> {

@@ -36,7 +36,10 @@ queries = [{ start = [4, 5, 6], goal = [56, 54, 50] }]
     build: |settings, _inputs| {
         let read: RandomPolyhedra = settings.read()?;
         read.check(settings)?;
-        let written = read.queries.iter().map(QuerySettings::query).collect();
+        let mut written: Vec<Query> = read.queries.iter().map(QuerySettings::query).collect();
+        // The ends of the one that is drawn are not known here.
+        let drawn = read.drawn.map(|_| Query { name: String::new(), start: Vec::new(), goal: Vec::new() });
+        written.extend(drawn);
         Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn { read, written }))
     },
 };

@@ -1,64 +1,45 @@
-//! Random maps of filled rectangles, with one start and one goal that are always free.
+//! Random maps of filled rectangles.
 
-use super::random_cells::{Drawn, check_range};
-use super::{Entry, Family};
-use crate::StudyError;
-use crate::prepared::lattice;
-use crate::verification::LATTICE_COLUMNS;
-use base::grid::rectangles;
+use super::Entry;
+use super::random_maps::{Framed as _, Obstacles, check_range, entry, settings};
+use base::grid::{Grid2, GridError, rectangles};
 use base::seed::Stream;
-use base::settings::{Accepted, Faults};
-use schemars::JsonSchema;
-use serde::Deserialize;
+use base::settings::{Settings, SettingsError};
 
 /// The registry's entry.
-pub static ENTRY: Entry = Entry {
-    name: "random_rectangles",
-    about: "random maps of filled rectangles that may overlap; start and goal are freed",
-    revision: 1,
-    is_drawn: true,
-    prepared: lattice::ENTRY.name,
-    columns: LATTICE_COLUMNS,
-    settings: Accepted::of::<RandomRectangles>(),
-    example: r#"
-size_cells = [30, 30]
-start = [22, 15]
-goal = [26, 28]
+pub static ENTRY: Entry = entry::<RandomRectangles>(
+    "random_rectangles",
+    "random maps of filled rectangles that may overlap; a written start and goal are freed",
+    r#"
+size_cells = [40, 40]
+start = [2, 3]
+goal = { x = [30, 39], y = [30, 39] }
 count = 8
 side_cells = [2, 5]
 corner_rule = "allow"
 "#,
-    build: |settings, _inputs| {
-        let read: RandomRectangles = settings.read()?;
-        let (count, range) = (read.count, read.side_cells);
-        let mut faults = Faults::default();
-        faults.keep(check_range(settings, "side_cells", range));
-        let draw =
-            move |stream: &mut Stream, size, free: &[u32]| rectangles(stream, size, count, range, free);
-        let longest = read.size_cells[0].max(read.size_cells[1]);
-        let blocked = u64::from(count) * u64::from(range[1].min(longest)).pow(2);
-        let frame = (read.size_cells, read.start, read.goal, read.corner_rule);
-        let drawn = faults.keep(Drawn::new(settings, frame, blocked, draw));
-        Ok::<Box<dyn Family>, StudyError>(Box::new(faults.or(drawn)?))
-    },
-};
+);
 
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct RandomRectangles {
-    /// Columns and rows of the map.
-    #[schemars(inner(range(max = 65_535)))]
-    size_cells: [u32; 2],
-    /// The column and row of the start cell, counted from 0 at the lower left.
-    start: [u32; 2],
-    /// The column and row of the goal cell, counted from 0 at the lower left.
-    goal: [u32; 2],
-    /// When a diagonal move past blocked cells is allowed.
-    corner_rule: lattice::CornerSetting,
+settings!(RandomRectangles {
     /// How many are drawn.
     #[schemars(range(max = 1_000_000))]
     count: u32,
     /// Least and most side.
     #[schemars(inner(range(min = 1, max = 65_535)))]
     side_cells: [u32; 2],
+});
+
+impl Obstacles for RandomRectangles {
+    fn map(&self, stream: &mut Stream, keep_free: &[u32]) -> Result<Grid2, GridError> {
+        rectangles(stream, self.frame().size_cells, self.count, self.side_cells, keep_free)
+    }
+
+    fn blocked(&self) -> u64 {
+        let [width, height] = self.frame().size_cells;
+        u64::from(self.count) * u64::from(self.side_cells[1].min(width.max(height))).pow(2)
+    }
+
+    fn check(&self, settings: &Settings) -> Result<(), SettingsError> {
+        check_range(settings, "side_cells", self.side_cells)
+    }
 }

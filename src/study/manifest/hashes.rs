@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 /// What something depends on, by label: a hash, and the numbers of the readings under which it is that.
 pub type Hashes = BTreeMap<String, BTreeMap<String, Vec<usize>>>;
 
-/// What each problem group of `study` depends on under `points`.
+/// What each problem group of `study`, at each point of the sweeps over it, depends on under `points`.
 pub(super) fn problem_hashes(
     study: &Study,
     points: &[Interpretation],
@@ -19,8 +19,8 @@ pub(super) fn problem_hashes(
 ) -> Result<Hashes, StudyError> {
     let mut hashes = Hashes::new();
     for (reading, point) in points.iter().enumerate() {
-        for (place, group) in study.groups.iter().enumerate() {
-            let settings = group.settings_under(point);
+        for (place, (group, at)) in study.posed().enumerate() {
+            let settings = group.settings_under(at, point);
             // The object's own exhibits are kept for every draw of which anything is.
             let kept: Vec<_> = study.kept().filter(|trials| trials.problems == group.label).collect();
             let text = format!(
@@ -41,7 +41,7 @@ pub(super) fn problem_hashes(
             );
             let also: Vec<u32> = kept.iter().flat_map(|trials| trials.also.iter().copied()).collect();
             let text = if also.is_empty() { text } else { format!("{text} {also:?}") };
-            note(&mut hashes, &group.label, &text, reading);
+            note(&mut hashes, &name::group(&group.label, &at.key), &text, reading);
         }
     }
     Ok(hashes)
@@ -54,7 +54,7 @@ pub(super) fn contender_hashes(
     built: &BuiltStudy<'_>,
 ) -> Result<Hashes, StudyError> {
     let mut hashes = Hashes::new();
-    let sweeps: Vec<SweepPoint> = study.sweep_points();
+    let sweeps: Vec<SweepPoint> = study.contender_points();
     for (reading, point) in points.iter().enumerate() {
         for contender in &study.contenders {
             let mut text = format!("{} {}", contender.label, contender.repeats);

@@ -36,24 +36,28 @@ impl From<CornerSetting> for CornerRule {
     }
 }
 
-/// The lattice of `grid`, for a query from `start` to `goal` ([x, y] in cells).
+/// The lattice of `grid`, for queries from a start to a goal ([x, y] in cells); of a single one the octile distance is noted.
 ///
 /// # Errors
-/// [`Invalid`] if start or goal is outside or blocked.
-pub fn prepare(
+/// [`Invalid`] if a start or goal is outside or blocked.
+pub fn prepare<'q>(
     grid: Grid2,
     corners: CornerSetting,
-    start: [u32; 2],
-    goal: [u32; 2],
+    queries: impl ExactSizeIterator<Item = [&'q [f64]; 2]>,
 ) -> Result<Prepared, Invalid> {
     let mut prepared = prepare_map(grid, corners);
     let world = prepared.world.as_lattice().expect("it was just made of a lattice");
-    for (what, cell) in [("start", start), ("goal", goal)] {
-        world.free_cell(what, &cell.map(f64::from)).map_err(Invalid)?;
+    let is_single = queries.len() == 1;
+    for [start, goal] in queries {
+        for (what, cell) in [("start", start), ("goal", goal)] {
+            world.free_cell(what, cell).map_err(Invalid)?;
+        }
+        if is_single {
+            let [dx, dy] = [0, 1].map(|axis: usize| (start[axis] - goal[axis]).abs());
+            let octile = (dx - dy).abs() + dx.min(dy) * std::f64::consts::SQRT_2;
+            prepared.values.insert("octile_distance_cells", Value::Real(octile));
+        }
     }
-    let [dx, dy] = [0, 1].map(|axis: usize| start[axis].abs_diff(goal[axis]));
-    let octile = f64::from(dx.abs_diff(dy)) + f64::from(dx.min(dy)) * std::f64::consts::SQRT_2;
-    prepared.values.insert("octile_distance_cells", Value::Real(octile));
     Ok(prepared)
 }
 

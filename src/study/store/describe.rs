@@ -68,6 +68,12 @@ fn meaning(name: &str, keys: &KeyColumns) -> Option<(Option<&'static str>, Strin
         return Some((column.unit(), column.about.to_owned()));
     }
     if let Some(setting) = name.strip_prefix(SWEEP) {
+        if keys.posed.iter().any(|(key, _)| **key == *setting) {
+            let about = format!(
+                "value of the setting `{setting}` of the problem, which the study sweeps; null elsewhere"
+            );
+            return Some((None, about));
+        }
         let (_, of) = keys.sweeps.iter().find(|(key, _)| **key == *setting)?;
         return Some((None, format!("value of the setting `{setting}` of `{of}`, which the study sweeps")));
     }

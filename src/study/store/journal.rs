@@ -176,7 +176,8 @@ mod tests {
     fn batch(number: u32) -> Batch {
         let values = vec![f64::from(number) / 3.0, 0.1 + 0.2, f64::MIN_POSITIVE];
         let reading = ReadingKey::new(vec![("corners".into(), "cut".into())]);
-        let of = Owner::Draw(DrawKey { group: "a".into(), draw: number, reading }.into());
+        let sweep = SweepKey::default();
+        let of = Owner::Draw(DrawKey { group: "a".into(), sweep, draw: number, reading }.into());
         let exhibit = Exhibit { name: "path".to_owned(), width: 1, values };
         Batch { kept: vec![Kept { of, exhibit }], ..Batch::default() }
     }

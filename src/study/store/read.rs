@@ -218,14 +218,23 @@ impl Stored {
         }
         let readings = readings.map(ReadingKey::new);
         let numbers = Numbered::new(self.wholes("draw")?.into_iter());
-        let keys = self.full_texts("group")?.with(&numbers).with(&readings);
-        Ok(keys.map(|((group, draw), reading)| draws.shared(DrawKey { group, draw: draw as u32, reading })))
+        // Sweeps over settings of the problem stand before the draw's number.
+        let posed = self.frame.columns().iter().take_while(|column| *column.name() != "draw");
+        let swept =
+            self.sweeps(posed.filter_map(|column| Some((column.name().strip_prefix(SWEEP)?, column))))?;
+        let keys = self.full_texts("group")?.with(&swept).with(&numbers).with(&readings);
+        Ok(keys.map(|(((group, sweep), draw), reading)| {
+            draws.shared(DrawKey { group, sweep, draw: draw as u32, reading })
+        }))
     }
 
-    /// The values of every row's sweeps.
-    fn sweeps(&self) -> Result<Numbered<SweepKey>, StudyError> {
+    /// The values of every row's sweeps that stand in these columns.
+    fn sweeps<'c>(
+        &self,
+        columns: impl Iterator<Item = (&'c str, &'c Column)>,
+    ) -> Result<Numbered<SweepKey>, StudyError> {
         let mut sweeps = Numbered { numbers: vec![0; self.frame.height()], values: vec![Vec::new()] };
-        for (setting, column) in self.named(SWEEP) {
+        for (setting, column) in columns {
             let setting = Text::from(setting);
             sweeps = sweeps.with(&self.sweep(column)?).map(|(mut sweep, value)| {
                 sweep.extend(value.map(|value| (setting.clone(), value)));
@@ -256,7 +265,7 @@ impl Stored {
 
     /// What names each row, a trial or the prepared object itself.
     pub fn owners(&self, draws: &mut Draws) -> Result<Vec<Owner>, StudyError> {
-        let (on, sweep) = (self.draws(draws)?, self.sweeps()?);
+        let (on, sweep) = (self.draws(draws)?, self.sweeps(self.named(SWEEP))?);
         let (query, contender, repeat) =
             (self.texts("query")?, self.texts("contender")?, self.maybe_wholes("repeat")?);
         let owner = |row: usize| {

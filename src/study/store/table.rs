@@ -26,7 +26,7 @@ pub fn trials(rows: &[Row], keys: &KeyColumns, columns: &[&'static str]) -> Data
 
 /// The prepared objects as a frame, with the columns that any of them fills.
 pub fn prepared(rows: &[PreparedRow], keys: &KeyColumns) -> DataFrame {
-    let mut frame = draw_keys(rows, |row| &*row.key);
+    let mut frame = draw_keys(rows, keys, |row| &*row.key);
     frame.extend(reading_keys(rows, keys, |row| &*row.key));
     frame.extend([
         text("kind", rows, |row| Some(row.kind.as_str())),
@@ -108,12 +108,12 @@ fn keys_of<'a, R>(
     get: impl Fn(&'a R) -> (&'a DrawKey, Option<&'a TrialKey>),
 ) -> Vec<Column> {
     let trial = |row: &'a R| get(row).1;
-    let mut frame = draw_keys(rows, |row| get(row).0);
+    let mut frame = draw_keys(rows, keys, |row| get(row).0);
     frame.push(text("query", rows, |row| trial(row)?.query.as_deref()));
     frame.push(text("contender", rows, |row| Some(&*trial(row)?.contender)));
-    for (place, (setting, _)) in keys.sweeps.iter().enumerate() {
-        let cells = rows.iter().map(|row| Some(&trial(row)?.sweep.values().get(place)?.1));
-        let kind = sweep.and_then(|sweep| sweep.values().get(place)).map(|(_, value)| value);
+    for (setting, _) in &keys.sweeps {
+        let cells = rows.iter().map(|row| trial(row)?.sweep.value(setting));
+        let kind = sweep.and_then(|sweep| sweep.value(setting));
         frame.push(sweep_column(&format!("{SWEEP}{setting}"), &cells.collect::<Vec<_>>(), kind));
     }
     frame.extend(reading_keys(rows, keys, |row| get(row).0));
@@ -121,9 +121,16 @@ fn keys_of<'a, R>(
     frame
 }
 
-fn draw_keys<'a, R>(rows: &'a [R], key: impl Fn(&'a R) -> &'a DrawKey) -> Vec<Column> {
-    let group = text("group", rows, |row| Some(&*key(row).group));
-    vec![group, whole("draw", rows, |row| Some(u64::from(key(row).draw)))]
+/// The columns that name a draw but for its reading. Sweeps over settings of the problem stand before its number, all others
+/// after it.
+fn draw_keys<'a, R>(rows: &'a [R], keys: &KeyColumns, key: impl Fn(&'a R) -> &'a DrawKey) -> Vec<Column> {
+    let mut frame = vec![text("group", rows, |row| Some(&*key(row).group))];
+    for (setting, kind) in &keys.posed {
+        let cells: Vec<_> = rows.iter().map(|row| key(row).sweep.value(setting)).collect();
+        frame.push(sweep_column(&format!("{SWEEP}{setting}"), &cells, Some(kind)));
+    }
+    frame.push(whole("draw", rows, |row| Some(u64::from(key(row).draw))));
+    frame
 }
 
 fn reading_keys<'a, R>(rows: &'a [R], keys: &KeyColumns, key: impl Fn(&'a R) -> &'a DrawKey) -> Vec<Column> {

@@ -19,6 +19,7 @@ use std::sync::Arc;
 fn keys() -> KeyColumns {
     let sweeps = ["weight", "samples", "kind", "lazy"];
     KeyColumns {
+        posed: Vec::new(),
         sweeps: sweeps.map(|key| (Text::from(key), Text::from("a_planner"))).into(),
         readings: vec!["corners".into(), "ties".into()],
     }
@@ -27,7 +28,7 @@ fn keys() -> KeyColumns {
 fn on(draw: u32) -> Arc<DrawKey> {
     let option = |id: &str, option: &str| (Text::from(id), Text::from(option));
     let reading = ReadingKey::new(vec![option("corners", "cut"), option("ties", "fifo/lifo,a=b")]);
-    Arc::new(DrawKey { group: "a group".into(), draw, reading })
+    Arc::new(DrawKey { group: "a group".into(), sweep: SweepKey::default(), draw, reading })
 }
 
 fn trial(draw: u32, query: Option<&str>) -> TrialKey {

@@ -28,7 +28,8 @@ pub trait Task: Send + Sync {
     /// something else.
     fn trials(&self, unit: &Unit<'_>) -> Vec<TrialKey> {
         let mut trials = Vec::new();
-        for query in &unit.queries() {
+        // Names alone are asked for: nothing is drawn.
+        for query in unit.family.queries() {
             for entrant in &unit.entrants {
                 trials
                     .extend((0..entrant.contender.repeats).map(|repeat| unit.trial(query, entrant, repeat)));

@@ -173,7 +173,8 @@ impl Sample {
     /// Begins the next draw, of one of the two groups.
     pub fn draw_on(&mut self, group: &str) {
         let draw = self.on.as_ref().map_or(0, |on| on.draw + 1);
-        let key = DrawKey { group: group.into(), draw, reading: ReadingKey::default() };
+        let key =
+            DrawKey { group: group.into(), sweep: SweepKey::default(), draw, reading: ReadingKey::default() };
         self.on = Some(Arc::new(key));
     }
 

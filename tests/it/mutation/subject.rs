@@ -154,9 +154,9 @@ fn files(root: &Path, paper: usize, of: &Paper) -> Vec<File> {
     let default = replan::analysis::evidence::default_point(of);
     for (number, study) in of.studies.iter().enumerate() {
         found.push(file(study.document.path().to_owned(), Role::Study(number)));
-        for group in &study.groups {
-            let family =
-                group.family(&default.for_trials(&study.choices), &inputs(root, &of.folder)).unwrap();
+        for (group, at) in study.posed() {
+            let point = default.for_trials(&study.choices);
+            let family = group.family(at, &point, &inputs(root, &of.folder)).unwrap();
             read.extend(family.inputs().iter().map(|path| (path.clone(), number)));
         }
     }

@@ -90,7 +90,7 @@ fn a_listed_draw_is_what_a_search_finds() {
     let point = crate::Interpretation::new(&study.choices, &BTreeMap::new()).unwrap();
     let mut longest = 0.0_f64;
     for group in &study.groups {
-        let listed = group.family(&point, &inputs).unwrap();
+        let listed = group.family(&group.points[0], &point, &inputs).unwrap();
         let mut table = group.settings.table().clone();
         assert!(table.remove("found").is_some(), "{} lists no draws", group.label);
         let searched = (ENTRY.build)(&Settings::composed("searched", table), &inputs).unwrap();
