@@ -164,15 +164,10 @@ pub fn built<'a>(
         Asked::Rule => ("rule", rule::REGISTRY, rule::find(name)),
         Asked::Decides | Asked::Shown => ("criterion", criterion::REGISTRY, criterion::find(name)),
     };
-    let key = match asked {
-        Asked::Rule => "rule",
-        Asked::Decides => "check",
-        Asked::Shown => "shows",
-    };
     let unknown = || {
         let known = registry.iter().map(|entry| entry.name);
         let message = format!("claim `{}`: {}", context.claim.id, none_called(what, name, known));
-        context.error_at_key([key, name], message)
+        context.error_at_name(asked.key(), name, message)
     };
     (found.ok_or_else(unknown)?.build)(context)
 }

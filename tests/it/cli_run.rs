@@ -230,7 +230,7 @@ fn a_margin_that_moves_after_the_run_is_marked_until_everything_is_run_again() {
     let bench = Bench::new();
     let mark = "claims or margins changed after the run of draws, room; run it again with --fresh";
     assert!(!bench.done(&["repro", "./mini"]).contains(mark));
-    bench.edit("mini/paper.toml", "printed = \"7.83\"", "printed = \"7.84\"");
+    bench.edit("mini/paper.toml", "printed = [\"7.83\"]", "printed = [\"7.84\"]");
     assert!(bench.done(&["repro", "./mini"]).contains(mark), "reuse hid that a claim has changed");
     bench.edit("mini/draws.toml", "replicates = 24", "replicates = 25");
     assert!(bench.done(&["repro", "./mini"]).contains(mark), "24 of 25 units were seen before");
