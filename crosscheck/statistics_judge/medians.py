@@ -107,7 +107,7 @@ def side(asked: Asked, group: str, contender: str, given: float) -> Estimate | N
         asked.paper.metric(of["metric"]).name,
         asked.session,
         given,
-        *map(of.get, NARROWED),
+        *(str(of.get(key)) for key in NARROWED),
     )
     if key not in known:
         known[key] = measured_side(asked, group, contender, of, given)

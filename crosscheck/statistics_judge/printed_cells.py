@@ -170,7 +170,7 @@ def along_sweep(cases: Cases, solved: bool) -> list[Reals]:
     """
     places, names = cases.study.sweep
     found = []
-    for point in cases.sweep_points():
+    for point in cases.points:
         at = places[cases.own] == names.index(point)
         hit = cases.own_solved | (cases.unended & solved)
         found.append(solved_percent(cases.unit[at], hit[at], cases.units))

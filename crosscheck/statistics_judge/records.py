@@ -2,6 +2,7 @@
 
 import gzip
 import itertools
+import operator
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -14,6 +15,8 @@ import numpy.typing as npt
 import pyarrow as pa
 import pyarrow.compute as pc
 import pyarrow.parquet as pq
+
+from statistics_judge.printed_tables import claims_of
 
 Reals = npt.NDArray[np.float64]
 Places = npt.NDArray[np.int64]
@@ -111,6 +114,14 @@ class Study:
     def sweeps(self) -> list[dict[str, Any]]:
         """Its sweeps, those over problems first."""
         return sorted(self.spec.get("sweep", []), key=lambda sweep: "of" in sweep)
+
+    def sweeps_called(self, groups: list[str], written: str | list[str] | None) -> list[str]:
+        """The points of its sweeps on problem groups that meet a condition, or one of several; all without any."""
+        points = self.sweep_points(groups)
+        if written is None:
+            return points
+        texts = [written] if isinstance(written, str) else written
+        return [point for point in points if any(point == text or meets(point, text) for text in texts)]
 
     @cached_property
     def trials(self) -> Table:
@@ -247,6 +258,29 @@ def is_over(sweep: dict[str, Any], group: str) -> bool:
     return any(group.startswith(one[:-1]) if one.endswith("*") else group == one for one in labels)
 
 
+# How a condition on a sweep compares; those that hold others go first.
+COMPARES = {"<=": operator.le, ">=": operator.ge, "<": operator.lt, ">": operator.gt, "=": operator.eq}
+
+
+def meets(point: str, text: str) -> bool:
+    """Whether a point of sweeps meets every condition in a text."""
+    values = dict(part.split("=", 1) for part in point.split(",") if part)
+    for condition in text.split(","):
+        compare = next((one for one in COMPARES if one in condition), None)
+        if compare is None:
+            return False
+        key, wanted = (part.strip() for part in condition.split(compare, 1))
+        if key not in values:
+            return False
+        try:
+            met = COMPARES[compare](float(values[key]), float(wanted))
+        except ValueError:
+            met = "=" in compare and values[key] == wanted
+        if not met:
+            return False
+    return True
+
+
 def spelled(value: object) -> str:
     """A sweep's value as TOML writes it."""
     return str(value).lower() if isinstance(value, bool) else str(value)
@@ -266,7 +300,7 @@ class Paper:
         """Read the specs."""
         self.id = runs.name
         spec = toml(folder / "paper.toml")
-        self.claims: list[dict[str, Any]] = spec.get("claim", [])
+        self.claims: list[dict[str, Any]] = claims_of(spec)
         self.choices: list[dict[str, Any]] = spec.get("choice", [])
         self.stands_for: dict[str, str] = spec.get("explore", {}).get("stands_for", {})
         self.studies = {study.name: study for study in studies(folder, runs)}

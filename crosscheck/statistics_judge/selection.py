@@ -27,6 +27,8 @@ class Cases:
     unit: Places
     group: Places
     all_ends: bool = False
+    # The points of the sweeps that are looked at.
+    points: list[str] = field(default_factory=list)
     # Whether something did not end in units that do not count, as only whole ones do.
     cut_left_out: bool = False
     units: int = field(init=False)
@@ -42,11 +44,6 @@ class Cases:
         self.bases = (
             self.solved_values(self.base) if self.base is not None else np.full(len(self.own), np.nan)
         )
-
-    def sweep_points(self) -> list[str]:
-        """The points of the sweeps on the problem groups of its cases."""
-        groups, names = self.study.trials.words("group")
-        return self.study.sweep_points([names[place] for place in np.unique(groups[self.own])])
 
     def raw(self, metric: Metric) -> Reals:
         """A metric of every case, solved or not."""
@@ -132,6 +129,7 @@ class Cases:
             self.unit[mask],
             self.group[mask],
             self.all_ends,
+            self.points,
         )
 
 
@@ -214,7 +212,9 @@ def select(paper: Paper, of: dict[str, Any], session: int) -> Cases:
     seed = study.repeat[own] if base is None else np.maximum(study.repeat[own], study.repeat[base])
     seed = np.where(np.isin(places, drawn), 0, seed)
     unit = (places * draws + study.draw[own]) * seeds + seed
-    cases = Cases(study, metric, session, against, own, base, unit, places, of.get("all_ends", False))
+    points = study.sweeps_called(groups_of(study, of["problems"]), of.get("sweep"))
+    ends = of.get("all_ends", False)
+    cases = Cases(study, metric, session, against, own, base, unit, places, ends, points)
     if not of.get("whole_draws", False):
         return cases
     unsolved = ~(cases.own_solved & cases.base_solved)
@@ -234,7 +234,11 @@ def posed(
     if metric is not None and metric.clock and timing is not None:
         # The clock is read on the first draws of each group alone.
         kept &= study.draw[rows] < timing["problems"]
-    for wanted, (places, words) in ((of.get("query"), study.query), (of.get("sweep"), study.sweep)):
+    sweeps = None
+    if "sweep" in of:
+        sweeps = study.sweeps_called(groups_of(study, of["problems"]), of["sweep"])
+    query = [of["query"]] if "query" in of else None
+    for wanted, (places, words) in ((query, study.query), (sweeps, study.sweep)):
         if wanted is not None:
-            kept &= places[rows] == (words.index(wanted) if wanted in words else -1)
+            kept &= np.isin(places[rows], [words.index(one) for one in wanted if one in words])
     return rows[kept]

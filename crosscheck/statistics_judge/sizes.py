@@ -180,7 +180,7 @@ def curves(cases: Cases, *, other: bool, own: bool) -> Reals:
     places, names = cases.study.sweep
     assert cases.base is not None
     found = []
-    for point in cases.sweep_points():
+    for point in cases.points:
         at = places[cases.own] == names.index(point)
         solved = [
             cases.ended_as(rows[at], wanted) for rows, wanted in ((cases.own, own), (cases.base, other))

@@ -9,13 +9,14 @@ use super::meaning;
 use super::metric;
 use super::rule;
 use super::settle::{nothing_decides, parts_settle, settles};
+use super::tabulated;
 use super::together::together;
 use super::verdict::{Estimate, Finding, Judged, Verdicts};
 use base::hash::sha256;
 use base::settings::{Faults, SettingsError, none_called};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use study::paper::{Asked, Claim, Paper, Parts, names_of};
+use study::paper::{Asked, Claim, Paper, Parts, PrintedTable, names_of};
 
 /// Builds every criterion and rule of every claim, so that `replan check` finds what is wrong before anything runs.
 ///
@@ -41,6 +42,12 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
         for (asked, name, settings) in claim.asked() {
             let context = Context { claim, settings, paper, point: &point };
             faults.keep(built(asked, name, &context).map(|_| ()));
+        }
+    }
+    for cell in paper.tables.iter().flat_map(PrintedTable::cells) {
+        let claim = cell.claim.as_ref().and_then(|id| paper.claim(id));
+        if let (Some(claim), Some(beside)) = (claim, &cell.beside) {
+            faults.keep(tabulated::selected(paper, (claim, &point), beside).map(drop));
         }
     }
     faults.done()
@@ -149,7 +156,7 @@ fn built<'a>(
     let unknown = || {
         let known = registry.iter().map(|entry| entry.name);
         let message = format!("claim `{}`: {}", context.claim.id, none_called(what, name, known));
-        context.error_at_key([key, name], message)
+        context.error_at_name(key, name, message)
     };
     (found.ok_or_else(unknown)?.build)(context)
 }

@@ -40,21 +40,14 @@ fn audited(digits: paper::Digits) -> Digits {
     }
 }
 
-/// The number of `claim` among those of `paper`, from 0.
-fn place_of(paper: &Paper, claim: &Claim) -> String {
-    let place = paper.claims.iter().position(|own| std::ptr::eq(own, claim) || own.id == claim.id);
-    place.unwrap_or_default().to_string()
-}
-
 /// The number that `claim` prints; none if it prints none.
 ///
 /// # Errors
 /// What it prints is no number that we take, told where it is printed.
 pub fn printed(paper: &Paper, claim: &Claim) -> Result<Option<Printed>, SettingsError> {
     let refused = |e: proofs::printed::NotANumber| {
-        let place = format!("claim.{}.printed", place_of(paper, claim));
         let message = format!("claim `{}`: {e}", claim.id);
-        paper.document.error_at(&place, message).about(&paper::printed_by(&claim.id))
+        paper.document.error_at(&claim.written.printed, message).about(&paper::printed_by(&claim.id))
     };
     claim.printed.as_ref().map(|text| text.parse().map_err(refused)).transpose()
 }
@@ -72,10 +65,13 @@ impl<'a> Context<'a> {
         Ok(Print { printed, digits: audited(digits) })
     }
 
-    /// An error at the key that `steps` lead to in the claim.
-    pub fn error_at_key(&self, steps: [&str; 2], message: String) -> SettingsError {
-        let index = place_of(self.paper, self.claim);
-        self.paper.document.error_at_key(&["claim", &index, steps[0], steps[1]], message)
+    /// An error at the name of a criterion or rule, `name`, that stands under `key` where it is said how the claim is judged.
+    pub fn error_at_name(&self, key: &str, name: &str, message: String) -> SettingsError {
+        let document = &self.paper.document;
+        let layers = self.claim.written.layers.iter();
+        let steps = layers.map(|layer| layer.split('.').chain([key, name]).collect::<Vec<_>>());
+        let mut steps = steps.filter(|steps| document.has(steps));
+        document.error_at_key(&steps.next().unwrap_or_default(), message)
     }
 
     /// That of another claim.
@@ -109,9 +105,10 @@ impl<'a> Context<'a> {
                 self.settings.error_about(within, &STUDY_KEYS, name, none_called("study", name, known));
             error.about(&paper::names_of("study"))
         })?;
-        let known: Vec<&str> = study.contenders.iter().map(|c| c.label.as_str()).collect();
+        let labels = study.labels();
+        let known: Vec<&str> = labels.iter().map(String::as_str).collect();
         let mut faults = Faults::default();
-        // A study that measures without contenders has labels of its task's own.
+        // What the labels of a task are is not known where its settings are wrong.
         for label in contenders.iter().filter(|label| !known.is_empty() && !known.contains(label)) {
             faults.add(self.unknown(within, "contender", &CONTENDER_KEYS, label, (study, &known)));
         }

@@ -10,7 +10,7 @@ use study::contender::SweepPoint;
 use study::key::SweepKey;
 use study::name;
 use study::record::{Row, Status};
-use study::{Study, sweeps_of};
+use study::{Study, labels_of, sweeps_of};
 
 /// A selection whose every name was found.
 #[derive(Clone)]
@@ -27,8 +27,8 @@ pub struct Selection<'a> {
     pub metric: Option<&'static Metric>,
     /// The one query.
     pub query: Option<String>,
-    /// The one point of the sweeps.
-    pub sweep: Option<SweepKey>,
+    /// The points of the sweeps; all if `None`.
+    pub sweep: Option<Vec<SweepKey>>,
     /// Whether only draws count of which everything is solved.
     pub whole_draws: bool,
     /// Whether what ends without a path, or with a refused one, has a number too.
@@ -119,7 +119,8 @@ impl<'a> Selection<'a> {
         if let Some(message) = lacking {
             faults.add(context.settings.error_at("of.query", message));
         }
-        let sweep = of.sweep.as_ref().and_then(|text| faults.keep(sweep_point(context, study, text)));
+        let sweep =
+            of.sweep.as_ref().and_then(|texts| faults.keep(sweep_keys(context, (study, &groups), &texts.listed())));
         if let Some(own) = of.against.as_ref().filter(|against| contenders.contains(against)) {
             let message = format!("`{own}` is held against itself; another contender is accepted");
             faults.add(context.settings.error_at("of.against", message));
@@ -137,10 +138,33 @@ impl<'a> Selection<'a> {
     pub fn contender(&self, context: &Context<'_>) -> Result<&str, SettingsError> {
         match &self.contenders[..] {
             [one] => Ok(one),
+            [] => self.some_contender(context).map(|()| ""),
             all => Err(context
                 .settings
                 .error_at("of.contender", format!("`of` names {} contenders; one is accepted", all.len()))),
         }
+    }
+
+    /// Refuses a selection that names no contender, and so selects nothing.
+    ///
+    /// # Errors
+    /// It names none.
+    pub fn some_contender(&self, context: &Context<'_>) -> Result<(), SettingsError> {
+        if !self.contenders.is_empty() {
+            return Ok(());
+        }
+        let message = format!(
+            "`of` names no contender, so that it selects nothing; study `{}` has {}",
+            self.study.name,
+            self.study.labels().join(", ")
+        );
+        let error = context.settings.error_at("of", message).about("contender");
+        Err(error.about(&labels_of(&self.study.name)))
+    }
+
+    /// Whether it looks at a point of the sweeps.
+    fn is_at(&self, point: &SweepKey) -> bool {
+        self.sweep.as_ref().is_none_or(|wanted| wanted.iter().any(|own| own.is_same(point)))
     }
 
     /// The contender that it is held against.
@@ -169,7 +193,9 @@ impl<'a> Selection<'a> {
 
     /// The points of the sweeps that its trials can have.
     pub fn sweep_points(&self) -> Vec<SweepPoint> {
-        self.study.sweep_points_of(|label| self.groups.iter().any(|group| group == label))
+        let mut points = self.study.sweep_points_of(|label| self.groups.iter().any(|group| group == label));
+        points.retain(|point| self.is_at(&point.key));
+        points
     }
 
     /// The stored run that it looks at.
@@ -252,7 +278,7 @@ impl<'a> Selection<'a> {
         rows.retain(|row| {
             row.status != Status::InvalidProblem
                 && self.query.as_ref().is_none_or(|query| row.query() == query)
-                && self.sweep.as_ref().is_none_or(|sweep| row.key.sweep == *sweep)
+                && self.is_at(&row.key.sweep)
                 && self.is_read(row)
         });
         rows
@@ -284,7 +310,12 @@ impl<'a> Selection<'a> {
         let who = self.contenders.join(", ");
         let against = self.against.as_ref().map_or_else(String::new, |other| format!(" against {other}"));
         let query = self.query.as_ref().map_or_else(String::new, |query| format!(", query {query}"));
-        let at = self.sweep.as_ref().map_or_else(String::new, |key| format!(", {}", name::sweep(key)));
+        let points = self.sweep.iter().flatten().map(name::sweep).collect::<Vec<_>>();
+        let at = match &points[..] {
+            [] => String::new(),
+            [first, _, _, _, .., last] => format!(", {first} to {last}, {} points", points.len()),
+            few => format!(", {}", few.join(" and ")),
+        };
         let ends = if self.all_ends { ", whether a path is found or not" } else { "" };
         format!("{who}{against} on {} of {}{query}{at}{ends}", self.groups_said(), self.study.name)
     }
@@ -297,10 +328,15 @@ impl<'a> Selection<'a> {
     }
 }
 
-fn sweep_point(context: &Context<'_>, study: &Study, text: &str) -> Result<SweepKey, SettingsError> {
-    study
-        .sweep_called(text)
-        .map_err(|message| context.settings.error_at("of.sweep", message).about(&sweeps_of(&study.name)))
+fn sweep_keys(
+    context: &Context<'_>,
+    (study, groups): (&Study, &[String]),
+    texts: &[String],
+) -> Result<Vec<SweepKey>, SettingsError> {
+    study.sweeps_called(groups, texts).map_err(|(place, message)| {
+        let error = context.settings.error_at(&format!("of.sweep.{place}"), message);
+        error.about(&sweeps_of(&study.name))
+    })
 }
 
 impl Draw<'_> {

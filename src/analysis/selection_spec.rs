@@ -20,8 +20,9 @@ pub struct SelectionSpec {
     pub metric: Option<String>,
     /// The one query of each draw that is looked at; all if absent.
     pub query: Option<String>,
-    /// The one point of the study's sweeps, as trials name it: `samples=100`; all if absent.
-    pub sweep: Option<String>,
+    /// The points of the study's sweeps: `samples=100`, a part of them as `samples<=1400` or `samples>200,samples<=1400`, or a list of
+    /// such; all if absent.
+    pub sweep: Option<Labels>,
     /// Only draws count of which everyone who is compared solves every query.
     #[serde(default)]
     pub whole_draws: bool,

@@ -1,14 +1,20 @@
 //! What tables show of the records: statistics over the trials of a row, and what one trial saves of another's.
 
+use super::context::Context;
 use super::evidence::{Evidence, Run};
 use super::metric::{self, Metric};
+use super::selection::Selection;
+use super::selection_spec::SelectionSpec;
 use super::statistic;
+use base::settings::{Settings, SettingsError};
 use engine::space::WorldKind;
+use schemars::JsonSchema;
+use serde::Deserialize;
 use std::collections::BTreeSet;
 use study::paper::results::{BlockSpec, CellSpec, ResultsSpec, Show};
-use study::paper::{OursSpec, TableRow};
+use study::paper::{Claim, Paper};
 use study::record::{PreparedRow, Row};
-use study::{Study, name, recorded_mark};
+use study::{Interpretation, Study, name, recorded_mark};
 
 /// A table of results: its head and, block by block, its rows; a dash where there is nothing.
 pub struct Grid {
@@ -167,31 +173,47 @@ pub fn mean_percent<T>(
     statistic::mean(&draws.iter().filter_map(share).collect::<Vec<f64>>())
 }
 
-/// Of the row of one contender on one problem the value of each column's metric, or the percentage that it saves there of
-/// another contender's; none where it was not measured.
+/// What stands beside a printed number: the first trial of a selection.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Beside {
+    /// The trials; with `against`, what is saved against it in per cent.
+    of: SelectionSpec,
+}
+
+/// The selection whose first trial stands beside what `claim` prints.
 ///
 /// # Errors
-/// What is not stored: a run of the study, a trial, a metric.
-pub fn own_values(
-    evidence: &Evidence<'_>,
-    ours: &OursSpec,
-    row: &TableRow,
-) -> Result<Vec<Option<f64>>, String> {
-    let study = ours.study.get_ref();
-    let run = evidence.run(study).ok_or_else(|| format!("a run of `{study}`"))?;
-    let value = |metric: &str, contender: &String| {
-        let row = run.rows(&ours.problems, contender).into_iter().next();
-        let row = row.ok_or_else(|| format!("`{contender}` on `{}` of `{study}`", ours.problems))?;
-        let metric = evidence.metric(metric).ok_or_else(|| format!("the metric `{metric}`"))?;
-        Ok::<_, String>(run.value(row, metric))
+/// Those of [`Selection::new`]; it names no metric, or not one contender.
+pub fn selected<'a>(
+    paper: &'a Paper,
+    (claim, point): (&'a Claim, &'a Interpretation),
+    beside: &'a Settings,
+) -> Result<Selection<'a>, SettingsError> {
+    let context = Context { claim, settings: beside, paper, point };
+    let of = Selection::new(&context, &beside.read::<Beside>()?.of)?;
+    of.contender(&context)?;
+    of.metric(&context)?;
+    Ok(of)
+}
+
+/// The number of the first trial of `beside`, a table's own selection for the claim called `id`, or what it saves in per cent.
+///
+/// # Errors
+/// What is not stored.
+pub fn beside(evidence: &Evidence<'_>, id: &str, beside: &Settings) -> Result<Option<f64>, String> {
+    let claim = evidence.paper.claim(id).ok_or_else(|| format!("the claim `{id}`"))?;
+    let of = selected(evidence.paper, (claim, &evidence.point), beside).map_err(SettingsError::message)?;
+    let run = of.run(evidence).ok_or_else(|| format!("a run of `{}`", of.study.name))?;
+    let value = |contender: &String| {
+        let row = of.groups.iter().find_map(|group| of.rows(run, group, contender).into_iter().next());
+        let row = row
+            .ok_or_else(|| format!("`{contender}` on `{}` of `{}`", of.groups.join("`, `"), of.study.name))?;
+        Ok::<_, String>(of.metric.and_then(|metric| run.value(row, metric)))
     };
-    let contender = row.contender.as_ref().ok_or_else(|| format!("a contender for `{}`", row.label))?;
-    let cell = |metric: &String| {
-        let own = value(metric, contender)?;
-        let Some(base) = &row.reduced_from else { return Ok(own) };
-        Ok(own.zip(value(metric, base)?).map(|(own, base)| 100.0 * (base - own) / base))
-    };
-    ours.metrics.iter().map(cell).collect()
+    let own = value(&of.contenders[0])?;
+    let Some(base) = &of.against else { return Ok(own) };
+    Ok(own.zip(value(base)?).map(|(own, base)| 100.0 * (base - own) / base))
 }
 
 #[cfg(test)]

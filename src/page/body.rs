@@ -11,7 +11,7 @@ use crate::render::RenderError;
 use crate::render::figure::caption;
 use crate::render::prose::prose;
 use crate::render::tables::{Beside, beside, short};
-use study::paper::TableSpec;
+use study::paper::PrintedTable;
 
 /// What the text is made of.
 pub struct Body<'a> {
@@ -214,7 +214,7 @@ impl Body<'_> {
 
     fn has_tables(&self) -> bool {
         let paper = self.evidence.paper;
-        !paper.results.is_empty() || paper.tables.iter().any(is_beside)
+        !paper.results.is_empty() || paper.tables.iter().any(PrintedTable::has_claims)
     }
 
     fn has_figures(&self) -> bool {
@@ -224,7 +224,7 @@ impl Body<'_> {
     fn tables(&self) -> Result<String, RenderError> {
         let paper = self.evidence.paper;
         let mut text = "<section id=\"tables\"><h2>The paper's tables beside ours</h2>\n".to_owned();
-        for table in paper.tables.iter().filter(|table| is_beside(table)) {
+        for table in paper.tables.iter().filter(|table| table.has_claims()) {
             text += &self.table(table)?;
         }
         for table in &paper.results {
@@ -256,7 +256,7 @@ impl Body<'_> {
     }
 
     /// One of the paper's tables: in each cell what it printed, ours, and the class as a word on its colour.
-    fn table(&self, table: &TableSpec) -> Result<String, RenderError> {
+    fn table(&self, table: &PrintedTable) -> Result<String, RenderError> {
         let columns = cells("th", &table.columns);
         let mut text = format!(
             "<div class=\"wide\"><table class=\"plain\"><caption><span>{}</span></caption><thead><tr><th></th>{columns}</tr></thead><tbody>\n",
@@ -264,7 +264,7 @@ impl Body<'_> {
         );
         for row in &table.rows {
             let shown: String = match beside(self.evidence, table, row, self.verdicts)? {
-                None => cells("td", &row.cells),
+                None => cells("td", &row.cells.iter().map(|cell| cell.printed.clone()).collect::<Vec<_>>()),
                 Some(Beside { printed, ours, classes }) => {
                     let both = printed.iter().zip(&ours).zip(&classes);
                     both.map(|((printed, ours), judged)| cell(printed, ours, *judged)).collect()
@@ -273,9 +273,7 @@ impl Body<'_> {
             text += &format!("<tr><th scope=\"row\">{}</th>{shown}</tr>\n", escaped(&row.label));
         }
         text += "</tbody></table></div>\n";
-        let ours = table.ours.as_ref().map(|ours| &ours.note);
-        let notes: Vec<&str> = table.notes.iter().chain(ours).map(String::as_str).collect();
-        Ok(text + &format!("<p class=\"note\">{}</p>\n", escaped(&notes.join(" "))))
+        Ok(text + &format!("<p class=\"note\">{}</p>\n", escaped(&table.notes.join(" "))))
     }
 
     fn replays(&self) -> String {
@@ -306,11 +304,6 @@ impl Body<'_> {
 fn hangs_on(judged: &Judged) -> Vec<&str> {
     let effects = judged.across.iter().flat_map(|across| &across.effects);
     effects.filter(|(_, of)| of.effect >= Effect::Opens).map(|(axis, _)| axis.as_str()).collect()
-}
-
-/// Whether ours stands beside what the table prints.
-fn is_beside(table: &TableSpec) -> bool {
-    table.rows.iter().any(|row| !row.claims.is_empty())
 }
 
 /// Each of `texts` as a cell.

@@ -5,9 +5,9 @@ use super::prose::{markdown as safe, number};
 use super::{RenderError, marks};
 use crate::analysis::class::Verdict;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::tabulated::own_values;
+use crate::analysis::tabulated;
 use crate::analysis::verdict::{Estimate, Judged, Verdicts};
-use study::paper::{Paper, TableRow, TableSpec};
+use study::paper::{Claim, Paper, PrintedRow, PrintedTable};
 
 /// What a row of one of the paper's tables shows: in each column what it printed, ours, and the class with its claim.
 pub struct Beside<'a> {
@@ -25,40 +25,41 @@ pub struct Beside<'a> {
 /// [`RenderError::NotStored`] if ours was not stored.
 pub fn beside<'a>(
     evidence: &Evidence<'_>,
-    table: &TableSpec,
-    row: &TableRow,
+    table: &PrintedTable,
+    row: &PrintedRow,
     verdicts: &'a Verdicts,
 ) -> Result<Option<Beside<'a>>, RenderError> {
-    if row.claims.is_empty() {
+    if row.cells.iter().all(|cell| cell.claim.is_none()) {
         return Ok(None);
     }
-    let classes: Vec<Option<&Judged>> =
-        row.claims.iter().map(|claim| verdicts.claim(claim.get_ref())).collect();
-    let printed = classes.iter().map(|judged| judged.and_then(|judged| judged.printed.clone()));
-    let estimate = |judged: Option<&Judged>| {
-        let ours = judged.and_then(Judged::ours)?;
-        Some(rounded(ours, table.decimals.unwrap_or(2)))
-    };
-    let ours: Vec<Option<String>> = match &table.ours {
-        Some(ours) => {
-            let own = own_values(evidence, ours, row).map_err(|what| RenderError::NotStored { what })?;
-            let shown = |value: f64| {
-                if row.reduced_from.is_some() { format!("{value:.2}") } else { number(value) }
-            };
-            own.into_iter().map(|value| value.map(shown)).collect()
-        }
-        None => classes.iter().copied().map(estimate).collect(),
-    };
-    let or_dash = |cell: Option<String>| cell.unwrap_or_else(dash);
-    let (printed, ours) = (printed.map(or_dash).collect(), ours.into_iter().map(or_dash).collect());
-    Ok(Some(Beside { printed, ours, classes }))
+    let mut found = Beside { printed: Vec::new(), ours: Vec::new(), classes: Vec::new() };
+    for cell in &row.cells {
+        let judged = cell.claim.as_ref().and_then(|claim| verdicts.claim(claim));
+        let ours = match (&cell.claim, &cell.beside) {
+            (Some(claim), Some(settings)) => {
+                let own = tabulated::beside(evidence, claim, settings);
+                let own = own.map_err(|what| RenderError::NotStored { what })?;
+                let is_saving = settings.table()["of"].get("against").is_some();
+                own.map(|value| if is_saving { format!("{value:.2}") } else { number(value) })
+            }
+            _ => judged.and_then(Judged::ours).map(|ours| rounded(ours, table.decimals)),
+        };
+        found.printed.push(cell.printed.clone());
+        found.ours.push(ours.unwrap_or_else(dash));
+        found.classes.push(judged);
+    }
+    Ok(Some(found))
 }
 
 /// `table` in LaTeX: for each of its rows the printed numbers, ours with their intervals, and the verdicts.
 ///
 /// # Errors
 /// Those of [`Table::latex`]; none for a checked paper.
-pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) -> Result<String, RenderError> {
+pub fn table(
+    evidence: &Evidence<'_>,
+    table: &PrintedTable,
+    verdicts: &Verdicts,
+) -> Result<String, RenderError> {
     let paper = evidence.paper;
     let mut columns = vec![Column::Left, Column::Left];
     columns.extend(table.columns.iter().map(|_| Column::Right));
@@ -74,7 +75,7 @@ pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) ->
     latex.head(line("", "", &table.columns));
     for row in &table.rows {
         let Some(beside) = beside(evidence, table, row, verdicts)? else {
-            latex.row(line(&row.label, "", &row.cells));
+            latex.row(line(&row.label, "", &printed(row)));
             continue;
         };
         latex.row(line(&row.label, "printed", &beside.printed));
@@ -84,27 +85,32 @@ pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) ->
         let mut classes =
             line("", "verdict", &beside.classes.iter().copied().map(outcome).collect::<Vec<_>>());
         for (cell, judged) in classes.iter_mut().skip(2).zip(&beside.classes) {
-            let said = granted(table, *judged, verdicts);
+            let said = granted(paper, *judged, verdicts);
             if !said.is_empty() {
                 latex.footnote(cell, said.join(" "));
             }
         }
         latex.row(classes);
     }
-    let ours = table.ours.as_ref().map(|ours| &ours.note);
-    for note in table.notes.iter().chain(ours).chain(&marks(paper, verdicts)) {
+    for note in table.notes.iter().chain(&marks(paper, verdicts)) {
         latex.note(note);
     }
     latex.latex(&made(paper, &table.id, verdicts))
 }
 
-/// What the proofs of a cell's class take for granted, those of the cells that it is met together with among them.
-fn granted(table: &TableSpec, judged: Option<&Judged>, verdicts: &Verdicts) -> Vec<String> {
-    let jointly = table.jointly.iter().filter(|together| {
-        together.cells.iter().any(|cell| judged.is_some_and(|judged| judged.claim == *cell.get_ref()))
-    });
-    let jointly = jointly.filter_map(|together| verdicts.claim(together.claim.get_ref()));
-    judged.into_iter().chain(jointly).filter_map(premises).collect()
+/// What stands in a row of the paper's.
+fn printed(row: &PrintedRow) -> Vec<String> {
+    row.cells.iter().map(|cell| cell.printed.clone()).collect()
+}
+
+/// What the proofs of a cell's class take for granted, those of claims that are no cells and speak of its number among them.
+fn granted(paper: &Paper, judged: Option<&Judged>, verdicts: &Verdicts) -> Vec<String> {
+    let Some(judged) = judged else { return Vec::new() };
+    let speaks = |claim: &&Claim| {
+        claim.printed.is_none() && claim.asked().any(|(.., settings)| settings.names(&judged.claim))
+    };
+    let beside = paper.claims.iter().filter(speaks).filter_map(|claim| verdicts.claim(&claim.id));
+    std::iter::once(judged).chain(beside).filter_map(premises).collect()
 }
 
 /// `table` in Markdown. Up to two columns stand side by side, each as printed, ours and class; more stand one line above
@@ -114,12 +120,13 @@ fn granted(table: &TableSpec, judged: Option<&Judged>, verdicts: &Verdicts) -> V
 /// As [`table`].
 pub fn markdown(
     evidence: &Evidence<'_>,
-    table: &TableSpec,
+    table: &PrintedTable,
     verdicts: &Verdicts,
     link: impl Fn(&Judged) -> String,
 ) -> Result<String, RenderError> {
     let mut lines: Vec<Vec<String>> = Vec::new();
-    let is_wide = table.columns.len() > 2 || table.rows.iter().any(|row| row.claims.is_empty());
+    let is_wide = table.columns.len() > 2
+        || !table.rows.iter().all(|row| row.cells.iter().any(|cell| cell.claim.is_some()));
     let class = |judged: Option<&Judged>| judged.map_or_else(dash, &link);
     let escaped = |cells: &[String]| cells.iter().map(|cell| safe(cell)).collect::<Vec<_>>();
     let line = |first: &str, second: &str, cells: Vec<String>| {
@@ -128,7 +135,7 @@ pub fn markdown(
     for row in &table.rows {
         let label = safe(&row.label);
         match beside(evidence, table, row, verdicts)? {
-            None => lines.push(line(&label, "", escaped(&row.cells))),
+            None => lines.push(line(&label, "", escaped(&printed(row)))),
             Some(Beside { printed, ours, classes }) if is_wide => {
                 lines.push(line(&label, "printed", escaped(&printed)));
                 lines.push(line("", "ours", escaped(&ours)));
@@ -215,7 +222,7 @@ pub(super) fn made(paper: &Paper, id: &str, verdicts: &Verdicts) -> String {
 fn own_cells(evidence: &Evidence<'_>, verdicts: &Verdicts) -> Result<Vec<(String, String)>, RenderError> {
     let mut cells = Vec::new();
     for table in &evidence.paper.tables {
-        for row in table.rows.iter().filter(|_| table.ours.is_some()) {
+        for row in table.rows.iter().filter(|row| row.cells.iter().any(|cell| cell.beside.is_some())) {
             let Some(own) = beside(evidence, table, row, verdicts)?.map(|row| row.ours) else { continue };
             let keys = table
                 .columns

@@ -17,6 +17,7 @@ use super::spec::{BudgetSpec, ExploredStudy, FigureSpec, QuickSpec, TimingSpec, 
 use super::task;
 use base::settings::{Document, Settings, none_called};
 pub use shared::Shared;
+use std::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -68,6 +69,38 @@ pub struct Study {
     /// The file it was read from.
     pub document: Arc<Document>,
 }
+
+/// Whether a point of sweeps meets every condition in `text`.
+fn meets(point: &SweepKey, text: &str) -> bool {
+    text.split(',').all(|condition| {
+        let Some((operator, accepted)) = OPERATORS.iter().find(|(operator, _)| condition.contains(operator))
+        else {
+            return false;
+        };
+        let Some((key, value)) =
+            condition.split_once(operator).map(|(key, value)| (key.trim(), value.trim()))
+        else {
+            return false;
+        };
+        point.values().iter().any(|(own, swept)| {
+            let order = match (swept.as_f64(), value.parse::<f64>()) {
+                (Some(swept), Ok(value)) => swept.partial_cmp(&value),
+                _ if swept.to_string() == value => Some(Ordering::Equal),
+                _ => None,
+            };
+            **own == *key && order.is_some_and(|order| accepted.contains(&order))
+        })
+    })
+}
+
+/// How a condition on a sweep compares, and what it accepts; those that hold others go first.
+const OPERATORS: [(&str, &[Ordering]); 5] = [
+    ("<=", &[Ordering::Less, Ordering::Equal]),
+    (">=", &[Ordering::Greater, Ordering::Equal]),
+    ("<", &[Ordering::Less]),
+    (">", &[Ordering::Greater]),
+    ("=", &[Ordering::Equal]),
+];
 
 /// What the columns of the study called `name` are called where they may be unread.
 pub fn columns_of(name: &str) -> String {
@@ -193,6 +226,36 @@ impl Study {
             let named: Vec<&str> = known.iter().map(String::as_str).filter(|name| !name.is_empty()).collect();
             format!("study `{}` has no sweep `{text}`; it has {}", self.name, named.join(", "))
         })
+    }
+
+    /// The points of the sweeps that trials on `groups` can have and that meet what one of `texts` asks: each is a condition
+    /// (`samples<=1400`), or several joined by commas that are met together; a point's own name is one.
+    ///
+    /// # Errors
+    /// A text that no point meets, by its place, in words.
+    pub fn sweeps_called(&self, groups: &[String], texts: &[String]) -> Result<Vec<SweepKey>, (usize, String)> {
+        let points = self.sweep_points_of(|label| groups.iter().any(|group| group == label));
+        let names: Vec<String> = points.iter().map(|point| name::sweep(&point.key)).collect();
+        let is_met = |place: usize, text: &String| names[place] == *text || meets(&points[place].key, text);
+        let all = || 0..points.len();
+        if let Some((place, text)) =
+            texts.iter().enumerate().find(|(_, text)| !all().any(|place| is_met(place, text)))
+        {
+            // Groups that no sweep is over have a point without a name.
+            let named: Vec<&str> = names.iter().map(String::as_str).filter(|name| !name.is_empty()).collect();
+            let has = if named.is_empty() { "it sweeps nothing there".to_owned() } else { format!("it has {}", named.join(", ")) };
+            return Err((place, format!("study `{}` has no sweep `{text}`; {has}", self.name)));
+        }
+        let meant = all().filter(|place| texts.iter().any(|text| is_met(*place, text)));
+        Ok(meant.map(|place| points[place].key.clone()).collect())
+    }
+
+    /// The labels that stand in a contender's place in its trials: those of its contenders, or what its task tries in their place.
+    pub fn labels(&self) -> Vec<String> {
+        if self.contenders.is_empty() {
+            return (self.task.build)(&self.task_settings).map_or_else(|_| Vec::new(), |task| task.labels());
+        }
+        self.contenders.iter().map(|contender| contender.label.clone()).collect()
     }
 
     /// Why there is no query called `name` in the problem groups `labels`; none if there is one, or if some group's queries are not known.

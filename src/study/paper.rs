@@ -9,16 +9,18 @@ mod ledger;
 mod report;
 pub mod results;
 mod rules;
+mod table_spec;
 mod tables;
 
-pub use self::claim::{Asked, Claim, Parts, printed_by};
+pub use self::claim::{Asked, Claim, Parts, cells_named, printed_by};
 use self::claim::{ClaimSpec, claim};
 pub use self::rules::names_of;
 pub use ledger::{LedgerRow, NumbersRow};
 pub use report::{CLAIMS, FIGURES, OVER_READINGS, ReportSpec, filled};
 
 use self::results::ResultsSpec;
-pub use self::tables::{OursSpec, TableRow, TableSpec};
+use self::table_spec::TableSpec;
+pub use self::tables::{PrintedCell, PrintedRow, PrintedTable};
 pub use super::spec::Digits;
 use super::spec::{BudgetSpec, ChoiceSpec, ExploreSpec, StudySpec};
 use super::{Choice, Inputs, Interpretation, Shared, Study, StudyError, files};
@@ -61,7 +63,7 @@ struct PaperSpec {
     /// What it says.
     #[serde(default, rename = "claim")]
     claims: Vec<ClaimSpec>,
-    /// Its own tables, to be set beside ours.
+    /// Its own tables, whose cells are claims.
     #[serde(default, rename = "table")]
     tables: Vec<TableSpec>,
     /// Tables of our results.
@@ -171,7 +173,9 @@ pub struct Paper {
     /// What it says.
     pub claims: Vec<Claim>,
     /// Its tables.
-    pub tables: Vec<TableSpec>,
+    pub tables: Vec<PrintedTable>,
+    /// The claims that are cells of its tables, by their names.
+    pub cells: Vec<String>,
     /// Tables of our own results.
     pub results: Vec<ResultsSpec>,
     /// The series, of those that figures have, that a contender is drawn as wherever it is drawn, by its label.
@@ -283,7 +287,13 @@ impl Paper {
         for study in &mut studies {
             study.of_paper = spec.left_out();
         }
-        let claims = spec.claims.iter().map(|spec| claim(document, spec, faults)).collect();
+        let cells = tables::cell_ids(&spec.tables);
+        if document.is_part("table") {
+            faults.unread(names_of("claim"));
+        }
+        let (mut claims, tables) = tables::printed(document, &spec.tables, &cells, faults);
+        claims
+            .extend(spec.claims.iter().enumerate().map(|claim| self::claim(document, claim, &cells, faults)));
         let absolute = fs::canonicalize(folder).map_err(StudyError::io(folder, "opening the folder"))?;
         let paper = Self {
             id: absolute.file_name().unwrap_or_default().to_string_lossy().into_owned(),
@@ -295,14 +305,15 @@ impl Paper {
             explore: spec.explore,
             ledger: spec.ledger,
             claims,
-            tables: spec.tables,
+            tables,
+            cells,
             results: spec.results,
             series: spec.series,
             studies,
             others,
             document: document.clone(),
         };
-        paper.check(&spec.claims, faults);
+        paper.check(&spec.claims, &spec.tables, faults);
         Ok(paper)
     }
 

@@ -14,7 +14,7 @@ const BROKEN: [(&str, &str, &[Mistake]); 10] = [
         &[
             ("compare.toml", "question = ", "qestion = ", "compare.toml:7:1: unknown key `qestion`"),
             ("compare.toml", "expansions = ", "expantions = ", "compare.toml:12:1: unknown key `expantions`"),
-            ("paper.toml", "margin = 5", "margn = 5", "paper.toml:70:1: unknown key `margn`"),
+            ("paper.toml", "margin = 5", "margn = 5", "paper.toml:59:51: unknown key `margn`"),
         ],
     ),
     (
@@ -42,21 +42,21 @@ const BROKEN: [(&str, &str, &[Mistake]); 10] = [
         &[
             (
                 "paper.toml",
-                "study = \"compare\"",
-                "study = \"comparison\"",
-                "paper.toml:46:16: there is no study `comparison`",
+                "[claim.check.lower]\nof = { study = \"compare\"",
+                "[claim.check.lower]\nof = { study = \"comparison\"",
+                "paper.toml:83:16: there is no study `comparison`",
             ),
             (
                 "paper.toml",
                 "contender = \"Weighted A*\"",
                 "contender = \"WA*\"",
-                "paper.toml:56:58: study `compare` has no contender `WA*`",
+                "paper.toml:70:20: study `compare` has no contender `WA*`",
             ),
             (
                 "paper.toml",
                 "metric = \"opened\"",
                 "metric = \"nodes\"",
-                "paper.toml:68:98: there is no metric `nodes`",
+                "paper.toml:58:17: there is no metric `nodes`",
             ),
         ],
     ),
@@ -88,9 +88,9 @@ const BROKEN: [(&str, &str, &[Mistake]); 10] = [
             ("compare.toml", "goal = [36, 30]", "goal = [36, -30]", "compare.toml:21:13: `goal[1]` is -30"),
             (
                 "paper.toml",
-                "printed = \"60\"",
-                "printed = \"60 %\"",
-                "paper.toml:64:11: claim `nodes`: printed is `60 %`",
+                "\"60\"]",
+                "\"60 %\"]",
+                "paper.toml:71:20: claim `table1.weighted.saving`: printed is `60 %`",
             ),
         ],
     ),
@@ -100,7 +100,7 @@ const BROKEN: [(&str, &str, &[Mistake]); 10] = [
         &[
             (
                 "lengths.toml",
-                "goal_cm = [0, 45]",
+                "goal_cm = [-35, 20]",
                 "goal_cm = [0, 55]",
                 "lengths.toml:31:11: the goal [0.0, 55.0] is not a point of the workspace",
             ),
@@ -139,7 +139,7 @@ const BROKEN: [(&str, &str, &[Mistake]); 10] = [
                 "paper.toml",
                 "statistic = \"mean\"",
                 "statistic = \"average\"",
-                "paper.toml:47:13: `statistic` is \"average\"",
+                "paper.toml:51:30: `statistic` is \"average\"",
             ),
         ],
     ),

@@ -35,7 +35,7 @@ fn ten_mistakes_in_different_tables_are_told_in_one_round_each_at_its_own_place(
 fn a_toy_needs_no_ledger_no_counts_no_quick_and_no_ties() {
     let bench = Bench::new();
     let paper = fs::read_to_string(bench.at("mini/paper.toml")).unwrap();
-    let claims = &paper[paper.find("[[claim]]").unwrap()..];
+    let claims = &paper[paper.find("[[table]]").unwrap()..];
     bench.write("mini/paper.toml", format!("[source]\ntitle = \"A toy\"\n{claims}").as_bytes());
     bench.edit("mini/draws.toml", "[quick]\nreplicates = 3\n", "");
     bench.edit("mini/draws.toml", "settings = { weight = 1, ties = \"fifo\" }\n", "");
@@ -77,10 +77,10 @@ fn list_explains_one_thing_within_eighty_columns_and_meets_a_misspelled_name() {
     for (what, name, part) in [
         ("planners", "astar", "ties: \"fifo\", \"lifo\" or \"larger_g\"; \"fifo\" if left out"),
         ("criteria", "one_draw", "[claim.check.one_draw.of]\n"),
-        ("checks", "one_draw", "sweep = \"samples=100\""),
-        ("rules", "straight_line", "start = [22.0, 15.0]"),
+        ("checks", "one_draw", "contender = \"A*\""),
+        ("rules", "straight_line", "start = [2.0, 2.0]"),
         ("planners", "direct", "planner = \"direct\"\n"),
-        ("rules", "lattice_length", "goal = [26, 28]"),
+        ("rules", "lattice_length", "goal = [36, 30]"),
         ("tasks", "plan", "task = \"plan\"\n"),
         ("families", "random_cells", "blocked_share: a number (a share of 1); required"),
         ("tasks", "plan", "It has no settings."),

@@ -210,21 +210,24 @@ fn queries_that_records_could_not_tell_apart_are_refused() {
 
 #[test]
 fn a_ratio_to_a_printed_zero_is_refused() {
-    let zero = ("paper.toml", "printed = \"60\"", "printed = \"0\"");
-    let ratio = ("paper.toml", "margin = 5", "margin = 5\nprinted_ratio = [\"nodes\", \"nodes\"]");
-    let wanted = "paper.toml:71:27: claim `nodes` prints 0; a number to divide by is accepted";
+    let zero = ("paper.toml", "\"60\"]", "\"0\"]");
+    let saving = "table1.weighted.saving";
+    let change = format!("margin = 5, printed_ratio = [\"{saving}\", \"{saving}\"]");
+    let ratio = ("paper.toml", "margin = 5", change.as_str());
+    let wanted =
+        "paper.toml:59:106: claim `table1.weighted.saving` prints 0; a number to divide by is accepted";
     assert_told("grid", &[zero, ratio], &[wanted]);
 }
 
 #[test]
 fn what_nothing_could_speak_against_is_refused() {
     let own = ("paper.toml", "against = \"8 neighbours\"", "against = \"24 neighbours\"");
-    let wanted = "paper.toml:62:87: `24 neighbours` is held against itself; another contender is accepted";
+    let wanted = "paper.toml:71:87: `24 neighbours` is held against itself; another contender is accepted";
     assert_told("arm", &[own], &[wanted]);
     let any =
         ("paper.toml", "[claim.check.on_every]", "[claim.check.share]\nhits = \"lower\"\naccepted = [0, 1]");
     let that = ("paper.toml", "that = \"lower\"\n", "");
-    let wanted = "paper.toml:63:12: every share lies between 0 and 1; bounds that refuse some are accepted";
+    let wanted = "paper.toml:72:12: every share lies between 0 and 1; bounds that refuse some are accepted";
     assert_told("arm", &[any, that], &[wanted]);
 }
 
@@ -241,6 +244,6 @@ fn contenders_that_are_on_both_sides_are_refused() {
         "of = { study = \"lengths\", problems = \"case 1\", metric",
     );
     let that = ("paper.toml", "that = \"lower\"\n", "");
-    let wanted = "paper.toml:63:10: `24 neighbours` is held against itself; another contender is accepted";
+    let wanted = "paper.toml:72:10: `24 neighbours` is held against itself; another contender is accepted";
     assert_told("arm", &[both, of, that], &[wanted]);
 }

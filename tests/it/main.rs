@@ -44,6 +44,7 @@ mod own_paper;
 mod page;
 mod paper;
 mod polyhedra;
+mod printed_tables;
 mod registries;
 mod report;
 mod shapes;

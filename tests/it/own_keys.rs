@@ -11,9 +11,10 @@ fn assert_alone(template: &str, change: Change<'_>, wanted: &str) {
 #[test]
 fn a_number_that_is_none_is_told_where_it_is_printed() {
     for (written, shown) in [("1e400", "1e400"), ("nan", "nan"), ("inf", "inf")] {
-        let change = format!("printed = \"{written}\"");
-        let wanted = format!("paper.toml:54:11: claim `nodes`: `{shown}` is not a printed number");
-        assert_alone("grid", ("paper.toml", "printed = \"60\"", &change), &wanted);
+        let change = format!("printed = [\"50.9\", \"{written}\"]");
+        let wanted =
+            format!("paper.toml:71:20: claim `table1.weighted.saving`: `{shown}` is not a printed number");
+        assert_alone("grid", ("paper.toml", "printed = [\"50.9\", \"60\"]", &change), &wanted);
     }
 }
 
@@ -21,9 +22,9 @@ fn a_number_that_is_none_is_told_where_it_is_printed() {
 fn a_misspelt_criterion_is_told_at_its_name() {
     let header = ("paper.toml", "[claim.check.lower]", "[claim.check.lowr]");
     let wanted = "claim `fewer_nodes`: there is no criterion `lowr` (did you mean `lower`?)";
-    assert_alone("grid", header, &format!("paper.toml:67:14: {wanted}"));
+    assert_alone("grid", header, &format!("paper.toml:82:14: {wanted}"));
     let shown = ("paper.toml", "[claim.check.lower]", "[[claim.shows.lowr]]");
-    assert_told("grid", &[shown], &[&format!("paper.toml:67:15: {wanted}")]);
+    assert_told("grid", &[shown], &[&format!("paper.toml:82:15: {wanted}")]);
     let inline = (
         "paper.toml",
         "[claim.check.lower]\nof = { study = \"compare\", problems = \"maps\", contender = \"Weighted A*\", against = \"A*\", \
@@ -31,25 +32,25 @@ fn a_misspelt_criterion_is_told_at_its_name() {
         "check.lowr = { of = { study = \"compare\", problems = \"maps\", contender = \"Weighted A*\", against = \"A*\", \
          metric = \"opened\" } }",
     );
-    assert_alone("grid", inline, &format!("paper.toml:67:7: {wanted}"));
+    assert_alone("grid", inline, &format!("paper.toml:82:7: {wanted}"));
 }
 
 #[test]
 fn what_follows_from_a_fault_of_a_claim_is_not_told() {
     let bound = ("paper.toml", "bound = 1.1", "bound = inf");
-    assert_alone("grid", bound, "paper.toml:78:9: `bound` is inf; a finite number is accepted");
-    let number = ("paper.toml", "printed = \"50.2\"", "printed = 50.2");
-    assert_alone("grid", number, "paper.toml:33:11: `printed` is 50.2; text in quotes is accepted");
+    assert_alone("grid", bound, "paper.toml:93:9: `bound` is inf; a finite number is accepted");
+    let number = ("paper.toml", "printed = [\"50.2\"", "printed = [50.2");
+    assert_alone("grid", number, "paper.toml:65:12: `printed[0]` is 50.2; text in quotes is accepted");
     let metric = ("paper.toml", "against = \"A*\", metric = \"opened\"", "against = \"A*\", metric = 5");
-    assert_alone("grid", metric, "paper.toml:58:98: `metric` is 5; text in quotes is accepted");
+    assert_alone("grid", metric, "paper.toml:83:98: `metric` is 5; text in quotes is accepted");
 }
 
 #[test]
 fn what_bears_a_name_that_cannot_be_read_is_missed_nowhere() {
-    let claim = ("paper.toml", "id = \"nodes\"", "id = 5");
-    assert_alone("grid", claim, "paper.toml:52:6: `id` is 5; text in quotes is accepted");
+    let claim = ("paper.toml", "id = \"fewer_nodes\"", "id = 5");
+    assert_alone("grid", claim, "paper.toml:78:6: `id` is 5; text in quotes is accepted");
     let table = ("paper.toml", "id = \"table1\"", "id = 5");
-    assert_alone("grid", table, "paper.toml:82:6: `id` is 5; text in quotes is accepted");
+    assert_alone("grid", table, "paper.toml:40:6: `id` is 5; text in quotes is accepted");
     let capsule = ("robot.toml", "name = \"forearm\"", "name = 5");
     assert_alone("cell", capsule, "robot.toml:122:8: `name` is 5; text in quotes is accepted");
 }
@@ -84,7 +85,7 @@ fn a_number_too_large_is_told_once_with_its_limit() {
         "compare.toml:36:23: `weight` is 1e308; a number from -1e9 to 1e9 is accepted",
     );
     let margin = ("paper.toml", "margin = 5", "margin = 1e308");
-    assert_alone("grid", margin, "paper.toml:60:10: `margin` is 1e308; a number from 0 to 1e9 is accepted");
+    assert_alone("grid", margin, "paper.toml:59:60: `margin` is 1e308; a number from 0 to 1e9 is accepted");
     // Whatever it is written like.
     let written = ("compare.toml", "weight = 2", "weight = -1_500.50");
     assert_alone("grid", written, "compare.toml:36:23: weight is -1500.5; 0 (Dijkstra)");
@@ -97,7 +98,7 @@ fn a_value_out_of_range_hides_no_fault_of_another_table() {
         ("compare.toml", "weight = 1,", "weight = -1,"),
         ("compare.toml", "goal = [36, 30]", "goal = [46, 30]"),
         ("compare.toml", "replicates = 60", "replicates = 4000000000"),
-        ("paper.toml", "printed = \"60\"", "printed = \"nan\""),
+        ("paper.toml", "\"50.9\", \"60\"", "\"50.9\", \"nan\""),
         ("paper.toml", "bound = 1.1", "bound = inf"),
     ];
     let wanted = [
@@ -105,22 +106,22 @@ fn a_value_out_of_range_hides_no_fault_of_another_table() {
         "compare.toml:22:8: goal is [46, 30]",
         "compare.toml:31:23: weight is -1",
         "compare.toml:36:23: `weight` is 1e308",
-        "paper.toml:54:11: claim `nodes`: `nan`",
-        "paper.toml:78:9: `bound` is inf",
+        "paper.toml:71:20: claim `table1.weighted.saving`: `nan`",
+        "paper.toml:93:9: `bound` is inf",
     ];
     assert_told("grid", &changes, &wanted);
 }
 
 #[test]
 fn a_fault_of_the_first_claim_hides_none_of_the_second() {
-    let first = ("paper.toml", "at = \"Table 1, A*, path length\"\n", "");
+    let first = ("paper.toml", "at = \"section 4\"\nsays = \"its paths", "says = \"its paths");
     let second = (
         "paper.toml",
         "problems = \"maps\", contender = \"Weighted A*\"",
         "problems = \"maps\", contender = \"WA\"",
     );
     let wanted =
-        ["paper.toml:30:1: missing key `at`", "paper.toml:45:58: study `compare` has no contender `WA`"];
+        ["paper.toml:83:58: study `compare` has no contender `WA`", "paper.toml:86:1: missing key `at`"];
     assert_told("grid", &[first, second], &wanted);
 }
 
@@ -128,8 +129,8 @@ fn a_fault_of_the_first_claim_hides_none_of_the_second() {
 fn ids_that_would_break_tables_and_links_are_refused() {
     for id in ["", "a|b", "a*", "`a`", "a b", "a\\nb", "ä", "a\\\\b", "50%"] {
         let change = format!("id = \"{id}\"");
-        let wanted = "paper.toml:52:6: the claim is called \"";
-        assert_alone("grid", ("paper.toml", "id = \"nodes\"", &change), wanted);
+        let wanted = "paper.toml:78:6: the claim is called \"";
+        assert_alone("grid", ("paper.toml", "id = \"fewer_nodes\"", &change), wanted);
     }
     let figure = ("compare.toml", "id = \"maps\"", "id = \"ma|ps\"");
     assert_alone("grid", figure, "compare.toml:51:6: the id `ma|ps` names files");

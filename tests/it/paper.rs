@@ -24,13 +24,13 @@ figures = ["fig1"]
 item = "Table 1"
 says = "cost and nodes"
 figures = ["table1"]
-
-[[claim]]
-id = "cost"
-at = "Table 1, A*, cost"
-printed = "7.83"
-unit = "cells"
-[claim.check.exists]
+[[table]]
+id = "table1"
+at = "Table 1"
+caption = "Printed and ours"
+column = [{ id = "cost", label = "Cost", unit = "cells" }]
+row = [{ id = "astar", label = "A*", printed = ["7.83"], cell.cost.id = "cost" }]
+[table.check.exists]
 metric = "path_cost_cells"
 contenders = ["A*"]
 in = [{ study = "room", problems = ["room"] }]
@@ -47,14 +47,6 @@ problems = "drawn"
 metric = "nodes"
 contender = "Two-sided"
 against = "A*"
-
-[[table]]
-id = "table1"
-caption = "Printed and ours"
-columns = ["Cost", "Nodes"]
-[[table.row]]
-label = "A*"
-claims = ["cost", "nodes"]
 
 [[choice]]
 id = "nodes"

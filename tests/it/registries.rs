@@ -5,8 +5,8 @@ use engine::planner;
 use replan::analysis::{criterion, metric, rule};
 use replan::render::figure;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::path::Path;
+use study::paper::{Asked, Claim, Paper};
 use study::{column, family, planner as outside, prepared, task};
 
 /// A registry as tests see it: its folder below `src`, the names it lists, and the names that its `find` gives back.
@@ -102,19 +102,16 @@ fn what_stands_below_a_figure_says_of_how_many() {
     }
 }
 
-/// The names under `[claim.check]` and `[claim.rule]` of every committed paper, with how many claims have each.
+/// The criteria that decide and the rules of every committed paper, with how many claims have each.
 fn asked() -> BTreeMap<String, usize> {
-    let papers = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("experiments"))
-        .unwrap()
-        .map(|entry| entry.unwrap().path());
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut asked = BTreeMap::new();
-    for path in papers.map(|folder| folder.join("paper.toml")).filter(|path| path.exists()) {
-        let paper: toml::Table = fs::read_to_string(&path).unwrap().parse().unwrap();
-        let claims = paper.get("claim").and_then(toml::Value::as_array).into_iter().flatten();
-        for named in claims.flat_map(|claim| ["check", "rule"].map(|kind| claim.get(kind))) {
-            for name in named.and_then(toml::Value::as_table).into_iter().flat_map(toml::Table::keys) {
-                *asked.entry(name.clone()).or_default() += 1;
-            }
+    for name in crate::paper::committed() {
+        let folder = root.join("experiments").join(name);
+        let inputs = study::Inputs { roots: vec![folder.clone(), root.to_owned()] };
+        let paper = Paper::load(&folder, &inputs).unwrap();
+        for (how, name, _) in paper.claims.iter().flat_map(Claim::asked) {
+            *asked.entry(name.to_owned()).or_default() += usize::from(how != Asked::Shown);
         }
     }
     asked

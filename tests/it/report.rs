@@ -163,7 +163,7 @@ fn no_committed_svg_is_too_large_to_open() {
 
 #[test]
 fn a_ledger_that_misses_a_number_or_names_what_does_not_exist_is_refused() {
-    let numbers = "claims = [\"cost\", \"nodes\"]\nnumbers = [{ printed = [\"7.83\"], claims = [\"cost\"] }]";
+    let numbers = "claims = [\"nodes\"]\nnumbers = [{ claims = [\"cost\"] }]";
     let with = |numbers: &str, count: u32| {
         let bench = Bench::new();
         bench.edit("mini/paper.toml", "equations = 0", &format!("equations = 0\nnumbers = {count}"));
@@ -174,7 +174,26 @@ fn a_ledger_that_misses_a_number_or_names_what_does_not_exist_is_refused() {
     assert_eq!(with(numbers, 1).code, Some(0), "{}", with(numbers, 1).err);
     for (numbers, count, said) in [
         (numbers.to_owned(), 2, "9:11: the ledger lists 1 printed numbers; `numbers` says 2".to_owned()),
-        (numbers.replace("7.83", "7.38"), 1, "claim `cost` prints 7.83, not 7.38".to_owned()),
+        (
+            numbers.replace("{ claims", "{ printed = [\"7.83\"], claims"),
+            1,
+            "claim `cost` prints 7.83 itself; without `printed` it is accepted".to_owned(),
+        ),
+        (
+            numbers.replace("[\"cost\"]", "[\"cost\", \"nodes\"]"),
+            1,
+            "claim `nodes` prints no number; `printed` is needed".to_owned(),
+        ),
+        (
+            numbers.replace("{ claims = [\"cost\"] }", "{ table = \"table1\" }"),
+            2,
+            "the ledger lists 1 printed".to_owned(),
+        ),
+        (
+            numbers.replace("{ claims = [\"cost\"] }", "{ table = \"table2\" }"),
+            1,
+            "there is no table of the paper `table2`".to_owned(),
+        ),
         (
             "numbers = [{ printed = [\"9\"], none = \"a setting\" }]".to_owned(),
             1,
@@ -186,9 +205,10 @@ fn a_ledger_that_misses_a_number_or_names_what_does_not_exist_is_refused() {
             "there is no claim `costs` (did you mean `cost`?)".to_owned(),
         ),
         (
-            numbers.replace(", claims = [\"cost\"] }", " }"),
+            numbers.replace("{ claims = [\"cost\"] }", "{ printed = [\"7.83\"] }"),
             1,
-            "1 numbers have 0 claims; one for all, one for each, or `none` with the reason".to_owned(),
+            "or `printed` with one claim that answers them or with `none`, the reason why none does"
+                .to_owned(),
         ),
     ] {
         let answer = with(&numbers, count);
@@ -213,7 +233,7 @@ fn a_chapter_that_asks_for_what_is_not_there_is_refused_with_its_place() {
         ),
         ("figures = [\"fig2\"]", "there is no figure `fig2`"),
         ("figures = [\"fig1\", \"fig1\", \"fig1\", \"fig1\", \"fig1\", \"fig1\", \"fig1\"]", "6"),
-        ("claims = [\"cots\"]", "there is no claim `cots` (did you mean `cost`?)"),
+        ("tables = [\"tabel\"]", "there is no table of results `tabel`"),
     ] {
         let bench = Bench::new();
         bench.edit("mini/paper.toml", "[prints]", &format!("[report]\n{report}\n\n[prints]"));
@@ -251,7 +271,7 @@ fn chapters_of_missing_quick_stale_and_damaged_runs_say_so_in_their_first_line()
     assert_eq!(bench.run(&["render", "./mini"]).code, Some(2));
     assert!(first_line(&bench).starts_with("**Nothing is shown: ") && first_line(&bench).contains("draws"));
     fs::rename(bench.at("aside"), bench.at(&format!("{runs}/draws.manifest.toml"))).unwrap();
-    bench.edit("mini/paper.toml", "printed = \"7.83\"", "printed = \"7.84\"");
+    bench.edit("mini/paper.toml", "printed = [\"7.83\"]", "printed = [\"7.84\"]");
     bench.done(&["render", "./mini"]);
     assert!(
         first_line(&bench)

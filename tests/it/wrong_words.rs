@@ -182,9 +182,9 @@ pub const WRONG: &[Wrong] = &[
         "room",
         "id = \"fig1\"",
         "id = \"table1\"",
-        "mini/paper.toml:44:6: another figure or table of the paper is called `table1`",
+        "mini/paper.toml:20:6: another figure or table of the paper is called `table1`",
     ),
-    wrong("paper", "id = \"table1\"", "id = \"Table\"", "mini/paper.toml:44:6: the id `Table` names files"),
+    wrong("paper", "id = \"table1\"", "id = \"Table\"", "mini/paper.toml:20:6: the id `Table` names files"),
     wrong(
         "room",
         "settings = { problems = [\"room\"], contenders = [\"A*\"] }",
@@ -200,8 +200,8 @@ pub const WRONG: &[Wrong] = &[
     wrong("room.map", "#", "x", "room.map.txt: line 3, column 4: found `x`; a cell is one of"),
     wrong(
         "paper",
-        "claim.check.exists",
-        "claim.check.exist",
+        "table.check.exists",
+        "table.check.exist",
         "claim `cost`: there is no criterion `exist` (did you mean `exists`?); there are equals, exists, ",
     ),
     wrong(
@@ -230,9 +230,9 @@ pub const WRONG: &[Wrong] = &[
     ),
     wrong(
         "paper",
-        "printed = \"7.83\"",
-        "printed = \"7,83\"",
-        "mini/paper.toml:23:11: claim `cost`: printed is `7,83`",
+        "printed = [\"7.83\"]",
+        "printed = [\"7,83\"]",
+        "mini/paper.toml:24:49: claim `cost`: printed is `7,83`",
     ),
     wrong(
         "paper",
@@ -253,12 +253,12 @@ pub const WRONG: &[Wrong] = &[
          contender = \"A*\", against = \"A*\", over = \"obstacles\" } }",
         "mini/room.toml:27:21: `saving` takes no `rows` beside it",
     ),
-    wrong("paper", "id = \"nodes\"", "id = \"cost\"", "claim `cost` stands twice"),
+    wrong("paper", "id = \"nodes\"", "id = \"cost\"", "another claim or cell is called `cost` already"),
     wrong(
         "paper",
-        "claims = [\"cost\", \"nodes\"]",
-        "claims = [\"cost\"]",
-        "row `A*` of table `table1` has 1 claims and 0 cells; either are accepted",
+        "printed = [\"7.83\"]",
+        "printed = [\"7.83\", \"7.84\"]",
+        "row `astar` of table `table1` has 2 cells for 1 columns; one for each is accepted, `N/A` where",
     ),
 ];
 

@@ -22,8 +22,8 @@ pub static ENTRY: Entry = Entry {
     revision: 4,
     settings: Accepted::of::<Settings>(),
     example: r#"
-of = { study = "success", problems = "cell", contender = "Original A*", metric = "found" }
-truth = "connected"
+of = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
+truth = "optimal_cost_cells"
 "#,
     build: |context| Ok(Box::new(Equals::new(context)?)),
 };
@@ -56,6 +56,7 @@ impl<'a> Equals<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
         let of = Selection::new(context, &settings.of)?;
+        of.some_contender(context)?;
         let metric = of.metric(context)?;
         let truth = settings.truth.as_ref().map(|name| context.metric(name, of.study)).transpose()?;
         if truth.is_some() == of.against.is_some() {

@@ -32,9 +32,9 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     settings: Accepted::of::<Settings>(),
     example: r#"
-metric = "expansions"
-contenders = "Original A*"
-in = [{ study = "particle", problems = "plane" }]
+metric = "path_cost_cells"
+contenders = "A*"
+in = [{ study = "compare", problems = "maps" }]
 "#,
     build: |context| {
         let settings: Settings = context.settings.read()?;

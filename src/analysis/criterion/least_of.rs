@@ -30,10 +30,10 @@ pub static ENTRY: Entry = Entry {
     revision: 2,
     settings: Accepted::of::<Settings>(),
     example: r#"
-of = { study = "methods", problems = ["case 1", "case 2"], metric = "expansions" }
-lower = "Chaos 5/8"
-higher = ["A* 8"]
-by_percent = 50
+of = { study = "compare", problems = ["maps"], metric = "expansions" }
+lower = "Weighted A*"
+higher = ["A*"]
+by_percent = 20
 "#,
     build: |context| Ok(Box::new(LeastOf::new(context)?)),
 };

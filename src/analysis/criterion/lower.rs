@@ -29,7 +29,7 @@ pub static ENTRY: Entry = Entry {
     revision: 3,
     settings: Accepted::of::<Settings>(),
     example: r#"
-of = { study = "length", problems = "cell", metric = "local_paths", contender = "Improved A*", against = "Original A*" }
+of = { study = "compare", problems = "maps", metric = "opened", contender = "Weighted A*", against = "A*" }
 "#,
     build: |context| Ok(Box::new(Lower::new(context)?)),
 };

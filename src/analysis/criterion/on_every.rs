@@ -23,7 +23,7 @@ pub static ENTRY: Entry = Entry {
     revision: 4,
     settings: Accepted::of::<Settings>(),
     example: r#"
-of = { study = "environments", problems = "E*", contender = "Improved A*", against = "A*", metric = "nodes" }
+of = { study = "compare", problems = "maps", contender = "Weighted A*", against = "A*", metric = "opened" }
 that = "lower"
 "#,
     build: |context| Ok(Box::new(OnEvery::new(context)?)),
@@ -77,6 +77,7 @@ impl<'a> OnEvery<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
         let of = Selection::new(context, &settings.of)?;
+        of.some_contender(context)?;
         let that = settings.that;
         let is_bounded = matches!(that, That::AtMost | That::Above | That::AtMostTimes);
         if is_bounded != settings.bound.is_some() {

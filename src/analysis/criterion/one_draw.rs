@@ -26,8 +26,8 @@ pub static ENTRY: Entry = Entry {
     revision: 2,
     settings: Accepted::of::<Settings>(),
     example: r#"
-of = { study = "success", problems = "cell", contender = "Original A*", sweep = "samples=100" }
-statistic = "solved_percent"
+of = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
+statistic = "mean"
 "#,
     build: |context| Ok(Box::new(OneDraw::new(context)?)),
 };

@@ -23,7 +23,7 @@ pub static ENTRY: Entry = Entry {
     revision: 3,
     settings: Accepted::of::<Settings>(),
     example: r#"
-of = { study = "methods", problems = "case 1", contender = "A* 8", metric = "path_length_cm" }
+of = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
 "#,
     build: |context| Ok(Box::new(PrintsAs::new(context)?)),
 };

@@ -23,8 +23,8 @@ pub static ENTRY: Entry = Entry {
     revision: 2,
     settings: Accepted::of::<Settings>(),
     example: r#"
-of = { study = "length", problems = "cell", metric = "path_length_mm", whole_draws = true }
-rows = [{ contender = "Improved A*", against = "Original A*", statistics = ["least", "greatest"], claims = ["length.least", "length.greatest"] }]
+of = { study = "compare", problems = "maps", metric = "opened" }
+rows = [{ contender = "Weighted A*", against = "A*", statistics = ["mean"], claims = ["table1.weighted.saving"] }]
 refused_below = 0.05
 "#,
     build: |context| Ok(Box::new(RowOneDraw::new(context)?)),

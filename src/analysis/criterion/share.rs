@@ -26,7 +26,7 @@ pub static ENTRY: Entry = Entry {
     revision: 3,
     settings: Accepted::of::<Settings>(),
     example: r#"
-of = { study = "postures", problems = ["C1", "C2"], contender = "A*" }
+of = { study = "compare", problems = ["maps"], contender = "A*" }
 hits = "solved"
 accepted = [0.995, 1.0]
 "#,
@@ -97,6 +97,7 @@ impl<'a> Counted<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
         let of = Selection::new(context, &settings.of)?;
+        of.some_contender(context)?;
         let hits = settings.hits;
         for name in settings.columns.iter().chain(&settings.per) {
             if column::find(name).is_none() {

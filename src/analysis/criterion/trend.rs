@@ -25,8 +25,8 @@ pub static ENTRY: Entry = Entry {
     revision: 3,
     settings: Accepted::of::<Settings>(),
     example: r#"
-of = { study = "random", problems = ["disjoint", "overlapping"], contender = "A*", metric = "nodes" }
-over = "obstacles"
+of = { study = "compare", problems = "maps", contender = "A*", metric = "opened" }
+over = "path_cost_cells"
 rising = true
 "#,
     build: |context| Ok(Box::new(Trend::new(context)?)),
@@ -55,6 +55,7 @@ impl<'a> Trend<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
         let of = Selection::new(context, &settings.of)?;
+        of.some_contender(context)?;
         let metric = of.metric(context)?;
         if column::find(&settings.over).is_none() {
             let message = format!("there is no column `{}` to look along", settings.over);

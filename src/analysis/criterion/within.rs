@@ -24,7 +24,7 @@ pub static ENTRY: Entry = Entry {
     revision: 4,
     settings: Accepted::of::<Settings>(),
     example: r#"
-of = { study = "environments", problems = "E*", contender = "Improved A*", against = "A*", metric = "nodes" }
+of = { study = "compare", problems = "maps", contender = "Weighted A*", against = "A*", metric = "opened" }
 statistic = "ratio"
 accepted = [0.0, 0.5]
 "#,

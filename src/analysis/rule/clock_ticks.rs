@@ -15,9 +15,9 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     settings: Accepted::of::<Settings>(),
     example: r#"
-tick_s = [1, 64]
-with = ["case2.time"]
-chosen = "read off these two times (it is also the period of a PC's clock interrupt), so that the probability is that of a tick named in advance and no evidence"
+tick_s = [1, 100]
+with = ["table1.astar.length"]
+chosen = "named by the paper, before its times were looked at"
 "#,
     build: |context| {
         let Settings { tick_s: [numerator, denominator], chosen, with } = context.settings.read()?;

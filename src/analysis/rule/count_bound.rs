@@ -15,11 +15,11 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     settings: Accepted::of::<Settings>(),
     example: r#"
-size = [30, 30]
-start = [22, 15]
-goal = [26, 28]
-optimum = [9, 4]
-metric = "nodes"
+size = [40, 40]
+start = [2, 2]
+goal = [36, 30]
+optimum = [6, 28]
+metric = "opened"
 opened = "opened"
 closed = "closed"
 "#,

@@ -18,7 +18,7 @@ pub static ENTRY: Entry = Entry {
     settings: Accepted::of::<Settings>(),
     example: r#"
 name = "forbidden_disc"
-with = { l1 = 30.0, l2 = 20.0, radius = 20.0 }
+with = { l1 = 25.0, l2 = 15.0, radius = 10.0 }
 "#,
     build: |context| {
         let Settings { name, with } = context.settings.read()?;

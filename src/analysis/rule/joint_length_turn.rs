@@ -14,15 +14,15 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     settings: Accepted::of::<Settings>(),
     example: r#"
-size = [30, 30]
-start = [22, 15]
-goal = [26, 28]
-length = "t1.improved.cost"
-turn = "t1.improved.turn"
-metric = "turn_sum"
+size = [40, 40]
+start = [2, 2]
+goal = [9, 7]
+length = "table1.astar.length"
+turn = "table1.weighted.length"
+metric = "turn_exterior_deg"
 exterior = "turn_exterior_deg"
 interior = "turn_interior_deg"
-longest = 20.0
+longest = 15.0
 "#,
     build: |context| {
         let read: Settings = context.settings.read()?;

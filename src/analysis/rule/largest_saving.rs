@@ -13,10 +13,10 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     settings: Accepted::of::<Settings>(),
     example: r#"
-baseline = "t1.astar.cost"
-start = [22, 15]
-goal = [26, 28]
-size = [30, 30]
+baseline = "table1.astar.length"
+start = [2, 2]
+goal = [36, 30]
+size = [40, 40]
 "#,
     build: |context| {
         let Settings { baseline, start, goal, size } = context.settings.read()?;

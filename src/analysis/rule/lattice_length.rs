@@ -12,7 +12,7 @@ pub static ENTRY: Entry = Entry {
     about: "is a printed length a + b√2 for any 8-connected path between the cells, rounded or truncated?",
     revision: 1,
     settings: Accepted::of::<Settings>(),
-    example: "start = [22, 15]\ngoal = [26, 28]",
+    example: "start = [2, 2]\ngoal = [36, 30]",
     build: |context| {
         let Settings { start, goal, size } = context.settings.read()?;
         if start.is_some() != goal.is_some() {

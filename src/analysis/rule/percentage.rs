@@ -13,8 +13,8 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     settings: Accepted::of::<Settings>(),
     example: r#"
-before = "t1.astar.time"
-after = "t1.improved.time"
+before = "table1.astar.length"
+after = "table1.weighted.length"
 "#,
     build: |context| {
         let Settings { before, after } = context.settings.read()?;

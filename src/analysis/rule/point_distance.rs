@@ -15,8 +15,8 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     settings: Accepted::of::<Settings>(),
     example: "
-from = [22.5, 15.5]
-to = [26.5, 28.5]
+from = [2.5, 2.5]
+to = [36.5, 30.5]
 ",
     build: |context| {
         let (Settings { from, to }, print) = (context.settings.read()?, context.print()?);

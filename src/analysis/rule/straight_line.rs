@@ -15,8 +15,8 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     settings: Accepted::of::<Settings>(),
     example: "
-start = [22.0, 15.0]
-goal = [26.0, 28.0]
+start = [2.0, 2.0]
+goal = [36.0, 30.0]
 ",
     build: |context| {
         let Settings { start, goal, size } = context.settings.read()?;

@@ -14,14 +14,14 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     settings: Accepted::of::<Settings>(),
     example: r#"
-size = [30, 30]
-start = [22, 15]
-goal = [26, 28]
-turn = "t1.improved.turn"
-against = "t1.astar.cost"
-metric = "turn_sum"
+size = [40, 40]
+start = [2, 2]
+goal = [9, 7]
+turn = "table1.weighted.length"
+against = "table1.astar.length"
+metric = "turn_exterior_deg"
 exterior = "turn_exterior_deg"
-longest = 20.0
+longest = 15.0
 "#,
     build: |context| {
         let read: Settings = context.settings.read()?;

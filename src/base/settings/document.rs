@@ -186,6 +186,12 @@ impl Document {
         self.error(span, message)
     }
 
+    /// Whether it has the value that `steps` lead to, by keys and by the numbers of elements from 0.
+    pub fn has(&self, steps: &[&str]) -> bool {
+        self.parsed()
+            .is_ok_and(|value| steps.iter().try_fold(value, |value, step| inner(value, step)).is_some())
+    }
+
     pub(super) fn parsed(&self) -> Result<&Spanned<DeValue<'_>>, SettingsError> {
         self.parsed.borrow_dependent().as_ref().map_err(|e| self.toml_error(e, 0..0))
     }

@@ -26,7 +26,7 @@ pub use error::{Faults, SettingsError};
 pub use nearest::{did_you_mean, none_called};
 pub use place::Place;
 pub use spanned::{AnyTable, AnyValue, Spanned};
-pub use table::Settings;
+pub use table::{Part, Settings};
 
 #[cfg(test)]
 mod tests;

@@ -62,6 +62,15 @@ impl Place {
         steps.iter().try_fold(whole, |value, step| inner(value, step))
     }
 
+    /// Where `sought` stands in this table, if the table has all of the way to it.
+    pub(super) fn find_whole(&self, sought: Sought<'_>) -> Option<Range<usize>> {
+        let table = self.at(&self.steps)?;
+        let Sought::Value(path) = sought else { return sought.exactly(table) };
+        let mut steps = path.split('.').filter(|step| !step.is_empty()).peekable();
+        steps.peek()?;
+        steps.try_fold(table, inner).map(toml::Spanned::span)
+    }
+
     /// Where `sought` stands here, if it does.
     pub(super) fn find(&self, sought: Sought<'_>) -> Option<Range<usize>> {
         let Some((key, named)) = &self.named else {

@@ -33,10 +33,33 @@ enum Origin {
     Overlaid { under: Box<Settings>, over: Layer },
     /// It was put together from parts of other settings, which lie under these keys there.
     Parts { whole: Box<Settings>, keys: Vec<String>, whose: String },
+    /// It was put together from tables of a document, the one whose values win first; faults that are in none of them stand at `span`.
+    Layered { document: Arc<Document>, span: Range<usize>, layers: Vec<Part> },
     /// It is what was accepted of other settings, under `kept`, and something else for the rest.
     Remains { whole: Box<Settings>, kept: BTreeSet<String> },
     /// The program put it together.
     Composed(String),
+}
+
+/// A table of a document from which settings are put together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Where it stands.
+    pub place: Place,
+    /// The one key that is taken from it; every key if `None`.
+    pub key: Option<&'static str>,
+}
+
+impl Part {
+    /// Whether `sought` may stand in it.
+    fn may_hold(&self, sought: Sought<'_>) -> bool {
+        match sought {
+            Sought::Word { within, .. } => {
+                self.key.is_none_or(|key| within.is_empty() || within.starts_with(key))
+            }
+            _ => self.key.is_none_or(|key| sought.first() == key),
+        }
+    }
 }
 
 /// A table that is laid over settings.
@@ -66,6 +89,31 @@ impl Settings {
     /// Settings that no file holds; `origin` says where they come from.
     pub fn composed(origin: impl Into<String>, table: Table) -> Self {
         Self { table, origin: Origin::Composed(origin.into()), filled: Vec::new() }
+    }
+
+    /// Settings put together from `layers` of `document`, the one whose values win first. A fault is told in the first layer that
+    /// has what is wrong, and at `span` if none has.
+    pub fn layered(document: &Arc<Document>, span: Range<usize>, layers: Vec<Part>, table: Table) -> Self {
+        let origin = Origin::Layered { document: document.clone(), span, layers };
+        Self { table, origin, filled: Vec::new() }
+    }
+
+    /// Changes what the table says; where it stands stays.
+    pub fn change(&mut self, change: impl FnOnce(&mut Table)) {
+        change(&mut self.table);
+    }
+
+    /// Whether some text in the table is `word`.
+    pub fn names(&self, word: &str) -> bool {
+        fn is_in(value: &toml::Value, word: &str) -> bool {
+            match value {
+                toml::Value::String(text) => text == word,
+                toml::Value::Array(elements) => elements.iter().any(|inner| is_in(inner, word)),
+                toml::Value::Table(table) => table.values().any(|inner| is_in(inner, word)),
+                _ => false,
+            }
+        }
+        self.table.values().any(|value| is_in(value, word))
     }
 
     /// The table itself.
@@ -229,6 +277,12 @@ impl Settings {
                 let path = if key.is_empty() { path.to_owned() } else { format!("{key}.{path}") };
                 let is_key = matches!(sought, Sought::Key(_));
                 whole.placed(message, if is_key { Sought::Key(&path) } else { Sought::Value(&path) })
+            }
+            Origin::Layered { document, span, layers } => {
+                let parts = || layers.iter().filter(|part| part.may_hold(sought));
+                let whole = parts().find_map(|part| part.place.find_whole(sought));
+                let found = whole.or_else(|| parts().find_map(|part| part.place.find(sought)));
+                document.error(found.unwrap_or_else(|| span.clone()), message)
             }
             Origin::Remains { whole, kept } if kept.contains(sought.first()) => whole.placed(message, sought),
             Origin::Remains { .. } => {

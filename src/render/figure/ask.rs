@@ -80,7 +80,7 @@ pub(super) fn trials<'s>(run: &Run<'s>, problems: &str, contender: &str) -> Sele
 
 /// The same at one point of the sweeps.
 pub(super) fn trials_at<'s>(run: &Run<'s>, problems: &str, contender: &str, at: &SweepKey) -> Selection<'s> {
-    Selection { sweep: Some(at.clone()), ..trials(run, problems, contender) }
+    Selection { sweep: Some(vec![at.clone()]), ..trials(run, problems, contender) }
 }
 
 /// A value of a trial as titles show it.

@@ -90,7 +90,7 @@ impl PairedBoxes {
         let groups = std::slice::from_ref(&self.read.problems);
         Selection {
             metric: Some(self.metric),
-            sweep: Some(self.sweep.clone()),
+            sweep: Some(vec![self.sweep.clone()]),
             against: self.read.contenders.first().cloned(),
             whole_draws: true,
             ..Selection::of(scene.run.study, groups, &self.read.contenders)

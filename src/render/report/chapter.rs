@@ -92,14 +92,12 @@ impl Page<'_> {
     fn tables(&self, text: &mut String) -> Result<(), RenderError> {
         let (paper, details) = (self.evidence.paper, self.details_file());
         let class = |judged: &Judged| link(judged, judged.outcome(), &details);
-        for table in paper.tables.iter().filter(|table| table.rows.iter().any(|row| !row.claims.is_empty())) {
+        for table in paper.tables.iter().filter(|table| table.has_claims()) {
             *text += &paragraph(&table.caption);
             *text += &tables::markdown(self.evidence, table, self.verdicts, class)?;
-            let ours = table.ours.as_ref().map(|ours| &ours.note);
-            let notes: Vec<&str> = table.notes.iter().chain(ours).map(String::as_str).collect();
             *text += "\n";
-            if !notes.is_empty() {
-                *text += &paragraph(&notes.join(" "));
+            if !table.notes.is_empty() {
+                *text += &paragraph(&table.notes.join(" "));
             }
         }
         for table in paper.report.tables.iter().filter_map(|id| paper.results_called(id.get_ref())) {
@@ -153,11 +151,11 @@ impl Page<'_> {
 
     fn claims(&self, text: &mut String) {
         let (paper, verdicts) = (self.evidence.paper, self.verdicts);
-        let mut shown: Vec<&Judged> = match &paper.report.claims {
-            Some(ids) => ids.iter().filter_map(|id| verdicts.claim(id.get_ref())).collect(),
-            None => verdicts.claims.iter().filter(|judged| judged.is_counted()).collect(),
-        };
-        shown.truncate(CLAIMS);
+        let headlines = paper.claims.iter().filter(|claim| claim.headline);
+        let mut shown: Vec<&Judged> = headlines.filter_map(|claim| verdicts.claim(&claim.id)).collect();
+        if shown.is_empty() {
+            shown.extend(verdicts.claims.iter().filter(|judged| judged.is_counted()).take(CLAIMS));
+        }
         *text += "| claim | in the paper | ours | class |\n|---|---|---|---|\n";
         let details = self.details_file();
         for judged in &shown {

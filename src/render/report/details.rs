@@ -9,7 +9,7 @@ use crate::render::prose::{COLUMNS, markdown, wrapped};
 use crate::render::results;
 use crate::render::tables::{self, short};
 use std::collections::{BTreeMap, BTreeSet};
-use study::paper::LedgerRow;
+use study::paper::{LedgerRow, cells_named};
 use study::record::Status;
 use study::recorded_mark;
 
@@ -98,7 +98,7 @@ impl Page<'_> {
         for figure in self.further() {
             *text += &self.figure(figure, "");
         }
-        for table in paper.tables.iter().filter(|table| table.rows.iter().all(|row| row.claims.is_empty())) {
+        for table in paper.tables.iter().filter(|table| !table.has_claims()) {
             *text += &paragraph(&table.caption);
             let shown = tables::markdown(self.evidence, table, self.verdicts, |_| String::new());
             *text += &shown.unwrap_or_else(|error| paragraph(&error.to_string()));
@@ -120,13 +120,17 @@ impl Page<'_> {
     }
 
     fn ledger(&self, row: &LedgerRow) -> String {
+        let paper = self.evidence.paper;
         let names = |ids: &[base::settings::Spanned<String>]| {
-            ids.iter().map(|id| id.get_ref().clone()).collect::<Vec<String>>()
+            let named = ids.iter().flat_map(|id| cells_named(id.get_ref(), &paper.cells));
+            named.map(str::to_owned).collect::<Vec<String>>()
         };
         let mut answers = Vec::new();
         // Those that answer a number stand beside it.
-        let with_number: Vec<String> =
-            row.numbers.iter().flat_map(|numbers| names(&numbers.claims)).collect();
+        let numbered: Vec<Vec<(String, Option<String>)>> =
+            row.numbers.iter().map(|numbers| paper.numbers(numbers)).collect();
+        let with_number: BTreeSet<&String> =
+            numbered.iter().flatten().filter_map(|(_, claim)| claim.as_ref()).collect();
         let claims: Vec<String> =
             names(&row.claims).into_iter().filter(|claim| !with_number.contains(claim)).collect();
         if !claims.is_empty() {
@@ -138,19 +142,18 @@ impl Page<'_> {
         let answers = if answers.is_empty() { String::new() } else { format!(" → {}", answers.join(", ")) };
         let mut text =
             item(0, &format!("**{}**: {}{answers}", markdown(row.item.get_ref()), markdown(&row.says)));
-        for numbers in &row.numbers {
-            let number = |(printed, claim): (
-                &base::settings::Spanned<String>,
-                Option<&base::settings::Spanned<String>>,
-            )| {
-                let own = claim.filter(|_| numbers.claims.len() > 1).map(|claim| links(&[claim.get_ref()]));
-                markdown(printed.get_ref()) + &own.map_or_else(String::new, |own| format!(" {own}"))
+        for (numbers, all) in row.numbers.iter().zip(&numbered) {
+            let is_joint = !numbers.printed.is_empty() || all.len() == 1;
+            let number = |(printed, claim): &(String, Option<String>)| {
+                let own = claim.as_ref().filter(|_| !is_joint).map(|claim| links(&[claim]));
+                markdown(printed) + &own.map_or_else(String::new, |own| format!(" {own}"))
             };
-            let listed: Vec<String> = numbers.answered().map(number).collect();
-            let why = match (&numbers.none, &numbers.claims[..]) {
+            let listed: Vec<String> = all.iter().map(number).collect();
+            let answer = all.first().and_then(|(_, claim)| claim.as_ref()).filter(|_| is_joint);
+            let why = match (&numbers.none, answer) {
                 (Some(none), _) => format!(": {}", markdown(none)),
-                (None, [claim]) => format!(": {}", links(&[claim.get_ref()])),
-                _ => String::new(),
+                (None, Some(claim)) => format!(": {}", links(&[claim])),
+                (None, None) => String::new(),
             };
             text += &item(1, &format!("{}{why}", listed.join(", ")));
         }

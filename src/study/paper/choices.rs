@@ -115,8 +115,8 @@ impl Paper {
 
     /// A claim is meant under options that choices have, and looks at studies that inherit these choices.
     fn check_premises(&self, faults: &mut Faults) {
-        for (index, claim) in self.claims.iter().enumerate() {
-            let place = |id: &str| format!("claim.{index}.holds_when.{id}");
+        for claim in &self.claims {
+            let place = |id: &str| format!("{}.holds_when.{id}", claim.written.own);
             for (id, message) in unknown_options(&claim.holds_when, &self.choices) {
                 let message = format!("claim `{}`, holds_when{message}", claim.id);
                 faults.add(self.document.error_at(&place(&id), message).about(&id).about("id"));

@@ -1,7 +1,7 @@
 //! What a paper says: claims, what they ask, and the claims that they are made of.
 
 use super::{Digits, Interpretation};
-use base::settings::{AnyTable, Document, Faults, Settings, SettingsError, Spanned};
+use base::settings::{AnyTable, Document, Faults, Part, Place, Settings, SettingsError, Spanned};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -25,6 +25,9 @@ pub(super) struct ClaimSpec {
     pub(super) unit: Option<String>,
     /// How the number's digits end, where the claim says so; otherwise the interpretation decides.
     pub(super) digits: Option<Digits>,
+    /// Whether it is one of the few claims that say what the paper is about.
+    #[serde(default)]
+    pub(super) headline: bool,
     /// What the paper leaves out, if that makes it untestable; checks then only show what can be shown.
     pub(super) untestable: Option<String>,
     /// Why it must hold whatever the paper says, if it must: it is then asserted, and no evidence for anything.
@@ -55,9 +58,13 @@ pub(super) struct ClaimSpec {
     /// The claims one of which the sentence means, without saying which.
     #[serde(default)]
     pub(super) means_one_of: Vec<Spanned<String>>,
-    /// The claims that are the cells of this row of a table.
-    #[serde(default)]
-    pub(super) cells: Vec<Spanned<String>>,
+}
+
+impl ClaimSpec {
+    /// The claims that it is made of, by the ways in which it can be.
+    pub(super) fn kinds(&self) -> [&Vec<Spanned<String>>; 3] {
+        [&self.all_of, &self.any_of, &self.means_one_of]
+    }
 }
 
 /// What the paper says.
@@ -77,6 +84,8 @@ pub struct Claim {
     pub unit: Option<String>,
     /// How the number's digits end, where the claim says so; otherwise the interpretation decides.
     pub digits: Option<Digits>,
+    /// Whether it is one of the few claims that say what the paper is about.
+    pub headline: bool,
     /// What the paper leaves out, if that makes it untestable; checks then only show what can be shown.
     pub untestable: Option<String>,
     /// Why it must hold whatever the paper says, if it must: it is then asserted, and no evidence for anything.
@@ -86,9 +95,37 @@ pub struct Claim {
     /// The choices under some of whose options alone it is meant, each with those options.
     pub holds_when: BTreeMap<String, Vec<String>>,
     /// How it is judged, and what is shown beside: rules and criteria by name.
-    asked: Vec<(Asked, String, Settings)>,
+    pub(super) asked: Vec<(Asked, String, Settings)>,
     /// The claims that it is made of.
     pub parts: Parts,
+    /// Where it is written.
+    pub written: Written,
+}
+
+/// Where a claim is written: keys and numbers of elements from 0, joined by dots.
+#[derive(Debug, Clone)]
+pub struct Written {
+    /// Its own keys.
+    pub own: String,
+    /// Its name, or the cell that gives it one.
+    pub id: String,
+    /// The number that it prints.
+    pub printed: String,
+    /// Tables that say how it is judged, the one whose values win first.
+    pub layers: Vec<String>,
+}
+
+impl Written {
+    /// The row and the table that it is a cell of, if it is one.
+    pub(super) fn around(&self) -> impl Iterator<Item = &str> {
+        let row = self.own.split_once(".cell.").map(|(row, _)| row);
+        row.into_iter().chain(row.and_then(|row| row.split_once(".row.")).map(|(table, _)| table))
+    }
+
+    /// As the claim that stands where `own` leads to.
+    pub(super) fn claim(own: String) -> Self {
+        Self { id: format!("{own}.id"), printed: format!("{own}.printed"), layers: vec![own.clone()], own }
+    }
 }
 
 /// What a claim asks.
@@ -100,6 +137,17 @@ pub enum Asked {
     Decides,
     /// A criterion that is shown and decides nothing.
     Shown,
+}
+
+impl Asked {
+    /// The key that the settings stand under in a claim.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Rule => "rule",
+            Self::Decides => "check",
+            Self::Shown => "shows",
+        }
+    }
 }
 
 /// The claims that a claim is made of; they count with it.
@@ -165,21 +213,20 @@ impl Claim {
     }
 }
 
-/// The claim that `spec` writes; a number that is none and a claim that nothing can judge go to `faults`.
-pub(super) fn claim(document: &Arc<Document>, spec: &ClaimSpec, faults: &mut Faults) -> Claim {
+/// The claim that `spec` writes as the one of this `number`; a number that is none and a claim that nothing can judge go to
+/// `faults`. Among `cells` are those that a name ending in `.*` stands for.
+pub(super) fn claim(
+    document: &Arc<Document>,
+    (number, spec): (usize, &ClaimSpec),
+    cells: &[String],
+    faults: &mut Faults,
+) -> Claim {
     let id = spec.id.get_ref();
-    if let Some(printed) = &spec.printed
-        && printed.get_ref().parse::<f64>().is_err()
-    {
-        let message = format!(
-            "claim `{id}`: printed is `{}`; the digits of one number as the paper prints them are accepted",
-            printed.get_ref()
-        );
-        faults.add(document.error(printed.span(), message));
-        faults.unread(printed_by(id));
+    if let Some(printed) = &spec.printed {
+        check_printed(document, id, printed, faults);
     }
     let parts = faults.keep(parts(document, spec)).unwrap_or(Parts::None);
-    let asked = asked(document, spec);
+    let asked = asked(document, (number, spec), cells);
     if asked.is_empty()
         && spec.untestable.is_none()
         && given(spec).next().is_none()
@@ -198,12 +245,14 @@ pub(super) fn claim(document: &Arc<Document>, spec: &ClaimSpec, faults: &mut Fau
         printed: spec.printed.as_ref().map(|printed| printed.get_ref().clone()),
         unit: spec.unit.clone(),
         digits: spec.digits,
+        headline: spec.headline,
         untestable: spec.untestable.clone(),
         theorem: spec.theorem.clone(),
         changed_after_run: spec.changed_after_run.clone(),
         holds_when: spec.holds_when.clone(),
         asked,
         parts,
+        written: Written::claim(format!("claim.{number}")),
     }
 }
 
@@ -228,26 +277,89 @@ pub fn printed_by(id: &str) -> String {
     format!("printed by {id}")
 }
 
-fn asked(document: &Arc<Document>, spec: &ClaimSpec) -> Vec<(Asked, String, Settings)> {
-    let one = |asked: Asked| {
-        move |(name, table): (&String, &Spanned<Table>)| {
-            (asked, name.clone(), Settings::written(document, table))
+/// Refuses what the claim `id` is said to print unless it is a number.
+pub(super) fn check_printed(
+    document: &Arc<Document>,
+    id: &str,
+    printed: &Spanned<String>,
+    faults: &mut Faults,
+) {
+    if printed.get_ref().parse::<f64>().is_err() {
+        let message = format!(
+            "claim `{id}`: printed is `{}`; the digits of one number as the paper prints them are accepted",
+            printed.get_ref()
+        );
+        faults.add(document.error(printed.span(), message));
+        faults.unread(printed_by(id));
+    }
+}
+
+fn asked(
+    document: &Arc<Document>,
+    (number, spec): (usize, &ClaimSpec),
+    cells: &[String],
+) -> Vec<(Asked, String, Settings)> {
+    let number = number.to_string();
+    let one = |asked: Asked, name: &String, table: &Spanned<Table>, index: Option<usize>| {
+        let mut named = table.get_ref().clone();
+        if !name_cells(&mut named, cells) {
+            return (asked, name.clone(), Settings::written(document, table));
         }
+        let index = index.map(|index| index.to_string());
+        let steps = ["claim", &number, asked.key(), name].into_iter().chain(index.as_deref());
+        let place = Place::of_table(document, &steps.collect::<Vec<_>>());
+        let settings = Settings::layered(document, table.span(), vec![Part { place, key: None }], named);
+        (asked, name.clone(), settings)
     };
-    let shown = spec.shows.iter().flat_map(|(name, tables)| tables.iter().map(move |table| (name, table)));
-    let rules = spec.rule.iter().map(one(Asked::Rule));
-    rules.chain(spec.check.iter().map(one(Asked::Decides))).chain(shown.map(one(Asked::Shown))).collect()
+    let rules = spec.rule.iter().map(|(name, table)| one(Asked::Rule, name, table, None));
+    let checks = spec.check.iter().map(|(name, table)| one(Asked::Decides, name, table, None));
+    let shown = spec
+        .shows
+        .iter()
+        .flat_map(|(name, tables)| tables.iter().enumerate().map(move |(index, table)| (name, index, table)));
+    let shown = shown.map(|(name, index, table)| one(Asked::Shown, name, table, Some(index)));
+    rules.chain(checks).chain(shown).collect()
+}
+
+/// The ids that `name` stands for: those of `cells` that begin so if it ends in `.*`, and otherwise itself.
+pub fn cells_named<'a>(name: &'a str, cells: &'a [String]) -> Vec<&'a str> {
+    match name.strip_suffix('*').filter(|begin| begin.ends_with('.')) {
+        Some(begin) => cells.iter().map(String::as_str).filter(|cell| cell.starts_with(begin)).collect(),
+        None => vec![name],
+    }
+}
+
+/// Puts the ids of cells in the place of names that end in `.*`, in lists under the key `claims`; whether there were any.
+pub(super) fn name_cells(table: &mut Table, cells: &[String]) -> bool {
+    let mut is_changed = false;
+    for (key, value) in table {
+        match value {
+            toml::Value::Table(inner) => is_changed |= name_cells(inner, cells),
+            toml::Value::Array(elements) if key == "claims" => {
+                let named = |value: &toml::Value| match value.as_str() {
+                    Some(name) => cells_named(name, cells).into_iter().map(Into::into).collect(),
+                    None => vec![value.clone()],
+                };
+                let all: Vec<toml::Value> = elements.iter().flat_map(named).collect();
+                is_changed |= all != *elements;
+                *elements = all;
+            }
+            toml::Value::Array(elements) => {
+                for inner in elements.iter_mut().filter_map(toml::Value::as_table_mut) {
+                    is_changed |= name_cells(inner, cells);
+                }
+            }
+            _ => {}
+        }
+    }
+    is_changed
 }
 
 /// The kinds of parts that a claim is given, with their ids.
 fn given(spec: &ClaimSpec) -> impl Iterator<Item = (&Vec<Spanned<String>>, fn(Vec<String>) -> Parts)> {
-    let kinds = [
-        (&spec.all_of, Parts::AllOf as fn(Vec<String>) -> Parts),
-        (&spec.any_of, Parts::AnyOf),
-        (&spec.means_one_of, Parts::MeansOneOf),
-        (&spec.cells, Parts::Cells),
-    ];
-    kinds.into_iter().filter(|(ids, _)| !ids.is_empty())
+    let made: [fn(Vec<String>) -> Parts; 3] = [Parts::AllOf, Parts::AnyOf, Parts::MeansOneOf];
+    let kinds = spec.kinds().into_iter().zip(made);
+    kinds.filter(|(ids, _)| !ids.is_empty())
 }
 
 fn parts(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Parts, SettingsError> {
@@ -257,7 +369,7 @@ fn parts(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Parts, SettingsEr
         (Some((ids, of)), None) => Ok(of(ids.iter().map(|id| id.get_ref().clone()).collect())),
         _ => {
             let message = format!(
-                "claim `{}`: one of `all_of`, `any_of`, `means_one_of` and `cells` is accepted",
+                "claim `{}`: one of `all_of`, `any_of` and `means_one_of` is accepted",
                 spec.id.get_ref()
             );
             Err(document.error(spec.id.span(), message))

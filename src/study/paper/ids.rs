@@ -1,8 +1,8 @@
 //! Names of claims, studies, figures and tables: they stand in files' names, in links and in cells of tables, so that they are
 //! plain, each once.
 
+use super::Paper;
 use super::rules::names_of;
-use super::{ClaimSpec, Paper};
 use base::settings::{Document, Faults};
 use base::text::brief;
 use std::collections::BTreeSet;
@@ -19,19 +19,26 @@ fn wrong(what: &str, name: &str) -> Option<String> {
     })
 }
 
+/// What it is called that all cells of a row or table, which stands where `place` leads to, are there twice.
+pub(super) fn twice(place: &str) -> String {
+    format!("twice in {place}")
+}
+
 impl Paper {
     /// Names of claims are plain, each once; so are those of studies, which are those of their files.
-    pub(super) fn check_claim_ids(&self, specs: &[ClaimSpec], faults: &mut Faults) {
+    pub(super) fn check_claim_ids(&self, faults: &mut Faults) {
         let mut seen = BTreeSet::new();
-        for spec in specs {
-            let id = spec.id.get_ref();
-            if let Some(message) = wrong("claim", id) {
-                faults.add(self.document.error(spec.id.span(), message));
+        for claim in &self.claims {
+            if let Some(message) = wrong("claim", &claim.id) {
+                faults.add(self.document.error_at(&claim.written.id, message));
                 faults.unread(names_of("claim"));
             }
-            if !seen.insert(id) {
-                let message = format!("claim `{id}` stands twice");
-                faults.add(self.document.error(spec.id.span(), message));
+            if !seen.insert(&claim.id) {
+                let message = format!("another claim or cell is called `{}` already", claim.id);
+                let error = self.document.error_at(&claim.written.id, message);
+                faults.add(claim.written.around().fold(error, |error, around| error.about(&twice(around))));
+                // That its cells are there twice follows.
+                faults.unread(twice(claim.written.own.trim_end_matches(".whole")));
             }
         }
         for study in &self.studies {

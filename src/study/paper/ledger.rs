@@ -1,7 +1,7 @@
 //! The ledger: everything that a paper prints, and what answers it. It is complete by rule, both ways: each numbered figure,
 //! table and equation has a row, each printed number is listed where it is printed, and each claim's number is among them.
 
-use super::Paper;
+use super::{Paper, PrintedCell, PrintedTable, cells_named, printed_by};
 use base::settings::{Faults, Spanned};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -15,7 +15,7 @@ pub struct LedgerRow {
     pub item: Spanned<String>,
     /// What it shows or says.
     pub says: String,
-    /// Claims that answer it.
+    /// Claims that answer it; a name that ends in `.*` stands for all cells of tables that begin so.
     #[serde(default)]
     pub claims: Vec<Spanned<String>>,
     /// Our figures and tables that stand beside it.
@@ -35,21 +35,17 @@ pub struct LedgerRow {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NumbersRow {
-    /// The numbers, digits and all, in the order in which they are printed.
-    pub printed: Vec<Spanned<String>>,
-    /// The claims that answer them: one for all, or one each.
+    /// The claims that print them, in the order in which they are printed; a name that ends in `.*` stands for all cells of tables that
+    /// begin so. Where there is `printed`, the one claim that they answer together.
     #[serde(default)]
     pub claims: Vec<Spanned<String>>,
-    /// Why no claim does: what else they are.
+    /// The numbers that no claim prints by itself, digits and all, in the order in which they are printed.
+    #[serde(default)]
+    pub printed: Vec<Spanned<String>>,
+    /// The table that prints them, where its cells are no claims.
+    pub table: Option<Spanned<String>>,
+    /// Why no claim answers them: what else they are.
     pub none: Option<String>,
-}
-
-impl NumbersRow {
-    /// Each number with the claim that answers it, if one does.
-    pub fn answered(&self) -> impl Iterator<Item = (&Spanned<String>, Option<&Spanned<String>>)> {
-        let one = if self.claims.len() == 1 { self.claims.first() } else { None };
-        self.printed.iter().enumerate().map(move |(at, printed)| (printed, one.or(self.claims.get(at))))
-    }
 }
 
 impl Paper {
@@ -62,11 +58,13 @@ impl Paper {
         faults: &mut Faults,
     ) {
         for row in &self.ledger {
-            self.known("claim", &row.claims, claims, faults);
+            self.check_named(&row.claims, claims, faults);
             self.known("figure or table", &row.figures, figures, faults);
             self.known("study", &row.studies, studies, faults);
             for numbers in &row.numbers {
-                self.known("claim", &numbers.claims, claims, faults);
+                self.check_named(&numbers.claims, claims, faults);
+                let tables: BTreeSet<&str> = self.tables.iter().map(|table| table.id.as_str()).collect();
+                self.known("table of the paper", numbers.table.as_slice(), &tables, faults);
             }
         }
         // What is not answered or not counted may be what was not understood.
@@ -102,25 +100,59 @@ impl Paper {
         faults.add(self.document.error(row.item.span(), message));
     }
 
-    /// A number is answered by a claim that prints it, or has a reason why not.
-    fn check_numbers(&self, numbers: &NumbersRow, faults: &mut Faults) {
-        let Some(first) = numbers.printed.first() else { return };
-        let (count, claims) = (numbers.printed.len(), numbers.claims.len());
-        if claims > 1 && claims != count || (claims == 0) != numbers.none.is_some() {
-            let message = format!(
-                "{count} numbers have {claims} claims; one for all, one for each, or `none` with the reason is accepted"
-            );
-            faults.add(self.document.error(first.span(), message));
+    /// Every claim that is named exists, and so does some cell of a name that stands for several.
+    fn check_named(&self, names: &[Spanned<String>], claims: &BTreeSet<&str>, faults: &mut Faults) {
+        let is_some = |name: &&Spanned<String>| {
+            cells_named(name.get_ref(), &self.cells).iter().any(|id| id != name.get_ref())
+        };
+        let single: Vec<Spanned<String>> = names.iter().filter(|name| !is_some(name)).cloned().collect();
+        self.known("claim", &single, claims, faults);
+    }
+
+    /// The numbers of a row, each with the claim that prints it or that all of them answer.
+    pub fn numbers(&self, row: &NumbersRow) -> Vec<(String, Option<String>)> {
+        if let Some(id) = &row.table {
+            let cells =
+                self.tables.iter().filter(|table| table.id == *id.get_ref()).flat_map(PrintedTable::cells);
+            let is_number = |cell: &&PrintedCell| cell.printed.parse::<f64>().is_ok();
+            return cells.filter(is_number).map(|cell| (cell.printed.clone(), cell.claim.clone())).collect();
         }
-        for (printed, claim) in numbers.answered() {
-            let own = claim.and_then(|claim| self.claim(claim.get_ref())?.printed.as_ref());
-            if let (Some(claim), Some(own)) = (claim, own)
-                && own != printed.get_ref()
-                && claims == count
-            {
-                let message = format!("claim `{}` prints {own}, not {}", claim.get_ref(), printed.get_ref());
-                faults.add(self.document.error(printed.span(), message));
-            }
+        if row.printed.is_empty() {
+            let named = row.claims.iter().flat_map(|name| cells_named(name.get_ref(), &self.cells));
+            let printed =
+                named.filter_map(|id| Some((self.claim(id)?.printed.clone()?, Some(id.to_owned()))));
+            return printed.collect();
+        }
+        let answer = row.claims.first().map(|claim| claim.get_ref().clone());
+        row.printed.iter().map(|printed| (printed.get_ref().clone(), answer.clone())).collect()
+    }
+
+    /// A number is printed by a claim or a table, or has a claim that answers it with others, or a reason why none does. None stands
+    /// in two places.
+    fn check_numbers(&self, numbers: &NumbersRow, faults: &mut Faults) {
+        let NumbersRow { claims, printed, table, none } = numbers;
+        let Some(first) = printed.first().or(claims.first()).or(table.as_ref()) else { return };
+        let is_one_way = match (printed.len(), claims.len(), table) {
+            (0, 1.., None) => none.is_none(),
+            (0, 0, Some(_)) => true,
+            (1.., claims, None) => claims == usize::from(none.is_none()),
+            _ => false,
+        };
+        if !is_one_way {
+            let message = "numbers need `claims` that print them, or a `table`, or `printed` with one claim that answers them or with \
+                           `none`, the reason why none does";
+            return faults.add(self.document.error(first.span(), message));
+        }
+        for claim in claims {
+            let Some(known) = self.claim(claim.get_ref()) else { continue };
+            let message = match (&known.printed, printed.is_empty()) {
+                (Some(own), false) => {
+                    format!("claim `{}` prints {own} itself; without `printed` it is accepted", known.id)
+                }
+                (None, true) => format!("claim `{}` prints no number; `printed` is needed", known.id),
+                _ => continue,
+            };
+            faults.add(self.document.error(claim.span(), message).about(&printed_by(&known.id)));
         }
     }
 
@@ -129,21 +161,22 @@ impl Paper {
         if self.prints.numbers == 0 {
             return;
         }
-        let is_listed = |id: &str, number: &str| {
-            self.ledger.iter().any(|row| {
-                let mut named =
-                    row.claims.iter().chain(row.numbers.iter().flat_map(|numbers| &numbers.claims));
-                let mut printed = row.numbers.iter().flat_map(|numbers| &numbers.printed);
-                named.any(|claim| claim.get_ref() == id) && printed.any(|own| own.get_ref() == number)
-            })
-        };
-        for (index, claim) in self.claims.iter().enumerate() {
+        let mut listed: BTreeSet<String> = BTreeSet::new();
+        for row in &self.ledger {
+            let numbers: Vec<_> = row.numbers.iter().flat_map(|numbers| self.numbers(numbers)).collect();
+            // Several claims may speak of a number that is printed once.
+            let named = row.claims.iter().flat_map(|name| cells_named(name.get_ref(), &self.cells));
+            let prints = |id: &&str| {
+                let printed = self.claim(id).and_then(|claim| claim.printed.as_ref());
+                numbers.iter().any(|(number, _)| Some(number) == printed)
+            };
+            listed.extend(named.filter(prints).map(str::to_owned));
+            listed.extend(numbers.iter().filter_map(|(_, claim)| claim.clone()));
+        }
+        for claim in self.claims.iter().filter(|claim| !listed.contains(&claim.id)) {
             let Some(printed) = &claim.printed else { continue };
-            if !is_listed(&claim.id, printed) {
-                let message =
-                    format!("no row of the ledger lists the number {printed} for claim `{}`", claim.id);
-                faults.add(self.document.error_at(&format!("claim.{index}.printed"), message));
-            }
+            let message = format!("no row of the ledger lists the number {printed} for claim `{}`", claim.id);
+            faults.add(self.document.error_at(&claim.written.printed, message));
         }
     }
 
@@ -164,7 +197,8 @@ impl Paper {
                 }
             }
         }
-        let listed: usize = self.ledger.iter().flat_map(|row| &row.numbers).map(|n| n.printed.len()).sum();
+        let listed: usize =
+            self.ledger.iter().flat_map(|row| &row.numbers).map(|row| self.numbers(row).len()).sum();
         if listed != self.prints.numbers as usize {
             let message =
                 format!("the ledger lists {listed} printed numbers; `numbers` says {}", self.prints.numbers);

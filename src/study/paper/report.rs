@@ -21,14 +21,11 @@ pub struct ReportSpec {
     pub figures: Option<Vec<Spanned<String>>>,
     /// Tables of our results that it shows beside the paper's own.
     pub tables: Vec<Spanned<String>>,
-    /// Its claims; the first sentences and rows if absent.
-    #[schemars(length(max = 25))]
-    pub claims: Option<Vec<Spanned<String>>>,
 }
 
 /// How many figures a chapter shows at most.
 pub const FIGURES: usize = 6;
-/// How many claims a chapter lists at most.
+/// How many claims a chapter lists at most where none is a headline.
 pub const CLAIMS: usize = 25;
 
 /// The forms in which a place can ask for what was found: with one decimal, as a percentage, the ends of the interval, the
@@ -92,7 +89,6 @@ impl Paper {
         let results: BTreeSet<&str> = self.results.iter().map(|table| table.id.get_ref().as_str()).collect();
         self.known("figure", report.figures.as_deref().unwrap_or_default(), figures, faults);
         self.known("table of results", &report.tables, &results, faults);
-        self.known("claim", report.claims.as_deref().unwrap_or_default(), claims, faults);
     }
 }
 

@@ -8,7 +8,6 @@
 //! `overestimated_listed_first` has the first list of the text, which leaves out the face's closing edge too.
 
 use super::{Entry, Task};
-use crate::key::TrialKey;
 use crate::record::{Batch, Status, Values};
 use crate::unit::Unit;
 use base::seed::{self, Stream};
@@ -140,8 +139,8 @@ impl FormulaError {
 }
 
 impl Task for FormulaError {
-    fn trials(&self, unit: &Unit<'_>) -> Vec<TrialKey> {
-        vec![super::variant_key(unit, LABEL, 0)]
+    fn labels(&self) -> Vec<String> {
+        vec![LABEL.to_owned()]
     }
 
     fn run(&self, unit: &Unit<'_>) -> Batch {

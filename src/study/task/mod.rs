@@ -24,10 +24,18 @@ pub trait Task: Send + Sync {
         units.iter().map(|unit| self.run(unit)).collect()
     }
 
-    /// What names the unit's trials, in the order of records: one a query, entrant and repeat, unless the task does
-    /// something else.
+    /// What stands in a contender's place in its trials, where it does not run contenders.
+    fn labels(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// What names the unit's trials, in the order of records: one a query, entrant and repeat, or one a label of the task's own.
     fn trials(&self, unit: &Unit<'_>) -> Vec<TrialKey> {
-        let mut trials = Vec::new();
+        let mut trials: Vec<TrialKey> =
+            self.labels().iter().map(|label| variant_key(unit, label, 0)).collect();
+        if !trials.is_empty() {
+            return trials;
+        }
         // Names alone are asked for: nothing is drawn.
         for query in unit.family.queries() {
             for entrant in &unit.entrants {

@@ -37,7 +37,7 @@ fn missing_stale_and_damaged_runs_are_said_in_the_first_line() {
     fs::write(&trials, &bytes).unwrap();
     bench.done(&["report", "mini", "--out", "run", "--to", "pages"]);
     assert!(first().starts_with("<main>"), "{}", first());
-    bench.edit("mini/paper.toml", "printed = \"7.83\"", "printed = \"7.84\"");
+    bench.edit("mini/paper.toml", "printed = [\"7.83\"]", "printed = [\"7.84\"]");
     bench.done(&["report", "mini", "--out", "run", "--to", "pages"]);
     assert!(first().starts_with("<p class=\"state\">Stale: "), "{}", first());
     bench.edit("mini/draws.toml", "replicates = 24", "replicates = 25");
@@ -107,7 +107,7 @@ fn the_index_says_of_each_paper_what_its_first_line_says() {
     assert!(index().contains("<td>Nothing is shown: "), "{}", index());
     bench.done(&["repro", "mini"]);
     assert!(index().contains("<td>2 sentences and rows: "), "{}", index());
-    bench.edit("experiments/mini/paper.toml", "printed = \"7.83\"", "printed = \"7.84\"");
+    bench.edit("experiments/mini/paper.toml", "printed = [\"7.83\"]", "printed = [\"7.84\"]");
     assert!(index().contains("<td>Stale: "), "{}", index());
 }
 

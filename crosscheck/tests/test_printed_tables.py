@@ -1,0 +1,69 @@
+"""Claims that cells of tables are, and parts of sweeps, on small cases."""
+
+from __future__ import annotations
+
+import tomllib
+
+import pytest
+
+from statistics_judge.printed_tables import claims_of
+from statistics_judge.records import meets
+
+PAPER = """
+[[table]]
+id = "table1"
+claims = "t"
+of = { study = "s" }
+check.within = { statistic = "mean", margin = 1.0 }
+[[table.column]]
+id = ["10", "20"]
+of = { sweep = "n={column}" }
+[[table.column]]
+id = "time"
+untestable = "no machine"
+[[table.row]]
+id = "a"
+of = { contender = "A" }
+printed = ["1.0", "N/A", "3"]
+cell.10.check.within.margin = 2.0
+[[table.row]]
+id = "b"
+printed = ["4", "5", "6"]
+with = ["c"]
+cell.20.check.exists = { in = [] }
+cell.20.of = { contender = "B", metric = "m" }
+[[claim]]
+id = "c"
+check.row_one_draw.rows = [{ claims = ["t.*", "d"] }]
+"""
+
+
+def test_the_nearest_layer_says_how_a_cell_is_judged() -> None:
+    claims = {claim["id"]: claim for claim in claims_of(tomllib.loads(PAPER))}
+    assert list(claims) == ["t.a.10", "t.a.time", "t.b", "t.b.10", "t.b.20", "t.b.time", "c"]
+    of = {"study": "s", "sweep": "n=10", "contender": "A"}
+    assert claims["t.a.10"]["check"] == {"within": {"statistic": "mean", "margin": 2.0, "of": of}}
+    assert claims["t.b"]["cells"] == ["t.b.10", "t.b.20", "c"]
+    assert claims["t.a.time"] == {"id": "t.a.time", "printed": "3", "untestable": "no machine"}
+    assert claims["t.b.20"]["check"] == {"exists": {"in": [], "contenders": "B", "metric": "m"}}
+    named = ["t.a.10", "t.a.time", "t.b.10", "t.b.20", "t.b.time", "d"]
+    assert claims["c"]["check"]["row_one_draw"]["rows"] == [{"claims": named}]
+
+
+@pytest.mark.parametrize(
+    ("text", "met"),
+    [
+        ("n=5", [5]),
+        ("n<=5", [1, 5]),
+        ("n<5", [1]),
+        ("n > 1,n < 9", [5]),
+        ("n>=5", [5, 9]),
+        ("m=5", []),
+        ("n", []),
+    ],
+)
+def test_a_condition_on_a_sweep_is_met_by_its_points(text: str, met: list[int]) -> None:
+    assert [point for point in (1, 5, 9) if meets(f"n={point},w=a", text)] == met
+    assert not meets("", text)
+    assert meets("n=1,w=a", "w=a")
+    assert not meets("n=1,w=a", "w>a")

@@ -1,0 +1,198 @@
+//! The paper's own tables as they are written.
+
+use super::Digits;
+use base::settings::{AnyTable, Spanned};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use toml::Table;
+
+/// One of the paper's tables: numbers as they are printed, and how they are judged. Table, columns, rows and single cells may all
+/// say so; what stands nearer to the cell wins. In texts about how cells are judged `{row}` and `{column}` stand for their ids.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TableSpec {
+    /// Its file name.
+    pub(super) id: String,
+    /// What the names of its claims begin with; its `id` if absent. A cell is the claim `table.row.column`, a row `table.row`.
+    pub(super) claims: Option<String>,
+    /// Where it stands in the paper.
+    pub(super) at: String,
+    /// What it shows.
+    pub(super) caption: String,
+    /// What stands below it.
+    #[serde(default)]
+    pub(super) notes: Vec<String>,
+    /// With how many decimals our numbers are shown; two if absent.
+    #[schemars(range(max = 15))]
+    pub(super) decimals: Option<usize>,
+    /// Whether its columns are shown as rows and its rows as columns.
+    #[serde(default)]
+    pub(super) transposed: bool,
+    /// The unit of its numbers.
+    pub(super) unit: Option<String>,
+    /// What its cells are if they are no claims.
+    pub(super) none: Option<String>,
+    /// What the paper leaves out, if that makes its cells untestable.
+    pub(super) untestable: Option<String>,
+    /// The trials that criteria look at: laid under their `of`.
+    #[serde(default)]
+    #[schemars(with = "AnyTable")]
+    pub(super) of: Table,
+    /// One problem of ours whose first trial stands beside the printed number, laid over `of`; each cell shows what its claim found if
+    /// absent.
+    #[serde(default)]
+    #[schemars(with = "AnyTable")]
+    pub(super) beside: Table,
+    /// How its cells are judged: the settings of each criterion, by the criterion's name.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, AnyTable>")]
+    pub(super) check: BTreeMap<String, Spanned<Table>>,
+    /// What arithmetic on printed numbers says of them: the settings of each rule, by the rule's name.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, AnyTable>")]
+    pub(super) rule: BTreeMap<String, Spanned<Table>>,
+    /// What is shown beside them and decides nothing: the settings of criteria, by the criterion's name.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Vec<AnyTable>>")]
+    pub(super) shows: BTreeMap<String, Vec<Spanned<Table>>>,
+    /// Its columns.
+    #[serde(rename = "column")]
+    pub(super) columns: Vec<ColumnSpec>,
+    /// Its rows.
+    #[serde(rename = "row")]
+    pub(super) rows: Vec<RowSpec>,
+}
+
+/// One name, or several.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "a name, or a list of names, is accepted")]
+pub(super) enum Names {
+    /// One name.
+    One(String),
+    /// Several names.
+    Several(Vec<String>),
+}
+
+impl Names {
+    pub(super) fn listed(&self) -> &[String] {
+        match self {
+            Self::One(name) => std::slice::from_ref(name),
+            Self::Several(names) => names,
+        }
+    }
+}
+
+/// A column, or several that differ in their ids alone.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ColumnSpec {
+    /// Its part in the names of claims; several for as many columns.
+    pub(super) id: Names,
+    /// Its head without the unit; its `id` if absent, which `{column}` stands for.
+    pub(super) label: Option<String>,
+    /// The unit of its numbers.
+    pub(super) unit: Option<String>,
+    /// What its cells are if they are no claims.
+    pub(super) none: Option<String>,
+    /// What the paper leaves out, if that makes its cells untestable.
+    pub(super) untestable: Option<String>,
+    /// The trials that criteria look at: laid under their `of`.
+    #[serde(default)]
+    #[schemars(with = "AnyTable")]
+    pub(super) of: Table,
+    /// How its cells are judged: the settings of each criterion, by the criterion's name.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, AnyTable>")]
+    pub(super) check: BTreeMap<String, Spanned<Table>>,
+    /// What arithmetic on printed numbers says of them: the settings of each rule, by the rule's name.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, AnyTable>")]
+    pub(super) rule: BTreeMap<String, Spanned<Table>>,
+    /// What is shown beside them and decides nothing: the settings of criteria, by the criterion's name.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Vec<AnyTable>>")]
+    pub(super) shows: BTreeMap<String, Vec<Spanned<Table>>>,
+}
+
+/// A row of a table.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RowSpec {
+    /// Its part in the names of claims.
+    pub(super) id: String,
+    /// Its head; its `id` if absent.
+    pub(super) label: Option<String>,
+    /// Where it stands in the paper, if not where the table does.
+    pub(super) at: Option<String>,
+    /// The unit of its numbers, if not that of their columns.
+    pub(super) unit: Option<String>,
+    /// What is printed in each column, digits and all; `N/A` where no number is.
+    pub(super) printed: Vec<Spanned<String>>,
+    /// What the paper leaves out, if that makes its cells untestable.
+    pub(super) untestable: Option<String>,
+    /// The trials that criteria look at: laid under their `of`.
+    #[serde(default)]
+    #[schemars(with = "AnyTable")]
+    pub(super) of: Table,
+    /// What is laid over the table's `beside`.
+    #[serde(default)]
+    #[schemars(with = "AnyTable")]
+    pub(super) beside: Table,
+    /// How its cells are judged: the settings of each criterion, by the criterion's name.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, AnyTable>")]
+    pub(super) check: BTreeMap<String, Spanned<Table>>,
+    /// What arithmetic on printed numbers says of them: the settings of each rule, by the rule's name.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, AnyTable>")]
+    pub(super) rule: BTreeMap<String, Spanned<Table>>,
+    /// What is shown beside them and decides nothing: the settings of criteria, by the criterion's name.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Vec<AnyTable>>")]
+    pub(super) shows: BTreeMap<String, Vec<Spanned<Table>>>,
+    /// What single cells say otherwise, by their columns.
+    #[serde(default)]
+    pub(super) cell: BTreeMap<String, CellSpec>,
+    /// What is said of the row as a whole.
+    pub(super) whole: Option<CellSpec>,
+    /// Further claims that are parts of the row.
+    #[serde(default)]
+    pub(super) with: Vec<Spanned<String>>,
+}
+
+/// What is said of a single cell, or of a row as a whole.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct CellSpec {
+    /// The name of its claim, if not made of those of table, row and column.
+    pub(super) id: Option<String>,
+    /// Where it stands in the paper.
+    pub(super) at: Option<String>,
+    /// The sentence, where it is not a number alone.
+    pub(super) says: Option<String>,
+    /// The paper's own words, where they are given word for word.
+    pub(super) quote: Option<String>,
+    /// How the number's digits end, where it says so; otherwise the reading decides.
+    pub(super) digits: Option<Digits>,
+    /// Whether it is one of the few claims that say what the paper is about.
+    pub(super) headline: bool,
+    /// What the paper leaves out, if that makes it untestable.
+    pub(super) untestable: Option<String>,
+    /// What was changed in how it is judged after a run had been seen, and why.
+    pub(super) changed_after_run: Option<String>,
+    /// The readings under which alone it is meant, each with the options that count: a premise that the paper states.
+    pub(super) holds_when: BTreeMap<String, Vec<String>>,
+    /// The trials that criteria look at: laid under their `of`.
+    #[schemars(with = "AnyTable")]
+    pub(super) of: Table,
+    /// How it is judged: the settings of each criterion, by the criterion's name.
+    #[schemars(with = "BTreeMap<String, AnyTable>")]
+    pub(super) check: BTreeMap<String, Spanned<Table>>,
+    /// What arithmetic on printed numbers says of it: the settings of each rule, by the rule's name.
+    #[schemars(with = "BTreeMap<String, AnyTable>")]
+    pub(super) rule: BTreeMap<String, Spanned<Table>>,
+    /// What is shown beside it and decides nothing: the settings of criteria, by the criterion's name.
+    #[schemars(with = "BTreeMap<String, Vec<AnyTable>>")]
+    pub(super) shows: BTreeMap<String, Vec<Spanned<Table>>>,
+}

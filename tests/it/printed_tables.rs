@@ -1,0 +1,335 @@
+//! The paper's own tables: numbers as they are printed become claims, and what is wrong with them is told at its place.
+
+use crate::paper::Bench;
+use replan::analysis::claims::claim_hash;
+use replan::analysis::meaning;
+use std::fmt::Write as _;
+use study::Inputs;
+use study::paper::Paper;
+
+const STUDY: &str = r#"paper = "forty"
+question = "What does a weight save?"
+seed = 4
+budget = { expansions = 100_000 }
+problems = [
+GROUPS
+]
+
+[[contender]]
+label = "A*"
+planner = "astar"
+settings = { weight = 1, ties = "fifo" }
+
+[[contender]]
+label = "Weighted"
+planner = "astar"
+settings = { weight = 2, ties = "fifo" }
+"#;
+
+const TABLE: &str = r#"[source]
+title = "A paper of forty numbers"
+
+[[table]]
+id = "t"
+at = "Table 1"
+caption = "Means over twelve maps."
+of = { study = "maps" }
+check.within = { statistic = "mean", margin = 2.0 }
+row = [
+ROWS
+]
+
+[[table.column]]
+id = "length"
+of = { metric = "path_cost_cells" }
+unit = "cells"
+
+[[table.column]]
+id = "nodes"
+of = { metric = "opened" }
+check.within = { margin = 20.0 }
+
+[[table.column]]
+id = "expansions"
+of = { metric = "expansions" }
+check.within = { margin = 20.0 }
+
+[[table.column]]
+id = "bends"
+check.within.of = { metric = "bends" }
+"#;
+
+/// A paper with a table of forty numbers, in a folder called `forty`.
+fn forty() -> Bench {
+    let bench = Bench::empty();
+    let mut groups = String::new();
+    let mut rows = String::new();
+    for (number, share) in [0.0, 0.1, 0.2, 0.3, 0.35].into_iter().enumerate() {
+        writeln!(
+            groups,
+            "  {{ label = \"{number}\", family = \"random_cells\", replicates = 12, settings = {{ size_cells = [20, 20], start = [1, 1], \
+             goal = [18, 15], blocked_share = {share}, corner_rule = \"allow\" }} }},"
+        )
+        .unwrap();
+        for (id, label) in [("astar", "A*"), ("weighted", "Weighted")] {
+            writeln!(
+                rows,
+                "  {{ id = \"{id}{number}\", of = {{ contender = \"{label}\", problems = \"{number}\" }}, printed = [\"23.5\", \"120\", \
+                 \"60.0\", \"6.5\"] }},"
+            )
+            .unwrap();
+        }
+    }
+    let study = STUDY.replace("GROUPS", groups.trim_end());
+    let table = TABLE.replace("ROWS", rows.trim_end());
+    let lines = study.lines().count() + table.lines().count();
+    assert!(lines <= 80, "{lines} lines");
+    bench.write("forty/maps.toml", study.as_bytes());
+    bench.write("forty/paper.toml", table.as_bytes());
+    bench
+}
+
+#[test]
+fn forty_printed_cells_in_eighty_lines_of_toml_are_checked_run_and_judged() {
+    let bench = forty();
+    assert!(bench.done(&["check", "./forty"]).contains("50 claims"), "forty cells, ten rows");
+    let said = bench.done(&["repro", "./forty"]);
+    for cell in ["t.astar0.length", "t.weighted4.bends", "t.astar2 "] {
+        assert!(said.lines().any(|line| line.starts_with(cell)), "{cell}: {said}");
+    }
+    // On an empty map both go straight to the goal's row: 14 diagonals and 3 steps.
+    let straight = said.lines().find(|line| line.starts_with("t.astar0.length")).unwrap();
+    assert!(straight.contains("23.5 cells") && straight.contains("reproduced"), "{straight}");
+    assert!(said.contains(" not reproduced"), "every row prints the same, so that some must differ: {said}");
+    let report = std::fs::read_to_string(bench.at("target/replan/forty/paper_repro.md")).unwrap();
+    assert!(report.contains("| weighted3 | printed | 23.5 | 120 | 60.0 | 6.5 |"), "{report}");
+}
+
+/// The paper of `bench` in the folder `name`.
+fn loaded(bench: &Bench, name: &str) -> Paper {
+    let folder = bench.at(name);
+    Paper::load(&folder, &Inputs { roots: vec![folder.clone()] }).unwrap()
+}
+
+#[test]
+fn a_claim_that_moves_into_a_table_asks_what_it_asked() {
+    let bench = forty();
+    let paper = loaded(&bench, "forty");
+    let (mut written, text) = (String::new(), std::fs::read_to_string(bench.at("forty/maps.toml")).unwrap());
+    for (number, label, id) in [(0, "A*", "astar0"), (3, "Weighted", "weighted3")] {
+        let cells = [
+            ("length", "path_cost_cells", "23.5", 2.0),
+            ("nodes", "opened", "120", 20.0),
+            ("expansions", "expansions", "60.0", 20.0),
+            ("bends", "bends", "6.5", 2.0),
+        ];
+        for (column, metric, printed, margin) in cells {
+            write!(
+                written,
+                "[[claim]]\nid = \"t.{id}.{column}\"\nat = \"elsewhere\"\nprinted = \"{printed}\"\n[claim.check.within]\nstatistic = \"mean\"\n\
+                 margin = {margin:?}\nof = {{ study = \"maps\", problems = \"{number}\", contender = \"{label}\", metric = \"{metric}\" }}\n"
+            )
+            .unwrap();
+        }
+    }
+    bench.write("apart/maps.toml", text.replace("\"forty\"", "\"apart\"").as_bytes());
+    bench.write("apart/paper.toml", format!("[source]\ntitle = \"t\"\n{written}").as_bytes());
+    let apart = loaded(&bench, "apart");
+    assert_eq!(apart.claims.len(), 8);
+    for claim in &apart.claims {
+        let moved = paper.claim(&claim.id).unwrap();
+        assert_eq!(meaning::hash(&apart, claim), meaning::hash(&paper, moved), "{}", claim.id);
+        // What was explored of it stays.
+        assert_eq!(claim_hash(&apart, claim), claim_hash(&paper, moved), "{}", claim.id);
+    }
+    // Another margin is another question.
+    bench.edit("forty/paper.toml", "margin = 2.0", "margin = 2.5");
+    let (claim, changed) = (&apart.claims[0], loaded(&bench, "forty"));
+    assert_ne!(meaning::hash(&apart, claim), meaning::hash(&changed, changed.claim(&claim.id).unwrap()));
+}
+
+/// What is changed in the table, into what, and what is told of it.
+const WRONG: [(&str, &str, &str); 13] = [
+    (
+        "\"23.5\", \"120\", \"60.0\", \"6.5\"]",
+        "\"23.5\", \"120\", \"60.0\"]",
+        "11:73: row `astar0` of table `t` has 3 cells for 4 columns; one for each is accepted, `N/A` where",
+    ),
+    (
+        "\"120\"",
+        "\"few\"",
+        "11:82: claim `t.astar0.nodes`: printed is `few`; the digits of one number as the paper prints them are accepted",
+    ),
+    (
+        "check.within = { statistic = \"mean\", margin = 2.0 }\n",
+        "",
+        "23:6: column `length` of table `t`: its cells are printed, and nothing says how they are judged",
+    ),
+    ("id = \"weighted0\"", "id = \"astar0\"", "12:10: another claim or cell is called `t.astar0` already"),
+    (
+        "\"6.5\"]",
+        "\"N/A\"], cell.bends.headline = true",
+        "11:110: table `t`: row `astar0`, column `bends`: the cell is no claim, so that nothing is said of it",
+    ),
+    (
+        "\"23.5\", \"120\", \"60.0\", \"6.5\"]",
+        "\"23.5\", \"N/A\", \"N/A\", \"N/A\"], whole.headline = true",
+        "11:104: row `astar0` of table `t` is no claim by itself: fewer than two of its cells can be tested",
+    ),
+    ("id = \"bends\"", "id = \"nodes\"", "39:6: table `t` has another column `nodes`"),
+    (
+        "id = \"weighted0\"",
+        "id = \"weighted0\", cell.lenght.headline = true",
+        "12:28: table `t`: there is no column `lenght` (did you mean `length`?); there are length, nodes, expansions, bends",
+    ),
+    (
+        "metric = \"bends\"",
+        "metric = \"bend\"",
+        "40:30: there is no metric `bend`, nor a reading that gives the name a meaning (did you mean `bends`?)",
+    ),
+    (
+        "study = \"maps\"",
+        "study = \"map\"",
+        "8:16: there is no study `map` (did you mean `maps`?); there are maps",
+    ),
+    (
+        "problems = \"0\" }",
+        "problems = \"9\" }",
+        "11:56: study `maps` has no problem group `9`; it has 0, 1, 2, 3, 4",
+    ),
+    ("margin = 20.0", "margn = 20.0", "31:18: unknown key `margn` (did you mean `margin`?)"),
+    (
+        "check.within = { margin = 20.0 }",
+        "check.witin = { margin = 20.0 }",
+        "31:7: claim `t.astar0.nodes`: there is no criterion `witin` (did you mean `within`?)",
+    ),
+];
+
+#[test]
+fn what_is_wrong_with_a_table_is_told_once_at_its_own_place() {
+    for (from, to, wanted) in WRONG {
+        let bench = forty();
+        bench.edit("forty/paper.toml", from, to);
+        let said = bench.run(&["check", "./forty"]);
+        let told = said.err.lines().filter(|line| line.contains("forty/paper.toml:")).collect::<Vec<_>>();
+        let first = told.first().copied().unwrap_or_default();
+        assert!(
+            said.code == Some(2) && first.contains(&format!("paper.toml:{wanted}")),
+            "{to}: {}",
+            said.err
+        );
+        let is_repeated = told.iter().skip(1).any(|line| line.split(": ").nth(1) == first.split(": ").nth(1));
+        assert!(!is_repeated, "{to}: {}", said.err);
+    }
+}
+
+#[test]
+fn a_ninth_headline_is_refused_where_it_is_set_and_eight_open_the_chapter() {
+    let bench = forty();
+    let table = std::fs::read_to_string(bench.at("forty/paper.toml")).unwrap();
+    let with = |headlines: usize| {
+        let rows = table.matches("printed =").count();
+        assert_eq!(rows, 10);
+        let text = table.replacen("printed =", "cell.bends.headline = true, printed =", headlines);
+        bench.write("forty/paper.toml", text.as_bytes());
+        bench.run(&["check", "./forty"])
+    };
+    let said = with(9);
+    let wanted =
+        "the paper has 9 headline claims; at most 8 are accepted, so `t.astar4.bends` is one too many";
+    assert!(said.code == Some(2) && said.err.contains(wanted), "{}", said.err);
+    assert!(said.err.contains("forty/paper.toml:19:"), "{}", said.err);
+    assert_eq!(with(8).code, Some(0));
+    bench.done(&["repro", "./forty"]);
+    let report = std::fs::read_to_string(bench.at("target/replan/forty/paper_repro.md")).unwrap();
+    let listed = report.lines().filter(|line| line.starts_with("| [`t.")).collect::<Vec<_>>();
+    assert_eq!(listed.len(), 8, "{report}");
+    assert!(listed.iter().all(|line| line.contains(".bends`]")), "{listed:?}");
+}
+
+/// The paper of forty numbers with one claim in place of its table, about a study that sweeps the weight.
+fn swept(claim: &str) -> Bench {
+    let bench = forty();
+    bench.edit(
+        "forty/maps.toml",
+        "[[contender]]\nlabel = \"Weighted\"",
+        "[[sweep]]\nkey = \"weight\"\nof = \"astar\"\nvalues = [1, 2, 3, 5]\n\n[[contender]]\nlabel = \"Weighted\"",
+    );
+    bench.edit("forty/maps.toml", "weight = 2, ties = \"fifo\"", "weight = 1, ties = \"lifo\"");
+    bench.write(
+        "forty/paper.toml",
+        format!("[source]\ntitle = \"t\"\n[[claim]]\nid = \"c\"\nat = \"1\"\n{claim}").as_bytes(),
+    );
+    bench
+}
+
+#[test]
+fn a_claim_asks_for_a_part_of_a_sweep() {
+    let trials = |sweep: &str| {
+        let bench = swept(&format!(
+            "[claim.check.share]\nhits = \"solved\"\naccepted = [0.0, 0.5]\nof = {{ study = \"maps\", problems = \"0\", contender = \"A*\", \
+             sweep = {sweep} }}\n"
+        ));
+        let said = bench.done(&["repro", "./forty"]);
+        let line = said.lines().find(|line| line.starts_with("c ")).unwrap();
+        line.split_whitespace()
+            .find_map(|word| word.strip_prefix("12/").or(word.split_once('/').map(|(_, all)| all)))
+            .unwrap()
+            .to_owned()
+    };
+    for (sweep, points) in [
+        ("\"weight=2\"", 1),
+        ("\"weight<=2\"", 2),
+        ("\"weight<2\"", 1),
+        ("\"weight>1,weight<=3\"", 2),
+        ("\"weight >= 2\"", 3),
+        ("[\"weight=1\", \"weight>3\"]", 2),
+    ] {
+        assert_eq!(trials(sweep), (12 * points).to_string(), "{sweep}");
+    }
+    let none = swept(
+        "[claim.check.share]\nhits = \"solved\"\naccepted = [0.0, 0.5]\nof = { study = \"maps\", problems = \"0\", contender = \"A*\", sweep = \
+         [\"weight=1\", \"weight>5\"] }\n",
+    );
+    let said = none.run(&["check", "./forty"]).err;
+    let wanted = "study `maps` has no sweep `weight>5`; it has weight=1, weight=2, weight=3, weight=5";
+    assert!(said.contains(wanted) && said.contains("paper.toml:9:"), "{said}");
+}
+
+#[test]
+fn success_along_a_part_of_a_sweep_is_asked_of_that_part() {
+    let bench = swept(
+        "[claim.check.lower]\nof = { study = \"maps\", problems = \"3\", contender = \"A*\", against = \"Weighted\", sweep = \"weight<=3\" }\n",
+    );
+    bench.done(&["repro", "./forty"]);
+    let said = bench.done(&["show", "./forty", "c"]);
+    assert!(said.contains("at 0 of 3 points"), "{said}");
+}
+
+#[test]
+fn a_selection_that_selects_nothing_is_refused_with_the_names_there_are() {
+    let share = "[claim.check.share]\nhits = \"solved\"\naccepted = [0.0, 0.5]\nof = { study = \"maps\", problems = \"0\" }\n";
+    let bench = swept(share);
+    let wanted =
+        "paper.toml:9:6: `of` names no contender, so that it selects nothing; study `maps` has A*, Weighted";
+    let said = bench.run(&["check", "./forty"]).err;
+    assert!(said.contains(wanted), "{said}");
+    // What a task tries in the place of contenders has names too.
+    let study = "paper = 'forty'\nquestion = 'q'\nseed = 1\nbudget = { expansions = 1 }\ntask = 'formula_error'\n\
+                 task_settings = { samples = 5, reach = 0.5 }\n[[problems]]\nlabel = '0'\nfamily = 'random_polyhedra'\n\
+                 settings = { side_cm = 60, step_cm = 1, count = [1, 1], size_cm = [7, 16], shapes = ['box'], clear_cm = 1, queries = \
+                 [{ start = [4, 5, 6], goal = [56, 54, 50] }] }\n";
+    bench.write("forty/maps.toml", study.as_bytes());
+    let said = bench.run(&["check", "./forty"]).err;
+    assert!(said.contains("it selects nothing; study `maps` has Printed distance"), "{said}");
+    bench.edit("forty/paper.toml", "problems = \"0\"", "problems = \"0\", contender = \"Printed\"");
+    let said = bench.run(&["check", "./forty"]).err;
+    assert!(
+        said.contains(
+            "has no contender `Printed` (did you mean `Printed distance`?); it has Printed distance"
+        ),
+        "{said}"
+    );
+    bench.edit("forty/paper.toml", "\"Printed\"", "\"Printed distance\"");
+    assert_eq!(bench.run(&["check", "./forty"]).code, Some(0));
+}
