@@ -285,7 +285,7 @@ fn what_a_choice_cannot_be_is_refused_once_where_it_stands() {
 #[test]
 fn a_premise_that_the_claims_study_leaves_out_is_refused() {
     let bench = Bench::new();
-    let when = "id = \"cost\"\nholds_when = { corners = [\"allow\"] }";
+    let when = "id = \"cost\", holds_when = { corners = [\"allow\"] }";
     bench.edit("mini/paper.toml", "id = \"cost\"", when);
     let said = bench.run(&["check", "./mini"]);
     assert_eq!(said.code, Some(2), "{}", said.err);

@@ -45,7 +45,7 @@ fn fourteen_faults_of_as_many_kinds_are_told_in_one_round_and_once_each() {
         "mini/paper.toml:27:15: there is no contender `B*`; there are A*",
         "mini/paper.toml:35:6: `is` is \"below\"; ",
         "mini/paper.toml:38:13: study `draws` has no problem group `drown` (did you mean `drawn`?); it has drawn",
-        "mini/paper.toml:54:11: choice `nodes` has no option `open` (did you mean `opened`?); it has closed, opened",
+        "mini/paper.toml:46:11: choice `nodes` has no option `open` (did you mean `opened`?); it has closed, opened",
         "mini/room.toml:3:8: `seed` is \"eight\"; a whole number of 0 or more is accepted",
         "mini/room.toml:5:14: fitted_to: there is no claim `toll`",
         "mini/room.toml:17:44: the start [3.0, 0.0] is blocked",
@@ -66,8 +66,8 @@ fn a_default_that_hides_what_a_contender_or_a_problem_says_is_refused() {
     assert_told(
         &said.err,
         &[
-            "paper.toml:62:11: the default of choice `corners` changes the `ties` that contender `A*` says in study `draws`; the",
-            "paper.toml:62:11: the default of choice `corners` changes the `corner_rule` that problems `drawn` say in study `draws`;",
+            "paper.toml:54:11: the default of choice `corners` changes the `ties` that contender `A*` says in study `draws`; the",
+            "paper.toml:54:11: the default of choice `corners` changes the `corner_rule` that problems `drawn` say in study `draws`;",
         ],
     );
     // The same is no other, and what is not said is not hidden.
@@ -260,8 +260,8 @@ fn an_option_of_a_choice_changes_what_exists() {
     assert_told(
         &said.err,
         &[
-            "paper.toml:57:31: there is no metric `colsed` (did you mean `closed`?); there are ",
-            "paper.toml:57:61: there is no planner or stage `asatr` (did you mean `astar`?); there are ",
+            "paper.toml:49:31: there is no metric `colsed` (did you mean `closed`?); there are ",
+            "paper.toml:49:61: there is no planner or stage `asatr` (did you mean `astar`?); there are ",
         ],
     );
 }

@@ -97,13 +97,13 @@ pub const WRONG: &[Wrong] = &[
         "paper",
         "default = \"allow\"",
         "default = \"deny\"",
-        "mini/paper.toml:62:11: choice `corners` has no option `deny`; it has allow,",
+        "mini/paper.toml:54:11: choice `corners` has no option `deny`; it has allow,",
     ),
     wrong(
         "paper",
         "problem = { corner_rule = \"forbid_any\" }",
         "problem = { corner_rule = \"never\" }",
-        "paper.toml:66:27: `corner_rule` is \"never\"; \"allow\", \"forbid_both\" or \"forbid_any\" is",
+        "paper.toml:58:27: `corner_rule` is \"never\"; \"allow\", \"forbid_both\" or \"forbid_any\" is",
     ),
     wrong(
         "draws",

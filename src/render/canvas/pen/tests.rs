@@ -64,7 +64,7 @@ fn text_of_plotters_is_outlined_and_set_as_the_canvas_sets_it() {
 
 #[test]
 fn text_of_plotters_that_cannot_be_printed_is_refused() {
-    for (size, text, expected) in [(300.0, "small", "3 pt is too small"), (700.0, "路", "no glyph for '路'")]
+    for (size, text, expected) in [(300.0, "small", "3 pt is too small"), (700.0, "路", "no glyph for `路`")]
     {
         let refused = page(|canvas| {
             let style = FontDesc::new(FontFamily::Serif, size, FontStyle::Italic).into();
