@@ -245,7 +245,10 @@ impl Paper {
         }
         let (mut studies, mut others) = (Vec::new(), Vec::new());
         for path in &files {
-            let Some(document) = faults.keep(Document::open(path)) else { continue };
+            let Some(document) = faults.keep(Document::open(path)) else {
+                faults.unread("contender");
+                continue;
+            };
             match files::kind_of(&document, &written) {
                 files::STUDY => {
                     // Settings stay as they are written: who reads them tells what is wrong there, and what else is.

@@ -38,7 +38,7 @@ fn a_fault_of_one_study_is_told_alone_in_a_paper_of_many() {
         ("tang2023", "postures.toml", "replicates = 1000", "replicates = \"9\"", "`replicates` is \"9\""),
         (
             "tang2023",
-            "postures.toml",
+            "paper.toml",
             "default = \"paper\"",
             "default = \"papper\"",
             "has no option `papper`",

@@ -148,11 +148,11 @@ fn wording_order_names_and_what_holds_anyway_change_no_meaning() {
     let bench = bench();
     let before = hashes(&bench);
     let whole = text(&bench, PAPER).replace("\"length\"", "\"half\"");
-    let (head, tail) = whole.split_once("[[claim]]\nid = \"cost\"").unwrap();
-    let (cost, tail) = tail.split_once("[[claim]]\nid = \"nodes\"").unwrap();
+    let (head, tail) = whole.split_once("[[table]]\nid = \"table1\"").unwrap();
+    let (table, tail) = tail.split_once("[[claim]]\nid = \"nodes\"").unwrap();
     bench.write(
         PAPER,
-        format!("{head}[[claim]]\nid = \"nodes\"{tail}\n[[claim]]\nid = \"cost\"{cost}").as_bytes(),
+        format!("{head}[[claim]]\nid = \"nodes\"{tail}\n[[table]]\nid = \"table1\"{table}").as_bytes(),
     );
     let mut after = hashes(&bench);
     let half = after.remove("half").unwrap();
@@ -178,8 +178,8 @@ fn what_decides_a_claim_changes_its_meaning_and_that_of_claims_that_name_it() {
         ),
         ("margin = 0.25", "accepted = [0.25, 0.75]", &["length"]),
         ("is = \"lower\"", "is = \"higher\"", &["nodes"]),
-        ("printed = \"7.83\"", "printed = \"7.84\"", &["again", "cost"]),
-        ("printed = \"7.83\"", "printed = \"7.83\"\ndigits = \"truncated\"", &["again", "cost"]),
+        ("[\"7.83\"]", "[\"7.84\"]", &["again", "cost"]),
+        ("[\"7.83\"]", "[\"7.83\"], cell.cost.digits = \"truncated\"", &["again", "cost"]),
         ("id = \"length\"", "holds_when = { corners = [\"allow\"] }\nid = \"length\"", &["length"]),
         ("[\"length\", \"cost\"]", "[\"cost\", \"length\"]", &["again"]),
     ] {
@@ -220,7 +220,7 @@ fn claims_may_change_before_their_data_are_there() {
     bench.edit(PAPER, "margin = 0.25", "margin = 3.0");
     let said = bench.done(&["repro", "./mini"]);
     assert!(!said.contains("after their data"), "a quick run is not the study's: {said}");
-    bench.edit(PAPER, "printed = \"7.83\"", "printed = \"7.84\"");
+    bench.edit(PAPER, "[\"7.83\"]", "[\"7.84\"]");
     let quick = bench.done(&["repro", "./mini", "--quick"]);
     let both = "without a reason given: `cost`, `length`, `again`.";
     assert!(quick.contains(both), "the quick run has a history of its own: {quick}");

@@ -61,7 +61,7 @@ fn a_figure_called_like_another_is_told_once() {
     let settings = "settings = { problems = [\"maps\"], contenders = [\"A*\"] }\n";
     let shows = "shows = [{ problems = \"maps\", replicates = 1 }]\n";
     let twice = format!("{text}{settings}{shows}[[figure]]\n{from}");
-    let wanted = "compare.toml:57:6: another figure or table of the paper is called `maps` already";
+    let wanted = "compare.toml:46:6: another figure or table of the paper is called `maps` already";
     assert_alone("grid", ("compare.toml", from, &twice), wanted);
 }
 

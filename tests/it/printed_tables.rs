@@ -185,7 +185,7 @@ const WRONG: [(&str, &str, &str); 13] = [
     (
         "metric = \"bends\"",
         "metric = \"bend\"",
-        "40:30: there is no metric `bend`, nor a reading that gives the name a meaning (did you mean `bends`?)",
+        "40:30: there is no metric `bend`, nor a choice that gives the name a meaning (did you mean `bends`?)",
     ),
     (
         "study = \"maps\"",

@@ -14,7 +14,7 @@ fn wrong(what: &str, name: &str) -> Option<String> {
     (!is_accepted).then(|| {
         format!(
             "the {what} is called \"{}\"; one or more of a to z, A to Z, 0 to 9, `_`, `.` and `-` are accepted as its name",
-            brief(name)
+            brief(name).escape_debug()
         )
     })
 }
