@@ -245,15 +245,16 @@ impl Paper {
         }
         let (mut studies, mut others) = (Vec::new(), Vec::new());
         for path in &files {
-            let Some(document) = faults.keep(Document::open(path)) else {
-                faults.unread("contender");
-                continue;
-            };
+            let Some(document) = faults.keep(Document::open(path)) else { continue };
             match files::kind_of(&document, &written) {
                 files::STUDY => {
                     // Settings stay as they are written: who reads them tells what is wrong there, and what else is.
                     let document = document.salvaged(&schema_of::<StudySpec>(), faults);
-                    studies.extend(Study::gather(&document, &shared, inputs, faults)?);
+                    let study = Study::gather(&document, &shared, inputs, faults)?;
+                    if study.as_ref().is_none_or(|study| study.contenders.is_empty()) && faults.are_in(path) {
+                        faults.unread("contender");
+                    }
+                    studies.extend(study);
                 }
                 kind => others.push((path.clone(), kind)),
             }

@@ -105,7 +105,11 @@ fn an_option_is_laid_over_the_files_of_a_robot_and_of_its_scene() {
         let taken = [("tool".to_owned(), option.to_owned())].into();
         let interpretation = Interpretation::new(&study.choices, &taken).unwrap();
         let inputs = Inputs { roots: vec![bench.at("arm")] };
-        let prepared = study.groups[0].family(&study.groups[0].points[0], &interpretation, &inputs).unwrap().prepare(1).unwrap();
+        let prepared = study.groups[0]
+            .family(&study.groups[0].points[0], &interpretation, &inputs)
+            .unwrap()
+            .prepare(1)
+            .unwrap();
         let World::Roadmap(map) = prepared.world else { panic!("an arm's world is a roadmap") };
         let Local::Arm(lines) = map.local() else { panic!("it is that of an arm in a cell") };
         let scene = lines.cell().scene();
@@ -285,11 +289,11 @@ fn what_a_choice_cannot_be_is_refused_once_where_it_stands() {
 #[test]
 fn a_premise_that_the_claims_study_leaves_out_is_refused() {
     let bench = Bench::new();
-    let when = "id = \"cost\", holds_when = { corners = [\"allow\"] }";
-    bench.edit("mini/paper.toml", "id = \"cost\"", when);
+    let when = "cell.cost.id = \"cost\", cell.cost.holds_when = { corners = [\"allow\"] }";
+    bench.edit("mini/paper.toml", "cell.cost.id = \"cost\"", when);
     let said = bench.run(&["check", "./mini"]);
     assert_eq!(said.code, Some(2), "{}", said.err);
-    let refused = "paper.toml:22:26: claim `cost` is meant under options of choice `corners`, which study `room` leaves out";
+    let refused = "claim `cost` is meant under options of choice `corners`, which study `room` leaves out";
     assert!(said.err.contains(refused), "{}", said.err);
 }
 

@@ -36,13 +36,7 @@ fn a_fault_of_one_study_is_told_alone_in_a_paper_of_many() {
             "`jump_deg` is 4000; a number from 0.001 to 3600",
         ),
         ("tang2023", "postures.toml", "replicates = 1000", "replicates = \"9\"", "`replicates` is \"9\""),
-        (
-            "tang2023",
-            "paper.toml",
-            "default = \"paper\"",
-            "default = \"papper\"",
-            "has no option `papper`",
-        ),
+        ("tang2023", "paper.toml", "default = \"paper\"", "default = \"papper\"", "has no option `papper`"),
     ] {
         let told = told(paper, file, from, to);
         let is_meant = told.len() == 1 && told[0].contains(wanted);

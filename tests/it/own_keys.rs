@@ -133,7 +133,7 @@ fn ids_that_would_break_tables_and_links_are_refused() {
         assert_alone("grid", ("paper.toml", "id = \"fewer_nodes\"", &change), wanted);
     }
     let figure = ("compare.toml", "id = \"maps\"", "id = \"ma|ps\"");
-    assert_alone("grid", figure, "compare.toml:51:6: the id `ma|ps` names files");
+    assert_alone("grid", figure, "compare.toml:40:6: the id `ma|ps` names files");
 }
 
 #[test]

@@ -7,6 +7,7 @@
 use super::Query;
 use base::seed::{self, Stream};
 use base::settings::{Faults, Settings, SettingsError};
+use base::text::listed;
 use engine::planner::Invalid;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -198,8 +199,10 @@ impl Ends {
         let count = count.map_or(1, NonZeroU32::get);
         if let (Some(from), Some(to)) = (start.only(), goal.only()) {
             if from == to && [&start, &goal].iter().any(|place| place.written().is_none()) {
-                let message =
-                    format!("start and goal can be drawn at {from:?} alone; wider limits are accepted");
+                let message = format!(
+                    "start and goal can be drawn at {} alone; wider limits are accepted",
+                    listed(&from)
+                );
                 return Err(error_at("goal", message));
             }
             if count > 1 {
