@@ -5,13 +5,26 @@ use crate::paper::Paper;
 use crate::record::Row;
 use crate::session::{Options, Report, run};
 use crate::store::{Columns, Exhibits, Records, Staged, read_records, stage_records};
-use crate::{Inputs, Study, runner::Unwatched};
+use crate::{Inputs, runner::Unwatched};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-const PAPER: &str = "[source]\ntitle = 'a test'\n[prints]\nfigures = 0\ntables = 0\nequations = 0\n";
+const PAPER: &str = "
+[source]
+title = 'a test'
+[prints]
+figures = 0
+tables = 0
+equations = 0
+[[choice]]
+id = 'corners'
+why = 'w'
+default = 'allow'
+option.allow = { problem = { corner_rule = 'allow' } }
+option.forbid = { problem = { corner_rule = 'forbid_any' } }
+";
 
 const STUDY: &str = "
 paper = 'p'
@@ -42,12 +55,6 @@ label = 'second'
 planner = 'astar'
 settings = { weight = 2, ties = 'fifo' }
 then = [{ stage = 'delete_inflections', settings = { line_of_sight = 'exact_interior' } }]
-[[reading]]
-id = 'corners'
-why = 'w'
-default = 'allow'
-option.allow = { problem = { corner_rule = 'allow' } }
-option.forbid = { problem = { corner_rule = 'forbid_any' } }
 ";
 
 const THIRD: &str =
@@ -97,7 +104,8 @@ impl House {
 
     /// Puts `records` in the place of what a run of [`STUDY`] left in `folder`.
     fn rewrite(&self, folder: &Path, records: &Records) {
-        let study = Study::load(&self.at("p/s.toml"), &Inputs { roots: vec![self.at("p")] }).unwrap();
+        let paper = Paper::load(&self.at("p"), &Inputs { roots: vec![self.at("p")] }).unwrap();
+        let study = &paper.studies[0];
         let values: Vec<&'static str> = study.columns().into_iter().collect();
         let columns = Columns { keys: study.key_columns(), values: &values };
         let (mut staged, mut manifest) = (Staged::default(), Manifest::read(folder, "s").unwrap());
@@ -122,9 +130,8 @@ impl House {
 /// `spec` with its two contenders in the other order.
 fn reordered(spec: &str) -> String {
     let (head, rest) = spec.split_once("[[contender]]\nlabel = 'first'").unwrap();
-    let (first, tail) = rest.split_once("[[contender]]").unwrap();
-    let (second, readings) = tail.split_once("[[reading]]").unwrap();
-    format!("{head}[[contender]]{second}[[contender]]\nlabel = 'first'{first}[[reading]]{readings}")
+    let (first, second) = rest.split_once("[[contender]]").unwrap();
+    format!("{head}[[contender]]{second}[[contender]]\nlabel = 'first'{first}")
 }
 
 /// What changes, what is said of it, and how many of the 14 trials of each contender are kept besides whole units.
@@ -150,17 +157,13 @@ fn changes() -> Vec<(&'static str, String, Vec<&'static str>, usize)> {
         ),
         (
             "one more",
-            STUDY.replacen("[[reading]]", &format!("{THIRD}[[reading]]"), 1),
+            format!("{STUDY}{THIRD}"),
             vec!["contender `third` is new"],
             28,
         ),
         (
             "one less",
-            STUDY.replace(
-                &STUDY[STUDY.find("[[contender]]\nlabel = 'second'").unwrap()
-                    ..STUDY.find("[[reading]]").unwrap()],
-                "",
-            ),
+            STUDY[..STUDY.find("[[contender]]\nlabel = 'second'").unwrap()].to_owned(),
             vec!["contender `second` is gone"],
             0,
         ),
