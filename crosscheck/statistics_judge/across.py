@@ -76,14 +76,14 @@ def within(value: float, bounds: tuple[float, float]) -> bool:
 
 
 def axes(paper: Paper) -> list[Axis]:
-    """The choices of a paper; what an option does not cite, its choice may."""
+    """The choices of a paper; what an option that is no probe does not cite, its choice may."""
     found = []
     for choice in paper.choices:
         bounds = choice.get("bounds")
         ends = (bounds["least"], bounds["greatest"]) if bounds else None
         source = {key: choice[key] for key in ("paper", "practice") if key in choice}
         options = {
-            name: option if "paper" in option or "practice" in option else {**source, **option}
+            name: option if {"paper", "practice", "probe"} & option.keys() else {**source, **option}
             for name, option in choice["option"].items()
         }
         found.append(Axis(choice["id"], choice["default"], choice.get("fitted", False), ends, options))

@@ -37,7 +37,8 @@ def of_finding(
 ) -> str:
     """The class of what a criterion found.
 
-    `clock`: it rests on a clock with few or contrary sessions. `not_run`: the paper may mean an option that cannot be run.
+    `clock`: it rests on a clock with few or contrary sessions.
+    `not_run`: the paper may mean an option that cannot be run.
     """
     if censored or few or clock or not_run:
         return "undecided"

@@ -146,7 +146,9 @@ def is_not_run(paper: Paper, claim: dict[str, Any], studies: list[Study]) -> boo
     """Whether the paper may mean an option that cannot be run, of a choice that these studies inherit."""
     premises = claim.get("holds_when", {})
     for axis in across.axes(paper):
-        lost = [name for name, option in axis.options.items() if "cannot_run" in option and axis.is_meant(name)]
+        lost = [
+            name for name, option in axis.options.items() if "cannot_run" in option and axis.is_meant(name)
+        ]
         lost = [name for name in lost if name in premises.get(axis.id, [name])]
         of_claims = any(key in option for option in axis.options.values() for key in ("metric", "digits"))
         if lost and (of_claims or any(axis.id in study.inherited for study in studies)):

@@ -86,9 +86,8 @@ class Study:
 
     @cached_property
     def inherited(self) -> list[str]:
-        """The choices that touch its trials, by the columns of their options."""
-        columns = (name for name in self.trials.names if name.startswith(OPTION))
-        return [name.removeprefix(OPTION) for name in columns]
+        """The choices that touch its trials: the stored run names them."""
+        return toml(self.runs / f"{self.name}.manifest.toml")["axes"]
 
     @property
     def groups(self) -> list[str]:

@@ -101,9 +101,10 @@ def test_an_exploration_that_was_changed_no_longer_agrees(name: str, tmp_path: P
     """A class is turned in what was explored, where all results of a claim say the same."""
     runs = tmp_path / name
     runs.mkdir()
-    for file in ("explored.toml.gz", "second_seed.toml.gz", "verdicts.toml"):
-        if (ROOT / "data/runs" / name / file).is_file():
-            shutil.copy(ROOT / "data/runs" / name / file, runs / file)
+    stored_run = ROOT / "data/runs" / name
+    for pattern in ("*.toml.gz", "verdicts.toml", "*.manifest.toml"):
+        for file in stored_run.glob(pattern):
+            shutil.copy(file, runs / file.name)
     text = gzip.decompress((runs / "explored.toml.gz").read_bytes()).decode()
     turned = text.replace('class = "reproduced"', 'class = "not_reproduced"')
     assert turned != text
