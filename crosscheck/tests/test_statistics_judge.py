@@ -96,9 +96,10 @@ def test_what_lowers_a_class_raises_none() -> None:
     assert holds(classes.HOLDS, fitted=True, searched=True) == "attainable"
     assert holds(classes.SIGN, existential=True) == "direction_only"
     assert holds(classes.FAILS, powerless=True) == "not_reproduced"
-    for cap in ("powerless", "censored", "clock"):
+    for cap in ("powerless", "censored", "clock", "not_run"):
         assert holds(classes.HOLDS, **{cap: True}) == "undecided"
-    assert holds(classes.FAILS, censored=True) == holds(classes.FAILS, clock=True) == "undecided"
+    for cap in ("censored", "clock", "not_run"):
+        assert holds(classes.FAILS, **{cap: True}) == "undecided"
 
 
 def test_parts_combine_by_the_way_they_speak() -> None:
