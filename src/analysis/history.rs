@@ -189,7 +189,8 @@ impl History {
         Self::read(folder)?.noting(&Now::of(paper, folder), folder, command)
     }
 
-    /// As [`note`](Self::note), for what the claims meant when shards of a run were planned.
+    /// Begins the history in `folder` with what the claims meant when shards of a run were planned, unless it has begun: then its
+    /// last entry tells what has changed since.
     ///
     /// # Errors
     /// As [`note`](Self::note).
@@ -199,9 +200,12 @@ impl History {
         command: &str,
     ) -> Result<(), StudyError> {
         let history = Self::read(folder)?;
+        if history.entries > 0 {
+            return Ok(());
+        }
         let planned = |(id, words): (&String, &Vec<String>)| (id.clone(), Stated(words.clone()));
         let claims = claims.iter().map(planned).collect();
-        let now = Now { claims, reasons: BTreeSet::new(), records: history.records.clone() };
+        let now = Now { claims, reasons: BTreeSet::new(), records: BTreeMap::new() };
         history.noting(&now, folder, command).map(drop)
     }
 
