@@ -119,8 +119,10 @@ impl<'a> Selection<'a> {
         if let Some(message) = lacking {
             faults.add(context.settings.error_at("of.query", message));
         }
-        let sweep =
-            of.sweep.as_ref().and_then(|texts| faults.keep(sweep_keys(context, (study, &groups), &texts.listed())));
+        let sweep = of
+            .sweep
+            .as_ref()
+            .and_then(|texts| faults.keep(sweep_keys(context, (study, &groups), &texts.listed())));
         if let Some(own) = of.against.as_ref().filter(|against| contenders.contains(against)) {
             let message = format!("`{own}` is held against itself; another contender is accepted");
             faults.add(context.settings.error_at("of.against", message));

@@ -233,7 +233,11 @@ impl Study {
     ///
     /// # Errors
     /// A text that no point meets, by its place, in words.
-    pub fn sweeps_called(&self, groups: &[String], texts: &[String]) -> Result<Vec<SweepKey>, (usize, String)> {
+    pub fn sweeps_called(
+        &self,
+        groups: &[String],
+        texts: &[String],
+    ) -> Result<Vec<SweepKey>, (usize, String)> {
         let points = self.sweep_points_of(|label| groups.iter().any(|group| group == label));
         let names: Vec<String> = points.iter().map(|point| name::sweep(&point.key)).collect();
         let is_met = |place: usize, text: &String| names[place] == *text || meets(&points[place].key, text);
@@ -243,7 +247,11 @@ impl Study {
         {
             // Groups that no sweep is over have a point without a name.
             let named: Vec<&str> = names.iter().map(String::as_str).filter(|name| !name.is_empty()).collect();
-            let has = if named.is_empty() { "it sweeps nothing there".to_owned() } else { format!("it has {}", named.join(", ")) };
+            let has = if named.is_empty() {
+                "it sweeps nothing there".to_owned()
+            } else {
+                format!("it has {}", named.join(", "))
+            };
             return Err((place, format!("study `{}` has no sweep `{text}`; {has}", self.name)));
         }
         let meant = all().filter(|place| texts.iter().any(|text| is_met(*place, text)));

@@ -105,7 +105,11 @@ fn an_option_is_laid_over_the_files_of_a_robot_and_of_its_scene() {
         let taken = [("tool".to_owned(), option.to_owned())].into();
         let interpretation = Interpretation::new(&study.choices, &taken).unwrap();
         let inputs = Inputs { roots: vec![bench.at("arm")] };
-        let prepared = study.groups[0].family(&study.groups[0].points[0], &interpretation, &inputs).unwrap().prepare(1).unwrap();
+        let prepared = study.groups[0]
+            .family(&study.groups[0].points[0], &interpretation, &inputs)
+            .unwrap()
+            .prepare(1)
+            .unwrap();
         let World::Roadmap(map) = prepared.world else { panic!("an arm's world is a roadmap") };
         let Local::Arm(lines) = map.local() else { panic!("it is that of an arm in a cell") };
         let scene = lines.cell().scene();
