@@ -247,7 +247,11 @@ class Paper:
     def __init__(self, folder: Path, runs: Path, metrics: list[Metric]) -> None:
         """Read the specs."""
         self.id = runs.name
-        self.claims: list[dict[str, Any]] = toml(folder / "paper.toml").get("claim", [])
+        spec = toml(folder / "paper.toml")
+        self.claims: list[dict[str, Any]] = spec.get("claim", [])
+        self.explore: dict[str, Any] = spec.get("explore", {})
+        # Questions of our own, whose times our clock decides.
+        self.ours: bool = spec["source"].get("ours", False)
         self.studies = {study.name: study for study in studies(folder, runs)}
         self.metrics = {metric.name: metric for metric in metrics}
         self.runs = runs

@@ -20,7 +20,7 @@ use study::paper::Paper;
 use study::shard;
 
 /// Runs a paper's studies once more on the second seed that each spec writes down, and with it every reading that turns a
-/// claim, with more draws: a class that turns counts only if it turns twice.
+/// claim, with more draws: an outcome that turns counts only if it turns twice.
 ///
 /// The readings are taken in order while the paper's budget of trials lasts; one that is left out stays unconfirmed.
 ///

@@ -186,8 +186,8 @@ impl<'p> Explorer<'p> {
         Ok(built.units().iter().map(|unit| built.trials(unit).len() as u64).sum())
     }
 
-    /// Runs and judges `points`; what runs where readings are compatible, under those; and once more with more draws where a
-    /// class is near a flip.
+    /// Runs and judges `points`; what runs where readings are compatible, under those; and once more with more draws where an
+    /// outcome is near a flip.
     pub fn explore(
         &self,
         points: &[ReadingChoice],
@@ -358,7 +358,7 @@ fn first_draws(study: &Study) -> u32 {
     study.explore.as_ref().map_or(0, |explore| explore.draws)
 }
 
-/// The draws that it ends with, where a class is near a flip or turned.
+/// The draws that it ends with, where an outcome is near a flip or turned.
 pub fn most_draws(study: &Study) -> u32 {
     study.explore.as_ref().map_or(0, |explore| explore.more_draws.unwrap_or(explore.draws))
 }

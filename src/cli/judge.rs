@@ -136,10 +136,10 @@ pub fn judge(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<Ver
 
 /// The verdicts by `evidence`; across readings if it is a full run under the defaults and readings were explored.
 fn judged(evidence: &Evidence<'_>, places: &Places) -> Result<Verdicts, Failure> {
-    if evidence.point != default_point(evidence.paper) || evidence.runs().any(|run| run.manifest.quick) {
-        return Ok(claims::judge(evidence)?);
-    }
-    let (verdicts, stored) = rayon::join(|| claims::judge(evidence), || Stored::read(&places.runs));
+    let is_other =
+        evidence.point != default_point(evidence.paper) || evidence.runs().any(|run| run.manifest.quick);
+    let stored = || if is_other { Ok(Stored::default()) } else { Stored::read(&places.runs) };
+    let (verdicts, stored) = rayon::join(|| claims::judge(evidence), stored);
     let mut verdicts = verdicts?;
     across::apply(evidence.paper, &mut verdicts, &stored?);
     Ok(verdicts)

@@ -45,7 +45,7 @@ impl Show {
 
 /// Everything that is known of a claim.
 fn shown(judged: &Judged) -> String {
-    let mut text = wrapped("", &format!("{}: {}", judged.claim, judged.outcome()), 2, COLUMNS) + "\n";
+    let mut text = wrapped("", &format!("{}: {}", judged.claim, judged.verdict_said()), 2, COLUMNS) + "\n";
     let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
     let printed = judged.printed.as_ref().map(|printed| format!("{printed}{unit}"));
     for (what, said) in [
@@ -53,8 +53,9 @@ fn shown(judged: &Judged) -> String {
         ("says", judged.says.clone()),
         ("quote", judged.quote.as_ref().map(|quote| format!("“{quote}”"))),
         ("printed", printed),
-        ("readings", judged.across_readings()),
-        ("second seed", judged.second.map(|class| class.name().to_owned())),
+        ("readings", judged.said.clone()),
+        ("under the defaults", Some(judged.outcome.name().to_owned())),
+        ("second seed", judged.second.map(|outcome| outcome.name().to_owned())),
         ("part of", judged.part_of.clone()),
         ("must hold", judged.theorem.clone()),
         ("changed after a run", judged.changed_after_run.clone()),
@@ -67,8 +68,8 @@ fn shown(judged: &Judged) -> String {
 }
 
 fn found(finding: &Finding) -> String {
-    let class = finding.verdict.map_or_else(String::new, |verdict| format!(": {}", verdict.name()));
-    let mut lines = vec![format!("{}{class}", finding.criterion)];
+    let outcome = finding.outcome.map_or_else(String::new, |outcome| format!(": {}", outcome.name()));
+    let mut lines = vec![format!("{}{outcome}", finding.criterion)];
     if let Some(ours) = &finding.ours {
         let solved =
             ours.solved.map_or_else(String::new, |[solved, all]| format!(", {solved} of {all} solved"));

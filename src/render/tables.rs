@@ -3,20 +3,21 @@
 use super::latex::{Cell, Column, Numbers, Table};
 use super::prose::{markdown as safe, number};
 use super::{RenderError, marks};
-use crate::analysis::class::Verdict;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::outcome::Outcome;
 use crate::analysis::tabulated::own_values;
 use crate::analysis::verdict::{Estimate, Judged, Verdicts};
+use crate::analysis::verdict_rule::Verdict;
 use study::paper::{Paper, TableRow, TableSpec};
 
-/// What a row of one of the paper's tables shows: in each column what it printed, ours, and the class with its claim.
+/// What a row of one of the paper's tables shows: in each column what it printed, ours, and the claim with its verdict.
 pub struct Beside<'a> {
     /// What the paper printed, a cell a column.
     pub printed: Vec<String>,
     /// Ours.
     pub ours: Vec<String>,
-    /// The claim of the cell, with its class.
-    pub classes: Vec<Option<&'a Judged>>,
+    /// The claim of the cell.
+    pub claims: Vec<Option<&'a Judged>>,
 }
 
 /// The row of the table; none if it holds no claims.
@@ -32,9 +33,9 @@ pub fn beside<'a>(
     if row.claims.is_empty() {
         return Ok(None);
     }
-    let classes: Vec<Option<&Judged>> =
+    let claims: Vec<Option<&Judged>> =
         row.claims.iter().map(|claim| verdicts.claim(claim.get_ref())).collect();
-    let printed = classes.iter().map(|judged| judged.and_then(|judged| judged.printed.clone()));
+    let printed = claims.iter().map(|judged| judged.and_then(|judged| judged.printed.clone()));
     let estimate = |judged: Option<&Judged>| {
         let ours = judged.and_then(Judged::ours)?;
         Some(rounded(ours, table.decimals.unwrap_or(2)))
@@ -47,11 +48,11 @@ pub fn beside<'a>(
             };
             own.into_iter().map(|value| value.map(shown)).collect()
         }
-        None => classes.iter().copied().map(estimate).collect(),
+        None => claims.iter().copied().map(estimate).collect(),
     };
     let or_dash = |cell: Option<String>| cell.unwrap_or_else(dash);
     let (printed, ours) = (printed.map(or_dash).collect(), ours.into_iter().map(or_dash).collect());
-    Ok(Some(Beside { printed, ours, classes }))
+    Ok(Some(Beside { printed, ours, claims }))
 }
 
 /// `table` in LaTeX: for each of its rows the printed numbers, ours with their intervals, and the verdicts.
@@ -79,17 +80,15 @@ pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) ->
         };
         latex.row(line(&row.label, "printed", &beside.printed));
         latex.row(line("", "ours", &beside.ours));
-        let outcome =
-            |judged: Option<&Judged>| judged.map_or_else(dash, |judged| judged.outcome().to_owned());
-        let mut classes =
-            line("", "verdict", &beside.classes.iter().copied().map(outcome).collect::<Vec<_>>());
-        for (cell, judged) in classes.iter_mut().skip(2).zip(&beside.classes) {
+        let verdict = |judged: Option<&Judged>| judged.map_or_else(dash, Judged::verdict_said);
+        let mut claims = line("", "verdict", &beside.claims.iter().copied().map(verdict).collect::<Vec<_>>());
+        for (cell, judged) in claims.iter_mut().skip(2).zip(&beside.claims) {
             let said = granted(table, *judged, verdicts);
             if !said.is_empty() {
                 latex.footnote(cell, said.join(" "));
             }
         }
-        latex.row(classes);
+        latex.row(claims);
     }
     let ours = table.ours.as_ref().map(|ours| &ours.note);
     for note in table.notes.iter().chain(ours).chain(&marks(paper, verdicts)) {
@@ -98,7 +97,7 @@ pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) ->
     latex.latex(&made(paper, &table.id, verdicts))
 }
 
-/// What the proofs of a cell's class take for granted, those of the cells that it is met together with among them.
+/// What the proofs of a cell's verdict take for granted, those of the cells that it is met together with among them.
 fn granted(table: &TableSpec, judged: Option<&Judged>, verdicts: &Verdicts) -> Vec<String> {
     let jointly = table.jointly.iter().filter(|together| {
         together.cells.iter().any(|cell| judged.is_some_and(|judged| judged.claim == *cell.get_ref()))
@@ -107,8 +106,8 @@ fn granted(table: &TableSpec, judged: Option<&Judged>, verdicts: &Verdicts) -> V
     judged.into_iter().chain(jointly).filter_map(premises).collect()
 }
 
-/// `table` in Markdown. Up to two columns stand side by side, each as printed, ours and class; more stand one line above
-/// another. `link` is what a claim's class leads to.
+/// `table` in Markdown. Up to two columns stand side by side, each as printed, ours and verdict; more stand one line above
+/// another. `link` is what a claim's verdict leads to.
 ///
 /// # Errors
 /// As [`table`].
@@ -120,7 +119,7 @@ pub fn markdown(
 ) -> Result<String, RenderError> {
     let mut lines: Vec<Vec<String>> = Vec::new();
     let is_wide = table.columns.len() > 2 || table.rows.iter().any(|row| row.claims.is_empty());
-    let class = |judged: Option<&Judged>| judged.map_or_else(dash, &link);
+    let verdict = |judged: Option<&Judged>| judged.map_or_else(dash, &link);
     let escaped = |cells: &[String]| cells.iter().map(|cell| safe(cell)).collect::<Vec<_>>();
     let line = |first: &str, second: &str, cells: Vec<String>| {
         [first, second].map(str::to_owned).into_iter().chain(cells).collect::<Vec<_>>()
@@ -129,15 +128,15 @@ pub fn markdown(
         let label = safe(&row.label);
         match beside(evidence, table, row, verdicts)? {
             None => lines.push(line(&label, "", escaped(&row.cells))),
-            Some(Beside { printed, ours, classes }) if is_wide => {
+            Some(Beside { printed, ours, claims }) if is_wide => {
                 lines.push(line(&label, "printed", escaped(&printed)));
                 lines.push(line("", "ours", escaped(&ours)));
-                lines.push(line("", "class", classes.iter().copied().map(class).collect()));
+                lines.push(line("", "verdict", claims.iter().copied().map(verdict).collect()));
             }
-            Some(Beside { printed, ours, classes }) => {
-                let cells = printed.iter().zip(&ours).zip(&classes);
+            Some(Beside { printed, ours, claims }) => {
+                let cells = printed.iter().zip(&ours).zip(&claims);
                 let cells =
-                    cells.flat_map(|((printed, ours), judged)| [safe(printed), safe(ours), class(*judged)]);
+                    cells.flat_map(|((printed, ours), judged)| [safe(printed), safe(ours), verdict(*judged)]);
                 lines.push(std::iter::once(label).chain(cells).collect());
             }
         }
@@ -149,11 +148,11 @@ pub fn markdown(
     Ok(lines.map(|cells| format!("| {} |\n", cells.join(" | "))).collect::<Vec<_>>().concat())
 }
 
-/// The head of a table that has printed, ours and class side by side.
+/// The head of a table that has printed, ours and verdict side by side.
 fn side_by_side(columns: Vec<String>) -> Vec<String> {
     let named = columns
         .into_iter()
-        .flat_map(|name| [format!("{name}: printed"), "ours".to_owned(), "class".to_owned()]);
+        .flat_map(|name| [format!("{name}: printed"), "ours".to_owned(), "verdict".to_owned()]);
     std::iter::once(String::new()).chain(named).collect()
 }
 
@@ -162,7 +161,7 @@ fn premises(judged: &Judged) -> Option<String> {
     if judged.verdict != Verdict::Impossible {
         return None;
     }
-    let proof = judged.findings.iter().find(|finding| finding.verdict == Some(judged.verdict))?;
+    let proof = judged.findings.iter().find(|finding| finding.outcome == Some(Outcome::Proved))?;
     let what = match (&judged.printed, &judged.says) {
         (Some(printed), _) => format!("{printed} is"),
         (None, Some(says)) => format!("That {says} is"),
@@ -199,7 +198,7 @@ pub fn numbers(evidence: &Evidence<'_>, verdicts: &Verdicts) -> Result<String, R
             }
             add("n", &ours.n.to_string(), "independent draws behind it")?;
         }
-        add("verdict", judged.outcome(), "our verdict")?;
+        add("verdict", &judged.verdict_said(), "our verdict")?;
     }
     let made = made(paper, "numbers", verdicts);
     let notes = paper.source.stand_ins.as_ref().map_or(made.clone(), |note| format!("{made}\n{note}"));

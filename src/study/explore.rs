@@ -27,6 +27,10 @@ pub struct ExplorePaper {
     /// under all say.
     #[serde(default)]
     pub where_compatible: Vec<String>,
+    /// Where the paper calls its paths free: results are set apart, and named, if the verifier refuses more than so many per cent of
+    /// the paths that a claim looks at.
+    #[schemars(range(max = 100))]
+    pub refused_above_percent: Option<u32>,
 }
 
 impl ExplorePaper {

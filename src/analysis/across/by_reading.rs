@@ -1,12 +1,12 @@
 //! Every claim under every reading that was explored, and what each option does alone: for readers who look for themselves.
 
-use super::super::class::Verdict;
+use super::super::outcome::Outcome;
 use super::super::verdict::{Effect, Judged, Verdicts};
 use super::count::Axes;
 use super::effects::{self, each};
 use super::glance::Sight;
 use super::stored::{Exploration, ExploredResult};
-use super::{Stored, counted_as, default_classes};
+use super::{Stored, counted_as, default_outcomes};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use study::Reading;
@@ -59,8 +59,9 @@ pub struct Claim {
 /// What was found under some readings.
 #[derive(Debug, Serialize)]
 pub struct Found {
-    /// The class.
-    pub class: &'static str,
+    /// The outcome.
+    #[serde(rename = "class")]
+    pub outcome: &'static str,
     /// Whether that says something.
     pub sight: Sight,
     /// What it counts as across readings, if it counts: what speaks against most and was not confirmed is open.
@@ -109,19 +110,19 @@ pub fn axes(paper: &Paper) -> Vec<Axis> {
 /// What is `stored` of the claims of `verdicts`; none if nothing was explored.
 pub fn by_reading(paper: &Paper, verdicts: &Verdicts, stored: &Stored) -> Option<ByReading> {
     let (first, counting) = (stored.first.as_ref()?, Axes::of(paper));
-    let classes = default_classes(verdicts);
+    let outcomes = default_outcomes(verdicts);
     let claim = |judged: &Judged| {
         let id = &judged.claim;
         let explored = first.claims.get(id).filter(|_| first.is_current(&counting.now, id))?;
         let second = stored.second.as_ref().filter(|second| second.is_current(&counting.now, id));
-        let counted = counting.counted(paper, first, id, &classes);
-        let votes = counted_as(first, second, id, &counted.groups);
+        let counted = counting.counted(paper, first, id, &outcomes);
+        let votes = counted_as(first, second, judged, &counted.groups);
         let found = |result: &ExploredResult| {
             let group =
                 counted.groups.iter().zip(&votes).find(|(group, _)| result.readings.contains(&group.reading));
-            Found::of(result, classes.get(id).copied(), group.map(|(group, vote)| (&group.readings, *vote)))
+            Found::of(result, outcomes.get(id).copied(), group.map(|(group, vote)| (&group.readings, *vote)))
         };
-        let of_options = [true, false].map(|votes| each(&counting, first, id, classes[id], votes));
+        let of_options = [true, false].map(|votes| each(&counting, first, id, outcomes[id], votes));
         let alone = of_options.into_iter().flatten().filter_map(|one| Alone::of(first, one));
         Some((
             id.clone(),
@@ -136,11 +137,11 @@ pub fn by_reading(paper: &Paper, verdicts: &Verdicts, stored: &Stored) -> Option
 }
 
 impl Found {
-    /// A result; `default` is the class in the default run, which has more draws, `counts` what it counts as, and where.
-    fn of(result: &ExploredResult, default: Option<Verdict>, counts: Option<(&Vec<usize>, Verdict)>) -> Self {
-        let class = default.filter(|_| result.readings.contains(&0)).unwrap_or(result.class);
+    /// A result; `default` is the outcome in the default run, which has more draws, `counts` what it counts as, and where.
+    fn of(result: &ExploredResult, default: Option<Outcome>, counts: Option<(&Vec<usize>, Outcome)>) -> Self {
+        let outcome = default.filter(|_| result.readings.contains(&0)).unwrap_or(result.outcome);
         Self {
-            class: class.name(),
+            outcome: outcome.name(),
             sight: result.sight,
             counts_as: counts.map(|(_, vote)| vote.name()),
             value: result.value,
@@ -155,8 +156,8 @@ impl Found {
 impl Alone {
     fn of(first: &Exploration, (axis, option, (effect, _)): effects::Found) -> Option<Self> {
         let reading = first.place(&BTreeMap::from([(axis.clone(), option.clone())]))?;
-        // The class itself stands beside it.
-        let effect = if effect == Effect::Class { Effect::Number } else { effect };
+        // The outcome itself stands beside it.
+        let effect = if effect == Effect::Outcome { Effect::Number } else { effect };
         Some(Self { axis, option, effect, reading })
     }
 }

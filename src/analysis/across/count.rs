@@ -1,13 +1,14 @@
 //! Which readings count for a claim: those that vote and are compatible with what the study was calibrated to; equal results
 //! count once.
 
-use super::super::class::{Polarity, Verdict};
+use super::super::criterion::is_powerless;
+use super::super::outcome::{Outcome, Polarity};
 use super::super::verdict::{Fit, SettingFit};
 use super::glance::Sight;
-use super::stored::{Exploration, ExploredClaim, ExploredResult, Now};
+use super::stored::{Exploration, ExploredResult, Now};
 use std::collections::{BTreeMap, BTreeSet};
+use study::Reading;
 use study::paper::Paper;
-use study::{Reading, Study};
 
 /// The readings of a paper.
 pub struct Axes {
@@ -26,8 +27,8 @@ pub struct Group {
     pub reading: usize,
     /// All of them that count.
     pub readings: Vec<usize>,
-    /// The class.
-    pub class: Verdict,
+    /// The outcome.
+    pub outcome: Outcome,
 }
 
 /// The readings that count for a claim.
@@ -43,30 +44,40 @@ pub struct Counted {
     pub incompatible: usize,
     /// No voting reading is compatible, so that all of them are judged.
     pub none_compatible: bool,
-    /// One witness would do.
-    pub is_existential: bool,
-    /// Its studies have no readings, so that it is asked under the defaults alone though other readings change trials.
-    pub is_of_defaults: bool,
+    /// The readings, by their places, that are set apart: the verifier refuses their paths, which the paper calls free.
+    pub refused: Vec<usize>,
 }
 
 impl Counted {
-    /// Counts a result of the claim for those of its readings that are `judged`; `default` is the class in the default run.
-    fn take(&mut self, result: &ExploredResult, judged: &[usize], default: Option<&Verdict>) {
+    /// Counts a result of the claim for those of its readings that are `judged`; `default` is the outcome in the default run.
+    /// `is_hollow` says whether its number has no power by the rules of now.
+    fn take(
+        &mut self,
+        result: &ExploredResult,
+        judged: &[usize],
+        default: Option<&Outcome>,
+        is_refused: bool,
+        is_hollow: bool,
+    ) {
         let own: Vec<usize> =
             result.readings.iter().copied().filter(|place| judged.contains(place)).collect();
         let Some(reading) = own.first().copied() else { return };
+        if is_refused {
+            self.refused.extend(own);
+            return;
+        }
         // The default run has more draws than an exploration.
         let is_default = own.contains(&0);
-        let class = default.copied().filter(|_| is_default).unwrap_or(result.class);
+        let outcome = default.copied().filter(|_| is_default).unwrap_or(result.outcome);
         let seen = match result.sight {
-            Sight::Looked => own.clone(),
+            Sight::Looked if !is_hollow => own.clone(),
             Sight::Unmeant => Vec::new(),
-            Sight::Unexplored | Sight::Powerless => own[..usize::from(is_default)].to_vec(),
+            Sight::Looked | Sight::Unexplored | Sight::Powerless => own[..usize::from(is_default)].to_vec(),
         };
         self.not_looked_at += own.len() - seen.len();
         self.looked += seen.len();
         if !seen.is_empty() {
-            self.groups.push(Group { reading, readings: seen, class });
+            self.groups.push(Group { reading, readings: seen, outcome });
         }
     }
 }
@@ -88,13 +99,13 @@ impl Axes {
         self.readings.iter().all(|axis| axis.votes(Self::option(axis, reading)))
     }
 
-    /// The readings of `first` that count for the claim called `id`; `default` are the claims' classes in the default run.
+    /// The readings of `first` that count for the claim called `id`; `default` are the claims' outcomes in the default run.
     pub fn counted(
         &self,
         paper: &Paper,
         first: &Exploration,
         id: &str,
-        default: &BTreeMap<String, Verdict>,
+        default: &BTreeMap<String, Outcome>,
     ) -> Counted {
         let Some(claim) = first.claims.get(id) else { return Counted::default() };
         let voting: Vec<usize> =
@@ -103,36 +114,27 @@ impl Axes {
         let compatible = self.compatible(first, &voting, &calibration, default);
         let none_compatible = compatible.is_empty() && !voting.is_empty();
         let judged = if none_compatible { voting.clone() } else { compatible };
-        let mut counted = Counted {
-            incompatible: voting.len() - judged.len(),
-            none_compatible,
-            is_existential: claim.existential,
-            is_of_defaults: self.is_of_defaults(paper, claim),
-            ..Counted::default()
-        };
+        let mut counted =
+            Counted { incompatible: voting.len() - judged.len(), none_compatible, ..Counted::default() };
+        let most = paper.explore.as_ref().and_then(|explore| explore.refused_above_percent);
+        let is_refused =
+            |result: &ExploredResult| most.is_some_and(|most| 100.0 * result.refused > f64::from(most));
+        // Where all are refused, none can be set apart from the others.
+        let some_stand = claim.results.iter().any(|result| !is_refused(result));
         for result in &claim.results {
-            counted.take(result, &judged, default.get(id));
+            let hollow = result.outcome.polarity() == Polarity::For
+                && paper
+                    .claim(id)
+                    .zip(result.interval)
+                    .is_some_and(|(claim, ends)| is_powerless(claim, ends));
+            counted.take(result, &judged, default.get(id), some_stand && is_refused(result), hollow);
         }
         counted.groups.sort_by_key(|group| group.reading);
         counted
     }
 
-    /// Whether readings change trials, but none of those of the studies, or of what stands for them, that `claim` looks at.
-    fn is_of_defaults(&self, paper: &Paper, claim: &ExploredClaim) -> bool {
-        let stands_for =
-            |study: &Study| study.explore.as_ref().and_then(|explore| explore.stands_for.clone());
-        let is_asked = |study: &&Study| {
-            claim.studies.contains(&study.name)
-                || stands_for(study).is_some_and(|other| claim.studies.contains(&other))
-        };
-        let mut asked = paper.studies.iter().filter(is_asked).peekable();
-        self.readings.iter().any(Reading::touches_trials)
-            && asked.peek().is_some()
-            && asked.all(|study| study.readings.is_empty())
-    }
-
     /// The readings of `first` that vote and are compatible with every calibration claim; all that vote if none is.
-    pub fn fitting(&self, first: &Exploration, default: &BTreeMap<String, Verdict>) -> Vec<usize> {
+    pub fn fitting(&self, first: &Exploration, default: &BTreeMap<String, Outcome>) -> Vec<usize> {
         let voting: Vec<usize> =
             (0..first.readings.len()).filter(|place| self.votes(&first.readings[*place])).collect();
         let all = self.calibration.iter().map(String::as_str);
@@ -144,7 +146,7 @@ impl Axes {
 
     /// How each setting of the readings that are not fitted agrees with the calibration claims under each option of the one
     /// that is; none if no reading is fitted.
-    pub fn fits(&self, first: &Exploration, default: &BTreeMap<String, Verdict>) -> Vec<SettingFit> {
+    pub fn fits(&self, first: &Exploration, default: &BTreeMap<String, Outcome>) -> Vec<SettingFit> {
         let Some(fitted) = self.readings.iter().find(|axis| axis.fitted) else { return Vec::new() };
         let voting = (0..first.readings.len()).filter(|place| self.votes(&first.readings[*place]));
         let best: BTreeSet<usize> = self.fitting(first, default).into_iter().collect();
@@ -187,7 +189,7 @@ impl Axes {
         first: &Exploration,
         voting: &[usize],
         calibration: &Calibration<'_>,
-        default: &BTreeMap<String, Verdict>,
+        default: &BTreeMap<String, Outcome>,
     ) -> Vec<usize> {
         let fits: BTreeMap<usize, Goodness> = voting
             .iter()
@@ -235,7 +237,7 @@ impl Calibration<'_> {
         &self,
         first: &Exploration,
         place: usize,
-        default: &BTreeMap<String, Verdict>,
+        default: &BTreeMap<String, Outcome>,
     ) -> Option<Goodness> {
         let others = held(first, place, &self.others, default)?;
         let own = held(first, place, &self.own, default);
@@ -248,7 +250,7 @@ fn held(
     first: &Exploration,
     place: usize,
     calibration: &[&str],
-    default: &BTreeMap<String, Verdict>,
+    default: &BTreeMap<String, Outcome>,
 ) -> Option<usize> {
     let mut holds = 0;
     for id in calibration {
@@ -258,7 +260,7 @@ fn held(
             continue;
         }
         let full = default.get(*id).filter(|_| place == 0);
-        let polarity = full.unwrap_or(&result.class).polarity();
+        let polarity = full.unwrap_or(&result.outcome).polarity();
         if polarity == Polarity::Against || (result.sight == Sight::Powerless && full.is_none()) {
             return None;
         }

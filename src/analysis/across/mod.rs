@@ -1,28 +1,34 @@
-//! The class of a claim across readings: whether it survives what the paper leaves open, or what it hangs on.
+//! The verdict of a claim over all interpretations: whether it survives what the paper leaves open, or on what it depends.
 //!
 //! Under each reading that was explored every claim was judged by itself ([`glance`]); what came out is stored ([`stored`]).
-//! Readings that vote and are compatible with what the study was calibrated to are counted, equal results once ([`count`]),
-//! and their classes are combined in one place ([`combine`](mod@combine)), with the words that stand beside the class
-//! ([`hangs`]) and what each reading moves ([`effects`]).
+//! Readings that vote and are compatible with what the study was calibrated to are counted, equal results once ([`count`]);
+//! those of a minority need a second seed ([`combine`](mod@combine)). The [table of verdicts](super::verdict_rule) says what
+//! they amount to, [`said`] what stands beside it, [`depends`] on which options it depends, [`touched`] which readings were
+//! not varied, and [`effects`] what each reading moves.
 
 pub mod by_reading;
 pub mod combine;
 pub mod count;
+pub mod depends;
 pub mod effects;
 pub mod glance;
-pub mod hangs;
+pub mod said;
 pub mod stored;
+pub mod touched;
 
-use super::class::{Polarity, Verdict};
-use super::settle::readings_settle;
+use super::outcome::{Outcome, Polarity};
+use super::settle::{MEANT, across_settles, meanings_settle};
 use super::together::greatest;
 use super::verdict::{Across, Explored, Judged, Verdicts};
+use super::verdict_rule::{Line, Results, Verdict, of_meanings};
 use count::{Axes, Counted, Group};
+use said::{Said, View};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use stored::Exploration;
-use study::StudyError;
-use study::paper::Paper;
+use study::paper::{Claim, Paper, Parts};
+use study::{Reading, StudyError};
+use touched::Touched;
 
 /// What is stored of a paper besides its default run.
 #[derive(Debug, Default)]
@@ -44,38 +50,19 @@ impl Stored {
     }
 }
 
-/// Gives every claim of `verdicts`, which were judged under the default reading, its class across readings.
+/// Gives every claim of `verdicts`, whose outcomes are those under the default reading, its verdict over all interpretations.
 pub fn apply(paper: &Paper, verdicts: &mut Verdicts, stored: &Stored) {
-    let classes = default_classes(verdicts);
+    let outcomes = default_outcomes(verdicts);
     let axes = Axes::of(paper);
-    let mut note = Explored::default();
-    if let Some(first) = &stored.first {
-        note.readings = first.readings.len();
-        note.trials = first.trials;
-        note.stale = first.stale(&axes.now);
-        if note.stale.is_empty() {
-            note.fits = axes.fits(first, &classes);
-        }
-    }
-    if let Some(second) = &stored.second {
-        note.second_seed = true;
-        note.second_stale = second.stale(&axes.now);
-    }
+    let mut note = note(&axes, stored, &outcomes);
     for judged in &mut verdicts.claims {
-        let second = stored.second.as_ref().filter(|second| second.is_current(&axes.now, &judged.claim));
-        let own = second.and_then(|second| second.result(&judged.claim, 0));
-        judged.second = own.filter(|own| own.sight == glance::Sight::Looked).map(|own| own.class);
-        let first = stored.first.as_ref().filter(|first| first.is_current(&axes.now, &judged.claim));
-        let Some(first) = first else { continue };
-        let counted = axes.counted(paper, first, &judged.claim, &classes);
-        note.none_compatible |= counted.none_compatible;
-        if let Some(mut across) = across(&axes, first, second, judged, &counted) {
-            let is_asked = paper.asks_over_readings(&judged.claim);
-            across.range = is_asked.then(|| range(first, judged, &counted)).flatten();
-            judged.verdict = across.class;
-            judged.across = Some(across);
-        }
+        let Some(claim) = paper.claim(&judged.claim) else { continue };
+        let second = stored.second.as_ref().filter(|second| second.is_current(&axes.now, &claim.id));
+        let first = stored.first.as_ref().filter(|first| first.is_current(&axes.now, &claim.id));
+        let of_claim = OfClaim { paper, axes: &axes, claim, first, second };
+        note.none_compatible |= of_claim.judge(judged, &outcomes);
     }
+    apply_meanings(paper, verdicts);
     if let Some(first) = stored.first.as_ref().filter(|_| note.stale.is_empty()) {
         let sets = [&verdicts.together[..], &first.together[..]].concat();
         verdicts.together = greatest(sets);
@@ -85,46 +72,201 @@ pub fn apply(paper: &Paper, verdicts: &mut Verdicts, stored: &Stored) {
     }
 }
 
-/// What the readings make of one claim; none if it was looked at under none but the default.
-fn across(
-    axes: &Axes,
-    first: &Exploration,
-    second: Option<&Exploration>,
-    judged: &Judged,
-    counted: &Counted,
-) -> Option<Across> {
-    if judged.theorem.is_some() || counted.looked < 2 {
+/// What of the readings was explored.
+fn note(axes: &Axes, stored: &Stored, outcomes: &BTreeMap<String, Outcome>) -> Explored {
+    let mut note = Explored::default();
+    if let Some(first) = &stored.first {
+        note.readings = first.readings.len();
+        note.trials = first.trials;
+        note.stale = first.stale(&axes.now);
+        note.refused = refused(axes, first);
+        if note.stale.is_empty() {
+            note.fits = axes.fits(first, outcomes);
+        }
+    }
+    if let Some(second) = &stored.second {
+        note.second_seed = true;
+        note.second_stale = second.stale(&axes.now);
+    }
+    note
+}
+
+/// Gives sentences that mean one of their parts the verdict that these make.
+fn apply_meanings(paper: &Paper, verdicts: &mut Verdicts) {
+    let meant: Vec<_> = paper.claims.iter().filter_map(|claim| meaning(claim, verdicts)).collect();
+    for (id, verdict, said) in meant {
+        let Some(judged) = verdicts.claims.iter_mut().find(|judged| judged.claim == id) else { continue };
+        judged.verdict = verdict;
+        (judged.said, judged.depends_on) = (said.beside, said.depends_on);
+        let settles = meanings_settle(judged.verdict, judged.depends_on.as_deref());
+        match &mut judged.across {
+            Some(across) => across.settles = settles,
+            None => judged.findings.iter_mut().for_each(|finding| finding.settles.clone_from(&settles)),
+        }
+    }
+}
+
+/// A claim with what is stored of it.
+struct OfClaim<'a> {
+    paper: &'a Paper,
+    axes: &'a Axes,
+    claim: &'a Claim,
+    /// Its readings, explored, if that is not stale.
+    first: Option<&'a Exploration>,
+    /// The same on the second seed.
+    second: Option<&'a Exploration>,
+}
+
+impl OfClaim<'_> {
+    /// Gives `judged` its verdict; says whether no voting reading is compatible.
+    fn judge(&self, judged: &mut Judged, outcomes: &BTreeMap<String, Outcome>) -> bool {
+        let touched = Touched::of(self.paper, self.claim);
+        self.look_at_seeds(judged, &touched);
+        if judged.theorem.is_none() {
+            judged.not_varied = self.not_varied(&touched);
+        }
+        let explored = self.first.filter(|_| judged.theorem.is_none());
+        let counted = explored.map(|first| self.axes.counted(self.paper, first, &self.claim.id, outcomes));
+        let none_compatible = counted.as_ref().is_some_and(|counted| counted.none_compatible);
+        let both = explored.zip(counted.filter(|counted| counted.looked > 1));
+        let (explored, counted) =
+            both.map_or_else(|| (None, alone(judged)), |(first, counted)| (Some(first), counted));
+        let votes = explored.map_or_else(
+            || vec![judged.outcome],
+            |first| counted_as(first, self.second, judged, &counted.groups),
+        );
+        let is_counted = counted.groups.iter().any(|group| group.readings.contains(&0));
+        let default = if is_counted { judged.outcome.polarity() } else { Polarity::Open };
+        let again = judged.second.map_or(Polarity::Open, Outcome::polarity);
+        let results = Results {
+            outcomes: &votes,
+            default,
+            second: if judged.is_seedless { default } else { again },
+            chosen: judged.chosen,
+            states_size: touched.states_size(),
+            is_unvaried: !judged.not_varied.is_empty(),
+        };
+        let id = &self.claim.id;
+        let view = View { axes: self.axes, first: explored, id, counted: &counted, results: &results };
+        self.say(judged, &view);
+        none_compatible
+    }
+
+    /// Gives `judged` its outcome on the second seed, and whether a seed moves anything.
+    fn look_at_seeds(&self, judged: &mut Judged, touched: &Touched<'_>) {
+        let own = self.second.and_then(|second| second.result(&self.claim.id, 0));
+        judged.second = own.filter(|own| own.sight == glance::Sight::Looked).map(|own| own.outcome);
+        let is_moved = judged.second.is_some_and(|second| second != judged.outcome);
+        judged.is_seedless = !is_moved && touched.draws_nothing(self.paper);
+    }
+
+    /// Gives `judged` the verdict of its results, with what stands beside it.
+    fn say(&self, judged: &mut Judged, view: &View<'_>) {
+        let (verdict, line) = view.results.verdict();
+        let Said { beside, depends_on } = view.said(line);
+        let is_bearing = !matches!(line, Line::Proved | Line::Lacking);
+        let unvaried = said::not_varied(&judged.not_varied).filter(|_| is_bearing);
+        let beside = judged.possible().map(str::to_owned).or(beside);
+        judged.said = beside.into_iter().chain(unvaried).reduce(|one, two| format!("{one}; {two}"));
+        (judged.verdict, judged.depends_on) = (verdict, depends_on);
+        judged.across = view.first.map(|first| self.across(first, judged, view, line));
+    }
+
+    /// The readings that touch the claim, of which no other option than the default was looked at.
+    fn not_varied(&self, touched: &Touched<'_>) -> Vec<String> {
+        let is_varied = |axis: &Reading| {
+            self.first.is_some_and(|first| {
+                let is_other = |place: &usize| {
+                    let option = Axes::option(axis, &first.readings[*place]);
+                    option != axis.default && axis.votes(option)
+                };
+                let is_seen = |place: &usize| {
+                    let result = first.result(&self.claim.id, *place);
+                    result.is_some_and(|result| result.sight != glance::Sight::Unexplored)
+                };
+                (0..first.readings.len()).filter(is_other).any(|place| is_seen(&place))
+            })
+        };
+        let axes = self.axes.readings.iter().filter(|axis| touched.is_touched_by(self.paper, axis));
+        let is_missed = |axis: &&Reading| touched.is_without(self.paper, axis) || !is_varied(axis);
+        axes.filter(is_missed).map(|axis| axis.id.clone()).collect()
+    }
+
+    /// What the readings make of the claim.
+    fn across(&self, first: &Exploration, judged: &Judged, view: &View<'_>, line: Line) -> Across {
+        let (counted, votes) = (view.counted, view.results.outcomes);
+        let [holds, open, fails] = view.results.counts();
+        let is_other = |(vote, group): &(&Outcome, &Group)| **vote != group.outcome;
+        let named = |place: &usize| {
+            let options = first.readings[*place].iter().map(|(id, option)| format!("{id} = {option}"));
+            options.collect::<Vec<_>>().join(", ")
+        };
+        let is_asked = self.paper.asks_over_readings(&judged.claim);
+        let mut across = Across {
+            settles: None,
+            counted: votes.len(),
+            looked: counted.looked,
+            holds,
+            open,
+            fails,
+            unconfirmed: votes.iter().zip(&counted.groups).filter(is_other).count(),
+            not_looked_at: counted.not_looked_at,
+            incompatible: counted.incompatible,
+            none_compatible: counted.none_compatible,
+            refused: counted.refused.iter().map(named).collect(),
+            range: is_asked.then(|| range(first, judged, counted)).flatten(),
+            effects: effects::effects(self.axes, first, &judged.claim, judged.outcome),
+            probes: effects::probes(self.axes, first, &judged.claim, judged.outcome),
+        };
+        across.settles = across_settles(&across, judged, line);
+        across
+    }
+}
+
+/// The default alone, as the one result that counts.
+fn alone(judged: &Judged) -> Counted {
+    let only = Group { reading: 0, readings: vec![0], outcome: judged.outcome };
+    Counted { groups: vec![only], looked: 1, ..Counted::default() }
+}
+
+/// The verdict of a sentence that means one of its parts, from theirs, with what stands beside it; `None` of any other claim.
+fn meaning(claim: &Claim, verdicts: &Verdicts) -> Option<(String, Verdict, Said)> {
+    let Parts::MeansOneOf(ids) = &claim.parts else { return None };
+    if claim.untestable.is_some() || claim.asked().next().is_some() {
         return None;
     }
-    let votes = counted_as(first, second, &judged.claim, &counted.groups);
-    let class = combine::combined(&votes, counted.is_existential);
-    let count = |wanted| votes.iter().filter(|vote| vote.polarity() == wanted).count();
-    let said = if counted.is_of_defaults && votes.len() == 1 {
-        "asked under the defaults alone".to_owned()
-    } else {
-        hangs::said(axes, first, &judged.claim, &counted.groups, &votes, class, counted.is_existential)
+    let parts: Vec<&Judged> = ids.iter().filter_map(|id| verdicts.claim(id)).collect();
+    let verdict = of_meanings(&parts.iter().map(|part| part.verdict).collect::<Vec<_>>());
+    let said: Vec<String> =
+        parts.iter().map(|part| format!("`{}` {}", part.claim, part.verdict_said())).collect();
+    let weakest = parts.iter().find(|part| part.verdict == verdict);
+    let on = weakest.and_then(|part| part.depends_on.clone()).unwrap_or_else(|| MEANT.to_owned());
+    let depends_on = (verdict == Verdict::Depends).then_some(on);
+    Some((
+        claim.id.clone(),
+        verdict,
+        Said { beside: Some(format!("meanings: {}", said.join(", "))), depends_on },
+    ))
+}
+
+/// The share of refused paths from which on it is said of an option.
+const REFUSED: f64 = 0.05;
+
+/// The options by themselves under which the verifier refuses many of the paths that some claim looks at, with the greatest share.
+fn refused(axes: &Axes, first: &Exploration) -> Vec<String> {
+    let share = |place: usize| {
+        let results = first.claims.keys().filter_map(|id| first.result(id, place));
+        results.map(|result| result.refused).fold(0.0, f64::max)
     };
-    let unconfirmed = votes.iter().zip(&counted.groups).filter(|(vote, group)| **vote != group.class).count();
-    let mut across = Across {
-        class,
-        default: judged.verdict,
-        said,
-        settles: None,
-        counted: votes.len(),
-        looked: counted.looked,
-        holds: count(Polarity::For),
-        open: count(Polarity::Open),
-        fails: count(Polarity::Against),
-        unconfirmed,
-        not_looked_at: counted.not_looked_at,
-        incompatible: counted.incompatible,
-        none_compatible: counted.none_compatible,
-        range: None,
-        effects: effects::effects(axes, first, &judged.claim, judged.verdict),
-        probes: effects::probes(axes, first, &judged.claim, judged.verdict),
+    let of_option = |(axis, option): (&Reading, &String)| {
+        let place = first.place(&BTreeMap::from([(axis.id.clone(), option.clone())]))?;
+        // What the defaults refuse as well is no matter of the option.
+        let (own, default) = (share(place), share(0));
+        (own > REFUSED && own > 2.0 * default && axis.votes(option))
+            .then(|| format!("{} = {option} ({:.0} %)", axis.id, 100.0 * own))
     };
-    across.settles = readings_settle(&across);
-    Some(across)
+    let options = axes.readings.iter().flat_map(|axis| axis.options.keys().map(move |option| (axis, option)));
+    options.filter_map(of_option).collect()
 }
 
 /// The least and the greatest of our numbers beside a claim over the readings that count; the default run's stands for its own.
@@ -139,22 +281,30 @@ fn range(first: &Exploration, judged: &Judged, counted: &Counted) -> Option<[f64
     Some([end(f64::min)?, end(f64::max)?])
 }
 
-/// What each result counts as for the claim called `id`: a class that speaks against most of them is open unless the second
-/// seed says so too.
-fn counted_as(first: &Exploration, second: Option<&Exploration>, id: &str, groups: &[Group]) -> Vec<Verdict> {
+/// What each result of a claim counts as: an outcome that speaks against most of them is open unless the second seed says so too,
+/// where a seed moves anything.
+fn counted_as(
+    first: &Exploration,
+    second: Option<&Exploration>,
+    judged: &Judged,
+    groups: &[Group],
+) -> Vec<Outcome> {
     combine::confirmed(groups, |group| {
+        if judged.is_seedless {
+            return Some(group.outcome);
+        }
         let second = second?;
         let reading = second.place(&first.readings[group.reading])?;
-        second.result(id, reading).map(|result| result.class)
+        second.result(&judged.claim, reading).map(|result| result.outcome)
     })
 }
 
-/// The class of every claim under the default reading, by id.
-fn default_classes(verdicts: &Verdicts) -> BTreeMap<String, Verdict> {
-    verdicts.claims.iter().map(|judged| (judged.claim.clone(), judged.alone())).collect()
+/// The outcome of every claim under the default reading, by id.
+fn default_outcomes(verdicts: &Verdicts) -> BTreeMap<String, Outcome> {
+    verdicts.claims.iter().map(|judged| (judged.claim.clone(), judged.outcome)).collect()
 }
 
-/// The readings, by their places in `first`, whose classes a second seed must confirm: those that speak against what most
+/// The readings, by their places in `first`, whose outcomes a second seed must confirm: those that speak against what most
 /// readings say of some claim.
 pub fn to_confirm(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> BTreeSet<usize> {
     turned(paper, verdicts, first, |groups| combine::flips(groups).into_iter().collect())
@@ -164,8 +314,8 @@ pub fn to_confirm(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> BT
 /// do not, and those that turn one.
 pub fn near_a_flip(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> BTreeSet<usize> {
     turned(paper, verdicts, first, |groups| {
-        let speaks = groups.iter().any(|group| group.class.polarity() != Polarity::Open);
-        let open = groups.iter().filter(|group| speaks && group.class.polarity() == Polarity::Open);
+        let speaks = groups.iter().any(|group| group.outcome.polarity() != Polarity::Open);
+        let open = groups.iter().filter(|group| speaks && group.outcome.polarity() == Polarity::Open);
         open.chain(combine::flips(groups)).collect()
     })
 }
@@ -173,7 +323,7 @@ pub fn near_a_flip(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> B
 /// The readings, by their places in `first`, that vote and are compatible with what the studies were fitted to; all that vote
 /// if none is, and the defaults.
 pub fn compatible(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> BTreeSet<usize> {
-    Axes::of(paper).fitting(first, &default_classes(verdicts)).into_iter().chain([0]).collect()
+    Axes::of(paper).fitting(first, &default_outcomes(verdicts)).into_iter().chain([0]).collect()
 }
 
 fn turned(
@@ -182,10 +332,10 @@ fn turned(
     first: &Exploration,
     which: impl Fn(&[Group]) -> Vec<&Group>,
 ) -> BTreeSet<usize> {
-    let (axes, classes) = (Axes::of(paper), default_classes(verdicts));
+    let (axes, outcomes) = (Axes::of(paper), default_outcomes(verdicts));
     let whole = verdicts.claims.iter().filter(|judged| judged.theorem.is_none());
     let of_claim = |judged: &Judged| {
-        let counted = axes.counted(paper, first, &judged.claim, &classes);
+        let counted = axes.counted(paper, first, &judged.claim, &outcomes);
         which(&counted.groups).into_iter().map(|group| group.reading).collect::<Vec<_>>()
     };
     whole.flat_map(of_claim).collect()

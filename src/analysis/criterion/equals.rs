@@ -1,11 +1,12 @@
 //! Whether a number is, on every trial, what an oracle says, or what another contender finds.
 
 use super::{Criterion, Entry};
-use crate::analysis::class::Outcome;
+use crate::analysis::censored;
 use crate::analysis::context::Context;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Case, Draw, Selection, cases, most_cases};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_DRAWS, Share, plan};
@@ -19,7 +20,7 @@ use study::record::{Row, Status};
 pub static ENTRY: Entry = Entry {
     name: "equals",
     about: "is a metric, on every trial, what another metric or another contender says that it is?",
-    revision: 4,
+    revision: |_| 4,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "success", problems = "cell", contender = "Original A*", metric = "found" }
@@ -80,8 +81,7 @@ struct Tally<'e> {
     sums: [f64; 2],
     /// The first trial that is not the same.
     wrong: Option<&'e Row>,
-    /// Trials without a number that could be either: without an end or, held against another contender's, of which one side
-    /// alone has none.
+    /// Trials without an end, which could be either.
     unknown: usize,
     /// Trials that are not the same, of others.
     broken: usize,
@@ -103,8 +103,7 @@ impl Equals<'_> {
             for case in &draw.cases {
                 let pair = self.pair(run, case);
                 let is_known = pair.is_some_and(|(_, own)| own.is_finite());
-                let is_cut =
-                    !is_known && if self.truth.is_some() { case.is_unended() } else { case.is_censored() };
+                let is_cut = !is_known && case.is_unended();
                 all.unknown += usize::from(is_cut);
                 let Some((truth, own)) = pair else { continue };
                 let apart = (own - truth).abs();
@@ -151,6 +150,7 @@ impl Criterion for Equals<'_> {
             vec![format!("{}: {metric} is {truth} on {same} of {all} trials{apart}", self.of.said())];
         let refused = cases(&draws).filter(|case| case.row.status == Status::Rejected).count();
         because.extend((refused > 0).then(|| format!("{refused} of these paths the verifier refuses")));
+        because.extend(censored::outside(&draws).filter(|_| self.truth.is_none()));
         let ours = Share::of(&counts, most_cases(&draws), self.plan).map(|share| {
             let what = format!("trials on which {metric} is {truth}");
             share.estimate(&what).of_cases([same as usize, all as usize])

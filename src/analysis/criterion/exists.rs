@@ -7,11 +7,11 @@ mod differs;
 mod ran_under;
 
 use super::{Criterion, Entry};
-use crate::analysis::class::Outcome;
 use crate::analysis::context::{CONTENDER_KEYS, Context};
 use crate::analysis::evidence::{Evidence, Pair, Run, default_point};
 use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection_spec::Labels;
 use crate::analysis::verdict::Estimate;
 use audit::exact::Print;
@@ -29,7 +29,7 @@ use study::{ReadingChoice, Study};
 pub static ENTRY: Entry = Entry {
     name: "exists",
     about: "does any stored trial meet the printed number exactly, where other named claims are met too?",
-    revision: 1,
+    revision: |_| 1,
     settings: Accepted::of::<Settings>(),
     example: r#"
 metric = "expansions"

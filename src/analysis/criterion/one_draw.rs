@@ -1,29 +1,31 @@
 //! Whether a printed number could be that of one more of our draws: a printed cell is one draw, not a mean.
 
 use super::{Criterion, Entry};
-use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::found::Found;
+use crate::analysis::found::{Found, refused_beyond};
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Draw, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{LEVEL, OfDraw, plan};
 use crate::analysis::verdict::Estimate;
 use audit::exact::Print;
 use audit::printed::Printed;
-use base::settings::{Accepted, SettingsError};
+use base::settings::{self, Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::{self, Resampling};
 use stats::interval::Interval;
 use stats::proportion::{Rank, predictive};
 use stats::summary::median;
+use study::paper::Claim;
+use toml::Value;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "one_draw",
     about: "does the printed number lie where one more draw of ours would, with 95 % probability?",
-    revision: 2,
+    revision: |_| 2,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "success", problems = "cell", contender = "Original A*", sweep = "samples=100" }
@@ -85,6 +87,20 @@ pub fn draws(context: &Context<'_>, evidence: &Evidence<'_>) -> Result<Vec<Draws
 
 /// Percentages that an interval covers from which on it refuses next to nothing, and decides nothing either.
 const NO_POWER_POINTS: f64 = 80.0;
+
+/// Whether an interval of per cents is so wide that it refuses next to nothing.
+fn is_wide(interval: Interval) -> bool {
+    interval.high - interval.low >= NO_POWER_POINTS
+}
+
+/// Whether a number of ours with this interval, which some reading gave, has no power for a claim that is judged by this criterion.
+pub fn is_powerless(claim: &Claim, [low, high]: [f64; 2]) -> bool {
+    let is_saving = |settings: &settings::Settings| {
+        let of = settings.table().get("of").and_then(Value::as_table);
+        of.is_some_and(|of| of.contains_key("against"))
+    };
+    claim.check(ENTRY.name).is_some_and(is_saving) && is_wide(Interval::new(low, high))
+}
 
 impl<'a> OneDraw<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
@@ -222,13 +238,12 @@ impl Criterion for OneDraw<'_> {
             };
         };
         let (outcome, mean) = (self.outcome(interval, about.interval), about.value);
-        let powerless =
-            self.statistic == OfDraw::SolvedPercent && interval.high - interval.low >= NO_POWER_POINTS;
+        let is_percent = self.statistic == OfDraw::SolvedPercent || self.of.against.is_some();
+        let powerless = is_percent && is_wide(interval);
         let mut because = vec![said(&draws, self.print.printed)];
         because.extend(powerless.then(|| {
             format!(
-                "no power: the interval covers {NO_POWER_POINTS} points or more of the 100 there are, so hardly any printed value \
-                 could be refused; no number of draws of ours narrows it, for what is printed is one draw"
+                "no power: the interval covers {NO_POWER_POINTS} points or more, so hardly any printed value could be refused; no number of draws of ours narrows it, for what is printed is one draw"
             )
         }));
         let what = format!("{}: mean, 95 % predictive interval of one more draw", self.title());
@@ -244,6 +259,7 @@ impl Criterion for OneDraw<'_> {
             because,
             premises: self.premises.clone(),
             powerless,
+            power: Some(refused_beyond(interval)),
             censored: self.censored(&drawn, outcome),
             units: "draws",
             ..Found::default()

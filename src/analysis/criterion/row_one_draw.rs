@@ -1,10 +1,10 @@
 //! Whether a printed row, as a whole, could be that of one more of our draws.
 
 use super::{Criterion, Entry};
-use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Case, Draw, Selection, solved};
 use crate::analysis::selection_spec::{Labels, SelectionSpec};
 use crate::analysis::statistic::OfDraw;
@@ -20,7 +20,7 @@ use study::contender::SweepPoint;
 pub static ENTRY: Entry = Entry {
     name: "row_one_draw",
     about: "is a printed row as near to our mean row as our own draws are, in shape and in level?",
-    revision: 2,
+    revision: |_| 2,
     settings: Accepted::of::<Settings>(),
     example: r#"
 of = { study = "length", problems = "cell", metric = "path_length_mm", whole_draws = true }

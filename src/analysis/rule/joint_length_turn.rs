@@ -11,7 +11,7 @@ use turns::Convention;
 pub static ENTRY: Entry = Entry {
     name: "joint_length_turn",
     about: "has any polyline through cell centres both a printed length and a printed turn sum?",
-    revision: 1,
+    revision: |_| 1,
     settings: Accepted::of::<Settings>(),
     example: r#"
 size = [30, 30]

@@ -14,11 +14,12 @@ mod point_distance;
 mod straight_line;
 mod turn_needs_length;
 
-use super::class::Outcome;
 use super::context::Context;
 use super::criterion::{Criterion, Entry};
 use super::evidence::Evidence;
 use super::found::Found;
+use super::outcome::Outcome;
+use super::verdict::POSSIBLE;
 use audit::proof::Proof;
 use base::settings::SettingsError;
 
@@ -38,14 +39,21 @@ fn rule<'a>(find: impl Fn(&Evidence<'_>) -> Found + 'a) -> Box<dyn Criterion + '
 
 /// What a proof finds that can only refuse: that something is possible does not make it so.
 fn refused(proof: Proof) -> Found {
+    refused_or(proof, "arithmetic does not refuse it")
+}
+
+/// The same, with what is possible in words.
+fn refused_or(proof: Proof, possible: &str) -> Found {
     let outcome = (!proof.is_possible).then_some(Outcome::Proved);
-    Found { outcome, because: proof.because, premises: proof.premises, ..Found::default() }
+    let said = proof.is_possible.then(|| format!("{POSSIBLE}{possible}"));
+    let because = proof.because.into_iter().chain(said).collect();
+    Found { outcome, because, premises: proof.premises, ..Found::default() }
 }
 
 /// What a proof finds that decides either way.
 fn decided(proof: Proof) -> Found {
     let outcome = if proof.is_possible { Outcome::Holds } else { Outcome::Proved };
-    Found { outcome: Some(outcome), ..refused(proof) }
+    Found { outcome: Some(outcome), because: proof.because, premises: proof.premises, ..Found::default() }
 }
 
 /// Refuses a grid or a length that a search for polylines would not come to the end of.

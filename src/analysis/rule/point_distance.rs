@@ -12,7 +12,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "point_distance",
     about: "is a printed distance that between two printed points?",
-    revision: 1,
+    revision: |_| 1,
     settings: Accepted::of::<Settings>(),
     example: "
 from = [22.5, 15.5]

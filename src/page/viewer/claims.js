@@ -1,4 +1,4 @@
-// The table of claims: words, classes and readings to filter by, heads to sort by, lines that open.
+// The table of claims: words, verdicts and readings to filter by, heads to sort by, lines that open.
 export function claims() {
   const table = document.getElementById("claimed");
   if (!table) return;
@@ -66,7 +66,7 @@ export function claims() {
   follow();
 }
 
-// The readings that a claim's class hangs on.
+// The readings that turn a claim's outcome or open it.
 function axes(line) {
   return line.dataset.hangs ? line.dataset.hangs.split(" ") : [];
 }

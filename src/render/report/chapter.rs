@@ -1,9 +1,9 @@
 //! A paper's chapter: what was found, its tables beside ours, figures, and claims that lead to their evidence.
 
 use super::{SECTIONS, Undrawn, begin_of_line, item, link, linked, paragraph, place, said};
-use crate::analysis::class::Verdict;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::{Judged, Verdicts};
+use crate::analysis::verdict_rule::Column;
 use crate::render::figure::caption;
 use crate::render::prose::{COLUMNS, markdown, prose, wrapped};
 use crate::render::tables::{self, short};
@@ -40,7 +40,7 @@ pub fn unread(paper: &Paper, why: &str) -> Chapter {
     let why = format!("**Nothing is shown: {}.**", markdown(why));
     let mut text = heading(paper);
     text.insert_str(text.find('\n').unwrap_or(0) + 1, &format!("\n{why}\n"));
-    let blank = " – |".repeat(Verdict::ALL.len() + 1);
+    let blank = " – |".repeat(Column::ALL.len() + 1);
     Chapter { text, line: format!("{}{blank} {why} |", begin_of_line(&paper.id)) }
 }
 
@@ -91,10 +91,10 @@ impl Page<'_> {
     /// The paper's tables that hold claims, and those of our results that the chapter shows.
     fn tables(&self, text: &mut String) -> Result<(), RenderError> {
         let (paper, details) = (self.evidence.paper, self.details_file());
-        let class = |judged: &Judged| link(judged, judged.outcome(), &details);
+        let verdict = |judged: &Judged| link(judged, &judged.verdict_said(), &details);
         for table in paper.tables.iter().filter(|table| table.rows.iter().any(|row| !row.claims.is_empty())) {
             *text += &paragraph(&table.caption);
-            *text += &tables::markdown(self.evidence, table, self.verdicts, class)?;
+            *text += &tables::markdown(self.evidence, table, self.verdicts, verdict)?;
             let ours = table.ours.as_ref().map(|ours| &ours.note);
             let notes: Vec<&str> = table.notes.iter().chain(ours).map(String::as_str).collect();
             *text += "\n";
@@ -158,7 +158,7 @@ impl Page<'_> {
             None => verdicts.claims.iter().filter(|judged| judged.is_counted()).collect(),
         };
         shown.truncate(CLAIMS);
-        *text += "| claim | in the paper | ours | class |\n|---|---|---|---|\n";
+        *text += "| claim | in the paper | ours | verdict |\n|---|---|---|---|\n";
         let details = self.details_file();
         for judged in &shown {
             let ours = judged.ours().map_or_else(
@@ -168,8 +168,9 @@ impl Page<'_> {
             let readings = judged.beside_if_other();
             let readings = readings.map_or_else(String::new, |words| format!(" ({})", markdown(&words)));
             let claim = link(judged, &format!("`{}`", judged.claim), &details);
-            let (said, class) = (markdown(&format!("{}: {}", judged.at, said(judged))), judged.outcome());
-            *text += &format!("| {claim} | {said} | {ours} | {class}{readings} |\n");
+            let (said, verdict) =
+                (markdown(&format!("{}: {}", judged.at, said(judged))), judged.verdict_said());
+            *text += &format!("| {claim} | {said} | {ours} | {verdict}{readings} |\n");
         }
         let all = verdicts.claims.len();
         let mut more = format!("{} More: [evidence of all {all} claims]({details})", self.counts());
@@ -185,7 +186,7 @@ impl Page<'_> {
     fn counts(&self) -> String {
         let counts = self.verdicts.counts();
         let more = counts.parts.into_iter().chain(counts.asserted);
-        std::iter::once(counts.classes)
+        std::iter::once(counts.verdicts)
             .chain(more)
             .map(|said| format!("{said}."))
             .collect::<Vec<_>>()

@@ -231,7 +231,7 @@ fn together(set: &Together, with_fail: bool) -> String {
 fn evidence<'a>(judged: &'a Judged, verdicts: &Verdicts, known: &mut BTreeMap<String, &'a str>) -> String {
     let mut text = format!("{}\n", place(&judged.claim));
     let readings = judged.beside().map_or_else(String::new, |words| format!(", {}", markdown(&words)));
-    let mut about = format!("**`{}`: {}{readings}**. ", judged.claim, judged.outcome());
+    let mut about = format!("**`{}`: {}{readings}**. ", judged.claim, judged.verdict_said());
     about += &markdown(&format!("{}: {}", judged.at, said(judged)));
     if let Some(whole) = &judged.part_of {
         about += &format!(". A part of {}", links(&[whole]));
@@ -257,8 +257,8 @@ fn finding_lines<'a>(
     claim: &'a str,
 ) -> Vec<(usize, String)> {
     let mut head = format!("`{}`", finding.criterion);
-    if let Some(verdict) = finding.verdict {
-        head += &format!(": *{}*", verdict.name());
+    if let Some(outcome) = finding.outcome {
+        head += &format!(": *{}*", outcome.name());
     }
     if let Some(ours) = &finding.ours {
         let solved =

@@ -44,7 +44,7 @@ fn a_reading_that_is_chosen_shows_each_claims_class_under_it() {
             else {
                 continue;
             };
-            assert_eq!(class, result.class.name(), "{id} under {options:?}");
+            assert_eq!(class, result.outcome.name(), "{id} under {options:?}");
             moved += 1;
         }
         browser.run("const f = document.getElementById('filter'); f.elements.under.value = 'differs'; f.dispatchEvent(new Event('input'))");
@@ -88,7 +88,7 @@ fn a_claim_that_is_opened_shows_what_each_option_does_and_lines_filter_by_what_t
     for (axis, of) in effects(turned).iter().filter(|(_, of)| of.effect == Effect::Turns) {
         let row = |row: &&Value| row[0] == json!(format!("{axis} = {}", of.option));
         let row = options.as_array().unwrap().iter().find(row).unwrap_or_else(|| panic!("{axis}: {options}"));
-        assert_eq!((&row[1], &row[2]), (&json!("turns it"), &json!(of.class.name())), "{options}");
+        assert_eq!((&row[1], &row[2]), (&json!("turns it"), &json!(of.outcome.name())), "{options}");
     }
     for axis in ["meeting", "nodes"] {
         let hangs = |judged: &&Judged| {
