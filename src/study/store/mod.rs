@@ -362,3 +362,6 @@ pub fn remove_temporaries(folder: &Path, study: &str) {
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+mod migrate;
