@@ -2,7 +2,7 @@
 //!
 //! The hash is of values: the printed number, and what each criterion and rule that decides selects, computes and accepts.
 //! Wording, order, ids of claims, and keys that say what holds without them change no hash. A claim that is named stands there by
-//! the number that it prints or, where it must be met as well, by what it means. A word of specs that is renamed keeps its hash by a line of [`RENAMED`]; any other change of the text that is
+//! the number that it prints or, where it must be met as well, by what it means. A word of specs that is renamed keeps its hash by a line of `RENAMED`; any other change of the text that is
 //! hashed needs a new [`FORM`], which histories of claims record as such.
 
 use super::{criterion, rule};
