@@ -216,7 +216,7 @@ def seen(asked: Asked, settings: dict[str, Any]) -> tuple[Reals, list[tuple], np
 def departs(study: Study, contender: str) -> bool:
     """Whether a contender ran under another reading than the defaults, where alone its trials count."""
     own = next((own for own in study.spec["contender"] if own["label"] == contender), {})
-    return any(study.choices[axis] != option for axis, option in own.get("departs", {}).items())
+    return any(study.taken[axis] != option for axis, option in own.get("departs", {}).items())
 
 
 def solved_rows(rows: Places, solved: np.ndarray) -> Places:
