@@ -1,7 +1,8 @@
-"""MuJoCo's forward kinematics of the URDF robots in data/robots and of one with all kinds of joints, for a Rust test.
+"""MuJoCo's forward kinematics of the URDF robots in data/robots, and of one with all kinds of joints.
 
-Writes tests/it/crosscheck/urdf/<robot>.json: angles and slides drawn from a written seed within the limits, or
-within two turns where a joint has none, and the place and the rotation, row by row, of every link that MuJoCo knows. Run from the root of the repository
+Writes tests/it/crosscheck/urdf/<robot>.json for a Rust test: angles and slides drawn from a written seed within the
+limits, or within two turns where a joint has none; the place of every link that MuJoCo knows, and its rotation, row
+by row. Run from the root of the repository
 after a URDF file has changed:
 
     python crosscheck/urdf_frames.py
@@ -25,7 +26,9 @@ def answers(path: Path) -> dict:
     model = mujoco.MjModel.from_xml_string(text)
     data = mujoco.MjData(model)
     limited = model.jnt_limited.astype(bool)
-    low, high = (np.where(limited, side, end) for side, end in zip(model.jnt_range.T, (-FAR_RAD, FAR_RAD), strict=True))
+    low, high = (
+        np.where(limited, side, end) for side, end in zip(model.jnt_range.T, (-FAR_RAD, FAR_RAD), strict=True)
+    )
     angles = np.random.default_rng(SEED).uniform(low, high, (COUNT, model.njnt))
     names = [model.body(index).name for index in range(1, model.nbody)]
     frames: dict[str, list[list[float]]] = {name: [] for name in names}

@@ -101,7 +101,7 @@ class Study:
         return found
 
     def sweep_points(self, groups: list[str]) -> list[str]:
-        """The points of its sweeps on problem groups, named as trials name them: those over problems first."""
+        """The points of its sweeps on problem groups, as trials name them: those over problems first."""
         found: dict[str, None] = {}
         for group in groups:
             over = [sweep for sweep in self.sweeps if is_over(sweep, group)]
@@ -115,7 +115,7 @@ class Study:
         return sorted(self.spec.get("sweep", []), key=lambda sweep: "of" in sweep)
 
     def sweeps_called(self, groups: list[str], written: str | list[str] | None) -> list[str]:
-        """The points of its sweeps on problem groups that meet a condition, or one of several; all without any."""
+        """The points of its sweeps on problem groups that meet one of the conditions; all without any."""
         points = self.sweep_points(groups)
         if written is None:
             return points

@@ -218,7 +218,7 @@ def test_a_contender_departs_where_an_option_of_its_own_is_not_the_default() -> 
         {"label": "same", "departs": {"hurry": "a"}},
     ]
     study = Study(Path("room.toml"), {"contender": contenders}, Path())
-    study.choices = {"hurry": "a", "idle": "a"}
+    study.taken = {"hurry": "a", "idle": "a"}
     assert [departs(study, one["label"]) for one in contenders] == [False, True, False]
 
 

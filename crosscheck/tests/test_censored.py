@@ -233,6 +233,7 @@ def drawn(status: list[str], *, family: str, repeats: int = 1) -> tuple[SimpleNa
         repeat=place % repeats,
         query=(place % 2, ["0", "1"]),
         sweep=(np.zeros(count, dtype=int), [""]),
+        sweeps_called=lambda groups, written: [""],
         groups=["g"],
         spec={"problems": [{"label": "g", "family": family}]},
     )
