@@ -1,8 +1,8 @@
 """MuJoCo's forward kinematics of the URDF robots in data/robots, and of one with all kinds of joints.
 
 Writes tests/it/crosscheck/urdf/<robot>.json for a Rust test. Angles and slides are drawn from a written seed
-within the limits, or within two turns where a joint has none. The file has the place of every link that MuJoCo
-knows, and its rotation, row by row. Run from the root of the repository after a URDF file has changed:
+within the limits, or within two turns where a joint has none. The file has the place of every link that
+MuJoCo knows, and its rotation, row by row. Run from the root of the repository after a URDF file has changed:
 
     python crosscheck/urdf_frames.py
 """

@@ -165,7 +165,6 @@ pub(super) fn search(
     };
     let report = memory.run(Neighbours { world, checked }, first, h, is_goal, max_expansions);
     let (ending, mut points) = match &report.outcome {
-        Outcome::Solved(_) if start == goal => (Ending::Solved, vec![start]),
         Outcome::Solved(route) => {
             let inner = route.nodes.iter().map(|node| world.point(*node));
             (Ending::Solved, [start].into_iter().chain(inner).chain([goal]).collect())
