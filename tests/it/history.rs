@@ -340,7 +340,11 @@ fn a_change_between_shards_and_their_merging_is_reported() {
     assert!(said.contains("Changed after their data were seen, without a reason given: `length`."), "{said}");
     let entries = text(&bench, "whole/data/runs/mini/history.toml");
     bench.done(&["merge", "parts", "--out", "whole"]);
-    assert_eq!(text(&bench, "whole/data/runs/mini/history.toml"), entries, "older parts bring older claims back");
+    assert_eq!(
+        text(&bench, "whole/data/runs/mini/history.toml"),
+        entries,
+        "older parts bring older claims back"
+    );
 }
 
 #[test]
