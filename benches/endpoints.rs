@@ -1,7 +1,7 @@
 //! The planar arm: workspace analysis, and the enumeration of end points.
 //!
 //! The workspace is that of the study (101 × 51 points, 4 discs). `workspace/identify` is the enumeration of all pairs of
-//! end points in both cases under one reading on one thread: worlds, hops, and a flood from every point.
+//! end points in both cases under one interpretation on one thread: worlds, hops, and a flood from every point.
 
 use base::grid::CornerRule;
 use criterion::{Criterion, criterion_group, criterion_main};
@@ -12,7 +12,7 @@ use engine::search::OctileAstar;
 use engine::space::{ArmRules, ArmWorld, HopRule, TipLattice};
 use std::{hint::black_box, time::Duration};
 use study::endpoint_variants::{Case, Variant};
-use study::prepared::workspace_map::ShapeSetting;
+use study::preprocessing::workspace_map::ShapeSetting;
 
 const START: [f64; 2] = [49.0, 3.0];
 

@@ -25,7 +25,7 @@ use base::settings::Settings;
 use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main, measurement::WallTime};
 use engine::planner::{self, Build, Planner, Request};
 use engine::search::{
-    Best, Buckets, GridGraph, Octile, OctileAstar, Rules, ScaledOctile, Search, Terms, Update,
+    Best, Buckets, GridGraph, Octile, OctileAstar, Rules, ScaledOctile, Search, SideInputs, Update,
 };
 use engine::space::{LatticeWorld, World};
 use pathfinding::{
@@ -125,10 +125,11 @@ impl Posed {
 
     fn general(&self, search: &mut Search<Octile, Buckets<Best>>) -> u64 {
         let mut solve = |&[start, goal]: &[u32; 2]| {
-            let (graph, observer, update) =
-                (&mut GridGraph::new(self.lattice().moves()), &mut (), Update::default());
+            let graph = &mut GridGraph::new(self.lattice().moves());
+            let observer = &mut ();
+            let update = Update::default();
             let estimate = &ScaledOctile::new(self.lattice().grid().width(), Some(goal));
-            let terms = Terms { graph, estimate, observer, update };
+            let terms = SideInputs { graph, estimate, observer, update };
             let report = search.run(terms, start, |node| node == goal, Rules::default(), &mut ());
             u64::from(ScaledOctile::scaled(report.outcome.route().unwrap().cost))
         };
@@ -136,7 +137,8 @@ impl Posed {
     }
 
     fn crate_best(&self) -> u64 {
-        let (width, moves) = (self.lattice().grid().width(), self.lattice().moves());
+        let width = self.lattice().grid().width();
+        let moves = self.lattice().moves();
         let successors =
             |&cell: &u32| moves.from_cell(cell).map(|(to, diagonal)| (to, if diagonal { 1393 } else { 985 }));
         let solve = |&[start, goal]: &[u32; 2]| {
@@ -261,7 +263,8 @@ fn planner() -> Box<dyn Planner> {
 }
 
 fn compare(group: &mut BenchmarkGroup<'_, WallTime>, posed: &Posed) {
-    let (planner, mut general) = (planner(), Search::new(Buckets::default()));
+    let planner = planner();
+    let mut general = Search::new(Buckets::default());
     let mut fast = OctileAstar::new(posed.lattice().moves()).unwrap();
     let truth = posed.octile(&mut fast);
     assert_eq!([posed.general(&mut general), posed.crate_best()], [truth; 2]);

@@ -3,7 +3,7 @@
 //! The parts are made up, row by row as a study names them, so that nothing is planned. It ends with a failure if the merge
 //! takes more than a minute of one core or 2 GB.
 
-use engine::planner::{Exhibit, Value};
+use engine::planner::{Trace, Value};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -15,13 +15,13 @@ use study::manifest::Manifest;
 use study::merge::Parts;
 use study::paper::Paper;
 use study::plan::{Plan, Wanted};
-use study::record::{Batch, Kept, PreparedRow, Row, Status, Values};
+use study::record::{Batch, Kept, PreprocessingRow, Row, Status, Values};
 use study::runner::BuiltStudy;
 use study::shard::Portion;
-use study::store::{Columns, Exhibits, Records, Staged, stage_records};
+use study::store::{Columns, Records, Staged, Traces, stage_records};
 use study::unit::Unit;
 
-const DRAWS: u32 = 500_000;
+const INSTANCES: u32 = 500_000;
 const SHARDS: usize = 64;
 const MOST_SECONDS: f64 = 60.0;
 const MOST_BYTES: u64 = 2_000_000_000;
@@ -31,7 +31,7 @@ const PAPER: &str = "[source]\ntitle = \"A large run\"\n";
 fn study() -> String {
     format!(
         "paper = \"large\"\nquestion = \"None.\"\nseed = 1\n[budget]\nexpansions = 1_000\n[[problems]]\nlabel = \"map\"\nfamily = \
-         \"random_cells\"\nreplicates = {DRAWS}\nsettings = {{ size_cells = [9, 9], start = [0, 0], goal = [8, 8], blocked_share = \
+         \"random_cells\"\nreplicates = {INSTANCES}\nsettings = {{ size_cells = [9, 9], start = [0, 0], goal = [8, 8], blocked_share = \
          0.2, corner_rule = \"allow\" }}\n[[contender]]\nlabel = \"A\"\nplanner = \"astar\"\nsettings = {{ weight = 1, ties = \
          \"fifo\" }}\n[[contender]]\nlabel = \"B\"\nplanner = \"astar\"\nsettings = {{ weight = 1, ties = \"lifo\" }}\n"
     )
@@ -43,12 +43,14 @@ fn made_up(built: &BuiltStudy<'_>, units: &[Unit<'_>], portion: &Portion) -> Bat
     for (index, unit) in portion.units.iter().map(|index| (*index, &units[*index])) {
         let real = |scale: f64| Value::Real(scale * (1.0 + (index % 977) as f64 / 3.0));
         let values: Values = [("optimal_cost_cells", real(1.0))].into_iter().collect();
-        let (key, kind, seed) = (unit.key.clone(), "grid".to_owned(), unit.seed);
-        batch.prepared.push(PreparedRow { key, kind, seed, reason: None, values });
+        let key = unit.key.clone();
+        let kind = "grid".to_owned();
+        let seed = unit.seed;
+        batch.preprocessing.push(PreprocessingRow { key, kind, seed, reason: None, values });
         for key in built.trials(unit) {
             if index % 10 == 0 {
-                let exhibit = Exhibit { name: "path".to_owned(), width: 2, values: vec![index as f64; 24] };
-                batch.kept.push(Kept { of: Owner::from(&key), exhibit });
+                let trace = Trace { name: "path".to_owned(), width: 2, values: vec![index as f64; 24] };
+                batch.kept.push(Kept { of: Owner::from(&key), trace });
             }
             let count = |times: usize| Value::Count((index * times % 4093) as u64);
             let counts = ["opened", "closed", "expansions", "generated", "bends"];
@@ -84,14 +86,16 @@ fn bytes(folder: &Path) -> u64 {
 
 fn main() {
     let folder = tempfile::tempdir().unwrap();
-    let (home, parts, into) =
-        (folder.path().join("large"), folder.path().join("parts"), folder.path().join("merged"));
+    let home = folder.path().join("large");
+    let parts = folder.path().join("parts");
+    let into = folder.path().join("merged");
     fs::create_dir(&home).unwrap();
     fs::write(home.join("paper.toml"), PAPER).unwrap();
     fs::write(home.join("s.toml"), study()).unwrap();
     let inputs = Inputs { roots: vec![home.clone()] };
     let paper = Paper::load(&home, &inputs).unwrap();
-    let (study, points) = (&paper.studies[0], paper.studies[0].trial_interpretations().unwrap());
+    let study = &paper.studies[0];
+    let points = paper.studies[0].trial_interpretations().unwrap();
     let built = BuiltStudy::new(study, &points, &inputs).unwrap();
     let manifest = Manifest::new(study, &points, &built, String::new(), false).unwrap();
     let studies = [(built, manifest)];
@@ -107,17 +111,19 @@ fn main() {
     let (planning, plan) = clock::timed(|| Plan::agreed(&parts, &wanted, &studies).unwrap());
     let values: Vec<&'static str> = study.columns().into_iter().collect();
     let columns = Columns { keys: study.key_columns(), values: &values };
-    let (units, cut) = (studies[0].0.units(), plan.cut(&studies).remove(0));
+    let units = studies[0].0.units();
+    let cut = plan.cut(&studies).remove(0);
     let mut part_bytes = 0;
     for number in 1..=SHARDS {
-        let (mut manifest, part) = (studies[0].1.clone(), plan.part(&parts, number));
+        let mut manifest = studies[0].1.clone();
+        let part = plan.part(&parts, number);
         let own = cut.iter().enumerate().filter(|(_, shard)| **shard == number);
         let portion = Portion { shard: plan.shard(number), units: own.map(|(unit, _)| unit).collect() };
         manifest.cut_to(&portion);
         let records = Records { batch: made_up(&studies[0].0, &units, &portion), times: Vec::new() };
         let mut staged = Staged::default();
-        let exhibits = Exhibits::held(&records.batch.kept);
-        manifest.files = stage_records(&mut staged, &part, "s", &columns, &records, exhibits).unwrap();
+        let traces = Traces::held(&records.batch.kept);
+        manifest.files = stage_records(&mut staged, &part, "s", &columns, &records, traces).unwrap();
         manifest.stage(&mut staged, &part).unwrap();
         staged.put().unwrap();
         part_bytes += bytes(&part);
@@ -132,10 +138,11 @@ fn main() {
     };
     let before = core_seconds();
     let (nanoseconds, rows) = clock::timed(merge);
-    let (wall, most) = (nanoseconds as f64 / 1e9, memory("VmHWM").unwrap_or(0));
+    let wall = nanoseconds as f64 / 1e9;
+    let most = memory("VmHWM").unwrap_or(0);
     // On a machine that others use as well, the time of day says more of them.
     let seconds = core_seconds().zip(before).map_or(wall, |(after, before)| after - before);
-    println!("plan of {DRAWS} units: {:.1} s", planning as f64 / 1e9);
+    println!("plan of {INSTANCES} units: {:.1} s", planning as f64 / 1e9);
     println!(
         "merge of {rows} rows in {SHARDS} parts: {seconds:.1} s of one core in {wall:.1} s, {:.2} GB at most; {:.1} bytes a row in parts, {:.1} merged",
         most as f64 / 1e9,

@@ -11,7 +11,8 @@ use std::time::Duration;
 fn usual() -> String {
     let mut text = "| planner | success [% of 250] | time [mean, integers, n=50] | time [sd] | length [a+b√2] |\n|-|-|-|-|-|\n".to_owned();
     for row in 0..20 {
-        let (percent, length) = (50.0 + 1.7 * f64::from(row), 20.0 + 1.37 * f64::from(row));
+        let percent = 50.0 + 1.7 * f64::from(row);
+        let length = 20.0 + 1.37 * f64::from(row);
         text += &format!("| p{row} | {percent:.1} | {}.48 | 3.{row:02} | {length:.2} |\n", 10 + row);
     }
     text
@@ -47,7 +48,8 @@ fn timed(bencher: &mut Bencher<'_>, text: &str, format: Format) {
 }
 
 fn audits(criterion: &mut Criterion) {
-    let (usual, long) = (usual(), long(100_000));
+    let usual = usual();
+    let long = long(100_000);
     assert!(
         report(&usual, Format::Markdown).findings.len() >= 20,
         "nothing is found, so that nothing is mended"

@@ -118,7 +118,8 @@ impl Parry {
     fn touches(&self, cell: &Cell, placed: &[Capsule]) -> bool {
         let parts = cell.body().parts().iter().zip(placed).filter(|(part, _)| !part.is_self_only());
         let with_scene = parts.into_iter().any(|(_, capsule)| {
-            let (bounds, own) = (Aabb::of_capsule(capsule), parry_capsule(capsule));
+            let bounds = Aabb::of_capsule(capsule);
+            let own = parry_capsule(capsule);
             self.obstacles.iter().any(|(reach, at, shape)| {
                 reach.overlaps(&bounds)
                     && intersection_test(&ParryPose::IDENTITY, &own, at, &**shape)
@@ -156,11 +157,13 @@ impl Parry {
 }
 
 fn configurations(c: &mut Criterion<CpuTime>) {
-    let (cell, mut stream) = (cell(), seed::stream(SEED));
+    let cell = cell();
+    let mut stream = seed::stream(SEED);
     let parry = Parry::new(&cell);
     let drawn: Vec<Joints> = (0..4096).map(|_| draw(&mut stream)).collect();
     let mut placed = Vec::new();
-    let (mut differ, mut free) = (0, 0);
+    let mut differ = 0;
+    let mut free = 0;
     for q in &drawn {
         cell.place(q, &mut placed);
         let ours = cell.standing(&placed, |_| 0.0) == Standing::Contact;
@@ -212,7 +215,8 @@ fn mujoco(cell: &Cell, drawn: &[Joints]) -> Option<Peer> {
 }
 
 fn kinematics(c: &mut Criterion<CpuTime>) {
-    let (cell, mut stream) = (cell(), seed::stream(SEED));
+    let cell = cell();
+    let mut stream = seed::stream(SEED);
     let arm = cell.robot().arm();
     let drawn: Vec<Joints> = (0..1024).map(|_| draw(&mut stream)).collect();
     let mut next = (0..drawn.len()).cycle();
@@ -308,7 +312,8 @@ fn joint_roadmap(c: &mut Criterion<CpuTime>) {
         let local = Local::Arm(Box::new(lines.clone()));
         Roadmap::build(local, samples.clone(), Near::Nearest(NEIGHBOURS), Counted::Accepted)
     };
-    let (pairs, tally) = (neighbours(&samples), *built().tally());
+    let pairs = neighbours(&samples);
+    let tally = *built().tally();
     assert_eq!(tally.pairs, pairs.len() as u64);
     let parry = Parry::new(lines.cell());
     let places: Vec<Joints> =

@@ -44,7 +44,9 @@ struct Posed {
 impl Posed {
     fn new(grid: Grid2) -> Self {
         let lattice = LatticeWorld::new(grid, CornerRule::ForbidAny);
-        let (grid, mut stream, mut queries) = (lattice.grid(), seed::stream(30), Vec::new());
+        let grid = lattice.grid();
+        let mut stream = seed::stream(30);
+        let mut queries = Vec::new();
         let parts = components(grid, lattice.moves());
         while queries.len() < QUERIES {
             let ends = [0, 1].map(|_| stream.random_range(0..grid.cell_count()));
@@ -63,7 +65,8 @@ impl Posed {
 
     /// The sum of costs, and what was counted in all.
     fn sum(&self, mut solve: impl FnMut(u32, u32) -> Report<Octile>) -> (u64, Counters) {
-        let (mut sum, mut counted) = (0, Counters::default());
+        let mut sum = 0;
+        let mut counted = Counters::default();
         for &[start, goal] in &self.queries {
             let report = solve(start, goal);
             sum += u64::from(ScaledOctile::scaled(report.outcome.route().unwrap().cost));
@@ -91,7 +94,8 @@ impl Posed {
     }
 
     fn by_the_crate(&self) -> u64 {
-        let (width, moves) = (self.lattice().grid().width(), self.lattice().moves());
+        let width = self.lattice().grid().width();
+        let moves = self.lattice().moves();
         let successors =
             |&cell: &u32| moves.from_cell(cell).map(|(to, diagonal)| (to, if diagonal { 1393 } else { 985 }));
         let solve = |&[start, goal]: &[u32; 2]| {
@@ -113,8 +117,10 @@ fn planner(name: &str) -> Box<dyn Planner> {
 }
 
 fn compare(group: &mut BenchmarkGroup<'_, CpuTime>, name: &str, posed: &Posed) {
-    let (world, grid) = (posed.lattice(), posed.lattice().grid());
-    let (lines, table) = (JumpLines::new(world), JumpTable::new(world));
+    let world = posed.lattice();
+    let grid = posed.lattice().grid();
+    let lines = JumpLines::new(world);
+    let table = JumpTable::new(world);
     let mut walk = OctileAstar::new(world.moves()).unwrap();
     let mut jump = JumpSearch::new([grid.width(), grid.height()]).unwrap();
     let (truth, cells) = posed.walked(&mut walk);

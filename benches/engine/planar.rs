@@ -117,7 +117,8 @@ const NEIGHBOURHOODS: [(&str, &str, u8); 6] = [
 
 fn against_the_crate(criterion: &mut Criterion<CpuTime>) {
     for (family, hop) in [("astar", HopRule::EndPoints), ("swept", HopRule::Continuous)] {
-        let (arm, world) = (workspace(hop), World::Arm(workspace(hop)));
+        let arm = workspace(hop);
+        let world = World::Arm(workspace(hop));
         for (name, shape, radius) in NEIGHBOURHOODS {
             compare(criterion, &format!("{family}/{name}"), (&arm, &world), (shape, radius));
         }

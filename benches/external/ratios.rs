@@ -60,7 +60,8 @@ fn in_words(ns: f64) -> String {
 fn main() {
     let target = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
     let target = target.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target"));
-    let (folder, mut missing) = (target.join("criterion"), 0);
+    let folder = target.join("criterion");
+    let mut missing = 0;
     println!("| what | ours | beside | takes | ratio |\n|---|---|---|---|---|");
     for (what, group, own, peers) in LINES {
         for peer in *peers {

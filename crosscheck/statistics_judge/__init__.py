@@ -5,7 +5,7 @@ Parquet files. What is random is drawn anew, with more resamples and another gen
 interval agrees if its ends lie where Monte-Carlo error alone can put them.
 
 Not recomputed: the rules (arithmetic on printed numbers; their certificates have a verifier of their own),
-what explored readings say, sets of claims met together, and whether path lengths keep to the inclusion of one
+what explored interpretations say, sets of claims met together, and whether path lengths keep to the inclusion of one
 planner's steps in another's (`by_inclusion`). The stored class of a rule is taken as given where claims are
 combined.
 """

@@ -40,7 +40,7 @@ def report(name: str, said: Said) -> None:
     """Say what agrees, what is near and what differs."""
     agree = (
         f"{said.estimates} estimates, {said.intervals} intervals, {said.classes} classes "
-        f"and {said.across} combinations across readings agree"
+        f"and {said.across} combinations across interpretations agree"
     )
     print(f"{name}: {agree}; {len(said.near)} near, {len(said.differ)} differ", flush=True)
     for line in said.near:

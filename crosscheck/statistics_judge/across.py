@@ -1,4 +1,4 @@
-"""The class of a claim across readings, from a paper's stored exploration and that on its second seed."""
+"""The class of a claim across interpretations, from a paper's stored exploration and that on its second seed."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -11,14 +11,14 @@ from statistics_judge.shared_out import shares
 # Of ten results that speak or leave open, so many must speak.
 TENTHS = 9
 
-# Readings under which nothing was seen of a claim.
+# Interpretations under which nothing was seen of a claim.
 UNSEEN = ("unexplored", "unmeant")
 
 Options = dict[str, str]
 
 
 @dataclass
-class Axis:
+class Choice:
     """A choice of a paper."""
 
     id: str
@@ -27,13 +27,13 @@ class Axis:
     bounds: tuple[float, float] | None
     options: dict[str, dict[str, Any]]
 
-    def option(self, reading: Options) -> str:
-        """The option that a reading takes here."""
-        return reading.get(self.id, self.default)
+    def option(self, interpretation: Options) -> str:
+        """The option that an interpretation takes here."""
+        return interpretation.get(self.id, self.default)
 
-    def votes(self, reading: Options) -> bool:
+    def votes(self, interpretation: Options) -> bool:
         """Whether the option can be run and the paper may mean it."""
-        name = self.option(reading)
+        name = self.option(interpretation)
         return self.is_meant(name) and "cannot_run" not in self.options[name]
 
     def is_meant(self, name: str) -> bool:
@@ -51,16 +51,16 @@ class Axis:
 
 @dataclass
 class Result:
-    """What was found about a claim under the readings that count of those that give one result."""
+    """What was found about a claim under the interpretations that count of those that give one result."""
 
-    readings: list[int]
+    interpretations: list[int]
     stored: str
     vote: str
 
 
 @dataclass
 class Counted:
-    """The readings that count for a claim."""
+    """The interpretations that count for a claim."""
 
     results: list[Result]
     looked: int
@@ -75,7 +75,7 @@ def within(value: float, bounds: tuple[float, float]) -> bool:
     return bounds[0] <= value <= bounds[1]
 
 
-def axes(paper: Paper) -> list[Axis]:
+def choices(paper: Paper) -> list[Choice]:
     """The choices of a paper; what an option that is no probe does not cite, its choice may."""
     found = []
     for choice in paper.choices:
@@ -86,7 +86,7 @@ def axes(paper: Paper) -> list[Axis]:
             name: option if {"paper", "practice", "probe"} & option.keys() else {**source, **option}
             for name, option in choice["option"].items()
         }
-        found.append(Axis(choice["id"], choice["default"], choice.get("fitted", False), ends, options))
+        found.append(Choice(choice["id"], choice["default"], choice.get("fitted", False), ends, options))
     return found
 
 
@@ -95,7 +95,7 @@ class Across:
 
     def __init__(self, paper: Paper, verdicts: dict[str, Any]) -> None:
         """Read what is stored."""
-        self.paper, self.axes = paper, axes(paper)
+        self.paper, self.choices = paper, choices(paper)
         self.first, self.second = paper.explorations
         note = verdicts.get("explored", {})
         # Whether a spec has changed since is for the hashes of replan; its word is taken for it.
@@ -110,7 +110,7 @@ class Across:
         }
 
     def result(self, exploration: dict[str, Any], claim: str, place: int) -> dict[str, Any] | None:
-        """What an exploration found about a claim under one of its readings."""
+        """What an exploration found about a claim under one of its interpretations."""
         return exploration["claims"].get(claim, {"at": {}})["at"].get(place)
 
     def second_class(self, claim: str) -> str | None:
@@ -121,7 +121,7 @@ class Across:
         return found["class"] if found and found["sight"] == "looked" else None
 
     def expected(self, claim: str) -> dict[str, Any] | None:
-        """What verdicts.toml should say of a claim across readings; none if it should say nothing."""
+        """What verdicts.toml should say of a claim across interpretations; none if it should say nothing."""
         if self.first is None or claim in self.stale[0] or "theorem" in self.verdicts[claim]:
             return None
         counted = self.counted(claim)
@@ -146,10 +146,10 @@ class Across:
         }
 
     def counted(self, claim: str) -> Counted:
-        """The readings that vote and are compatible, with equal results once."""
+        """The interpretations that vote and are compatible, with equal results once."""
         assert self.first is not None
-        readings = self.first["readings"]
-        voting = [at for at, one in enumerate(readings) if all(axis.votes(one) for axis in self.axes)]
+        interpretations = self.first["interpretations"]
+        voting = [at for at, one in enumerate(interpretations) if all(choice.votes(one) for choice in self.choices)]
         judged = self.compatible(voting, *self.calibrating(claim))
         none_compatible = bool(voting) and not judged
         judged = voting if none_compatible else judged
@@ -159,8 +159,8 @@ class Across:
             return Counted([], 0, 0, 0, none_compatible=False, existential=False)
         found.existential = stored.get("existential", False)
         for one in stored["results"]:
-            own = [at for at in one["readings"] if at in judged]
-            # The default run stands for the default reading, whatever the exploration had of it.
+            own = [at for at in one["interpretations"] if at in judged]
+            # The default run stands for the default interpretation, whatever the exploration had of it.
             kept = own if one["sight"] == "looked" else [at for at in own if at == 0]
             seen = kept if one["sight"] != "unmeant" else []
             found.looked += len(seen)
@@ -168,11 +168,11 @@ class Across:
             if seen:
                 now = self.default[claim] if 0 in own else one["class"]
                 found.results.append(Result(seen, now, now))
-        found.results.sort(key=lambda one: one.readings[0])
+        found.results.sort(key=lambda one: one.interpretations[0])
         return found
 
     def calibrating(self, claim: str) -> tuple[list[str], list[str]]:
-        """The claims that make a reading incompatible for a claim; and itself, its parts and its sentence."""
+        """The claims that make an interpretation incompatible for a claim; and itself, its parts and its sentence."""
         kinds = ("all_of", "any_of", "means_one_of", "cells")
         parts = {
             one["id"]: {part for kind in kinds for part in one.get(kind, [])} for one in self.paper.claims
@@ -183,7 +183,7 @@ class Across:
         return sorted(known - own), sorted(own)
 
     def compatible(self, voting: list[int], others: list[str], own: list[str]) -> list[int]:
-        """The readings that contradict no other calibration claim; of those alike but for fits the best.
+        """The interpretations that contradict no other calibration claim; of those alike but for fits the best.
 
         Axes are fitted to the claim as well: best is where all hold or stay open, then where most hold.
         """
@@ -198,7 +198,7 @@ class Across:
         return [at for at, fit in fits.items() if fit == alike[self.unfitted(at)]]
 
     def fit(self, place: int, calibration: list[str]) -> int | None:
-        """How many calibration claims hold under a reading; none if one is contradicted or has no power."""
+        """How many calibration claims hold under an interpretation; none if one is contradicted or has no power."""
         assert self.first is not None
         holds = 0
         for claim in calibration:
@@ -213,9 +213,9 @@ class Across:
         return holds
 
     def unfitted(self, place: int) -> tuple[str, ...]:
-        """The options of a reading where nothing is fitted."""
+        """The options of an interpretation where nothing is fitted."""
         assert self.first is not None
-        return tuple(axis.option(self.first["readings"][place]) for axis in self.axes if not axis.fitted)
+        return tuple(choice.option(self.first["interpretations"][place]) for choice in self.choices if not choice.fitted)
 
     def confirm(self, claim: str, results: list[Result]) -> None:
         """Leaves open what speaks against most results and does not do so on the second seed."""
@@ -223,9 +223,9 @@ class Across:
         for one in flips(results):
             again = None
             if self.second is not None and claim not in self.stale[1]:
-                reading = self.first["readings"][one.readings[0]]
-                if reading in self.second["readings"]:
-                    again = self.result(self.second, claim, self.second["readings"].index(reading))
+                interpretation = self.first["interpretations"][one.interpretations[0]]
+                if interpretation in self.second["interpretations"]:
+                    again = self.result(self.second, claim, self.second["interpretations"].index(interpretation))
             if again is None or SPEAKS[again["class"]] != SPEAKS[one.stored]:
                 one.vote = "undecided"
 
@@ -235,7 +235,7 @@ class Across:
         holds, fails, left, every = votes.count(1), votes.count(-1), votes.count(0), len(votes)
         tail = f", open under {left}" if left else ""
         if every == 1:
-            return "asked under the defaults alone" if self.is_of_defaults(claim) else "no reading moves it"
+            return "asked under the defaults alone" if self.is_of_defaults(claim) else "no choice moves it"
         if counted.existential and holds:
             first = counted.results[votes.index(1)]
             tail = f", {self.name(first)} among them" if self.departs(first) else ""
@@ -252,9 +252,9 @@ class Across:
         return f"open under {left} of {every}"
 
     def is_of_defaults(self, claim: str) -> bool:
-        """Whether some reading changes trials, and none of the studies that the claim looks at has any."""
+        """Whether some interpretation changes trials, and none of the studies that the claim looks at has any."""
         assert self.first is not None
-        changing = (option for axis in self.axes for option in axis.options.values())
+        changing = (option for choice in self.choices for option in choice.options.values())
         if not any(option.get(key) for option in changing for key in ("problem", "stage", "contender")):
             return False
         looked_at = set(self.first["claims"][claim]["studies"])
@@ -273,77 +273,77 @@ class Across:
         return f"; the class {self.hangs(claim, results, holding[0], side)}"
 
     def departs(self, result: Result) -> bool:
-        """Whether the first reading of a result is another than the default."""
+        """Whether the first interpretation of a result is another than the default."""
         assert self.first is not None
-        return bool(self.first["readings"][result.readings[0]])
+        return bool(self.first["interpretations"][result.interpretations[0]])
 
     def name(self, result: Result) -> str:
-        """The first reading of a result by what differs from the defaults."""
+        """The first interpretation of a result by what differs from the defaults."""
         assert self.first is not None
-        reading = self.first["readings"][result.readings[0]]
-        return ", ".join(f"{axis} = {option}" for axis, option in sorted(reading.items())) or "the default"
+        interpretation = self.first["interpretations"][result.interpretations[0]]
+        return ", ".join(f"{choice} = {option}" for choice, option in sorted(interpretation.items())) or "the default"
 
-    def alone(self, claim: str, axis: Axis, option: str) -> dict[str, Any] | None:
+    def alone(self, claim: str, choice: Choice, option: str) -> dict[str, Any] | None:
         """What was found under an option, all else at its default."""
         assert self.first is not None
-        readings = self.first["readings"]
-        one = {axis.id: option}
-        return self.result(self.first, claim, readings.index(one)) if one in readings else None
+        interpretations = self.first["interpretations"]
+        one = {choice.id: option}
+        return self.result(self.first, claim, interpretations.index(one)) if one in interpretations else None
 
-    def moves(self, claim: str, axis: Axis) -> bool:
+    def moves(self, claim: str, choice: Choice) -> bool:
         """Whether some voting option alone gives other results than the defaults, or was not looked at."""
         assert self.first is not None
         base = self.result(self.first, claim, 0)
-        voting = [name for name in axis.options if name != axis.default and axis.votes({axis.id: name})]
+        voting = [name for name in choice.options if name != choice.default and choice.votes({choice.id: name})]
         if base is None or not voting:
             return True
-        for found in (self.alone(claim, axis, name) for name in voting):
+        for found in (self.alone(claim, choice, name) for name in voting):
             if found is None or found.get("sight") in UNSEEN:
                 return True
             if any(found.get(key) != base.get(key) for key in ("results", "class")):
                 return True
         return False
 
-    def decides(self, claim: str, axis: Axis, split: dict[str, list[int]], side: dict[str, int]) -> bool:
+    def decides(self, claim: str, choice: Choice, split: dict[str, list[int]], side: dict[str, int]) -> bool:
         """Whether each option with results brings its side alone, as far as that was looked at."""
         for option, (holds, fails) in split.items():
-            found = self.alone(claim, axis, option) if option != axis.default and holds + fails else None
+            found = self.alone(claim, choice, option) if option != choice.default and holds + fails else None
             if found is not None and (side[found["class"]] == 1) != (holds > 0):
                 return False
         return True
 
-    def is_clean(self, axis: Axis, results: list[Result], side: dict[str, int]) -> bool:
-        """Whether no option has readings on both sides, all readings of each result counted."""
+    def is_clean(self, choice: Choice, results: list[Result], side: dict[str, int]) -> bool:
+        """Whether no option has interpretations on both sides, all interpretations of each result counted."""
         assert self.first is not None
         sides: dict[str, set[int]] = {}
         for one in results:
-            for place in one.readings if side[one.vote] else []:
-                sides.setdefault(axis.option(self.first["readings"][place]), set()).add(side[one.vote])
+            for place in one.interpretations if side[one.vote] else []:
+                sides.setdefault(choice.option(self.first["interpretations"][place]), set()).add(side[one.vote])
         return all(len(found) == 1 for found in sides.values())
 
     def hangs(self, claim: str, results: list[Result], name: str, side: dict[str, int]) -> str:
-        """The axis whose options best part results on one side (1), called `name`, from the other (-1)."""
+        """The choice whose options best part results on one side (1), called `name`, from the other (-1)."""
         assert self.first is not None
         splits = []
-        for axis in (axis for axis in self.axes if self.moves(claim, axis)):
+        for choice in (choice for choice in self.choices if self.moves(claim, choice)):
             split: dict[str, list[int]] = {}
             for one in results:
-                counts = split.setdefault(axis.option(self.first["readings"][one.readings[0]]), [0, 0])
+                counts = split.setdefault(choice.option(self.first["interpretations"][one.interpretations[0]]), [0, 0])
                 if side[one.vote]:
                     counts[side[one.vote] < 0] += 1
-            splits.append((sum(map(max, split.values())), axis, dict(sorted(split.items()))))
+            splits.append((sum(map(max, split.values())), choice, dict(sorted(split.items()))))
         holds, fails = (sum(side[one.vote] == way for one in results) for way in (1, -1))
         found, every = name.replace("_", " "), len(results)
-        for _, axis, split in splits:
-            if self.is_clean(axis, results, side) and self.decides(claim, axis, split, side):
+        for _, choice, split in splits:
+            if self.is_clean(choice, results, side) and self.decides(claim, choice, split, side):
                 where = " or ".join(option for option, counts in split.items() if counts[0])
-                return f"hangs on {axis.id}: {found} if {where} ({holds} of {every})"
+                return f"hangs on {choice.id}: {found} if {where} ({holds} of {every})"
         # Many options part few results by chance: each costs one.
         parting = [one for one in splits if one[0] > max(holds, fails)]
         if not parting:
-            return f"hangs on several readings: {found} under {holds} of {every}"
-        _, axis, split = max(parting, key=lambda one: one[0] - len(one[2]))
-        return f"hangs on {axis.id} and others: {found} under {holds} of {every} ({shares(split)})"
+            return f"hangs on several interpretations: {found} under {holds} of {every}"
+        _, choice, split = max(parting, key=lambda one: one[0] - len(one[2]))
+        return f"hangs on {choice.id} and others: {found} under {holds} of {every} ({shares(split)})"
 
 
 def flips(results: list[Result]) -> list[Result]:
@@ -380,7 +380,7 @@ def differences(paper: Paper, verdicts: dict[str, Any]) -> Iterator[str | None]:
         return
     for claim, stored in own.verdicts.items():
         expected, said = own.expected(claim), stored.get("across")
-        where = f"{paper.id}: `{claim}` across readings"
+        where = f"{paper.id}: `{claim}` across interpretations"
         if (expected is None) != (said is None):
             has = "nothing" if said is None else "something"
             yield f"{where}: verdicts.toml says {has}; recomputed it is {expected and expected['said']}"

@@ -10,15 +10,15 @@ from statistics_judge.intervals import Interval
 from statistics_judge.records import Paper
 from statistics_judge.selection import Cases, select
 
-# A bootstrap over fewer draws says nothing firm.
-FEWEST_DRAWS = 10
+# A bootstrap over fewer instances says nothing firm.
+FEWEST_INSTANCES = 10
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """Our number: with its interval, how many independent draws it rests on, cases solved and asked.
+    """Our number: with its interval, how many independent instances it rests on, cases solved and asked.
 
-    Few draws are no reason to doubt an interval that is exact.
+    Few instances are no reason to doubt an interval that is exact.
     """
 
     value: float

@@ -64,9 +64,9 @@ def clopper_pearson(hits: int, trials: int) -> Interval:
 
 
 def agreed(hits: Reals, chances: Reals, most: float) -> Interval | None:
-    """The interval of a share on which all draws agree, whatever they are drawn from; none for other draws.
+    """The interval of a share on which all instances agree, whatever they are drawn from; none for other instances.
 
-    At the tail's level no more than a beta quantile of all draws differ from those seen, by hits or by misses
+    At the tail's level no more than a beta quantile of all instances differ from those seen, by hits or by misses
     throughout. A share weighs draws by their chances, so the most that one can have over the mean widens it.
     """
     if (hits * chances[0] != hits[0] * chances).any():
@@ -104,14 +104,14 @@ def agreed_between(values: Reals, least: float, most: float) -> Interval | None:
     return End.exact(value - wide * (value - least)), End.exact(value + wide * (most - value))
 
 
-def predictive(draws: Reals) -> Interval | None:
-    """Order statistics between which one more draw lies; none where the extremes do not reach the level."""
+def predictive(instances: Reals) -> Interval | None:
+    """Order statistics between which one more instance lies; none where the extremes do not reach the level."""
     outside = 0
-    while 2 * (outside + 1) / (len(draws) + 1) <= 1 - LEVEL + 1e-12:
+    while 2 * (outside + 1) / (len(instances) + 1) <= 1 - LEVEL + 1e-12:
         outside += 1
     if outside == 0:
         return None
-    ordered = np.sort(draws)
+    ordered = np.sort(instances)
     return End.exact(float(ordered[outside - 1])), End.exact(float(ordered[-outside]))
 
 

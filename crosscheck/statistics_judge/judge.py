@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from statistics_judge import across, classes, medians, printed_cells, shares, sizes
-from statistics_judge.found import FEWEST_DRAWS, Asked, Estimate, Found
+from statistics_judge.found import FEWEST_INSTANCES, Asked, Estimate, Found
 from statistics_judge.records import Paper, Study
 from statistics_judge.selection import labels, select
 
@@ -16,9 +16,9 @@ CRITERIA: dict[str, Callable[[Asked], Found]] = {
     "least_of": medians.least_of,
     "lower": sizes.lower,
     "on_every": shares.on_every,
-    "one_draw": printed_cells.one_draw,
+    "one_instance": printed_cells.one_instance,
     "prints_as": printed_cells.prints_as,
-    "row_one_draw": printed_cells.row_one_draw,
+    "row_one_instance": printed_cells.row_one_instance,
     "share": shares.share_within,
     "trend": sizes.trend,
     "within": sizes.within,
@@ -138,39 +138,39 @@ def of_criterion(
 
 
 def is_meant(paper: Paper, claim: dict[str, Any]) -> bool:
-    """Whether a claim is meant under the readings that it is judged under."""
-    return all(paper.taken[axis] in options for axis, options in claim.get("holds_when", {}).items())
+    """Whether a claim is meant under the interpretations that it is judged under."""
+    return all(paper.taken[choice] in options for choice, options in claim.get("holds_when", {}).items())
 
 
 def is_not_run(paper: Paper, claim: dict[str, Any], studies: list[Study]) -> bool:
     """Whether the paper may mean an option that cannot be run, of a choice that these studies inherit."""
     premises = claim.get("holds_when", {})
-    for axis in across.axes(paper):
+    for choice in across.choices(paper):
         lost = [
-            name for name, option in axis.options.items() if "cannot_run" in option and axis.is_meant(name)
+            name for name, option in choice.options.items() if "cannot_run" in option and choice.is_meant(name)
         ]
-        lost = [name for name in lost if name in premises.get(axis.id, [name])]
-        of_claims = any(key in option for option in axis.options.values() for key in ("metric", "digits"))
-        if lost and (of_claims or any(axis.id in study.inherited for study in studies)):
+        lost = [name for name in lost if name in premises.get(choice.id, [name])]
+        of_claims = any(key in option for option in choice.options.values() for key in ("metric", "digits"))
+        if lost and (of_claims or any(choice.id in study.inherited for study in studies)):
             return True
     return False
 
 
 def is_few(name: str, settings: dict[str, Any], found: Found) -> bool:
-    """Whether an interval that is not exact rests on too few draws."""
+    """Whether an interval that is not exact rests on too few instances."""
     resampled = (
         name in ("lower", "share", "trend", "within") and settings.get("statistic") != "ratio_of_groups"
     )
     ours = found.estimate
     if found.few:
         return True
-    return resampled and ours is not None and not ours.exact and ours.n < FEWEST_DRAWS
+    return resampled and ours is not None and not ours.exact and ours.n < FEWEST_INSTANCES
 
 
 def selections_of(settings: dict[str, Any]) -> list[dict[str, Any]]:
-    """Where only whole draws count, the selections of a criterion, one a row."""
+    """Where only whole instances count, the selections of a criterion, one a row."""
     of = settings.get("of", {})
-    if not of.get("whole_draws", False):
+    if not of.get("whole_instances", False):
         return []
     rows = settings.get("rows", [{}])
     return [{**of, **{key: row[key] for key in ("contender", "against") if key in row}} for row in rows]
@@ -199,8 +199,8 @@ def lacks_sessions(stored: int, find: Callable[[int], Found]) -> bool:
 def compare(paper: Paper, claims: list[Claim], verdicts: dict[str, Any]) -> Said:
     """What verdicts.toml says, held against what was recomputed."""
     said = Said()
-    if verdicts["reading"] != paper.taken:
-        said.differ.append(f"{paper.id}: verdicts.toml was judged under other readings than the defaults")
+    if verdicts["interpretation"] != paper.taken:
+        said.differ.append(f"{paper.id}: verdicts.toml was judged under other interpretations than the default")
         return said
     stored = {one["claim"]: one for one in verdicts.get("claim", [])}
     if list(stored) != [claim.id for claim in claims]:
@@ -267,14 +267,14 @@ def compare_claim(
         finding = stored["finding"][-1] if stored.get("finding") else {}
         compare_class(f"{paper}: `{claim.id}` ({kind})", finding.get("verdict"), of_parts, said)
         possible = [*possible, of_parts]
-    # Findings are those under the default reading; across readings is another question.
+    # Findings are those under the default interpretation; across interpretations is another question.
     several = stored.get("across")
     default = several["default"] if several else stored["verdict"]
     compare_class(f"{paper}: `{claim.id}`", default, whole(claim, possible), said)
     if several and several["class"] != stored["verdict"]:
         said.differ.append(
             f"{paper}: `{claim.id}`: its class is {stored['verdict']}; "
-            f"across readings it is {several['class']}"
+            f"across interpretations it is {several['class']}"
         )
 
 

@@ -208,15 +208,15 @@ def seen(asked: Asked, settings: dict[str, Any]) -> tuple[Reals, list[tuple], np
                 known = ~np.isnan(number)
                 values.append(number[known])
                 for row in rows[known]:
-                    problems.append((study.name, group, int(study.draw[row]), names[query[row]]))
+                    problems.append((study.name, group, int(study.instance[row]), names[query[row]]))
                     selected.append(place.get("selected", False))
     return np.concatenate(values) if values else np.array([]), problems, np.array(selected, dtype=bool)
 
 
 def departs(study: Study, contender: str) -> bool:
-    """Whether a contender ran under another reading than the defaults, where alone its trials count."""
+    """Whether a contender ran under another interpretation than the defaults, where alone its trials count."""
     own = next((own for own in study.spec["contender"] if own["label"] == contender), {})
-    return any(study.taken[axis] != option for axis, option in own.get("departs", {}).items())
+    return any(study.taken[choice] != option for choice, option in own.get("departs", {}).items())
 
 
 def solved_rows(rows: Places, solved: np.ndarray) -> Places:

@@ -1,4 +1,4 @@
-"""Criteria that hold printed cells against our draws: one_draw, prints_as and row_one_draw."""
+"""Criteria that hold printed cells against our instances: one_instance, prints_as and row_one_instance."""
 
 import functools
 from dataclasses import replace
@@ -40,8 +40,8 @@ def solved_percent(unit: Places, solved: np.ndarray, units: int) -> Reals:
     return np.divide(100 * hits, count, out=np.full(units, np.nan), where=count > 0)
 
 
-def one_draw(asked: Asked) -> Found:
-    """The printed number lies where one more draw of ours would."""
+def one_instance(asked: Asked) -> Found:
+    """The printed number lies where one more instance of ours would."""
     cases, cell = asked.cases(), printed(asked.paper, asked.claim)
     statistic = asked.settings.get("statistic", "mean")
     values = of_draws(cases, statistic)
@@ -70,7 +70,7 @@ def one_draw(asked: Asked) -> Found:
 
 
 def hangs_on_unended(cases: Cases, statistic: str, printed_value: float, outcome: str) -> bool:
-    """Whether draws without a number, of which something did not end, could turn what one more draw says.
+    """Whether draws without a number, of which something did not end, could turn what one more instance says.
 
     Those of which something did not end are taken to lie below all others, then above, as far as it can move
     them; solved queries count as none of these, then as all.
@@ -114,23 +114,23 @@ def prints_as(asked: Asked) -> Found:
     return replace(found, censored=frozenset([cut]), few=few)
 
 
-def row_one_draw(asked: Asked) -> Found:
-    """A printed row, or several of one draw, is as near to our mean row as our own draws are."""
+def row_one_instance(asked: Asked) -> Found:
+    """A printed row, or several of one instance, is as near to our mean row as our own instances are."""
     rows = [cell for row in asked.settings["rows"] for cell in printed_row(asked, row)]
     theirs, (ours, cases) = np.array(rows), drawn_rows(asked, solved=False)
-    draws = len(ours)
-    if draws < 3:
+    instances = len(ours)
+    if instances < 3:
         return too_few()
     refused_below = asked.settings["refused_below"]
     outcome, rank = placed(theirs, ours, refused_below)
-    found = certain(outcome, Estimate(rank, draws, None, cases[0].solved_of_all()))
+    found = certain(outcome, Estimate(rank, instances, None, cases[0].solved_of_all()))
     cut = any(one.unended.any() for one in cases)
     if cut and not any("statistics" in row for row in asked.settings["rows"]):
         filled, _ = drawn_rows(asked, solved=True)
         sides = [ours.mean() < theirs.mean(), filled.mean() < theirs.mean()]
         cut = placed(theirs, filled, refused_below)[0] != outcome or sides[0] != sides[1]
-    # The least two-sided rank is 2 / (n + 1): of fewer draws no row could be refused.
-    return replace(found, censored=frozenset([cut]), few=draws < int(2 / refused_below))
+    # The least two-sided rank is 2 / (n + 1): of fewer instances no row could be refused.
+    return replace(found, censored=frozenset([cut]), few=instances < int(2 / refused_below))
 
 
 def printed_row(asked: Asked, row: dict[str, Any]) -> list[float]:
@@ -139,13 +139,13 @@ def printed_row(asked: Asked, row: dict[str, Any]) -> list[float]:
 
 
 def placed(theirs: Reals, ours: Reals, refused_below: float) -> tuple[str, float]:
-    """Whether a row is an ordinary one among our draws, and its rank: the lesser of shape and level."""
+    """Whether a row is an ordinary one among our instances, and its rank: the lesser of shape and level."""
     rank = min((as_far(theirs, ours) + 1) / (len(ours) + 1), level_rank(theirs, ours))
     return (HOLDS if rank >= refused_below else FAILS), rank
 
 
 def drawn_rows(asked: Asked, *, solved: bool) -> tuple[Reals, list[Cases]]:
-    """The cells of all rows, of every draw that has them all, with the cases of each row.
+    """The cells of all rows, of every instance that has them all, with the cases of each row.
 
     Where solved queries are counted, what did not end is solved only if so wanted.
     """
@@ -177,24 +177,24 @@ def along_sweep(cases: Cases, solved: bool) -> list[Reals]:
     return found
 
 
-def distance(row: Reals, others: Reals, draws: int) -> float:
+def distance(row: Reals, others: Reals, instances: int) -> float:
     """How far a row is from the mean of others, in standard deviations a cell, root mean square.
 
-    A cell at which the others agree has the spread of one query in ten of one draw in all.
+    A cell at which the others agree has the spread of one query in ten of one instance in all.
     """
-    spread = np.maximum(others.std(axis=0, ddof=1), 10 / np.sqrt(draws))
+    spread = np.maximum(others.std(axis=0, ddof=1), 10 / np.sqrt(instances))
     return float(np.sqrt(np.mean(((row - others.mean(axis=0)) / spread) ** 2)))
 
 
 def as_far(row: Reals, ours: Reals) -> int:
-    """Draws that are at least as far from the mean of the others as the row is from the mean of all."""
-    draws = len(ours)
-    limit = distance(row, ours, draws) * (1 - 1e-12)
-    return sum(distance(ours[i], np.delete(ours, i, axis=0), draws) >= limit for i in range(draws))
+    """Instances that are at least as far from the mean of the others as the row is from the mean of all."""
+    instances = len(ours)
+    limit = distance(row, ours, instances) * (1 - 1e-12)
+    return sum(distance(ours[i], np.delete(ours, i, axis=0), instances) >= limit for i in range(instances))
 
 
 def level_rank(row: Reals, ours: Reals) -> float:
-    """The two-sided rank of the row's mean among those of our draws, the row counted in."""
+    """The two-sided rank of the row's mean among those of our instances, the row counted in."""
     levels, level = ours.mean(axis=1), row.mean()
     slack = 1e-12 * max(1.0, abs(level))
     below, above = int((levels <= level + slack).sum()), int((levels >= level - slack).sum())

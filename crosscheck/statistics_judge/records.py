@@ -24,7 +24,7 @@ Flags = npt.NDArray[np.bool_]
 
 
 # What a column is called that has the option taken of a choice, before the choice's name.
-OPTION = "reading_"
+OPTION = "choice_"
 
 
 @dataclass(frozen=True)
@@ -153,9 +153,9 @@ class Study:
         return self.trials.table.num_rows
 
     @cached_property
-    def draw(self) -> Places:
-        """The draw of each trial."""
-        return self.trials.numbers("draw").astype(np.int64)
+    def instance(self) -> Places:
+        """The instance of each trial."""
+        return self.trials.numbers("instance").astype(np.int64)
 
     @cached_property
     def repeat(self) -> Places:
@@ -164,8 +164,8 @@ class Study:
 
     @cached_property
     def posed(self) -> Places:
-        """One number for what is posed to contenders alike: draw, query and point of the sweeps."""
-        posed = self.draw
+        """One number for what is posed to contenders alike: instance, query and point of the sweeps."""
+        posed = self.instance
         for part in (self.query[0], self.sweep[0]):
             posed = posed * (int(part.max(initial=0)) + 1) + part
         return posed
@@ -227,7 +227,7 @@ class Study:
         return known * metric.scale
 
     def repeats(self, row: int, metric: Metric, session: int) -> list[float]:
-        """Every clock reading of a trial."""
+        """Every times of a trial."""
         times = self.clock.get(session, {}).get(self._keys[row], [])
         return [time * metric.scale for time in times]
 
@@ -237,7 +237,7 @@ class Study:
 
     @cached_property
     def clock(self) -> dict[int, dict[tuple, list[float]]]:
-        """Clock readings by session and trial."""
+        """Times by session and trial."""
         table = Table(self.runs / f"{self.name}.times.parquet")
         found: dict[int, dict[tuple, list[float]]] = {}
         columns = (keys_of(table), table.listed("session"), table.listed("plan_wall_ns"))
@@ -287,7 +287,7 @@ def spelled(value: object) -> str:
 
 def keys_of(table: Table) -> list[tuple]:
     """What names the trial of each row."""
-    fixed = ["group", "draw", "query", "contender", "repeat"]
+    fixed = ["group", "instance", "query", "contender", "repeat"]
     named = [*fixed, *(name for name in table.names if name.startswith(("sweep_", OPTION)))]
     return list(zip(*(table.listed(name) for name in named), strict=True))
 
@@ -318,11 +318,11 @@ class Paper:
         paths = [self.runs / f"{name}.toml.gz" for name in ("explored", "second_seed")]
         found = [toml(path) if path.is_file() else None for path in paths]
         for claim in (claim for one in found if one is not None for claim in one["claims"].values()):
-            claim["at"] = {place: result for result in claim["results"] for place in result["readings"]}
+            claim["at"] = {place: result for result in claim["results"] for place in result["interpretations"]}
         return found
 
     def metric(self, name: str) -> Metric:
-        """The metric that a name stands for under the default readings."""
+        """The metric that a name stands for under the default interpretation."""
         return self.metrics[self.meanings.get(name, name)]
 
     def claim(self, name: str) -> dict[str, Any]:

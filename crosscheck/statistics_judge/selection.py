@@ -15,7 +15,7 @@ CUT = ["budget_spent", "time_spent", "crashed"]
 class Cases:
     """Trials with, if there is another contender, its trials on the same problems.
 
-    A unit is what was drawn independently: a draw with the contender's seed.
+    A unit is what was drawn independently: an instance with the contender's seed.
     """
 
     study: Study
@@ -149,7 +149,7 @@ def groups_of(study: Study, written: str | list[str]) -> list[str]:
     return found
 
 
-# Families in which the seed decides what is posed: one draw is then one of many.
+# Families in which the seed decides what is posed: one instance is then one of many.
 DRAWN = frozenset(
     (
         "cell_queries",
@@ -206,16 +206,16 @@ def select(paper: Paper, of: dict[str, Any], session: int) -> Cases:
     own = np.concatenate([rows for _, rows, _ in parts])
     base = None if against is None else np.concatenate([bases for _, _, bases in parts])
     places = np.concatenate([np.full(len(rows), index) for index, rows, _ in parts])
-    draws, seeds = int(study.draw.max(initial=0)) + 1, int(study.repeat.max(initial=0)) + 1
-    # Seeds on a problem that is drawn are no draws of it.
+    instances, seeds = int(study.instance.max(initial=0)) + 1, int(study.repeat.max(initial=0)) + 1
+    # Seeds on a problem that is drawn are no instances of it.
     drawn = [index for index, name in enumerate(groups_of(study, of["problems"])) if is_drawn(study, name)]
     seed = study.repeat[own] if base is None else np.maximum(study.repeat[own], study.repeat[base])
     seed = np.where(np.isin(places, drawn), 0, seed)
-    unit = (places * draws + study.draw[own]) * seeds + seed
+    unit = (places * instances + study.instance[own]) * seeds + seed
     points = study.sweeps_called(groups_of(study, of["problems"]), of.get("sweep"))
     ends = of.get("all_ends", False)
     cases = Cases(study, metric, session, against, own, base, unit, places, ends, points)
-    if not of.get("whole_draws", False):
+    if not of.get("whole_instances", False):
         return cases
     unsolved = ~(cases.own_solved & cases.base_solved)
     left_out = np.isin(cases.unit, cases.unit[unsolved])
@@ -232,8 +232,8 @@ def posed(
     kept = study.status[rows] != "invalid_problem"
     timing = study.spec.get("timing")
     if metric is not None and metric.clock and timing is not None:
-        # The clock is read on the first draws of each group alone.
-        kept &= study.draw[rows] < timing["problems"]
+        # The clock is read on the first instances of each group alone.
+        kept &= study.instance[rows] < timing["problems"]
     sweeps = None
     if "sweep" in of:
         sweeps = study.sweeps_called(groups_of(study, of["problems"]), of["sweep"])

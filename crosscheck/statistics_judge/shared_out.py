@@ -1,4 +1,4 @@
-"""What stands in words beside a class that hangs on a reading."""
+"""What stands in words beside a class that hangs on an interpretation."""
 
 # From so many options on that have all of their results, these are counted and not listed.
 MANY = 5

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
-from statistics_judge.found import FEWEST_DRAWS, Asked, Estimate, Found, certain, hangs, outcomes
+from statistics_judge.found import FEWEST_INSTANCES, Asked, Estimate, Found, certain, hangs, outcomes
 from statistics_judge.intervals import agreed, clopper_pearson, hull, sums_by_unit, weighted_share
 from statistics_judge.records import Flags, Reals
 from statistics_judge.selection import Cases, groups_of, is_drawn, labels
@@ -107,7 +107,7 @@ def counterexamples(cases: Cases, that: str) -> Flags:
 
 
 def needs_draws(cases: Cases, problems: list[str]) -> bool:
-    """Whether groups that are drawn have too few draws for what holds on each of them to be firm.
+    """Whether groups that are drawn have too few instances for what holds on each of them to be firm.
 
     Those that were searched for show what can be.
     """
@@ -115,7 +115,7 @@ def needs_draws(cases: Cases, problems: list[str]) -> bool:
         return False
     names = groups_of(cases.study, problems)
     drawn = [place for place, name in enumerate(names) if is_drawn(cases.study, name)]
-    return bool(drawn) and len(np.unique(cases.unit[np.isin(cases.group, drawn)])) < FEWEST_DRAWS
+    return bool(drawn) and len(np.unique(cases.unit[np.isin(cases.group, drawn)])) < FEWEST_INSTANCES
 
 
 def said(cases: Cases, that: str, bound: float) -> tuple[Reals, Flags]:

@@ -1,4 +1,4 @@
-"""Criteria of sizes over draws: lower, trend and within."""
+"""Criteria of sizes over instances: lower, trend and within."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
-from statistics_judge.found import FEWEST_DRAWS, Asked, Estimate, Found, hangs, outcomes, too_few
+from statistics_judge.found import FEWEST_INSTANCES, Asked, Estimate, Found, hangs, outcomes, too_few
 from statistics_judge.intervals import (
     End,
     Interval,
@@ -173,7 +173,7 @@ def along_sweep(asked: Asked, cases: Cases, is_higher: bool) -> Found:
 
 
 def curves(cases: Cases, *, other: bool, own: bool) -> Reals:
-    """How many points more of a draw's queries are solved than by the other contender, along the sweep.
+    """How many points more of an instance's queries are solved than by the other contender, along the sweep.
 
     What did not end is solved by the other, or by the contender itself, only if so wanted.
     """
@@ -281,11 +281,11 @@ def within(asked: Asked) -> Found:
 
 
 def has_few_draws(asked: Asked, cases: Cases) -> bool:
-    """Whether one of two groups has too few draws, but for one in which nothing is drawn."""
+    """Whether one of two groups has too few instances, but for one in which nothing is drawn."""
     names = groups_of(cases.study, asked.settings["of"]["problems"])
     for place, name in enumerate(names):
-        draws = len(np.unique(cases.unit[cases.group == place]))
-        if draws < FEWEST_DRAWS and (draws != 1 or is_drawn(cases.study, name)):
+        instances = len(np.unique(cases.unit[cases.group == place]))
+        if instances < FEWEST_INSTANCES and (instances != 1 or is_drawn(cases.study, name)):
             return True
     return False
 
@@ -298,7 +298,7 @@ def on_bounds(number: float, *bounds: float) -> float:
 
 
 def of_all(cases: Cases, statistic: str, seed: str) -> tuple[float, Interval, int] | None:
-    """A statistic of all draws, its interval, and how many draws it rests on."""
+    """A statistic of all instances, its interval, and how many instances it rests on."""
     if statistic in ("ratio", "reduction_percent"):
         found = ratio(cases, cases.bases, cases.values, seed)
         if found is None or statistic == "ratio":

@@ -1,4 +1,4 @@
-"""The second judge of classes across readings: what is stored agrees, and wrong combinations are noticed."""
+"""The second judge of classes across interpretations: what is stored agrees, and wrong combinations are noticed."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from statistics_judge.across import Across, Axis, Counted, Result, axes, combined, differences, flips
+from statistics_judge.across import Across, Choice, Counted, Result, choices, combined, differences, flips
 from statistics_judge.medians import departs
 from statistics_judge.records import Paper, Study
 from statistics_judge.shared_out import shares
@@ -123,8 +123,8 @@ def test_a_vote_made_a_probe_changes_what_is_counted() -> None:
     )
     choice["option"][name].pop("practice")
     choice["option"][name].pop("paper", None)
-    axis = next(axis for axis in axes(of) if axis.id == choice["id"])
-    assert not axis.votes({axis.id: name})
+    choice = next(choice for choice in choices(of) if choice.id == choice["id"])
+    assert not choice.votes({choice.id: name})
     assert said(of, stored(of))
 
 
@@ -161,7 +161,7 @@ def test_classes_combine_as_the_rules_say() -> None:
 
 def test_what_speaks_against_most_is_a_flip_and_of_as_many_what_speaks_against_the_default() -> None:
     def of(*votes: str) -> list[int]:
-        return [one.readings[0] for one in flips([Result([at], vote, vote) for at, vote in enumerate(votes)])]
+        return [one.interpretations[0] for one in flips([Result([at], vote, vote) for at, vote in enumerate(votes)])]
 
     assert of(GOOD, BAD, GOOD) == [1]
     assert of(GOOD, BAD, BAD) == [0]
@@ -172,13 +172,13 @@ def test_what_speaks_against_most_is_a_flip_and_of_as_many_what_speaks_against_t
 
 def test_a_class_that_a_default_raises_hangs_on_it_though_the_claim_holds_either_way() -> None:
     across = Across.__new__(Across)
-    across.axes = [Axis(name, "a", fitted=False, bounds=None, options={}) for name in ("idle", "hurry")]
-    readings = [{}, {"hurry": "b"}, {"idle": "b"}]
+    across.choices = [Choice(name, "a", fitted=False, bounds=None, options={}) for name in ("idle", "hurry")]
+    interpretations = [{}, {"hurry": "b"}, {"idle": "b"}]
 
     def said(*votes: str) -> str:
-        results = [{"readings": [at], "class": vote} for at, vote in enumerate(votes)]
+        results = [{"interpretations": [at], "class": vote} for at, vote in enumerate(votes)]
         at = dict(enumerate(results))
-        across.first = {"readings": readings, "claims": {"best": {"results": results, "at": at}}}
+        across.first = {"interpretations": interpretations, "claims": {"best": {"results": results, "at": at}}}
         found = [Result([at], vote, vote) for at, vote in enumerate(votes)]
         counted = Counted(found, len(found), 0, 0, none_compatible=False, existential=False)
         return across.said("best", counted, combined(list(votes), existential=False))
@@ -195,16 +195,16 @@ def test_a_class_that_a_default_raises_hangs_on_it_though_the_claim_holds_either
 
 def test_an_axis_of_many_options_does_not_win_by_parting_few_results_each() -> None:
     across = Across.__new__(Across)
-    across.axes = [Axis(name, "a", fitted=False, bounds=None, options={}) for name in ("order", "side")]
+    across.choices = [Choice(name, "a", fitted=False, bounds=None, options={}) for name in ("order", "side")]
     # The last is looked at alone, and not counted.
     options = ["aa", "ba", "ca", "db", "eb", "fb", "fa"]
     votes = [GOOD, GOOD, GOOD, BAD, BAD, GOOD, BAD]
-    readings = [
-        {axis: one for axis, one in zip(("order", "side"), both, strict=True) if one != "a"}
+    interpretations = [
+        {choice: one for choice, one in zip(("order", "side"), both, strict=True) if one != "a"}
         for both in options
     ]
-    at = {place: {"readings": [place], "class": vote} for place, vote in enumerate(votes)}
-    across.first = {"readings": readings, "claims": {"fewer": {"results": list(at.values()), "at": at}}}
+    at = {place: {"interpretations": [place], "class": vote} for place, vote in enumerate(votes)}
+    across.first = {"interpretations": interpretations, "claims": {"fewer": {"results": list(at.values()), "at": at}}}
     found = [Result([place], vote, vote) for place, vote in enumerate(votes[:6])]
     counted = Counted(found, 6, 0, 0, none_compatible=False, existential=False)
     said = across.said("fewer", counted, NO)

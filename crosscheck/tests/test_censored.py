@@ -18,7 +18,7 @@ Ends = list[tuple[float | str, float | str]]
 
 
 def asked(ends: Ends, settings: dict[str, Any]) -> SimpleNamespace:
-    """A claim about one draw for each of these ends of both contenders."""
+    """A claim about one instance for each of these ends of both contenders."""
     status = [end if isinstance(end, str) else "solved" for pair in ends for end in pair]
     values = np.array([np.nan if isinstance(end, str) else end for pair in ends for end in pair])
     study = SimpleNamespace(
@@ -120,13 +120,13 @@ def test_a_slope_hangs_on_what_did_not_end_where_that_could_bend_it() -> None:
     assert [firm(found) for found in (whole, cut, few)] == [True, False, True]
 
 
-def one_draw(monkeypatch: pytest.MonkeyPatch, ends: Ends, printed: str, statistic: str) -> Found:
-    """What one printed number finds among draws of the contender alone."""
+def one_instance(monkeypatch: pytest.MonkeyPatch, ends: Ends, printed: str, statistic: str) -> Found:
+    """What one printed number finds among instances of the contender alone."""
     monkeypatch.setattr(printed_cells, "printed", lambda paper, claim: Printed(printed, "rounded"))
     one = asked(ends, {"statistic": statistic})
     one.cases().against = None
     one.claim = {}
-    return printed_cells.one_draw(one)
+    return printed_cells.one_instance(one)
 
 
 @pytest.mark.parametrize(("printed", "outcome"), [("50", HOLDS), ("101", FAILS)])
@@ -134,8 +134,8 @@ def test_one_draw_hangs_on_draws_that_might_lie_beyond_it(
     monkeypatch: pytest.MonkeyPatch, printed: str, outcome: str
 ) -> None:
     ends: Ends = [(float(place), 1.0) for place in range(100)]
-    whole = one_draw(monkeypatch, ends, printed, "mean")
-    cut = one_draw(monkeypatch, ends + [(SPENT, 1.0)] * 5, printed, "mean")
+    whole = one_instance(monkeypatch, ends, printed, "mean")
+    cut = one_instance(monkeypatch, ends + [(SPENT, 1.0)] * 5, printed, "mean")
     assert (whole.outcome, cut.outcome, firm(whole)) == (outcome, outcome, True)
     # Five that lie above all others reach what is beyond them, and move no end past the middle.
     assert firm(cut) == (outcome == HOLDS)
@@ -143,19 +143,19 @@ def test_one_draw_hangs_on_draws_that_might_lie_beyond_it(
 
 def test_one_draw_of_a_share_hangs_on_what_might_be_solved(monkeypatch: pytest.MonkeyPatch) -> None:
     none: Ends = [(NONE, 1.0)] * 60
-    assert firm(one_draw(monkeypatch, none, "100", "solved_percent"))
-    assert not firm(one_draw(monkeypatch, none + [(SPENT, 1.0)] * 60, "100", "solved_percent"))
+    assert firm(one_instance(monkeypatch, none, "100", "solved_percent"))
+    assert not firm(one_instance(monkeypatch, none + [(SPENT, 1.0)] * 60, "100", "solved_percent"))
 
 
 def row(monkeypatch: pytest.MonkeyPatch, ends: Ends, refused_below: float, statistics: list[str]) -> Found:
-    """What one printed row finds among draws of the contender alone."""
+    """What one printed row finds among instances of the contender alone."""
     monkeypatch.setattr(printed_cells, "printed", lambda paper, claim: Printed("50", "rounded"))
     claims = ["a claim"] * len(statistics)
     rows = [{"contender": "A", "claims": claims, "statistics": statistics}]
     one = asked(ends, {"rows": rows, "refused_below": refused_below})
     one.cases().against = None
     one.paper = SimpleNamespace(claim=lambda name: {})
-    return printed_cells.row_one_draw(one)
+    return printed_cells.row_one_instance(one)
 
 
 def test_a_row_hangs_on_what_did_not_end_and_needs_draws_of_which_one_could_be_refused(
@@ -167,7 +167,7 @@ def test_a_row_hangs_on_what_did_not_end_and_needs_draws_of_which_one_could_be_r
     assert (whole.outcome, firm(whole), firm(cut)) == (HOLDS, True, False)
     assert not whole.few
     few = row(monkeypatch, ends[:39], 0.05, ["mean"]), row(monkeypatch, ends[:40], 0.05, ["mean"])
-    assert [is_few("row_one_draw", {}, found) for found in few] == [True, False]
+    assert [is_few("row_one_instance", {}, found) for found in few] == [True, False]
 
 
 def test_two_groups_need_ten_draws_each_unless_nothing_is_drawn() -> None:
@@ -177,7 +177,7 @@ def test_two_groups_need_ten_draws_each_unless_nothing_is_drawn() -> None:
         one.cases().group = np.repeat([0, 1], [first, second])
         return sizes.within(one).few
 
-    # Of the first a single draw is all there is, of the second it is one of many.
+    # Of the first a single instance is all there is, of the second it is one of many.
     assert [few(1, 10), few(1, 1), few(2, 10), few(10, 9)] == [False, True, True, True]
 
 
@@ -191,8 +191,8 @@ def test_what_did_not_end_is_neither_solved_nor_not() -> None:
 
 
 def test_what_holds_on_each_of_few_draws_of_a_problem_that_is_drawn_is_not_firm() -> None:
-    def few(draws: int, group: str) -> bool:
-        one = asked([(4.0, 5.0)] * draws, {"that": "lower", "of": {"problems": [group]}})
+    def few(instances: int, group: str) -> bool:
+        one = asked([(4.0, 5.0)] * instances, {"that": "lower", "of": {"problems": [group]}})
         return shares.on_every(one).few
 
     assert [few(1, "h"), few(9, "h"), few(10, "h"), few(1, "g")] == [True, True, False, False]
@@ -221,7 +221,7 @@ def test_what_prints_alike_hangs_on_what_did_not_end(monkeypatch: pytest.MonkeyP
 
 
 def drawn(status: list[str], *, family: str, repeats: int = 1) -> tuple[SimpleNamespace, dict[str, Any]]:
-    """A paper with one group, of draws of two queries or two seeds each, and a selection of it."""
+    """A paper with one group, of instances of two queries or two seeds each, and a selection of it."""
     count = len(status)
     place = np.arange(count)
     study = SimpleNamespace(
@@ -229,7 +229,7 @@ def drawn(status: list[str], *, family: str, repeats: int = 1) -> tuple[SimpleNa
         solved=np.array(status) == "solved",
         values=lambda metric, session: np.ones(count),
         rows=lambda group, contender: place,
-        draw=place // 2,
+        instance=place // 2,
         repeat=place % repeats,
         query=(place % 2, ["0", "1"]),
         sweep=(np.zeros(count, dtype=int), [""]),
@@ -245,11 +245,11 @@ def drawn(status: list[str], *, family: str, repeats: int = 1) -> tuple[SimpleNa
 @pytest.mark.parametrize(("lost", "is_cut"), [("solved", False), (NONE, False), (SPENT, True)])
 def test_draws_that_might_have_been_whole_are_not_forgotten(lost: str, is_cut: bool) -> None:
     paper, of = drawn(["solved"] * 7 + [lost], family="random_cells")
-    cases = select(paper, {**of, "whole_draws": True}, 1)
+    cases = select(paper, {**of, "whole_instances": True}, 1)
     assert (cases.units, cases.cut_left_out) == (4 if lost == "solved" else 3, is_cut)
     assert selections_of({"of": of}) == []
     rows = [{"contender": "A", "claims": []}, {"contender": "B", "against": "A", "claims": []}]
-    whole = selections_of({"of": {**of, "whole_draws": True}, "rows": rows})
+    whole = selections_of({"of": {**of, "whole_instances": True}, "rows": rows})
     assert [(one["contender"], one.get("against")) for one in whole] == [("A", None), ("B", "A")]
 
 
@@ -260,7 +260,7 @@ def test_seeds_on_a_problem_that_is_drawn_are_no_draws_of_it() -> None:
 
 
 def test_a_contender_with_one_seed_stands_beside_each_seed_of_the_other() -> None:
-    # Two draws: trials 0 and 4 of a contender without seeds, the others of one with three.
+    # Two instances: trials 0 and 4 of a contender without seeds, the others of one with three.
     posed, repeat = np.repeat([0, 1], 4), np.tile([0, 0, 1, 2], 2)
     study = SimpleNamespace(posed=posed, repeat=repeat, case=3 * posed + repeat)
     one, many = np.array([0, 4]), np.array([1, 2, 3, 5, 6, 7])

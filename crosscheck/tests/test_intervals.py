@@ -80,10 +80,10 @@ def test_ratios_and_differences_that_agree_allow_for_draws_that_differ() -> None
 
 def test_one_more_draw_needs_39_draws() -> None:
     assert predictive(np.arange(38.0)) is None
-    for draws, outside in [(39, 1), (78, 1), (79, 2), (200, 5)]:
-        found = predictive(np.arange(float(draws)))
+    for instances, outside in [(39, 1), (78, 1), (79, 2), (200, 5)]:
+        found = predictive(np.arange(float(instances)))
         assert found is not None
-        assert [end.at for end in found] == [outside - 1, draws - outside]
+        assert [end.at for end in found] == [outside - 1, instances - outside]
 
 
 def another_interval(sample: np.ndarray, rng: np.random.Generator, level: float = 0.95) -> list[float]:
@@ -140,7 +140,7 @@ def test_a_simultaneous_band_is_wider_than_an_interval_and_allows_for_draws_that
     alone = bootstrap(ratio_of_sums(curves[:, 0], np.ones(80)), 80, "alone")
     assert alone is not None
     assert found[0][1].at - found[0][0].at > 1.2 * (alone[1].at - alone[0].at)
-    # 80 draws of 80 agree: as few as 95.5 % may (0.955 ** 80 = 0.025), and the others lie at an end.
+    # 80 instances of 80 agree: as few as 95.5 % may (0.955 ** 80 = 0.025), and the others lie at an end.
     assert found[6][0].at == pytest.approx(3.0 - 0.0451 * 10.0, abs=1e-3)
     assert found[6][1].at == pytest.approx(3.0 + 0.0451 * 20.0, abs=1e-3)
 

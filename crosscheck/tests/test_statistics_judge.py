@@ -182,7 +182,7 @@ WITHOUT = {
     ("exists", "interval"),
     ("least_of", "solved"),
     ("prints_as", "interval"),
-    ("row_one_draw", "interval"),
+    ("row_one_instance", "interval"),
 }
 
 

@@ -1,16 +1,16 @@
-//! Cases without a number: what the draws would be if they had given the least or the most that can be against what was found.
+//! Cases without a number: what the instances would be if they had given the least or the most that can be against what was found.
 
 use super::metric::Better;
-use super::selection::{Case, Draw, Selection, by_draw, cases, censored};
+use super::selection::{Case, Instance, Selection, by_instance, cases, censored};
 
-/// The pairs of every draw with its censored cases filled in by a difference that outweighs all that were seen: against the
+/// The pairs of every instance with its censored cases filled in by a difference that outweighs all that were seen: against the
 /// contender where it alone failed, for it where the other did (no number is below 0), and where that is not known once one
 /// way and once the other. It is not known of a side that did not come to an end: with more budget it might have been the
 /// better one. What is found every time does not hang on them. Nothing where nothing is censored.
-pub fn filled(selection: &Selection<'_>, draws: &[Draw<'_>]) -> Vec<Vec<Vec<(f64, f64)>>> {
-    let seen = || cases(draws).filter_map(Case::pair);
+pub fn filled(selection: &Selection<'_>, instances: &[Instance<'_>]) -> Vec<Vec<Vec<(f64, f64)>>> {
+    let seen = || cases(instances).filter_map(Case::pair);
     let count = seen().count();
-    if censored(draws) == 0 || count == 0 {
+    if censored(instances) == 0 || count == 0 {
         return Vec::new();
     }
     let middle = seen().map(|(base, _)| base).sum::<f64>() / count as f64;
@@ -31,16 +31,16 @@ pub fn filled(selection: &Selection<'_>, draws: &[Draw<'_>]) -> Vec<Vec<Vec<(f64
         let filled = || (middle, (middle + way * most).max(0.0));
         case.pair().or_else(|| case.is_censored().then(filled))
     };
-    [1.0, -1.0].map(|unknown| by_draw(draws, |case| number(case, unknown))).to_vec()
+    [1.0, -1.0].map(|unknown| by_instance(instances, |case| number(case, unknown))).to_vec()
 }
 
-/// The draws as they would be if each case without an end had given the number that `given` says of its draw.
-pub fn ended<'e>(draws: &[Draw<'e>], given: impl Fn(&Draw<'e>) -> f64) -> Vec<Draw<'e>> {
-    let of_draw = |draw: &Draw<'e>| {
-        let number = given(draw);
+/// The instances as they would be if each case without an end had given the number that `given` says of its instance.
+pub fn ended<'e>(instances: &[Instance<'e>], given: impl Fn(&Instance<'e>) -> f64) -> Vec<Instance<'e>> {
+    let of_instance = |instance: &Instance<'e>| {
+        let number = given(instance);
         let ended =
             |case: &Case<'e>| if case.is_unended() { Case { value: Some(number), ..*case } } else { *case };
-        Draw { group: draw.group, cases: draw.cases.iter().map(ended).collect() }
+        Instance { group: instance.group, cases: instance.cases.iter().map(ended).collect() }
     };
-    draws.iter().map(of_draw).collect()
+    instances.iter().map(of_instance).collect()
 }

@@ -3,20 +3,20 @@
 use super::class::{self, Caps, Sessions, Verdict};
 use super::context::{self, Context};
 use super::criterion::{self, Criterion};
+use super::criterion_result::CriterionResult;
 use super::evidence::{Evidence, Run, default_point};
-use super::found::Found;
 use super::meaning;
 use super::metric;
 use super::rule;
 use super::settle::{nothing_decides, parts_settle, settles};
 use super::tabulated;
 use super::together::together;
-use super::verdict::{Estimate, Finding, Judged, Verdicts};
+use super::verdict::{ClaimVerdict, CriterionFinding, Estimate, Verdicts};
 use base::hash::sha256;
 use base::settings::{Faults, SettingsError, none_called};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use study::paper::{Asked, Claim, Paper, Parts, PrintedTable, names_of};
+use study::paper::{Claim, Paper, Parts, PrintedTable, TestRole, names_of};
 
 /// Builds every criterion and rule of every claim, so that `replan check` finds what is wrong before anything runs.
 ///
@@ -39,7 +39,7 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
     let point = default_point(paper);
     for claim in &paper.claims {
         faults.keep(context::printed(paper, claim));
-        for (asked, name, settings) in claim.asked() {
+        for (asked, name, settings) in claim.tests() {
             let context = Context { claim, settings, paper, point: &point };
             faults.keep(built(asked, name, &context).map(|_| ()));
         }
@@ -68,8 +68,9 @@ fn check_metrics(paper: &Paper, faults: &mut Faults) {
 /// What a claim says and how it is judged, in a line.
 fn question(claim: &Claim) -> String {
     let asked =
-        claim.asked().map(|(asked, name, settings)| format!("{asked:?} {name}: {}", settings.table()));
-    let (asked, parts) = (asked.collect::<Vec<_>>(), &claim.parts);
+        claim.tests().map(|(asked, name, settings)| format!("{asked:?} {name}: {}", settings.table()));
+    let asked = asked.collect::<Vec<_>>();
+    let parts = &claim.parts;
     let when = premises(claim).map(|premise| format!(" {premise}")).collect::<Vec<_>>().concat();
     format!(
         "{} {:?} {:?} {:?} {asked:?} {parts:?}{when}\n",
@@ -89,12 +90,12 @@ pub fn claim_hash(paper: &Paper, claim: &Claim) -> String {
 
 /// The criteria and rules of a claim that do not find what they found at first, each with its revision.
 fn revisions(claim: &Claim) -> String {
-    let found = |(_, name, _): (Asked, &str, &_)| criterion::find(name).or_else(|| rule::find(name));
-    let revised = claim.asked().filter_map(found).filter(|entry| entry.revision > 1);
+    let found = |(_, name, _): (TestRole, &str, &_)| criterion::find(name).or_else(|| rule::find(name));
+    let revised = claim.tests().filter_map(found).filter(|entry| entry.revision > 1);
     revised.map(|entry| format!("{} {}\n", entry.name, entry.revision)).collect::<Vec<_>>().concat()
 }
 
-/// Judges every claim under the evidence's reading.
+/// Judges every claim under the evidence's interpretation.
 ///
 /// # Errors
 /// Those of [`validate`].
@@ -104,7 +105,7 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
     let alone: Vec<_> = paper.claims.par_iter().map(|claim| judge_alone(evidence, claim)).collect();
     let mut claims = with_parts(evidence, alone.into_iter().collect::<Result<_, _>>()?);
     for (claim, judged) in paper.claims.iter().zip(&mut claims) {
-        say_what_settles(claim, judged);
+        set_what_settles(claim, judged);
     }
     let mut together = together(evidence)?;
     // A number that no data can give is not met by a trial that prints alike.
@@ -121,7 +122,7 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
         paper: paper.id.clone(),
         command: evidence.runs().next().map_or_else(String::new, |run| run.manifest.command.clone()),
         quick: evidence.runs().any(|run| run.manifest.quick),
-        reading: evidence.point.options().clone(),
+        interpretation: evidence.point.options().clone(),
         explored: None,
         records: records(evidence),
         meanings: meaning::digest(paper),
@@ -140,18 +141,18 @@ pub fn records(evidence: &Evidence<'_>) -> BTreeMap<String, String> {
 
 /// The criterion or rule called `name`, built.
 fn built<'a>(
-    asked: Asked,
+    asked: TestRole,
     name: &str,
     context: &Context<'a>,
 ) -> Result<Box<dyn Criterion + 'a>, SettingsError> {
     let (what, registry, found) = match asked {
-        Asked::Rule => ("rule", rule::REGISTRY, rule::find(name)),
-        Asked::Decides | Asked::Shown => ("criterion", criterion::REGISTRY, criterion::find(name)),
+        TestRole::Rule => ("rule", rule::REGISTRY, rule::find(name)),
+        TestRole::Decides | TestRole::Shown => ("criterion", criterion::REGISTRY, criterion::find(name)),
     };
     let key = match asked {
-        Asked::Rule => "rule",
-        Asked::Decides => "check",
-        Asked::Shown => "shows",
+        TestRole::Rule => "rule",
+        TestRole::Decides => "check",
+        TestRole::Shown => "shows",
     };
     let unknown = || {
         let known = registry.iter().map(|entry| entry.name);
@@ -162,12 +163,12 @@ fn built<'a>(
 }
 
 /// A finding, how the trials behind it came about, and what they are.
-pub struct Weighed {
+pub struct CappedFinding {
     /// The finding.
-    pub finding: Finding,
+    pub finding: CriterionFinding,
     /// What lowers its class.
     pub caps: Caps,
-    /// Whether trials of all studies that it looks at ran under the reading.
+    /// Whether trials of all studies that it looks at ran under the interpretation.
     pub is_covered: bool,
     /// Every problem group that it looks at could be posed.
     pub is_posed: bool,
@@ -182,16 +183,20 @@ pub struct Weighed {
 ///
 /// # Errors
 /// Those of [`validate`].
-pub fn weighed(evidence: &Evidence<'_>, claim: &Claim, hashed: bool) -> Result<Vec<Weighed>, SettingsError> {
+pub fn capped_findings(
+    evidence: &Evidence<'_>,
+    claim: &Claim,
+    hashed: bool,
+) -> Result<Vec<CappedFinding>, SettingsError> {
     let mut all = Vec::new();
-    for (asked, name, settings) in claim.asked() {
+    for (asked, name, settings) in claim.tests() {
         let context = Context { claim, settings, paper: evidence.paper, point: &evidence.point };
         let criterion = built(asked, name, &context)?;
         let mut one = of_criterion(name, &*criterion, evidence, claim);
         if hashed && !one.studies.is_empty() {
             one.results = sha256(criterion.results(evidence).as_bytes()).chars().take(16).collect();
         }
-        if asked == Asked::Shown {
+        if asked == TestRole::Shown {
             (one.finding.verdict, one.finding.settles) = (None, None);
         }
         all.push(one);
@@ -200,21 +205,27 @@ pub fn weighed(evidence: &Evidence<'_>, claim: &Claim, hashed: bool) -> Result<V
 }
 
 /// One claim by its own criteria and rules.
-fn judge_alone(evidence: &Evidence<'_>, claim: &Claim) -> Result<Judged, SettingsError> {
-    let findings: Vec<Finding> =
-        weighed(evidence, claim, false)?.into_iter().map(|one| one.finding).collect();
+fn judge_alone(evidence: &Evidence<'_>, claim: &Claim) -> Result<ClaimVerdict, SettingsError> {
+    let findings: Vec<CriterionFinding> =
+        capped_findings(evidence, claim, false)?.into_iter().map(|one| one.finding).collect();
     let verdicts = findings.iter().filter_map(|finding| finding.verdict);
     let verdict = class::combined(verdicts, claim.untestable.is_some());
     Ok(judged(evidence, claim, verdict, findings))
 }
 
-fn judged(evidence: &Evidence<'_>, claim: &Claim, verdict: Verdict, mut findings: Vec<Finding>) -> Judged {
+fn judged(
+    evidence: &Evidence<'_>,
+    claim: &Claim,
+    verdict: Verdict,
+    mut findings: Vec<CriterionFinding>,
+) -> ClaimVerdict {
     if let Some(reason) = &claim.untestable {
         let because = vec![reason.clone()];
-        let (criterion, verdict) = ("none".to_owned(), Some(Verdict::Untestable));
-        findings.push(Finding { criterion, verdict, because, ..Finding::default() });
+        let criterion = "none".to_owned();
+        let verdict = Some(Verdict::Untestable);
+        findings.push(CriterionFinding { criterion, verdict, because, ..CriterionFinding::default() });
     }
-    Judged {
+    ClaimVerdict {
         claim: claim.id.clone(),
         at: claim.at.clone(),
         says: claim.says.clone(),
@@ -228,18 +239,18 @@ fn judged(evidence: &Evidence<'_>, claim: &Claim, verdict: Verdict, mut findings
         changes: Vec::new(),
         second: None,
         across: None,
-        reading: evidence.point.name().to_owned(),
+        interpretation: evidence.point.name().to_owned(),
         findings,
     }
 }
 
-fn finding(criterion: &str, found: Found, caps: Caps, not_run: &[String]) -> Finding {
+fn finding(criterion: &str, found: CriterionResult, caps: Caps, not_run: &[String]) -> CriterionFinding {
     let verdict = found.outcome.and_then(|outcome| class::of_finding(outcome, caps));
     let settles = (verdict == Some(Verdict::Undecided)).then(|| match not_run {
         [] => settles(&found, caps),
         options => format!("trials under what cannot be run here: {}", options.join("; ")),
     });
-    Finding {
+    CriterionFinding {
         criterion: criterion.to_owned(),
         verdict,
         ours: found.ours,
@@ -250,7 +261,7 @@ fn finding(criterion: &str, found: Found, caps: Caps, not_run: &[String]) -> Fin
     }
 }
 
-fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: &Claim) -> Weighed {
+fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: &Claim) -> CappedFinding {
     let mut found = of.find(evidence);
     found.censored += of.selections().iter().map(|of| of.unended_left_out(evidence)).sum::<usize>();
     let studies = of.studies();
@@ -266,7 +277,7 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
     let not_run = evidence.paper.not_run(claim, &studies);
     let caps = Caps {
         searched: studies.iter().any(|study| study.searched),
-        fitted: evidence.paper.claims.iter().any(|other| other.asks_as(claim) && is_met(&other.id)),
+        fitted: evidence.paper.claims.iter().any(|other| other.tests_alike(claim) && is_met(&other.id)),
         existential: found.existential,
         powerless: found.powerless,
         censored: found.censored > 0,
@@ -276,20 +287,21 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
         not_run: !not_run.is_empty(),
     };
     let studies = studies.iter().map(|study| study.name.clone()).collect();
-    let (is_covered, is_posed) = (of.is_covered(evidence), of.is_posed(evidence));
+    let is_covered = of.is_covered(evidence);
+    let is_posed = of.is_posed(evidence);
     found.premises.extend(premises(claim));
     let finding = finding(name, found, caps, &not_run);
-    Weighed { finding, caps, is_covered, is_posed, results: String::new(), studies }
+    CappedFinding { finding, caps, is_covered, is_posed, results: String::new(), studies }
 }
 
-/// Where alone a claim is meant, a reading each.
+/// Where alone a claim is meant, an interpretation each.
 fn premises(claim: &Claim) -> impl Iterator<Item = String> {
     let listed = |(id, options): (&String, &Vec<String>)| format!("{id} is {}", options.join(" or "));
     claim.holds_when.iter().map(listed)
 }
 
-/// What would settle a claim of which nothing that was found decides: it is not meant under this reading, or is shown alone.
-fn say_what_settles(claim: &Claim, judged: &mut Judged) {
+/// What would settle a claim of which nothing that was found decides: it is not meant under this interpretation, or is shown alone.
+fn set_what_settles(claim: &Claim, judged: &mut ClaimVerdict) {
     if judged.verdict == Verdict::Undecided && judged.findings.iter().all(|found| found.settles.is_none()) {
         let premises: Vec<String> = premises(claim).collect();
         if let Some(last) = judged.findings.last_mut() {
@@ -301,7 +313,7 @@ fn say_what_settles(claim: &Claim, judged: &mut Judged) {
 /// What the stored sessions of the clock say, each judged by itself, and what each of them found.
 fn sessions(of: &dyn Criterion, evidence: &Evidence<'_>) -> (Sessions, Option<String>) {
     let stored = of.studies().iter().filter_map(|study| evidence.run(&study.name)).map(Run::sessions).min();
-    let found: Vec<Found> =
+    let found: Vec<CriterionResult> =
         (1..=stored.unwrap_or(0)).map(|session| of.find(&evidence.in_session(session as u32))).collect();
     let first = found.first().map(|found| found.outcome);
     let said = if found.len() < class::SESSIONS {
@@ -330,7 +342,7 @@ pub fn of_parts(claim: &Claim) -> Option<(&'static str, OfParts, &[String])> {
     Some(match &claim.parts {
         Parts::None => return None,
         // A row with criteria of its own is judged by them; its cells are shown.
-        Parts::Cells(_) if claim.asked().next().is_some() => return None,
+        Parts::Cells(_) if claim.tests().next().is_some() => return None,
         Parts::AllOf(ids) => ("all_of", class::all_of, ids),
         Parts::Cells(ids) => ("cells", class::all_of, ids),
         Parts::AnyOf(ids) => ("any_of", class::any_of, ids),
@@ -339,7 +351,7 @@ pub fn of_parts(claim: &Claim) -> Option<(&'static str, OfParts, &[String])> {
 }
 
 /// Sentences of parts and rows of cells take their class from theirs.
-fn with_parts(evidence: &Evidence<'_>, mut judged: Vec<Judged>) -> Vec<Judged> {
+fn with_parts(evidence: &Evidence<'_>, mut judged: Vec<ClaimVerdict>) -> Vec<ClaimVerdict> {
     let alone: BTreeMap<String, Verdict> =
         judged.iter().map(|one| (one.claim.clone(), one.verdict)).collect();
     for (claim, judged) in evidence.paper.claims.iter().zip(&mut judged) {
@@ -352,13 +364,13 @@ fn with_parts(evidence: &Evidence<'_>, mut judged: Vec<Judged>) -> Vec<Judged> {
         };
         let because = Verdict::ALL.into_iter().filter_map(listed).collect();
         let verdict = Some(of(&verdicts)).filter(|_| claim.is_meant(&evidence.point));
-        judged.findings.push(Finding {
+        judged.findings.push(CriterionFinding {
             criterion: name.to_owned(),
             verdict,
             because,
             premises: premises(claim).collect(),
             settles: (verdict == Some(Verdict::Undecided)).then(|| parts_settle(&claim.parts, &verdicts)),
-            ..Finding::default()
+            ..CriterionFinding::default()
         });
         let found = judged.findings.iter().filter(|finding| finding.criterion != "none");
         judged.verdict =

@@ -121,11 +121,11 @@ pub struct Caps {
     pub powerless: bool,
     /// Trials without a result could turn it.
     pub censored: bool,
-    /// There are fewer draws than it takes to say anything.
+    /// There are fewer instances than it takes to say anything.
     pub few: bool,
     /// It rests on our own clock, and what its sessions say of it.
     pub clock: Option<Sessions>,
-    /// The reading is none under which the claim is meant.
+    /// The interpretation is none under which the claim is meant.
     pub without_premises: bool,
     /// The paper may mean an option that cannot be run.
     pub not_run: bool,
@@ -143,7 +143,7 @@ pub enum Sessions {
 }
 
 /// Sessions of a clock that it takes to say anything: a machine's load differs from one to the next by more than the
-/// readings within one show.
+/// interpretations within one show.
 pub const SESSIONS: usize = 3;
 
 /// The class of one finding; none where the claim is not meant, whatever is found there.
@@ -217,7 +217,8 @@ pub fn any_of(parts: &[Verdict]) -> Verdict {
 /// The class of a sentence that means one of its parts and does not say which: that of all of them where they speak one
 /// way, undecided where they do not.
 pub fn one_meant(parts: &[Verdict]) -> Verdict {
-    let (all, any) = (all_of(parts), any_of(parts));
+    let all = all_of(parts);
+    let any = any_of(parts);
     match (all.polarity(), any.polarity()) {
         (Polarity::For, _) | (Polarity::Open, Polarity::Open) => all,
         (_, Polarity::Against) => any,

@@ -23,7 +23,7 @@ use super::metric::{self, Better, Metric};
 use base::settings::none_called;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
-use study::key::{ReadingKey, Text};
+use study::key::{InterpretationKey, Text};
 use study::manifest::Manifest;
 use study::name::Names;
 use study::record::{Row, Status};
@@ -38,7 +38,7 @@ pub enum Sides<'a> {
 
 /// What is asked of a comparison.
 #[derive(Debug, Default)]
-pub struct Asked {
+pub struct CompareOptions {
     /// The studies; all if empty.
     pub studies: Vec<String>,
     /// The metrics; all of which one way is better if empty.
@@ -109,7 +109,7 @@ struct Line<'r> {
 ///
 /// # Errors
 /// A study, contender or metric that is asked for and not there, with those that are.
-pub fn compare(sides: &Sides<'_>, asked: &Asked) -> Result<Comparison, String> {
+pub fn compare(sides: &Sides<'_>, asked: &CompareOptions) -> Result<Comparison, String> {
     let runs = sides.runs();
     for study in &asked.studies {
         if !runs.iter().any(|run| run.studies.contains_key(study)) {
@@ -122,9 +122,10 @@ pub fn compare(sides: &Sides<'_>, asked: &Asked) -> Result<Comparison, String> {
     let is_asked = |study: &str| asked.studies.is_empty() || asked.studies.iter().any(|own| own == study);
     let seen = runs.map(|run| {
         let studies = run.studies.iter().filter(|(study, _)| is_asked(study));
-        studies.map(|(study, stored)| (study.as_str(), Seen::of(stored))).collect::<BTreeMap<_, _>>()
+        studies.map(|(study, stored)| (study.as_str(), Seen::new(stored))).collect::<BTreeMap<_, _>>()
     });
-    let (mut lines, mut only) = (Vec::new(), Vec::new());
+    let mut lines = Vec::new();
+    let mut only = Vec::new();
     match sides {
         Sides::Runs(_) => only.extend(of_runs(&seen, &mut lines)),
         Sides::Contenders(_, labels) => only.extend(of_contenders(&seen[0], *labels, &mut lines)?),
@@ -175,7 +176,8 @@ fn of_runs<'r>(seen: &'r [BTreeMap<&'r str, Seen<'r>>; 2], lines: &mut Vec<Line<
     let mut only = Vec::new();
     for side in [0, 1] {
         for (study, own) in seen[side].iter().filter(|(study, _)| !seen[1 - side].contains_key(*study)) {
-            let (study, what) = ((*study).to_owned(), "the study".to_owned());
+            let study = (*study).to_owned();
+            let what = "the study".to_owned();
             only.push(Only { side, study, what, trials: own.count() });
         }
     }
@@ -193,15 +195,16 @@ fn of_study<'r>(study: &'r str, sides: [&'r Seen<'r>; 2], lines: &mut Vec<Line<'
     let mut lone = [Vec::new(), Vec::new()];
     for label in labels {
         let rows = sides.map(|side| side.rows.get(label).map_or(&[][..], Vec::as_slice));
-        let found = paired(rows, sides.map(|side| &side.draws));
+        let found = paired(rows, sides.map(|side| &side.instances));
         lone[0].extend(found.lone[0].iter().copied());
         lone[1].extend(found.lone[1].iter().copied());
         if !found.pairs.is_empty() {
-            let (times, names) = (sides.map(|side| &side.times), &sides[0].names);
+            let times = sides.map(|side| &side.times);
+            let names = &sides[0].names;
             lines.push(Line { study, label: label.to_owned(), pairs: found.pairs, times, names });
         }
     }
-    let told = |side: usize| told_apart(side, study, &lone[side], sides[1 - side]);
+    let told = |side: usize| only_on_one_side(side, study, &lone[side], sides[1 - side]);
     [told(0), told(1)].concat()
 }
 
@@ -218,7 +221,7 @@ fn of_contenders<'r>(
     let mut only = Vec::new();
     for (study, own) in seen {
         let [Some(first), Some(second)] = labels.map(|label| own.rows.get(label)) else { continue };
-        let found = paired([first, second], [&own.draws; 2]);
+        let found = paired([first, second], [&own.instances; 2]);
         for (side, lone) in found.lone.iter().enumerate().filter(|(_, lone)| !lone.is_empty()) {
             let what = format!("trials of contender `{}`", labels[side]);
             only.push(Only { side, study: (*study).to_owned(), what, trials: lone.len() });
@@ -233,10 +236,11 @@ fn of_contenders<'r>(
 }
 
 /// What the other side lacks of which these trials are, most general first.
-fn told_apart(side: usize, study: &str, lone: &[&Row], other: &Seen<'_>) -> Vec<Only> {
+fn only_on_one_side(side: usize, study: &str, lone: &[&Row], other: &Seen<'_>) -> Vec<Only> {
     let rows = || other.rows.values().flatten();
     let groups: BTreeSet<&Text> = rows().map(|row| &row.key.on.group).collect();
-    let readings: BTreeSet<&ReadingKey> = rows().map(|row| &row.key.on.reading).collect();
+    let interpretations: BTreeSet<&InterpretationKey> =
+        rows().map(|row| &row.key.on.interpretation).collect();
     let mut found: BTreeMap<String, usize> = BTreeMap::new();
     for row in lone {
         let on = &row.key.on;
@@ -244,10 +248,10 @@ fn told_apart(side: usize, study: &str, lone: &[&Row], other: &Seen<'_>) -> Vec<
             format!("contender `{}`", row.key.contender)
         } else if !groups.contains(&on.group) {
             format!("problem group `{}`", on.group)
-        } else if !readings.contains(&on.reading) {
-            format!("reading {}", other.names.reading(&on.reading))
+        } else if !interpretations.contains(&on.interpretation) {
+            format!("interpretation {}", other.names.interpretation(&on.interpretation))
         } else {
-            format!("draws, queries, sweep points or seeds of `{}`", row.key.contender)
+            format!("instances, queries, sweep points or seeds of `{}`", row.key.contender)
         };
         *found.entry(what).or_default() += 1;
     }
@@ -264,14 +268,14 @@ fn notes(seen: &[BTreeMap<&str, Seen<'_>>; 2], lines: &[Line<'_>]) -> Vec<String
         if one.quick != other.quick {
             notes.push(format!("{study}: one of the runs is quick and the other full"));
         }
-        if one.axes != other.axes {
-            notes.push(format!("{study}: other readings touch trials in each run, so that no keys agree"));
+        if one.choices != other.choices {
+            notes.push(format!("{study}: other choices touch trials in each run, so that no keys agree"));
         }
         let pairs = || lines.iter().filter(|line| line.study == *study).flat_map(|line| &line.pairs);
-        let others = pairs().filter(|pair| !pair.is_same_draw).count();
+        let others = pairs().filter(|pair| !pair.is_same_instance).count();
         if others > 0 {
             notes.push(format!(
-                "{study}: {others} of {} pairs are of draws with other seeds (the runs' are {} and {}): pairing takes nothing \
+                "{study}: {others} of {} pairs are of instances with other seeds (the runs' are {} and {}): pairing takes nothing \
                  out of their changes, and wins are luck as much as merit",
                 pairs().count(),
                 one.seed,
@@ -281,7 +285,7 @@ fn notes(seen: &[BTreeMap<&str, Seen<'_>>; 2], lines: &[Line<'_>]) -> Vec<String
         if !first.times.is_empty() && !second.times.is_empty() {
             let cpu = |of: &Manifest| of.made_by.cpu.clone().unwrap_or_else(|| "unknown".to_owned());
             notes.push(format!(
-                "{study}: clocks were read in two sessions (on {} and on {}): what a session does to all of its readings \
+                "{study}: clocks were read in two sessions (on {} and on {}): what a session does to all of its interpretations \
                  is in no interval",
                 cpu(one),
                 cpu(other)
@@ -311,8 +315,9 @@ impl Line<'_> {
     /// What is measured of it: whether a problem is solved, and each metric that some pair has.
     fn samples(&self, metrics: &[&'static Metric]) -> Vec<Sample<'_>> {
         let solved = Sample::solved(self.study, &self.label, &self.pairs);
-        let of =
-            |metric: &&'static Metric| Sample::of(self.study, &self.label, metric, &self.pairs, self.times);
+        let of = |metric: &&'static Metric| {
+            Sample::of_metric(self.study, &self.label, metric, &self.pairs, self.times)
+        };
         std::iter::once(solved).chain(metrics.iter().map(of)).filter(|sample| sample.pairs() > 0).collect()
     }
 }

@@ -18,7 +18,7 @@ pub struct Context<'a> {
     pub settings: &'a Settings,
     /// The paper.
     pub paper: &'a Paper,
-    /// The reading that the claim is judged under.
+    /// The interpretation that the claim is judged under.
     pub point: &'a Interpretation,
 }
 
@@ -137,7 +137,8 @@ impl<'a> Context<'a> {
     /// The study has no such group; there is no label.
     pub fn groups(&self, within: &str, study: &Study, labels: &Labels) -> Result<Vec<String>, SettingsError> {
         let known: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
-        let (mut groups, mut faults) = (Vec::new(), Faults::default());
+        let mut groups = Vec::new();
+        let mut faults = Faults::default();
         for label in labels.listed() {
             let is_meant = |group: &&&str| match label.strip_suffix('*') {
                 Some(beginning) => group.starts_with(beginning),
@@ -160,7 +161,7 @@ impl<'a> Context<'a> {
         Ok(groups)
     }
 
-    /// The metric that `name` stands for under the reading.
+    /// The metric that `name` stands for under the interpretation.
     ///
     /// # Errors
     /// There is no such metric.
@@ -181,7 +182,7 @@ impl<'a> Context<'a> {
         })
     }
 
-    /// The metric that `name` stands for under the reading; `study` must produce it.
+    /// The metric that `name` stands for under the interpretation; `study` must produce it.
     ///
     /// # Errors
     /// There is no such metric, or the study does not produce it.

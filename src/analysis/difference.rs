@@ -1,6 +1,6 @@
 //! How stored verdicts differ from those that the stored records give, claim by claim.
 
-use super::verdict::{Finding, Judged, Verdicts};
+use super::verdict::{ClaimVerdict, CriterionFinding, Verdicts};
 use std::fmt::Debug;
 
 /// What is not in `stored` as it is in `now`, one sentence each, every claim named; empty if they are equal.
@@ -42,7 +42,7 @@ fn heads(stored: &Verdicts, now: &Verdicts) -> Vec<String> {
         unlike("paper", &stored.paper, &now.paper),
         unlike("command", &stored.command, &now.command),
         unlike("quick", &stored.quick, &now.quick),
-        unlike("reading", &stored.reading, &now.reading),
+        unlike("interpretation", &stored.interpretation, &now.interpretation),
         unlike("hash of what the claims mean", &stored.meanings, &now.meanings),
         unlike("seal of the history", &stored.history, &now.history),
         unlike("remarks on the history", &stored.remarks, &now.remarks),
@@ -54,7 +54,7 @@ fn heads(stored: &Verdicts, now: &Verdicts) -> Vec<String> {
 }
 
 /// What differs of one claim: its verdict if that does, otherwise the first thing behind it.
-fn of_claim(stored: &Judged, now: &Judged) -> Option<String> {
+fn of_claim(stored: &ClaimVerdict, now: &ClaimVerdict) -> Option<String> {
     if stored == now {
         return None;
     }
@@ -62,7 +62,7 @@ fn of_claim(stored: &Judged, now: &Judged) -> Option<String> {
         return Some(format!("stored {}, judged {}", stored.verdict.name(), now.verdict.name()));
     }
     let verdict = now.verdict.name();
-    let behind = unlike("reading", &stored.reading, &now.reading)
+    let behind = unlike("interpretation", &stored.interpretation, &now.interpretation)
         .or_else(|| unlike("number of findings", &stored.findings.len(), &now.findings.len()))
         .or_else(|| stored.findings.iter().zip(&now.findings).find_map(|(a, b)| of_finding(a, b)))
         .unwrap_or_else(|| "the claim's own words are not the paper's".to_owned());
@@ -70,7 +70,7 @@ fn of_claim(stored: &Judged, now: &Judged) -> Option<String> {
 }
 
 /// The first thing that differs of one finding.
-fn of_finding(stored: &Finding, now: &Finding) -> Option<String> {
+fn of_finding(stored: &CriterionFinding, now: &CriterionFinding) -> Option<String> {
     let check = &now.criterion;
     unlike("criterion", &stored.criterion, check)
         .or_else(|| unlike(&format!("class of `{check}`"), &stored.verdict, &now.verdict))
@@ -79,7 +79,7 @@ fn of_finding(stored: &Finding, now: &Finding) -> Option<String> {
 }
 
 /// Our number as people read it, with all of its digits.
-fn number(of: &Finding) -> String {
+fn number(of: &CriterionFinding) -> String {
     of.ours.as_ref().map_or_else(
         || "none".to_owned(),
         |ours| {

@@ -3,7 +3,7 @@
 use super::metric::{self, Metric};
 use super::polylines::Polylines;
 use base::hash::sha256;
-use engine::planner::Exhibit;
+use engine::planner::Trace;
 use proofs::turns::{Polyline, TurnQuery};
 use rayon::prelude::*;
 use stats::summary;
@@ -11,34 +11,34 @@ use std::collections::BTreeMap;
 use std::mem;
 use std::path::Path;
 use std::sync::Arc;
-use study::key::{Owner, ReadingKey, Text, TrialKey};
+use study::key::{InterpretationKey, Owner, Text, TrialKey};
 use study::manifest::Manifest;
 use study::name::Names;
 use study::paper::Paper;
-use study::record::{PreparedRow, Row, Status};
-use study::store::{KeptExhibits, Records, read_numbers};
+use study::record::{PreprocessingRow, Row, Status};
+use study::store::{KeptTraces, Records, read_numbers};
 use study::{Interpretation, Study, StudyError};
 
 /// A paper with the stored runs of its studies.
 pub struct Evidence<'a> {
     /// The paper.
     pub paper: &'a Paper,
-    /// The reading that claims are judged under.
+    /// The interpretation that claims are judged under.
     pub point: Interpretation,
     runs: BTreeMap<&'a str, Run<'a>>,
     polylines: Arc<Polylines>,
 }
 
-/// The stored run of one study, as seen under one reading.
+/// The stored run of one study, as seen under one interpretation.
 pub struct Run<'a> {
     /// The study.
     pub study: &'a Study,
     /// What the records depend on.
     pub manifest: Arc<Manifest>,
-    /// The records, without exhibits.
+    /// The records, without traces.
     pub records: Arc<Records>,
-    kept: Arc<KeptExhibits>,
-    reading: ReadingKey,
+    kept: Arc<KeptTraces>,
+    interpretation: InterpretationKey,
     /// The session of the clock, from 1.
     session: u32,
     index: Arc<Index>,
@@ -49,10 +49,10 @@ pub struct Run<'a> {
 struct Index {
     /// How records are named.
     names: Names,
-    /// Rows by reading, group and contender, in the order of records.
-    rows: BTreeMap<ReadingKey, Groups>,
-    /// The clock readings of each timed trial by session, from 1; those of several are never pooled.
-    readings_ns: Vec<BTreeMap<TrialKey, Vec<f64>>>,
+    /// Rows by interpretation, group and contender, in the order of records.
+    rows: BTreeMap<InterpretationKey, Groups>,
+    /// The times of each timed trial by session, from 1; those of several are never pooled.
+    interpretations_ns: Vec<BTreeMap<TrialKey, Vec<f64>>>,
 }
 
 /// Rows by group and contender.
@@ -67,7 +67,7 @@ pub struct Pair<'a> {
 }
 
 impl<'a> Evidence<'a> {
-    /// Reads the runs of every study of `paper` from `folder`, to be judged under the reading `point`.
+    /// Reads the runs of every study of `paper` from `folder`, to be judged under the interpretation `point`.
     ///
     /// # Errors
     /// [`StudyError::Stored`] for a run that is missing, [`StudyError::Touched`] for one that is damaged or made by another spec.
@@ -79,27 +79,27 @@ impl<'a> Evidence<'a> {
         Ok(Self { paper, point, runs, polylines: Arc::default() })
     }
 
-    /// Runs of the studies of `paper` that were not read from a folder, to be judged under the reading `point`: what the
+    /// Runs of the studies of `paper` that were not read from a folder, to be judged under the interpretation `point`: what the
     /// records of each study depend on, and the records, by the study's name. Studies that are not named have no run.
-    pub fn of(
+    pub fn held(
         paper: &'a Paper,
         point: Interpretation,
         mut stored: BTreeMap<String, (Manifest, Records)>,
     ) -> Self {
         let run = |study: &'a Study| {
             let (manifest, records) = stored.remove(&study.name)?;
-            Some((study.name.as_str(), Run::of(study, &point, manifest, records)))
+            Some((study.name.as_str(), Run::new(study, &point, manifest, records)))
         };
         let runs = paper.studies.iter().filter_map(run).collect();
         Self { paper, point, runs, polylines: Arc::default() }
     }
 
-    /// The same, but for studies that were run under other readings elsewhere: each given by the study that ran and the one
+    /// The same, but for studies that were run under other interpretations elsewhere: each given by the study that ran and the one
     /// whose claims it answers.
     #[must_use]
     pub fn with(mut self, explored: Vec<(&'a Study, &'a Study, Manifest, Records)>) -> Self {
         for (ran, answers, manifest, records) in explored {
-            let run = Run::of(ran, &self.point, manifest, records);
+            let run = Run::new(ran, &self.point, manifest, records);
             self.runs.insert(ran.name.as_str(), run.under(&self.point));
             self.runs.insert(answers.name.as_str(), run);
         }
@@ -107,7 +107,7 @@ impl<'a> Evidence<'a> {
     }
 
     /// [`shortest_polyline`](proofs::turns::shortest_polyline), searched once however many rules ask under however many
-    /// readings.
+    /// interpretations.
     ///
     /// # Panics
     /// As that function.
@@ -126,7 +126,7 @@ impl<'a> Evidence<'a> {
         self.polylines.keep();
     }
 
-    /// The same records, to be judged under another reading.
+    /// The same records, to be judged under another interpretation.
     #[must_use]
     pub fn under(&self, point: Interpretation) -> Self {
         let runs = self.runs.iter().map(|(name, run)| (*name, run.under(&point))).collect();
@@ -151,21 +151,21 @@ impl<'a> Evidence<'a> {
         self.runs.values()
     }
 
-    /// That every exhibit that was asked for could be read.
+    /// That every trace that was asked for could be read.
     ///
     /// # Errors
     /// [`StudyError::Touched`] for the first file that could not.
-    pub fn exhibits_read(&self) -> Result<(), StudyError> {
+    pub fn traces_read(&self) -> Result<(), StudyError> {
         self.runs().try_for_each(|run| run.kept.damage())
     }
 
-    /// The metric that `name` stands for under the reading.
+    /// The metric that `name` stands for under the interpretation.
     pub fn metric(&self, name: &str) -> Option<&'static Metric> {
         metric::find(self.point.metric(name))
     }
 }
 
-/// The default point over the readings of all studies of `paper`.
+/// The default point over the interpretations of all studies of `paper`.
 pub fn default_point(paper: &Paper) -> Interpretation {
     Interpretation::new(&paper.choices, &BTreeMap::new())
         .expect("a loaded study's defaults are among its options")
@@ -181,16 +181,17 @@ impl<'a> Run<'a> {
             return Err(StudyError::Touched(format!("{}: {reason}", path.display())));
         }
         let records = read_numbers(folder, &study.name, &manifest.files)?;
-        let kept = KeptExhibits::stored(folder, &study.name, &manifest.files)?;
-        Ok(Self { kept: Arc::new(kept), ..Self::of(study, point, manifest, records) })
+        let kept = KeptTraces::stored(folder, &study.name, &manifest.files)?;
+        Ok(Self { kept: Arc::new(kept), ..Self::new(study, point, manifest, records) })
     }
 
-    fn of(study: &'a Study, point: &Interpretation, manifest: Manifest, mut records: Records) -> Self {
-        let kept = Arc::new(KeptExhibits::held(mem::take(&mut records.batch.kept)));
-        let index = Arc::new(Index::of(study.names(), &records));
-        let reading = point.for_trials(&study.choices).key(&study.choices);
-        let (manifest, records) = (Arc::new(manifest), Arc::new(records));
-        Self { study, manifest, records, kept, reading, session: 1, index }
+    fn new(study: &'a Study, point: &Interpretation, manifest: Manifest, mut records: Records) -> Self {
+        let kept = Arc::new(KeptTraces::held(mem::take(&mut records.batch.kept)));
+        let index = Arc::new(Index::new(study.names(), &records));
+        let interpretation = point.for_trials(&study.choices).key(&study.choices);
+        let manifest = Arc::new(manifest);
+        let records = Arc::new(records);
+        Self { study, manifest, records, kept, interpretation, session: 1, index }
     }
 
     fn under(&self, point: &Interpretation) -> Self {
@@ -199,7 +200,7 @@ impl<'a> Run<'a> {
             manifest: self.manifest.clone(),
             records: self.records.clone(),
             kept: self.kept.clone(),
-            reading: point.for_trials(&self.study.choices).key(&self.study.choices),
+            interpretation: point.for_trials(&self.study.choices).key(&self.study.choices),
             session: self.session,
             index: self.index.clone(),
         }
@@ -207,16 +208,16 @@ impl<'a> Run<'a> {
 
     /// How many sessions of the clock are stored.
     pub fn sessions(&self) -> usize {
-        self.index.readings_ns.len()
+        self.index.interpretations_ns.len()
     }
 
     fn times(&self, row: &Row) -> Option<&Vec<f64>> {
-        self.index.readings_ns.get(self.session as usize - 1)?.get(&row.key)
+        self.index.interpretations_ns.get(self.session as usize - 1)?.get(&row.key)
     }
 
-    /// Whether its trials ran under the reading.
+    /// Whether its trials ran under the interpretation.
     pub fn is_covered(&self) -> bool {
-        self.manifest.covers(&self.reading)
+        self.manifest.covers(&self.interpretation)
     }
 
     /// What `metric` is for `row`; `None` if it was not measured.
@@ -229,16 +230,16 @@ impl<'a> Run<'a> {
         metric.reader(|row| self.times(row).and_then(|times| summary::median(times)))
     }
 
-    /// Every clock reading of `row` in the unit of `metric`; none if it was not timed or `metric` is not of the clock.
+    /// Every time of `row` in the unit of `metric`; none if it was not timed or `metric` is not of the clock.
     pub fn repeats(&self, row: &Row, metric: &Metric) -> Vec<f64> {
         let times = self.times(row).filter(|_| metric.is_clock());
         times.into_iter().flatten().map(|time| time * metric.scale).collect()
     }
 
-    /// The trials of `contender` in the problem group `group` under the reading, in the order of draws.
+    /// The trials of `contender` in the problem group `group` under the interpretation, in the order of instances.
     pub fn rows(&self, group: &str, contender: &str) -> Vec<&Row> {
-        let of_reading = self.index.rows.get(&self.reading);
-        let found = of_reading.and_then(|groups| groups.get(group)?.get(contender));
+        let of_interpretation = self.index.rows.get(&self.interpretation);
+        let found = of_interpretation.and_then(|groups| groups.get(group)?.get(contender));
         found.into_iter().flatten().map(|row| &self.records.batch.rows[*row]).collect()
     }
 
@@ -247,12 +248,12 @@ impl<'a> Run<'a> {
         format!("{}/{}", self.study.name, self.index.names.trial(&row.key))
     }
 
-    /// The name of the problem that a trial is about: group, draw and query.
+    /// The name of the problem that a trial is about: group, instance and query.
     pub fn problem(&self, row: &Row) -> String {
         self.index.names.problem(&row.key.on, row.key.query.as_deref())
     }
 
-    /// The name of a prepared object or a trial.
+    /// The name of a preprocessed object or a trial.
     pub fn owner(&self, of: &Owner) -> String {
         self.index.names.owner(of)
     }
@@ -269,59 +270,62 @@ impl<'a> Run<'a> {
         paired(others, bases).into_iter().map(|(other, base)| Pair { base, other }).collect()
     }
 
-    /// How many queries of the problem group `group` can be posed on its first draw, and how many it has.
+    /// How many queries of the problem group `group` can be posed on its first instance, and how many it has.
     pub fn posed_queries(&self, group: &str) -> [usize; 2] {
         let mut queries: BTreeMap<&str, bool> = BTreeMap::new();
         for contender in &self.study.contenders {
-            for row in self.rows(group, &contender.label).iter().filter(|row| row.draw() == 0) {
+            for row in self.rows(group, &contender.label).iter().filter(|row| row.instance() == 0) {
                 *queries.entry(row.query()).or_default() |= row.status != Status::InvalidProblem;
             }
         }
         [queries.values().filter(|is_posed| **is_posed).count(), queries.len()]
     }
 
-    /// The prepared objects of the problem group `group` under the reading, in the order of draws.
-    pub fn prepared(&self, group: &str) -> impl Iterator<Item = &PreparedRow> {
-        let is_own = move |row: &&PreparedRow| *row.key.group == *group && row.key.reading == self.reading;
-        self.records.batch.prepared.iter().filter(is_own)
+    /// The preprocessed objects of the problem group `group` under the interpretation, in the order of instances.
+    pub fn preprocessing(&self, group: &str) -> impl Iterator<Item = &PreprocessingRow> {
+        let is_own = move |row: &&PreprocessingRow| {
+            *row.key.group == *group && row.key.interpretation == self.interpretation
+        };
+        self.records.batch.preprocessing.iter().filter(is_own)
     }
 
-    /// The exhibits of a trial or prepared object.
-    pub fn exhibits(&self, of: impl Into<Owner>) -> impl Iterator<Item = &Exhibit> {
-        self.kept.of(&of.into())
+    /// The traces of a trial or preprocessed object.
+    pub fn traces(&self, of: impl Into<Owner>) -> impl Iterator<Item = &Trace> {
+        self.kept.owned_by(&of.into())
     }
 
-    /// The exhibit called `name` of a trial or prepared object.
-    pub fn exhibit(&self, of: impl Into<Owner>, name: &str) -> Option<&Exhibit> {
-        self.exhibits(of).find(|exhibit| exhibit.name == name)
+    /// The trace called `name` of a trial or preprocessed object.
+    pub fn trace(&self, of: impl Into<Owner>, name: &str) -> Option<&Trace> {
+        self.traces(of).find(|trace| trace.name == name)
     }
 }
 
-/// The trials `own` and `bases` of two contenders on one problem group, paired where draw, query, point of the sweeps and seed are
+/// The trials `own` and `bases` of two contenders on one problem group, paired where instance, query, point of the sweeps and seed are
 /// the same, in the order of `own`. A contender with a single seed stands beside each seed of the other.
 pub fn paired<'r>(own: Vec<&'r Row>, bases: Vec<&'r Row>) -> Vec<(&'r Row, &'r Row)> {
     let [own_seeds, base_seeds] = [&own, &bases].map(|rows| rows.iter().any(|row| row.key.repeat > 0));
     let by_seed = own_seeds && base_seeds;
-    let mut draws: BTreeMap<u32, Vec<&Row>> = BTreeMap::new();
+    let mut instances: BTreeMap<u32, Vec<&Row>> = BTreeMap::new();
     for base in bases {
-        draws.entry(base.draw()).or_default().push(base);
+        instances.entry(base.instance()).or_default().push(base);
     }
     let is_same = |one: &TrialKey, other: &TrialKey| {
         let is_same_seed = !by_seed || one.repeat == other.repeat;
         is_same_seed && one.query == other.query && one.sweep.is_same(&other.sweep)
     };
-    let (mut pairs, mut next) = (Vec::with_capacity(own.len()), 0);
+    let mut pairs = Vec::with_capacity(own.len());
+    let mut next = 0;
     for row in own {
-        let of_draw = draws.get(&row.draw()).map_or(&[][..], Vec::as_slice);
+        let of_instance = instances.get(&row.instance()).map_or(&[][..], Vec::as_slice);
         let is_base = |base: &Row| is_same(&base.key, &row.key);
         if own_seeds != base_seeds {
-            pairs.extend(of_draw.iter().filter(|base| is_base(base)).map(|base| (row, *base)));
+            pairs.extend(of_instance.iter().filter(|base| is_base(base)).map(|base| (row, *base)));
             continue;
         }
         // One at most, and mostly the one after the last: both come in the same order.
-        let mut places = (next..of_draw.len()).chain(0..next.min(of_draw.len()));
-        if let Some(place) = places.find(|place| is_base(of_draw[*place])) {
-            pairs.push((row, of_draw[place]));
+        let mut places = (next..of_instance.len()).chain(0..next.min(of_instance.len()));
+        if let Some(place) = places.find(|place| is_base(of_instance[*place])) {
+            pairs.push((row, of_instance[place]));
             next = place + 1;
         }
     }
@@ -329,13 +333,13 @@ pub fn paired<'r>(own: Vec<&'r Row>, bases: Vec<&'r Row>) -> Vec<(&'r Row, &'r R
 }
 
 impl Index {
-    fn of(names: Names, records: &Records) -> Self {
+    fn new(names: Names, records: &Records) -> Self {
         let mut index = Self { names, ..Self::default() };
         let mut rows = records.batch.rows.iter().enumerate().peekable();
         while let Some((_, first)) = rows.peek() {
             let on = first.key.on.clone();
-            let of_reading = index.rows.entry(on.reading.clone()).or_default();
-            let of_group = of_reading.entry(on.group.clone()).or_default();
+            let of_interpretation = index.rows.entry(on.interpretation.clone()).or_default();
+            let of_group = of_interpretation.entry(on.group.clone()).or_default();
             while let Some((place, row)) = rows.next_if(|(_, row)| Arc::ptr_eq(&row.key.on, &on)) {
                 match of_group.get_mut(&row.key.contender) {
                     Some(places) => places.push(place),
@@ -347,10 +351,10 @@ impl Index {
         }
         for time in &records.times {
             let session = time.session.max(1) as usize;
-            if index.readings_ns.len() < session {
-                index.readings_ns.resize_with(session, BTreeMap::new);
+            if index.interpretations_ns.len() < session {
+                index.interpretations_ns.resize_with(session, BTreeMap::new);
             }
-            let of_trial = index.readings_ns[session - 1].entry(time.trial.clone()).or_default();
+            let of_trial = index.interpretations_ns[session - 1].entry(time.trial.clone()).or_default();
             of_trial.push(time.plan_wall_ns as f64);
         }
         index

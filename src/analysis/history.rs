@@ -6,7 +6,7 @@
 //! study that it asks had been stored before it changed.
 
 use super::meaning::{DIGITS, FORM, meanings};
-use super::verdict::{Judged, Verdicts};
+use super::verdict::{ClaimVerdict, Verdicts};
 use base::hash::sha256;
 use base::settings::Document;
 use serde::{Deserialize, Serialize};
@@ -127,7 +127,7 @@ struct Now {
 
 impl Now {
     /// What `paper` asks and what is stored of it in `folder`; a run that cannot be read is no record.
-    fn of(paper: &Paper, folder: &Path) -> Self {
+    fn new(paper: &Paper, folder: &Path) -> Self {
         let hash =
             |name: &String| Some(Manifest::read(folder, name).ok()?.records_hash()[..DIGITS].to_owned());
         let names = paper.studies.iter().map(|study| &study.name);
@@ -186,7 +186,7 @@ impl History {
     /// # Errors
     /// Those of [`read`](Self::read) and of writing.
     pub fn note(paper: &Paper, folder: &Path, command: &str) -> Result<Self, StudyError> {
-        Self::read(folder)?.noting(&Now::of(paper, folder), folder, command)
+        Self::read(folder)?.noting(&Now::new(paper, folder), folder, command)
     }
 
     /// Begins the history in `folder` with what the claims meant when shards of a run were planned, unless it has begun: then its
@@ -211,7 +211,7 @@ impl History {
 
     /// Whether an entry is missing for what `paper` asks and its runs in `folder` store.
     pub fn lacks(&self, paper: &Paper, folder: &Path) -> bool {
-        self.entry(&Now::of(paper, folder), "").is_some()
+        self.entry(&Now::new(paper, folder), "").is_some()
     }
 
     /// The verdicts in `folder`, as they were judged; without a history if that is gone.
@@ -219,7 +219,8 @@ impl History {
     /// # Errors
     /// Those of [`Verdicts::read`] and of [`read`](Self::read).
     pub fn verdicts(folder: &Path) -> Result<Verdicts, StudyError> {
-        let (verdicts, history) = (Verdicts::read(folder)?, Self::read(folder)?);
+        let verdicts = Verdicts::read(folder)?;
+        let history = Self::read(folder)?;
         let seal = history.seal().and(verdicts.history.clone());
         Ok(Verdicts { history: seal, ..verdicts })
     }
@@ -264,7 +265,8 @@ impl History {
             self.claims.get(id).map_or_else(|| self.claims.values().any(same), same)
         };
         let is_seen = |study: &String| self.records.contains_key(study) || now.records.contains_key(study);
-        let (mut claims, mut after_data) = (BTreeMap::new(), BTreeMap::new());
+        let mut claims = BTreeMap::new();
+        let mut after_data = BTreeMap::new();
         for (id, stated) in &now.claims {
             let before = self.claims.get(id);
             if !is_other_form && before.is_some_and(|before| before.stated.hash() == stated.hash()) {
@@ -286,8 +288,12 @@ impl History {
         let records: BTreeMap<String, String> =
             now.records.iter().filter(is_new).map(|(study, hash)| (study.clone(), hash.clone())).collect();
         let is_nothing = claims.is_empty() && after_data.is_empty() && gone.is_empty() && records.is_empty();
-        let (number, command, git) = (self.entries + 1, command.to_owned(), MadeBy::here().git.clone());
-        let (form, note, replaces) = (FORM, None, None);
+        let number = self.entries + 1;
+        let command = command.to_owned();
+        let git = MadeBy::here().git.clone();
+        let form = FORM;
+        let note = None;
+        let replaces = None;
         let entry = Entry { number, command, git, form, note, replaces, gone, records, claims, after_data };
         (!is_nothing).then_some(entry)
     }
@@ -335,7 +341,7 @@ impl History {
     }
 }
 
-impl Judged {
+impl ClaimVerdict {
     /// When and why its meaning was changed after its data had been seen; `None` if it was not.
     pub fn changed(&self) -> Option<String> {
         let is_told = |change: &&String| self.changed_after_run.is_none() || *change != BEFORE;
@@ -354,7 +360,7 @@ impl Verdicts {
                 .to_owned()
         });
         let is_unexplained =
-            |judged: &&Judged| judged.changed_after_run.is_none() && !judged.changes.is_empty();
+            |judged: &&ClaimVerdict| judged.changed_after_run.is_none() && !judged.changes.is_empty();
         let unexplained =
             self.claims.iter().filter(is_unexplained).map(|judged| format!("`{}`", judged.claim));
         let changed = listed(
@@ -375,7 +381,8 @@ fn listed(what: &str, all: &[String]) -> Option<String> {
 
 /// The seal of each entry of `text`; `None` if one is not that of the text above it, or text stands behind the last.
 fn seals(text: &str) -> Option<Vec<&str>> {
-    let (mut seals, mut end) = (Vec::new(), 0);
+    let mut seals = Vec::new();
+    let mut end = 0;
     for line in text.split_inclusive('\n') {
         if let Some(seal) = line.strip_prefix(SEAL) {
             let seal = seal.trim_end();

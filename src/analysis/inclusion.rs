@@ -19,11 +19,11 @@ pub enum Inclusion {
 }
 
 impl Inclusion {
-    /// What holds between `contender` and `other` of `study` under the reading `point`.
+    /// What holds between `contender` and `other` of `study` under the interpretation `point`.
     ///
     /// # Errors
     /// A settings error of a planner.
-    pub fn of(
+    pub fn in_study(
         study: &Study,
         point: &Interpretation,
         contender: &str,
@@ -95,7 +95,8 @@ mod tests {
             let found = Inclusion::between(planners[0].as_ref(), planners[1].as_ref());
             assert_eq!(found, expected, "{one:?} and {two:?}");
         }
-        let (wide, never) = (astar("disc", 6, "never"), astar("square", 4, "never"));
+        let wide = astar("disc", 6, "never");
+        let never = astar("square", 4, "never");
         assert_eq!(Inclusion::between(wide.as_ref(), never.as_ref()), Inclusion::Open);
     }
 

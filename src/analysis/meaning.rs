@@ -9,7 +9,7 @@ use super::{criterion, rule};
 use base::hash::sha256;
 use base::settings::Settings;
 use std::collections::{BTreeMap, BTreeSet};
-use study::paper::{Asked, Claim, Paper, Parts};
+use study::paper::{Claim, Paper, Parts, TestRole};
 use toml::{Table, Value};
 
 /// The form of the text that is hashed.
@@ -19,8 +19,7 @@ pub const FORM: u32 = 1;
 pub const DIGITS: usize = 16;
 
 /// Keys and names of specs that form 1 has by another word.
-const RENAMED: [(&str, &str); 3] =
-    [("one_draw", "one_instance"), ("row_one_draw", "row_one_instance"), ("whole_draws", "whole_instances")];
+const RENAMED: [(&str, &str); 0] = [];
 
 /// The keys under which criteria and rules name claims for the numbers that they print.
 const CLAIM_KEYS: [&str; 9] =
@@ -80,9 +79,9 @@ fn text(paper: &Paper, claim: &Claim, given: &dyn Fn(&Claim) -> String) -> Strin
     let flags = (untestable.is_some(), theorem.is_some());
     let mut text = format!("{printed:?} {digits:?} {flags:?} {holds_when:?}\n");
     let mut asked: Vec<String> = Vec::new();
-    for (kind, name, settings) in claim.asked().filter(|(kind, ..)| *kind != Asked::Shown) {
+    for (kind, name, settings) in claim.tests().filter(|(kind, ..)| *kind != TestRole::Shown) {
         let mut table = settings.table().clone();
-        let entry = if kind == Asked::Rule { rule::find(name) } else { criterion::find(name) };
+        let entry = if kind == TestRole::Rule { rule::find(name) } else { criterion::find(name) };
         let usual = entry.map(|entry| Settings::composed(name, Table::new()).completed(entry.settings));
         let is_usual = |key: &str, value: &Value| {
             usual.iter().flat_map(Settings::filled).any(|(own, usual)| own == key && is_same(usual, value))

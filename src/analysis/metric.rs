@@ -27,7 +27,7 @@ impl Better {
     }
 }
 
-/// A metric: one column of trials, or the median clock reading of a timed trial.
+/// A metric: one column of trials, or the median time of a timed trial.
 #[derive(Debug, PartialEq)]
 pub struct Metric {
     /// The name that claims and figures use.
@@ -165,7 +165,7 @@ impl Metric {
         self.column == STATUS
     }
 
-    /// It for each row, none where it was not measured; `wall_ns` is the median of a row's clock readings.
+    /// It for each row, none where it was not measured; `wall_ns` is the median of a row's times.
     pub fn reader<'r>(
         &'r self,
         wall_ns: impl Fn(&Row) -> Option<f64> + 'r,

@@ -1,4 +1,4 @@
-//! Which trials a criterion, a figure or a table looks at: resolved once, then asked of the runs under any reading.
+//! Which trials a criterion, a figure or a table looks at: resolved once, then asked of the runs under any interpretation.
 
 use super::context::Context;
 use super::evidence::{Evidence, Run, paired};
@@ -29,8 +29,8 @@ pub struct Selection<'a> {
     pub query: Option<String>,
     /// The points of the sweeps; all if `None`.
     pub sweep: Option<Vec<SweepKey>>,
-    /// Whether only draws count of which everything is solved.
-    pub whole_draws: bool,
+    /// Whether only instances count of which everything is solved.
+    pub whole_instances: bool,
     /// Whether what ends without a path, or with a refused one, has a number too.
     pub all_ends: bool,
 }
@@ -49,7 +49,7 @@ pub struct Case<'e> {
 }
 
 /// What was drawn independently (a map, a roadmap, a seed of a contender that draws), with all that was asked of it.
-pub struct Draw<'e> {
+pub struct Instance<'e> {
     /// The problem group.
     pub group: &'e str,
     /// Its trials.
@@ -95,11 +95,16 @@ impl Case<'_> {
 
 impl<'a> Selection<'a> {
     /// All trials of `contenders` on `groups` of `study`.
-    pub fn of(study: &'a Study, groups: &[String], contenders: &[String]) -> Self {
-        let (groups, contenders) = (groups.to_vec(), contenders.to_vec());
-        let (against, metric, query, sweep) = (None, None, None, None);
-        let (whole_draws, all_ends) = (false, false);
-        Self { study, groups, contenders, against, metric, query, sweep, whole_draws, all_ends }
+    pub fn all(study: &'a Study, groups: &[String], contenders: &[String]) -> Self {
+        let groups = groups.to_vec();
+        let contenders = contenders.to_vec();
+        let against = None;
+        let metric = None;
+        let query = None;
+        let sweep = None;
+        let whole_instances = false;
+        let all_ends = false;
+        Self { study, groups, contenders, against, metric, query, sweep, whole_instances, all_ends }
     }
 
     /// The selection `of`, of which every name is looked up.
@@ -128,9 +133,11 @@ impl<'a> Selection<'a> {
             faults.add(context.settings.error_at("of.against", message));
         }
         faults.done()?;
-        let (against, query) = (of.against.clone(), of.query.clone());
-        let (whole_draws, all_ends) = (of.whole_draws, of.all_ends);
-        Ok(Self { study, groups, contenders, against, metric, query, sweep, whole_draws, all_ends })
+        let against = of.against.clone();
+        let query = of.query.clone();
+        let whole_instances = of.whole_instances;
+        let all_ends = of.all_ends;
+        Ok(Self { study, groups, contenders, against, metric, query, sweep, whole_instances, all_ends })
     }
 
     /// The one contender.
@@ -210,55 +217,60 @@ impl<'a> Selection<'a> {
         Some(self.run(evidence)?.trial(case?.row))
     }
 
-    /// The trials of its contenders, by draw; problems that could not be posed are left out, and so, if only whole draws
-    /// count, are draws of which something is not solved.
-    pub fn draws<'e>(&self, evidence: &'e Evidence<'_>) -> Vec<Draw<'e>> {
-        let mut draws = self.all_draws(evidence);
-        draws.retain(|draw| !self.whole_draws || draw.is_whole());
-        draws
+    /// The trials of its contenders, by instance; problems that could not be posed are left out, and so, if only whole instances
+    /// count, are instances of which something is not solved.
+    pub fn instances<'e>(&self, evidence: &'e Evidence<'_>) -> Vec<Instance<'e>> {
+        let mut instances = self.all_instances(evidence);
+        instances.retain(|instance| !self.whole_instances || instance.is_whole());
+        instances
     }
 
-    /// How many cases without an end are in draws that do not count, as only whole ones do: these might have been whole.
+    /// How many cases without an end are in instances that do not count, as only whole ones do: these might have been whole.
     pub fn unended_left_out(&self, evidence: &Evidence<'_>) -> usize {
-        if !self.whole_draws {
+        if !self.whole_instances {
             return 0;
         }
-        let draws = self.all_draws(evidence);
-        draws.iter().filter(|draw| !draw.is_whole()).map(|draw| unended(std::slice::from_ref(draw))).sum()
+        let instances = self.all_instances(evidence);
+        instances
+            .iter()
+            .filter(|instance| !instance.is_whole())
+            .map(|instance| unended(std::slice::from_ref(instance)))
+            .sum()
     }
 
-    /// Draws that it takes, of groups that are drawn, before what holds on each of them is firm; none if there are as many, or if
+    /// Instances that it takes, of groups that are drawn, before what holds on each of them is firm; none if there are as many, or if
     /// they were searched for: one then shows what can be.
-    pub fn needs_draws(&self, draws: &[Draw<'_>], fewest: usize) -> Option<usize> {
+    pub fn needs_instances(&self, instances: &[Instance<'_>], fewest: usize) -> Option<usize> {
         if self.study.searched {
             return None;
         }
-        let of_group = |group: &String| draws.iter().filter(|draw| draw.group == group).count();
+        let of_group = |group: &String| instances.iter().filter(|instance| instance.group == group).count();
         let drawn: Vec<usize> =
             self.groups.iter().filter(|group| self.study.is_drawn(group)).map(of_group).collect();
         (!drawn.is_empty() && drawn.iter().sum::<usize>() < fewest).then_some(fewest)
     }
 
-    fn all_draws<'e>(&self, evidence: &'e Evidence<'_>) -> Vec<Draw<'e>> {
+    fn all_instances<'e>(&self, evidence: &'e Evidence<'_>) -> Vec<Instance<'e>> {
         let Some(run) = evidence.run(&self.study.name) else { return Vec::new() };
-        let mut draws: Vec<Draw<'e>> = Vec::new();
+        let mut instances: Vec<Instance<'e>> = Vec::new();
         let reader = self.metric.map(|metric| run.reader(metric));
         let value = |row: Option<&Row>| reader.as_ref()?(row.filter(|row| self.counts(row))?);
         for group in &self.groups {
-            let (is_drawn, mut places) = (self.study.is_drawn(group), BTreeMap::<(u32, u32), usize>::new());
+            let is_drawn = self.study.is_drawn(group);
+            let mut places = BTreeMap::<(u32, u32), usize>::new();
             for (row, base) in self.compared(run, group) {
-                // Seeds on a problem that is drawn are no draws of it.
+                // Seeds on a problem that is drawn are no instances of it.
                 let seed = row.key.repeat.max(base.map_or(0, |base| base.key.repeat));
                 let seed = if is_drawn { 0 } else { seed };
-                let place = *places.entry((row.draw(), seed)).or_insert(draws.len());
-                if place == draws.len() {
-                    draws.push(Draw { group: &row.key.on.group, cases: Vec::new() });
+                let place = *places.entry((row.instance(), seed)).or_insert(instances.len());
+                if place == instances.len() {
+                    instances.push(Instance { group: &row.key.on.group, cases: Vec::new() });
                 }
                 let case = Case { row, base, value: value(Some(row)), base_value: value(base) };
-                draws[place].cases.push(case);
+                instances[place].cases.push(case);
             }
         }
-        draws
+        instances
     }
 
     /// The trials of its contenders in one group, each with that which it is held against.
@@ -300,15 +312,15 @@ impl<'a> Selection<'a> {
         row.is_solved() || self.all_ends && matches!(row.status, Status::NoPath | Status::Rejected)
     }
 
-    /// Whether the metric was looked for on a trial's draw: the clock is read on the first draws of each group alone, so that
+    /// Whether the metric was looked for on a trial's instance: the clock is read on the first instances of each group alone, so that
     /// what failed on the others is no failure among the timed.
     fn is_read(&self, row: &Row) -> bool {
         let timed = self.study.timing.filter(|_| self.is_clock());
-        timed.is_none_or(|timing| row.draw() < timing.problems)
+        timed.is_none_or(|timing| row.instance() < timing.problems)
     }
 
     /// What is looked at, in a sentence: `A against B on X, Y of study`.
-    pub fn said(&self) -> String {
+    pub fn description(&self) -> String {
         let who = self.contenders.join(", ");
         let against = self.against.as_ref().map_or_else(String::new, |other| format!(" against {other}"));
         let query = self.query.as_ref().map_or_else(String::new, |query| format!(", query {query}"));
@@ -319,10 +331,10 @@ impl<'a> Selection<'a> {
             few => format!(", {}", few.join(" and ")),
         };
         let ends = if self.all_ends { ", whether a path is found or not" } else { "" };
-        format!("{who}{against} on {} of {}{query}{at}{ends}", self.groups_said(), self.study.name)
+        format!("{who}{against} on {} of {}{query}{at}{ends}", self.groups_text(), self.study.name)
     }
 
-    fn groups_said(&self) -> String {
+    fn groups_text(&self) -> String {
         if self.groups.len() > 3 {
             return format!("{} problem groups", self.groups.len());
         }
@@ -341,7 +353,7 @@ fn sweep_keys(
     })
 }
 
-impl Draw<'_> {
+impl Instance<'_> {
     /// What it holds of one contender.
     #[must_use]
     pub fn by(&self, contender: &str) -> Self {
@@ -378,61 +390,61 @@ pub fn is_unended(row: &Row) -> bool {
     matches!(row.status, Status::BudgetSpent | Status::TimeSpent | Status::Crashed)
 }
 
-/// Every case of every draw.
-pub fn cases<'d, 'e>(draws: &'d [Draw<'e>]) -> impl Iterator<Item = &'d Case<'e>> {
-    draws.iter().flat_map(|draw| &draw.cases)
+/// Every case of every instance.
+pub fn cases<'d, 'e>(instances: &'d [Instance<'e>]) -> impl Iterator<Item = &'d Case<'e>> {
+    instances.iter().flat_map(|instance| &instance.cases)
 }
 
-/// The most cases of any draw, as a number to count chances with.
-pub fn most_cases(draws: &[Draw<'_>]) -> f64 {
-    draws.iter().map(|draw| draw.cases.len()).max().unwrap_or(0) as f64
+/// The most cases of any instance, as a number to count chances with.
+pub fn most_cases(instances: &[Instance<'_>]) -> f64 {
+    instances.iter().map(|instance| instance.cases.len()).max().unwrap_or(0) as f64
 }
 
 /// Of all cases those that are solved by everyone who is compared, and all.
-pub fn solved(draws: &[Draw<'_>]) -> [usize; 2] {
-    [cases(draws).filter(|case| case.is_solved()).count(), cases(draws).count()]
+pub fn solved(instances: &[Instance<'_>]) -> [usize; 2] {
+    [cases(instances).filter(|case| case.is_solved()).count(), cases(instances).count()]
 }
 
 /// Cases that have no number on some side although they might.
-pub fn censored(draws: &[Draw<'_>]) -> usize {
-    cases(draws).filter(|case| case.is_censored()).count()
+pub fn censored(instances: &[Instance<'_>]) -> usize {
+    cases(instances).filter(|case| case.is_censored()).count()
 }
 
 /// Cases that did not come to an end on some side.
-pub fn unended(draws: &[Draw<'_>]) -> usize {
-    cases(draws).filter(|case| case.is_unended()).count()
+pub fn unended(instances: &[Instance<'_>]) -> usize {
+    cases(instances).filter(|case| case.is_unended()).count()
 }
 
-/// Both numbers of every case that has them, the other contender's first, by draw; draws without any are left out.
-pub fn pairs(draws: &[Draw<'_>]) -> Vec<Vec<(f64, f64)>> {
-    by_draw(draws, Case::pair)
+/// Both numbers of every case that has them, the other contender's first, by instance; instances without any are left out.
+pub fn pairs(instances: &[Instance<'_>]) -> Vec<Vec<(f64, f64)>> {
+    by_instance(instances, Case::pair)
 }
 
-/// What `of` takes of the cases of each draw; draws that give nothing are left out.
-pub fn by_draw<'e, T>(draws: &[Draw<'e>], of: impl Fn(&Case<'e>) -> Option<T>) -> Vec<Vec<T>> {
-    let of_draw = |draw: &Draw<'e>| draw.cases.iter().filter_map(&of).collect::<Vec<T>>();
-    draws.iter().map(of_draw).filter(|all| !all.is_empty()).collect()
+/// What `of` takes of the cases of each instance; instances that give nothing are left out.
+pub fn by_instance<'e, T>(instances: &[Instance<'e>], of: impl Fn(&Case<'e>) -> Option<T>) -> Vec<Vec<T>> {
+    let of_instance = |instance: &Instance<'e>| instance.cases.iter().filter_map(&of).collect::<Vec<T>>();
+    instances.iter().map(of_instance).filter(|all| !all.is_empty()).collect()
 }
 
 /// The trial whose number, as `of` takes it, is nearest to `value`.
 pub fn nearest(
     selection: &Selection<'_>,
     evidence: &Evidence<'_>,
-    draws: &[Draw<'_>],
+    instances: &[Instance<'_>],
     of: impl Fn(&Case<'_>) -> Option<f64>,
     value: f64,
 ) -> Option<String> {
-    least(selection, evidence, draws, |case| of(case).map(|number| (number - value).abs()))
+    least(selection, evidence, instances, |case| of(case).map(|number| (number - value).abs()))
 }
 
 /// The trial whose number, as `of` takes it, is the least; the first of equal ones.
 pub fn least(
     selection: &Selection<'_>,
     evidence: &Evidence<'_>,
-    draws: &[Draw<'_>],
+    instances: &[Instance<'_>],
     of: impl Fn(&Case<'_>) -> Option<f64>,
 ) -> Option<String> {
-    let numbers = cases(draws).filter_map(|case| Some((case, of(case)?)));
+    let numbers = cases(instances).filter_map(|case| Some((case, of(case)?)));
     let least = numbers.min_by(|a, b| a.1.total_cmp(&b.1));
     selection.trial(evidence, least.map(|(case, _)| case))
 }

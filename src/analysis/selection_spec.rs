@@ -16,16 +16,16 @@ pub struct SelectionSpec {
     pub contender: Labels,
     /// The contender that it is held against, on the same problems.
     pub against: Option<String>,
-    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
+    /// The metric: a name that `replan list metrics` gives, or one that an interpretation gives a meaning.
     pub metric: Option<String>,
-    /// The one query of each draw that is looked at; all if absent.
+    /// The one query of each instance that is looked at; all if absent.
     pub query: Option<String>,
     /// The points of the study's sweeps: `samples=100`, a part of them as `samples<=1400` or `samples>200,samples<=1400`, or a list of
     /// such; all if absent.
     pub sweep: Option<Labels>,
-    /// Only draws count of which everyone who is compared solves every query.
+    /// Only instances count of which everyone who is compared solves every query.
     #[serde(default)]
-    pub whole_draws: bool,
+    pub whole_instances: bool,
     /// A trial that ends without a path, or with one that is refused, has a number too: what it took. Otherwise only solved ones do.
     #[serde(default)]
     pub all_ends: bool,

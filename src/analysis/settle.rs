@@ -1,18 +1,18 @@
-//! What would settle a claim that is undecided: more draws, more sessions of the clock, or what the paper leaves out.
+//! What would settle a claim that is undecided: more instances, more sessions of the clock, or what the paper leaves out.
 
 use super::class::{Caps, Polarity, SESSIONS, Sessions, Verdict};
-use super::found::{Found, Narrows};
+use super::criterion_result::{CriterionResult, Narrows};
 use super::statistic::LEVEL;
 use super::verdict::Across;
 use stats::proportion::{agreeing_for_width, units_for_margin};
 use study::paper::Parts;
 
-/// A hundred times as many draws tell apart what differs by a tenth of what now can be told; a larger number is an estimate of
+/// A hundred times as many instances tell apart what differs by a tenth of what now can be told; a larger number is an estimate of
 /// noise.
 const MANY: f64 = 100.0;
 
 /// What would settle what was found, in a sentence.
-pub fn settles(found: &Found, caps: Caps) -> String {
+pub fn settles(found: &CriterionResult, caps: Caps) -> String {
     match caps.clock {
         Some(Sessions::TooFew) => {
             return format!(
@@ -28,19 +28,19 @@ pub fn settles(found: &Found, caps: Caps) -> String {
         return format!("results of the {} cases without a number, which could turn it", found.censored);
     }
     if caps.powerless {
-        return "a paper that prints more than one draw: no number of ours narrows what one draw may be"
+        return "a paper that prints more than one instance: no number of ours narrows what one instance may be"
             .to_owned();
     }
     if let Some(needed) = found.needs {
-        return format!("at least {needed} draws that have what is compared");
+        return format!("at least {needed} instances that have what is compared");
     }
     if found.existential {
         return "the paper's own input, on which one trial would do".to_owned();
     }
     if found.narrows == Narrows::AsTheNumber {
-        return agreeing_draws(found);
+        return agreeing_instances(found);
     }
-    more_draws(found)
+    more_instances(found)
         .unwrap_or_else(|| "the paper's own inputs: what is measured here stands neither way".to_owned())
 }
 
@@ -50,7 +50,7 @@ pub fn nothing_decides(premises: &[String]) -> String {
         "a bound, or a number that the paper prints: what is measured is shown and held against nothing"
             .to_owned()
     } else {
-        format!("a reading under which it is meant: {}", premises.join(", and "))
+        format!("an interpretation under which it is meant: {}", premises.join(", and "))
     }
 }
 
@@ -63,27 +63,27 @@ pub fn parts_settle(parts: &Parts, verdicts: &[Verdict]) -> String {
     "what settles its parts".to_owned()
 }
 
-/// What would settle a claim that the readings leave open; none if they do not.
-pub fn readings_settle(across: &Across) -> Option<String> {
+/// What would settle a claim that the interpretations leave open; none if they do not.
+pub fn interpretations_settle(across: &Across) -> Option<String> {
     if across.class != Verdict::Undecided {
         return None;
     }
     if across.holds > 0 && across.fails > 0 {
-        return Some(format!("which reading the paper means: it {}", across.said));
+        return Some(format!("which interpretation the paper means: it {}", across.said));
     }
     let measured = across.open - across.unconfirmed.min(across.open);
-    let draws = (measured > 0).then(|| {
-        format!("more draws under the {measured} of {} results that stand neither way", across.counted)
+    let instances = (measured > 0).then(|| {
+        format!("more instances under the {measured} of {} results that stand neither way", across.counted)
     });
     let seeds = (across.unconfirmed > 0).then(|| {
         format!("a second seed that says the same under the {} that it did not confirm", across.unconfirmed)
     });
-    let ways: Vec<String> = draws.into_iter().chain(seeds).collect();
-    Some(format!("{}, or the paper's own reading if it is none of these", ways.join(", ")))
+    let ways: Vec<String> = instances.into_iter().chain(seeds).collect();
+    Some(format!("{}, or the paper's own interpretation if it is none of these", ways.join(", ")))
 }
 
 /// How many units would tell our number from the limit that its interval holds; none if no number would.
-fn more_draws(found: &Found) -> Option<String> {
+fn more_instances(found: &CriterionResult) -> Option<String> {
     let ours = found.ours.as_ref()?;
     let [low, high] = ours.interval?;
     let straddled = found.limits.iter().filter(|limit| (low..=high).contains(*limit));
@@ -103,7 +103,7 @@ fn more_draws(found: &Found) -> Option<String> {
 }
 
 /// How many units that all agree, as ours do, would bring the interval to this side of every limit.
-fn agreeing_draws(found: &Found) -> String {
+fn agreeing_instances(found: &CriterionResult) -> String {
     let ours = found.ours.as_ref().filter(|ours| ours.interval.is_some_and(|[low, high]| low < high));
     let Some((ours, [low, high])) = ours.and_then(|ours| ours.interval.map(|interval| (ours, interval)))
     else {
@@ -134,9 +134,9 @@ mod tests {
     use crate::analysis::verdict::Estimate;
     use stats::interval::Interval;
 
-    fn found([low, value, high]: [f64; 3]) -> Found {
+    fn found([low, value, high]: [f64; 3]) -> CriterionResult {
         let ours = Some(Estimate::new(value, Interval::new(low, high), "a share", 10));
-        Found { ours, limits: vec![0.5, 1.0], units: "trials", ..Found::default() }
+        CriterionResult { ours, limits: vec![0.5, 1.0], units: "trials", ..CriterionResult::default() }
     }
 
     #[test]
@@ -156,36 +156,43 @@ mod tests {
     }
 
     #[test]
-    fn draws_that_agree_ask_for_as_many_agreeing_ones_as_reach_the_limit() {
+    fn instances_that_agree_ask_for_as_many_agreeing_ones_as_reach_the_limit() {
         let said = |limits: [f64; 2], [low, value, high]: [f64; 3]| {
             let ours = Some(Estimate::new(value, Interval::new(low, high), "a share", 20));
-            let (limits, units) = (limits.to_vec(), "draws");
+            let limits = limits.to_vec();
+            let units = "draws";
             settles(
-                &Found { ours, limits, units, narrows: Narrows::AsTheNumber, ..Found::default() },
+                &CriterionResult {
+                    ours,
+                    limits,
+                    units,
+                    narrows: Narrows::AsTheNumber,
+                    ..CriterionResult::default()
+                },
                 Caps::default(),
             )
         };
         let low = libm::pow(0.025, 0.05);
-        assert_eq!(said([0.9, 1.0], [low, 1.0, 1.0]), "36 draws, not 20, if all agree as ours do");
-        assert_eq!(said([0.0, 0.1], [0.0, 0.0, 1.0 - low]), "36 draws, not 20, if all agree as ours do");
-        assert!(said([1.0, 1.0], [low, 1.0, 1.0]).starts_with("no number of draws"));
+        assert_eq!(said([0.9, 1.0], [low, 1.0, 1.0]), "36 instances, not 20, if all agree as ours do");
+        assert_eq!(said([0.0, 0.1], [0.0, 0.0, 1.0 - low]), "36 instances, not 20, if all agree as ours do");
+        assert!(said([1.0, 1.0], [low, 1.0, 1.0]).starts_with("no number of instances"));
         // Between the ends a limit is told by the part of the interval on its side.
         let ends = |share: f64| [share - share * (1.0 - low), share, share + (1.0 - share) * (1.0 - low)];
-        assert_eq!(said([0.675, 1.0], ends(0.75)), "36 draws, not 20, if all agree as ours do");
+        assert_eq!(said([0.675, 1.0], ends(0.75)), "36 instances, not 20, if all agree as ours do");
     }
 
     #[test]
-    fn what_stands_in_the_way_is_named_before_the_number_of_draws() {
-        let found = Found { censored: 7, ..found([0.25, 0.375, 0.75]) };
+    fn what_stands_in_the_way_is_named_before_the_number_of_instances() {
+        let found = CriterionResult { censored: 7, ..found([0.25, 0.375, 0.75]) };
         for (caps, expected) in [
             (Caps { censored: true, ..Caps::default() }, "7 cases"),
-            (Caps { powerless: true, ..Caps::default() }, "more than one draw"),
+            (Caps { powerless: true, ..Caps::default() }, "more than one instance"),
             (Caps { clock: Some(Sessions::TooFew), ..Caps::default() }, "3 sessions"),
             (Caps { clock: Some(Sessions::Disagree), ..Caps::default() }, "sessions agree"),
         ] {
             assert!(settles(&found, caps).contains(expected), "{caps:?}: {}", settles(&found, caps));
         }
-        let few = Found { needs: Some(39), ..Found::default() };
-        assert_eq!(settles(&few, Caps::default()), "at least 39 draws that have what is compared");
+        let few = CriterionResult { needs: Some(39), ..CriterionResult::default() };
+        assert_eq!(settles(&few, Caps::default()), "at least 39 instances that have what is compared");
     }
 }

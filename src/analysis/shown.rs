@@ -1,55 +1,68 @@
-//! What figures show of draws: computed here, so that a figure only draws it.
+//! What figures show of instances: computed here, so that a figure only instances it.
 //!
 //! `names` of an estimate are what its stream of resamples belongs to.
 
 use super::evidence::Evidence;
-use super::selection::{Case, Selection, by_draw, cases};
-use super::statistic::{Estimate, Interval, LEVEL, OfAll, OfDraw, differences_percent, plan, turned};
+use super::selection::{Case, Selection, by_instance, cases};
+use super::statistic::{
+    Estimate, InstanceStatistic, Interval, LEVEL, OverallStatistic, differences_percent, plan, turned,
+};
 use stats::bands::{curves_of, distance_of_mean, sup_t_between};
 pub use stats::summary::means_along;
 use stats::{pooled, proportion, summary};
 use std::collections::BTreeMap;
 
-/// The share of queries that are solved on each draw, in per cent.
+/// The share of queries that are solved on each instance, in per cent.
 pub fn solved_percents(of: &Selection<'_>, evidence: &Evidence<'_>) -> Vec<f64> {
-    of.draws(evidence).iter().filter_map(|draw| OfDraw::SolvedPercent.of(draw)).collect()
+    of.instances(evidence)
+        .iter()
+        .filter_map(|instance| InstanceStatistic::SolvedPercent.value(instance))
+        .collect()
 }
 
-/// The mean over draws of the share solved, in per cent; none below two draws.
+/// The mean over instances of the share solved, in per cent; none below two instances.
 pub fn mean_solved(of: &Selection<'_>, evidence: &Evidence<'_>, names: &[&str]) -> Option<Estimate> {
     pooled::mean_between(&solved_percents(of, evidence), [0.0, 100.0], plan(names))
 }
 
-/// The mean over draws of the points by which the share solved differs from that of `base`; none below two draws.
+/// The mean over instances of the points by which the share solved differs from that of `base`; none below two instances.
 pub fn mean_difference(
     [base, of]: [&Selection<'_>; 2],
     evidence: &Evidence<'_>,
     names: &[&str],
 ) -> Option<Estimate> {
-    let [base, own] = [base, of].map(|one| one.draws(evidence));
+    let [base, own] = [base, of].map(|one| one.instances(evidence));
     pooled::mean_between(&differences_percent([&base, &own]), [-100.0, 100.0], plan(names))
 }
 
-/// What all draws of a selection give.
-pub fn of_all(all: OfAll, of: &Selection<'_>, evidence: &Evidence<'_>, names: &[&str]) -> Option<Estimate> {
-    all.of(&of.draws(evidence), plan(names))
+/// What all instances of a selection give.
+pub fn of_all(
+    all: OverallStatistic,
+    of: &Selection<'_>,
+    evidence: &Evidence<'_>,
+    names: &[&str],
+) -> Option<Estimate> {
+    all.estimate(&of.instances(evidence), plan(names))
 }
 
 /// By how many per cent the mean changes against the other contender's: the reduction with its sign turned.
 pub fn change_percent(of: &Selection<'_>, evidence: &Evidence<'_>, names: &[&str]) -> Option<Estimate> {
-    of_all(OfAll::ReductionPercent, of, evidence, names).map(turned)
+    of_all(OverallStatistic::ReductionPercent, of, evidence, names).map(turned)
 }
 
-/// The mean of each of the selection's contenders over the draws that all of them solve, and how many these are; the stream of
+/// The mean of each of the selection's contenders over the instances that all of them solve, and how many these are; the stream of
 /// a contender's resamples belongs to the study, the contender and the metric.
-pub fn means_of_whole_draws(of: &Selection<'_>, evidence: &Evidence<'_>) -> (Vec<Option<Estimate>>, usize) {
-    let draws = of.draws(evidence);
+pub fn means_of_whole_instances(
+    of: &Selection<'_>,
+    evidence: &Evidence<'_>,
+) -> (Vec<Option<Estimate>>, usize) {
+    let instances = of.instances(evidence);
     let metric = of.metric.map_or("", |metric| metric.name);
     let mean = |contender: &String| {
-        let own: Vec<_> = draws.iter().map(|draw| draw.by(contender)).collect();
-        OfAll::Mean.of(&own, plan(&[&of.study.name, contender, metric]))
+        let own: Vec<_> = instances.iter().map(|instance| instance.by(contender)).collect();
+        OverallStatistic::Mean.estimate(&own, plan(&[&of.study.name, contender, metric]))
     };
-    (of.contenders.iter().map(mean).collect(), draws.len())
+    (of.contenders.iter().map(mean).collect(), instances.len())
 }
 
 /// The point whose coordinates are the medians of those of `points`; failures may be infinite.
@@ -58,35 +71,35 @@ pub fn median_point(points: &[[f64; 2]]) -> Option<[f64; 2]> {
     Some([median(0)?, median(1)?])
 }
 
-/// What each draw of a selection saves against the other contender, in per cent, and the median over draws.
+/// What each instance of a selection saves against the other contender, in per cent, and the median over instances.
 #[derive(Default)]
 pub struct Savings {
-    /// The last saving of each draw that has one.
-    pub by_draw: BTreeMap<u32, f64>,
+    /// The last saving of each instance that has one.
+    pub by_instance: BTreeMap<u32, f64>,
     /// Their median.
     pub median: Option<f64>,
 }
 
 impl Savings {
     /// Those of `of`.
-    pub fn of(of: &Selection<'_>, evidence: &Evidence<'_>) -> Self {
-        let draws = of.draws(evidence);
-        let saved = |case: &Case<'_>| Some((case.row.draw(), case.saving_percent()?));
-        let by_draw: BTreeMap<u32, f64> = cases(&draws).filter_map(saved).collect();
-        let median = summary::median(&by_draw.values().copied().collect::<Vec<_>>());
-        Self { by_draw, median }
+    pub fn new(of: &Selection<'_>, evidence: &Evidence<'_>) -> Self {
+        let instances = of.instances(evidence);
+        let saved = |case: &Case<'_>| Some((case.row.instance(), case.saving_percent()?));
+        let by_instance: BTreeMap<u32, f64> = cases(&instances).filter_map(saved).collect();
+        let median = summary::median(&by_instance.values().copied().collect::<Vec<_>>());
+        Self { by_instance, median }
     }
 
-    /// How far a draw's saving is from the median; infinite without either.
-    pub fn off_median(&self, draw: u32) -> f64 {
-        let both = self.median.zip(self.by_draw.get(&draw));
+    /// How far an instance's saving is from the median; infinite without either.
+    pub fn off_median(&self, instance: u32) -> f64 {
+        let both = self.median.zip(self.by_instance.get(&instance));
         both.map_or(f64::INFINITY, |(median, saving)| (saving - median).abs())
     }
 
-    /// A draw's saving and where it stands among all; none of a draw that has no saving.
-    pub fn rank(&self, draw: u32) -> Option<(f64, proportion::Rank)> {
-        let own = *self.by_draw.get(&draw)?;
-        Some((own, proportion::Rank::of(own, &self.by_draw.values().copied().collect::<Vec<_>>())))
+    /// An instance's saving and where it stands among all; none of an instance that has no saving.
+    pub fn rank(&self, instance: u32) -> Option<(f64, proportion::Rank)> {
+        let own = *self.by_instance.get(&instance)?;
+        Some((own, proportion::Rank::new(own, &self.by_instance.values().copied().collect::<Vec<_>>())))
     }
 }
 
@@ -103,7 +116,7 @@ pub struct Spread {
 
 impl Spread {
     /// That of `values`.
-    pub fn of(values: Vec<f64>) -> Self {
+    pub fn new(values: Vec<f64>) -> Self {
         let quantiles = (!values.is_empty()).then(|| summary::box_of(&values));
         Self { mean: summary::mean(&values), quantiles, values }
     }
@@ -120,12 +133,13 @@ impl Spread {
     }
 }
 
-/// By query, in the order of the records: of each contender the metric over the draws on which all of them solve the query.
+/// By query, in the order of the records: of each contender the metric over the instances on which all of them solve the query.
 pub fn spreads_by_query(of: &Selection<'_>, evidence: &Evidence<'_>) -> Vec<(String, Vec<Spread>)> {
     by_query(of, evidence, |own| {
-        let draws = own.draws(evidence);
-        let values = |label: &String| draws.iter().flat_map(|draw| draw.by(label).values()).collect();
-        own.contenders.iter().map(|label| Spread::of(values(label))).collect()
+        let instances = own.instances(evidence);
+        let values =
+            |label: &String| instances.iter().flat_map(|instance| instance.by(label).values()).collect();
+        own.contenders.iter().map(|label| Spread::new(values(label))).collect()
     })
 }
 
@@ -133,12 +147,12 @@ pub fn spreads_by_query(of: &Selection<'_>, evidence: &Evidence<'_>) -> Vec<(Str
 pub fn savings_by_query(of: &Selection<'_>, evidence: &Evidence<'_>) -> Vec<(String, Spread)> {
     let Some(last) = of.contenders.last() else { return Vec::new() };
     let mut savings = by_query(of, evidence, |own| {
-        let draws = own.draws(evidence);
-        let by_last = cases(&draws).filter(|case| case.is_by(last));
-        Spread::of(by_last.filter_map(Case::saving_percent).collect())
+        let instances = own.instances(evidence);
+        let by_last = cases(&instances).filter(|case| case.is_by(last));
+        Spread::new(by_last.filter_map(Case::saving_percent).collect())
     });
     let all = savings.iter().flat_map(|(_, saving)| saving.values.iter().copied()).collect();
-    savings.push(("all".to_owned(), Spread::of(all)));
+    savings.push(("all".to_owned(), Spread::new(all)));
     savings
 }
 
@@ -147,9 +161,9 @@ fn by_query<T>(
     evidence: &Evidence<'_>,
     take: impl Fn(&Selection<'_>) -> T,
 ) -> Vec<(String, T)> {
-    let draws = Selection { whole_draws: false, ..of.clone() }.draws(evidence);
+    let instances = Selection { whole_instances: false, ..of.clone() }.instances(evidence);
     let mut order: Vec<&str> = Vec::new();
-    for case in of.contenders.iter().flat_map(|label| cases(&draws).filter(|case| case.is_by(label))) {
+    for case in of.contenders.iter().flat_map(|label| cases(&instances).filter(|case| case.is_by(label))) {
         if !order.contains(&case.row.query()) {
             order.push(case.row.query());
         }
@@ -161,7 +175,7 @@ fn by_query<T>(
     order.iter().map(of_query).collect()
 }
 
-/// Below which number each share of some draws lies.
+/// Below which number each share of some instances lies.
 pub struct Distribution {
     /// The curve.
     pub steps: Vec<[f64; 2]>,
@@ -171,16 +185,16 @@ pub struct Distribution {
 
 impl Distribution {
     /// That of `values`.
-    pub fn of(values: &[f64]) -> Self {
+    pub fn new(values: &[f64]) -> Self {
         let bulk = [0.01, 0.99].iter().filter_map(|share| summary::quantile_type7(values, *share));
         Self { steps: summary::cumulative(values), bulk: bulk.collect() }
     }
 }
 
-/// One curve a draw, at the same places.
+/// One curve an instance, at the same places.
 pub struct Curves {
     /// The curves.
-    pub draws: Vec<Vec<f64>>,
+    pub instances: Vec<Vec<f64>>,
 }
 
 /// The mean of curves with a band that holds all of it at once.
@@ -192,62 +206,67 @@ pub struct Band {
 }
 
 impl Curves {
-    /// Those of the shares solved, one selection a place, for as many draws as every place has.
+    /// Those of the shares solved, one selection a place, for as many instances as every place has.
     pub fn solved(places: &[Selection<'_>], evidence: &Evidence<'_>) -> Self {
         let shares: Vec<Vec<f64>> = places.iter().map(|place| solved_percents(place, evidence)).collect();
-        Self { draws: curves_of(&shares) }
+        Self { instances: curves_of(&shares) }
     }
 
-    /// Their mean with a simultaneous band; none below two draws.
+    /// Their mean with a simultaneous band; none below two instances.
     pub fn band(&self, names: &[&str]) -> Option<Band> {
-        let found = sup_t_between(&self.draws, [0.0, 100.0], plan(names))?;
+        let found = sup_t_between(&self.instances, [0.0, 100.0], plan(names))?;
         let band = found.band.iter().map(|band| [band.low.max(0.0), band.high.min(100.0)]).collect();
         Some(Band { mean: found.mean, band })
     }
 
-    /// Where one more draw would lie with 95 % probability at each place, as the claims of the printed cells say it; none if
-    /// there are too few draws to say.
+    /// Where one more instance would lie with 95 % probability at each place, as the claims of the printed cells say it; none if
+    /// there are too few instances to say.
     pub fn one_more(&self) -> Option<Vec<Interval>> {
-        let places = 0..self.draws.first()?.len();
+        let places = 0..self.instances.first()?.len();
         places.map(|place| proportion::predictive(&self.at(place), LEVEL)).collect()
     }
 
     /// The mean at each place.
     pub fn means(&self) -> Vec<f64> {
-        let places = 0..self.draws.first().map_or(0, Vec::len);
+        let places = 0..self.instances.first().map_or(0, Vec::len);
         places.filter_map(|place| summary::mean(&self.at(place))).collect()
     }
 
-    /// How far their mean is from a printed row, as the root of the mean square; none below two draws.
+    /// How far their mean is from a printed row, as the root of the mean square; none below two instances.
     pub fn distance(&self, printed: &[f64], names: &[&str]) -> Option<Estimate> {
-        distance_of_mean(&self.draws, printed, plan(names))
+        distance_of_mean(&self.instances, printed, plan(names))
     }
 
     fn at(&self, place: usize) -> Vec<f64> {
-        self.draws.iter().map(|draw| draw[place]).collect()
+        self.instances.iter().map(|instance| instance[place]).collect()
     }
 }
 
 /// Of each case of one contender a column of its problem and what it saves against the other contender, in per cent.
 pub fn savings_along(of: &Selection<'_>, evidence: &Evidence<'_>, column: &str) -> Vec<[f64; 2]> {
     let point = |case: &Case<'_>| Some([case.row.value(column)?, case.saving_percent()?]);
-    by_draw(&of.draws(evidence), point).concat()
+    by_instance(&of.instances(evidence), point).concat()
 }
 
 /// What was found in the course of one trial: when, in seconds, and at what cost.
-pub type Found = Vec<[f64; 2]>;
+pub type CostHistory = Vec<[f64; 2]>;
 
 /// The least cost of what was found at `passed_s` or before; infinite if nothing was.
-fn best_by(found: &Found, passed_s: f64) -> f64 {
+fn best_by(found: &CostHistory, passed_s: f64) -> f64 {
     let by_then = found.iter().filter(|[at, _]| *at <= passed_s).map(|[_, cost]| *cost);
     by_then.fold(f64::INFINITY, f64::min)
 }
 
-/// The median of the best cost found by each moment, over the queries of all draws; none where it is infinite.
-pub fn best_over_time(draws: &[Vec<Found>], moments: &[f64], names: &[&str]) -> Vec<Option<Estimate>> {
+/// The median of the best cost found by each moment, over the queries of all instances; none where it is infinite.
+pub fn best_over_time(
+    instances: &[Vec<CostHistory>],
+    moments: &[f64],
+    names: &[&str],
+) -> Vec<Option<Estimate>> {
     let at = |passed_s: &f64| {
-        let by = |found: &Found| best_by(found, *passed_s);
-        let costs: Vec<Vec<f64>> = draws.iter().map(|draw| draw.iter().map(by).collect()).collect();
+        let by = |found: &CostHistory| best_by(found, *passed_s);
+        let costs: Vec<Vec<f64>> =
+            instances.iter().map(|instance| instance.iter().map(by).collect()).collect();
         pooled::median(&costs, plan(names)).filter(|estimate| estimate.value.is_finite())
     };
     moments.iter().map(at).collect()
@@ -258,9 +277,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_more_draw_lies_between_draws_and_nowhere_if_there_are_too_few() {
-        let curves =
-            |count: u32| Curves { draws: (0..count).map(|draw| vec![f64::from(draw), 7.0]).collect() };
+    fn one_more_instance_lies_between_instances_and_nowhere_if_there_are_too_few() {
+        let curves = |count: u32| Curves {
+            instances: (0..count).map(|instance| vec![f64::from(instance), 7.0]).collect(),
+        };
         assert_eq!(curves(200).one_more(), Some(vec![Interval::new(4.0, 195.0), Interval::new(7.0, 7.0)]));
         assert_eq!(curves(38).one_more(), None);
         assert_eq!(curves(0).one_more(), None);
@@ -276,9 +296,9 @@ mod tests {
     #[test]
     fn a_curve_begins_where_half_of_the_queries_have_a_path_and_never_rises() {
         let of = |at: f64| vec![vec![[at, 10.0], [at + 0.3, 8.0]]];
-        let draws: Vec<_> = [0.1, 0.2, 0.3, 9.0, 9.0].map(of).into();
+        let instances: Vec<_> = [0.1, 0.2, 0.3, 9.0, 9.0].map(of).into();
         let moments = [0.15, 0.25, 0.35, 0.45, 0.65];
-        let found = best_over_time(&draws, &moments, &["a test"]);
+        let found = best_over_time(&instances, &moments, &["a test"]);
         let values: Vec<Option<f64>> = found.iter().map(|median| median.map(|m| m.value)).collect();
         assert_eq!(values, [None, None, Some(10.0), Some(10.0), Some(8.0)]);
         assert!(found[2].unwrap().interval.high.is_infinite(), "two of five never find a path");

@@ -1,12 +1,12 @@
-//! Statistics, each defined once: of one draw, and of all draws of a selection with their intervals.
+//! Statistics, each defined once: of one instance, and of all instances of a selection with their intervals.
 //!
-//! What was drawn independently is the unit: intervals resample whole draws with all that was asked of them.
+//! What was drawn independently is the unit: intervals resample whole instances with all that was asked of them.
 
 use super::censored::{ended, filled};
+use super::criterion_result::Narrows;
 use super::evidence::Run;
-use super::found::Narrows;
 use super::metric::Metric;
-use super::selection::{Case, Draw, Selection, by_draw, cases, is_unended, unended};
+use super::selection::{Case, Instance, Selection, by_instance, cases, is_unended, unended};
 use super::verdict::Estimate as VerdictEstimate;
 use base::seed;
 use schemars::JsonSchema;
@@ -24,32 +24,32 @@ use study::record::{Row, Status};
 /// Level of every interval.
 pub const LEVEL: f64 = 0.95;
 
-/// Fewest draws of which a bootstrap interval decides anything: one end of the percentile interval of a mean of normal draws
-/// then lies on the wrong side of the truth with a probability of 4.8 %, in place of 2.5 %; of 5 draws it is 7.7 %.
-pub const FEWEST_DRAWS: usize = 10;
+/// Fewest instances of which a bootstrap interval decides anything: one end of the percentile interval of a mean of normal instances
+/// then lies on the wrong side of the truth with a probability of 4.8 %, in place of 2.5 %; of 5 instances it is 7.7 %.
+pub const FEWEST_INSTANCES: usize = 10;
 
 /// How the interval of an estimate was made, as sentences and captions say it.
 pub fn how(found: &Estimate) -> &'static str {
     if found.is_agreed { AGREED } else { "bootstrap" }
 }
 
-/// What the interval of draws that all agree is.
-const AGREED: &str = "all draws agree: what allows for others";
+/// What the interval of instances that all agree is.
+const AGREED: &str = "all instances agree: what allows for others";
 
-/// What intervals are, of which some may be of draws that all agree.
-pub const INTERVALS: &str = "bootstrap, or where all draws agree what allows for others";
+/// What intervals are, of which some may be of instances that all agree.
+pub const INTERVALS: &str = "bootstrap, or where all instances agree what allows for others";
 
-/// How the interval narrows with more draws.
+/// How the interval narrows with more instances.
 pub fn narrows(is_agreed: bool) -> Narrows {
     if is_agreed { Narrows::AsTheNumber } else { Narrows::AsTheRoot }
 }
 
-/// The draws that are needed, where there are fewer.
-pub fn needs(draws: usize) -> Option<usize> {
-    (draws < FEWEST_DRAWS).then_some(FEWEST_DRAWS)
+/// The instances that are needed, where there are fewer.
+pub fn needs(instances: usize) -> Option<usize> {
+    (instances < FEWEST_INSTANCES).then_some(FEWEST_INSTANCES)
 }
 
-/// A bootstrap as every verdict makes it, with the stream of draws that belongs to `names`.
+/// A bootstrap as every verdict makes it, with the stream of instances that belongs to `names`.
 pub(super) fn plan(names: &[&str]) -> Resampling {
     Resampling { resamples: 2000, level: LEVEL, seed: seed::derive(0, names) }
 }
@@ -65,10 +65,10 @@ pub fn or_infinite(run: &Run<'_>, row: &Row, metric: &Metric, unended: Option<f6
     }
 }
 
-/// What one draw gives.
+/// What one instance gives.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum OfDraw {
+pub enum InstanceStatistic {
     /// The mean over its solved queries.
     #[default]
     Mean,
@@ -80,7 +80,7 @@ pub enum OfDraw {
     SolvedPercent,
 }
 
-impl OfDraw {
+impl InstanceStatistic {
     /// Its name in captions, tables and reasons.
     pub fn name(self) -> &'static str {
         match self {
@@ -91,13 +91,13 @@ impl OfDraw {
         }
     }
 
-    /// The number that `draw` gives, of the metric or, with another contender, of what is saved against it in per cent.
-    pub fn of(self, draw: &Draw<'_>) -> Option<f64> {
+    /// The number that `instance` gives, of the metric or, with another contender, of what is saved against it in per cent.
+    pub fn value(self, instance: &Instance<'_>) -> Option<f64> {
         if self == Self::SolvedPercent {
-            return draw.percent(|case| case.row.is_solved());
+            return instance.percent(|case| case.row.is_solved());
         }
         let number = |case: &Case<'_>| if case.base.is_some() { case.saving_percent() } else { case.value };
-        let numbers: Vec<f64> = draw.cases.iter().filter_map(number).collect();
+        let numbers: Vec<f64> = instance.cases.iter().filter_map(number).collect();
         let folded = |from, of: fn(f64, f64) -> f64| {
             (!numbers.is_empty()).then(|| numbers.iter().copied().fold(from, of))
         };
@@ -109,10 +109,10 @@ impl OfDraw {
     }
 }
 
-/// What all draws of a selection give.
+/// What all instances of a selection give.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum OfAll {
+pub enum OverallStatistic {
     /// The mean over all solved cases.
     Mean,
     /// The median over all cases, failures infinite.
@@ -127,7 +127,7 @@ pub enum OfAll {
     RatioOfGroups,
 }
 
-impl OfAll {
+impl OverallStatistic {
     /// Its name in captions, tables and reasons.
     pub fn name(self) -> &'static str {
         match self {
@@ -154,19 +154,21 @@ impl OfAll {
         }
     }
 
-    /// The number with its bootstrap interval over draws; none below two.
-    pub fn of(self, draws: &[Draw<'_>], plan: Resampling) -> Option<Estimate> {
+    /// The number with its bootstrap interval over instances; none below two.
+    pub fn estimate(self, instances: &[Instance<'_>], plan: Resampling) -> Option<Estimate> {
         if self.is_paired() {
-            return self.of_pairs(&super::selection::pairs(draws), plan);
+            return self.of_pairs(&super::selection::pairs(instances), plan);
         }
         if self == Self::RatioOfGroups {
-            return of_groups(draws, plan);
+            return of_groups(instances, plan);
         }
-        let values = by_draw(draws, |case| match (self, case.value) {
+        let values = by_instance(instances, |case| match (self, case.value) {
             (Self::Median, None) if !case.row.is_solved() => Some(f64::INFINITY),
             (_, value) => value,
         });
-        let sums = || values.iter().map(|draw| [draw.iter().sum(), draw.len() as f64]).collect::<Vec<_>>();
+        let sums = || {
+            values.iter().map(|instance| [instance.iter().sum(), instance.len() as f64]).collect::<Vec<_>>()
+        };
         match self {
             Self::Median => pooled::median(&values, plan),
             Self::Deviation => pooled::deviation(&values, plan),
@@ -176,16 +178,21 @@ impl OfAll {
 
     /// The intervals that it has when cases without a number had any that they may have had: in `pairs`, or else without an end and
     /// given the least and the greatest; none if all have one.
-    pub fn otherwise(self, selection: &Selection<'_>, draws: &[Draw<'_>], plan: Resampling) -> Vec<Interval> {
+    pub fn otherwise(
+        self,
+        selection: &Selection<'_>,
+        instances: &[Instance<'_>],
+        plan: Resampling,
+    ) -> Vec<Interval> {
         if self.is_paired() {
-            let pairs = filled(selection, draws).into_iter();
+            let pairs = filled(selection, instances).into_iter();
             return pairs
                 .filter_map(|pairs| self.of_pairs(&pairs, plan))
                 .map(|found| found.interval)
                 .collect();
         }
-        let seen: Vec<f64> = cases(draws).filter_map(|case| case.value).collect();
-        if seen.is_empty() || unended(draws) == 0 {
+        let seen: Vec<f64> = cases(instances).filter_map(|case| case.value).collect();
+        if seen.is_empty() || unended(instances) == 0 {
             return Vec::new();
         }
         let far = seen.iter().fold(0.0, |most: f64, value| most.max(value.abs())) * seen.len() as f64;
@@ -198,13 +205,15 @@ impl OfAll {
             Self::RatioOfGroups => [[least, f64::INFINITY], [f64::INFINITY, least]],
             _ => [[least; 2], [far; 2]],
         };
-        let first = draws[0].group;
-        let given = |ends: [f64; 2]| ended(draws, |draw| ends[usize::from(draw.group != first)]);
+        let first = instances[0].group;
+        let given = |ends: [f64; 2]| ended(instances, |instance| ends[usize::from(instance.group != first)]);
         let anything = Interval::new(f64::NEG_INFINITY, f64::INFINITY);
-        [low, high].map(|ends| self.of(&given(ends), plan).map_or(anything, |found| found.interval)).to_vec()
+        [low, high]
+            .map(|ends| self.estimate(&given(ends), plan).map_or(anything, |found| found.interval))
+            .to_vec()
     }
 
-    /// That of pairs by draw, the other contender's number first; draws that all have the same ratio leave an interval with width.
+    /// That of pairs by instance, the other contender's number first; instances that all have the same ratio leave an interval with width.
     pub fn of_pairs(self, pairs: &[Vec<(f64, f64)>], plan: Resampling) -> Option<Estimate> {
         let sums = |pairs: &Vec<(f64, f64)>| {
             pairs.iter().fold([0.0, 0.0], |[own, base], pair| [own + pair.1, base + pair.0])
@@ -225,36 +234,37 @@ pub fn turned(reduction: Estimate) -> Estimate {
     Estimate { value: 0.0 - reduction.value, interval: Interval::new(0.0 - high, 0.0 - low), ..reduction }
 }
 
-/// The median on the first group over that on the second, the interval from the ends of both; of a single draw the number
+/// The median on the first group over that on the second, the interval from the ends of both; of a single instance the number
 /// itself.
-fn of_groups(draws: &[Draw<'_>], plan: Resampling) -> Option<Estimate> {
-    let first = draws.first()?.group;
+fn of_groups(instances: &[Instance<'_>], plan: Resampling) -> Option<Estimate> {
+    let first = instances.first()?.group;
     let side = |is_first: bool| {
-        let own = draws.iter().filter(|draw| (draw.group == first) == is_first);
-        let values: Vec<Vec<f64>> = own.map(Draw::values).collect();
+        let own = instances.iter().filter(|instance| (instance.group == first) == is_first);
+        let values: Vec<Vec<f64>> = own.map(Instance::values).collect();
         let median = summary::median(&values.concat())?;
         let found = pooled::median(&values, plan);
         Some((median, found.map_or(Interval::new(median, median), |found| found.interval)))
     };
-    let ((above, one), (below, other)) = (side(true)?, side(false).filter(|(median, _)| *median > 0.0)?);
+    let (above, one) = side(true)?;
+    let (below, other) = side(false).filter(|(median, _)| *median > 0.0)?;
     let interval = Interval::new(one.low / other.high, one.high / other.low);
-    Some(Estimate { value: above / below, interval, is_agreed: false, units: draws.len(), undefined: 0 })
+    Some(Estimate { value: above / below, interval, is_agreed: false, units: instances.len(), undefined: 0 })
 }
 
-/// By how many points the share solved of a draw's queries differs between two selections; queries that cannot be posed in
+/// By how many points the share solved of an instance's queries differs between two selections; queries that cannot be posed in
 /// either are left out of both.
-pub fn differences_percent([base, other]: [&[Draw<'_>]; 2]) -> Vec<f64> {
+pub fn differences_percent([base, other]: [&[Instance<'_>]; 2]) -> Vec<f64> {
     let solved = |row: &Row| f64::from(u8::from(row.is_solved()));
-    let case = |row: &Row| (row.draw(), row.key.repeat, row.query().to_owned());
+    let case = |row: &Row| (row.instance(), row.key.repeat, row.query().to_owned());
     let bases: BTreeMap<_, f64> = cases(base).map(|own| (case(own.row), solved(own.row))).collect();
-    let mut draws: BTreeMap<(u32, u32), Vec<f64>> = BTreeMap::new();
+    let mut instances: BTreeMap<(u32, u32), Vec<f64>> = BTreeMap::new();
     for own in cases(other) {
         if let Some(base) = bases.get(&case(own.row)) {
-            let unit = (own.row.draw(), own.row.key.repeat);
-            draws.entry(unit).or_default().push(100.0 * (solved(own.row) - base));
+            let unit = (own.row.instance(), own.row.key.repeat);
+            instances.entry(unit).or_default().push(100.0 * (solved(own.row) - base));
         }
     }
-    draws.values().filter_map(|draw| summary::mean(draw)).collect()
+    instances.values().filter_map(|instance| summary::mean(instance)).collect()
 }
 
 /// A share of chances that are hit.
@@ -262,40 +272,41 @@ pub fn differences_percent([base, other]: [&[Draw<'_>]; 2]) -> Vec<f64> {
 pub struct Share {
     /// The share.
     pub value: f64,
-    /// Its interval; none for a single draw of several chances.
+    /// Its interval; none for a single instance of several chances.
     pub interval: Option<Interval>,
-    /// Whether the interval is exact, however few the draws.
+    /// Whether the interval is exact, however few the instances.
     pub is_exact: bool,
-    /// Whether all draws agree on it.
+    /// Whether all instances agree on it.
     pub is_agreed: bool,
-    /// How many draws it rests on.
-    pub draws: usize,
+    /// How many instances it rests on.
+    pub instances: usize,
 }
 
 impl Share {
-    /// That of `counts`, the hits and chances of each draw, which could have had `most` chances or as many as were seen; none
+    /// That of `counts`, the hits and chances of each instance, which could have had `most` chances or as many as were seen; none
     /// without chances. The interval is the same everywhere ([`pooled::share`]), in closed form where there is one: where every
-    /// draw can have but one chance, and where all agree. Differences of shares are not looked at here.
-    pub fn of(counts: &[[f64; 2]], most: f64, plan: Resampling) -> Option<Self> {
+    /// instance can have but one chance, and where all agree. Differences of shares are not looked at here.
+    pub fn new(counts: &[[f64; 2]], most: f64, plan: Resampling) -> Option<Self> {
         let counts: Vec<[f64; 2]> = counts.iter().copied().filter(|count| count[1] > 0.0).collect();
         let [hits, chances] = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
         let most = counts.iter().fold(most, |most, count| most.max(count[1]));
-        let (draws, is_single) = (counts.len(), most <= 1.0 && counts.iter().all(|count| count[1] == 1.0));
-        let agreed = mean_of_agreed(&counts, most, LEVEL).filter(|_| is_single || draws > 1);
-        let interval = if is_single { clopper_pearson(hits as usize, draws, LEVEL) } else { agreed };
-        let interval = interval.or_else(|| pooled::share(&counts, most, plan).filter(|_| draws > 1));
+        let instances = counts.len();
+        let is_single = most <= 1.0 && counts.iter().all(|count| count[1] == 1.0);
+        let agreed = mean_of_agreed(&counts, most, LEVEL).filter(|_| is_single || instances > 1);
+        let interval = if is_single { clopper_pearson(hits as usize, instances, LEVEL) } else { agreed };
+        let interval = interval.or_else(|| pooled::share(&counts, most, plan).filter(|_| instances > 1));
         let is_agreed = agreed.is_some();
         let is_exact = is_single || is_agreed && (hits == 0.0 || hits == chances);
-        (chances > 0.0).then(|| Self { value: hits / chances, interval, is_exact, is_agreed, draws })
+        (chances > 0.0).then(|| Self { value: hits / chances, interval, is_exact, is_agreed, instances })
     }
 
     /// It as our number beside a printed one: the share of `what`.
     pub fn estimate(&self, what: &str) -> VerdictEstimate {
         match self.interval {
             Some(interval) => {
-                VerdictEstimate::new(self.value, interval, format!("share of {what}, 95 %"), self.draws)
+                VerdictEstimate::new(self.value, interval, format!("share of {what}, 95 %"), self.instances)
             }
-            None => VerdictEstimate::bare(self.value, format!("share of {what}"), self.draws),
+            None => VerdictEstimate::bare(self.value, format!("share of {what}"), self.instances),
         }
     }
 }
@@ -305,41 +316,46 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_share_of_single_chances_is_exact_and_draws_of_several_are_units() {
+    fn a_share_of_single_chances_is_exact_and_instances_of_several_are_units() {
         let plan = plan(&["a test"]);
-        let exact = Share::of(&[[1.0, 1.0], [0.0, 1.0], [1.0, 1.0], [1.0, 1.0]], 1.0, plan).unwrap();
+        let exact = Share::new(&[[1.0, 1.0], [0.0, 1.0], [1.0, 1.0], [1.0, 1.0]], 1.0, plan).unwrap();
         let interval = exact.interval.unwrap();
-        assert_eq!((exact.value, exact.draws), (0.75, 4));
+        assert_eq!((exact.value, exact.instances), (0.75, 4));
         assert!((interval.low - 0.1941).abs() < 1e-4 && (interval.high - 0.9937).abs() < 1e-4, "{exact:?}");
-        // Draws that agree within themselves: as uncertain as their number says, not as that of their queries.
-        let draws: Vec<[f64; 2]> = (0..10).map(|i| [if i % 2 == 0 { 100.0 } else { 0.0 }, 100.0]).collect();
-        let of_draws = Share::of(&draws, 100.0, plan).unwrap();
-        assert!(of_draws.value == 0.5 && of_draws.interval.unwrap().half_width() > 0.25, "{of_draws:?}");
-        let single = Share::of(&[[3.0, 4.0]], 4.0, plan).unwrap();
-        assert_eq!((single.value, single.interval), (0.75, None), "one draw has no interval");
-        assert!(Share::of(&[[0.0, 0.0]], 1.0, plan).is_none() && Share::of(&[], 1.0, plan).is_none());
+        // Instances that agree within themselves: as uncertain as their number says, not as that of their queries.
+        let instances: Vec<[f64; 2]> =
+            (0..10).map(|i| [if i % 2 == 0 { 100.0 } else { 0.0 }, 100.0]).collect();
+        let of_instances = Share::new(&instances, 100.0, plan).unwrap();
+        assert!(
+            of_instances.value == 0.5 && of_instances.interval.unwrap().half_width() > 0.25,
+            "{of_instances:?}"
+        );
+        let single = Share::new(&[[3.0, 4.0]], 4.0, plan).unwrap();
+        assert_eq!((single.value, single.interval), (0.75, None), "one instance has no interval");
+        assert!(Share::new(&[[0.0, 0.0]], 1.0, plan).is_none() && Share::new(&[], 1.0, plan).is_none());
     }
 
     #[test]
-    fn draws_that_all_agree_leave_an_interval_with_width() {
+    fn instances_that_all_agree_leave_an_interval_with_width() {
         let plan = plan(&["a test"]);
-        let of = |hits: f64| Share::of(&[[hits, 10.0]; 20], 10.0, plan).unwrap();
+        let of = |hits: f64| Share::new(&[[hits, 10.0]; 20], 10.0, plan).unwrap();
         let interval = |hits: f64| of(hits).interval.map(|found| [found.low, found.high]).unwrap();
         assert!((interval(10.0)[0] - 0.831_566_5).abs() < 1e-6 && interval(10.0)[1] == 1.0, "{:?}", of(10.0));
         assert!((interval(0.0)[1] - 0.168_433_5).abs() < 1e-6 && interval(0.0)[0] == 0.0, "{:?}", of(0.0));
         assert!(of(10.0).is_exact && of(0.0).is_exact);
-        // Between the ends draws that differ may lie on either side: 0.7 and 0.3 of as much as at the ends.
-        let (between, differ) = (interval(7.0), 1.0 - interval(10.0)[0]);
+        // Between the ends instances that differ may lie on either side: 0.7 and 0.3 of as much as at the ends.
+        let between = interval(7.0);
+        let differ = 1.0 - interval(10.0)[0];
         assert!((between[0] - 0.7 + 0.7 * differ).abs() < 1e-12, "{between:?}");
         assert!((between[1] - 0.7 - 0.3 * differ).abs() < 1e-12, "{between:?}");
-        assert!(of(7.0).is_agreed && !of(7.0).is_exact, "of fewer than ten draws it is not firm");
+        assert!(of(7.0).is_agreed && !of(7.0).is_exact, "of fewer than ten instances it is not firm");
     }
 
     #[test]
     fn a_reduction_and_a_ratio_say_the_same() {
         let pairs: Vec<Vec<(f64, f64)>> = (1..20).map(|i| vec![(f64::from(i), 0.5 * f64::from(i))]).collect();
-        let [reduction, ratio] =
-            [OfAll::ReductionPercent, OfAll::Ratio].map(|of| of.of_pairs(&pairs, plan(&["x"])).unwrap());
+        let [reduction, ratio] = [OverallStatistic::ReductionPercent, OverallStatistic::Ratio]
+            .map(|of| of.of_pairs(&pairs, plan(&["x"])).unwrap());
         assert!((reduction.value - 50.0).abs() < 1e-9 && (ratio.value - 0.5).abs() < 1e-9);
         assert!(reduction.interval.low <= reduction.interval.high, "{:?}", reduction.interval);
     }

@@ -13,7 +13,7 @@ use serde::Deserialize;
 use std::collections::BTreeSet;
 use study::paper::results::{BlockSpec, CellSpec, ResultsSpec, Show};
 use study::paper::{Claim, Paper};
-use study::record::{PreparedRow, Row};
+use study::record::{PreprocessingRow, Row};
 use study::{Interpretation, Study, name, recorded_mark};
 
 /// A table of results: its head and, block by block, its rows; a dash where there is nothing.
@@ -62,11 +62,11 @@ pub fn table_caption(evidence: &Evidence<'_>, table: &ResultsSpec) -> String {
 
 /// The median of `metric` over what the problem group prepared, if the contender searches it: a planner from outside takes any
 /// world, and is given none of what was prepared.
-fn prepared(run: &Run<'_>, group: &str, label: &str, metric: &Metric) -> Option<f64> {
+fn preprocessing(run: &Run<'_>, group: &str, label: &str, metric: &Metric) -> Option<f64> {
     let contender = run.study.contenders.iter().find(|one| one.label == label)?;
     let searches = contender.stages.iter().any(|stage| stage.entry.needs != WorldKind::Any);
-    let count = |row: &PreparedRow| Some(row.values.get(metric.column)?.as_f64() * metric.scale);
-    let counts: Vec<f64> = run.prepared(group).filter_map(count).collect();
+    let count = |row: &PreprocessingRow| Some(row.values.get(metric.column)?.as_f64() * metric.scale);
+    let counts: Vec<f64> = run.preprocessing(group).filter_map(count).collect();
     statistic::median(&counts).filter(|_| searches && !contender.is_recorded())
 }
 
@@ -99,7 +99,7 @@ fn cell_of(run: &Run<'_>, group: &str, label: &str, cell: &CellSpec, metric: &Me
             statistic::median(&failed).map(number)
         }
         Show::Value => rows.iter().find_map(|row| run.value(row, metric)).map(number),
-        Show::Prepared => prepared(run, group, label, metric).map(number),
+        Show::Preprocessing => preprocessing(run, group, label, metric).map(number),
     };
     found.unwrap_or_else(|| "–".to_owned())
 }
@@ -117,11 +117,11 @@ fn with_failures(trials: &[(bool, Option<f64>)], is_clock: bool) -> Vec<f64> {
     trials.iter().filter_map(value).collect()
 }
 
-/// How many draws a figure is about, and of how many trials how many were solved.
+/// How many instances a figure is about, and of how many trials how many were solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Trials {
-    /// Independent draws.
-    pub draws: usize,
+    /// Independent instances.
+    pub instances: usize,
     /// Trials that were solved.
     pub solved: usize,
     /// Trials.
@@ -136,14 +136,15 @@ pub fn trials(run: &Run<'_>, settings: Option<&toml::Table>) -> Trials {
     let contenders: Vec<&str> = run.study.contenders.iter().map(|one| one.label.as_str()).collect();
     let points: Vec<String> = run.study.sweep_points().iter().map(|point| name::sweep(&point.key)).collect();
     let points = among(points.iter().map(String::as_str).collect(), &named);
-    let (groups, contenders) = (among(groups, &named), among(contenders, &named));
+    let groups = among(groups, &named);
+    let contenders = among(contenders, &named);
     let rows = groups.iter().flat_map(|group| contenders.iter().flat_map(|one| run.rows(group, one)));
     let is_shown =
         |row: &&Row| row.key.sweep.values().is_empty() || points.contains(&&*name::sweep(&row.key.sweep));
     let rows: Vec<&Row> = rows.filter(is_shown).collect();
-    let draws: BTreeSet<_> = rows.iter().map(|row| (&row.key.on.group, row.draw())).collect();
+    let instances: BTreeSet<_> = rows.iter().map(|row| (&row.key.on.group, row.instance())).collect();
     let solved = rows.iter().filter(|row| row.is_solved()).count();
-    Trials { draws: draws.len(), solved, all: rows.len() }
+    Trials { instances: instances.len(), solved, all: rows.len() }
 }
 
 /// Those of `labels` that are named; all if none is.
@@ -163,14 +164,14 @@ fn texts<'a>(value: &'a toml::Value, found: &mut BTreeSet<&'a str>) {
     }
 }
 
-/// Means over draws of the shares, in per cent, that `part` has of `whole`; a draw without a whole is left out.
+/// Means over instances of the shares, in per cent, that `part` has of `whole`; an instance without a whole is left out.
 pub fn mean_percent<T>(
-    draws: &[T],
+    instances: &[T],
     part: impl Fn(&T) -> Option<f64>,
     whole: impl Fn(&T) -> Option<f64>,
 ) -> Option<f64> {
-    let share = |draw: &T| Some(100.0 * part(draw)? / whole(draw).filter(|whole| *whole > 0.0)?);
-    statistic::mean(&draws.iter().filter_map(share).collect::<Vec<f64>>())
+    let share = |instance: &T| Some(100.0 * part(instance)? / whole(instance).filter(|whole| *whole > 0.0)?);
+    statistic::mean(&instances.iter().filter_map(share).collect::<Vec<f64>>())
 }
 
 /// What stands beside a printed number: the first trial of a selection.
@@ -222,7 +223,9 @@ mod tests {
 
     #[test]
     fn a_failure_is_infinite_only_in_what_solved_trials_count() {
-        let (inf, solved, failed) = (f64::INFINITY, |value| (true, Some(value)), (false, None));
+        let inf = f64::INFINITY;
+        let solved = |value| (true, Some(value));
+        let failed = (false, None);
         assert_eq!(with_failures(&[solved(2.0), failed], false), [2.0, inf]);
         assert_eq!(with_failures(&[solved(2.0), (false, Some(1.0))], false), [2.0, inf]);
         assert_eq!(with_failures(&[failed, failed], false), [inf, inf], "nothing is solved");

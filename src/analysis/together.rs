@@ -1,6 +1,6 @@
-//! Which claims hold together under one reading.
+//! Which claims hold together under one interpretation.
 //!
-//! A paper's claims speak of several maps, but of one algorithm. So one set is made under one reading and one choice
+//! A paper's claims speak of several maps, but of one algorithm. So one set is made under one interpretation and one choice
 //! of contenders: claims that are asked of the same problems share a problem, and each such group of claims takes one
 //! of its problems. Every choice of problems is looked at.
 
@@ -22,19 +22,20 @@ type Contenders<'a> = BTreeMap<&'a str, Outcomes<'a>>;
 /// Outcomes of one study: by problem, then contender.
 type Problems<'a> = BTreeMap<String, Contenders<'a>>;
 
-/// The sets of claims that are met exactly together, none within another, under the evidence's reading; the largest first.
+/// The sets of claims that are met exactly together, none within another, under the evidence's interpretation; the largest first.
 ///
 /// # Errors
 /// A settings error of a criterion.
 pub fn together(evidence: &Evidence<'_>) -> Result<Vec<Together>, SettingsError> {
-    let asked = asked(evidence)?;
+    let asked = attained_claims(evidence)?;
     let met = met(evidence, &asked);
     Ok(greatest(met.iter().flat_map(|(study, met)| sets_of(study, met, evidence.point.name())).collect()))
 }
 
 /// The criteria `exists` of all claims that print a number.
-fn asked<'a>(evidence: &'a Evidence<'_>) -> Result<Vec<Attained<'a>>, SettingsError> {
-    let (paper, point) = (evidence.paper, &evidence.point);
+fn attained_claims<'a>(evidence: &'a Evidence<'_>) -> Result<Vec<Attained<'a>>, SettingsError> {
+    let paper = evidence.paper;
+    let point = &evidence.point;
     let contexts = paper.claims.iter().filter_map(|claim| {
         let settings = claim.check(EXISTS.name).filter(|_| claim.printed.is_some())?;
         Some(Context { claim, settings, paper, point })
@@ -42,16 +43,16 @@ fn asked<'a>(evidence: &'a Evidence<'_>) -> Result<Vec<Attained<'a>>, SettingsEr
     contexts.map(|context| Attained::new(&context)).collect()
 }
 
-/// What each study shows under one reading.
+/// What each study shows under one interpretation.
 fn met<'e>(view: &'e Evidence<'_>, asked: &'e [Attained<'_>]) -> BTreeMap<&'e str, Problems<'e>> {
     let mut all: BTreeMap<&str, BTreeMap<_, (Contenders<'e>, &'e Row)>> = BTreeMap::new();
     let each: Vec<_> = asked.par_iter().map(|attained| (attained.claim(), met_by(attained, view))).collect();
     for (claim, looked_at) in each {
         for (seen, is_met) in looked_at {
-            let (study, group, draw, query) = seen.problem();
+            let (study, group, instance, query) = seen.problem();
             let problems = all.entry(study).or_default();
             let by_contender =
-                problems.entry((group, draw, query)).or_insert_with(|| (BTreeMap::new(), seen.row));
+                problems.entry((group, instance, query)).or_insert_with(|| (BTreeMap::new(), seen.row));
             by_contender.0.entry(seen.contender).or_default().insert(claim, is_met);
         }
     }
@@ -79,7 +80,7 @@ fn met_by<'e>(attained: &'e Attained<'_>, view: &'e Evidence<'_>) -> Vec<(Seen<'
 }
 
 /// The sets of every contender that is an alternative for another; a contender that has none belongs to every set.
-fn sets_of(study: &str, problems: &Problems<'_>, reading: &str) -> Vec<Together> {
+fn sets_of(study: &str, problems: &Problems<'_>, interpretation: &str) -> Vec<Together> {
     let mut claims: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for (contender, outcomes) in problems.values().flatten() {
         claims.entry(*contender).or_default().extend(outcomes.keys().copied());
@@ -94,12 +95,12 @@ fn sets_of(study: &str, problems: &Problems<'_>, reading: &str) -> Vec<Together>
         let labels: Vec<&str> = fixed.iter().copied().chain(choice).collect();
         let under = labels.join(" and ");
         let choices = choices_of_problems(problems, &labels).into_iter();
-        choices.map(|chosen| set(study, reading, &under, &chosen)).collect::<Vec<_>>()
+        choices.map(|chosen| set(study, interpretation, &under, &chosen)).collect::<Vec<_>>()
     };
     choices.into_iter().flat_map(of_choice).collect()
 }
 
-fn set(study: &str, reading: &str, under: &str, chosen: &[(&str, Outcomes<'_>)]) -> Together {
+fn set(study: &str, interpretation: &str, under: &str, chosen: &[(&str, Outcomes<'_>)]) -> Together {
     let (mut hold, mut fail) = (Vec::new(), Vec::new());
     for (claim, is_met) in chosen.iter().flat_map(|(_, outcomes)| outcomes) {
         if *is_met { hold.push((*claim).to_owned()) } else { fail.push((*claim).to_owned()) }
@@ -109,7 +110,7 @@ fn set(study: &str, reading: &str, under: &str, chosen: &[(&str, Outcomes<'_>)])
     Together {
         study: study.to_owned(),
         problem: chosen.iter().map(|(problem, _)| *problem).collect::<Vec<_>>().join(" and "),
-        reading: reading.to_owned(),
+        interpretation: interpretation.to_owned(),
         under: under.to_owned(),
         hold,
         fail,
@@ -202,7 +203,7 @@ mod tests {
             [("base and one", "a1", "a b".to_owned()), ("base and two", "a1 and z1", "a z".to_owned())]
         );
         assert_eq!(sets[1].fail, ["b", "y"]);
-        assert_eq!([&sets[0].reading, &sets[1].reading], ["r=2", "r=2"]);
+        assert_eq!([&sets[0].interpretation, &sets[1].interpretation], ["r=2", "r=2"]);
     }
 
     #[test]
@@ -223,7 +224,7 @@ mod tests {
         let set = |hold: &str| Together {
             study: String::new(),
             problem: String::new(),
-            reading: String::new(),
+            interpretation: String::new(),
             under: String::new(),
             hold: hold.split(' ').map(str::to_owned).collect(),
             fail: Vec::new(),

@@ -15,7 +15,7 @@ pub struct Estimate {
     pub interval: Option<[f64; 2]>,
     /// What the number and its interval are.
     pub what: String,
-    /// How many independent draws it rests on.
+    /// How many independent instances it rests on.
     pub n: usize,
     /// Of the cases that were asked, those that were solved by everyone who is compared, and all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -28,8 +28,8 @@ impl Estimate {
         Self { value, interval: Some([interval.low, interval.high]), what: what.into(), n, solved: None }
     }
 
-    /// A number that was estimated over draws.
-    pub fn of(found: stats::bootstrap::Estimate, what: impl Into<String>) -> Self {
+    /// A number that was estimated over instances.
+    pub fn from_bootstrap(found: stats::bootstrap::Estimate, what: impl Into<String>) -> Self {
         Self::new(found.value, found.interval, what, found.units)
     }
 
@@ -48,7 +48,7 @@ impl Estimate {
 /// What one criterion found, with its class.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Finding {
+pub struct CriterionFinding {
     /// The criterion; of arithmetic on printed numbers the rule.
     pub criterion: String,
     /// Its class; absent if it only shows something, or can only refuse and did not.
@@ -67,7 +67,7 @@ pub struct Finding {
     pub premises: Vec<String>,
 }
 
-/// What a reading does to a claim when it alone departs from its default, the least first.
+/// What an interpretation does to a claim when it alone departs from its default, the least first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Effect {
@@ -86,7 +86,7 @@ pub enum Effect {
 /// The greatest effect of an axis's options.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct EffectOf {
+pub struct EffectOfOption {
     /// What it does.
     pub effect: Effect,
     /// The option.
@@ -95,22 +95,22 @@ pub struct EffectOf {
     pub class: Verdict,
 }
 
-/// What the readings make of a claim.
+/// What the interpretations make of a claim.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Across {
-    /// Its class across readings.
+    /// Its class across interpretations.
     pub class: Verdict,
-    /// Its class under the default reading.
+    /// Its class under the default interpretation.
     pub default: Verdict,
     /// `holds under 44 of 44`, or what it hangs on.
     pub said: String,
-    /// What would settle it, if the readings leave it open.
+    /// What would settle it, if the interpretations leave it open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub settles: Option<String>,
     /// How many different results count.
     pub counted: usize,
-    /// How many readings they come from.
+    /// How many interpretations they come from.
     pub looked: usize,
     /// Of the results, those that speak for it.
     pub holds: usize,
@@ -120,11 +120,11 @@ pub struct Across {
     pub fails: usize,
     /// Those that speak against most others, without a second seed to say so too: they count as open.
     pub unconfirmed: usize,
-    /// Readings that vote and do not look at it.
+    /// Interpretations that vote and do not look at it.
     pub not_looked_at: usize,
-    /// Readings that vote and contradict what the study was calibrated to.
+    /// Interpretations that vote and contradict what the study was calibrated to.
     pub incompatible: usize,
-    /// Every voting reading does, so that all are judged.
+    /// Every voting interpretation does, so that all are judged.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub none_compatible: bool,
     /// The least and the greatest of our numbers over them, where the paper's chapter asks.
@@ -133,23 +133,23 @@ pub struct Across {
     /// What probes that are never counted do, where they change what is said of it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub probes: Vec<String>,
-    /// What each reading does alone, where it can touch it.
+    /// What each choice does alone, where it can touch it.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub effects: BTreeMap<String, EffectOf>,
+    pub effects: BTreeMap<String, EffectOfOption>,
 }
 
-/// What of a paper's readings was explored.
+/// What of a paper's interpretations was explored.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Explored {
-    /// How many readings.
-    pub readings: usize,
+    /// How many interpretations.
+    pub interpretations: usize,
     /// How many trials it took.
     pub trials: u64,
-    /// Claims of which what is stored is stale: they are judged under the default reading alone.
+    /// Claims of which what is stored is stale: they are judged under the default interpretation alone.
     #[serde(default)]
     pub stale: Vec<String>,
-    /// For some claim no voting reading is compatible.
+    /// For some claim no voting interpretation is compatible.
     #[serde(default)]
     pub none_compatible: bool,
     /// Whether a second seed was run.
@@ -158,26 +158,26 @@ pub struct Explored {
     /// Claims of which what is stored of the second seed is stale.
     #[serde(default)]
     pub second_stale: Vec<String>,
-    /// How each setting of the readings agrees with what a study was fitted to; none if no reading is fitted.
+    /// How each setting of the choices agrees with what a study was fitted to; none if no interpretation is fitted.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub fits: Vec<SettingFit>,
 }
 
-/// A setting of the readings that are not fitted, with what the studies were fitted to under each option of the one that is.
+/// A setting of the choices that are not fitted, with what the studies were fitted to under each option of the one that is.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SettingFit {
     /// What differs from the defaults, in words.
     pub setting: String,
-    /// By option of the fitted reading.
+    /// By option of the fitted choice.
     pub fits: BTreeMap<String, Fit>,
 }
 
-/// Whether a reading agrees with what the studies were fitted to.
+/// Whether an interpretation agrees with what the studies were fitted to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fit {
-    /// As well as any other option of the fitted reading: it counts.
+    /// As well as any other option of the fitted choice: it counts.
     Best,
     /// It does, but another option does better.
     Less,
@@ -188,7 +188,7 @@ pub enum Fit {
 /// A claim with what was found about it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Judged {
+pub struct ClaimVerdict {
     /// The claim.
     pub claim: String,
     /// Where it stands in the paper.
@@ -215,20 +215,20 @@ pub struct Judged {
     /// What it meant was changed after its data had been seen: each time, as `history.toml` has it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub changes: Vec<String>,
-    /// Its class under the default reading on the second seed.
+    /// Its class under the default interpretation on the second seed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub second: Option<Verdict>,
-    /// What the readings make of it, if they were explored; its findings are those under the default reading.
+    /// What the interpretations make of it, if they were explored; its findings are those under the default interpretation.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub across: Option<Across>,
-    /// The reading it was judged under.
-    pub reading: String,
+    /// The interpretation it was judged under.
+    pub interpretation: String,
     /// What each criterion found.
     #[serde(default, rename = "finding")]
-    pub findings: Vec<Finding>,
+    pub findings: Vec<CriterionFinding>,
 }
 
-impl Judged {
+impl ClaimVerdict {
     /// Whether it counts by itself: it is no part of a sentence or row, and no theorem.
     pub fn is_counted(&self) -> bool {
         self.part_of.is_none() && self.theorem.is_none()
@@ -243,24 +243,24 @@ impl Judged {
         }
     }
 
-    /// What the readings make of it, in a few words that stand behind its class; none if no reading was asked.
-    pub fn across_readings(&self) -> Option<String> {
+    /// What the interpretations make of it, in a few words that stand behind its class; none if no interpretation was asked.
+    pub fn across_interpretations(&self) -> Option<String> {
         self.across.as_ref().map(|across| across.said.clone())
     }
 
-    /// [`across_readings`](Self::across_readings) with its class on the second seed, where that was run.
+    /// [`across_interpretations`](Self::across_interpretations) with its class on the second seed, where that was run.
     pub fn beside(&self) -> Option<String> {
         let second = self.second.map(|second| format!("second seed: {}", second.name()));
-        let said: Vec<String> = self.across_readings().into_iter().chain(second).collect();
+        let said: Vec<String> = self.across_interpretations().into_iter().chain(second).collect();
         (!said.is_empty()).then(|| said.join("; "))
     }
 
     /// As [`beside`](Self::beside), with the second seed's class where it is another one.
     pub fn beside_if_other(&self) -> Option<String> {
-        if self.second == Some(self.verdict) { self.across_readings() } else { self.beside() }
+        if self.second == Some(self.verdict) { self.across_interpretations() } else { self.beside() }
     }
 
-    /// Its class under the reading that its findings are of.
+    /// Its class under the interpretation that its findings are of.
     pub fn alone(&self) -> Verdict {
         self.across.as_ref().map_or(self.verdict, |across| across.default)
     }
@@ -275,7 +275,7 @@ impl Judged {
     }
 }
 
-/// Claims that hold together under one reading.
+/// Claims that hold together under one interpretation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Together {
@@ -283,8 +283,8 @@ pub struct Together {
     pub study: String,
     /// The problems: one for each group of claims that share one.
     pub problem: String,
-    /// The reading.
-    pub reading: String,
+    /// The interpretation.
+    pub interpretation: String,
     /// The contenders that stand for the paper's.
     pub under: String,
     /// The claims that hold there.
@@ -303,8 +303,8 @@ pub struct Verdicts {
     pub command: String,
     /// Whether the records are those of a quick run.
     pub quick: bool,
-    /// The option of each reading that the claims were judged under.
-    pub reading: BTreeMap<String, String>,
+    /// The option of each choice that the claims were judged under.
+    pub interpretation: BTreeMap<String, String>,
     /// By study the hash of the records that the claims were judged from.
     #[serde(default)]
     pub records: BTreeMap<String, String>,
@@ -319,12 +319,12 @@ pub struct Verdicts {
     /// Claims that the paper had until after their data had been seen, each with the entry of the history.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub withdrawn: Vec<String>,
-    /// What of the readings was explored; absent if nothing was.
+    /// What of the interpretations was explored; absent if nothing was.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub explored: Option<Explored>,
     /// Every claim.
     #[serde(default, rename = "claim")]
-    pub claims: Vec<Judged>,
+    pub claims: Vec<ClaimVerdict>,
     /// Which claims hold jointly: sets none of which lies within another, the largest first.
     #[serde(default, rename = "together")]
     pub together: Vec<Together>,
@@ -353,7 +353,7 @@ impl Verdicts {
 
     /// How many sentences and table rows there are of each class.
     pub fn counts(&self) -> Counts {
-        let (parts, whole): (Vec<&Judged>, Vec<&Judged>) =
+        let (parts, whole): (Vec<&ClaimVerdict>, Vec<&ClaimVerdict>) =
             self.claims.iter().partition(|judged| judged.part_of.is_some());
         let asserted = whole.iter().filter(|judged| judged.theorem.is_some()).count();
         let tally = self.tally();
@@ -375,12 +375,12 @@ impl Verdicts {
     pub fn violated(&self) -> Vec<&str> {
         let is_broken =
             |verdict: Verdict| verdict.polarity() == Polarity::Against || verdict == Verdict::DirectionOnly;
-        let is_violated = |judged: &&Judged| judged.theorem.is_some() && is_broken(judged.verdict);
+        let is_violated = |judged: &&ClaimVerdict| judged.theorem.is_some() && is_broken(judged.verdict);
         self.claims.iter().filter(is_violated).map(|judged| judged.claim.as_str()).collect()
     }
 
     /// The claim called `id`.
-    pub fn claim(&self, id: &str) -> Option<&Judged> {
+    pub fn claim(&self, id: &str) -> Option<&ClaimVerdict> {
         self.claims.iter().find(|judged| judged.claim == id)
     }
 }

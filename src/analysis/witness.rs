@@ -28,7 +28,7 @@ use study::verification::{self, Guide};
 use study::{Choice, Group, Inputs, Interpretation, Study, StudyError};
 use walk::Walk;
 
-/// Which reading maps are searched under.
+/// Which interpretation maps are searched under.
 #[derive(Debug, Clone)]
 pub enum Under {
     /// This one.
@@ -53,7 +53,7 @@ pub struct Wanted {
 }
 
 /// What is searched for.
-pub struct Hunt<'a> {
+pub struct WitnessSearch<'a> {
     /// The paper.
     pub paper: &'a Paper,
     /// The claims that must hold together.
@@ -66,7 +66,7 @@ pub struct Hunt<'a> {
     pub group: &'a Group,
     /// Where input files are.
     pub inputs: &'a Inputs,
-    /// Which reading.
+    /// Which interpretation.
     pub under: Under,
     /// The root of every search's seed.
     pub seed: u64,
@@ -79,8 +79,8 @@ pub struct Hunt<'a> {
 pub struct Witness {
     /// The search that found it.
     pub number: u32,
-    /// The reading.
-    pub reading: Interpretation,
+    /// The interpretation.
+    pub interpretation: Interpretation,
     /// The map.
     pub grid: Grid2,
     /// How many maps the search had looked at.
@@ -100,19 +100,19 @@ pub struct OnMap {
     pub holds: bool,
 }
 
-impl<'a> Hunt<'a> {
+impl<'a> WitnessSearch<'a> {
     /// The study and problem group with one map of cells of which all of `claims` speak.
     ///
     /// # Errors
     /// A message: a claim is unknown, prints no number that some trial may meet, or speaks of other maps than the first.
     pub fn place(paper: &'a Paper, claims: &[String]) -> Result<(&'a Study, &'a Group), String> {
         let point = Interpretation::new(&paper.choices, &BTreeMap::new())?;
-        let asked = asked(paper, &point, claims)?;
+        let asked = numbers_of_claims(paper, &point, claims)?;
         let on_map = |group: &&Group| {
             group.family.name == "grid_map"
                 && !group.is_drawn
                 && group.points.len() == 1
-                && group.replicates == 1
+                && group.instances == 1
         };
         for study in paper.studies.iter().filter(|study| study.searched) {
             let mut groups = study.groups.iter().filter(on_map);
@@ -143,11 +143,11 @@ impl<'a> Hunt<'a> {
     pub fn search(&self, number: u32, stop: &AtomicBool) -> Result<Option<Witness>, StudyError> {
         let names = [&self.paper.id, "witness", &self.claims.join(","), &number.to_string()];
         let mut stream = seed::stream(seed::derive(self.seed, &names));
-        let reading = match &self.under {
+        let interpretation = match &self.under {
             Under::One(point) => point.clone(),
             Under::Any => drawn(&self.paper.choices, &mut stream),
         };
-        let ground = Ground::new(self, &reading, false)?;
+        let ground = Ground::new(self, &interpretation, false)?;
         let share = stream.random_range(0.05..0.4);
         let start = independent_cells(&mut stream, ground.size, share, &ground.cells);
         let mut walk = Walk::new(&ground, start.expect("the size is that of a map"), &mut stream);
@@ -156,7 +156,7 @@ impl<'a> Hunt<'a> {
                 return Ok(None);
             }
             if walk.distance == 0.0 && ground.is_verified(&walk.grid) {
-                return Ok(Some(Witness { number, reading, grid: walk.grid, looked_at }));
+                return Ok(Some(Witness { number, interpretation, grid: walk.grid, looked_at }));
             }
             walk.step(f64::from(looked_at) / f64::from(self.maps));
         }
@@ -168,11 +168,11 @@ impl<'a> Hunt<'a> {
     /// # Errors
     /// As [`search_all`](Self::search_all).
     pub fn holding(&self, witness: &Witness) -> Result<Vec<OnMap>, StudyError> {
-        let ground = Ground::new(self, &witness.reading, true)?;
+        let ground = Ground::new(self, &witness.interpretation, true)?;
         let numbers = ground.numbers(&witness.grid);
         let others: Vec<String> = self.others();
         let wanted = ground.wanted.iter().cloned();
-        let rest = wanted_of(self.paper, &witness.reading, self.study, &others).unwrap_or_default();
+        let rest = wanted_of(self.paper, &witness.interpretation, self.study, &others).unwrap_or_default();
         let on_map = |wanted: Wanted| {
             let value = wanted.value(&numbers);
             let holds = value.is_some_and(|value| wanted.print.agrees(value));
@@ -198,7 +198,7 @@ impl<'a> Hunt<'a> {
 }
 
 /// The criterion `exists` of each claim.
-fn asked<'a>(
+fn numbers_of_claims<'a>(
     paper: &'a Paper,
     point: &'a Interpretation,
     claims: &[String],
@@ -214,7 +214,7 @@ fn asked<'a>(
     claims.iter().map(of).collect()
 }
 
-/// What `claims` want of contenders of `study` under the reading.
+/// What `claims` want of contenders of `study` under the interpretation.
 fn wanted_of(
     paper: &Paper,
     point: &Interpretation,
@@ -233,7 +233,7 @@ fn wanted_of(
             print: one.print(),
         })
     };
-    asked(paper, point, claims)?.iter().map(of).collect()
+    numbers_of_claims(paper, point, claims)?.iter().map(of).collect()
 }
 
 impl Wanted {
@@ -263,27 +263,28 @@ impl Wanted {
 /// What one number that is missed costs, however near it is.
 const UNMET: f64 = 0.05;
 
-/// An option of every reading that votes there, with equal chance.
-fn drawn(readings: &[Choice], stream: &mut Stream) -> Interpretation {
-    let pick = |reading: &Choice, stream: &mut Stream| {
-        let voting: Vec<&String> = reading.options.keys().filter(|option| reading.votes(option)).collect();
+/// An option of every choice that votes there, with equal chance.
+fn drawn(choices: &[Choice], stream: &mut Stream) -> Interpretation {
+    let pick = |choice: &Choice, stream: &mut Stream| {
+        let voting: Vec<&String> = choice.options.keys().filter(|option| choice.votes(option)).collect();
         let at = stream.random_range(0..voting.len().max(1));
-        (reading.id.clone(), voting.get(at).copied().unwrap_or(&reading.default).clone())
+        (choice.id.clone(), voting.get(at).copied().unwrap_or(&choice.default).clone())
     };
-    let choices = readings.iter().map(|reading| pick(reading, stream)).collect();
-    Interpretation::new(readings, &choices).expect("the options are the readings' own")
+    let options = choices.iter().map(|choice| pick(choice, stream)).collect();
+    Interpretation::new(choices, &options).expect("the options are the choices' own")
 }
 
-/// What of the reading changes the study's settings: axes of its own, and any along which the reading departs. The default of
+/// What of the interpretation changes the study's settings: choices of its own, and any along which the interpretation departs. The default of
 /// an axis that only other studies have says nothing of this one, whose own settings stand.
-fn laid_over(hunt: &Hunt<'_>, reading: &Interpretation) -> Interpretation {
-    let mut axes = hunt.paper.choices.clone();
-    let is_own = |axis: &Choice| hunt.study.choices.iter().any(|own| own.id == axis.id);
-    axes.retain(|axis| is_own(axis) || reading.options().get(&axis.id) != Some(&axis.default));
-    reading.within(&axes)
+fn laid_over(hunt: &WitnessSearch<'_>, interpretation: &Interpretation) -> Interpretation {
+    let mut choices = hunt.paper.choices.clone();
+    let is_own = |choice: &Choice| hunt.study.choices.iter().any(|own| own.id == choice.id);
+    choices
+        .retain(|choice| is_own(choice) || interpretation.options().get(&choice.id) != Some(&choice.default));
+    interpretation.within(&choices)
 }
 
-/// What maps are tried on: contenders under one reading, ends and a corner rule.
+/// What maps are tried on: contenders under one interpretation, ends and a corner rule.
 struct Ground {
     wanted: Vec<Wanted>,
     pipelines: Vec<(String, Pipeline)>,
@@ -297,21 +298,22 @@ struct Ground {
 
 impl Ground {
     /// With the contenders that are wanted, or all of the study's.
-    fn new(hunt: &Hunt<'_>, reading: &Interpretation, all: bool) -> Result<Self, StudyError> {
+    fn new(hunt: &WitnessSearch<'_>, interpretation: &Interpretation, all: bool) -> Result<Self, StudyError> {
         let refused = |message: String| StudyError::Settings(hunt.study.document.error_at("", message));
-        let mut wanted = wanted_of(hunt.paper, reading, hunt.study, &hunt.claims).map_err(refused)?;
+        let mut wanted = wanted_of(hunt.paper, interpretation, hunt.study, &hunt.claims).map_err(refused)?;
         wanted.extend(hunt.besides.iter().cloned());
         let labels: Vec<&String> =
             wanted.iter().flat_map(|one| std::iter::once(&one.contender).chain(&one.against)).collect();
         let mut pipelines = Vec::new();
-        let laid = laid_over(hunt, reading);
+        let laid = laid_over(hunt, interpretation);
         for contender in hunt.study.contenders.iter().filter(|own| all || labels.contains(&&own.label)) {
             pipelines.push((contender.label.clone(), contender.pipeline(&laid, &SweepPoint::default())?));
         }
         let family = hunt.group.family(&hunt.group.points[0], &laid, hunt.inputs)?;
         let world = family.draw(0).map_err(|invalid| refused(invalid.0))?;
         let lattice = world.as_lattice().expect("a map of cells is a lattice");
-        let (grid, query) = (lattice.grid(), &family.queries()[0]);
+        let grid = lattice.grid();
+        let query = &family.queries()[0];
         let ends = [query.start.clone(), query.goal.clone()];
         let cell = |end: &Vec<f64>| grid.cell(end[0] as i32, end[1] as i32).expect("ends lie on their map");
         Ok(Self {

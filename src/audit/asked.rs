@@ -19,7 +19,9 @@ pub fn read(mut keys: BTreeMap<String, Value>, digits: Digits, place: Place) -> 
         None => Ok(String::new()),
         Some(other) => Err(fault(format!("`{key}` is {other}; a text in quotes is accepted"))),
     };
-    let (check, name, read) = (text("check")?, text("name")?, text("rounding")?);
+    let check = text("check")?;
+    let name = text("name")?;
+    let read = text("rounding")?;
     let known = || {
         let forms = REGISTRY.iter().filter(|entry| entry.relation.is_some()).map(|entry| entry.name);
         forms.collect::<Vec<_>>().join(", ")

@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 pub const FORMAT: &str = "replan audit certificate 1";
 
 /// The certificate of `proof`.
-pub fn of(check: &str, test: &dyn Test, prints: &[Print], proof: &Proof) -> Value {
+pub fn certificate(check: &str, test: &dyn Test, prints: &[Print], proof: &Proof) -> Value {
     let numbers = test.numbers().iter().zip(prints).map(|(number, print)| {
         json!({
             "name": number.name,

@@ -6,7 +6,7 @@
 
 mod scan;
 
-use scan::{Found, scanned, uncommented};
+use scan::{Occurrence, scanned, uncommented};
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -82,7 +82,7 @@ pub fn coverage(text: &str, given: &str, current: Option<&str>) -> Vec<Remark> {
         remarks.push(remark(*line, 1, message));
     }
     let stem = stem(known);
-    for Found { line, column, number } in scan.commands {
+    for Occurrence { line, column, number } in scan.commands {
         let name = format!("\\{number}");
         let is_called_so =
             stem.as_ref().is_some_and(|stem| name.len() > stem.len() && name.starts_with(stem));

@@ -193,7 +193,7 @@ impl Meaning {
     }
 
     /// Takes what `other` says of the same values and this leaves unsaid.
-    pub fn take_unsaid(&mut self, other: &Self) {
+    pub fn fill_from(&mut self, other: &Self) {
         let other = other.clone();
         self.n = self.n.take().or(other.n);
         self.grain = self.grain.or(other.grain);

@@ -182,7 +182,7 @@ struct Run<'a> {
 }
 
 /// What is known of a test when its finding is written.
-struct Told {
+struct TestOutcome {
     class: Class,
     answer: Option<bool>,
     is_odd: bool,
@@ -223,8 +223,8 @@ impl Run<'_> {
         });
         self.count(entry.name, class, power);
         if class != Class::Possible || self.options.keeps_possible || self.options.witness.is_some() {
-            let told = Told { class, answer, is_odd, readings, power, proof, slip };
-            self.tell(entry.name, test, &prints, told);
+            let told = TestOutcome { class, answer, is_odd, readings, power, proof, slip };
+            self.add_finding(entry.name, test, &prints, told);
         }
         if answer == Some(false) {
             let finding = self.report.findings.len() - 1;
@@ -233,11 +233,11 @@ impl Run<'_> {
     }
 
     /// Adds what was found about `test` to the findings.
-    fn tell(&mut self, check: &'static str, test: &dyn Test, prints: &[Print], told: Told) {
-        let Told { class, answer, is_odd, readings, power, proof, slip } = told;
+    fn add_finding(&mut self, check: &'static str, test: &dyn Test, prints: &[Print], told: TestOutcome) {
+        let TestOutcome { class, answer, is_odd, readings, power, proof, slip } = told;
         let first = &test.numbers()[0];
         let mut said = match answer {
-            Some(is_possible) => test.said(prints, is_possible),
+            Some(is_possible) => test.sentence(prints, is_possible),
             None => format!("not decided: {}", test.undecided(prints)),
         };
         if answer == Some(false) {
@@ -253,7 +253,7 @@ impl Run<'_> {
             _ => None,
         };
         let written = proof.filter(|_| !self.options.skips_certificates);
-        let certificate = written.map(|proof| super::certificate::of(check, test, prints, &proof));
+        let certificate = written.map(|proof| super::certificate::certificate(check, test, prints, &proof));
         let is_mended = answer == Some(false) && !self.options.skips_power;
         let mend = is_mended.then(|| mend::least(self.input, test, prints)).flatten();
         let mut premises = test.premises();

@@ -179,7 +179,7 @@ impl Group {
         order.sort_by_key(|(_, statistic)| *statistic != Statistic::Mean);
         let mut meanings = order.into_iter().map(|(at, _)| &columns[at].meaning);
         let mut all = meanings.next().cloned().unwrap_or_default();
-        meanings.for_each(|other| all.take_unsaid(other));
+        meanings.for_each(|other| all.fill_from(other));
         all
     }
 }

@@ -1,6 +1,6 @@
 //! A seed for every named thing, by name and never by order.
 //!
-//! A seed is derived from the names on the way to the thing it serves (paper, study, problem, replicate), so
+//! A seed is derived from the names on the way to the thing it serves (paper, study, problem, instance), so
 //! adding one thing moves no other. Streams are PCG, whose output is fixed by its published definition.
 
 use rand_pcg::Pcg64;

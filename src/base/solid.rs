@@ -221,7 +221,8 @@ impl Source<'_> {
         key: &str,
         [x, y, z, w, a, b, c]: [f64; 7],
     ) -> Result<(Pose, bool), SettingsError> {
-        let (origin_m, wxyz) = (self.metres(at, key, [x, y, z])?, self.finite(at, key, [w, a, b, c])?);
+        let origin_m = self.metres(at, key, [x, y, z])?;
+        let wxyz = self.finite(at, key, [w, a, b, c])?;
         let length = wxyz.iter().map(|part| part * part).sum::<f64>().sqrt();
         if (length - 1.0).abs() > UNIT {
             let message = format!(

@@ -8,7 +8,7 @@ use engine::planner::{self, Build};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use std::borrow::Cow;
 use study::files::{self, FileKind};
-use study::{family, paper, prepared, task};
+use study::{family, paper, preprocessing, task};
 
 /// What names an entry in a file, and the table of its settings; `{}` stands for its name.
 #[derive(Clone, Copy)]
@@ -143,9 +143,9 @@ pub fn figures() -> Vec<Item> {
     figure::REGISTRY.iter().map(item).collect()
 }
 
-/// Kinds of prepared object, which have no settings of their own: their family's make them.
-pub fn prepared() -> Vec<Item> {
-    let item = |e: &&prepared::Entry| Item {
+/// Kinds of preprocessed object, which have no settings of their own: their family's make them.
+pub fn preprocessing() -> Vec<Item> {
+    let item = |e: &&preprocessing::Entry| Item {
         name: e.name,
         about: e.about,
         settings: None,
@@ -154,7 +154,7 @@ pub fn prepared() -> Vec<Item> {
         frame: NONE,
         columns: e.columns,
     };
-    prepared::REGISTRY.iter().map(item).collect()
+    preprocessing::REGISTRY.iter().map(item).collect()
 }
 
 /// What `replan-audit` reads: the committed schema, which its tests hold to its checks.
@@ -177,7 +177,7 @@ pub fn files() -> Vec<Item> {
         FileKind {
             name: "audit_tables",
             about: "printed tables, samples and relations for replan audit: docs/audit/zhang.toml",
-            accepted: Accepted::of::<AuditTables>(),
+            accepted: Accepted::shape::<AuditTables>(),
             example: "docs/audit/fu2018.toml",
         },
         FileKind {
@@ -188,14 +188,14 @@ pub fn files() -> Vec<Item> {
         },
         FileKind {
             name: "paper",
-            about: "a paper's source, ledger, claims and tables: paper.toml in its folder",
+            about: "a paper's source, inventory, claims and tables: paper.toml in its folder",
             accepted: paper::FILE,
             example: "experiments/movingai_sample/paper.toml",
         },
         FileKind {
             name: "planner_protocol",
             about: "lines of JSON that planners from outside and replan write: docs/PLANNER_PROTOCOL.md",
-            accepted: Accepted::of::<external::message::Messages>(),
+            accepted: Accepted::shape::<external::message::Messages>(),
             example: "docs/PLANNER_PROTOCOL.md",
         },
     ];

@@ -56,7 +56,7 @@ impl Check {
             paper.id,
             counted(paper.studies.len(), ["study", "studies"]),
             counted(paper.claims.len(), ["claim", "claims"]),
-            counted(paper.ledger.len(), ["ledger row", "ledger rows"])
+            counted(paper.inventory.len(), ["inventory row", "inventory rows"])
         );
         for note in notes(&paper, &places) {
             say!("  {note}");
@@ -112,8 +112,8 @@ fn rerun(paper: &Paper, places: &Places, count: usize, threads: usize) -> Result
             )));
         }
         let equal = if done.trials == 1 { "equals its row" } else { "equal their rows" };
-        let (trials, threads) =
-            (counted(done.trials, ["trial", "trials"]), counted(threads, ["thread", "threads"]));
+        let trials = counted(done.trials, ["trial", "trials"]);
+        let threads = counted(threads, ["thread", "threads"]);
         say!("  {}: {trials} run again on {threads} {equal}", study.name);
     }
     Ok(())

@@ -3,7 +3,7 @@
 use super::places::stored_run;
 use super::progress::doing;
 use super::{Failure, command_line};
-use crate::analysis::compare::{Asked, Comparison, Gate, Outcome, Sides, StoredRun, compare};
+use crate::analysis::compare::{CompareOptions, Comparison, Gate, Outcome, Sides, StoredRun, compare};
 use crate::render::comparison;
 use crate::render::vector::Provenance;
 use base::hash::sha256;
@@ -64,7 +64,7 @@ impl Compare {
             .map(|text| Gate::parse(text))
             .collect::<Result<_, _>>()
             .map_err(Failure::input)?;
-        let asked = Asked { studies: self.studies.clone(), metrics: self.metrics.clone(), gates };
+        let asked = CompareOptions { studies: self.studies.clone(), metrics: self.metrics.clone(), gates };
         doing("reading and comparing stored runs");
         let first = StoredRun::read(&stored_run(&self.first)?, &self.first)?;
         let second =
@@ -109,7 +109,8 @@ impl Compare {
     /// The exit code that the gates ask for.
     fn judge(&self, found: &Comparison) -> Result<(), Failure> {
         let count = |outcome: Outcome| found.gates.iter().filter(|gate| gate.outcome == outcome).count();
-        let (worse, open) = (count(Outcome::Worse), count(Outcome::CannotTell));
+        let worse = count(Outcome::Worse);
+        let open = count(Outcome::CannotTell);
         if worse == 0 && (open == 0 || !self.strict) {
             return Ok(());
         }

@@ -1,6 +1,6 @@
 //! `replan confirm`: a paper's claims on the second seed.
 
-use super::explorer::{Explorer, judged, most_draws, scratch, within};
+use super::explorer::{Explorer, judged, most_instances, scratch, within};
 use super::load::load;
 use super::one_shard::OneShard;
 use super::places::Places;
@@ -19,10 +19,10 @@ use study::manifest::MadeBy;
 use study::paper::Paper;
 use study::shard;
 
-/// Runs a paper's studies once more on the second seed that each spec writes down, and with it every reading that turns a
-/// claim, with more draws: a class that turns counts only if it turns twice.
+/// Runs a paper's studies once more on the second seed that each spec writes down, and with it every interpretation that turns a
+/// claim, with more instances: a class that turns counts only if it turns twice.
 ///
-/// The readings are taken in order while the paper's budget of trials lasts; one that is left out stays unconfirmed.
+/// The interpretations are taken in order while the paper's budget of trials lasts; one that is left out stays unconfirmed.
 ///
 /// No clock is read. What was run stays below target/replan/confirm/, so that a command that was stopped goes on from there.
 ///
@@ -82,7 +82,7 @@ pub fn confirm(
     say!(
         "{} on the second seed, {} besides the default; what was found is in {}",
         counted(second.trials as usize, ["trial", "trials"]),
-        counted(second.readings.len() - 1, ["reading", "readings"]),
+        counted(second.interpretations.len() - 1, ["interpretation", "interpretations"]),
         path.display()
     );
     Ok(())
@@ -106,9 +106,10 @@ fn check_seeds(paper: &Paper) -> Result<(), Failure> {
     )))
 }
 
-/// Every claim on the second seed: under the default reading with all draws, and under readings that turn a claim.
+/// Every claim on the second seed: under the default interpretation with all instances, and under interpretations that turn a claim.
 fn confirmed(explorer: &Explorer<'_>) -> Result<Exploration, Halt> {
-    let (paper, places) = (explorer.paper, explorer.places);
+    let paper = explorer.paper;
+    let places = explorer.places;
     let default = default_point(paper);
     let mut all_trials = affordable(explorer)?;
     let verdicts = judged(paper, places)?;
@@ -118,16 +119,16 @@ fn confirmed(explorer: &Explorer<'_>) -> Result<Exploration, Halt> {
         let run = explorer.run(&study, std::slice::from_ref(&default), Round::Default)?;
         stored.insert(study.name.clone(), run);
     }
-    let evidence = Evidence::of(paper, default.clone(), stored);
+    let evidence = Evidence::held(paper, default.clone(), stored);
     let (mut found, _) = explorer.judge_under(evidence, std::slice::from_ref(&default))?;
     let mut points = vec![default];
     if let Some(first) = Exploration::read(&Exploration::first(&places.runs))? {
-        let each = explorer.trials_each(most_draws, |_| true)?;
+        let each = explorer.trials_each(most_instances, |_| true)?;
         let all = turned(paper, &verdicts, &first);
         let budget = paper.explore.as_ref().map_or(u64::MAX, |explore| explore.trials);
         let (_, some) = within(budget, &mut all_trials, &each, &all, (0..all.len()).collect());
         if some.len() < all.len() {
-            let why = "readings that turn a claim and for which the budget has no room";
+            let why = "interpretations that turn a claim and for which the budget has no room";
             say!("{}: {why}: {}", paper.id, all.len() - some.len());
         }
         if !some.is_empty() {
@@ -135,11 +136,11 @@ fn confirmed(explorer: &Explorer<'_>) -> Result<Exploration, Halt> {
             points.extend(some);
         }
     }
-    let all = Exploration::of(paper, &points, &found, &BTreeMap::new());
+    let all = Exploration::new(paper, &points, &found, &BTreeMap::new());
     Ok(Exploration { trials: all_trials, ..all })
 }
 
-/// How many trials the default reading takes on the second seed; refused if the paper's budget has no room for them.
+/// How many trials the default interpretation takes on the second seed; refused if the paper's budget has no room for them.
 fn affordable(explorer: &Explorer<'_>) -> Result<u64, Failure> {
     let mut needed = 0;
     doing(&format!("{}: counting the trials on the second seed", explorer.paper.id));
@@ -149,7 +150,7 @@ fn affordable(explorer: &Explorer<'_>) -> Result<u64, Failure> {
     match &explorer.paper.explore {
         Some(budget) if needed > budget.trials => {
             let message = format!(
-                "the default reading takes {needed} trials on the second seed; `trials` is {}: a larger budget is accepted",
+                "the default interpretation takes {needed} trials on the second seed; `trials` is {}: a larger budget is accepted",
                 budget.trials
             );
             Err(explorer.paper.document.error_at("explore.trials", message).into())
@@ -158,10 +159,10 @@ fn affordable(explorer: &Explorer<'_>) -> Result<u64, Failure> {
     }
 }
 
-/// The readings of `first` that turn a claim.
+/// The interpretations of `first` that turn a claim.
 fn turned(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> Vec<Interpretation> {
     let choices = &paper.choices;
     let places = to_confirm(paper, verdicts, first).into_iter().filter(|place| *place > 0);
     // A choice that the paper no longer has belongs to an exploration that is stale.
-    places.filter_map(|place| Interpretation::new(choices, &first.readings[place]).ok()).collect()
+    places.filter_map(|place| Interpretation::new(choices, &first.interpretations[place]).ok()).collect()
 }

@@ -70,10 +70,11 @@ fn posed(name: &str, over: &str) -> Result<(World, Vec<Posed>), String> {
     let root = home(None).map_err(|failure| failure.message)?;
     let inputs = Inputs { roots: vec![root] };
     let family = (entry.build)(&settings, &inputs).map_err(|error| error.to_string())?;
-    let prepared = (0..100).find_map(|seed| family.prepare(seed).ok().map(|prepared| (seed, prepared)));
-    let (seed, prepared) = prepared.ok_or("no draw can be posed")?;
+    let preprocessing =
+        (0..100).find_map(|seed| family.prepare(seed).ok().map(|preprocessing| (seed, preprocessing)));
+    let (seed, preprocessing) = preprocessing.ok_or("no instance can be posed")?;
     let queries = family.queries_for(seed).into_iter().take(QUERIES).collect();
-    Ok((prepared.world, queries))
+    Ok((preprocessing.world, queries))
 }
 
 /// A program that is tried, and how many rules it broke.
@@ -187,8 +188,9 @@ fn refusal(world: &World, query: &Posed, talk: &Talk) -> Option<String> {
     let request = Request { world, start, goal, expansions: 1, seed: 0, trace: false };
     let path = talk.path.clone();
     let cost = talk.cost.or_else(|| Space::new(world, false).cost(&path));
-    let (counts, exhibits) = (Counts::new(), Vec::new());
-    let plan = Plan { ending: Ending::Solved, path, cost, counts, exhibits, reason: None };
+    let counts = Counts::new();
+    let traces = Vec::new();
+    let plan = Plan { ending: Ending::Solved, path, cost, counts, traces, reason: None };
     let Build::Planner(build) = planner::external::ENTRY.build else { unreachable!("it is a planner") };
     let table = toml::from_str(NOBODY).expect("settings of conformance are TOML");
     let planner = build(&Settings::composed("conformance", table)).expect("its settings are complete");

@@ -162,7 +162,8 @@ impl Crosscheck {
         shown: &Places,
         picture: &Picture,
     ) -> Result<Drawing, Failure> {
-        let (id, folder) = (id(shown), answers(shown));
+        let id = id(shown);
+        let folder = answers(shown);
         if folder.exists() {
             fs::remove_dir_all(&folder)?;
         }

@@ -38,7 +38,8 @@ pub fn paper(paper: &Paper) -> String {
 /// # Errors
 /// Problems that cannot be built.
 pub fn study(paper: &Paper, study: &Study) -> Result<String, Failure> {
-    let (id, name) = (&paper.id, &study.name);
+    let id = &paper.id;
+    let name = &study.name;
     let places = Places::find(&Which { paper: id.clone(), out: None }, "")?;
     doing(&format!("{id}/{name}: counting its trials"));
     let trials = Explorer::new(paper, &places, None, PathBuf::new()).trials_of(study)?;
@@ -47,7 +48,7 @@ pub fn study(paper: &Paper, study: &Study) -> Result<String, Failure> {
         wrapped("  ", &study.question, 2),
         wrapped("  paper: ", &paper.source.title, 6),
         wrapped("  task: ", study.task.name, 6),
-        format!("  {} under the default readings", counted(trials as usize, ["trial", "trials"])),
+        format!("  {} under the default interpretation", counted(trials as usize, ["trial", "trials"])),
     ];
     lines.extend(recorded_mark(study.recorded()).map(|mark| wrapped("  ", &mark, 6)));
     lines.extend(compared(study));
@@ -66,8 +67,8 @@ pub fn study(paper: &Paper, study: &Study) -> Result<String, Failure> {
 /// The groups of problems of a study, and its contenders.
 fn compared(study: &Study) -> Vec<String> {
     let group = |group: &Group| {
-        let draws = counted(group.replicates as usize, ["draw", "draws"]);
-        wrapped(&format!("  {}: ", group.label), &format!("{draws} of `{}`", group.family.name), 6)
+        let instances = counted(group.instances as usize, ["draw", "draws"]);
+        wrapped(&format!("  {}: ", group.label), &format!("{instances} of `{}`", group.family.name), 6)
     };
     let contender = |contender: &Contender| {
         let stages: Vec<&str> = contender.stages.iter().map(|stage| stage.entry.name).collect();

@@ -40,7 +40,7 @@ impl Drawn {
     ///
     /// # Errors
     /// A manifest or the program itself that cannot be read.
-    pub fn of(paper: &Paper, places: &Places, verdicts: &Verdicts) -> Result<Self, Failure> {
+    pub fn new(paper: &Paper, places: &Places, verdicts: &Verdicts) -> Result<Self, Failure> {
         let mut from = vec![program()?, paper.document.text().to_owned(), verdicts.text()];
         for study in &paper.studies {
             from.push(study.document.text().to_owned());

@@ -1,4 +1,4 @@
-//! `replan explore`: a paper's claims under every reading that is explored.
+//! `replan explore`: a paper's claims under every interpretation that is explored.
 
 use super::explorer::{Explorer, budget, judged, scratch};
 use super::load::load;
@@ -14,7 +14,7 @@ use study::lock::Lock;
 use study::manifest::MadeBy;
 use study::shard;
 
-/// Explores a paper's readings: runs what each study says under the defaults, every other option by itself and a sample of
+/// Explores a paper's choices: runs what each study says under the defaults, every other option by itself and a sample of
 /// their product, within the paper's budget of trials, and judges every claim under each.
 ///
 /// What was run stays below target/replan/explore/, so that a command that was stopped goes on from there; what was found is
@@ -90,7 +90,7 @@ pub fn explore(
     say!(
         "{} under {}; what was found is in {}",
         counted(exploration.trials as usize, ["trial", "trials"]),
-        counted(points.len(), ["reading", "readings"]),
+        counted(points.len(), ["interpretation", "interpretations"]),
         path.display()
     );
     Ok(())

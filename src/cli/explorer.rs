@@ -1,4 +1,4 @@
-//! How a paper's readings are explored: what runs in each round, and what is judged after it.
+//! How a paper's interpretations are explored: what runs in each round, and what is judged after it.
 
 use super::judge;
 use super::places::Places;
@@ -26,7 +26,7 @@ use study::spec::ExploreSpec;
 use study::store::{Records, read_numbers};
 use study::{Interpretation, Study};
 
-/// What every claim is found to be under one reading.
+/// What every claim is found to be under one interpretation.
 pub type Glances = BTreeMap<String, Glance>;
 
 /// A study cut down to what is explored of it, and the study whose claims it answers.
@@ -35,7 +35,7 @@ struct Ran<'p> {
     answers: &'p Study,
 }
 
-/// A paper whose readings are explored.
+/// A paper whose interpretations are explored.
 pub struct Explorer<'p> {
     /// The paper.
     pub paper: &'p Paper,
@@ -60,7 +60,7 @@ pub fn budget(paper: &Paper) -> Result<ExploreSpec, Failure> {
             path.display()
         ))
     };
-    paper.explore.clone().filter(|explore| !explore.draws.is_empty()).ok_or_else(missing)
+    paper.explore.clone().filter(|explore| !explore.instances.is_empty()).ok_or_else(missing)
 }
 
 /// Where the trials of `command` are kept: they are large, and what was found in them is not.
@@ -88,18 +88,18 @@ impl<'p> Explorer<'p> {
     /// in order.
     pub fn affordable(&self, budget: &ExploreSpec) -> Result<(Vec<Interpretation>, u64), Failure> {
         let paper = self.paper;
-        doing(&format!("{}: counting the trials of its readings", paper.id));
+        doing(&format!("{}: counting the trials of its interpretations", paper.id));
         let seed = seed::derive(0, &[&paper.id, "explore"]);
         let refuse = |message: String| Failure::from(paper.document.error_at("explore", message));
         let found = interpretations(&paper.choices, paper.departures(), budget.sample, seed);
         let Interpretations { alone, drawn } = found.map_err(refuse)?;
-        let each = self.trials_each(first_draws, |study| !budget.is_late(&study.name))?;
+        let each = self.trials_each(first_instances, |study| !budget.is_late(&study.name))?;
         let mut chosen = alone;
         let mut trials = trials(&each, &chosen);
         if trials > budget.trials {
             let message = format!(
-                "the defaults and every other option by itself take {trials} trials under {} readings; `trials` is {}: fewer \
-                 draws or a larger budget are accepted",
+                "the defaults and every other option by itself take {trials} trials under {} interpretations; `trials` is {}: fewer \
+                 instances or a larger budget are accepted",
                 chosen.len(),
                 budget.trials
             );
@@ -113,9 +113,9 @@ impl<'p> Explorer<'p> {
             }
             (chosen, trials) = (with, needed);
         }
-        let (readings, said) =
-            (counted(chosen.len(), ["reading", "readings"]), counted(trials as usize, ["trial", "trials"]));
-        say!("{}: {readings}, {said} of at most {}", paper.id, budget.trials);
+        let interpretations = counted(chosen.len(), ["interpretation", "interpretations"]);
+        let said = counted(trials as usize, ["trial", "trials"]);
+        say!("{}: {interpretations}, {said} of at most {}", paper.id, budget.trials);
         Ok((chosen, trials))
     }
 
@@ -123,12 +123,12 @@ impl<'p> Explorer<'p> {
     fn studies_in(&self, round: Round) -> Vec<Ran<'p>> {
         let is_late = |study: &Study| self.paper.explore.as_ref().is_some_and(|all| all.is_late(&study.name));
         let first = |late: bool| {
-            self.studies(first_draws).into_iter().filter(|ran| is_late(&ran.study) == late).collect()
+            self.studies(first_instances).into_iter().filter(|ran| is_late(&ran.study) == late).collect()
         };
         match round {
             Round::First => first(false),
             Round::Compatible => first(true),
-            Round::Again | Round::Turned => self.studies(most_draws),
+            Round::Again | Round::Turned => self.studies(most_instances),
             Round::Default => {
                 let again = |study: &'p Study| Ran { study: study.clone().reseeded(), answers: study };
                 self.paper.studies.iter().map(again).collect()
@@ -147,13 +147,13 @@ impl<'p> Explorer<'p> {
         Sharded::of_round(named, self.places, self.threads, planned, runs)
     }
 
-    /// The studies that are explored, cut down to `draws` of each group.
-    fn studies(&self, draws: impl Fn(&Study) -> u32) -> Vec<Ran<'p>> {
+    /// The studies that are explored, cut down to `instances` of each group.
+    fn studies(&self, instances: impl Fn(&Study) -> u32) -> Vec<Ran<'p>> {
         let ran = |study: &'p Study| {
             let explore = study.explore.as_ref()?;
             let answers =
                 explore.stands_for.as_ref().and_then(|name| self.paper.study(name)).unwrap_or(study);
-            let mut cut = study.clone().explored(explore, draws(study));
+            let mut cut = study.clone().explored(explore, instances(study));
             if self.second_seed {
                 cut.seed = study.second_seed?;
             }
@@ -162,28 +162,28 @@ impl<'p> Explorer<'p> {
         self.paper.studies.iter().filter_map(ran).collect()
     }
 
-    /// How many trials each explored study that `is_meant` runs under one reading.
+    /// How many trials each explored study that `is_meant` runs under one interpretation.
     pub fn trials_each(
         &self,
-        draws: impl Fn(&Study) -> u32,
+        instances: impl Fn(&Study) -> u32,
         is_meant: impl Fn(&Study) -> bool,
     ) -> Result<Vec<(&'p Study, u64)>, Failure> {
         let mut each = Vec::new();
-        for ran in self.studies(draws).into_iter().filter(|ran| is_meant(&ran.study)) {
+        for ran in self.studies(instances).into_iter().filter(|ran| is_meant(&ran.study)) {
             let study = self.paper.study(&ran.study.name).expect("it is a study of the paper");
             each.push((study, self.trials_of(&ran.study)?));
         }
         Ok(each)
     }
 
-    /// How many trials `study` runs under one reading.
+    /// How many trials `study` runs under one interpretation.
     pub fn trials_of(&self, study: &Study) -> Result<u64, Failure> {
         let points = [default_point(self.paper).for_trials(&study.choices)];
         let built = BuiltStudy::new(study, &points, &self.places.inputs)?;
         Ok(built.units().iter().map(|unit| built.trials(unit).len() as u64).sum())
     }
 
-    /// Runs and judges `points`; what runs where readings are compatible, under those; and once more with more draws where a
+    /// Runs and judges `points`; what runs where interpretations are compatible, under those; and once more with more instances where a
     /// class is near a flip.
     pub fn explore(
         &self,
@@ -196,10 +196,10 @@ impl<'p> Explorer<'p> {
         self.put_together(Round::First, points)?;
         let (mut found, mut sets) =
             self.judge_run(vec![self.stored(&early, points, Round::First)?], points)?;
-        let mut first = Exploration::of(self.paper, points, &found, &BTreeMap::new());
+        let mut first = Exploration::new(self.paper, points, &found, &BTreeMap::new());
         first.trials = spent;
         if !late.is_empty() {
-            let each = self.trials_each(first_draws, |study| budget.is_late(&study.name))?;
+            let each = self.trials_each(first_instances, |study| budget.is_late(&study.name))?;
             let fits = compatible(self.paper, verdicts, &first);
             let (places, some) = within(budget.trials, &mut first.trials, &each, points, fits);
             self.put_together(Round::Compatible, &some)?;
@@ -212,15 +212,15 @@ impl<'p> Explorer<'p> {
             places.into_iter().zip(glances).for_each(|(place, glances)| found[place] = glances);
             first = Exploration {
                 trials: first.trials,
-                ..Exploration::of(self.paper, points, &found, &BTreeMap::new())
+                ..Exploration::new(self.paper, points, &found, &BTreeMap::new())
             };
         }
         let (with_more, trials) = self.once_more(points, budget, verdicts, &first)?;
-        let all = Exploration::of(self.paper, points, &found, &with_more);
+        let all = Exploration::new(self.paper, points, &found, &with_more);
         Ok(Exploration { trials, together: greatest(sets), ..all })
     }
 
-    /// What is found with more draws, by the places of readings near a flip, and how many trials it took in all.
+    /// What is found with more instances, by the places of interpretations near a flip, and how many trials it took in all.
     fn once_more(
         &self,
         points: &[Interpretation],
@@ -228,13 +228,14 @@ impl<'p> Explorer<'p> {
         verdicts: &Verdicts,
         first: &Exploration,
     ) -> Result<(BTreeMap<usize, Glances>, u64), Halt> {
-        if self.paper.studies.iter().all(|study| most_draws(study) <= first_draws(study)) {
+        if self.paper.studies.iter().all(|study| most_instances(study) <= first_instances(study)) {
             return Ok((BTreeMap::new(), first.trials));
         }
-        let (mut trials, mut near) = (first.trials, near_a_flip(self.paper, verdicts, first));
-        // What parts from the defaults with more draws is seen only beside them.
+        let mut trials = first.trials;
+        let mut near = near_a_flip(self.paper, verdicts, first);
+        // What parts from the defaults with more instances is seen only beside them.
         near.extend((!near.is_empty()).then_some(0));
-        let each = self.trials_each(most_draws, |_| true)?;
+        let each = self.trials_each(most_instances, |_| true)?;
         let (places, again) = within(budget.trials, &mut trials, &each, points, near);
         if again.is_empty() {
             return Ok((BTreeMap::new(), trials));
@@ -305,9 +306,14 @@ impl<'p> Explorer<'p> {
         evidence: &Evidence<'_>,
         points: &[Interpretation],
     ) -> Result<(Vec<Glances>, Vec<Together>), Failure> {
-        let (mut found, mut sets) = (Vec::new(), Vec::new());
+        let mut found = Vec::new();
+        let mut sets = Vec::new();
         let bar = Bar::default();
-        study::runner::Progress::begin(&bar, &format!("{}: judging readings", self.paper.id), points.len());
+        study::runner::Progress::begin(
+            &bar,
+            &format!("{}: judging interpretations", self.paper.id),
+            points.len(),
+        );
         for point in points {
             safe_point(stop_flag(), "the trials are kept")?;
             let view = evidence.under(point.clone());
@@ -349,14 +355,14 @@ impl<'p> Explorer<'p> {
     }
 }
 
-/// The draws that an explored study begins with.
-fn first_draws(study: &Study) -> u32 {
-    study.explore.as_ref().map_or(0, |explore| explore.draws)
+/// The instances that an explored study begins with.
+fn first_instances(study: &Study) -> u32 {
+    study.explore.as_ref().map_or(0, |explore| explore.instances)
 }
 
-/// The draws that it ends with, where a class is near a flip or turned.
-pub fn most_draws(study: &Study) -> u32 {
-    study.explore.as_ref().map_or(0, |explore| explore.more_draws.unwrap_or(explore.draws))
+/// The instances that it ends with, where a class is near a flip or turned.
+pub fn most_instances(study: &Study) -> u32 {
+    study.explore.as_ref().map_or(0, |explore| explore.more_instances.unwrap_or(explore.instances))
 }
 
 /// Of `points` at these places, in order, those for which `budget` has room beside what is `spent`, which grows by them.
@@ -367,7 +373,9 @@ pub fn within(
     points: &[Interpretation],
     places: BTreeSet<usize>,
 ) -> (Vec<usize>, Vec<Interpretation>) {
-    let (mut chosen, mut some, mut needed) = (Vec::new(), Vec::new(), 0);
+    let mut chosen = Vec::new();
+    let mut some = Vec::new();
+    let mut needed = 0;
     for place in places {
         some.push(points[place].clone());
         let with = trials(each, &some);

@@ -15,7 +15,7 @@ use study::store::{Staged, check_records, csv};
 pub struct Export {
     /// A stored run: a paper's name, what `--out` was given, or a folder of records
     paper: String,
-    /// As comma-separated values: trials, prepared objects and clock readings of each study, and statistics.csv
+    /// As comma-separated values: trials, preprocessed objects and times of each study, and statistics.csv
     #[arg(long, required = true)]
     csv: bool,
     /// Write into this folder; below target/replan/export/ if absent
@@ -23,8 +23,8 @@ pub struct Export {
     out: Option<PathBuf>,
 }
 
-/// The kinds of record that are exported; exhibits are lists of numbers without a table's shape.
-const PARTS: [&str; 3] = ["trials", "prepared", "times"];
+/// The kinds of record that are exported; traces are lists of numbers without a table's shape.
+const PARTS: [&str; 3] = ["trials", "preprocessing", "times"];
 
 /// Refuses a folder of which some record is gone or is not what its manifest names.
 pub(super) fn check_stored(folder: &Path) -> Result<(), Failure> {

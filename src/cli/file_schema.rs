@@ -10,12 +10,12 @@ use std::fs;
 use std::path::Path;
 
 /// The schema of the kind of file called `kind`; of a table without any rule if there is no such kind.
-pub fn of(kind: &str) -> Value {
+pub fn schema(kind: &str) -> Value {
     made(kind, true)
 }
 
 /// The same, but that it accepts names of entries that do not exist: who looks them up says more of them.
-pub fn of_any_names(kind: &str) -> Value {
+pub fn schema_of_any_names(kind: &str) -> Value {
     made(kind, false)
 }
 
@@ -37,7 +37,7 @@ fn made(kind: &str, names: bool) -> Value {
 
 /// The schema of the kind of file called `kind`, as it is written to disk.
 pub fn text(kind: &str) -> String {
-    serde_json::to_string_pretty(&of(kind)).expect("a schema is plain JSON") + "\n"
+    serde_json::to_string_pretty(&schema(kind)).expect("a schema is plain JSON") + "\n"
 }
 
 /// The name of the file of the schema of `kind`.
@@ -62,13 +62,15 @@ fn study(names: bool) -> Value {
         let part = |item: &Item| Some((item.name, item.settings?.within(&mut generator)));
         items.iter().filter_map(part).collect()
     };
-    let (planners, stages) = (parts(&catalogue::planners()), parts(&catalogue::stages()));
-    let (families, tasks) = (parts(&catalogue::families()), parts(&catalogue::tasks()));
+    let planners = parts(&catalogue::planners());
+    let stages = parts(&catalogue::stages());
+    let families = parts(&catalogue::families());
+    let tasks = parts(&catalogue::tasks());
     let figures = parts(&catalogue::figures());
     let kind =
         catalogue::files().into_iter().find(|item| item.name == "study").and_then(|item| item.settings);
     let mut root = kind.map_or(Value::Null, |accepted| accepted.whole_with(generator));
-    // Sweeps and readings fill in what a contender or a group leaves out: nothing is required there.
+    // Sweeps and interpretations fill in what a contender or a group leaves out: nothing is required there.
     choose(&mut root, Some("ContenderSpec"), ("planner", "settings"), &planners, false, names);
     choose(&mut root, Some("StageSpec"), ("stage", "settings"), &stages, false, names);
     choose(&mut root, Some("ProblemsSpec"), ("family", "settings"), &families, false, names);
@@ -83,7 +85,8 @@ fn paper(names: bool) -> Value {
         let part = |item: &Item| Some((item.name.to_owned(), item.settings?.within(&mut generator)));
         items.iter().filter_map(part).collect()
     };
-    let (criteria, rules) = (parts(&catalogue::criteria()), parts(&catalogue::rules()));
+    let criteria = parts(&catalogue::criteria());
+    let rules = parts(&catalogue::rules());
     let several = |part: Value| json!({ "type": "array", "items": part });
     let shown = criteria.iter().map(|(name, part)| (name.clone(), several(part.clone()))).collect();
     let kind =

@@ -51,7 +51,8 @@ impl Judge {
 
 /// Judges again and refuses stored verdicts that are not what comes out, to the byte.
 fn check(paper: &Paper, point: Interpretation, places: &Places) -> Result<(), Failure> {
-    let (stored, path) = (Verdicts::read_as_they_stand(&places.runs)?, Verdicts::path(&places.runs));
+    let stored = Verdicts::read_as_they_stand(&places.runs)?;
+    let path = Verdicts::path(&places.runs);
     check_explorations(&stored, places)?;
     let evidence = read(paper, point, places)?;
     check_manifests(&evidence, places)?;
@@ -81,7 +82,8 @@ pub fn must_hold(verdicts: &Verdicts) -> Result<(), Failure> {
     if violated.is_empty() {
         return Ok(());
     }
-    let (paper, claims) = (&verdicts.paper, violated.join("`, `"));
+    let paper = &verdicts.paper;
+    let claims = violated.join("`, `");
     let message = format!(
         "{paper}: `{claims}` must hold whatever was drawn, and does not: the program is wrong, or the theorem that is stated; \
          `replan show {paper} {}` has what was found",
@@ -94,11 +96,12 @@ pub fn must_hold(verdicts: &Verdicts) -> Result<(), Failure> {
 fn check_explorations(stored: &Verdicts, places: &Places) -> Result<(), Failure> {
     let Some(explored) = &stored.explored else { return Ok(()) };
     for (is_told, path, command) in [
-        (explored.readings > 0, Exploration::first(&places.runs), "explore"),
+        (explored.interpretations > 0, Exploration::first(&places.runs), "explore"),
         (explored.second_seed, Exploration::second(&places.runs), "confirm"),
     ] {
         if is_told && !path.exists() {
-            let (path, paper) = (path.display(), &stored.paper);
+            let path = path.display();
+            let paper = &stored.paper;
             let message = format!(
                 "{path}: is gone, and the stored verdicts rest on it; `replan {command} {paper}` makes it again"
             );
@@ -143,8 +146,8 @@ pub fn judge(paper: &Paper, point: Interpretation, places: &Places) -> Result<Ve
     Ok(verdicts)
 }
 
-/// The verdicts by `evidence` with the history of their claims; across readings if it is a full run under the defaults and
-/// readings were explored.
+/// The verdicts by `evidence` with the history of their claims; across interpretations if it is a full run under the defaults and
+/// interpretations were explored.
 fn judged(evidence: &Evidence<'_>, places: &Places, history: &History) -> Result<Verdicts, Failure> {
     let is_default = evidence.point == default_point(evidence.paper);
     let is_explored = is_default && !evidence.runs().any(|run| run.manifest.quick);

@@ -35,7 +35,7 @@ enum What {
     Planners,
     Stages,
     Families,
-    Prepared,
+    Preprocessing,
     Tasks,
     /// Criteria that claims are judged by.
     #[value(alias = "checks")]
@@ -52,7 +52,7 @@ impl List {
         if let (Some(what), Some(name)) = (self.what, &self.name) {
             return one(what, name);
         }
-        let (found, results) = Found::read(|kind| self.what.is_none_or(|what| kind.contains(&what)));
+        let (found, results) = LoadedFiles::read(|kind| self.what.is_none_or(|what| kind.contains(&what)));
         for what in What::value_variants() {
             if self.what.is_none_or(|wanted| wanted == *what) {
                 say!("{}", title(*what));
@@ -66,13 +66,13 @@ impl List {
 }
 
 /// What is read from files.
-struct Found {
+struct LoadedFiles {
     papers: Vec<Paper>,
     /// Names of robots, and what one line says of each.
     robots: Vec<(String, String)>,
 }
 
-impl Found {
+impl LoadedFiles {
     /// The papers and robots that can be read, if a kind that needs them is asked for, and how reading each went.
     fn read(is_wanted: impl Fn(&[What]) -> bool) -> (Self, Vec<Result<(), Failure>>) {
         let papers = is_wanted(&[What::Papers, What::Studies, What::Choices]).then(loaded);
@@ -84,7 +84,7 @@ impl Found {
     }
 }
 
-impl Found {
+impl LoadedFiles {
     /// What is said of a paper or study by itself; none for what has one line only.
     fn described(&self, what: What, name: &str) -> Result<Option<String>, Failure> {
         let find = |id: &str| self.papers.iter().find(|paper| paper.id == id);
@@ -112,7 +112,7 @@ fn singular(what: What) -> &'static str {
         What::Planners => "planner",
         What::Stages => "stage",
         What::Families => "family",
-        What::Prepared => "kind of prepared object",
+        What::Preprocessing => "kind of preprocessed object",
         What::Tasks => "task",
         What::Criteria => "criterion",
         What::Rules => "rule",
@@ -125,7 +125,7 @@ fn singular(what: What) -> &'static str {
 /// What the one thing of the kind `what` that is called `name` is.
 fn one(what: What, name: &str) -> Result<(), Failure> {
     let Some(items) = items(what) else {
-        let (found, results) = Found::read(|kind| kind.contains(&what));
+        let (found, results) = LoadedFiles::read(|kind| kind.contains(&what));
         let rows = rows(what, &found);
         let known = rows.iter().map(|(known, _)| known.as_str());
         let row = rows.iter().find(|(known, _)| known == name);
@@ -152,7 +152,7 @@ fn items(what: What) -> Option<Vec<Item>> {
         What::Planners => catalogue::planners(),
         What::Stages => catalogue::stages(),
         What::Families => catalogue::families(),
-        What::Prepared => catalogue::prepared(),
+        What::Preprocessing => catalogue::preprocessing(),
         What::Tasks => catalogue::tasks(),
         What::Criteria => catalogue::criteria(),
         What::Rules => catalogue::rules(),
@@ -162,7 +162,7 @@ fn items(what: What) -> Option<Vec<Item>> {
     })
 }
 
-fn rows(what: What, Found { papers, robots }: &Found) -> Vec<(String, String)> {
+fn rows(what: What, LoadedFiles { papers, robots }: &LoadedFiles) -> Vec<(String, String)> {
     let row = |name: &str, about: &str| (name.to_owned(), about.to_owned());
     if let Some(items) = items(what) {
         return items.iter().map(|item| row(item.name, item.about)).collect();
@@ -223,7 +223,8 @@ fn robots() -> (Vec<(String, String)>, Vec<Result<(), Failure>>) {
     let mut files: Vec<PathBuf> =
         files.filter(|file| is_urdf(file) || file.extension().is_some_and(|e| e == "toml")).collect();
     files.sort_unstable();
-    let (mut robots, mut faults) = (Vec::new(), Vec::new());
+    let mut robots = Vec::new();
+    let mut faults = Vec::new();
     for robot in files.iter().map(|file| described(file)) {
         match robot {
             Ok(robot) => robots.push(robot),
@@ -242,7 +243,8 @@ fn loaded() -> (Vec<Paper>, Vec<Result<(), Failure>>) {
     };
     doing("reading the papers");
     let read: Vec<Result<Paper, Failure>> = papers().into_iter().map(load).collect();
-    let (mut papers, mut results) = (Vec::new(), Vec::new());
+    let mut papers = Vec::new();
+    let mut results = Vec::new();
     for paper in read {
         results.push(paper.map(|paper| papers.push(paper)));
     }

@@ -1,6 +1,6 @@
 //! Loading a paper as the flags ask for it.
 
-use super::file_schema::of_any_names;
+use super::file_schema::schema_of_any_names;
 use super::places::Places;
 use super::{Failure, How};
 use crate::analysis::claims;
@@ -10,7 +10,7 @@ use study::paper::Paper;
 /// The paper as far as it can be read, with every claim's checks, figure and table understood; everything that is wrong goes
 /// to `faults`.
 pub fn gather(places: &Places, faults: &mut Faults) -> Result<Option<Paper>, Failure> {
-    let paper = Paper::gather(&places.folder, &places.inputs, &of_any_names, faults)?;
+    let paper = Paper::gather(&places.folder, &places.inputs, &schema_of_any_names, faults)?;
     if let Some(paper) = &paper {
         faults.keep(claims::validate(paper));
         faults.keep(crate::render::figure::validate(paper));

@@ -33,7 +33,7 @@ impl Merge {
         let which = Which { paper: plan.paper.clone(), out: self.out.clone() };
         // The findings bear the command that would have made them on one machine.
         let command = format!("replan {}", plan.unsharded(self.out.as_deref()).join(" "));
-        let rounds = Some(Rounds::of(&plan, &self.parts));
+        let rounds = Some(Rounds::new(&plan, &self.parts));
         match round.command.as_str() {
             "explore" => explore(&which, None, rounds, command),
             _ => confirm(&which, None, rounds, command),
@@ -48,7 +48,8 @@ impl Merge {
         let sharded = Sharded::of_plan(plan, out.clone())?;
         let runs = &sharded.places.runs;
         sharded.put_together(plan, &self.parts, runs)?;
-        let (paper, lock) = (load(&sharded.places, &sharded.how)?, Lock::take(runs)?);
+        let paper = load(&sharded.places, &sharded.how)?;
+        let lock = Lock::take(runs)?;
         History::note(&paper, lock.folder(), &command_line())?;
         if sharded.runs.iter().any(|(study, _)| study.timing.is_some()) {
             let command = plan.unsharded(Some(out));

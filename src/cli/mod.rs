@@ -12,7 +12,7 @@
 static IS_LOST: AtomicBool = AtomicBool::new(false);
 
 /// Remembers that something could not be printed; a reader that closed the pipe early (`head`) is no failure of ours.
-fn not_said(error: &io::Error) {
+fn print_failed(error: &io::Error) {
     if error.kind() != io::ErrorKind::BrokenPipe && !IS_LOST.swap(true, Ordering::Relaxed) {
         let _ = writeln!(io::stderr(), "replan: standard output: {error}");
     }
@@ -23,7 +23,7 @@ macro_rules! say {
     ($($arguments:tt)*) => {{
         use std::io::Write as _;
         if let Err(error) = writeln!(std::io::stdout(), $($arguments)*) {
-            $crate::cli::not_said(&error);
+            $crate::cli::print_failed(&error);
         }
     }};
 }
@@ -88,7 +88,7 @@ struct Cli {
 
 const EXAMPLES: &str = "Examples:
   replan repro zhang                 run the paper's studies, judge its claims, draw its figures
-  replan repro zhang --quick         the same with few replicates, below target/replan/
+  replan repro zhang --quick         the same with few instances, below target/replan/
   replan new ./my/paper --from grid  a small paper to be changed into your own; docs/YOUR_OWN_PAPER.md
   replan repro ./my/paper            a paper of your own: a folder with paper.toml and studies
   replan repro zhang --trial witness/w1/a-star
@@ -96,7 +96,7 @@ const EXAMPLES: &str = "Examples:
   replan show zhang t1.improved.cost one claim with its evidence
   replan render zhang --check        are the committed plots and tables what the stored run gives?
   replan list planners               what contenders can name
-  replan list criteria one_draw      what one criterion can be told, with an example";
+  replan list criteria one_instance      what one criterion can be told, with an example";
 
 #[derive(Subcommand)]
 enum Command {
@@ -157,7 +157,7 @@ struct Which {
 /// How to run.
 #[derive(Args, Clone)]
 struct How {
-    /// Few replicates; every output says so
+    /// Few instances; every output says so
     #[arg(long)]
     quick: bool,
     /// The root of every seed, instead of the studies' own
@@ -321,16 +321,16 @@ pub fn run() -> ExitCode {
     }
 }
 
-/// Words of the command line that were renamed: what was typed one after another, and what is typed now.
-const RENAMED: [(&[&str], &str); 2] = [(&["--readings"], "--with"), (&["list", "readings"], "list choices")];
-
 /// That `words` have a word that was renamed, if they do.
 fn renamed(words: impl Iterator<Item = String>) -> Option<String> {
     let words: Vec<String> =
         words.map(|word| word.split('=').next().unwrap_or_default().to_owned()).collect();
-    let is_typed = |old: &[&str]| words.windows(old.len()).any(|typed| typed == old);
-    let (old, new) = RENAMED.iter().find(|(old, _)| is_typed(old))?;
-    Some(format!("`{}` is now `{new}`", old.join(" ")))
+    let is_typed = |old: &str| {
+        let old: Vec<&str> = old.split(' ').collect();
+        words.windows(old.len()).any(|typed| typed == old)
+    };
+    let (old, new) = base::settings::renamed("command_line").iter().find(|(old, _)| is_typed(old))?;
+    Some(format!("`{old}` is now `{new}`"))
 }
 
 /// The command line as it would be typed for the same results: what only talks is left out.

@@ -61,7 +61,7 @@ pub fn sharded(
     let (round, planned) = planned(&folder, first)?;
     let choices = &paper.choices;
     let point = |options| Interpretation::new(choices, options).map_err(Failure::input);
-    let points: Vec<Interpretation> = planned.readings.iter().map(point).collect::<Result<_, _>>()?;
+    let points: Vec<Interpretation> = planned.interpretations.iter().map(point).collect::<Result<_, _>>()?;
     Ok(explorer.sharded(named, round, &points))
 }
 

@@ -1,6 +1,6 @@
 //! Where a paper is read from and where its outputs go.
 //!
-//! Only a full run with the studies' own seed and default readings may write the committed places; everything else
+//! Only a full run with the studies' own seed and default interpretation may write the committed places; everything else
 //! goes below `target/replan/` or where `--out` says.
 
 use super::{Failure, How, Which};
@@ -84,7 +84,8 @@ impl Places {
 /// # Errors
 /// If there is none, or there are several.
 pub fn stored_run(given: &str) -> Result<PathBuf, Failure> {
-    let (folder, named) = (Path::new(given), home(None)?.join(RUNS).join(given));
+    let folder = Path::new(given);
+    let named = home(None)?.join(RUNS).join(given);
     let is_run = |folder: &Path| !stored_studies(folder).is_empty();
     let below: Vec<PathBuf> = fs::read_dir(folder.join(RUNS))
         .into_iter()
@@ -144,7 +145,8 @@ fn folder(paper: &str) -> Result<(PathBuf, PathBuf, bool), Failure> {
     if !given.join("paper.toml").is_file() {
         return Err(unknown(paper));
     }
-    let (home, absolute) = (home(Some(given))?, fs::canonicalize(given)?);
+    let home = home(Some(given))?;
+    let absolute = fs::canonicalize(given)?;
     let papers = home.join(EXPERIMENTS);
     match (fs::canonicalize(&papers), absolute.file_name()) {
         (Ok(project), Some(name)) if absolute.parent() == Some(&project) => {

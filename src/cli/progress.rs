@@ -61,7 +61,7 @@ struct Pass {
 
 impl Pass {
     /// Says how far it is, if that is due.
-    fn say(&mut self) {
+    fn print(&mut self) {
         let now_s = self.bar.elapsed().as_secs();
         if self.bar.is_hidden() && now_s >= self.said_s + SAID_EVERY_S {
             self.said_s = now_s;
@@ -90,7 +90,7 @@ impl Progress for Bar {
     fn step(&self) {
         if let Some(pass) = &mut *self.bar.lock().expect("no thread panics while it holds the bar") {
             pass.bar.inc(1);
-            pass.say();
+            pass.print();
         }
     }
 
@@ -100,7 +100,8 @@ impl Progress for Bar {
         else {
             return;
         };
-        let (done, seconds) = (bar.position(), bar.elapsed().as_secs_f64());
+        let done = bar.position();
+        let seconds = bar.elapsed().as_secs_f64();
         bar.finish_and_clear();
         if std::io::stderr().is_terminal() || done > 0 {
             eprintln!("{what}: {} in {seconds:.1} s", counted(done as usize, UNITS));

@@ -86,13 +86,13 @@ pub fn check_report(paper: &Paper, places: &Places) -> Result<(), Failure> {
 
 fn draw(paper: &Paper, places: &Places, only: Option<&str>, stop: &AtomicBool) -> Result<Drawn, Failure> {
     let verdicts = History::verdicts(&places.runs)?;
-    let point = Interpretation::new(&paper.choices, &verdicts.reading).map_err(|message| {
-        Failure::touched(format!("the stored verdicts are of other readings ({message}); judge again"))
+    let point = Interpretation::new(&paper.choices, &verdicts.interpretation).map_err(|message| {
+        Failure::touched(format!("the stored verdicts are of other interpretations ({message}); judge again"))
     })?;
     doing(&format!("{}: drawing its figures and tables", paper.id));
     let evidence = Evidence::read(paper, point, &places.runs)?;
     let outputs = output::outputs(&evidence, &verdicts, only, stop);
-    evidence.exhibits_read()?;
+    evidence.traces_read()?;
     let mut outputs = outputs?;
     if only.is_some() {
         return Ok(Drawn { outputs, chapter: None });

@@ -105,8 +105,8 @@ struct Made {
 
 fn made(paper: &Paper, places: &Places, folder: &Path) -> Result<Made, Failure> {
     let verdicts = History::verdicts(&places.runs)?;
-    let point = Interpretation::new(&paper.choices, &verdicts.reading).map_err(|message| {
-        Failure::input(format!("the stored verdicts are of other readings ({message}); judge again"))
+    let point = Interpretation::new(&paper.choices, &verdicts.interpretation).map_err(|message| {
+        Failure::input(format!("the stored verdicts are of other interpretations ({message}); judge again"))
     })?;
     doing(&format!("{}: writing its page", paper.id));
     let evidence = Evidence::read(paper, point, &places.runs)?;
@@ -114,7 +114,7 @@ fn made(paper: &Paper, places: &Places, folder: &Path) -> Result<Made, Failure> 
     let rest = format!("{}-replays.zip", paper.id);
     let stored = Stored::read(&places.runs)?;
     let made = page::page(&evidence, &verdicts, &stored, &figures, &places.inputs, &rest);
-    evidence.exhibits_read()?;
+    evidence.traces_read()?;
     let made = made?;
     write_whole(&folder.join(format!("{}.html", paper.id)), made.html.as_bytes())?;
     let size = made.html.len() as f64 / 1e6;

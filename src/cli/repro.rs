@@ -41,7 +41,8 @@ impl Repro {
         }
         render::check_report(&paper, &places)?;
         self.how.check_interpretations(&paper)?;
-        let (lock, stop) = (Lock::take(&places.runs)?, stop_flag());
+        let lock = Lock::take(&places.runs)?;
+        let stop = stop_flag();
         for report in run_studies(&paper, &places, &self.how, &lock, self.again)? {
             say!("{}", summary(&report, false));
         }
@@ -69,7 +70,7 @@ fn draw(
     again: Again,
     stop: &AtomicBool,
 ) -> Result<Outputs, Failure> {
-    let drawn = Drawn::of(paper, places, judged)?;
+    let drawn = Drawn::new(paper, places, judged)?;
     if !again.fresh && drawn.is_current(places) {
         say!("nothing to draw: figures, tables and the report are as they were drawn from this");
         return Ok(Outputs::default());

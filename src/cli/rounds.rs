@@ -15,15 +15,15 @@ use study::{Interpretation, StudyError};
 /// A round.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Round {
-    /// Everything that is explored, with few draws; but for what runs where readings are compatible.
+    /// Everything that is explored, with few instances; but for what runs where interpretations are compatible.
     First,
-    /// What runs where readings are compatible.
+    /// What runs where interpretations are compatible.
     Compatible,
-    /// Everything that is explored, with more draws, where a class is near a flip.
+    /// Everything that is explored, with more instances, where a class is near a flip.
     Again,
     /// Every study on its second seed, under the defaults.
     Default,
-    /// What is explored on its second seed, under readings that turn a claim.
+    /// What is explored on its second seed, under interpretations that turn a claim.
     Turned,
 }
 
@@ -57,8 +57,8 @@ impl Round {
 
     /// It under `points`, as a plan has it.
     pub fn planned(self, paper: &Paper, points: &[Interpretation]) -> PlannedRound {
-        let readings = points.iter().map(|point| differing(paper, point)).collect();
-        PlannedRound { command: self.command().to_owned(), name: self.name().to_owned(), readings }
+        let interpretations = points.iter().map(|point| differing(paper, point)).collect();
+        PlannedRound { command: self.command().to_owned(), name: self.name().to_owned(), interpretations }
     }
 }
 
@@ -106,7 +106,7 @@ pub struct Rounds {
 
 impl Rounds {
     /// Those of `plan`, the plan of some round, in `parts`.
-    pub fn of(plan: &Plan, parts: &Path) -> Self {
+    pub fn new(plan: &Plan, parts: &Path) -> Self {
         Self { parts: parts.to_owned(), paper: plan.paper.clone(), shards: plan.shards }
     }
 
@@ -115,13 +115,13 @@ impl Rounds {
         parts.join("merged")
     }
 
-    /// Puts the parts of `round` together below `to`, which `sharded` under so many readings is cut into; a round that has no
+    /// Puts the parts of `round` together below `to`, which `sharded` under so many interpretations is cut into; a round that has no
     /// plan is planned.
     pub fn put_together(
         &self,
         sharded: &Sharded,
         round: Round,
-        readings: usize,
+        interpretations: usize,
         to: &Path,
     ) -> Result<(), Halt> {
         let folder = self.parts.join(round.name());
@@ -130,10 +130,10 @@ impl Rounds {
         if is_new {
             let shard = format!("K/{}", self.shards);
             return Err(Halt::Planned(format!(
-                "round `{}`: {} units under {} readings are left to run, and then to merge: replan {}",
+                "round `{}`: {} units under {} interpretations are left to run, and then to merge: replan {}",
                 round.name(),
                 plan.units.iter().sum::<usize>(),
-                readings,
+                interpretations,
                 plan.arguments(&folder, &shard).join(" ")
             )));
         }

@@ -108,7 +108,8 @@ fn run_study(
     lock: &Lock,
     again: Again,
 ) -> Result<Report, Failure> {
-    let (points, bar) = (how.interpretations(study)?, Bar::default());
+    let points = how.interpretations(study)?;
+    let bar = Bar::default();
     let options = options((&points, &bar), places, how, lock);
     Ok(session::run(study, &Options { fresh: again.fresh, record: again.record, ..options })?)
 }
@@ -138,7 +139,8 @@ fn options<'a>(
 /// Reads the clock of every timed study once more.
 fn read_clocks(paper: &Paper, places: &Places, how: &How, lock: &Lock) -> Result<(), Failure> {
     for study in paper.studies.iter().filter(|study| study.timing.is_some()) {
-        let (points, bar) = (how.interpretations(study)?, Bar::default());
+        let points = how.interpretations(study)?;
+        let bar = Bar::default();
         let number = session::read_clock(study, &options((&points, &bar), places, how, lock))?;
         say!("{}: session {number} of the clock", study.name);
     }

@@ -46,7 +46,8 @@ impl Schema {
     }
 
     fn each(&self, kind: &Item) -> Result<(), Failure> {
-        let (path, text) = (self.folder.join(file_name(kind.name)), text(kind.name));
+        let path = self.folder.join(file_name(kind.name));
+        let text = text(kind.name);
         if self.check {
             let stored = fs::read_to_string(&path).unwrap_or_default();
             let stale = || Failure::stale(format!("{} is not current; run `replan schema`", path.display()));

@@ -20,10 +20,10 @@ pub struct Shard {
     #[command(flatten)]
     how: How,
     /// Cut what `replan explore` runs, round by round
-    #[arg(long, conflicts_with_all = ["quick", "seed", "readings", "confirm"])]
+    #[arg(long, conflicts_with_all = ["quick", "seed", "interpretations", "confirm"])]
     explore: bool,
     /// Cut what `replan confirm` runs, round by round
-    #[arg(long, conflicts_with_all = ["quick", "seed", "readings"])]
+    #[arg(long, conflicts_with_all = ["quick", "seed", "interpretations"])]
     confirm: bool,
     /// What runs the shards
     #[arg(long)]
@@ -56,7 +56,8 @@ impl Shard {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
         MadeBy::here();
-        let (sharded, shards) = (self.sharded()?, self.shards as usize);
+        let sharded = self.sharded()?;
+        let shards = self.shards as usize;
         let folder = sharded.folder(&self.out);
         let plan = Plan::agreed(&folder, &sharded.wanted(shards), &sharded.studies()?)?;
         let (name, template, start) = match self.engine {
@@ -66,7 +67,8 @@ impl Shard {
         };
         let path = self.out.join(name);
         write_whole(&path, self.filled(template, &plan, &folder)?.as_bytes())?;
-        let (all, most) = (plan.cost_ns.iter().sum::<u64>(), plan.cost_ns.iter().max().copied().unwrap_or(0));
+        let all = plan.cost_ns.iter().sum::<u64>();
+        let most = plan.cost_ns.iter().max().copied().unwrap_or(0);
         say!(
             "{} units in {shards} shards: about {:.0} s of one core in all, {:.1} s in the longest shard",
             plan.units.iter().sum::<usize>(),

@@ -17,13 +17,13 @@ use study::runner::BuiltStudy;
 use study::session::{self, Options};
 use study::{Interpretation, Study};
 
-/// Studies, how they are run, and the readings of each.
+/// Studies, how they are run, and the interpretations of each.
 pub struct Sharded {
     /// Where they are read from.
     pub places: Places,
     /// How they are run.
     pub how: How,
-    /// The studies with their readings.
+    /// The studies with their interpretations.
     pub runs: Vec<(Study, Vec<Interpretation>)>,
     /// What each claim means.
     claims: BTreeMap<String, Vec<String>>,
@@ -77,7 +77,9 @@ impl Sharded {
     /// What is asked of a plan that cuts it into so many shards.
     pub fn wanted(&self, shards: usize) -> Wanted {
         let How { quick, seed, with, .. } = self.how.clone();
-        let (paper, round, claims) = (self.named.clone(), self.round.clone(), self.claims.clone());
+        let paper = self.named.clone();
+        let round = self.round.clone();
+        let claims = self.claims.clone();
         Wanted { paper, shards, quick, seed, with, round, claims }
     }
 

@@ -4,7 +4,7 @@ use super::places::Places;
 use super::verdicts::{COLUMNS, print};
 use super::{Failure, Which, export::check_stored};
 use crate::analysis::history::History;
-use crate::analysis::verdict::{Finding, Judged};
+use crate::analysis::verdict::{ClaimVerdict, CriterionFinding};
 use crate::render::prose::wrapped;
 use crate::render::report::across_lines;
 use crate::render::tables::short;
@@ -45,7 +45,7 @@ impl Show {
 }
 
 /// Everything that is known of a claim.
-fn shown(judged: &Judged) -> String {
+fn shown(judged: &ClaimVerdict) -> String {
     let mut text = wrapped("", &format!("{}: {}", judged.claim, judged.outcome()), 2, COLUMNS) + "\n";
     let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
     let printed = judged.printed.as_ref().map(|printed| format!("{printed}{unit}"));
@@ -54,7 +54,7 @@ fn shown(judged: &Judged) -> String {
         ("says", judged.says.clone()),
         ("quote", judged.quote.as_ref().map(|quote| format!("“{quote}”"))),
         ("printed", printed),
-        ("readings", judged.across_readings()),
+        ("interpretations", judged.across_interpretations()),
         ("second seed", judged.second.map(|class| class.name().to_owned())),
         ("part of", judged.part_of.clone()),
         ("must hold", judged.theorem.clone()),
@@ -67,7 +67,7 @@ fn shown(judged: &Judged) -> String {
     text + &judged.findings.iter().map(found).collect::<String>()
 }
 
-fn found(finding: &Finding) -> String {
+fn found(finding: &CriterionFinding) -> String {
     let class = finding.verdict.map_or_else(String::new, |verdict| format!(": {}", verdict.name()));
     let mut lines = vec![format!("{}{class}", finding.criterion)];
     if let Some(ours) = &finding.ours {

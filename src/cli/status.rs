@@ -19,7 +19,7 @@ pub struct Status {
 
 /// How far the shards are.
 #[derive(Serialize)]
-struct Found {
+struct ShardProgress {
     /// The round that is at work, of an exploration or a confirmation.
     #[serde(skip_serializing_if = "Option::is_none")]
     round: Option<String>,
@@ -45,11 +45,12 @@ impl Status {
             (1..=plan.shards).filter(|number| found[number - 1].state == state).collect()
         };
         let left = |number: usize| {
-            let (units, done) = (plan.units[number - 1], found[number - 1].units);
+            let units = plan.units[number - 1];
+            let done = found[number - 1].units;
             let share = if units == 0 { 0.0 } else { 1.0 - done as f64 / units as f64 };
             share * plan.cost_ns[number - 1] as f64 / 1e9
         };
-        let found = Found {
+        let found = ShardProgress {
             round: plan.round.as_ref().map(|round| round.name.clone()),
             shards: plan.shards,
             done: with(State::Done),
@@ -63,14 +64,14 @@ impl Status {
         if self.json {
             say!("{}", serde_json::to_string(&found).expect("a state is numbers"));
         } else {
-            say!("{}", said(&found, &plan, &self.parts, &parts));
+            say!("{}", progress_text(&found, &plan, &self.parts, &parts));
         }
         Ok(())
     }
 }
 
 /// It in words, of the parts in `folder`, which is that of the round at work in `all`.
-fn said(found: &Found, plan: &Plan, all: &Path, folder: &Path) -> String {
+fn progress_text(found: &ShardProgress, plan: &Plan, all: &Path, folder: &Path) -> String {
     let listed = |numbers: &[usize]| match numbers.len() {
         1..=20 => format!(" ({})", numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")),
         0 | 21.. => String::new(),

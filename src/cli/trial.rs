@@ -27,7 +27,7 @@ pub fn run(paper: &Paper, places: &Places, how: &How, name: &str) -> Result<(), 
     for row in &batch.rows {
         print_row(row, &names);
     }
-    print_exhibits(&batch.kept);
+    print_traces(&batch.kept);
     match (batch.rows.first(), stored) {
         (_, None) => {
             say!("no stored run has this trial");
@@ -45,17 +45,17 @@ pub fn run(paper: &Paper, places: &Places, how: &How, name: &str) -> Result<(), 
 }
 
 /// The path point by point; how many points everything else has, which may be thousands.
-fn print_exhibits(kept: &[Kept]) {
-    for Kept { exhibit, .. } in kept {
-        let points = exhibit.values.chunks(exhibit.width);
-        let text = if exhibit.name == "path" {
+fn print_traces(kept: &[Kept]) {
+    for Kept { trace, .. } in kept {
+        let points = trace.values.chunks(trace.width);
+        let text = if trace.name == "path" {
             points.map(listed).collect::<Vec<String>>().join(" ")
         } else {
-            format!("{} points of {} numbers", points.len(), exhibit.width)
+            format!("{} points of {} numbers", points.len(), trace.width)
         };
-        say!("{:<22} {text}", exhibit.name);
+        say!("{:<22} {text}", trace.name);
     }
-    if kept.iter().all(|kept| kept.exhibit.name != "path") {
+    if kept.iter().all(|kept| kept.trace.name != "path") {
         say!("{:<22} none", "path");
     }
 }
@@ -65,7 +65,7 @@ fn print_row(row: &Row, names: &Names) {
     text("trial", &names.trial(&row.key));
     text("problem", &names.problem(&row.key.on, row.key.query.as_deref()));
     text("contender", &row.key.contender);
-    text("reading", &names.reading(&row.key.on.reading));
+    text("interpretation", &names.interpretation(&row.key.on.interpretation));
     text("seed", &row.seed.to_string());
     text("status", row.status.name());
     if let Some(reason) = &row.reason {

@@ -1,7 +1,7 @@
 //! The verdict table on the terminal.
 
 use crate::analysis::class::Verdict;
-use crate::analysis::verdict::{Counts, Judged, Verdicts};
+use crate::analysis::verdict::{ClaimVerdict, Counts, Verdicts};
 use crate::render::prose::wrapped;
 use crate::render::tables::short;
 use std::io::IsTerminal as _;
@@ -39,7 +39,7 @@ fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
     let Counts { classes, parts, asserted } = verdicts.counts();
     let quick = verdicts
         .quick
-        .then(|| "a quick run: few replicates, so these verdicts are not the study's".to_owned());
+        .then(|| "a quick run: few instances, so these verdicts are not the study's".to_owned());
     for said in [Some(classes), parts, asserted, quick].into_iter().flatten() {
         text += &(wrapped("", &said, 2, COLUMNS) + "\n");
     }
@@ -49,28 +49,29 @@ fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
     text
 }
 
-/// What is to be known of readings and the second seed as a whole.
+/// What is to be known of interpretations and the second seed as a whole.
 fn explored(verdicts: &Verdicts) -> Vec<String> {
     let Some(explored) = &verdicts.explored else { return Vec::new() };
     let stale = |claims: &[String], what: &str, command: &str| {
-        let (count, verb) = (claims.len(), if claims.len() == 1 { "claim is" } else { "claims are" });
+        let count = claims.len();
+        let verb = if claims.len() == 1 { "claim is" } else { "claims are" };
         (count > 0).then(|| {
             format!("{count} {verb} {what}: what they ask or what their studies run has changed since; {command} again")
         })
     };
     let compatible = explored.none_compatible.then(|| {
-        "no voting reading agrees with all that the studies were calibrated to, so that all of them are judged".to_owned()
+        "no voting interpretation agrees with all that the studies were calibrated to, so that all of them are judged".to_owned()
     });
     let paper = &verdicts.paper;
     let explore = format!("replan explore {paper}");
-    let readings = stale(&explored.stale, "judged under the default reading alone", &explore);
+    let interpretations = stale(&explored.stale, "judged under the default interpretation alone", &explore);
     let confirm = format!("replan confirm {paper}");
     let second = stale(&explored.second_stale, "without a second seed", &confirm);
-    [compatible, readings, second].into_iter().flatten().collect()
+    [compatible, interpretations, second].into_iter().flatten().collect()
 }
 
 /// A row: the claim, what is printed and ours, how many cases were solved of all, and the class.
-fn cells(judged: &Judged) -> [String; 5] {
+fn cells(judged: &ClaimVerdict) -> [String; 5] {
     let dash = || "–".to_owned();
     let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
     let printed = judged.printed.as_ref().map_or_else(dash, |printed| format!("{printed}{unit}"));
@@ -82,7 +83,9 @@ fn cells(judged: &Judged) -> [String; 5] {
 
 /// The cells below one another; those after one that is too wide for its column stand on a line of their own.
 fn line(cells: &[String; 5], widths: [usize; 4]) -> String {
-    let (mut text, mut place, mut at) = (String::new(), 0, 0);
+    let mut text = String::new();
+    let mut place = 0;
+    let mut at = 0;
     for (cell, width) in cells.iter().zip(widths.into_iter().chain([0])) {
         if at > 0 && at + 2 > place {
             text += "\n";

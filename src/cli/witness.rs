@@ -3,7 +3,7 @@
 use super::progress::{Bar, safe_point, stop_flag};
 use super::{Failure, How, Which, load::load, places::Places};
 use crate::analysis::metric;
-use crate::analysis::witness::{Hunt, OnMap, Under, Wanted, Witness as Found};
+use crate::analysis::witness::{OnMap, Under, Wanted, Witness as FoundWitness, WitnessSearch};
 use base::grid::to_text_map;
 use base::hash::sha256;
 use base::settings::{Document, none_called};
@@ -69,22 +69,33 @@ impl Witness {
         let places = Places::find(&Which { paper: self.paper.clone(), out: None }, "")?;
         let how = How { quick: false, seed: None, with: self.options(), threads: None };
         let paper = load(&places, &how)?;
-        let (study, group) = Hunt::place(&paper, &self.claims).map_err(Failure::input)?;
+        let (study, group) = WitnessSearch::place(&paper, &self.claims).map_err(Failure::input)?;
         let under = match self.with.as_deref() {
             Some("any") => Under::Any,
             _ => Under::One(how.interpretation(&paper.choices)?),
         };
         let besides = self.also.iter().map(|text| besides(text, study)).collect::<Result<_, _>>()?;
-        let (claims, seed, maps) = (self.claims.clone(), self.seed, self.maps);
-        let hunt =
-            Hunt { paper: &paper, claims, besides, study, group, inputs: &places.inputs, under, seed, maps };
+        let claims = self.claims.clone();
+        let seed = self.seed;
+        let maps = self.maps;
+        let hunt = WitnessSearch {
+            paper: &paper,
+            claims,
+            besides,
+            study,
+            group,
+            inputs: &places.inputs,
+            under,
+            seed,
+            maps,
+        };
         let out =
             self.out.clone().unwrap_or_else(|| places.home.join("target/replan/witness").join(&paper.id));
         let file = |end: &str| out.join(format!("{}.{end}", self.name(&paper)));
         if let Some(found) = self.searched(&hunt, &file("searches.toml"))? {
             return self.found(&hunt, &found, &file("map.txt"));
         }
-        say!("none found in {} searches of {} maps each, {}", self.searches, self.maps, self.asked());
+        say!("none found in {} searches of {} maps each, {}", self.searches, self.maps, self.request());
         Ok(())
     }
 
@@ -94,23 +105,24 @@ impl Witness {
     }
 
     /// What was asked, in words.
-    fn asked(&self) -> String {
+    fn request(&self) -> String {
         let also: Vec<String> = self.also.iter().map(|also| format!(", {also}")).collect();
         let also = also.concat();
         let under = self.with.as_deref().unwrap_or("default");
-        format!("for {}{also}; reading {under}, seed {}", self.claims.join(", "), self.seed)
+        format!("for {}{also}; interpretation {under}, seed {}", self.claims.join(", "), self.seed)
     }
 
     /// What sets these searches apart from all others, in a few letters: all that a search depends on.
     fn name(&self, paper: &Paper) -> String {
-        let asked = format!("{} {} {} maps", paper.id, self.asked(), self.maps);
+        let asked = format!("{} {} {} maps", paper.id, self.request(), self.maps);
         sha256(asked.as_bytes()).chars().take(12).collect()
     }
 
     /// Goes through the searches that are left; those that found none are remembered in `file`.
-    fn searched(&self, hunt: &Hunt<'_>, file: &Path) -> Result<Option<Found>, Failure> {
+    fn searched(&self, hunt: &WitnessSearch<'_>, file: &Path) -> Result<Option<FoundWitness>, Failure> {
         let mut done = if file.exists() { Document::open(file)?.read_stored()? } else { Done::default() };
-        let (stop, bar) = (stop_flag(), Bar::default());
+        let stop = stop_flag();
+        let bar = Bar::default();
         let again = done.none_in.min(self.searches);
         if again > 0 {
             say!("{again} searches found none before");
@@ -133,10 +145,10 @@ impl Witness {
     }
 
     /// Writes a map that was found, and says what holds on it.
-    fn found(&self, hunt: &Hunt<'_>, found: &Found, file: &Path) -> Result<(), Failure> {
+    fn found(&self, hunt: &WitnessSearch<'_>, found: &FoundWitness, file: &Path) -> Result<(), Failure> {
         let holding = hunt.holding(found)?;
         let mut said = vec![
-            format!("search {} of seed {} found a map {}", found.number, self.seed, self.asked()),
+            format!("search {} of seed {} found a map {}", found.number, self.seed, self.request()),
             format!(
                 "maps looked at: {} in {} searches before, {} in this one",
                 u64::from(found.number) * u64::from(self.maps),
@@ -144,8 +156,8 @@ impl Witness {
                 found.looked_at
             ),
             format!(
-                "reading: {}; contenders and ends: study {}, {}",
-                found.reading.name(),
+                "interpretation: {}; contenders and ends: study {}, {}",
+                found.interpretation.name(),
                 hunt.study.name,
                 hunt.group.label
             ),

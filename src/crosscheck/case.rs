@@ -1,7 +1,7 @@
 //! One robot in one scene: what is asked, and what comes of the answers.
 
 use super::CrosscheckError;
-use super::compare::{Asked, Compared, Disagreement, Line};
+use super::compare::{AnswerFiles, Compared, Disagreement, Line};
 use super::control::{Control, Wrong, pushed_control, pushed_path};
 use super::mjcf::{Key, mjcf};
 use super::model::{Freedom, Model};
@@ -165,14 +165,19 @@ impl Case {
     /// [`CrosscheckError::Answer`] for answers that are missing or do not fit the questions.
     pub fn compare(&self, folder: &FilePath) -> Result<Outcome, CrosscheckError> {
         let folder = self.folder(folder);
-        let asked =
-            |name, questions| Asked { subject: self.subject.as_ref(), folder: &folder, name, questions };
+        let asked = |name, questions| AnswerFiles {
+            subject: self.subject.as_ref(),
+            folder: &folder,
+            name,
+            questions,
+        };
         let right = asked(RIGHT, &self.questions);
         let compared = right.compare()?;
         let of_wrong = |name, wrong: &Wrong| -> Result<Control, CrosscheckError> {
             let questions: &[Question] = &wrong.questions;
             Ok(wrong.control(
-                &Asked { subject: self.subject.as_ref(), folder: &folder, name, questions }.compare()?,
+                &AnswerFiles { subject: self.subject.as_ref(), folder: &folder, name, questions }
+                    .compare()?,
             ))
         };
         let controls = vec![
@@ -192,7 +197,8 @@ impl Case {
 
     /// The first contact of every path that should be free.
     fn blocked(&self, compared: &Compared) -> Vec<String> {
-        let (model, pairs) = (self.subject.model(), self.subject.model().pairs());
+        let model = self.subject.model();
+        let pairs = self.subject.model().pairs();
         let mut seen = BTreeSet::new();
         let on_path = |(row, _): &&(usize, usize)| self.questions[*row].kind == Kind::Path;
         let is_broken = |(_, pair): &&(usize, usize)| self.free_of.is_broken_by(pairs[*pair]);
@@ -201,7 +207,8 @@ impl Case {
         first
             .map(|(row, pair)| {
                 let Question { path, q_rad, .. } = &self.questions[*row];
-                let (name, pair) = (&self.paths[*path].name, model.pair_name(pairs[*pair]));
+                let name = &self.paths[*path].name;
+                let pair = model.pair_name(pairs[*pair]);
                 format!("path `{name}` touches {pair} at {q_rad}", q_rad = listed(q_rad))
             })
             .collect()

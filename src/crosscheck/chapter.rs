@@ -46,12 +46,15 @@ pub fn table(outcomes: &[Outcome]) -> String {
     for Outcome { case, lines, paths, controls, .. } in outcomes {
         for Line { question, kind, asked, in_contact, ties, largest, disagreements } in lines {
             let contact = in_contact.map_or_else(none, |count| count.to_string());
-            let (ties, differ) = (ties.to_string(), disagreements.to_string());
-            let (question, kind) = ((*question).to_owned(), kind.name().to_owned());
+            let ties = ties.to_string();
+            let differ = disagreements.to_string();
+            let question = (*question).to_owned();
+            let kind = kind.name().to_owned();
             let cells = [question, kind, asked.to_string(), contact, ties, bound(*largest), differ];
             row(&mut text, width, case, &cells, verdict(*disagreements == 0));
         }
-        let (count, blocked) = (paths.count.to_string(), paths.blocked.len());
+        let count = paths.count.to_string();
+        let blocked = paths.blocked.len();
         let origin = (if paths.are_stored { "stored" } else { "drawn" }).to_owned();
         let cells = ["free path".to_owned(), origin, count, none(), none(), none(), blocked.to_string()];
         row(&mut text, width, case, &cells, verdict(blocked == 0));
@@ -291,7 +294,8 @@ pub fn list(outcomes: &[Outcome]) -> Vec<String> {
         all.extend(outcome.paths.blocked.iter().map(|blocked| format!("{}, {blocked}", outcome.case)));
         let missed = outcome.controls.iter().filter(|control| !control.is_caught());
         all.extend(missed.map(|control| {
-            let (caught, listed) = (control.caught, control.listed);
+            let caught = control.caught;
+            let listed = control.listed;
             format!("{}, control not noticed: {} ({caught} of {listed})", outcome.case, control.what)
         }));
     }

@@ -66,7 +66,7 @@ pub struct Compared {
 }
 
 /// The files of one model's answers, and what was asked.
-pub struct Asked<'a> {
+pub struct AnswerFiles<'a> {
     /// Who answers for us.
     pub subject: &'a dyn Subject,
     /// Where the answers lie.
@@ -77,7 +77,7 @@ pub struct Asked<'a> {
     pub questions: &'a [Question],
 }
 
-impl Asked<'_> {
+impl AnswerFiles<'_> {
     /// Compares every answer.
     ///
     /// # Errors

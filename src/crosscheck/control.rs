@@ -1,6 +1,6 @@
 //! Negative controls: errors made on purpose, which the comparison must notice.
 
-use super::compare::{Asked, Compared, TIE_M};
+use super::compare::{AnswerFiles, Compared, TIE_M};
 use super::model::Model;
 use super::path::{Path, Pushed, pushed};
 use super::sample::{Kind, Question};
@@ -120,7 +120,7 @@ pub fn pushed_path(subject: &dyn Subject, mut paths: impl Iterator<Item = Path>)
 }
 
 /// Whether the judge finds the pushed path in contact where it was pushed to, with what it was pushed into.
-pub fn pushed_control(asked: &Asked<'_>, compared: &Compared, pushed: Option<&Pushed>) -> Control {
+pub fn pushed_control(asked: &AnswerFiles<'_>, compared: &Compared, pushed: Option<&Pushed>) -> Control {
     let Some(Pushed { path, stop, pair }) = pushed else {
         return Control { what: "no path can be pushed into anything".to_owned(), listed: 0, caught: 0 };
     };

@@ -91,12 +91,14 @@ fn robot(text: &mut String, model: &Model) {
     line!(text, "    <body name=\"link_0\" pos=\"{origin}\" xyaxes=\"{} {}\">", numbers(&x), numbers(&y));
     parts(text, model, 0);
     for (index, row) in model.rows.iter().enumerate() {
-        let (link, offset) = (index + 1, number(row.offset_rad));
+        let link = index + 1;
+        let offset = number(row.offset_rad);
         let [lower, upper] = row.limits_rad.map(number);
         line!(text, "    <body name=\"turned_{link}\" axisangle=\"0 0 1 {offset}\">");
         line!(text, "      <joint name=\"joint_{link}\" axis=\"0 0 1\" range=\"{lower} {upper}\"/>");
         line!(text, "      <inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/>");
-        let (place, twist) = (numbers(&Vec3::new(row.a_m, 0.0, row.d_m)), number(row.alpha_rad));
+        let place = numbers(&Vec3::new(row.a_m, 0.0, row.d_m));
+        let twist = number(row.alpha_rad);
         line!(text, "    <body name=\"link_{link}\" pos=\"{place}\" axisangle=\"1 0 0 {twist}\">");
         parts(text, model, link);
     }

@@ -68,7 +68,8 @@ impl PlanarArm {
 
     fn links(&self, q_rad: &[f64]) -> [Segment2; 2] {
         let q = two(q_rad);
-        let (elbow, tip) = (self.arm.elbow(q), self.arm.forward(q));
+        let elbow = self.arm.elbow(q);
+        let tip = self.arm.forward(q);
         [Segment2::new(Vec2::zeros(), elbow), Segment2::new(elbow, tip)]
     }
 }

@@ -155,7 +155,8 @@ impl<'a> Sampler<'a> {
     /// them in contact; those for which none is found are left out.
     fn near_contact(&self, count: u32) -> Vec<Question> {
         let mut stream = self.stream(Kind::NearContact);
-        let (model, pairs) = (self.subject.model(), self.subject.pairs());
+        let model = self.subject.model();
+        let pairs = self.subject.pairs();
         let mut groups: Vec<Option<usize>> = (0..model.stills.len()).map(Some).collect();
         groups.extend((!model.self_pairs.is_empty()).then_some(None));
         let draws: Vec<Vec<f64>> = (0..count.max(1) * 4).map(|_| drawn(model, &mut stream)).collect();
@@ -168,7 +169,8 @@ impl<'a> Sampler<'a> {
         let own_pairs: Vec<Vec<Pair>> = groups.iter().map(own_pairs).collect();
         let mut found = Vec::new();
         for index in 0..count as usize {
-            let (own, known) = (&own_pairs[index % groups.len()], &leasts[index % groups.len()]);
+            let own = &own_pairs[index % groups.len()];
+            let known = &leasts[index % groups.len()];
             let size_m = NEAREST_M * libm::pow(NEAR_M / NEAREST_M, stream.random::<f64>());
             let target_m = if stream.random::<bool>() { size_m } else { -size_m };
             let side = |is_inside: bool| {

@@ -26,7 +26,7 @@ use study::{Inputs, slug};
 /// The file's name.
 pub const SPEC: &str = "crosscheck.toml";
 /// What `crosscheck.toml` may hold.
-pub const FILE: Accepted = Accepted::of::<SpecFile>();
+pub const FILE: Accepted = Accepted::shape::<SpecFile>();
 
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -238,7 +238,8 @@ impl Spec {
             return Err(self.document.error(case.span(), message));
         };
         if !shown.keys().contains(&key.get_ref().as_str()) {
-            let (asked, keys) = (key.get_ref(), shown.keys().join(", "));
+            let asked = key.get_ref();
+            let keys = shown.keys().join(", ");
             let message = format!("case `{}` has no keyframe `{asked}`; it has {keys}", case.get_ref());
             return Err(self.document.error(key.span(), message));
         }

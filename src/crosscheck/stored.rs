@@ -13,7 +13,7 @@ use study::key::Owner;
 use study::manifest::Manifest;
 use study::name::Names;
 use study::record::{Kept, Row, Status};
-use study::store::{open_exhibits, read_numbers};
+use study::store::{open_traces, read_numbers};
 use study::{Inputs, Interpretation, Study, StudyError};
 
 /// Which paths of a study are judged.
@@ -24,8 +24,8 @@ pub struct StoredPaths {
     pub study: String,
     /// The label of its problem group.
     pub problems: String,
-    /// The exhibit that holds configurations, one a point.
-    pub exhibit: String,
+    /// The trace that holds configurations, one a point.
+    pub trace: String,
     /// Which of a point's numbers is the first joint's angle, from 0.
     pub first_joint: usize,
     /// The unit of the angles.
@@ -65,20 +65,20 @@ impl StoredPaths {
         let solved: BTreeSet<Owner> = rows.filter(is_solved).map(|row| Owner::from(&row.key)).collect();
         // A group may also hold paths of a bare point, which are narrower.
         let is_wanted = |kept: &Kept| {
-            kept.exhibit.name == self.exhibit
-                && kept.exhibit.width >= self.first_joint + joints
+            kept.trace.name == self.trace
+                && kept.trace.width >= self.first_joint + joints
                 && solved.contains(&kept.of)
         };
         let mut paths = Vec::new();
-        let mut stored = open_exhibits(runs, &self.study, &manifest.files)?;
+        let mut stored = open_traces(runs, &self.study, &manifest.files)?;
         while let Some(kept) = stored.next_one()? {
             let path = is_wanted(&kept).then(|| self.path(&kept, &names, joints));
             paths.extend(path.filter(|path| path.stops_rad.len() > 1));
         }
         if paths.is_empty() {
             let reason = format!(
-                "the stored run of study `{}` kept no exhibit `{}` of a solved trial of problems `{}`",
-                self.study, self.exhibit, self.problems
+                "the stored run of study `{}` kept no trace `{}` of a solved trial of problems `{}`",
+                self.study, self.trace, self.problems
             );
             return Err(StudyError::stored(Manifest::path(runs, &self.study), reason).into());
         }
@@ -88,7 +88,7 @@ impl StoredPaths {
     fn path(&self, kept: &Kept, names: &Names, joints: usize) -> JointPath {
         let angle = |value: &f64| if self.unit == AngleUnit::Deg { value.to_radians() } else { *value };
         let stop = |row: &[f64]| row.iter().skip(self.first_joint).take(joints).map(angle).collect();
-        let rows = kept.exhibit.values.chunks_exact(kept.exhibit.width);
+        let rows = kept.trace.values.chunks_exact(kept.trace.width);
         JointPath { name: names.owner(&kept.of), stops_rad: rows.map(stop).collect() }
     }
 
@@ -96,7 +96,7 @@ impl StoredPaths {
         Study::load(&folder.join(format!("{}.toml", self.study)), inputs)
     }
 
-    /// The world that the study, in the paper's `folder`, poses under its default readings; `misnamed` makes an error about
+    /// The world that the study, in the paper's `folder`, poses under its default interpretation; `misnamed` makes an error about
     /// one of these settings.
     ///
     /// # Errors
@@ -116,7 +116,7 @@ impl StoredPaths {
         })?;
         let point = Interpretation::new(&study.choices, &BTreeMap::new());
         let point = point.expect("a loaded study's defaults are among its options");
-        let prepared = group.family(&group.points[0], &point, inputs)?.prepare(0);
-        Ok(prepared.map_err(|invalid| misnamed("problems", invalid.0))?.world)
+        let preprocessing = group.family(&group.points[0], &point, inputs)?.prepare(0);
+        Ok(preprocessing.map_err(|invalid| misnamed("problems", invalid.0))?.world)
     }
 }

@@ -190,7 +190,8 @@ impl Subject for SerialArm {
         let placed = self.placed(q_rad);
         self.pairs.iter().any(|pair| {
             let Pair::Still(part, still) = *pair else { return false };
-            let (axis, solid) = (&placed[part].segment, &self.model.stills[still].solid);
+            let axis = &placed[part].segment;
+            let solid = &self.model.stills[still].solid;
             !matches!(solid, Solid::HalfSpace(_))
                 && distance_segment_solid(axis, solid) == 0.0
                 && [axis.a, axis.b].iter().all(|end| distance_point_solid(end, solid) > 0.0)
@@ -206,7 +207,9 @@ impl Subject for SerialArm {
         if !self.tool_is_straight {
             return Some(mixed);
         }
-        let (arm, from, to) = (self.robot.arm(), six(from_rad), six(to_rad));
+        let arm = self.robot.arm();
+        let from = six(from_rad);
+        let to = six(to_rad);
         let ends = [self.chain().forward(&from), self.chain().forward(&to)];
         let target = straight(&ends[0], &ends[1], share);
         let q = arm.inverse_on(&target, arm.branch_of(&from), &six(&mixed))?;

@@ -147,7 +147,8 @@ fn a_stored_path_is_followed_on_the_tool_s_straight_line() {
 
 #[test]
 fn a_promise_is_broken_by_the_contacts_that_it_is_about() {
-    let (outer, own) = (Pair::Still(1, 0), Pair::Parts(0, 2));
+    let outer = Pair::Still(1, 0);
+    let own = Pair::Parts(0, 2);
     let broken = |promise: Freedom| [outer, own].map(|pair| promise.is_broken_by(pair));
     assert_eq!(broken(Freedom::Nothing), [false, false]);
     assert_eq!(broken(Freedom::Scene), [true, false]);

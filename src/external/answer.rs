@@ -24,7 +24,7 @@ const FRACTION: f64 = 1e-3;
 
 /// How many questions were answered.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Asked {
+pub struct QuestionCounts {
     /// Batches.
     pub batches: u64,
     /// Configurations.
@@ -44,7 +44,7 @@ pub struct Space<'a> {
     /// The local paths of a cell with the end that was asked for.
     lines: Option<Lines>,
     scratch: Scratch,
-    asked: Asked,
+    asked: QuestionCounts,
 }
 
 impl<'a> Space<'a> {
@@ -57,11 +57,11 @@ impl<'a> Space<'a> {
             }
             Local::Joints(_) | Local::Plane(_) => None,
         });
-        Self { world, any_angle, lines, scratch: Scratch::default(), asked: Asked::default() }
+        Self { world, any_angle, lines, scratch: Scratch::default(), asked: QuestionCounts::default() }
     }
 
     /// How many questions were answered.
-    pub fn asked(&self) -> Asked {
+    pub fn question_counts(&self) -> QuestionCounts {
         self.asked
     }
 
@@ -143,7 +143,8 @@ impl<'a> Space<'a> {
     }
 
     fn check(&self, at: &[f64]) -> Result<(), String> {
-        let (found, width) = (at.len(), self.width());
+        let found = at.len();
+        let width = self.width();
         let wrong = || format!("a question has a configuration of {found} numbers; {width} are accepted");
         if found == width { Ok(()) } else { Err(wrong()) }
     }
@@ -183,7 +184,8 @@ impl<'a> Space<'a> {
         }
         let is_plane =
             matches!(self.world, World::Roadmap(roadmap) if matches!(roadmap.local(), Local::Plane(_)));
-        let (mut free, mut not) = (0.0, 1.0);
+        let mut free = 0.0;
+        let mut not = 1.0;
         while not - free > FRACTION {
             let middle = f64::midpoint(free, not);
             let mut at: Vec<f64> = from.iter().zip(to).map(|(a, b)| a + (b - a) * middle).collect();
@@ -278,7 +280,8 @@ fn count<T>(asked: Option<&Vec<T>>) -> u64 {
 const STEP_RAD: f64 = std::f64::consts::PI / 360.0;
 
 fn joins_cells(lattice: &LatticeWorld, from: &[f64], to: &[f64], any_angle: bool) -> bool {
-    let (grid, rule) = (lattice.grid(), lattice.corner_rule());
+    let grid = lattice.grid();
+    let rule = lattice.corner_rule();
     let (Ok(from), Ok(to)) = (lattice.free_cell("", from), lattice.free_cell("", to)) else { return false };
     let [[x, y], [to_x, to_y]] = [from, to].map(|cell| grid.xy(cell));
     let [dx, dy] = [to_x - x, to_y - y];

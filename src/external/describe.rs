@@ -107,7 +107,8 @@ fn plane(map: &PlaneMap) -> Plane {
 }
 
 fn cell(lines: &Lines) -> Cell {
-    let (cell, rules) = (lines.cell(), lines.rules());
+    let cell = lines.cell();
+    let rules = lines.rules();
     let chain = cell.robot().arm().chain();
     let joint = |joint: &engine::kinematics::Joint| Joint {
         alpha_rad: joint.alpha_rad,

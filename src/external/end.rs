@@ -83,6 +83,7 @@ fn seen(pid: i32) -> Option<Seen> {
     let stat = fs::read_to_string(format!("/proc/{pid}/stat")).ok()?;
     let mut rest = stat.rsplit_once(')')?.1.split_whitespace();
     let state = rest.next()?;
-    let (parent, group) = (rest.next()?.parse().ok()?, rest.next()?.parse().ok()?);
+    let parent = rest.next()?.parse().ok()?;
+    let group = rest.next()?.parse().ok()?;
     (!["Z", "X"].contains(&state)).then_some(Seen { pid, parent, group })
 }

@@ -14,7 +14,7 @@ mod process;
 mod talk;
 pub mod world;
 
-pub use answer::{Asked, Space};
+pub use answer::{QuestionCounts, Space};
 pub use describe::describe;
 pub use process::{Clock, Process, Program, Start};
 pub use talk::{COUNTERS, End, Query, Talk, greet, solve};

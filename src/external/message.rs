@@ -28,7 +28,7 @@ pub enum FromPlanner {
     /// A path, the best so far; any number of them before the result.
     Incumbent(Incumbent),
     /// How the query ended.
-    Result(Found),
+    Result(QueryResult),
 }
 
 /// What replan writes.
@@ -161,7 +161,7 @@ pub struct Incumbent {
 /// How a query ended.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Found {
+pub struct QueryResult {
     /// The query.
     pub id: u64,
     /// How it ended.

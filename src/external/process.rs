@@ -50,7 +50,7 @@ pub enum Start {
 
 /// What came from a planner.
 #[derive(Debug)]
-pub(super) enum Said {
+pub(super) enum PlannerOutput {
     /// A line.
     Line(String),
     /// More than it may write for one query.
@@ -64,7 +64,7 @@ pub struct Process {
     child: Child,
     mark: String,
     to: Option<Sender<String>>,
-    from: Receiver<Said>,
+    from: Receiver<PlannerOutput>,
     written: Arc<AtomicU64>,
     log: Arc<Mutex<VecDeque<u8>>>,
     /// What it said of itself, once it has.
@@ -93,11 +93,16 @@ impl Process {
         let limit = Rlimit { current: bytes, maximum: bytes };
         // A process that has ended already is noticed when it says nothing.
         let _ = prlimit(Pid::from_raw(child.id() as i32), Resource::As, limit);
-        let (stdin, stdout, stderr) = (child.stdin.take(), child.stdout.take(), child.stderr.take());
+        let stdin = child.stdin.take();
+        let stdout = child.stdout.take();
+        let stderr = child.stderr.take();
         let (to, lines) = channel();
         let (said, from) = sync_channel(WAITING_LINES);
-        let (written, log) = (Arc::new(AtomicU64::new(0)), Arc::default());
-        let (count, tail, most) = (written.clone(), Arc::clone(&log), program.limits.output_mb << 20);
+        let written = Arc::new(AtomicU64::new(0));
+        let log = Arc::default();
+        let count = written.clone();
+        let tail = Arc::clone(&log);
+        let most = program.limits.output_mb << 20;
         let piped = "its pipes were asked for";
         thread::spawn(move || write_lines(stdin.expect(piped), &lines));
         thread::spawn(move || read_lines(stdout.expect(piped), &said, &count, most));
@@ -124,10 +129,12 @@ impl Process {
     /// # Errors
     /// A sentence: it wrote too much, ended, or wrote something that is no message.
     pub(super) fn next(&mut self, within: Duration) -> Result<Option<FromPlanner>, String> {
-        let line = match self.said(within) {
-            Ok(Said::Line(line)) => line,
-            Ok(Said::Flood) => return Err("the planner wrote more than its limit of output".to_owned()),
-            Ok(Said::End) | Err(RecvTimeoutError::Disconnected) => {
+        let line = match self.next_output(within) {
+            Ok(PlannerOutput::Line(line)) => line,
+            Ok(PlannerOutput::Flood) => {
+                return Err("the planner wrote more than its limit of output".to_owned());
+            }
+            Ok(PlannerOutput::End) | Err(RecvTimeoutError::Disconnected) => {
                 return Err("the planner ended before its result".to_owned());
             }
             Err(RecvTimeoutError::Timeout) => return Ok(None),
@@ -141,13 +148,13 @@ impl Process {
     }
 
     /// What comes next from the planner. One that has ended may have left others who hold its output open.
-    fn said(&mut self, within: Duration) -> Result<Said, RecvTimeoutError> {
+    fn next_output(&mut self, within: Duration) -> Result<PlannerOutput, RecvTimeoutError> {
         let mut left = within;
         loop {
             let slice = left.min(LOOK);
             let has_ended = matches!(self.child.try_wait(), Ok(Some(_)));
             match self.from.recv_timeout(slice) {
-                Err(RecvTimeoutError::Timeout) if has_ended => return Ok(Said::End),
+                Err(RecvTimeoutError::Timeout) if has_ended => return Ok(PlannerOutput::End),
                 Err(RecvTimeoutError::Timeout) if left > slice => left -= slice,
                 other => return other,
             }
@@ -215,7 +222,7 @@ fn write_lines(mut stdin: ChildStdin, lines: &Receiver<String>) {
     }
 }
 
-fn read_lines(stdout: ChildStdout, said: &SyncSender<Said>, written: &AtomicU64, most: u64) {
+fn read_lines(stdout: ChildStdout, said: &SyncSender<PlannerOutput>, written: &AtomicU64, most: u64) {
     let mut reader = BufReader::new(stdout);
     let mut line = Vec::new();
     loop {
@@ -228,18 +235,18 @@ fn read_lines(stdout: ChildStdout, said: &SyncSender<Said>, written: &AtomicU64,
         line.extend_from_slice(&chunk[..used]);
         reader.consume(used);
         if written.fetch_add(used as u64, Ordering::Relaxed) + used as u64 > most {
-            let _ = said.send(Said::Flood);
+            let _ = said.send(PlannerOutput::Flood);
             return;
         }
         if end.is_some() {
             let text = String::from_utf8_lossy(&line).trim_start_matches('\u{feff}').trim().to_owned();
             line.clear();
-            if !text.is_empty() && said.send(Said::Line(text)).is_err() {
+            if !text.is_empty() && said.send(PlannerOutput::Line(text)).is_err() {
                 return;
             }
         }
     }
-    let _ = said.send(Said::End);
+    let _ = said.send(PlannerOutput::End);
 }
 
 fn read_log(mut stderr: ChildStderr, log: &Mutex<VecDeque<u8>>) {

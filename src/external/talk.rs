@@ -1,7 +1,7 @@
 //! One conversation: a query is handed over, questions are answered, a result comes back or does not.
 
-use super::answer::{Asked, Space};
-use super::message::{Found, FromPlanner, Hello, Limits, PROTOCOL, Solve, Status, ToPlanner};
+use super::answer::{QuestionCounts, Space};
+use super::message::{FromPlanner, Hello, Limits, PROTOCOL, QueryResult, Solve, Status, ToPlanner};
 use super::process::{Clock, Process, Program};
 use super::world::World;
 use base::text::listed;
@@ -51,7 +51,7 @@ pub struct Talk {
     /// Incumbents that its own questions would have been answered for: seconds since the query, and the path.
     pub incumbents: Vec<(f64, Vec<Vec<f64>>)>,
     /// Questions.
-    pub asked: Asked,
+    pub asked: QuestionCounts,
     /// From the query to its end by replan's clock.
     pub wall_ns: u64,
     /// Of it, what replan took to answer questions.
@@ -72,7 +72,7 @@ impl Talk {
             cost: None,
             counters: BTreeMap::new(),
             incumbents: Vec::new(),
-            asked: Asked::default(),
+            asked: QuestionCounts::default(),
             wall_ns: 0,
             answering_ns: 0,
             is_cut_off: false,
@@ -249,7 +249,7 @@ impl Conversation<'_, '_> {
         }
     }
 
-    fn result(&mut self, found: Found) -> Result<End, String> {
+    fn result(&mut self, found: QueryResult) -> Result<End, String> {
         self.own(found.id)?;
         self.check(&found.path)?;
         check_counters(&found.counters)?;
@@ -267,7 +267,7 @@ impl Conversation<'_, '_> {
 
     fn finish(mut self, end: End) -> Talk {
         self.talk.wall_ns = (self.clock)() - self.begun;
-        self.talk.asked = self.space.asked();
+        self.talk.asked = self.space.question_counts();
         self.talk.end = end;
         if self.talk.end == End::TimeSpent
             && let Some((_, path)) = self.talk.incumbents.last()

@@ -2,11 +2,11 @@
 //! is drawn.
 
 use super::html::{escaped, prose as inline};
-use super::readings;
+use super::interpretations;
 use crate::analysis::class::Verdict;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::tabulated::{grid, table_caption};
-use crate::analysis::verdict::{Effect, Finding, Judged, Verdicts};
+use crate::analysis::verdict::{ClaimVerdict, CriterionFinding, Effect, Verdicts};
 use crate::render::RenderError;
 use crate::render::figure::caption;
 use crate::render::prose::prose;
@@ -21,7 +21,7 @@ pub struct Body<'a> {
     pub verdicts: &'a Verdicts,
     /// The trials of which there is a replay.
     pub replayed: &'a [&'a str],
-    /// How many readings can be looked at.
+    /// How many interpretations can be looked at.
     pub explored: usize,
 }
 
@@ -59,12 +59,13 @@ impl Body<'_> {
     }
 
     /// Text of ours about the paper, with our numbers in it.
-    fn said(&self, text: &str) -> String {
+    fn prose_html(&self, text: &str) -> String {
         inline(&prose(text, self.verdicts), |id| self.is_claim(id))
     }
 
     fn head(&self, is_own: bool) -> String {
-        let (paper, counts) = (self.evidence.paper, self.verdicts.counts());
+        let paper = self.evidence.paper;
+        let counts = self.verdicts.counts();
         let source = &paper.source;
         let about: Vec<&str> = [source.authors.as_ref(), source.published.as_ref()]
             .into_iter()
@@ -76,7 +77,9 @@ impl Body<'_> {
         // Findings were written on the study's own run; of any other they may be false.
         if is_own {
             text += "<ul>\n";
-            text.extend(paper.report.findings.iter().map(|said| format!("<li>{}</li>\n", self.said(said))));
+            text.extend(
+                paper.report.findings.iter().map(|said| format!("<li>{}</li>\n", self.prose_html(said))),
+            );
             text += "</ul>\n";
         }
         let more = counts.parts.into_iter().chain(counts.asserted);
@@ -88,7 +91,7 @@ impl Body<'_> {
     fn navigation(&self, is_without_curves: bool) -> String {
         let parts = [
             ("claims", "Claims", true),
-            ("readings", "Readings", !self.evidence.paper.choices.is_empty()),
+            ("interpretations", "Readings", !self.evidence.paper.choices.is_empty()),
             ("tables", "Tables", self.has_tables()),
             ("curves", "Curves", !is_without_curves),
             ("replays", "Replays", !self.replayed.is_empty()),
@@ -106,20 +109,20 @@ impl Body<'_> {
              <label>words <input type=\"search\" name=\"words\"></label>\
              <label>class <select name=\"class\"><option value=\"\">any</option>{classes}</select></label>\
              <label>hangs on <select name=\"hangs\"><option value=\"\">anything</option></select></label>\
-             <label hidden>under this reading <select name=\"under\"><option value=\"\">any</option>\
+             <label hidden>under this interpretation <select name=\"under\"><option value=\"\">any</option>\
              <option value=\"differs\">not as under the default</option>{classes}</select></label>\
              <label><input type=\"checkbox\" name=\"parts\"> with parts and cells</label>\
              <output></output></form>\n"
         );
-        text += &readings::section(self.evidence.paper, self.verdicts, self.explored);
+        text += &interpretations::section(self.evidence.paper, self.verdicts, self.explored);
         text += "<div class=\"wide\"><table id=\"claimed\"><thead><tr>";
         for (key, name) in [
             ("claim", "claim"),
             ("paper", "the paper"),
             ("ours", "ours"),
             ("class", "class"),
-            ("readings", "readings"),
-            ("under", "under this reading"),
+            ("interpretations", "interpretations"),
+            ("under", "under this interpretation"),
         ] {
             text += &format!(
                 "<th scope=\"col\" data-column=\"{key}\" aria-sort=\"none\"><button type=\"button\" data-sort=\"{key}\">{name}</button></th>"
@@ -131,7 +134,7 @@ impl Body<'_> {
     }
 
     /// A claim's line, and below it the evidence that opens.
-    fn claim(&self, judged: &Judged) -> String {
+    fn claim(&self, judged: &ClaimVerdict) -> String {
         let id = escaped(&judged.claim);
         let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
         let printed = judged.printed.as_ref().map(|printed| format!("{printed}{unit}"));
@@ -141,7 +144,7 @@ impl Body<'_> {
             || "–".to_owned(),
             |ours| format!("{} ({}; n = {})", short(ours), ours.what, ours.n),
         );
-        let readings = judged.across_readings().unwrap_or_default();
+        let interpretations = judged.across_interpretations().unwrap_or_default();
         let second = judged.second.map_or_else(String::new, |class| {
             format!("<div class=\"second\">second seed: {}</div>", badge(class, class.name()))
         });
@@ -151,7 +154,7 @@ impl Body<'_> {
             "<tbody id=\"claim={id}\" data-class=\"{}\" data-rank=\"{rank}\" \
              data-hangs=\"{}\"{part}>\
              <tr><th scope=\"row\"><button type=\"button\" class=\"open\" aria-expanded=\"false\">{}</button></th>\
-             <td>{}: {}</td><td>{}</td><td>{}{second}</td><td class=\"readings\">{}</td>\
+             <td>{}: {}</td><td>{}</td><td>{}{second}</td><td class=\"interpretations\">{}</td>\
              <td class=\"under\"></td></tr>\n\
              <tr class=\"evidence\" hidden><td colspan=\"6\">{}</td></tr></tbody>\n",
             escaped(judged.verdict.name()),
@@ -161,12 +164,12 @@ impl Body<'_> {
             escaped(&says),
             escaped(&ours),
             badge(judged.verdict, judged.outcome()),
-            escaped(&readings),
+            escaped(&interpretations),
             self.evidence_of(judged)
         )
     }
 
-    fn evidence_of(&self, judged: &Judged) -> String {
+    fn evidence_of(&self, judged: &ClaimVerdict) -> String {
         let line = |what: &str, said: &Option<String>| {
             said.as_ref().map_or_else(String::new, |said| {
                 format!("<p>{what}: {}</p>", inline(said, |id| self.is_claim(id)))
@@ -181,7 +184,7 @@ impl Body<'_> {
         text + &judged.findings.iter().map(|finding| self.finding(finding)).collect::<String>()
     }
 
-    fn finding(&self, finding: &Finding) -> String {
+    fn finding(&self, finding: &CriterionFinding) -> String {
         let class = finding.verdict.map_or_else(String::new, |class| badge(class, class.name()));
         let mut text =
             format!("<div class=\"finding\"><p><code>{}</code> {class}</p><ul>", escaped(&finding.criterion));
@@ -300,10 +303,10 @@ impl Body<'_> {
     }
 }
 
-/// The readings one of whose options, departing alone from the default, turns the claim or leaves it open.
-fn hangs_on(judged: &Judged) -> Vec<&str> {
+/// The interpretations one of whose options, departing alone from the default, turns the claim or leaves it open.
+fn hangs_on(judged: &ClaimVerdict) -> Vec<&str> {
     let effects = judged.across.iter().flat_map(|across| &across.effects);
-    effects.filter(|(_, of)| of.effect >= Effect::Opens).map(|(axis, _)| axis.as_str()).collect()
+    effects.filter(|(_, of)| of.effect >= Effect::Opens).map(|(choice, _)| choice.as_str()).collect()
 }
 
 /// Each of `texts` as a cell.
@@ -316,7 +319,7 @@ fn option(name: &str) -> String {
     format!("<option>{}</option>", escaped(name))
 }
 
-fn cell(printed: &str, ours: &str, judged: Option<&Judged>) -> String {
+fn cell(printed: &str, ours: &str, judged: Option<&ClaimVerdict>) -> String {
     let Some(judged) = judged else { return "<td>–</td>".to_owned() };
     format!(
         "<td class=\"cell\"><b>{}</b><br>ours {}<br><a href=\"#claim={}\">{}</a></td>",

@@ -8,12 +8,12 @@
 mod body;
 mod curves;
 mod html;
+mod interpretations;
 mod packed;
-mod readings;
 mod replay;
 
 use crate::analysis::across::Stored;
-use crate::analysis::across::by_reading::by_reading;
+use crate::analysis::across::by_interpretation::by_interpretation;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::Verdicts;
 use crate::render::output::Output;
@@ -59,7 +59,7 @@ pub struct Page {
     pub rest: Option<Vec<u8>>,
 }
 
-/// The page of the paper of `evidence` with what is `stored` of its readings and `figures` as they were drawn, SVG by the name of
+/// The page of the paper of `evidence` with what is `stored` of its interpretations and `figures` as they were drawn, SVG by the name of
 /// each; `rest` is the name of the file for what does not fit.
 ///
 /// # Errors
@@ -72,18 +72,20 @@ pub fn page(
     inputs: &Inputs,
     rest: &str,
 ) -> Result<Page, PageError> {
-    let explored = by_reading(evidence.paper, verdicts, stored);
-    let (replays, curves) = (replay::all(evidence, verdicts, inputs)?, curves::all(evidence, verdicts)?);
+    let explored = by_interpretation(evidence.paper, verdicts, stored);
+    let replays = replay::all(evidence, verdicts, inputs)?;
+    let curves = curves::all(evidence, verdicts)?;
     let named: Vec<&str> =
         replays.iter().flat_map(|replay| replay.trials.iter().map(String::as_str)).collect();
-    let looked_at = explored.as_ref().map_or(0, |explored| explored.readings.len());
+    let looked_at = explored.as_ref().map_or(0, |explored| explored.interpretations.len());
     let body = Body { evidence, verdicts, replayed: &named, explored: looked_at };
     let mut text = opening(&evidence.paper.id, &evidence.paper.source.title);
     text += &body.html(&state(evidence, verdicts), curves.is_empty())?;
-    let (mut packs, mut pack) = (Vec::new(), Pack::new(PAGE_BYTES, text.len() + VIEWER.len() + STYLE.len()));
+    let mut packs = Vec::new();
+    let mut pack = Pack::new(PAGE_BYTES, text.len() + VIEWER.len() + STYLE.len());
     if let Some(explored) = &explored {
         let bytes = serde_json::to_vec(explored).expect("texts and finite numbers");
-        packs.push(pack.always(Packed::new("readings", "", &bytes)?));
+        packs.push(pack.always(Packed::new("interpretations", "", &bytes)?));
     }
     for curve in &curves {
         let bytes = serde_json::to_vec(curve).expect("plain numbers");

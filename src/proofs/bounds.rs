@@ -111,7 +111,8 @@ mod tests {
     #[test]
     fn no_path_saves_more_than_the_largest_saving() {
         // Law: the saving of any length in any reading of the baseline is at most the bound, which is reached.
-        let (baseline, least) = (Interval::new(14.645, 14.66), 13.6);
+        let baseline = Interval::new(14.645, 14.66);
+        let least = 13.6;
         let bound = largest_saving_percent(baseline, least);
         let mut closest = f64::INFINITY;
         for i in 0..=20 {

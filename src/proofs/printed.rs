@@ -186,7 +186,8 @@ impl Printed {
             high: centre + high,
             high_closed,
         };
-        let (is_even, sign) = (self.units % 2 == 0, self.units.signum());
+        let is_even = self.units % 2 == 0;
+        let sign = self.units.signum();
         match digits {
             Digits::Rounded => from(-1, true, 1, true),
             Digits::HalfUp => from(-1, sign > 0, 1, sign < 0),
@@ -240,7 +241,8 @@ impl fmt::Display for Printed {
             return self.as_typed().fmt(f);
         }
         let sign = if self.units < 0 { "-" } else { "" };
-        let (units, scale) = (self.units.abs(), self.scale());
+        let units = self.units.abs();
+        let scale = self.scale();
         write!(f, "{sign}{}", units / scale)?;
         if self.decimals > 0 {
             write!(f, ".{:0width$}", units % scale, width = self.decimals as usize)?;

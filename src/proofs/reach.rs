@@ -19,7 +19,7 @@ use std::collections::BTreeSet;
 
 /// Whole numbers with a given count, sum and sum of squares, between two ends where they are given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Asked {
+pub struct SumQuery {
     /// How many.
     pub n: u64,
     /// Their sum.
@@ -32,13 +32,13 @@ pub struct Asked {
 
 /// A question with the values that its largest one can have and are not tried yet.
 struct Open {
-    asked: Asked,
+    asked: SumQuery,
     next: i128,
     last: i128,
 }
 
 /// Whether there are such numbers; none if 128 bits or `steps`, which are used up, do not suffice.
-pub fn is_met(asked: Asked, steps: &mut u64) -> Option<bool> {
+pub fn is_met(asked: SumQuery, steps: &mut u64) -> Option<bool> {
     if let Some(settled) = asked.settled()? {
         return Some(settled);
     }
@@ -61,7 +61,7 @@ pub fn is_met(asked: Asked, steps: &mut u64) -> Option<bool> {
     Some(false)
 }
 
-impl Asked {
+impl SumQuery {
     /// What is left after the value `largest`, which no other exceeds.
     fn without(self, largest: i128) -> Self {
         Self {
@@ -118,7 +118,8 @@ impl Asked {
     /// Whether every vector with less spread has two equal values inside the range, so that it leads on to the next.
     fn has_a_pair_inside(&self) -> Option<bool> {
         let [Some(least), Some(most)] = self.ends else { return Some(false) };
-        let (n, width) = (i128::from(self.n), most.checked_sub(least)?);
+        let n = i128::from(self.n);
+        let width = most.checked_sub(least)?;
         let sum = self.sum.checked_sub(n.checked_mul(least)?)?;
         let shift = least.checked_mul(self.sum.checked_mul(2)?.checked_sub(n.checked_mul(least)?)?)?;
         let squares = self.squares.checked_sub(shift)?;
@@ -209,7 +210,8 @@ mod tests {
 
     #[test]
     fn within_a_range_exactly_the_sums_of_squares_that_occur_are_met() {
-        let (mut met, mut gaps) = (0, 0);
+        let mut met = 0;
+        let mut gaps = 0;
         for (n, width) in
             [(1, 9), (2, 14), (3, 14), (4, 12), (5, 11), (6, 9), (7, 8), (9, 6), (14, 4), (30, 3)]
         {
@@ -217,7 +219,7 @@ mod tests {
             for shift in [0, -3] {
                 for sum in 0..=i128::from(n) * width {
                     for squares in 0..=i128::from(n) * width * width {
-                        let asked = Asked {
+                        let asked = SumQuery {
                             n,
                             sum: sum + shift * i128::from(n),
                             squares: squares + 2 * shift * sum + i128::from(n) * shift * shift,
@@ -248,7 +250,7 @@ mod tests {
             }
             for sum in -20..=20 {
                 for squares in 0..=60 {
-                    let asked = Asked { n, sum, squares, ends: [None, None] };
+                    let asked = SumQuery { n, sum, squares, ends: [None, None] };
                     assert_eq!(is_met(asked, &mut 10_000), Some(all.contains(&(sum, squares))), "{asked:?}");
                 }
             }
@@ -262,8 +264,8 @@ mod tests {
             for sum in 0..=12 {
                 for squares in 0..=150 {
                     let expected = all.contains(&(sum, squares));
-                    let up = Asked { n, sum, squares, ends: [Some(0), None] };
-                    let down = Asked { n, sum: -sum, squares, ends: [None, Some(0)] };
+                    let up = SumQuery { n, sum, squares, ends: [Some(0), None] };
+                    let down = SumQuery { n, sum: -sum, squares, ends: [None, Some(0)] };
                     for asked in [up, down] {
                         assert_eq!(is_met(asked, &mut 10_000), Some(expected), "{asked:?}");
                     }
@@ -283,7 +285,7 @@ mod tests {
         ] {
             let mut steps = 1000;
             assert_eq!(
-                is_met(Asked { n, sum, squares, ends }, &mut steps),
+                is_met(SumQuery { n, sum, squares, ends }, &mut steps),
                 Some(true),
                 "{n} {sum} {squares}"
             );

@@ -89,8 +89,10 @@ pub struct Type {
 
 impl Type {
     /// Regular dark text of `size` that starts at its anchor, on the baseline.
-    pub const fn of(size: TextSize) -> Self {
-        let (weight, align, stand) = (Weight::Regular, Align::Start, Stand::Base);
+    pub const fn regular(size: TextSize) -> Self {
+        let weight = Weight::Regular;
+        let align = Align::Start;
+        let stand = Stand::Base;
         Self { size, weight, color: INK, align, stand, turn_deg: 0.0, rim: false }
     }
 
@@ -197,7 +199,8 @@ impl Canvas {
     /// Fills several closed outlines as one shape (no seam where they touch; a hole where they nest).
     pub fn outlines(&mut self, outlines: &[&[[f64; 2]]], fill: Option<Fill>, stroke: Option<&Stroke>) {
         let path: String = outlines.iter().map(|points| path_data(points, 2) + "z").collect();
-        let (paint, rim) = (surface(fill), stroke.map(ink).unwrap_or_default());
+        let paint = surface(fill);
+        let rim = stroke.map(ink).unwrap_or_default();
         let rule = if outlines.len() > 1 { " fill-rule=\"evenodd\"" } else { "" };
         self.push(format_args!("<path{paint}{rim}{rule} d=\"{path}\"/>\n"));
     }
@@ -206,8 +209,10 @@ impl Canvas {
     pub fn raster(&mut self, outlines: &[Rect], fill: Fill) {
         let mut path = String::new();
         for rect in outlines {
-            let (x, y, right, bottom) =
-                (short(rect.x), short(rect.y), short(rect.right()), short(rect.bottom()));
+            let x = short(rect.x);
+            let y = short(rect.y);
+            let right = short(rect.right());
+            let bottom = short(rect.bottom());
             write!(path, "M{x} {y}H{right}V{bottom}H{x}Z").expect("a string takes everything");
         }
         let paint = surface(Some(fill));
@@ -217,21 +222,24 @@ impl Canvas {
     /// Fills a rectangle and, if given, strokes its edge.
     pub fn rect(&mut self, rect: Rect, fill: Option<Fill>, stroke: Option<&Stroke>) {
         let (x, y, w, h) = (short(rect.x), short(rect.y), short(rect.w), short(rect.h));
-        let (paint, rim) = (surface(fill), stroke.map(ink).unwrap_or_default());
+        let paint = surface(fill);
+        let rim = stroke.map(ink).unwrap_or_default();
         self.push(format_args!("<rect{paint}{rim} x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"/>\n"));
     }
 
     /// Fills a disc and, if given, strokes its edge. Discs that are painted alike, one after another, say so once.
     pub fn circle(&mut self, centre: [f64; 2], radius_pt: f64, fill: Option<Fill>, stroke: Option<&Stroke>) {
         let (x, y, r) = (short(centre[0]), short(centre[1]), short(radius_pt));
-        let (paint, rim) = (surface(fill), stroke.map(ink).unwrap_or_default());
+        let paint = surface(fill);
+        let rim = stroke.map(ink).unwrap_or_default();
         let disc = format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\"/>\n");
         self.join(format!("<g{paint}{rim}>\n"), &disc, "</g>\n", true);
     }
 
     /// Draws a data point about `radius_pt` in radius, with a thin white rim that parts neighbours.
     pub fn marker(&mut self, at: [f64; 2], marker: Marker, radius_pt: f64, color: Rgb) {
-        let (fill, rim) = (Some(Fill::solid(color)), Stroke::solid(WHITE, 0.35));
+        let fill = Some(Fill::solid(color));
+        let rim = Stroke::solid(WHITE, 0.35);
         let outline: &[[f64; 2]] = match marker {
             Marker::Circle => return self.circle(at, radius_pt, fill, Some(&rim)),
             Marker::Square => &[[-0.88, -0.88], [0.88, -0.88], [0.88, 0.88], [-0.88, 0.88]],
@@ -255,13 +263,14 @@ impl Canvas {
         self.refused.get_or_insert(error);
     }
 
-    /// Draws one line of text.
+    /// Instances one line of text.
     pub fn text(&mut self, at: [f64; 2], text: &str, set: &Type) {
         if let Some(found) = font::missing(text, set.weight) {
             self.refuse(RenderError::MissingGlyph { found, text: text.to_owned() });
         }
         let (placed, units) = font::line(text, set.weight);
-        let (scale, size) = (set.size.pt() / UNITS_PER_EM, set.size.pt());
+        let scale = set.size.pt() / UNITS_PER_EM;
+        let size = set.size.pt();
         let width = f64::from(units) * scale;
         let back = match set.align {
             Align::Start => 0.0,
@@ -298,7 +307,8 @@ impl Canvas {
         } else {
             String::new()
         };
-        let (label, fill) = (vector::escaped(text), set.color.hex());
+        let label = vector::escaped(text);
+        let fill = set.color.hex();
         let mut uses = String::new();
         for &(glyph, x) in glyphs {
             if !font::outline(glyph, set.weight).is_empty() {
@@ -360,7 +370,8 @@ impl Canvas {
             .expect("a string takes everything");
         }
         for &(weight, glyph) in &self.glyphs {
-            let (id, path) = (vector::glyph_id(weight, glyph), font::outline(glyph, weight));
+            let id = vector::glyph_id(weight, glyph);
+            let path = font::outline(glyph, weight);
             writeln!(defs, "<path id=\"{id}\" d=\"{path}\"/>").expect("a string takes everything");
         }
         let svg = vector::document(self.width.mm(), self.height_pt, &defs, &self.body, provenance);

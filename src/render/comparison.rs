@@ -17,12 +17,12 @@ struct Table {
 }
 
 /// What only CSV has room for: all of a change, number by number.
-const CHANGES: &str = "study,contender,metric,unit,better,pairs,first_only,second_only,draws,mean_first,mean_second,\
+const CHANGES: &str = "study,contender,metric,unit,better,pairs,first_only,second_only,instances,mean_first,mean_second,\
 mean_change,mean_change_low,mean_change_high,mean_change_percent,mean_change_percent_low,mean_change_percent_high,\
 median_change,median_change_low,median_change_high,improvement_percent,improvement_percent_low,improvement_percent_high,\
 wins,ties,losses,word\n";
 
-const CELLS: &str = "study,reading,group,contender,sweep,metric,unit,trials,solved,draws,measured,mean,mean_low,mean_high,\
+const CELLS: &str = "study,interpretation,group,contender,sweep,metric,unit,trials,solved,instances,measured,mean,mean_low,mean_high,\
 median,median_low,median_high\n";
 
 /// The comparison as aligned text.
@@ -59,7 +59,7 @@ pub fn csv(of: &Comparison) -> String {
     let line = |change: &Change| {
         let texts = [&change.study, &change.contender, &change.metric, &change.unit, &change.better];
         let [first, second] = change.one_sided;
-        let counts = [change.pairs, first, second, change.draws].map(|n| n.to_string());
+        let counts = [change.pairs, first, second, change.instances].map(|n| n.to_string());
         let means = change.means.map_or([None, None], |means| means.map(Some)).map(plain);
         let numbers = [
             change.mean_change,
@@ -78,9 +78,16 @@ pub fn csv(of: &Comparison) -> String {
 /// What trials come to as comma-separated values under a head.
 pub fn cells_csv(cells: &[Cell]) -> String {
     let line = |cell: &Cell| {
-        let texts =
-            [&cell.study, &cell.reading, &cell.group, &cell.contender, &cell.sweep, &cell.metric, &cell.unit];
-        let counts = [cell.trials, cell.solved, cell.draws, cell.measured].map(|n| n.to_string());
+        let texts = [
+            &cell.study,
+            &cell.interpretation,
+            &cell.group,
+            &cell.contender,
+            &cell.sweep,
+            &cell.metric,
+            &cell.unit,
+        ];
+        let counts = [cell.trials, cell.solved, cell.instances, cell.measured].map(|n| n.to_string());
         let rest = counts.into_iter().chain([cell.mean, cell.median].into_iter().flat_map(measured));
         texts.map(|text| quoted(text)).into_iter().chain(rest).collect::<Vec<_>>().join(",") + "\n"
     };
@@ -97,10 +104,10 @@ fn measured(of: Option<Measured>) -> [String; 3] {
 pub fn gate_line(of: &Passed) -> String {
     let unit = if of.gate.ends_with('%') { " %" } else { "" };
     let change = of.change.map_or_else(String::new, |change| format!("; {}{unit}", with_interval(change)));
-    let outcome = match (of.outcome, of.more_draws, &of.why) {
+    let outcome = match (of.outcome, of.more_instances, &of.why) {
         (Outcome::Worse, ..) => "worse".to_owned(),
         (Outcome::NotWorse, ..) => "not worse".to_owned(),
-        (Outcome::CannotTell, Some(more), _) => format!("cannot tell: about {more} more draws"),
+        (Outcome::CannotTell, Some(more), _) => format!("cannot tell: about {more} more instances"),
         (Outcome::CannotTell, None, why) => {
             format!("cannot tell: {}", why.as_deref().unwrap_or("at the margin"))
         }
@@ -140,7 +147,7 @@ pub fn figure(of: &Comparison, from: &Provenance) -> Result<Figure, RenderError>
             50.0,
         ));
     }
-    let note = format!("From {} to {}; 95 % intervals over draws.", of.sides[0], of.sides[1]);
+    let note = format!("From {} to {}; 95 % intervals over instances.", of.sides[0], of.sides[1]);
     sheet.noted(note).draw(from)
 }
 
@@ -221,7 +228,7 @@ fn changes(of: &Comparison) -> Table {
             change.study.clone(),
             change.contender.clone(),
             format!("{}{unit}", change.metric),
-            format!("{} / {}", change.pairs, change.draws),
+            format!("{} / {}", change.pairs, change.instances),
             first,
             second,
             shown(change.mean_change),
@@ -233,12 +240,12 @@ fn changes(of: &Comparison) -> Table {
         ]
     };
     Table {
-        title: "Changes, with 95 % intervals over draws".to_owned(),
+        title: "Changes, with 95 % intervals over instances".to_owned(),
         head: vec![
             "study",
             "contender",
             "metric",
-            "pairs / draws",
+            "pairs / instances",
             "mean before",
             "after",
             "change",

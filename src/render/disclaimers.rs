@@ -1,4 +1,4 @@
-//! What stands on everything drawn or written of records that are not the study's own: quick runs, other readings, stale ones.
+//! What stands on everything drawn or written of records that are not the study's own: quick runs, other interpretations, stale ones.
 
 use crate::analysis::claims::records;
 use crate::analysis::evidence::{Evidence, Run, default_point};
@@ -8,33 +8,34 @@ use study::paper::Paper;
 use study::{Choice, Interpretation, Study};
 
 /// What every output of a quick run says.
-pub const QUICK: &str = "Quick run: few replicates, not the study's result.";
+pub const QUICK: &str = "Quick run: few instances, not the study's result.";
 
-/// The sentences that every output of these verdicts carries; none for a full run under the default readings.
+/// The sentences that every output of these verdicts carries; none for a full run under the default interpretation.
 pub fn marks(paper: &Paper, verdicts: &Verdicts) -> Vec<String> {
     let quick = verdicts.quick.then(|| QUICK.to_owned());
-    let point = Interpretation::new(&paper.choices, &verdicts.reading).ok();
+    let point = Interpretation::new(&paper.choices, &verdicts.interpretation).ok();
     let other = point.filter(|point| *point != default_point(paper));
-    let reading = other.map(|point| {
+    let interpretation = other.map(|point| {
         format!(
-            "Reading: {}; what captions and notes say of results holds for the default readings.",
+            "Interpretation: {}; what captions and notes say of results holds for the default interpretation.",
             point.name()
         )
     });
-    quick.into_iter().chain(reading).collect()
+    quick.into_iter().chain(interpretation).collect()
 }
 
 /// Which studies leave out a part of the interpretation that trials were run under, so that claims on them are judged without it.
 fn untouched(paper: &Paper, verdicts: &Verdicts) -> Option<String> {
-    let is_away =
-        |choice: &&Choice| verdicts.reading.get(&choice.id).is_some_and(|option| *option != choice.default);
+    let is_away = |choice: &&Choice| {
+        verdicts.interpretation.get(&choice.id).is_some_and(|option| *option != choice.default)
+    };
     let away: Vec<&Choice> = paper.choices.iter().filter(is_away).collect();
     let lacks = |study: &&Study| away.iter().any(|choice| study.leaves_out.contains(&choice.id));
     let names: Vec<String> =
         paper.studies.iter().filter(lacks).map(|study| format!("`{}`", study.name)).collect();
     (!names.is_empty()).then(|| {
         format!(
-            "Without all of this reading: {}; claims on what ran there are judged as they are by default, and `replan explore {}` \
+            "Without all of this interpretation: {}; claims on what ran there are judged as they are by default, and `replan explore {}` \
              judges under it those that it can.",
             names.join(", "),
             paper.id

@@ -55,7 +55,9 @@ fn kerning(face: &Face<'_>, left: GlyphId, right: GlyphId) -> i32 {
 /// Glyphs of one line of text and its width in font units; unknown characters become the font's box.
 pub(super) fn line(text: &str, weight: Weight) -> (Vec<Placed>, i32) {
     let face = face(weight);
-    let (mut x, mut last, mut placed) = (0, None, Vec::new());
+    let mut x = 0;
+    let mut last = None;
+    let mut placed = Vec::new();
     for character in text.chars() {
         let glyph = face.glyph_index(character).unwrap_or(GlyphId(0));
         x += last.map_or(0, |left| kerning(face, left, glyph));
@@ -120,7 +122,9 @@ impl OutlineBuilder for PathWriter {
         self.start = self.pen;
     }
     fn line_to(&mut self, x: f32, y: f32) {
-        let (length, [from_x, from_y], y) = (self.path.len(), self.pen, -y);
+        let length = self.path.len();
+        let [from_x, from_y] = self.pen;
+        let y = -y;
         match (x == from_x, y == from_y) {
             (true, _) => self.straight('v', y - from_y),
             (_, true) => self.straight('h', x - from_x),

@@ -88,7 +88,8 @@ fn greek_letter(letter: char) -> Option<&'static str> {
 pub fn macro_name(key: &str) -> Result<String, RenderError> {
     const DIGITS: [&str; 10] =
         ["Zero", "One", "Two", "Three", "Four", "Five", "Six", "Seven", "Eight", "Nine"];
-    let (mut name, mut capital) = (String::new(), false);
+    let mut name = String::new();
+    let mut capital = false;
     for character in key.chars() {
         if let Some(digit) = character.to_digit(10) {
             name.push_str(DIGITS[digit as usize]);
@@ -136,7 +137,8 @@ impl Numbers {
         let prefix = macro_name(prefix)?;
         let mut text = made.lines().fold(String::new(), |all, line| all + "% " + line + "\n");
         for (name, [key, value, what]) in &self.macros {
-            let (value, what) = (escaped(value), what.replace('\n', " "));
+            let value = escaped(value);
+            let what = what.replace('\n', " ");
             text += &format!("\\newcommand{{\\{prefix}{name}}}{{{value}}} % {key}: {what}\n");
         }
         Ok(text)

@@ -47,7 +47,8 @@ pub fn outputs(
     only: Option<&str>,
     stop: &AtomicBool,
 ) -> Result<Outputs, RenderError> {
-    let (paper, is_wanted) = (evidence.paper, |id: &str| only.is_none_or(|only| only == id));
+    let paper = evidence.paper;
+    let is_wanted = |id: &str| only.is_none_or(|only| only == id);
     let marks = marks(paper, verdicts);
     let (mut outputs, undrawn) = figures(evidence, verdicts, is_wanted, stop)?;
     let mut write = |id: &str, text: String| {
@@ -65,7 +66,8 @@ pub fn outputs(
     if outputs.is_empty() && undrawn.is_empty() {
         let ids: Vec<&str> = paper.figure_ids().chain(paper.table_ids()).chain(["numbers"]).collect();
         let wanted = only.unwrap_or_default();
-        let (hint, ids) = (did_you_mean(wanted, ids.iter().copied()), ids.join(", "));
+        let hint = did_you_mean(wanted, ids.iter().copied());
+        let ids = ids.join(", ");
         return Err(RenderError::NotStored {
             what: format!("a figure or table `{wanted}`{hint}; there are {ids}"),
         });
@@ -80,7 +82,8 @@ fn figures(
     is_wanted: impl Fn(&str) -> bool,
     stop: &AtomicBool,
 ) -> Result<(Vec<Output>, Vec<Undrawn>), RenderError> {
-    let (mut outputs, mut undrawn) = (Vec::new(), Vec::new());
+    let mut outputs = Vec::new();
+    let mut undrawn = Vec::new();
     let figures = evidence.runs().flat_map(|run| run.study.figures.iter().map(move |spec| (run, spec)));
     let figures: Vec<_> = figures.filter(|(_, spec)| is_wanted(spec.id.get_ref())).collect();
     let draw = |(run, spec): &(&Run<'_>, &FigureSpec)| {
@@ -117,7 +120,9 @@ fn named_figure_outputs(scene: &Scene<'_>, spec: &FigureSpec) -> Result<Vec<Outp
 
 /// The files of one figure: SVG, PNG and, where it has one, its table.
 fn figure_outputs(scene: &Scene<'_>, spec: &FigureSpec) -> Result<Vec<Output>, RenderError> {
-    let (paper, run, id) = (scene.evidence.paper, scene.run, spec.id.get_ref());
+    let paper = scene.evidence.paper;
+    let run = scene.run;
+    let id = spec.id.get_ref();
     let kind = figure::build(spec, run.study, paper)?;
     let sheet = kind.draw(scene)?;
     let notes: Vec<String> =
@@ -240,9 +245,11 @@ mod tests {
         for (apart_pt, flawed) in [(30.0, false), (3.0, true)] {
             let mut canvas = Canvas::new(Width::Single, 40.0);
             for (text, x) in [("one", 10.0), ("two", 10.0 + apart_pt)] {
-                canvas.text([x, 20.0], text, &Type::of(TextSize::TICK));
+                canvas.text([x, 20.0], text, &Type::regular(TextSize::TICK));
             }
-            let (command, spec_hash, title) = (String::new(), String::new(), String::new());
+            let command = String::new();
+            let spec_hash = String::new();
+            let title = String::new();
             let drawn = canvas.finish(&Provenance { command, spec_hash, title }).unwrap();
             match fit_to_print("fig7", drawn) {
                 Ok(_) => assert!(!flawed, "{apart_pt} pt apart"),

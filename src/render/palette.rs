@@ -24,7 +24,8 @@ pub fn opaque(rgba: &[u8]) -> Vec<u8> {
 /// The commonest colours are kept as they are; the rest go to the first kept one near enough. The
 /// tolerance grows until 256 suffice; none if they do not within [`TOLERANCE`].
 pub fn indexed(rgba: &[u8]) -> Option<Indexed> {
-    let (runs, mut counts) = (runs(rgba), BTreeMap::<u32, usize>::new());
+    let runs = runs(rgba);
+    let mut counts = BTreeMap::<u32, usize>::new();
     for (color, pixels) in &runs {
         *counts.entry(*color).or_default() += pixels;
     }
@@ -46,7 +47,8 @@ const BLOCKS: [usize; 2] = [64, 8];
 fn runs(rgba: &[u8]) -> Vec<(u32, usize)> {
     let mut runs: Vec<(u32, usize)> = Vec::new();
     let mut add = |pixels: &[u8]| {
-        let (color, count) = (color(pixels), pixels.len() / 4);
+        let color = color(pixels);
+        let count = pixels.len() / 4;
         match runs.last_mut() {
             Some((last, known)) if *last == color => *known += count,
             _ => runs.push((color, count)),

@@ -1,7 +1,7 @@
 //! Text: a paper's own words with our numbers put in, Markdown that shows text as it is, and lines of limited length.
 
 use crate::analysis::verdict::Verdicts;
-use study::paper::{OVER_READINGS, filled};
+use study::paper::{OVER_INTERPRETATIONS, filled};
 
 /// Paragraphs and lists are broken into lines of so many characters.
 pub const COLUMNS: usize = 120;
@@ -17,7 +17,7 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
             "n" => ours.map(|ours| ours.n.to_string()),
             "tenths" => ours.map(|ours| format!("{:.1}", ours.value)),
             "percent" => ours.map(|ours| format!("{:.0} %", 100.0 * ours.value)),
-            OVER_READINGS => judged.and_then(|judged| judged.across.as_ref()?.range).map(percents),
+            OVER_INTERPRETATIONS => judged.and_then(|judged| judged.across.as_ref()?.range).map(percents),
             "low" => ours.and_then(|ours| ours.interval).map(|[low, _]| number(low)),
             "high" => ours.and_then(|ours| ours.interval).map(|[_, high]| number(high)),
             _ => ours.map(|ours| number(ours.value)),
@@ -98,7 +98,8 @@ pub fn plain(first: &str, text: &str, indent: usize, columns: usize) -> String {
 /// The words on lines, none of which begins with a word that `stays` with the one before.
 fn broken(first: &str, text: &str, [indent, columns]: [usize; 2], stays: fn(&str) -> bool) -> String {
     let mut lines = Vec::new();
-    let (mut line, mut is_fresh) = (first.to_owned(), true);
+    let mut line = first.to_owned();
+    let mut is_fresh = true;
     for word in text.split_whitespace() {
         if !is_fresh && line.chars().count() + 1 + word.chars().count() > columns && !stays(word) {
             lines.push(std::mem::replace(&mut line, " ".repeat(indent)));

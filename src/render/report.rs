@@ -3,14 +3,14 @@
 mod chapter;
 mod chapters;
 mod details;
-mod readings;
+mod interpretations;
 
 pub use chapter::{Chapter, Page, unread};
-pub use readings::across_lines;
+pub use interpretations::across_lines;
 
 use super::prose::{COLUMNS, markdown, wrapped};
 use crate::analysis::class::Verdict;
-use crate::analysis::verdict::{Judged, Verdicts};
+use crate::analysis::verdict::{ClaimVerdict, Verdicts};
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -30,10 +30,10 @@ pub struct Undrawn {
 const SECTIONS: [(&str, &str); 7] = [
     ("Claims", "claims"),
     ("What holds together", "together"),
-    ("Readings", "readings"),
+    ("Readings", "interpretations"),
     ("Changes after a run", "changes"),
     ("Further figures and tables", "figures"),
-    ("Ledger", "ledger"),
+    ("Inventory", "inventory"),
     ("Studies", "studies"),
 ];
 
@@ -105,7 +105,8 @@ pub fn besides(path: &Path, name: &str) -> Result<String, StudyError> {
 
 /// The overview, of which `before` is the former text, with `line` for the paper `name`.
 fn overview(before: &str, name: &str, line: &str) -> String {
-    let (begin, is_line) = (begin_of_line(name), |line: &&str| line.starts_with("| [`"));
+    let begin = begin_of_line(name);
+    let is_line = |line: &&str| line.starts_with("| [`");
     let former = before.lines().filter(is_line).filter(|former| !former.starts_with(&begin));
     let mut lines: Vec<&str> = former.chain([line]).collect();
     lines.sort_unstable();
@@ -149,7 +150,7 @@ fn linked(text: &str, verdicts: &Verdicts, details: &str) -> String {
 }
 
 /// A link from `words` to the evidence of a claim in the file `details`.
-fn link(judged: &Judged, words: &str, details: &str) -> String {
+fn link(judged: &ClaimVerdict, words: &str, details: &str) -> String {
     format!("[{words}]({details}#{})", anchor(&judged.claim))
 }
 
@@ -171,7 +172,7 @@ fn item(depth: usize, text: &str) -> String {
 }
 
 /// What the paper says: its number, its own words in quotation marks, or what its words amount to.
-fn said(judged: &Judged) -> String {
+fn paper_statement(judged: &ClaimVerdict) -> String {
     let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
     let printed = judged.printed.as_ref().map(|printed| format!("{printed}{unit}"));
     let quoted = judged.quote.as_ref().map(|quote| format!("“{quote}”"));

@@ -20,9 +20,9 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
     for table in &paper.results {
         // A study that is not there is told by the paper's own check.
         let Some(study) = paper.study(table.study.get_ref()) else { continue };
-        let [counted, prepared] = [study.columns(), study.prepared_columns()];
+        let [counted, preprocessing] = [study.columns(), study.preprocessing_columns()];
         for cell in &table.cells {
-            let columns = if cell.show == Show::Prepared { &prepared } else { &counted };
+            let columns = if cell.show == Show::Preprocessing { &preprocessing } else { &counted };
             let name = cell.metric.get_ref();
             if !metric::find(name).is_some_and(|metric| columns.contains(metric.column)) {
                 let known: Vec<&str> =
@@ -49,7 +49,9 @@ fn stored(evidence: &Evidence<'_>, table: &ResultsSpec) -> Result<Grid, RenderEr
 /// # Errors
 /// [`RenderError::NotStored`] if its study was not run.
 pub fn latex(evidence: &Evidence<'_>, table: &ResultsSpec, marks: &[String]) -> Result<String, RenderError> {
-    let (grid, paper, id) = (stored(evidence, table)?, evidence.paper, table.id.get_ref());
+    let grid = stored(evidence, table)?;
+    let paper = evidence.paper;
+    let id = table.id.get_ref();
     let mut columns = vec![Column::Left];
     columns.extend(table.cells.iter().map(|_| Column::Right));
     let mut text = Table::new(format!("{}:{id}", paper.id), table_caption(evidence, table), &columns);
@@ -71,10 +73,12 @@ pub fn latex(evidence: &Evidence<'_>, table: &ResultsSpec, marks: &[String]) -> 
 /// # Errors
 /// As [`latex`].
 pub fn cells(evidence: &Evidence<'_>, table: &ResultsSpec) -> Result<Vec<(String, String)>, RenderError> {
-    let (grid, id) = (stored(evidence, table)?, table.id.get_ref());
+    let grid = stored(evidence, table)?;
+    let id = table.id.get_ref();
     // What stands beside a column is named after it too: "swept" alone could be of any.
     let column = |at: usize| {
-        let (before, own) = (&grid.head[at], &grid.head[at + 1]);
+        let before = &grid.head[at];
+        let own = &grid.head[at + 1];
         if table.cells[at].beside { format!("{before} {own}") } else { own.clone() }
     };
     let columns: Vec<String> = (0..table.cells.len()).map(column).collect();

@@ -61,7 +61,8 @@ impl Rgb {
     /// The colour `share` of the way from `self` (0) to `other` (1), mixed in sRGB.
     #[must_use]
     pub const fn mixed(self, other: Self, share: f64) -> Self {
-        let ([r, g, b], ends) = (self.0, other.0);
+        let [r, g, b] = self.0;
+        let ends = other.0;
         Self([between(r, ends[0], share), between(g, ends[1], share), between(b, ends[2], share)])
     }
 

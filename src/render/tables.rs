@@ -6,7 +6,7 @@ use super::{RenderError, marks};
 use crate::analysis::class::Verdict;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::tabulated;
-use crate::analysis::verdict::{Estimate, Judged, Verdicts};
+use crate::analysis::verdict::{ClaimVerdict, Estimate, Verdicts};
 use study::paper::{Claim, Paper, PrintedRow, PrintedTable};
 
 /// What a row of one of the paper's tables shows: in each column what it printed, ours, and the class with its claim.
@@ -16,7 +16,7 @@ pub struct Beside<'a> {
     /// Ours.
     pub ours: Vec<String>,
     /// The claim of the cell, with its class.
-    pub classes: Vec<Option<&'a Judged>>,
+    pub classes: Vec<Option<&'a ClaimVerdict>>,
 }
 
 /// The row of the table; none if it holds no claims.
@@ -42,7 +42,7 @@ pub fn beside<'a>(
                 let is_saving = settings.table()["of"].get("against").is_some();
                 own.map(|value| if is_saving { format!("{value:.2}") } else { number(value) })
             }
-            _ => judged.and_then(Judged::ours).map(|ours| rounded(ours, table.decimals)),
+            _ => judged.and_then(ClaimVerdict::ours).map(|ours| rounded(ours, table.decimals)),
         };
         found.printed.push(cell.printed.clone());
         found.ours.push(ours.unwrap_or_else(dash));
@@ -81,7 +81,7 @@ pub fn table(
         latex.row(line(&row.label, "printed", &beside.printed));
         latex.row(line("", "ours", &beside.ours));
         let outcome =
-            |judged: Option<&Judged>| judged.map_or_else(dash, |judged| judged.outcome().to_owned());
+            |judged: Option<&ClaimVerdict>| judged.map_or_else(dash, |judged| judged.outcome().to_owned());
         let mut classes =
             line("", "verdict", &beside.classes.iter().copied().map(outcome).collect::<Vec<_>>());
         for (cell, judged) in classes.iter_mut().skip(2).zip(&beside.classes) {
@@ -104,10 +104,10 @@ fn printed(row: &PrintedRow) -> Vec<String> {
 }
 
 /// What the proofs of a cell's class take for granted, those of claims that are no cells and speak of its number among them.
-fn granted(paper: &Paper, judged: Option<&Judged>, verdicts: &Verdicts) -> Vec<String> {
+fn granted(paper: &Paper, judged: Option<&ClaimVerdict>, verdicts: &Verdicts) -> Vec<String> {
     let Some(judged) = judged else { return Vec::new() };
     let speaks = |claim: &&Claim| {
-        claim.printed.is_none() && claim.asked().any(|(.., settings)| settings.names(&judged.claim))
+        claim.printed.is_none() && claim.tests().any(|(.., settings)| settings.names(&judged.claim))
     };
     let beside = paper.claims.iter().filter(speaks).filter_map(|claim| verdicts.claim(&claim.id));
     std::iter::once(judged).chain(beside).filter_map(premises).collect()
@@ -122,12 +122,12 @@ pub fn markdown(
     evidence: &Evidence<'_>,
     table: &PrintedTable,
     verdicts: &Verdicts,
-    link: impl Fn(&Judged) -> String,
+    link: impl Fn(&ClaimVerdict) -> String,
 ) -> Result<String, RenderError> {
     let mut lines: Vec<Vec<String>> = Vec::new();
     let is_wide = table.columns.len() > 2
         || !table.rows.iter().all(|row| row.cells.iter().any(|cell| cell.claim.is_some()));
-    let class = |judged: Option<&Judged>| judged.map_or_else(dash, &link);
+    let class = |judged: Option<&ClaimVerdict>| judged.map_or_else(dash, &link);
     let escaped = |cells: &[String]| cells.iter().map(|cell| safe(cell)).collect::<Vec<_>>();
     let line = |first: &str, second: &str, cells: Vec<String>| {
         [first, second].map(str::to_owned).into_iter().chain(cells).collect::<Vec<_>>()
@@ -165,7 +165,7 @@ fn side_by_side(columns: Vec<String>) -> Vec<String> {
 }
 
 /// What a proof that a claim is impossible takes for granted.
-fn premises(judged: &Judged) -> Option<String> {
+fn premises(judged: &ClaimVerdict) -> Option<String> {
     if judged.verdict != Verdict::Impossible {
         return None;
     }
@@ -179,7 +179,7 @@ fn premises(judged: &Judged) -> Option<String> {
     Some(format!("{what} impossible{} where {}.", beside.unwrap_or_default(), proof.premises.join("; ")))
 }
 
-/// One macro for each printed number, each of ours, each end of an interval, each count of draws, each verdict, and each
+/// One macro for each printed number, each of ours, each end of an interval, each count of instances, each verdict, and each
 /// cell of ours in the paper's tables and in tables of results.
 ///
 /// # Errors
@@ -204,7 +204,7 @@ pub fn numbers(evidence: &Evidence<'_>, verdicts: &Verdicts) -> Result<String, R
                 add("low", &number(low), "lower end of our interval")?;
                 add("high", &number(high), "upper end of our interval")?;
             }
-            add("n", &ours.n.to_string(), "independent draws behind it")?;
+            add("n", &ours.n.to_string(), "independent instances behind it")?;
         }
         add("verdict", judged.outcome(), "our verdict")?;
     }
@@ -285,7 +285,7 @@ mod tests {
                 paper: name.to_owned(),
                 command: String::new(),
                 quick: false,
-                reading: std::collections::BTreeMap::new(),
+                interpretation: std::collections::BTreeMap::new(),
                 explored: None,
                 records: std::collections::BTreeMap::new(),
                 meanings: String::new(),

@@ -78,7 +78,7 @@ fn map_panel(title: &str) -> Panel {
 #[test]
 fn grid_maps_side_by_side() {
     let mut sheet = Sheet::new(Width::Double, 2, 200.0).noted(
-        "Reading: corners may not be cut; costs in cells. Cells opened by each side are tinted; \
+        "Interpretation: corners may not be cut; costs in cells. Cells opened by each side are tinted; \
          the path as found is drawn before inflection points are deleted.",
     );
     sheet.add(map_panel("A*: 30 × 30 cells, √2 per diagonal"));
@@ -106,7 +106,8 @@ fn success_bands_with_printed_rows() {
             let mean = at.iter().map(|&n| [n, level(n)]).collect();
             panel.add(Line::through(mean, series_stroke(index)).labelled(format!("{label}, mean")));
             let printed = [200.0, 400.0, 800.0].map(|n| [n, level(n) - 4.0 + n / 100.0]).to_vec();
-            let (marker, label) = (series_marker(index), format!("{label}, printed"));
+            let marker = series_marker(index);
+            let label = format!("{label}, printed");
             panel.add(Points { points: printed, marker, radius_pt: 2.6, color, label });
         }
         sheet.add(panel);
@@ -122,7 +123,8 @@ fn boxes(values: &[f64]) -> Panel {
         let mut sorted = part.to_vec();
         sorted.sort_by(f64::total_cmp);
         let quantiles = [6, 30, 60, 90, 113].map(|rank| sorted[rank]);
-        let (at, color) = (index as f64, series_color(index));
+        let at = index as f64;
+        let color = series_color(index);
         third.add(BoxStrip {
             at,
             width: 0.45,
@@ -160,7 +162,7 @@ fn distributions_with_marked_values() {
     );
     for (index, part) in values.chunks(200).enumerate() {
         second.add(
-            Line::through(Distribution::of(part).steps, series_stroke(index))
+            Line::through(Distribution::new(part).steps, series_stroke(index))
                 .labelled(format!("density {}", index + 1)),
         );
     }
@@ -172,7 +174,7 @@ fn distributions_with_marked_values() {
 }
 
 #[test]
-fn interval_rows_of_readings() {
+fn interval_rows_of_interpretations() {
     let options = [
         "corner cutting: allowed",
         "corner cutting: forbidden",
@@ -202,7 +204,7 @@ fn interval_rows_of_readings() {
     panel.add(Rules { marks: vec![(1.0, "equal".into())], stroke: Stroke::solid(GREY, 0.8) });
     let mut sheet = Sheet::new(Width::Single, 1, 130.0);
     sheet.add(panel);
-    hold("readings", &sheet);
+    hold("interpretations", &sheet);
 }
 
 #[test]
@@ -253,7 +255,7 @@ fn an_arm_in_the_plane_and_a_crowd_of_names() {
         let stroke = Stroke { opacity: 0.4 + 0.15 * f64::from(station), ..Stroke::solid(BLUE, 2.2) };
         arm.add(Line::through(vec![[0.0, 0.0], elbow, tip], stroke).marked(Marker::Circle));
     }
-    let set = Type { rim: true, ..Type::of(TextSize::TICK).aligned(Align::Middle, Stand::Below) };
+    let set = Type { rim: true, ..Type::regular(TextSize::TICK).aligned(Align::Middle, Stand::Below) };
     arm.add(Note { at: [0.0, 0.0], shift_pt: [0.0, -14.0], text: "base".into(), set });
     sheet.add(arm);
     let names: Vec<String> = (0..12).map(|k| format!("contender {k}")).collect();

@@ -62,8 +62,11 @@ pub(super) fn glyph_id(weight: Weight, glyph: u16) -> String {
 
 /// The SVG document around `body`; its user unit is the point.
 pub(super) fn document(width_mm: f64, height_pt: f64, defs: &str, body: &str, from: &Provenance) -> String {
-    let (width_pt, height_mm) = (width_mm / 25.4 * 72.0, height_pt / 72.0 * 25.4);
-    let (title, command, hash) = (escaped(&from.title), escaped(&from.command), escaped(&from.spec_hash));
+    let width_pt = width_mm / 25.4 * 72.0;
+    let height_mm = height_pt / 72.0 * 25.4;
+    let title = escaped(&from.title);
+    let command = escaped(&from.command);
+    let hash = escaped(&from.spec_hash);
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" \
          width=\"{width_mm}mm\" height=\"{height_mm:.3}mm\" viewBox=\"0 0 {width_pt:.3} {height_pt:.3}\">\n\
@@ -94,7 +97,8 @@ fn encoded(rgba: &[u8], width_px: u32, height_px: u32, from: &Provenance) -> Res
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::High);
     let per_metre = (DPI / 0.0254).round() as u32;
-    let (xppu, yppu) = (per_metre, per_metre);
+    let xppu = per_metre;
+    let yppu = per_metre;
     encoder.set_pixel_dims(Some(png::PixelDimensions { xppu, yppu, unit: png::Unit::Meter }));
     for (key, text) in [("Title", &from.title), ("Software", &from.command), ("Spec-Hash", &from.spec_hash)] {
         encoder.add_itxt_chunk(key.to_owned(), text.clone())?;

@@ -110,7 +110,8 @@ mod tests {
     #[test]
     fn bands_hold_the_whole_truth_about_as_often_as_they_say() {
         let mut stream = seed::stream(seed::derive(41, &["bands"]));
-        let (mut all, mut pointwise) = (0, 0);
+        let mut all = 0;
+        let mut pointwise = 0;
         for run in 0..300 {
             let found = sup_t(&curves(&mut stream, 60, 8), plan(run)).unwrap();
             all += u32::from(found.band.iter().all(|band| band.contains(0.5)));
@@ -139,7 +140,8 @@ mod tests {
     fn a_point_at_which_all_agree_allows_for_units_that_differ() {
         let curves: Vec<Vec<f64>> = (0..20).map(|i| vec![100.0, 0.0, 5.0 * f64::from(i), 40.0]).collect();
         let between = sup_t_between(&curves, [-100.0, 100.0], plan(3)).unwrap();
-        let (bare, differ) = (sup_t(&curves, plan(3)).unwrap(), 1.0 - libm::pow(0.05, 0.05));
+        let bare = sup_t(&curves, plan(3)).unwrap();
+        let differ = 1.0 - libm::pow(0.05, 0.05);
         assert_eq!((between.band[2], &between.mean), (bare.band[2], &bare.mean), "a point that moves");
         for (point, low, high) in [
             (0, 100.0 - 200.0 * differ, 100.0),

@@ -13,7 +13,7 @@ pub struct Resampling {
     pub resamples: usize,
     /// Probability that the interval is to hold.
     pub level: f64,
-    /// Where the stream of draws starts.
+    /// Where the stream of instances starts.
     pub seed: u64,
 }
 
@@ -68,7 +68,7 @@ fn of_values(values: &[f64], statistic: fn(&[f64]) -> Option<f64>, plan: Resampl
 
 /// [`percentile`] for a statistic that takes the indices of units.
 ///
-/// Nothing here depends on the type of a unit, so the many draws are made by this crate's optimised code, whoever asks.
+/// Nothing here depends on the type of a unit, so the many instances are made by this crate's optimised code, whoever asks.
 pub(super) fn of_indices(
     units: usize,
     statistic: &dyn Fn(&[usize]) -> Option<f64>,

@@ -26,7 +26,8 @@ pub enum Decision {
 /// Each of the two words is false with at most the probability of the interval's tail on that side; it is greatest where the
 /// true change is the margin itself.
 pub fn decide(found: &Estimate, margin: f64) -> Decision {
-    let (value, interval) = (found.value, found.interval);
+    let value = found.value;
+    let interval = found.interval;
     if interval.low > margin {
         return Decision::Worse;
     }
@@ -53,8 +54,8 @@ mod tests {
     const MARGIN_PERCENT: f64 = 2.0;
     const RUNS: u64 = 1500;
 
-    /// How often, of [`RUNS`] comparisons of so many draws each, the gate says worse and not worse of a true change.
-    fn rates(change_percent: f64, draws: usize) -> [usize; 2] {
+    /// How often, of [`RUNS`] comparisons of so many instances each, the gate says worse and not worse of a true change.
+    fn rates(change_percent: f64, instances: usize) -> [usize; 2] {
         let mut said = [0, 0];
         for run in 0..RUNS {
             let stream = &mut seed::stream(seed::derive(run, &["gate", &change_percent.to_string()]));
@@ -64,7 +65,7 @@ mod tests {
                 let base = libm::exp(0.7 * normal());
                 [base * (1.0 + change_percent / 100.0) * (1.0 + 0.1 * normal()), base]
             };
-            let sums: Vec<[f64; 2]> = (0..draws).map(|_| sums()).collect();
+            let sums: Vec<[f64; 2]> = (0..instances).map(|_| sums()).collect();
             let ratio =
                 pooled::ratio_of_sums(&sums, Resampling { resamples: 500, level: 0.95, seed: run }).unwrap();
             let percent = |ratio: f64| 100.0 * (ratio - 1.0);
@@ -86,11 +87,17 @@ mod tests {
     #[test]
     fn false_alarms_and_misses_are_as_rare_as_is_said() {
         // At the margin itself both words are as often wrong as they ever are. The percentile interval is a little short
-        // of few draws of unlike size: 3.5 % of 100 in place of 2.5 %, and 5.5 % of 20.
-        for (draws, bound_percent) in [(20, 5.5), (100, 3.5)] {
-            let [worse, not_worse] = rates(MARGIN_PERCENT, draws);
-            assert!(is_at_most(worse, bound_percent), "{draws} draws: {worse} false alarms of {RUNS}");
-            assert!(is_at_most(not_worse, bound_percent), "{draws} draws: {not_worse} misses of {RUNS}");
+        // of few instances of unlike size: 3.5 % of 100 in place of 2.5 %, and 5.5 % of 20.
+        for (instances, bound_percent) in [(20, 5.5), (100, 3.5)] {
+            let [worse, not_worse] = rates(MARGIN_PERCENT, instances);
+            assert!(
+                is_at_most(worse, bound_percent),
+                "{instances} instances: {worse} false alarms of {RUNS}"
+            );
+            assert!(
+                is_at_most(not_worse, bound_percent),
+                "{instances} instances: {not_worse} misses of {RUNS}"
+            );
             assert!(worse + not_worse > 30, "the gate says nothing");
         }
         let [worse, not_worse] = rates(0.0, 100);
@@ -113,7 +120,7 @@ mod tests {
         assert_eq!(decide(&found(5.0, 2.0), 2.0), Decision::Worse);
         assert_eq!(decide(&found(-5.0, 2.0), 2.0), Decision::NotWorse);
         assert_eq!(decide(&found(0.0, 0.0), 0.0), Decision::NotWorse, "nothing has changed");
-        // Twice as wide as it may be needs four times the draws.
+        // Twice as wide as it may be needs four times the instances.
         assert_eq!(decide(&found(1.0, 2.0), 2.0), Decision::CannotTell { more: Some(300) });
         assert_eq!(decide(&found(3.0, 2.0), 2.0), Decision::CannotTell { more: Some(300) });
         assert_eq!(decide(&found(2.0, 1.0), 2.0), Decision::CannotTell { more: None });

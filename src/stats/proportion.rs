@@ -1,4 +1,4 @@
-//! Intervals for a share of independent trials, and where one value ranks among draws.
+//! Intervals for a share of independent trials, and where one value ranks among instances.
 //!
 //! Special functions come from `libm`, so that the same counts give the same bits everywhere.
 
@@ -55,14 +55,14 @@ pub fn clopper_pearson(hits: usize, trials: usize, level: f64) -> Option<Interva
     })
 }
 
-/// An interval for a share, from `draws` of hits and chances that all agree on it, whatever they are drawn from; none for other
-/// draws, and without any.
+/// An interval for a share, from `instances` of hits and chances that all agree on it, whatever they are drawn from; none for other
+/// instances, and without any.
 ///
-/// So many as agree leave, at the level, at most a part m of all draws that differ, with (1 − m)ⁿ = (1 − level) / 2; those may be
+/// So many as agree leave, at the level, at most a part m of all instances that differ, with (1 − m)ⁿ = (1 − level) / 2; those may be
 /// hits throughout or misses throughout, so that a share v lies from v − m·v to v + m·(1 − v). At v = 1 or 0 this is exact: if the
 /// values are in [0, 1], P(all are 1) ≤ meanⁿ. Between them, v was not known before it was drawn; that all agree on a value that
-/// fewer than 1 − m of the draws have is no likelier than (1 − m)ⁿ⁻¹, below 5 % from six draws on at 0.95. Draws of unequal chances
-/// weigh unequally, and one that differs may be the largest: the interval is wider by the `most` chances that a draw can have, or
+/// fewer than 1 − m of the instances have is no likelier than (1 − m)ⁿ⁻¹, below 5 % from six instances on at 0.95. Instances of unequal chances
+/// weigh unequally, and one that differs may be the largest: the interval is wider by the `most` chances that an instance can have, or
 /// that one has, over the mean number.
 ///
 /// # Panics
@@ -70,21 +70,21 @@ pub fn clopper_pearson(hits: usize, trials: usize, level: f64) -> Option<Interva
 ///
 /// # Source
 /// Clopper & Pearson, Biometrika 26 (1934) 404–413, at n of n; P(X = 1) ≤ E X for X in [0, 1] is Markov's inequality.
-pub fn mean_of_agreed(draws: &[[f64; 2]], most: f64, level: f64) -> Option<Interval> {
+pub fn mean_of_agreed(instances: &[[f64; 2]], most: f64, level: f64) -> Option<Interval> {
     assert!(level > 0.0 && level < 1.0, "an interval at level {level}");
-    let [first_hits, first_chances] = *draws.first()?;
+    let [first_hits, first_chances] = *instances.first()?;
     let is_same = |[hits, chances]: &[f64; 2]| *chances > 0.0 && hits * first_chances == first_hits * chances;
-    let [seen, all] = draws
+    let [seen, all] = instances
         .iter()
         .fold([0.0, 0.0], |[seen, all]: [f64; 2], [_, chances]| [seen.max(*chances), all + chances]);
-    let differ = may_differ(draws.len(), level) * most.max(seen) * draws.len() as f64 / all;
-    draws.iter().all(is_same).then(|| {
+    let differ = may_differ(instances.len(), level) * most.max(seen) * instances.len() as f64 / all;
+    instances.iter().all(is_same).then(|| {
         let share = first_hits / first_chances;
         Interval::new((share - share * differ).max(0.0), (share + (1.0 - share) * differ).min(1.0))
     })
 }
 
-/// The most of all draws that may differ where `n` agree, at the level: m of [`mean_of_agreed`].
+/// The most of all instances that may differ where `n` agree, at the level: m of [`mean_of_agreed`].
 pub fn may_differ(n: usize, level: f64) -> f64 {
     1.0 - libm::pow((1.0 - level) / 2.0, 1.0 / n as f64)
 }
@@ -98,27 +98,27 @@ pub fn agreed_between(values: &[f64], [least, most]: [f64; 2], level: f64) -> Op
     is_agreed.then(|| Interval::new(value - differ * (value - least), value + differ * (most - value)))
 }
 
-/// The interval of the ratio of two sums, `[above, below]` of each draw, where every draw has the same ratio; none for other
-/// draws, for fewer than two, or without anything below.
+/// The interval of the ratio of two sums, `[above, below]` of each instance, where every instance has the same ratio; none for other
+/// instances, for fewer than two, or without anything below.
 ///
-/// As in [`mean_of_agreed`] a part m of all draws may differ. A ratio has no end above, so that something must be said of those:
-/// in them the number above is off by no more than the larger of the draw's two numbers. A ratio v then lies within
-/// v ± m·max(1, |v|), as much wider as the largest draw has below over the mean one, and not below 0 if no number is. Ratios that
+/// As in [`mean_of_agreed`] a part m of all instances may differ. A ratio has no end above, so that something must be said of those:
+/// in them the number above is off by no more than the larger of the instance's two numbers. A ratio v then lies within
+/// v ± m·max(1, |v|), as much wider as the largest instance has below over the mean one, and not below 0 if no number is. Ratios that
 /// rounding alone parts agree.
 ///
 /// # Panics
 /// If `level` is not inside (0, 1).
-pub fn ratio_of_agreed(draws: &[[f64; 2]], level: f64) -> Option<Interval> {
+pub fn ratio_of_agreed(instances: &[[f64; 2]], level: f64) -> Option<Interval> {
     assert!(level > 0.0 && level < 1.0, "an interval at level {level}");
-    let [above, below] = draws.iter().fold([0.0, 0.0], |sum, [a, b]| [sum[0] + a, sum[1] + b]);
+    let [above, below] = instances.iter().fold([0.0, 0.0], |sum, [a, b]| [sum[0] + a, sum[1] + b]);
     let ratio = above / below;
     let is_same = |[a, b]: &[f64; 2]| *b >= 0.0 && (a - ratio * b).abs() <= paired::EQUAL * (ratio * b).abs();
-    if draws.len() < 2 || below.is_nan() || below <= 0.0 || !draws.iter().all(is_same) {
+    if instances.len() < 2 || below.is_nan() || below <= 0.0 || !instances.iter().all(is_same) {
         return None;
     }
-    let most = draws.iter().map(|[_, b]| *b).fold(0.0, f64::max);
-    let wider = most * draws.len() as f64 / below;
-    let half = may_differ(draws.len(), level) * wider * ratio.abs().max(1.0);
+    let most = instances.iter().map(|[_, b]| *b).fold(0.0, f64::max);
+    let wider = most * instances.len() as f64 / below;
+    let half = may_differ(instances.len(), level) * wider * ratio.abs().max(1.0);
     let low = if ratio < 0.0 { ratio - half } else { (ratio - half).max(0.0) };
     Some(Interval::new(low, ratio + half))
 }
@@ -144,69 +144,70 @@ pub fn units_for_margin(half_width: f64, units: usize, margin: f64) -> usize {
     (units as f64 * ratio * ratio).ceil() as usize
 }
 
-/// Where one value stands among draws.
+/// Where one value stands among instances.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rank {
-    /// Draws below the value.
+    /// Instances below the value.
     pub below: usize,
-    /// Draws equal to it.
+    /// Instances equal to it.
     pub equal: usize,
-    /// Draws above it.
+    /// Instances above it.
     pub above: usize,
 }
 
 impl Rank {
-    /// The rank of `value` among `draws`.
+    /// The rank of `value` among `instances`.
     ///
     /// # Panics
     /// If a number is NaN.
-    pub fn of(value: f64, draws: &[f64]) -> Self {
-        assert!(!value.is_nan() && draws.iter().all(|draw| !draw.is_nan()), "NaN in a rank");
-        let count = |is: fn(&f64, &f64) -> bool| draws.iter().filter(|draw| is(draw, &value)).count();
+    pub fn new(value: f64, instances: &[f64]) -> Self {
+        assert!(!value.is_nan() && instances.iter().all(|instance| !instance.is_nan()), "NaN in a rank");
+        let count =
+            |is: fn(&f64, &f64) -> bool| instances.iter().filter(|instance| is(instance, &value)).count();
         Self { below: count(|a, b| a < b), equal: count(|a, b| a == b), above: count(|a, b| a > b) }
     }
 
-    /// How many draws there were.
-    pub fn draws(self) -> usize {
+    /// How many instances there were.
+    pub fn instances(self) -> usize {
         self.below + self.equal + self.above
     }
 
-    /// The share of draws at or below the value; none without draws.
+    /// The share of instances at or below the value; none without instances.
     pub fn share_at_most(self) -> Option<f64> {
-        (self.draws() > 0).then(|| (self.below + self.equal) as f64 / self.draws() as f64)
+        (self.instances() > 0).then(|| (self.below + self.equal) as f64 / self.instances() as f64)
     }
 
-    /// The exact interval of [`share_at_most`](Self::share_at_most) for the population of draws.
+    /// The exact interval of [`share_at_most`](Self::share_at_most) for the population of instances.
     pub fn interval_at_most(self, level: f64) -> Option<Interval> {
-        clopper_pearson(self.below + self.equal, self.draws(), level)
+        clopper_pearson(self.below + self.equal, self.instances(), level)
     }
 
-    /// Two-sided Monte Carlo p-value that the value is one more such draw: twice the smaller tail, the value
+    /// Two-sided Monte Carlo p-value that the value is one more such instance: twice the smaller tail, the value
     /// counted in it, at most 1.
     ///
     /// # Source
     /// Davison & Hinkley, *Bootstrap Methods and their Application* (1997), section 4.2.
     pub fn p_two_sided(self) -> f64 {
         let tail = (self.below + self.equal).min(self.above + self.equal) + 1;
-        (2.0 * tail as f64 / (self.draws() + 1) as f64).min(1.0)
+        (2.0 * tail as f64 / (self.instances() + 1) as f64).min(1.0)
     }
 }
 
-/// An interval that holds the next draw with probability at least `level`, whatever the distribution.
+/// An interval that holds the next instance with probability at least `level`, whatever the distribution.
 ///
 /// Ends are order statistics: with n exchangeable draws the next one falls outside the k-th from either end
-/// with probability at most 2k / (n + 1). None if even the extremes do not reach the level (below 39 draws at
+/// with probability at most 2k / (n + 1). None if even the extremes do not reach the level (below 39 instances at
 /// 0.95).
 ///
 /// # Panics
-/// If a draw is NaN or `level` is not inside (0, 1).
+/// If an instance is NaN or `level` is not inside (0, 1).
 ///
 /// # Source
 /// Wilks, Annals of Mathematical Statistics 12 (1941) 91–96.
-pub fn predictive(draws: &[f64], level: f64) -> Option<Interval> {
+pub fn predictive(instances: &[f64], level: f64) -> Option<Interval> {
     assert!(level > 0.0 && level < 1.0, "a predictive interval at level {level}");
-    let sorted = summary::sorted(draws);
-    // The nudge undoes what 1 - 0.95 loses, so that 39 draws reach 0.95.
+    let sorted = summary::sorted(instances);
+    // The nudge undoes what 1 - 0.95 loses, so that 39 instances reach 0.95.
     let cut = ((1.0 - level) * (sorted.len() + 1) as f64 / 2.0 + 1e-9).floor() as usize;
     (cut > 0).then(|| Interval::new(sorted[cut - 1], sorted[sorted.len() - cut]))
 }
@@ -227,7 +228,8 @@ fn at_least(hits: usize, trials: usize, share: f64) -> f64 {
     if share <= 0.0 || share >= 1.0 {
         return f64::from(share >= 1.0);
     }
-    let (n, odds) = (trials as f64, share / (1.0 - share));
+    let n = trials as f64;
+    let odds = share / (1.0 - share);
     let mode = (((n + 1.0) * share) as usize).clamp(hits, trials);
     let m = mode as f64;
     let log_choose = libm::lgamma(n + 1.0) - libm::lgamma(m + 1.0) - libm::lgamma(n - m + 1.0);

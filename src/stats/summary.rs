@@ -28,7 +28,8 @@ pub fn quantile_type7(sample: &[f64], share: f64) -> Option<f64> {
     if sample.is_empty() {
         return None;
     }
-    let (place, mut rest) = (place(sample.len(), share), sample.to_vec());
+    let place = place(sample.len(), share);
+    let mut rest = sample.to_vec();
     assert_numbers(sample);
     // The two order statistics that are needed, without sorting the others.
     let (_, low, above) = rest.select_nth_unstable_by(place.floor() as usize, f64::total_cmp);

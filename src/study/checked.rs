@@ -12,7 +12,7 @@ use super::error::StudyError;
 use super::group::Group;
 use super::key::{KeyColumns, SweepKey, SweepValue, Text};
 use super::name::{self, Names};
-use super::prepared;
+use super::preprocessing;
 use super::spec::{BudgetSpec, ExploredStudy, FigureSpec, QuickSpec, TimingSpec, TrialsSpec};
 use super::task;
 use base::settings::{Document, Settings, none_called};
@@ -58,7 +58,7 @@ pub struct Study {
     pub budget: BudgetSpec,
     /// How clocks are read.
     pub timing: Option<TimingSpec>,
-    /// Trials whose exhibits are kept.
+    /// Trials whose traces are kept.
     pub keeps: Vec<TrialsSpec>,
     /// What `--quick` cuts down to.
     pub quick: QuickSpec,
@@ -125,7 +125,7 @@ pub fn recorded_mark<'a>(labels: impl Iterator<Item = &'a str>) -> Option<String
 }
 
 impl Study {
-    /// Whether the seed decides anything of what is posed in a problem group: one draw is then one of many.
+    /// Whether the seed decides anything of what is posed in a problem group: one instance is then one of many.
     pub fn is_drawn(&self, group: &str) -> bool {
         self.groups.iter().any(|own| own.label == group && own.is_drawn)
     }
@@ -171,9 +171,9 @@ impl Study {
 
     /// The study cut down to what is explored of it under each interpretation: no clock is read, and nothing is kept for figures.
     #[must_use]
-    pub fn explored(mut self, explore: &ExploredStudy, draws: u32) -> Self {
+    pub fn explored(mut self, explore: &ExploredStudy, instances: u32) -> Self {
         for group in &mut self.groups {
-            group.replicates = group.replicates.min(draws);
+            group.instances = group.instances.min(instances);
         }
         for contender in &mut self.contenders {
             contender.repeats = contender.repeats.min(explore.repeats.unwrap_or(u32::MAX));
@@ -301,7 +301,7 @@ impl Study {
         KeyColumns {
             posed,
             sweeps: self.sweeps.iter().filter_map(sweep).collect(),
-            readings: moving.map(|choice| choice.id.as_str().into()).collect(),
+            choices: moving.map(|choice| choice.id.as_str().into()).collect(),
         }
     }
 
@@ -312,8 +312,8 @@ impl Study {
     }
 
     /// Every column that what it prepares can have.
-    pub fn prepared_columns(&self) -> BTreeSet<&'static str> {
-        let entries = self.groups.iter().filter_map(|group| prepared::find(group.family.prepared));
+    pub fn preprocessing_columns(&self) -> BTreeSet<&'static str> {
+        let entries = self.groups.iter().filter_map(|group| preprocessing::find(group.family.preprocessing));
         entries.flat_map(|entry| entry.columns).copied().collect()
     }
 
@@ -325,7 +325,7 @@ impl Study {
         counted.chain(posed).chain(self.task.columns).chain(timed).copied().collect()
     }
 
-    /// Trials that keep their exhibits: those that figures show, and `keep`.
+    /// Trials that keep their traces: those that figures show, and `keep`.
     pub fn kept(&self) -> impl Iterator<Item = &TrialsSpec> {
         self.figures.iter().flat_map(|figure| &figure.shows).chain(&self.keeps)
     }
@@ -334,7 +334,7 @@ impl Study {
     #[must_use]
     pub fn quick(mut self) -> Self {
         for group in &mut self.groups {
-            group.replicates = group.replicates.min(self.quick.replicates);
+            group.instances = group.instances.min(self.quick.instances);
         }
         for contender in &mut self.contenders {
             contender.repeats = contender.repeats.min(self.quick.repeats.unwrap_or(u32::MAX));

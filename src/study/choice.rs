@@ -1,6 +1,6 @@
 //! Choices: what a paper leaves open, the options that settle it, and interpretations, which take one option of each.
 
-use super::key::ReadingKey;
+use super::key::InterpretationKey;
 use super::name;
 use super::spec::{BoundsSpec, ChoiceSpec, Digits, OptionSpec, ROBOT_WITH, SCENE_WITH};
 use base::settings::{Document, Place, Settings, SettingsError, did_you_mean, none_called};
@@ -232,11 +232,11 @@ impl Interpretation {
     }
 
     /// What names this interpretation in the records of a study with these choices: the option of each that touches trials.
-    pub fn key(&self, choices: &[Choice]) -> ReadingKey {
+    pub fn key(&self, choices: &[Choice]) -> InterpretationKey {
         let moving = choices.iter().filter(|choice| choice.touches_trials);
         let option =
             |choice: &Choice| self.options.get(&choice.id).unwrap_or(&choice.default).as_str().into();
-        ReadingKey::new(moving.map(|choice| (choice.id.as_str().into(), option(choice))).collect())
+        InterpretationKey::new(moving.map(|choice| (choice.id.as_str().into(), option(choice))).collect())
     }
 
     /// How printed digits end, if an option says so.

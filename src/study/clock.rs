@@ -8,7 +8,7 @@ use std::time::Instant;
 /// The column that holds a trial's planning time, in nanoseconds.
 pub const COLUMN: &str = "plan_wall_ns";
 /// What the column says.
-pub const ABOUT: &str = "time of one call of the contender, nothing else between the two clock readings";
+pub const ABOUT: &str = "time of one call of the contender, nothing else between the two times";
 
 /// Nanoseconds since the first call.
 pub fn now_ns() -> u64 {

@@ -77,7 +77,7 @@ pub static COLUMNS: &[Column] = &[
     count("closed", "nodes ever put on a closed list, both sides"),
     count("expansions", "nodes expanded"),
     count("generated", "successors generated, known ones included"),
-    count("prepared_bytes", "memory that the planner prepared for the map, besides its legal moves"),
+    count("preprocessing_bytes", "memory that the planner prepared for the map, besides its legal moves"),
     count("minimum_comparisons", "comparisons that finding the least f would take in a plain list"),
     count("membership_comparisons", "comparisons that looking successors up would take in plain lists"),
     count("list_operations", "minimum and membership comparisons together"),
@@ -117,7 +117,7 @@ pub static COLUMNS: &[Column] = &[
     count("components", "connected components of the free cells"),
     real("octile_distance_cells", "8-connected distance from start to goal without obstacles"),
     real("printed_optimal_cells", "least cost as the benchmark prints it"),
-    count("tries", "draws that it took until one was accepted"),
+    count("tries", "instances that it took until one was accepted"),
     real("path_length_mm", "way of the tool's tip or the particle along the returned path"),
     count("local_paths", "local paths that the returned path is made of"),
     real("joint_travel_deg", "sum over all joints of how far each turns along the path, there and back"),
@@ -199,8 +199,8 @@ pub static COLUMNS: &[Column] = &[
     real("joint_jitter_rad", "sum of the second differences of all joints over 200 equal spans of time"),
 ];
 
-/// Exhibits whose rows have named columns: the exhibit, and the columns in order.
-pub static EXHIBITS: &[(&str, &[&str])] = &[
+/// Traces whose rows have named columns: the trace, and the columns in order.
+pub static TRACES: &[(&str, &[&str])] = &[
     ("pose", POSE),
     (
         "trajectory",
@@ -229,11 +229,11 @@ const POSE: &[&str] = &[
     "direction_z",
 ];
 
-/// The columns of the exhibit called `name`, separated by commas, if they are named; what follows a space in its name is not
+/// The columns of the trace called `name`, separated by commas, if they are named; what follows a space in its name is not
 /// looked at.
-pub fn of_exhibit(name: &str) -> Option<String> {
+pub fn of_trace(name: &str) -> Option<String> {
     let kind = name.split(' ').next()?;
-    EXHIBITS.iter().find(|(known, _)| *known == kind).map(|(_, columns)| columns.join(","))
+    TRACES.iter().find(|(known, _)| *known == kind).map(|(_, columns)| columns.join(","))
 }
 
 /// The place of the column called `name` in [`COLUMNS`].
@@ -262,9 +262,9 @@ mod tests {
     fn every_column_that_an_entry_declares_is_listed_once() {
         let planners = crate::planner::all().flat_map(|entry| entry.columns);
         let families = crate::family::REGISTRY.iter().flat_map(|entry| entry.columns);
-        let prepared = crate::prepared::REGISTRY.iter().flat_map(|entry| entry.columns);
+        let preprocessing = crate::preprocessing::REGISTRY.iter().flat_map(|entry| entry.columns);
         let tasks = crate::task::REGISTRY.iter().flat_map(|entry| entry.columns);
-        for name in planners.chain(families).chain(prepared).chain(tasks) {
+        for name in planners.chain(families).chain(preprocessing).chain(tasks) {
             assert_eq!(COLUMNS.iter().filter(|column| column.name == *name).count(), 1, "{name}");
         }
     }

@@ -52,12 +52,14 @@ impl Contender {
         self.stages.iter().any(|stage| planner::is_recorded(stage.entry))
     }
 
-    /// The pipeline under the reading `point` with the sweep's settings laid on top.
+    /// The pipeline under the interpretation `point` with the sweep's settings laid on top.
     ///
     /// # Errors
     /// The settings errors of all entries.
     pub fn pipeline(&self, point: &Interpretation, sweep: &SweepPoint) -> Result<Pipeline, SettingsError> {
-        let (mut planner, mut stages, mut faults) = (None, Vec::new(), Faults::default());
+        let mut planner = None;
+        let mut stages = Vec::new();
+        let mut faults = Faults::default();
         for stage in &self.stages {
             let settings = stage.effective(&self.label, point, sweep);
             match stage.entry.build {
@@ -74,7 +76,8 @@ impl Contender {
     pub fn check_rest(&self, point: &Interpretation, sweep: &SweepPoint, faults: &mut Faults) {
         for stage in &self.stages {
             let built = |settings: &Settings| stage.built(settings).err();
-            let (schema, example) = (stage.entry.settings.schema(), stage.entry.example);
+            let schema = stage.entry.settings.schema();
+            let example = stage.entry.example;
             let found = stage.effective(&self.label, point, sweep).faults_beside(&schema, example, built);
             for fault in found {
                 faults.add(fault);

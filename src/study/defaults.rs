@@ -8,11 +8,11 @@ use toml::{Table, Value};
 pub fn defaults(study: &Study) -> Vec<String> {
     let mut all = study.of_paper.clone();
     let spec: Table = study.document.read_stored().unwrap_or_default();
-    if spec.get("quick").is_none_or(|quick| quick.get("replicates").is_none()) {
-        all.push(format!("quick: replicates = {}", study.quick.replicates));
+    if spec.get("quick").is_none_or(|quick| quick.get("instances").is_none()) {
+        all.push(format!("quick: instances = {}", study.quick.instances));
     }
     for (table, what, key) in
-        [("problems", "problem group", "replicates"), ("contender", "contender", "repeats")]
+        [("problems", "problem group", "instances"), ("contender", "contender", "repeats")]
     {
         let entries = spec.get(table).and_then(Value::as_array).into_iter().flatten();
         let without = entries.filter(|entry| entry.get(key).is_none());
@@ -20,7 +20,7 @@ pub fn defaults(study: &Study) -> Vec<String> {
         all.extend(without.filter_map(label).map(|label| format!("{what} `{label}`: {key} = 1")));
     }
     let task = study.task_settings.clone().completed(study.task.settings);
-    all.extend(said(&format!("task {}", study.task.name), &task));
+    all.extend(filled(&format!("task {}", study.task.name), &task));
     for group in &study.groups {
         let is_swept =
             |key: &str| study.sweeps.iter().any(|sweep| sweep.key == key && sweep.is_over(&group.label));
@@ -31,12 +31,12 @@ pub fn defaults(study: &Study) -> Vec<String> {
     for contender in &study.contenders {
         for stage in &contender.stages {
             let whose = format!("contender `{}`, {}", contender.label, stage.entry.name);
-            all.extend(said(&whose, &stage.settings));
+            all.extend(filled(&whose, &stage.settings));
         }
     }
     all
 }
 
-fn said(whose: &str, settings: &Settings) -> Vec<String> {
+fn filled(whose: &str, settings: &Settings) -> Vec<String> {
     settings.filled().map(|(key, value)| format!("{whose}: {key} = {value}")).collect()
 }

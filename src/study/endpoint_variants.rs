@@ -3,8 +3,8 @@
 //! A [`Variant`] is one way to fill it in; [`answers`] asks a question of [`engine::length_inversion`] under each.
 
 use crate::name::slug;
-use crate::prepared::lattice::CornerSetting;
-use crate::prepared::workspace_map::{ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
+use crate::preprocessing::lattice::CornerSetting;
+use crate::preprocessing::workspace_map::{ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
 use base::grid::{Grid2, Moves};
 use base::text::listed;
 use engine::length_inversion::Match;
@@ -123,7 +123,8 @@ impl Variant {
 
     /// What is wrong with it, if anything: ties that do not matter, or shapes left open where that cannot be searched.
     fn fault(&self, cases: &[Case]) -> Option<(&'static str, String)> {
-        let (label, never) = (&self.label, self.never_lowered().is_some());
+        let label = &self.label;
+        let never = self.never_lowered().is_some();
         if self.ties.is_some() && !never {
             let message = format!("variant `{label}` has ties, which only matter with open_node = \"never\"");
             return Some(("ties", message));

@@ -100,8 +100,12 @@ pub fn stamp(study: &Study) -> String {
         format!("{} {} {:?}", stage.entry.name, stage.entry.revision, stage.settings.table())
     };
     let group = |group: &Group| {
-        let (family, settings) = (group.family, group.settings.table());
-        format!("{} {:?} {} {} {settings:?}", group.label, group.draw, family.name, family.revision)
+        let family = group.family;
+        let settings = group.settings.table();
+        format!(
+            "{} {:?} {} {} {settings:?}",
+            group.label, group.shared_instances, family.name, family.revision
+        )
     };
     let contender = |contender: &Contender| {
         let stages: Vec<String> = contender.stages.iter().map(stage).collect();

@@ -58,8 +58,8 @@ pub static KINDS: &[FileKind] = &[
     },
     FileKind {
         name: "study",
-        about: "problems, contenders, sweeps, readings and figures: any other TOML file beside paper.toml",
-        accepted: Accepted::of::<StudySpec>(),
+        about: "problems, contenders, sweeps and figures: any other TOML file beside paper.toml",
+        accepted: Accepted::shape::<StudySpec>(),
         example: "experiments/movingai_sample/scenarios.toml",
     },
 ];
@@ -117,7 +117,7 @@ pub fn kind_of(document: &Document, paper: &Document) -> &'static str {
     let stem = document.path().file_stem().unwrap_or_default().to_string_lossy();
     match other {
         Some(kind) => kind.name,
-        None if as_study > 0 || !document.is_toml() || paper.says(&stem) => STUDY,
+        None if as_study > 0 || !document.is_toml() || paper.contains_word(&stem) => STUDY,
         None => FOREIGN,
     }
 }

@@ -19,11 +19,11 @@ pub struct Group {
     pub place: usize,
     /// The family they are drawn from.
     pub family: &'static Entry,
-    /// How many independent draws.
-    pub replicates: u32,
-    /// The name of its draws, if it shares them with other groups.
-    pub draw: Option<String>,
-    /// Whether the spec asks for more than one draw: their names then carry a number.
+    /// How many independent instances.
+    pub instances: u32,
+    /// The name of its instances, if it shares them with other groups.
+    pub shared_instances: Option<String>,
+    /// Whether the spec asks for more than one instance: their names then carry a number.
     pub is_numbered: bool,
     /// The family's settings.
     pub settings: Settings,
@@ -41,7 +41,7 @@ impl Group {
         self.points.iter().find(|point| point.key == *key).unwrap_or(&self.points[0])
     }
 
-    /// The family at the point `at` of the sweeps, under the reading `point`.
+    /// The family at the point `at` of the sweeps, under the interpretation `point`.
     ///
     /// # Errors
     /// A settings error of the family, or an input file that is missing or wrong.
@@ -58,7 +58,8 @@ impl Group {
     /// other.
     pub fn check_rest(&self, at: &SweepPoint, point: &Interpretation, inputs: &Inputs, faults: &mut Faults) {
         let built = |settings: &Settings| self.built(settings, inputs).err();
-        let (schema, example) = (self.family.settings.schema(), self.family.example);
+        let schema = self.family.settings.schema();
+        let example = self.family.example;
         let found = self.settings_under(at, point).faults_beside(&schema, example, built);
         for fault in found {
             faults.add(fault);
@@ -88,18 +89,18 @@ impl Group {
     }
 }
 
-/// Families that were built: most readings change no problem, so that one family serves many of them.
+/// Families that were built: most options change no problem, so that one family serves many of them.
 #[derive(Default)]
 pub struct Families {
     built: Vec<(&'static Entry, Table, Arc<dyn Family>)>,
 }
 
 impl Families {
-    /// The family of `group` at the point `at` of the sweeps, under the reading `point`, built if it was not yet.
+    /// The family of `group` at the point `at` of the sweeps, under the interpretation `point`, built if it was not yet.
     ///
     /// # Errors
     /// Those of [`Group::family`].
-    pub fn of(
+    pub fn family(
         &mut self,
         (group, at): (&Group, &SweepPoint),
         point: &Interpretation,

@@ -10,47 +10,47 @@ use std::sync::Arc;
 /// A label that many keys share.
 pub type Text = Arc<str>;
 
-/// The option taken of each reading that touches trials, defaults written out, in the order of the study's readings.
+/// The option taken of each choice that touches trials, defaults written out, in the order of the study's interpretations.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct ReadingKey(Arc<[(Text, Text)]>);
+pub struct InterpretationKey(Arc<[(Text, Text)]>);
 
-impl ReadingKey {
-    /// The key of these options, by reading.
+impl InterpretationKey {
+    /// The key of these options, by choice.
     pub fn new(options: Vec<(Text, Text)>) -> Self {
         Self(options.into())
     }
 
-    /// Each reading and the option taken.
+    /// Each interpretation and the option taken.
     pub fn options(&self) -> &[(Text, Text)] {
         &self.0
     }
 }
 
-impl Ord for ReadingKey {
+impl Ord for InterpretationKey {
     fn cmp(&self, other: &Self) -> Ordering {
         if Arc::ptr_eq(&self.0, &other.0) { Ordering::Equal } else { self.0.cmp(&other.0) }
     }
 }
 
-impl PartialOrd for ReadingKey {
+impl PartialOrd for InterpretationKey {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-/// What names a prepared object: an instance of a problem group, at a point of the sweeps over its settings, under a reading.
+/// What names a preprocessed object: an instance of a problem group, at a point of the sweeps over its settings, under an interpretation.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub struct DrawKey {
+pub struct InstanceKey {
     /// The problem group's label.
     pub group: Text,
     /// The values of the sweeps over its settings; empty without such sweeps.
     #[serde(default, skip_serializing_if = "SweepKey::is_empty")]
     pub sweep: SweepKey,
-    /// Which independent draw of the group: the unit of replication.
-    pub draw: u32,
-    /// The reading.
-    pub reading: ReadingKey,
+    /// Which independent instance of the group: the unit of replication.
+    pub instance: u32,
+    /// The interpretation.
+    pub interpretation: InterpretationKey,
 }
 
 /// The value of a sweep.
@@ -185,9 +185,9 @@ impl PartialOrd for SweepKey {
 /// What names a trial.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TrialKey {
-    /// The prepared object that it ran on.
-    pub on: Arc<DrawKey>,
-    /// The query; none where a draw has one query only.
+    /// The preprocessed object that it ran on.
+    pub on: Arc<InstanceKey>,
+    /// The query; none where an instance has one query only.
     pub query: Option<Text>,
     /// The contender's label, or the variant's in a study that has variants.
     pub contender: Text,
@@ -220,32 +220,32 @@ pub struct KeyColumns {
     pub posed: Vec<(Text, SweepValue)>,
     /// The setting of each other sweep, and the planner or stage whose setting it is.
     pub sweeps: Vec<(Text, Text)>,
-    /// Each reading that touches trials.
-    pub readings: Vec<Text>,
+    /// Each choice that touches trials.
+    pub choices: Vec<Text>,
 }
 
-/// Whose an exhibit is. Trials come after the object that they ran on.
+/// Whose a trace is. Trials come after the object that they ran on.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Owner {
-    /// A prepared object.
-    Draw(Arc<DrawKey>),
+    /// A preprocessed object.
+    Instance(Arc<InstanceKey>),
     /// A trial.
     Trial(TrialKey),
 }
 
 impl Owner {
-    /// The draw that it belongs to.
-    pub fn on(&self) -> &Arc<DrawKey> {
+    /// The instance that it belongs to.
+    pub fn on(&self) -> &Arc<InstanceKey> {
         match self {
-            Self::Draw(key) => key,
+            Self::Instance(key) => key,
             Self::Trial(key) => &key.on,
         }
     }
 }
 
-impl From<&Arc<DrawKey>> for Owner {
-    fn from(key: &Arc<DrawKey>) -> Self {
-        Self::Draw(key.clone())
+impl From<&Arc<InstanceKey>> for Owner {
+    fn from(key: &Arc<InstanceKey>) -> Self {
+        Self::Instance(key.clone())
     }
 }
 

@@ -1,7 +1,7 @@
 //! Studies: from a spec to what happened.
 //!
 //! [`Paper::load`](paper::Paper::load) turns a spec into checked types; [`run`](session::run) turns these into records that
-//! [`store`] keeps; [`manifest`] says what the records depend on. Families pose problems, prepared objects are
+//! [`store`] keeps; [`manifest`] says what the records depend on. Families pose problems, preprocessed objects are
 //! what many trials share, tasks say what is done with both. Nothing here judges a claim or draws a figure.
 //!
 //! The modules below stand in the order in which they may know each other, lowest first; no circle is allowed.
@@ -22,7 +22,7 @@ pub mod record;
 pub mod planner;
 
 pub mod contender;
-pub mod prepared;
+pub mod preprocessing;
 
 pub mod endpoint_variants;
 pub mod family;

@@ -9,7 +9,7 @@ use super::checked::Study;
 use super::choice::Interpretation;
 use super::defaults::defaults;
 use super::error::StudyError;
-use super::key::{DrawKey, ReadingKey, Text};
+use super::key::{InstanceKey, InterpretationKey, Text};
 use super::name;
 use super::runner::{BuiltStudy, SESSION};
 use super::shard::{Portion, Shard};
@@ -36,10 +36,10 @@ pub struct Manifest {
     pub quick: bool,
     /// The root of every seed.
     pub seed: u64,
-    /// The readings that touch trials.
-    pub axes: Vec<String>,
-    /// The readings that were run: the option of each of the axes.
-    pub readings: Vec<Vec<String>>,
+    /// The choices that touch trials.
+    pub choices: Vec<String>,
+    /// The interpretations that were run: the option of each of the choices.
+    pub interpretations: Vec<Vec<String>>,
     /// SHA-256 of the spec.
     pub spec: String,
     /// One hash of everything below that trials depend on.
@@ -68,11 +68,11 @@ pub struct Manifest {
     pub files: BTreeMap<String, String>,
 }
 
-/// One session of the clock; readings of different sessions are never pooled.
+/// One session of the clock; times of different sessions are never pooled.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Session {
-    /// Its number, from 1, as clock readings bear it.
+    /// Its number, from 1, as times bear it.
     pub number: u32,
     /// The git revision of the program.
     pub git: Option<String>,
@@ -113,9 +113,10 @@ impl Manifest {
         quick: bool,
     ) -> Result<Self, StudyError> {
         let inputs = built.inputs()?;
-        let (axes, readings) = (study.key_columns().readings, points.iter().map(|p| p.key(&study.choices)));
+        let choices = study.key_columns().choices;
+        let interpretations = points.iter().map(|p| p.key(&study.choices));
         let option = |(_, option): &(Text, Text)| option.to_string();
-        let readings = readings.map(|key| key.options().iter().map(option).collect()).collect();
+        let interpretations = interpretations.map(|key| key.options().iter().map(option).collect()).collect();
         let problems = problem_hashes(study, points, built)?;
         let contenders = contender_hashes(study, points, built)?;
         let depends = sha256(format!("{quick}\n{problems:?}\n{contenders:?}").as_bytes());
@@ -125,13 +126,13 @@ impl Manifest {
             command,
             quick,
             seed: study.seed,
-            axes: axes.iter().map(ToString::to_string).collect(),
-            readings,
+            choices: choices.iter().map(ToString::to_string).collect(),
+            interpretations,
             spec: sha256(study.document.text().as_bytes()),
             depends,
             recorded: study.recorded().map(str::to_owned).collect(),
             defaults: defaults(study),
-            sessions: study.timing.iter().map(|_| Session::of(&made_by)).collect(),
+            sessions: study.timing.iter().map(|_| Session::here(&made_by)).collect(),
             made_by,
             shard: None,
             inputs,
@@ -185,42 +186,42 @@ impl Manifest {
         staged.add(&Self::path(folder, &self.study), text.as_bytes())
     }
 
-    /// Whether the run that `before` describes gave all that this one would give, readings of the clock among it: a run that
+    /// Whether the run that `before` describes gave all that this one would give, times among it: a run that
     /// was put together of parts has none yet.
     pub fn is_as(&self, before: &Self) -> bool {
         self.gives() == before.gives()
     }
 
-    /// What says which trials and readings of the clock the run gave, and by which defaults.
+    /// What says which trials and times the run gave, and by which defaults.
     fn gives(&self) -> impl PartialEq {
-        let Self { spec, depends, recorded, defaults, axes, readings, shard, sessions, .. } = self;
-        (spec, depends, recorded, defaults, axes, readings, shard, sessions.is_empty())
+        let Self { spec, depends, recorded, defaults, choices, interpretations, shard, sessions, .. } = self;
+        (spec, depends, recorded, defaults, choices, interpretations, shard, sessions.is_empty())
     }
 
-    /// Whether trials ran under the reading.
-    pub fn covers(&self, reading: &ReadingKey) -> bool {
-        self.place(reading).is_some()
+    /// Whether trials ran under the interpretation.
+    pub fn covers(&self, interpretation: &InterpretationKey) -> bool {
+        self.place(interpretation).is_some()
     }
 
-    /// The number of the reading.
-    fn place(&self, reading: &ReadingKey) -> Option<usize> {
-        let options = reading.options();
+    /// The number of the interpretation.
+    fn place(&self, interpretation: &InterpretationKey) -> Option<usize> {
+        let options = interpretation.options();
         let is_same = |run: &Vec<String>| {
             run.len() == options.len() && run.iter().zip(options).all(|(run, (_, option))| **run == **option)
         };
-        let are_axes = self.axes.len() == options.len()
-            && self.axes.iter().zip(options).all(|(axis, (id, _))| **axis == **id);
-        self.readings.iter().position(is_same).filter(|_| are_axes)
+        let are_choices = self.choices.len() == options.len()
+            && self.choices.iter().zip(options).all(|(choice, (id, _))| **choice == **id);
+        self.interpretations.iter().position(is_same).filter(|_| are_choices)
     }
 
     /// What the problem group of `on` depends on at its point of the sweeps, under its reading.
-    pub fn problem(&self, on: &DrawKey) -> Option<&str> {
-        hash_of(&self.problems, &name::group(&on.group, &on.sweep), self.place(&on.reading)?)
+    pub fn problem(&self, on: &InstanceKey) -> Option<&str> {
+        hash_of(&self.problems, &name::group(&on.group, &on.sweep), self.place(&on.interpretation)?)
     }
 
-    /// What the contender called `label` depends on under the reading.
-    pub fn contender(&self, reading: &ReadingKey, label: &str) -> Option<&str> {
-        hash_of(&self.contenders, label, self.place(reading)?)
+    /// What the contender called `label` depends on under the interpretation.
+    pub fn contender(&self, interpretation: &InterpretationKey, label: &str) -> Option<&str> {
+        hash_of(&self.contenders, label, self.place(interpretation)?)
     }
 
     /// Why stored trials of `before` cannot stand for those of this manifest: one sentence a reason.
@@ -229,20 +230,24 @@ impl Manifest {
         if self.quick != before.quick {
             reasons.push("one of the runs is quick and the other full".to_owned());
         }
-        if self.axes != before.axes {
+        if self.choices != before.choices {
             reasons.push(format!(
-                "the readings that touch trials are {}; they were {}",
-                listed(&self.axes),
-                listed(&before.axes)
+                "the choices that touch trials are {}; they were {}",
+                listed(&self.choices),
+                listed(&before.choices)
             ));
             return reasons;
         }
-        let theirs = |run: &Vec<String>| before.readings.iter().position(|other| other == run);
-        let both: Vec<[usize; 2]> =
-            self.readings.iter().enumerate().filter_map(|(ours, run)| Some([ours, theirs(run)?])).collect();
-        let new = self.readings.len() - both.len();
+        let theirs = |run: &Vec<String>| before.interpretations.iter().position(|other| other == run);
+        let both: Vec<[usize; 2]> = self
+            .interpretations
+            .iter()
+            .enumerate()
+            .filter_map(|(ours, run)| Some([ours, theirs(run)?]))
+            .collect();
+        let new = self.interpretations.len() - both.len();
         if new > 0 {
-            reasons.push(format!("{new} of {} readings are new", self.readings.len()));
+            reasons.push(format!("{new} of {} interpretations are new", self.interpretations.len()));
         }
         for (what, ours, theirs) in [
             ("problem group", &self.problems, &before.problems),
@@ -254,13 +259,13 @@ impl Manifest {
     }
 }
 
-fn listed(axes: &[String]) -> String {
-    if axes.is_empty() { "none".to_owned() } else { axes.join(", ") }
+fn listed(choices: &[String]) -> String {
+    if choices.is_empty() { "none".to_owned() } else { choices.join(", ") }
 }
 
 impl Session {
     /// The one session of a run, on this machine.
-    pub(super) fn of(made_by: &MadeBy) -> Self {
+    pub(super) fn here(made_by: &MadeBy) -> Self {
         let MadeBy { git, rustc, cpu, .. } = made_by.clone();
         Self { number: SESSION, git, rustc, cpu }
     }

@@ -3,15 +3,13 @@
 //! Nothing is put together unless every part is there, whole, of one plan and of one program. A part is refused by the name of
 //! its folder, with what it should be.
 
-use super::key::{DrawKey, SweepKey};
+use super::key::{InstanceKey, SweepKey};
 use super::manifest::Manifest;
 use super::plan::{Plan, brief, unlike};
 use super::record::{Batch, Kept, Row};
 use super::runner::BuiltStudy;
 use super::session::write;
-use super::store::{
-    ExhibitReader, Exhibits, GROUP_VALUES, Records, journal_units, open_exhibits, read_numbers,
-};
+use super::store::{GROUP_VALUES, Records, TraceReader, Traces, journal_units, open_traces, read_numbers};
 use super::{Study, StudyError};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -73,32 +71,35 @@ impl<'a> Parts<'a> {
         mut manifest: Manifest,
         into: &Path,
     ) -> Result<usize, StudyError> {
-        let keys: Vec<Arc<DrawKey>> = built.units().into_iter().map(|unit| unit.key).collect();
+        let keys: Vec<Arc<InstanceKey>> = built.units().into_iter().map(|unit| unit.key).collect();
         let units = Units { numbers: keys.iter().cloned().zip(0..).collect(), shards: &self.cut[place] };
-        let (mut rows, mut prepared, mut exhibits) = (Vec::new(), Vec::new(), Vec::new());
+        let mut rows = Vec::new();
+        let mut preprocessing = Vec::new();
+        let mut traces = Vec::new();
         for number in 1..=self.plan.shards {
             let part = self.plan.part(self.folder, number);
             let Manifest { files, .. } = Manifest::read(&part, &study.name)?;
             let batch = read_numbers(&part, &study.name, &files)?.batch;
             rows.push(batch.rows);
-            prepared.push(batch.prepared);
-            exhibits.push(open_exhibits(&part, &study.name, &files)?);
+            preprocessing.push(batch.preprocessing);
+            traces.push(open_traces(&part, &study.name, &files)?);
         }
         let wrong =
             |reason: String| StudyError::stored(self.folder, format!("study `{}`: {reason}", study.name));
-        let prepared = units.in_order(prepared, |row| &row.key).map_err(wrong)?;
-        let found: BTreeSet<&Arc<DrawKey>> = prepared.iter().map(|row| &row.key).collect();
+        let preprocessing = units.in_order(preprocessing, |row| &row.key).map_err(wrong)?;
+        let found: BTreeSet<&Arc<InstanceKey>> = preprocessing.iter().map(|row| &row.key).collect();
         if let Some(gap) = keys.iter().find(|key| !found.contains(key)) {
-            return Err(wrong(format!("no part holds {}", built.names().prepared(gap))));
+            return Err(wrong(format!("no part holds {}", built.names().preprocessing(gap))));
         }
         let rows = units.in_order(rows, |row| &row.key.on).map_err(wrong)?;
         // No clock has timed anything yet; `replan run` reads it, on one machine.
         manifest.sessions.clear();
-        let (sweep, trials) = (sweep(&exhibits, &rows)?, rows.len());
-        let records = Records { batch: Batch { prepared, rows, ..Batch::default() }, times: Vec::new() };
-        let each = Box::new(streamed(exhibits, keys, &self.cut[place]));
-        let exhibits = Exhibits { each, sweep, group_values: GROUP_VALUES };
-        write(study, into, &mut manifest, &records, exhibits)?;
+        let sweep = sweep(&traces, &rows)?;
+        let trials = rows.len();
+        let records = Records { batch: Batch { preprocessing, rows, ..Batch::default() }, times: Vec::new() };
+        let each = Box::new(streamed(traces, keys, &self.cut[place]));
+        let traces = Traces { each, sweep, group_values: GROUP_VALUES };
+        write(study, into, &mut manifest, &records, traces)?;
         Ok(trials)
     }
 }
@@ -106,7 +107,8 @@ impl<'a> Parts<'a> {
 impl Refused {
     /// Notes what is wrong with one study of the part `number`, which should be as `expected` says.
     fn look_at(&mut self, plan: &Plan, folder: &Path, number: usize, expected: &Manifest) {
-        let (part, study) = (plan.part(folder, number), &expected.study);
+        let part = plan.part(folder, number);
+        let study = &expected.study;
         let name = part.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if !Manifest::path(&part, study).exists() {
             let kept = journal_units(&part, study);
@@ -125,9 +127,9 @@ impl Refused {
     }
 }
 
-/// The sweep of a trial, if any part has an exhibit of one.
-fn sweep(exhibits: &[ExhibitReader], rows: &[Row]) -> Result<Option<SweepKey>, StudyError> {
-    for reader in exhibits {
+/// The sweep of a trial, if any part has a trace of one.
+fn sweep(traces: &[TraceReader], rows: &[Row]) -> Result<Option<SweepKey>, StudyError> {
+    for reader in traces {
         if reader.has_trials()? {
             return Ok(rows.first().map(|row| row.key.sweep.clone()));
         }
@@ -135,10 +137,10 @@ fn sweep(exhibits: &[ExhibitReader], rows: &[Row]) -> Result<Option<SweepKey>, S
     Ok(None)
 }
 
-/// The exhibits of all parts in the order of units; one group of each part is held at a time.
+/// The traces of all parts in the order of units; one group of each part is held at a time.
 fn streamed(
-    mut parts: Vec<ExhibitReader>,
-    keys: Vec<Arc<DrawKey>>,
+    mut parts: Vec<TraceReader>,
+    keys: Vec<Arc<InstanceKey>>,
     shards: &[usize],
 ) -> impl Iterator<Item = Result<Kept, StudyError>> {
     let mut unit = 0;
@@ -154,21 +156,25 @@ fn streamed(
         let left = parts.iter_mut().find_map(|part| (!matches!(part.peek(), Ok(None))).then_some(part));
         left.map(|part| {
             part.take();
-            Err(part.wrong("holds exhibits of draws that are not its own, or in another order"))
+            Err(part.wrong("holds traces of instances that are not its own, or in another order"))
         })
     })
 }
 
 /// The units of a study.
 struct Units<'s> {
-    numbers: BTreeMap<Arc<DrawKey>, usize>,
+    numbers: BTreeMap<Arc<InstanceKey>, usize>,
     /// The shard of each.
     shards: &'s [usize],
 }
 
 impl Units<'_> {
     /// Everything of all parts in the order of units; each part has its own in that order.
-    fn in_order<T>(&self, parts: Vec<Vec<T>>, on: impl Fn(&T) -> &Arc<DrawKey>) -> Result<Vec<T>, String> {
+    fn in_order<T>(
+        &self,
+        parts: Vec<Vec<T>>,
+        on: impl Fn(&T) -> &Arc<InstanceKey>,
+    ) -> Result<Vec<T>, String> {
         let mut runs = Vec::new();
         for (part, all) in parts.iter().enumerate() {
             for run in all.chunk_by(|one, other| Arc::ptr_eq(on(one), on(other))) {
@@ -176,9 +182,9 @@ impl Units<'_> {
                 let unit = self.numbers.get(key).filter(|unit| self.shards[**unit] == part + 1);
                 let unit = unit.ok_or_else(|| {
                     format!(
-                        "part {} holds draw {} of `{}`, which is not its own",
+                        "part {} holds instance {} of `{}`, which is not its own",
                         part + 1,
-                        key.draw,
+                        key.instance,
                         key.group
                     )
                 })?;
@@ -226,8 +232,8 @@ fn reasons(plan: &Plan, number: usize, expected: &Manifest, found: &Manifest) ->
     if found.quick != expected.quick {
         reasons.push(format!("quick {}, not {}", found.quick, expected.quick));
     }
-    if (&found.axes, &found.readings) != (&expected.axes, &expected.readings) {
-        reasons.push("ran under other readings".to_owned());
+    if (&found.choices, &found.interpretations) != (&expected.choices, &expected.interpretations) {
+        reasons.push("ran under other interpretations".to_owned());
     }
     reasons.extend(
         unlike(&found.made_by, &plan.made_by).map(|[what, own, plan]| format!("{what} {own}, not {plan}")),

@@ -2,17 +2,17 @@
 
 pub use base::slug::slug;
 
-use super::key::{DrawKey, Owner, ReadingKey, SweepKey, SweepValue, Text, TrialKey};
+use super::key::{InstanceKey, InterpretationKey, Owner, SweepKey, SweepValue, Text, TrialKey};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// How a study's records are named: what is left out of a name because it goes without saying.
 #[derive(Debug, Clone, Default)]
 pub struct Names {
-    /// Problem groups: the draws of one that has more than one carry a number.
+    /// Problem groups: the instances of one that has more than one carry a number.
     groups: BTreeMap<String, Labelled>,
     /// Contenders: the trials of one that has more than one seed carry a number. What is none of these is a variant.
     contenders: BTreeMap<String, Labelled>,
-    /// The option of each reading that a name leaves out.
+    /// The option of each choice that a name leaves out.
     defaults: BTreeMap<String, String>,
 }
 
@@ -24,7 +24,7 @@ struct Labelled {
 }
 
 impl Names {
-    /// From the labels of groups and contenders, each with whether it is numbered, and the default of each reading.
+    /// From the labels of groups and contenders, each with whether it is numbered, and the default of each interpretation.
     pub fn new<'a>(
         groups: impl Iterator<Item = (&'a str, bool)>,
         contenders: impl Iterator<Item = (&'a str, bool)>,
@@ -40,18 +40,18 @@ impl Names {
         }
     }
 
-    /// `group[/sweep][/draw][/reading]`.
-    pub fn prepared(&self, key: &DrawKey) -> String {
-        self.problem(key, None) + &self.reading_part(&key.reading)
+    /// `group[/sweep][/instance][/interpretation]`.
+    pub fn preprocessing(&self, key: &InstanceKey) -> String {
+        self.problem(key, None) + &self.interpretation_part(&key.interpretation)
     }
 
-    /// `group[/sweep][/draw][/query]`: what is to be solved, whatever the reading.
-    pub fn problem(&self, key: &DrawKey, query: Option<&str>) -> String {
+    /// `group[/sweep][/instance][/query]`: what is to be solved, whatever the interpretation.
+    pub fn problem(&self, key: &InstanceKey, query: Option<&str>) -> String {
         let group = self.groups.get(&*key.group);
         let label = group.map_or_else(|| slug(&key.group), |group| group.slug.clone());
         let mut name = self::group(&label, &key.sweep);
         if group.is_some_and(|group| group.is_numbered) {
-            name += &format!("/{}", key.draw);
+            name += &format!("/{}", key.instance);
         }
         if let Some(query) = query {
             name += &format!("/{query}");
@@ -59,7 +59,7 @@ impl Names {
         name
     }
 
-    /// `group[/sweep][/draw][/query]/contender[/sweep][/repeat][/reading]`: sweeps over settings of the problem, then the others.
+    /// `group[/sweep][/instance][/query]/contender[/sweep][/repeat][/interpretation]`: sweeps over settings of the problem, then the others.
     pub fn trial(&self, key: &TrialKey) -> String {
         let mut name = self.problem(&key.on, key.query.as_deref());
         let contender = self.contenders.get(&*key.contender);
@@ -74,33 +74,37 @@ impl Names {
             (None, repeat @ 1..) => name += &format!("/pair-{}", repeat - 1),
             (Some(false), _) | (None, 0) => {}
         }
-        name + &self.reading_part(&key.on.reading)
+        name + &self.interpretation_part(&key.on.interpretation)
     }
 
-    /// The name of what an exhibit belongs to.
+    /// The name of what a trace belongs to.
     pub fn owner(&self, owner: &Owner) -> String {
         match owner {
-            Owner::Draw(key) => self.prepared(key),
+            Owner::Instance(key) => self.preprocessing(key),
             Owner::Trial(key) => self.trial(key),
         }
     }
 
     /// The options that are not the defaults; `default` if there is none.
-    pub fn reading(&self, key: &ReadingKey) -> String {
+    pub fn interpretation(&self, key: &InterpretationKey) -> String {
         let is_other =
             |(id, option): &(&str, &str)| self.defaults.get(*id).is_none_or(|usual| usual != option);
         let options = key.options().iter().map(|(id, option)| (&**id, &**option));
         choice(options.filter(is_other))
     }
 
-    fn reading_part(&self, key: &ReadingKey) -> String {
+    fn interpretation_part(&self, key: &InterpretationKey) -> String {
         let is_default =
             |(id, option): &(Text, Text)| self.defaults.get(&**id).is_some_and(|usual| **usual == **option);
-        if key.options().iter().all(is_default) { String::new() } else { format!("/{}", self.reading(key)) }
+        if key.options().iter().all(is_default) {
+            String::new()
+        } else {
+            format!("/{}", self.interpretation(key))
+        }
     }
 }
 
-/// `reading=option,…` of the options that are not the defaults; `default` if there is none.
+/// `interpretation=option,…` of the options that are not the defaults; `default` if there is none.
 pub fn choice<'a>(other: impl Iterator<Item = (&'a str, &'a str)>) -> String {
     let parts: Vec<String> = other.map(|(id, option)| format!("{id}={option}")).collect();
     if parts.is_empty() { "default".to_owned() } else { parts.join(",") }
@@ -122,7 +126,7 @@ pub fn sweep_value((setting, value): &(Text, SweepValue)) -> String {
     format!("{setting}={value}")
 }
 
-/// Of the queries of one draw, those whose name another before them has, by their place: records could not tell them apart.
+/// Of the queries of one instance, those whose name another before them has, by their place: records could not tell them apart.
 pub fn repeated<'a>(queries: impl Iterator<Item = &'a str>) -> Vec<(usize, String)> {
     let mut seen = BTreeSet::new();
     let again = queries.enumerate().filter(|(_, name)| !seen.insert(*name));
@@ -138,7 +142,7 @@ mod tests {
     use super::*;
     use std::sync::Arc;
 
-    /// One numbered group and one that is not, two contenders, two readings.
+    /// One numbered group and one that is not, two contenders, two interpretations.
     fn names() -> Names {
         Names::new(
             [("Maps, drawn", true), ("W1", false)].into_iter(),
@@ -147,10 +151,16 @@ mod tests {
         )
     }
 
-    fn key(group: &str, draw: u32, corners: &str, contender: &str, repeat: u32) -> TrialKey {
+    fn key(group: &str, instance: u32, corners: &str, contender: &str, repeat: u32) -> TrialKey {
         let options = [("corners", corners), ("ties", "fifo")];
-        let reading = ReadingKey::new(options.map(|(id, option)| (id.into(), option.into())).into());
-        let on = Arc::new(DrawKey { group: group.into(), sweep: SweepKey::default(), draw, reading });
+        let interpretation =
+            InterpretationKey::new(options.map(|(id, option)| (id.into(), option.into())).into());
+        let on = Arc::new(InstanceKey {
+            group: group.into(),
+            sweep: SweepKey::default(),
+            instance,
+            interpretation,
+        });
         TrialKey { on, query: None, contender: contender.into(), sweep: SweepKey::default(), repeat }
     }
 
@@ -175,9 +185,9 @@ mod tests {
             assert_eq!(names().trial(&key), name);
         }
         let drawn = key("Maps, drawn", 3, "forbid", "A*", 0);
-        assert_eq!(names().prepared(&drawn.on), "maps-drawn/3/corners=forbid");
+        assert_eq!(names().preprocessing(&drawn.on), "maps-drawn/3/corners=forbid");
         assert_eq!(names().problem(&drawn.on, Some("7")), "maps-drawn/3/7");
-        assert_eq!(names().reading(&drawn.on.reading), "corners=forbid");
-        assert_eq!(names().reading(&key("W1", 0, "allow", "A*", 0).on.reading), "default");
+        assert_eq!(names().interpretation(&drawn.on.interpretation), "corners=forbid");
+        assert_eq!(names().interpretation(&key("W1", 0, "allow", "A*", 0).on.interpretation), "default");
     }
 }

@@ -1,22 +1,22 @@
-//! A paper: its bibliography, the ledger of everything it prints, its claims and its tables.
+//! A paper: its bibliography, the inventory of everything it prints, its claims and its tables.
 //!
 //! The claims' checks stay tables here; they are understood on the floor that judges.
 
 mod choices;
 mod claim;
 mod ids;
-mod ledger;
+mod inventory;
 mod report;
 pub mod results;
 mod rules;
 mod table_spec;
 mod tables;
 
-pub use self::claim::{Asked, Claim, Parts, cells_named, printed_by};
+pub use self::claim::{Claim, Parts, TestRole, cells_named, printed_by};
 use self::claim::{ClaimSpec, claim};
 pub use self::rules::names_of;
-pub use ledger::{LedgerRow, NumbersRow};
-pub use report::{CLAIMS, FIGURES, OVER_READINGS, ReportSpec, filled};
+pub use inventory::{InventoryRow, NumbersRow};
+pub use report::{CLAIMS, FIGURES, OVER_INTERPRETATIONS, ReportSpec, filled};
 
 use self::results::ResultsSpec;
 use self::table_spec::TableSpec;
@@ -34,7 +34,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// What `paper.toml` may hold.
-pub const FILE: Accepted = Accepted::of::<PaperSpec>();
+pub const FILE: Accepted = Accepted::shape::<PaperSpec>();
 
 /// `paper.toml` as written.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -45,7 +45,7 @@ struct PaperSpec {
     /// What its chapter of the report shows.
     #[serde(default)]
     report: ReportSpec,
-    /// How many numbered things the paper has, each of which then needs a row in the ledger; none if absent.
+    /// How many numbered things the paper has, each of which then needs a row in the inventory; none if absent.
     #[serde(default)]
     prints: Prints,
     /// What it leaves open: each choice once, for all studies that it touches.
@@ -59,7 +59,7 @@ struct PaperSpec {
     budget: Option<BudgetSpec>,
     /// Everything that it prints, and what answers it; nothing is held against the paper's own list of prints if absent.
     #[serde(default)]
-    ledger: Vec<LedgerRow>,
+    inventory: Vec<InventoryRow>,
     /// What it says.
     #[serde(default, rename = "claim")]
     claims: Vec<ClaimSpec>,
@@ -78,8 +78,8 @@ impl PaperSpec {
     /// What is left out and what holds there, for the manifests of the paper's studies.
     fn left_out(&self) -> Vec<String> {
         let prints = (self.prints == Prints::default()).then_some("paper: prints = nothing");
-        let ledger = self.ledger.is_empty().then_some("paper: ledger = nothing");
-        prints.into_iter().chain(ledger).map(str::to_owned).collect()
+        let inventory = self.inventory.is_empty().then_some("paper: inventory = nothing");
+        prints.into_iter().chain(inventory).map(str::to_owned).collect()
     }
 
     /// What it says for all studies.
@@ -146,7 +146,7 @@ pub struct Prints {
     /// Equations.
     #[schemars(range(max = 1000))]
     pub equations: u32,
-    /// Numbers in its result sections, tables and captions, each of which the ledger then lists where it is printed.
+    /// Numbers in its result sections, tables and captions, each of which the inventory then lists where it is printed.
     #[schemars(range(max = 10_000))]
     pub numbers: u32,
 }
@@ -169,7 +169,7 @@ pub struct Paper {
     /// How far that is explored; not at all if absent.
     pub explore: Option<ExploreSpec>,
     /// Everything it prints.
-    pub ledger: Vec<LedgerRow>,
+    pub inventory: Vec<InventoryRow>,
     /// What it says.
     pub claims: Vec<Claim>,
     /// Its tables.
@@ -201,8 +201,8 @@ impl Paper {
     /// Reads `paper.toml` and every study in `folder`.
     ///
     /// # Errors
-    /// A missing folder or file, and everything that [`Study::load`] refuses; claims named twice, ledger rows that
-    /// name what does not exist, gaps in the ledger's numbering.
+    /// A missing folder or file, and everything that [`Study::load`] refuses; claims named twice, inventory rows that
+    /// name what does not exist, gaps in the inventory's numbering.
     pub fn load(folder: &Path, inputs: &Inputs) -> Result<Self, StudyError> {
         let mut faults = Faults::default();
         let schema = |kind: &str| match kind {
@@ -243,7 +243,8 @@ impl Paper {
             faults.unread("budget");
             faults.unread("choice");
         }
-        let (mut studies, mut others) = (Vec::new(), Vec::new());
+        let mut studies = Vec::new();
+        let mut others = Vec::new();
         for path in &files {
             let Some(document) = faults.keep(Document::open(path)) else { continue };
             match files::kind_of(&document, &written) {
@@ -272,7 +273,11 @@ impl Paper {
     ///
     /// # Errors
     /// As [`load`](Self::load), but for those of the studies.
-    pub fn of(folder: &Path, document: &Arc<Document>, studies: Vec<Study>) -> Result<Self, StudyError> {
+    pub fn with_studies(
+        folder: &Path,
+        document: &Arc<Document>,
+        studies: Vec<Study>,
+    ) -> Result<Self, StudyError> {
         let mut faults = Faults::default();
         let mut spec: PaperSpec = document.read()?;
         let choices = spec.shared(document, &mut faults).choices;
@@ -307,7 +312,7 @@ impl Paper {
             prints: spec.prints,
             choices,
             explore: spec.explore,
-            ledger: spec.ledger,
+            inventory: spec.inventory,
             claims,
             tables,
             cells,

@@ -33,7 +33,7 @@ pub struct Plan {
     pub with: Option<String>,
     /// How many units each shard runs.
     pub units: Vec<usize>,
-    /// What each shard's units cost, in nanoseconds of one core, as far as the first draw of each problem group tells.
+    /// What each shard's units cost, in nanoseconds of one core, as far as the first instance of each problem group tells.
     pub cost_ns: Vec<u64>,
     /// The program that the plan was made by, and with which its parts must run.
     pub made_by: MadeBy,
@@ -56,8 +56,8 @@ pub struct PlannedRound {
     pub command: String,
     /// The name of the round, which is that of the plan's folder within the folder of all parts.
     pub name: String,
-    /// The readings that run: the options of each that differ from the defaults.
-    pub readings: Vec<BTreeMap<String, String>>,
+    /// The interpretations that run: the options of each that differ from the defaults.
+    pub interpretations: Vec<BTreeMap<String, String>>,
 }
 
 /// One study of a plan.
@@ -74,7 +74,7 @@ pub struct PlannedStudy {
     pub depends: String,
     /// How many units it has.
     pub units: usize,
-    /// What the first draw of each problem group cost under the first reading, in nanoseconds of one core.
+    /// What the first instance of each problem group cost under the first interpretation, in nanoseconds of one core.
     pub cost_ns: BTreeMap<String, u64>,
 }
 
@@ -151,7 +151,9 @@ impl Plan {
             cost_ns: costs(built),
         };
         let Wanted { paper, shards, quick, seed, with, round, claims } = wanted.clone();
-        let (units, cost_ns, made_by) = (vec![0; shards], vec![0; shards], MadeBy::here().clone());
+        let units = vec![0; shards];
+        let cost_ns = vec![0; shards];
+        let made_by = MadeBy::here().clone();
         let studies_planned = studies.iter().map(planned).collect();
         let mut plan = Self {
             paper,
@@ -275,7 +277,7 @@ impl Plan {
         wanted: &Wanted,
         studies: &[(BuiltStudy<'_>, Manifest)],
     ) -> Result<(), StudyError> {
-        let mut other = Other(Vec::new());
+        let mut other = Differences(Vec::new());
         let mut differs = |what: &str, planned: String, asked: String| other.note(what, &planned, &asked);
         let shown = |with: &Option<String>| with.clone().unwrap_or_else(|| "the default".to_owned());
         let names = |names: &mut dyn Iterator<Item = &str>| names.collect::<Vec<_>>().join(", ");
@@ -327,17 +329,21 @@ impl Plan {
 /// What a plan is of, in words.
 fn command(round: Option<&PlannedRound>) -> String {
     let of = |round: &PlannedRound| {
-        let readings = sha256(format!("{:?}", round.readings).as_bytes());
-        let PlannedRound { command, name, readings: each } = round;
-        format!("`{command}`, round `{name}` under {} readings ({})", each.len(), brief(&readings))
+        let interpretations = sha256(format!("{:?}", round.interpretations).as_bytes());
+        let PlannedRound { command, name, interpretations: each } = round;
+        format!(
+            "`{command}`, round `{name}` under {} interpretations ({})",
+            each.len(),
+            brief(&interpretations)
+        )
     };
     round.map_or_else(|| "`run`".to_owned(), of)
 }
 
 /// What differs from what is wanted.
-struct Other(Vec<String>);
+struct Differences(Vec<String>);
 
-impl Other {
+impl Differences {
     fn note(&mut self, what: &str, found: &str, wanted: &str) {
         if found != wanted {
             self.0.push(format!("{what} {found}, not {wanted}"));
@@ -365,7 +371,7 @@ pub fn brief(hash: &str) -> String {
 /// What takes longer is measured once: 50 ms.
 const WARM_NS: u64 = 50_000_000;
 
-/// What the first draw of each problem group costs under the first reading.
+/// What the first instance of each problem group costs under the first interpretation.
 fn costs(built: &BuiltStudy<'_>) -> BTreeMap<String, u64> {
     let mut costs = BTreeMap::new();
     for unit in built.units() {

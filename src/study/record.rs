@@ -1,8 +1,8 @@
 //! The record: one row a trial, a failed trial is a row, unknown is null.
 
 use super::column::{self, Column};
-use super::key::{DrawKey, Owner, SweepKey, Text, TrialKey};
-use engine::planner::{Exhibit, Value};
+use super::key::{InstanceKey, Owner, SweepKey, Text, TrialKey};
+use engine::planner::{Trace, Value};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -172,28 +172,28 @@ impl Row {
         matches!(self.status, Status::Solved | Status::Rejected)
     }
 
-    /// Which draw of its problem group it belongs to.
-    pub fn draw(&self) -> u32 {
-        self.key.on.draw
+    /// Which instance of its problem group it belongs to.
+    pub fn instance(&self) -> u32 {
+        self.key.on.instance
     }
 
-    /// The query; empty where a draw has one query only.
+    /// The query; empty where an instance has one query only.
     pub fn query(&self) -> &str {
         self.key.query.as_deref().unwrap_or_default()
     }
 
-    /// What it has in common with the trials of other contenders that it is compared with: draw, query, sweep and repeat.
-    pub fn case(&self) -> (&Arc<DrawKey>, &Option<Text>, &SweepKey, u32) {
+    /// What it has in common with the trials of other contenders that it is compared with: instance, query, sweep and repeat.
+    pub fn case(&self) -> (&Arc<InstanceKey>, &Option<Text>, &SweepKey, u32) {
         (&self.key.on, &self.key.query, &self.key.sweep, self.key.repeat)
     }
 }
 
-/// One prepared object.
+/// One preprocessed object.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PreparedRow {
+pub struct PreprocessingRow {
     /// What names it, unique in the study.
-    pub key: Arc<DrawKey>,
-    /// The kind of prepared object.
+    pub key: Arc<InstanceKey>,
+    /// The kind of preprocessed object.
     pub kind: String,
     /// The seed it was built from.
     pub seed: u64,
@@ -203,33 +203,33 @@ pub struct PreparedRow {
     pub values: Values,
 }
 
-/// An exhibit and the trial or prepared object it belongs to.
+/// A trace and the trial or preprocessed object it belongs to.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Kept {
     /// Whose it is.
     pub of: Owner,
-    /// The exhibit.
-    pub exhibit: Exhibit,
+    /// The trace.
+    pub trace: Trace,
 }
 
-/// One clock reading of one trial.
+/// One time of one trial.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Timing {
     /// The trial.
     pub trial: TrialKey,
-    /// The session in which the clock was read, from 1; readings of different sessions are never pooled.
+    /// The session in which the clock was read, from 1; times of different sessions are never pooled.
     pub session: u32,
-    /// Which reading of the clock in its session, from 0.
+    /// Which interpretation of the clock in its session, from 0.
     pub clock_repeat: u32,
     /// Planning time.
     pub plan_wall_ns: u64,
 }
 
-/// Everything that one unit of work (a prepared object and its trials) gives.
+/// Everything that one unit of work (a preprocessed object and its trials) gives.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Batch {
-    /// The prepared objects.
-    pub prepared: Vec<PreparedRow>,
+    /// The preprocessed objects.
+    pub preprocessing: Vec<PreprocessingRow>,
     /// The trials.
     pub rows: Vec<Row>,
     /// What figures need.
@@ -240,7 +240,7 @@ impl Batch {
     /// It, and after it all of `other`.
     #[must_use]
     pub fn with(mut self, other: Self) -> Self {
-        self.prepared.extend(other.prepared);
+        self.preprocessing.extend(other.preprocessing);
         self.rows.extend(other.rows);
         self.kept.extend(other.kept);
         self

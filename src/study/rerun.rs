@@ -1,7 +1,7 @@
 //! Reruns a seeded sample of stored trials and compares every row.
 
 use super::choice::Interpretation;
-use super::key::{DrawKey, TrialKey};
+use super::key::{InstanceKey, TrialKey};
 use super::manifest::Manifest;
 use super::record::Row;
 use super::runner::BuiltStudy;
@@ -66,10 +66,10 @@ pub fn rerun(
 }
 
 /// The trials drawn, by unit.
-fn sample(study: &Study, rows: &[Row], count: usize) -> BTreeMap<Arc<DrawKey>, BTreeSet<TrialKey>> {
+fn sample(study: &Study, rows: &[Row], count: usize) -> BTreeMap<Arc<InstanceKey>, BTreeSet<TrialKey>> {
     let mut stream = seed::stream(seed::derive(study.seed, &[&study.paper, &study.name, "rerun"]));
     let picks = (0..count.min(rows.len())).map(|_| &rows[stream.random_range(0..rows.len())]);
-    let mut sample: BTreeMap<Arc<DrawKey>, BTreeSet<TrialKey>> = BTreeMap::new();
+    let mut sample: BTreeMap<Arc<InstanceKey>, BTreeSet<TrialKey>> = BTreeMap::new();
     for row in picks {
         sample.entry(row.key.on.clone()).or_default().insert(row.key.clone());
     }

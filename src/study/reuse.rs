@@ -4,14 +4,14 @@
 
 use super::contender::Contender;
 use super::error::StudyError;
-use super::key::{DrawKey, Owner, Text, TrialKey};
+use super::key::{InstanceKey, Owner, Text, TrialKey};
 use super::manifest::Manifest;
 use super::name::Names;
 use super::record::{Batch, Kept, Row};
 use super::runner::{BuiltStudy, Part};
-use super::store::{Exhibits, GROUP_VALUES, Journal, KeptExhibits, Records, read_numbers};
+use super::store::{GROUP_VALUES, Journal, KeptTraces, Records, Traces, read_numbers};
 use super::unit::{Entrant, Unit};
-use engine::planner::Exhibit;
+use engine::planner::Trace;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::iter;
 use std::path::Path;
@@ -19,10 +19,10 @@ use std::sync::Arc;
 
 /// What is stored of a study, and why it cannot stand for the run that a manifest describes.
 pub struct Before {
-    /// The manifest and the records, without exhibits.
+    /// The manifest and the records, without traces.
     pub stored: Option<(Manifest, Records)>,
-    /// The exhibits.
-    pub kept: KeptExhibits,
+    /// The traces.
+    pub kept: KeptTraces,
     /// What has changed.
     pub why: Vec<String>,
 }
@@ -31,13 +31,13 @@ impl Before {
     /// What `folder` has of the study that `manifest` is about.
     pub fn read(folder: &Path, manifest: &Manifest) -> Self {
         if !Manifest::path(folder, &manifest.study).exists() {
-            return Self { stored: None, kept: KeptExhibits::default(), why: Vec::new() };
+            return Self { stored: None, kept: KeptTraces::default(), why: Vec::new() };
         }
         match Self::stored(folder, manifest) {
             Ok(before) => before,
             Err(error) => {
                 let why = vec![format!("what is stored cannot be used: {error}")];
-                Self { stored: None, kept: KeptExhibits::default(), why }
+                Self { stored: None, kept: KeptTraces::default(), why }
             }
         }
     }
@@ -45,14 +45,14 @@ impl Before {
     fn stored(folder: &Path, manifest: &Manifest) -> Result<Self, StudyError> {
         let study = &manifest.study;
         let (before, records) = stored(folder, study)?;
-        let kept = KeptExhibits::stored(folder, study, &before.files)?;
+        let kept = KeptTraces::stored(folder, study, &before.files)?;
         kept.owners()?;
         let why = manifest.differs_from(&before);
         Ok(Self { stored: Some((before, records)), kept, why })
     }
 }
 
-/// The manifest and the records of `study` in `folder`, without exhibits.
+/// The manifest and the records of `study` in `folder`, without traces.
 ///
 /// # Errors
 /// [`StudyError::Stored`] for a file that is missing, damaged, or not the one that the manifest speaks of.
@@ -84,8 +84,8 @@ pub struct Reusable {
     pub units: BTreeMap<usize, Batch>,
     /// Units of which some contenders' trials are.
     pub parts: BTreeMap<usize, Part>,
-    /// The contenders of each of these units whose exhibits are stored; of all in a task that does without contenders.
-    pub exhibits: BTreeMap<usize, Option<BTreeSet<Text>>>,
+    /// The contenders of each of these units whose traces are stored; of all in a task that does without contenders.
+    pub traces: BTreeMap<usize, Option<BTreeSet<Text>>>,
 }
 
 impl Reusable {
@@ -101,12 +101,12 @@ impl Reusable {
         if manifest.quick != before.quick {
             return found;
         }
-        let mut stored = by_draw(&records.batch);
+        let mut stored = by_instance(&records.batch);
         for (index, unit) in built.units().iter().enumerate() {
-            let reading = &unit.key.reading;
+            let interpretation = &unit.key.interpretation;
             let problem = |of: &Manifest| of.problem(&unit.key).map(str::to_owned);
             let Some(batch) = stored.remove(&unit.key) else { continue };
-            if problem(manifest) != problem(before) || batch.prepared.is_empty() {
+            if problem(manifest) != problem(before) || batch.preprocessing.is_empty() {
                 continue;
             }
             let labels: BTreeSet<Text> = unit.entrants.iter().map(|entrant| entrant.label.clone()).collect();
@@ -115,7 +115,7 @@ impl Reusable {
             }
             let is_same = |entrant: &&&Entrant<'_>| {
                 let label = &entrant.label;
-                manifest.contender(reading, label) == before.contender(reading, label)
+                manifest.contender(interpretation, label) == before.contender(interpretation, label)
                     && keeps.keeps(entrant.contender)
             };
             let same = unit.entrants.iter().filter(is_same).map(|entrant| entrant.label.clone()).collect();
@@ -137,14 +137,14 @@ impl Reusable {
         if contenders == 0 {
             // A task that does without contenders depends on its problems alone.
             self.units.insert(index, stored);
-            self.exhibits.insert(index, None);
+            self.traces.insert(index, None);
         } else if same.len() == contenders {
             self.units.insert(index, built.in_order(unit, [&stored, &Batch::default()]));
-            self.exhibits.insert(index, Some(same));
+            self.traces.insert(index, Some(same));
         } else if !same.is_empty() {
             let is_same = |key: &TrialKey| same.contains(&key.contender);
             stored.rows.retain(|row| is_same(&row.key));
-            self.exhibits.insert(index, Some(same.clone()));
+            self.traces.insert(index, Some(same.clone()));
             self.parts.insert(index, Part { contenders: same, stored });
         }
     }
@@ -155,24 +155,24 @@ impl Reusable {
     }
 }
 
-/// The records of each draw.
-fn by_draw(batch: &Batch) -> BTreeMap<Arc<DrawKey>, Batch> {
-    let mut draws: BTreeMap<Arc<DrawKey>, Batch> = BTreeMap::new();
-    for row in &batch.prepared {
-        draws.entry(row.key.clone()).or_default().prepared.push(row.clone());
+/// The records of each instance.
+fn by_instance(batch: &Batch) -> BTreeMap<Arc<InstanceKey>, Batch> {
+    let mut instances: BTreeMap<Arc<InstanceKey>, Batch> = BTreeMap::new();
+    for row in &batch.preprocessing {
+        instances.entry(row.key.clone()).or_default().preprocessing.push(row.clone());
     }
     for row in &batch.rows {
-        draws.entry(row.key.on.clone()).or_default().rows.push(row.clone());
+        instances.entry(row.key.on.clone()).or_default().rows.push(row.clone());
     }
-    draws
+    instances
 }
 
-/// The exhibits of a run on their way to its records: those of trials that ran are in the journal, the others in the file of the
+/// The traces of a run on their way to its records: those of trials that ran are in the journal, the others in the file of the
 /// run before.
 pub struct Gathered<'r, 'a> {
     built: &'r BuiltStudy<'a>,
     journal: &'r mut Journal,
-    before: KeptExhibits,
+    before: KeptTraces,
     reused: BTreeMap<usize, Option<BTreeSet<Text>>>,
 }
 
@@ -181,7 +181,7 @@ impl<'r, 'a> Gathered<'r, 'a> {
     pub fn new(
         built: &'r BuiltStudy<'a>,
         journal: &'r mut Journal,
-        before: KeptExhibits,
+        before: KeptTraces,
         reused: BTreeMap<usize, Option<BTreeSet<Text>>>,
     ) -> Self {
         Self { built, journal, before, reused }
@@ -191,15 +191,16 @@ impl<'r, 'a> Gathered<'r, 'a> {
     ///
     /// # Errors
     /// Those of the file of the run before.
-    pub fn all(mut self, rows: &[Row]) -> Result<Exhibits<'r>, StudyError>
+    pub fn all(mut self, rows: &[Row]) -> Result<Traces<'r>, StudyError>
     where
         'a: 'r,
     {
         let built = self.built;
         let units = built.units();
-        let numbers: BTreeMap<&Arc<DrawKey>, usize> = units.iter().map(|unit| &unit.key).zip(0..).collect();
+        let numbers: BTreeMap<&Arc<InstanceKey>, usize> =
+            units.iter().map(|unit| &unit.key).zip(0..).collect();
         let is_taken = |owner: &&Owner| match owner {
-            Owner::Draw(_) => false,
+            Owner::Instance(_) => false,
             Owner::Trial(key) => {
                 let of_unit = numbers.get(&key.on).and_then(|unit| self.reused.get(unit));
                 of_unit.is_some_and(|taken| taken.as_ref().is_none_or(|taken| taken.contains(&key.contender)))
@@ -212,22 +213,22 @@ impl<'r, 'a> Gathered<'r, 'a> {
         let each = std::iter::from_fn(move || {
             while unit.is_empty() {
                 let (index, next) = units.next()?;
-                match self.of(index, &next) {
+                match self.of_unit(index, &next) {
                     Ok(kept) => unit.extend(kept),
                     Err(error) => return Some(Err(error)),
                 }
             }
             unit.pop_front().map(Ok)
         });
-        Ok(Exhibits { each: Box::new(each), sweep, group_values: GROUP_VALUES })
+        Ok(Traces { each: Box::new(each), sweep, group_values: GROUP_VALUES })
     }
 
-    fn of(&mut self, index: usize, unit: &Unit<'_>) -> Result<Vec<Kept>, StudyError> {
-        let ran = self.journal.exhibits(index)?;
+    fn of_unit(&mut self, index: usize, unit: &Unit<'_>) -> Result<Vec<Kept>, StudyError> {
+        let ran = self.journal.traces(index)?;
         let Some(reused) = self.reused.get(&index) else { return Ok(ran) };
-        let mut by_owner: BTreeMap<Owner, Vec<Exhibit>> = BTreeMap::new();
-        for Kept { of, exhibit } in ran {
-            by_owner.entry(of).or_default().push(exhibit);
+        let mut by_owner: BTreeMap<Owner, Vec<Trace>> = BTreeMap::new();
+        for Kept { of, trace } in ran {
+            by_owner.entry(of).or_default().push(trace);
         }
         let owners: Vec<Owner> = if reused.is_none() {
             self.before.owners()?.into_iter().filter(|of| *of.on() == unit.key).cloned().collect()
@@ -241,12 +242,12 @@ impl<'r, 'a> Gathered<'r, 'a> {
         };
         let mut all = Vec::new();
         for of in owners {
-            let exhibits = match by_owner.remove(&of) {
-                Some(exhibits) => exhibits,
+            let traces = match by_owner.remove(&of) {
+                Some(traces) => traces,
                 None if is_reused(&of) => self.before.take(&of)?,
                 None => continue,
             };
-            all.extend(exhibits.into_iter().map(|exhibit| Kept { of: of.clone(), exhibit }));
+            all.extend(traces.into_iter().map(|trace| Kept { of: of.clone(), trace }));
         }
         Ok(all)
     }
@@ -256,9 +257,10 @@ impl<'r, 'a> Gathered<'r, 'a> {
 pub fn moved(manifest: &Manifest, before: &Manifest, old: &Batch, new: &Batch, names: &Names) -> Vec<String> {
     let old: BTreeMap<&TrialKey, &Row> = old.rows.iter().map(|row| (&row.key, row)).collect();
     let unchanged = |row: &&Row| {
-        let (reading, label) = (&row.key.on.reading, &row.key.contender);
+        let interpretation = &row.key.on.interpretation;
+        let label = &row.key.contender;
         manifest.problem(&row.key.on) == before.problem(&row.key.on)
-            && manifest.contender(reading, label) == before.contender(reading, label)
+            && manifest.contender(interpretation, label) == before.contender(interpretation, label)
     };
     let differs = |row: &&Row| old.get(&row.key).is_some_and(|stored| *stored != *row);
     new.rows.iter().filter(differs).filter(unchanged).map(|row| names.trial(&row.key)).collect()

@@ -1,7 +1,7 @@
 //! Runs a study: units of work in parallel, each kept in the journal as soon as it is done.
 //!
-//! A unit is one prepared object with all its trials, so that parallelism and resume follow what is costly.
-//! Units are numbered by reading, problem group, point of the sweeps over it and replicate; results are put together in that order, so the
+//! A unit is one preprocessed object with all its trials, so that parallelism and resume follow what is costly.
+//! Units are numbered by interpretation, problem group, point of the sweeps over it and instance; results are put together in that order, so the
 //! number of threads and the order of completion change nothing.
 
 mod timed;
@@ -13,12 +13,12 @@ use super::error::StudyError;
 use super::family::Family;
 use super::group::{Families, Group};
 use super::inputs::Inputs;
-use super::key::{DrawKey, ReadingKey, Text, TrialKey};
+use super::key::{InstanceKey, InterpretationKey, Text, TrialKey};
 use super::name::{self, Names};
 use super::record::{Batch, Row};
 use super::store::Journal;
 use super::task::Task;
-use super::unit::{Entrant, Terms, Unit};
+use super::unit::{Entrant, StudyContext, Unit};
 use base::hash::sha256;
 use base::seed;
 use engine::space::WorldKind;
@@ -49,7 +49,7 @@ impl Progress for Unwatched {
     fn end(&self) {}
 }
 
-/// The number of the session in which a run reads the clock: its readings replace all older ones. Later sessions are read
+/// The number of the session in which a run reads the clock: its times replace all older ones. Later sessions are read
 /// beside it.
 pub const SESSION: u32 = 1;
 
@@ -66,10 +66,10 @@ pub struct Part {
 pub struct BuiltStudy<'a> {
     study: &'a Study,
     inputs: &'a Inputs,
-    terms: Terms<'a>,
+    terms: StudyContext<'a>,
     task: Box<dyn Task>,
     points: &'a [Interpretation],
-    readings: Vec<ReadingKey>,
+    interpretations: Vec<InterpretationKey>,
     families: Vec<Vec<Arc<dyn Family>>>,
     entrants: Vec<Vec<Entrant<'a>>>,
 }
@@ -84,11 +84,13 @@ impl<'a> BuiltStudy<'a> {
         points: &'a [Interpretation],
         inputs: &'a Inputs,
     ) -> Result<Self, StudyError> {
-        let (mut families, mut entrants, mut built) = (Vec::new(), Vec::new(), Families::default());
+        let mut families = Vec::new();
+        let mut entrants = Vec::new();
+        let mut built = Families::default();
         let labels: Vec<Text> = study.contenders.iter().map(|c| c.label.as_str().into()).collect();
         let sweeps = study.contender_points();
         for point in points {
-            let of = |posed| built.of(posed, point, inputs);
+            let of = |posed| built.family(posed, point, inputs);
             families.push(study.posed().map(of).collect::<Result<Vec<_>, _>>()?);
             let mut line_up = Vec::new();
             for (contender, label) in study.contenders.iter().zip(&labels) {
@@ -99,12 +101,16 @@ impl<'a> BuiltStudy<'a> {
             }
             entrants.push(line_up);
         }
-        let (paper, name, keeps) = (&study.paper, &study.name, study.kept().collect());
-        let (names, seed, budget) = (study.names(), study.seed, study.budget);
-        let terms = Terms { paper, study: name, names, seed, budget, keeps };
-        let readings = points.iter().map(|point| point.key(&study.choices)).collect();
+        let paper = &study.paper;
+        let name = &study.name;
+        let keeps = study.kept().collect();
+        let names = study.names();
+        let seed = study.seed;
+        let budget = study.budget;
+        let terms = StudyContext { paper, study: name, names, seed, budget, keeps };
+        let interpretations = points.iter().map(|point| point.key(&study.choices)).collect();
         let task = (study.task.build)(&study.task_settings)?;
-        Ok(Self { study, inputs, terms, task, points, readings, families, entrants })
+        Ok(Self { study, inputs, terms, task, points, interpretations, families, entrants })
     }
 
     /// Every unit, in the order of records.
@@ -112,13 +118,17 @@ impl<'a> BuiltStudy<'a> {
         let mut units = Vec::new();
         let posed: Vec<(&Group, Text, &SweepPoint)> =
             self.study.posed().map(|(group, at)| (group, group.label.as_str().into(), at)).collect();
-        for reading in 0..self.points.len() {
+        for interpretation in 0..self.points.len() {
             for (place, (group, label, at)) in posed.iter().enumerate() {
-                for draw in 0..group.replicates {
-                    let reading_key = self.readings[reading].clone();
-                    let key =
-                        DrawKey { group: label.clone(), sweep: at.key.clone(), draw, reading: reading_key };
-                    units.push(self.unit(key, group, reading, place));
+                for instance in 0..group.instances {
+                    let interpretation_key = self.interpretations[interpretation].clone();
+                    let key = InstanceKey {
+                        group: label.clone(),
+                        sweep: at.key.clone(),
+                        instance,
+                        interpretation: interpretation_key,
+                    };
+                    units.push(self.unit(key, group, interpretation, place));
                 }
             }
         }
@@ -128,30 +138,36 @@ impl<'a> BuiltStudy<'a> {
     /// What each unit's problem group is called at its point of the sweeps, in the order of records.
     pub fn groups_of_units(&self) -> impl Iterator<Item = String> {
         let of_group = |(group, at): (&'a Group, &'a SweepPoint)| {
-            vec![name::group(&group.label, &at.key); group.replicates as usize]
+            vec![name::group(&group.label, &at.key); group.instances as usize]
         };
         self.points.iter().flat_map(move |_| self.study.posed().flat_map(of_group))
     }
 
     /// The unit called `key`: of the reading and of the problem group at its point of the sweeps at these places.
-    fn unit<'s>(&'s self, key: DrawKey, group: &'s Group, reading: usize, place: usize) -> Unit<'s> {
-        let number = key.draw.to_string();
+    fn unit<'s>(
+        &'s self,
+        key: InstanceKey,
+        group: &'s Group,
+        interpretation: usize,
+        place: usize,
+    ) -> Unit<'s> {
+        let number = key.instance.to_string();
         let at = name::sweep(&key.sweep);
-        let mut names: Vec<&str> = match &group.draw {
+        let mut names: Vec<&str> = match &group.shared_instances {
             // Points of a sweep share the seeds of a group whose instances have a name.
-            Some(draw) => vec![&self.study.paper, "draw", draw],
+            Some(instance) => vec![&self.study.paper, "draw", instance],
             None => vec![&self.study.paper, &self.study.name, "problem", &group.label],
         };
-        if group.draw.is_none() && !at.is_empty() {
+        if group.shared_instances.is_none() && !at.is_empty() {
             names.push(&at);
         }
         names.push(&number);
         Unit {
             terms: &self.terms,
             group,
-            family: self.families[reading][place].as_ref(),
-            point: &self.points[reading],
-            entrants: self.entrants[reading].iter().collect(),
+            family: self.families[interpretation][place].as_ref(),
+            point: &self.points[interpretation],
+            entrants: self.entrants[interpretation].iter().collect(),
             seed: seed::derive(self.study.seed, &names),
             key: Arc::new(key),
             keeps_all: false,
@@ -165,32 +181,40 @@ impl<'a> BuiltStudy<'a> {
     /// [`StudyError::Io`] if one has gone.
     pub fn inputs(&self) -> Result<BTreeMap<String, String>, StudyError> {
         let mut all = BTreeMap::new();
-        for (reading, families) in self.families.iter().enumerate() {
+        for (interpretation, families) in self.families.iter().enumerate() {
             for place in 0..families.len() {
-                all.extend(self.inputs_of(reading, place)?);
+                all.extend(self.inputs_of(interpretation, place)?);
             }
         }
         Ok(all)
     }
 
-    /// As [`inputs`](Self::inputs), of one problem group at one point of the sweeps under one reading, by their places.
+    /// As [`inputs`](Self::inputs), of one problem group at one point of the sweeps under one interpretation, by their places.
     ///
     /// # Errors
     /// As [`inputs`](Self::inputs).
-    pub fn inputs_of(&self, reading: usize, place: usize) -> Result<BTreeMap<String, String>, StudyError> {
+    pub fn inputs_of(
+        &self,
+        interpretation: usize,
+        place: usize,
+    ) -> Result<BTreeMap<String, String>, StudyError> {
         let hash = |path: &PathBuf| {
             let bytes = fs::read(path).map_err(StudyError::io(path, "reading an input file"))?;
             Ok((self.inputs.spelled(path), sha256(&bytes)))
         };
-        self.families[reading][place].inputs().iter().map(hash).collect()
+        self.families[interpretation][place].inputs().iter().map(hash).collect()
     }
 
-    /// The SHA-256 of every file that the contender called `label` depends on under the reading at this place.
+    /// The SHA-256 of every file that the contender called `label` depends on under the interpretation at this place.
     ///
     /// # Errors
     /// As [`inputs`](Self::inputs).
-    pub fn files_of(&self, reading: usize, label: &str) -> Result<BTreeMap<String, String>, StudyError> {
-        let own = self.entrants[reading].iter().filter(|entrant| *entrant.label == *label);
+    pub fn files_of(
+        &self,
+        interpretation: usize,
+        label: &str,
+    ) -> Result<BTreeMap<String, String>, StudyError> {
+        let own = self.entrants[interpretation].iter().filter(|entrant| *entrant.label == *label);
         let files = own.flat_map(|entrant| entrant.pipeline.planner.files());
         let hash = |path: &PathBuf| {
             let bytes = fs::read(path).map_err(StudyError::io(path, "reading a planner's file"))?;
@@ -219,7 +243,8 @@ impl<'a> BuiltStudy<'a> {
             };
             for entrant in unit.entrants.iter().filter(|entrant| !stored(entrant)) {
                 if let Some(lacks) = entrant.pipeline.planner.lacks() {
-                    let (study, contender) = (self.study.name.clone(), entrant.contender.label.clone());
+                    let study = self.study.name.clone();
+                    let contender = entrant.contender.label.clone();
                     return Err(StudyError::Lacks { study, contender, lacks });
                 }
             }
@@ -255,15 +280,15 @@ impl<'a> BuiltStudy<'a> {
         self.in_order(unit, [&part.stored, &fresh])
     }
 
-    /// The records of `batches` that are the unit's, in the order in which a run gives them; exhibits are the last one's.
+    /// The records of `batches` that are the unit's, in the order in which a run gives them; traces are the last one's.
     pub fn in_order(&self, unit: &Unit<'_>, batches: [&Batch; 2]) -> Batch {
         let rows = batches.iter().flat_map(|batch| &batch.rows);
         let rows: BTreeMap<&TrialKey, &Row> = rows.map(|row| (&row.key, row)).collect();
-        let prepared = batches.iter().flat_map(|batch| &batch.prepared);
-        let prepared = prepared.take(1).cloned().collect();
+        let preprocessing = batches.iter().flat_map(|batch| &batch.preprocessing);
+        let preprocessing = preprocessing.take(1).cloned().collect();
         let rows =
             self.trials(unit).iter().filter_map(|key| rows.get(key).map(|row| (*row).clone())).collect();
-        Batch { prepared, rows, kept: batches[1].kept.clone() }
+        Batch { preprocessing, rows, kept: batches[1].kept.clone() }
     }
 
     /// Runs every unit, or those among `only`, that `done` does not hold yet, in the current thread pool; of a unit of which
@@ -272,7 +297,7 @@ impl<'a> BuiltStudy<'a> {
     /// # Errors
     /// [`StudyError::Interrupted`] if `stop` was set; an error of the journal.
     ///
-    /// The exhibits are in the journal, or where the stored trials are.
+    /// The traces are in the journal, or where the stored trials are.
     pub fn run(
         &self,
         only: Option<&BTreeSet<usize>>,
@@ -329,7 +354,7 @@ impl<'a> BuiltStudy<'a> {
     }
 }
 
-/// The units in `todo` by what they are drawn from: those of one family and one seed share what is prepared, readings that
+/// The units in `todo` by what they are drawn from: those of one family and one seed share what is prepared, interpretations that
 /// change contenders alone among them; units that are `apart` stand by themselves. In the order of their first units.
 fn alike(units: &[Unit<'_>], todo: &[usize], apart: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
     let mut all: Vec<Vec<usize>> = Vec::new();

@@ -10,8 +10,7 @@ use super::reuse::{self, Before, Gathered, Keeps, Reusable, moved};
 use super::runner::{BuiltStudy, Progress, SESSION};
 use super::shard::Portion;
 use super::store::{
-    Columns, Exhibits, GROUP_VALUES, Journal, Records, Staged, open_exhibits, remove_temporaries,
-    stage_records,
+    Columns, GROUP_VALUES, Journal, Records, Staged, Traces, open_traces, remove_temporaries, stage_records,
 };
 use super::unit::Unit;
 use super::{Inputs, StudyError};
@@ -25,13 +24,13 @@ use std::sync::atomic::AtomicBool;
 pub struct Options<'a> {
     /// The right to write where records go.
     pub lock: &'a Lock,
-    /// The readings to run; the first is the one that clocks are read under.
+    /// The interpretations to run; the first is the one that clocks are read under.
     pub points: &'a [Interpretation],
     /// Where input files are.
     pub inputs: &'a Inputs,
     /// The command line, for the manifest.
     pub command: String,
-    /// The units to run, of a run that is cut into shards; all if absent. A shard reads no clock: readings on several machines,
+    /// The units to run, of a run that is cut into shards; all if absent. A shard reads no clock: interpretations on several machines,
     /// or beside other shards, are of no session.
     pub portion: Option<&'a Portion>,
     /// Cut down by `--quick`.
@@ -115,7 +114,8 @@ struct Counts {
 impl Report {
     fn new(manifest: Manifest, counts: &Counts, batch: &Batch, names: &Names, why: Vec<String>) -> Self {
         let Counts { resumed, units, reused, kept } = *counts;
-        let (trials, odd) = (batch.rows.len(), UnexpectedStatus::among(&batch.rows, names));
+        let trials = batch.rows.len();
+        let odd = UnexpectedStatus::among(&batch.rows, names);
         Self { manifest, trials, resumed, reused, kept, units, why, moved: Vec::new(), odd }
     }
 }
@@ -140,12 +140,14 @@ impl UnexpectedStatus {
 /// [`StudyError::Interrupted`] if it was stopped, and those of the file system. Records that existed before stay as they
 /// are unless the run succeeds.
 pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
-    let (built, folder) = (BuiltStudy::new(study, options.points, options.inputs)?, options.lock.folder());
+    let built = BuiltStudy::new(study, options.points, options.inputs)?;
+    let folder = options.lock.folder();
     let mut manifest = options.manifest(study, &built)?;
     let only = options.portion.map(|portion| manifest.cut_to(portion));
     remove_temporaries(folder, &study.name);
     let (journal, mut done) = Journal::open(&Journal::path(folder, &study.name), &manifest.depends)?;
-    let (resumed, units) = (done.len(), only.map_or_else(|| built.units().len(), BTreeSet::len));
+    let resumed = done.len();
+    let units = only.map_or_else(|| built.units().len(), BTreeSet::len);
     let Before { stored, kept, why } = Before::read(folder, &manifest);
     let is_current =
         |(before, _): &&(Manifest, Records)| !options.fresh && !options.record && manifest.is_as(before);
@@ -158,7 +160,8 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let counts = Counts { resumed, units, reused: found.units.len(), kept: found.kept() };
     done = found.units.into_iter().chain(done).collect();
     built.check_programs(only, &done, &found.parts)?;
-    let (journal, parts) = (Mutex::new(journal), &found.parts);
+    let journal = Mutex::new(journal);
+    let parts = &found.parts;
     let run = || built.run(only, done, parts, &journal, options.stop, options.progress);
     let batch = pool(options.threads).install(run)?;
     let times = match kept_times(study, stored.as_ref(), &mut manifest, counts.reused == units) {
@@ -168,10 +171,11 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     };
     let records = Records { batch, times };
     let mut journal = journal.into_inner().expect("no thread panicked while it wrote");
-    let exhibits = Gathered::new(&built, &mut journal, kept, found.exhibits).all(&records.batch.rows)?;
-    write(study, folder, &mut manifest, &records, exhibits)?;
+    let traces = Gathered::new(&built, &mut journal, kept, found.traces).all(&records.batch.rows)?;
+    write(study, folder, &mut manifest, &records, traces)?;
     journal.remove()?;
-    let (new, names) = (&records.batch, built.names());
+    let new = &records.batch;
+    let names = built.names();
     let moved = stored.map_or_else(Vec::new, |(was, old)| moved(&manifest, &was, &old.batch, new, names));
     Ok(Report { moved, ..Report::new(manifest, &counts, new, names, why) })
 }
@@ -181,7 +185,8 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
 /// # Errors
 /// [`StudyError::Stored`] if what is stored is not what the spec asks for; those of [`run`].
 pub fn read_clock(study: &Study, options: &Options<'_>) -> Result<u32, StudyError> {
-    let (built, folder) = (BuiltStudy::new(study, options.points, options.inputs)?, options.lock.folder());
+    let built = BuiltStudy::new(study, options.points, options.inputs)?;
+    let folder = options.lock.folder();
     let manifest = options.manifest(study, &built)?;
     let stored = Before::read(folder, &manifest).stored.filter(|(before, _)| manifest.is_as(before));
     let Some((mut manifest, mut records)) = stored else {
@@ -190,14 +195,14 @@ pub fn read_clock(study: &Study, options: &Options<'_>) -> Result<u32, StudyErro
     };
     let number = manifest.sessions.len() as u32 + 1;
     records.times.extend(built.time(number, options.stop, options.progress)?);
-    manifest.sessions.push(Session { number, ..Session::of(MadeBy::here()) });
-    let stored = open_exhibits(folder, &study.name, &manifest.files)?;
-    let exhibits = stored.all(&records.batch.rows)?;
-    write(study, folder, &mut manifest, &records, exhibits)?;
+    manifest.sessions.push(Session { number, ..Session::here(MadeBy::here()) });
+    let stored = open_traces(folder, &study.name, &manifest.files)?;
+    let traces = stored.all(&records.batch.rows)?;
+    write(study, folder, &mut manifest, &records, traces)?;
     Ok(number)
 }
 
-/// The stored readings of the clock, with their sessions, if no trial ran again and they are as many as are asked for.
+/// The stored times, with their sessions, if no trial ran again and they are as many as are asked for.
 fn kept_times(
     study: &Study,
     stored: Option<&(Manifest, Records)>,
@@ -205,13 +210,13 @@ fn kept_times(
     none_ran: bool,
 ) -> Option<Vec<Timing>> {
     let (before, old) = stored.filter(|(before, old)| {
-        none_ran && manifest.readings == before.readings && is_timed_as(study, &old.times)
+        none_ran && manifest.interpretations == before.interpretations && is_timed_as(study, &old.times)
     })?;
     manifest.sessions.clone_from(&before.sessions);
     Some(old.times.clone())
 }
 
-/// Reads the clock. Stored readings stay beside it, as sessions of their own, where every trial that ran again came out as it is
+/// Reads the clock. Stored times stay beside it, as sessions of their own, where every trial that ran again came out as it is
 /// stored: they are of the same trials.
 fn times_beside(
     built: &BuiltStudy<'_>,
@@ -221,7 +226,7 @@ fn times_beside(
     batch: &Batch,
 ) -> Result<Vec<Timing>, StudyError> {
     let is_of_these = |(before, old): &&(Manifest, Records)| {
-        manifest.readings == before.readings
+        manifest.interpretations == before.interpretations
             && !manifest.sessions.is_empty()
             && is_timed_as(built.study(), &old.times)
             && old.batch.rows == batch.rows
@@ -231,23 +236,23 @@ fn times_beside(
     };
     let number = before.sessions.len() as u32 + 1;
     manifest.sessions = before.sessions.clone();
-    manifest.sessions.push(Session { number, ..Session::of(MadeBy::here()) });
+    manifest.sessions.push(Session { number, ..Session::here(MadeBy::here()) });
     Ok([old.times.clone(), built.time(number, options.stop, options.progress)?].concat())
 }
 
-/// Whether the clock was read for as many draws, repeats and seeds as `study` asks for: readings are then as good as new ones
+/// Whether the clock was read for as many instances, repeats and seeds as `study` asks for: interpretations are then as good as new ones
 /// where no trial ran again, whatever else of the spec has changed.
 fn is_timed_as(study: &Study, times: &[Timing]) -> bool {
     let Some(timing) = study.timing else { return times.is_empty() };
     let most = |of: fn(&Timing) -> u32| times.iter().map(|time| of(time) + 1).max().unwrap_or(0);
-    let draws = study.groups.iter().map(|group| group.replicates).max().unwrap_or(0);
+    let instances = study.groups.iter().map(|group| group.instances).max().unwrap_or(0);
     let seeds = study.contenders.iter().map(|contender| contender.repeats).max().unwrap_or(0);
-    most(|time| time.trial.on.draw) == timing.problems.min(draws)
+    most(|time| time.trial.on.instance) == timing.problems.min(instances)
         && most(|time| time.clock_repeat) == timing.repeats
         && most(|time| time.trial.repeat) == timing.seeds.unwrap_or(1).min(seeds)
 }
 
-/// The least that a group of a part's exhibits holds, so that many parts do not make many files of crumbs.
+/// The least that a group of a part's traces holds, so that many parts do not make many files of crumbs.
 const LEAST_GROUP_VALUES: usize = 1 << 12;
 
 /// Puts records and manifest in their places, the manifest last: it says which records are whole.
@@ -256,16 +261,16 @@ pub(super) fn write(
     folder: &Path,
     manifest: &mut Manifest,
     records: &Records,
-    mut exhibits: Exhibits<'_>,
+    mut traces: Traces<'_>,
 ) -> Result<(), StudyError> {
     if let Some(shard) = &manifest.shard {
         // Who puts parts together holds a group of each.
-        exhibits.group_values = (GROUP_VALUES / shard.of).max(LEAST_GROUP_VALUES);
+        traces.group_values = (GROUP_VALUES / shard.of).max(LEAST_GROUP_VALUES);
     }
     let values: Vec<&'static str> = study.columns().into_iter().collect();
     let columns = Columns { keys: study.key_columns(), values: &values };
     let mut staged = Staged::default();
-    manifest.files = stage_records(&mut staged, folder, &study.name, &columns, records, exhibits)?;
+    manifest.files = stage_records(&mut staged, folder, &study.name, &columns, records, traces)?;
     manifest.stage(&mut staged, folder)?;
     staged.put()
 }
@@ -282,7 +287,8 @@ pub fn run_one(
     trial: &str,
 ) -> Result<(Batch, Option<Row>), StudyError> {
     let built = BuiltStudy::new(study, points, inputs)?;
-    let (units, names) = (built.units(), built.names());
+    let units = built.units();
+    let names = built.names();
     // What a task finds may have rows of its own, below a trial's name.
     let is_below = |name: &str| trial.strip_prefix(name).is_some_and(|rest| rest.starts_with('/'));
     let find = |is_it: &dyn Fn(&str) -> bool| {

@@ -85,7 +85,8 @@ mod tests {
             assert_eq!(found, cut(&costs, shards), "case {case}: another cut");
             let mut loads = vec![0; shards];
             found.iter().zip(&costs).for_each(|(shard, cost)| loads[shard - 1] += cost);
-            let (all, dearest) = (costs.iter().sum::<u64>(), costs.iter().copied().max().unwrap());
+            let all = costs.iter().sum::<u64>();
+            let dearest = costs.iter().copied().max().unwrap();
             // No division can do better than either of these.
             let bound = (all as f64 / shards as f64).max(dearest as f64) * 4.0 / 3.0 + dearest as f64 / 3.0;
             let most = loads.iter().copied().max().unwrap();

@@ -48,7 +48,7 @@ pub struct StudySpec {
     pub budget: Option<BudgetSpec>,
     /// How clocks are read.
     pub timing: Option<TimingSpec>,
-    /// Trials whose exhibits are kept besides those that figures name.
+    /// Trials whose traces are kept besides those that figures name.
     #[serde(default, rename = "keep")]
     pub keeps: Vec<TrialsSpec>,
     /// What `--quick` cuts down to.
@@ -76,13 +76,13 @@ pub struct ProblemsSpec {
     /// The number, from 0, of the entry that it was made from.
     #[serde(skip)]
     pub place: usize,
-    /// How many independent draws; 1 if absent.
+    /// How many independent instances; 1 if absent.
     #[schemars(range(min = 1, max = 1_000_000))]
-    pub replicates: Option<u32>,
-    /// What its draws are called: groups of one paper whose draws have one name get the same seeds, draw by draw, so that
+    pub instances: Option<u32>,
+    /// What its instances are called: groups of one paper whose draws have one name get the same seeds, instance by instance, so that
     /// what their settings do can be compared in pairs, and so do the points of a sweep over the group. The study, the label
     /// and the point of the sweep if absent.
-    pub draw: Option<String>,
+    pub shared_instances: Option<String>,
     /// The family's settings.
     #[schemars(with = "AnyTable")]
     pub settings: Spanned<Table>,
@@ -248,11 +248,11 @@ pub struct ExploreSpec {
     /// How many trials `replan explore` may run in all, and `replan confirm` once more.
     #[schemars(range(min = 1, max = 1_000_000_000_000_u64))]
     pub trials: u64,
-    /// The studies that are explored, each with the draws kept of each problem group.
-    pub draws: BTreeMap<String, Count>,
-    /// Draws kept of each group under interpretations that leave a claim open or turn it; `draws` if absent.
+    /// The studies that are explored, each with the instances kept of each problem group.
+    pub instances: BTreeMap<String, Count>,
+    /// Instances kept of each group under interpretations that leave a claim open or turn it; `instances` if absent.
     #[serde(default)]
-    pub more_draws: BTreeMap<String, Count>,
+    pub more_instances: BTreeMap<String, Count>,
     /// Seeds kept of each contender; all of them if absent.
     #[serde(default)]
     pub repeats: BTreeMap<String, Count>,
@@ -266,7 +266,7 @@ pub struct ExploreSpec {
     pub where_compatible: Vec<String>,
 }
 
-/// A number of draws or of seeds.
+/// A number of instances or of seeds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct Count(#[schemars(range(min = 1, max = 1_000_000))] pub u32);
@@ -274,10 +274,10 @@ pub struct Count(#[schemars(range(min = 1, max = 1_000_000))] pub u32);
 /// What is run of one study under every interpretation that its paper explores.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExploredStudy {
-    /// Draws kept of each problem group.
-    pub draws: u32,
-    /// Draws kept of each group under interpretations that leave a claim open or turn it.
-    pub more_draws: Option<u32>,
+    /// Instances kept of each problem group.
+    pub instances: u32,
+    /// Instances kept of each group under interpretations that leave a claim open or turn it.
+    pub more_instances: Option<u32>,
     /// Seeds kept of each contender; all of them if absent.
     pub repeats: Option<u32>,
     /// The study whose claims it answers, if not its own.
@@ -288,8 +288,8 @@ impl ExploreSpec {
     /// What is run of the study called `name`; none if it is not explored.
     pub fn study(&self, name: &str) -> Option<ExploredStudy> {
         Some(ExploredStudy {
-            draws: self.draws.get(name)?.0,
-            more_draws: self.more_draws.get(name).map(|count| count.0),
+            instances: self.instances.get(name)?.0,
+            more_instances: self.more_instances.get(name).map(|count| count.0),
             repeats: self.repeats.get(name).map(|count| count.0),
             stands_for: self.stands_for.get(name).cloned(),
         })
@@ -314,7 +314,7 @@ pub struct BudgetSpec {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TimingSpec {
-    /// How many problems of each group are timed, from the first replicate on.
+    /// How many problems of each group are timed, from the first instance on.
     #[schemars(range(max = 1_000_000))]
     pub problems: u32,
     /// How many timed runs of each.
@@ -333,21 +333,21 @@ pub struct TrialsSpec {
     pub problems: String,
     /// The contender's label; all of them if absent.
     pub contender: Option<String>,
-    /// Replicates below this number.
-    pub replicates: u32,
-    /// Further replicates, by their numbers from 0.
+    /// Instances below this number.
+    pub instances: u32,
+    /// Further instances, by their numbers from 0.
     #[serde(default)]
     pub also: Vec<u32>,
     /// Seeds of a contender below this number; all of them if absent.
     pub repeats: Option<u32>,
-    /// Names of the exhibits that are kept of a trial; all that there are if absent.
-    pub exhibits: Option<Vec<String>>,
+    /// Names of the traces that are kept of a trial; all that there are if absent.
+    pub traces: Option<Vec<String>>,
 }
 
 impl TrialsSpec {
-    /// Whether the replicate of this number is among them.
-    pub fn has_draw(&self, draw: u32) -> bool {
-        draw < self.replicates || self.also.contains(&draw)
+    /// Whether the instance of this number is among them.
+    pub fn has_instance(&self, instance: u32) -> bool {
+        instance < self.instances || self.also.contains(&instance)
     }
 }
 
@@ -355,9 +355,9 @@ impl TrialsSpec {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct QuickSpec {
-    /// Draws kept of each problem group.
+    /// Instances kept of each problem group.
     #[serde(default = "few")]
-    pub replicates: u32,
+    pub instances: u32,
     /// Seeds kept of each contender.
     pub repeats: Option<u32>,
     /// Limits on each trial, in place of the study's.
@@ -369,14 +369,14 @@ pub struct QuickSpec {
     pub task_settings: Option<Table>,
 }
 
-/// Draws kept of each group by `--quick` where the spec does not say: what shows that a study runs, and no more.
+/// Instances kept of each group by `--quick` where the spec does not say: what shows that a study runs, and no more.
 fn few() -> u32 {
     2
 }
 
 impl Default for QuickSpec {
     fn default() -> Self {
-        Self { replicates: few(), repeats: None, budget: None, timing: None, task_settings: None }
+        Self { instances: few(), repeats: None, budget: None, timing: None, task_settings: None }
     }
 }
 
@@ -394,7 +394,7 @@ pub struct FigureSpec {
     pub table: Option<String>,
     /// What its table shows, if it has one; the figure's caption if absent.
     pub table_caption: Option<String>,
-    /// Trials whose exhibits it needs.
+    /// Trials whose traces it needs.
     #[serde(default)]
     pub shows: Vec<TrialsSpec>,
     /// The kind's settings.

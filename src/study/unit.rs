@@ -1,10 +1,10 @@
-//! Units of work: one prepared object with everything that runs on it.
+//! Units of work: one preprocessed object with everything that runs on it.
 
 use super::choice::Interpretation;
 use super::contender::{Contender, Pipeline, SweepPoint};
 use super::family::{Family, Query};
 use super::group::Group;
-use super::key::{DrawKey, Text, TrialKey};
+use super::key::{InstanceKey, Text, TrialKey};
 use super::name::Names;
 use super::spec::{BudgetSpec, TrialsSpec};
 use base::seed;
@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// What all units of a study share.
-pub struct Terms<'a> {
+pub struct StudyContext<'a> {
     /// The paper's name.
     pub paper: &'a str,
     /// The study's name.
@@ -23,28 +23,28 @@ pub struct Terms<'a> {
     pub seed: u64,
     /// Limits on each trial.
     pub budget: BudgetSpec,
-    /// Trials whose exhibits are kept.
+    /// Trials whose traces are kept.
     pub keeps: Vec<&'a TrialsSpec>,
 }
 
-/// One prepared object and the trials that share it.
+/// One preprocessed object and the trials that share it.
 #[derive(Clone)]
 pub struct Unit<'a> {
     /// What it shares with the study's other units.
-    pub terms: &'a Terms<'a>,
+    pub terms: &'a StudyContext<'a>,
     /// What names it in records.
-    pub key: Arc<DrawKey>,
+    pub key: Arc<InstanceKey>,
     /// The group its problems belong to.
     pub group: &'a Group,
-    /// The group's family under this reading.
+    /// The group's family under this interpretation.
     pub family: &'a dyn Family,
-    /// The reading.
+    /// The interpretation.
     pub point: &'a Interpretation,
     /// Who runs on it.
     pub entrants: Vec<&'a Entrant<'a>>,
-    /// The draw's seed; the same under every reading and for every contender.
+    /// The instance's seed; the same under every interpretation and for every contender.
     pub seed: u64,
-    /// Keeps every exhibit, whatever the study asks for.
+    /// Keeps every trace, whatever the study asks for.
     pub keeps_all: bool,
     /// The trials that are asked for, if not all; a task whose trials share little may leave out others.
     pub wanted: Option<BTreeSet<TrialKey>>,
@@ -89,20 +89,20 @@ impl Unit<'_> {
         self.wanted.as_ref().is_none_or(|wanted| wanted.iter().any(is_it))
     }
 
-    /// Whether exhibits of this unit (of `contender`'s seed number `repeat`, if given) are kept.
+    /// Whether traces of this unit (of `contender`'s seed number `repeat`, if given) are kept.
     pub fn is_kept(&self, contender: Option<&str>, repeat: u32) -> bool {
         self.keeps_all || self.keeping(contender, repeat).next().is_some()
     }
 
-    /// Whether the exhibit called `name` of a trial is kept.
+    /// Whether the trace called `name` of a trial is kept.
     pub fn keeps(&self, contender: &str, repeat: u32, name: &str) -> bool {
         let is_named = |trials: &TrialsSpec| {
-            trials.exhibits.as_ref().is_none_or(|names| names.iter().any(|known| known == name))
+            trials.traces.as_ref().is_none_or(|names| names.iter().any(|known| known == name))
         };
         self.keeps_all || self.keeping(Some(contender), repeat).any(is_named)
     }
 
-    /// What has exhibits kept of this unit (of `contender`'s seed number `repeat`, if given).
+    /// What has traces kept of this unit (of `contender`'s seed number `repeat`, if given).
     fn keeping<'s>(
         &'s self,
         contender: Option<&'s str>,
@@ -115,7 +115,7 @@ impl Unit<'_> {
                 _ => true,
             };
             let is_early = contender.is_none() || trials.repeats.is_none_or(|repeats| repeat < repeats);
-            named && is_early && trials.has_draw(self.key.draw)
+            named && is_early && trials.has_instance(self.key.instance)
         };
         wanted.copied().filter(keeps)
     }
@@ -127,7 +127,7 @@ fn query_key(query: &Query) -> Option<Text> {
 
 impl Entrant<'_> {
     /// The seed of one run: it depends on names only, so that adding a contender moves no other.
-    pub fn seed(&self, terms: &Terms<'_>, problem: &str, repeat: u32) -> u64 {
+    pub fn seed(&self, terms: &StudyContext<'_>, problem: &str, repeat: u32) -> u64 {
         let label = &self.contender.label;
         let names = [terms.paper, terms.study, "contender", problem, label, &repeat.to_string()];
         seed::derive(terms.seed, &names)

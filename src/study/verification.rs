@@ -13,7 +13,7 @@ pub use polyhedra::{CARRIED_COLUMNS, POLYHEDRA_COLUMNS};
 use super::contender::Pipeline;
 use super::family::Query;
 use super::record::Status;
-use engine::planner::{Counts, Ending, Exhibit, Plan, Request, Value};
+use engine::planner::{Counts, Ending, Plan, Request, Trace, Value};
 use engine::shorten::{TurnAngle, bends, path_length, turn_sum_deg};
 use engine::space::{LatticeWorld, World};
 use verify::lattice::{Answer, Case, Landmarks};
@@ -54,7 +54,7 @@ pub struct Verified {
     /// What was measured.
     pub values: Counts,
     /// What figures need of what was measured, if the request asked for it.
-    pub exhibits: Vec<Exhibit>,
+    pub traces: Vec<Trace>,
 }
 
 /// How many queries a map must be asked for landmarks to be worth their distances.
@@ -132,7 +132,7 @@ fn verify_lattice(
     if plan.ending == Ending::Solved && refusal.is_none() {
         values.extend(measured(&plan.path));
     }
-    Verified { outcome: outcome(request, plan, refusal), values, exhibits: Vec::new() }
+    Verified { outcome: outcome(request, plan, refusal), values, traces: Vec::new() }
 }
 
 /// The status of a trial that ended as `plan` did and was refused for `refusal`, if it was, and the reason.

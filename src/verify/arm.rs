@@ -118,8 +118,10 @@ impl Case<'_> {
             postures
                 .push(free.ok_or_else(|| format!("the arm may not stand at {}", listed(self.at(*point))))?);
         }
-        let (mut joint_travel_deg, mut largest_joint_step_deg) = ([0.0; 2], 0.0_f64);
-        let (mut unsafe_hops, mut deepest_cm) = (0, 0.0_f64);
+        let mut joint_travel_deg = [0.0; 2];
+        let mut largest_joint_step_deg = 0.0_f64;
+        let mut unsafe_hops = 0;
+        let mut deepest_cm = 0.0_f64;
         for (pair, postures) in points.windows(2).zip(postures.windows(2)) {
             self.refuse_step(pair, answer.steps).map_or(Ok(()), Err)?;
             let by = turned(postures[0], postures[1]);

@@ -1,4 +1,4 @@
-//! Classes across readings, on a small paper through the whole program: run, explore, confirm, judge.
+//! Classes across interpretations, on a small paper through the whole program: run, explore, confirm, judge.
 
 use crate::paper::Bench;
 use flate2::Compression;
@@ -6,7 +6,7 @@ use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
 use replan::analysis::across::stored::Exploration;
 use replan::analysis::class::Verdict;
-use replan::analysis::verdict::{Judged, Verdicts};
+use replan::analysis::verdict::{ClaimVerdict, Verdicts};
 use std::fs;
 use std::io::{Read as _, Write as _};
 
@@ -20,7 +20,7 @@ title = "A toy"
 [explore]
 sample = 20
 trials = 100_000
-draws = { draws = 20, room = 1 }
+instances = { instances = 20, room = 1 }
 
 [[claim]]
 id = "fewer"
@@ -80,7 +80,7 @@ expansions = 10_000
 [[problems]]
 label = "drawn"
 family = "random_cells"
-replicates = 40
+instances = 40
 settings = { size_cells = [12, 12], start = [0, 0], goal = [11, 9], blocked_share = 0.2, corner_rule = "allow" }
 [[contender]]
 label = "A*"
@@ -162,14 +162,14 @@ impl Toy {
         Verdicts::read(&self.0.at(RUNS)).unwrap()
     }
 
-    pub fn claim(&self, id: &str) -> Judged {
+    pub fn claim(&self, id: &str) -> ClaimVerdict {
         self.verdicts().claim(id).unwrap().clone()
     }
 
     /// The class of a claim and what stands beside it.
-    pub fn said(&self, id: &str) -> (String, String) {
+    pub fn class_and_across(&self, id: &str) -> (String, String) {
         let judged = self.claim(id);
-        (judged.verdict.name().to_owned(), judged.across_readings().unwrap_or_default())
+        (judged.verdict.name().to_owned(), judged.across_interpretations().unwrap_or_default())
     }
 }
 
@@ -183,7 +183,7 @@ pub const CITED: (&str, &str) = ("[choice.option.none]", "[choice.option.none]\n
 #[test]
 fn a_silly_reading_does_not_veto_and_is_printed() {
     let toy = Toy::new(&[]);
-    assert_eq!(toy.said("fewer"), pair("reproduced", "no reading moves it"));
+    assert_eq!(toy.class_and_across("fewer"), pair("reproduced", "no choice moves it"));
     let across = toy.claim("fewer").across.unwrap();
     assert_eq!(across.probes, ["hurry = none: not reproduced"]);
     assert!(across.effects.is_empty(), "{:?}", across.effects);
@@ -193,10 +193,13 @@ fn a_silly_reading_does_not_veto_and_is_printed() {
 fn a_default_that_decides_leaves_it_undecided_and_says_on_what_once_a_second_seed_agrees() {
     let toy = Toy::new(&[CITED]);
     // What turns it has not turned twice: it is open, and more than a tenth of what counts.
-    assert_eq!(toy.said("fewer"), pair("undecided", "holds under 1 of 2 only, open under 1"));
+    assert_eq!(toy.class_and_across("fewer"), pair("undecided", "holds under 1 of 2 only, open under 1"));
     assert_eq!(toy.claim("fewer").across.unwrap().unconfirmed, 1);
     toy.0.done(&["confirm", "./toy"]);
-    assert_eq!(toy.said("fewer"), pair("undecided", "hangs on hurry: reproduced if three (1 of 2)"));
+    assert_eq!(
+        toy.class_and_across("fewer"),
+        pair("undecided", "hangs on hurry: reproduced if three (1 of 2)")
+    );
     let judged = toy.claim("fewer");
     assert_eq!(judged.second.map(Verdict::name), Some("reproduced"));
     assert_eq!(judged.across.unwrap().default.name(), "reproduced");
@@ -208,19 +211,22 @@ fn a_default_that_decides_leaves_it_undecided_and_says_on_what_once_a_second_see
 fn an_axis_that_cannot_touch_a_claim_does_not_inflate_its_count() {
     let with = Toy::new(&[CITED]);
     let across = with.claim("fewer").across.unwrap();
-    // Two weights by three idle options: six readings, two results.
+    // Two weights by three idle options: six interpretations, two results.
     assert_eq!((across.looked, across.counted), (6, 2));
     assert_eq!(across.effects.keys().collect::<Vec<_>>(), ["hurry"]);
-    assert_eq!(with.said("shorter").1, "no reading moves it");
+    assert_eq!(with.class_and_across("shorter").1, "no choice moves it");
 }
 
 #[test]
 fn a_witness_under_one_reading_makes_a_claim_attainable_and_names_the_reading() {
     let toy = Toy::new(&[CITED]);
-    assert_eq!(toy.said("witness"), pair("attainable", "met under 1 of 2, hurry = none among them"));
+    assert_eq!(
+        toy.class_and_across("witness"),
+        pair("attainable", "met under 1 of 2, hurry = none among them")
+    );
     assert_eq!(toy.claim("witness").alone().name(), "undecided");
-    // Without a source for that reading nothing attains it.
-    assert_eq!(Toy::new(&[]).said("witness"), pair("undecided", "no reading moves it"));
+    // Without a source for that interpretation nothing attains it.
+    assert_eq!(Toy::new(&[]).class_and_across("witness"), pair("undecided", "no choice moves it"));
 }
 
 const FITTED: (&str, &str) = ("fitted_to = []", "fitted_to = [\"calibrated\"]");
@@ -228,11 +234,14 @@ const FITTED: (&str, &str) = ("fitted_to = []", "fitted_to = [\"calibrated\"]");
 #[test]
 fn a_reading_that_contradicts_what_the_study_was_calibrated_to_is_not_counted() {
     let toy = Toy::new(&[CITED, FITTED]);
-    assert_eq!(toy.said("fewer"), pair("reproduced", "no reading moves it"));
+    assert_eq!(toy.class_and_across("fewer"), pair("reproduced", "no choice moves it"));
     assert_eq!(toy.claim("fewer").across.unwrap().incompatible, 3);
     // A claim never filters itself.
     toy.0.done(&["confirm", "./toy"]);
-    assert_eq!(toy.said("calibrated"), pair("undecided", "hangs on hurry: fitted if three (1 of 2)"));
+    assert_eq!(
+        toy.class_and_across("calibrated"),
+        pair("undecided", "hangs on hurry: fitted if three (1 of 2)")
+    );
 }
 
 #[test]
@@ -244,7 +253,8 @@ fn a_sentence_that_repeats_a_number_which_the_study_was_fitted_to_is_fitted() {
     let three = format!("{CALIBRATED}[[claim]]\n{again}[[claim]]\n{}", other.replace("\"4\"", "\"5.66\""));
     let toy = Toy::unexplored(&[FITTED, (CALIBRATED, &three)]);
     toy.0.done(&["judge", "./toy"]);
-    let [calibrated, repeated, other] = ["calibrated", "repeated", "other"].map(|id| toy.said(id).0);
+    let [calibrated, repeated, other] =
+        ["calibrated", "repeated", "other"].map(|id| toy.class_and_across(id).0);
     assert_eq!([calibrated, repeated, other], ["fitted", "fitted", "reproduced"].map(str::to_owned));
 }
 
@@ -252,7 +262,7 @@ fn a_sentence_that_repeats_a_number_which_the_study_was_fitted_to_is_fitted() {
 fn where_nothing_is_compatible_all_voting_readings_are_judged_and_it_is_said() {
     let toy = Toy::new(&[CITED, FITTED, ("printed = \"4\"", "printed = \"7\"")]);
     toy.0.done(&["confirm", "./toy"]);
-    assert_eq!(toy.said("fewer").1, "hangs on hurry: reproduced if three (1 of 2)");
+    assert_eq!(toy.class_and_across("fewer").1, "hangs on hurry: reproduced if three (1 of 2)");
     let across = toy.claim("fewer").across.unwrap();
     assert!(across.none_compatible && across.incompatible == 0, "{across:?}");
     assert!(toy.verdicts().explored.unwrap().none_compatible);
@@ -292,14 +302,17 @@ fn a_calibration_claim_takes_the_best_fit_of_all_and_does_not_vote_where_the_oth
     let fitted = ("default = \"three\"", "default = \"three\"\nfitted = true");
     let toy = Toy::new(&[CITED, SECOND, both, fitted]);
     for claim in ["calibrated", "any_weight"] {
-        assert_eq!(toy.said(claim), pair("fitted", "no reading moves it"), "{claim}");
+        assert_eq!(toy.class_and_across(claim), pair("fitted", "no choice moves it"), "{claim}");
         let across = toy.claim(claim).across.unwrap();
         assert_eq!((across.looked, across.incompatible), (3, 3), "{claim}");
     }
-    // Where the weight is not fitted, the same two weights are two readings of the paper.
+    // Where the weight is not fitted, the same two weights are two interpretations of the paper.
     let toy = Toy::new(&[CITED, SECOND, both]);
     toy.0.done(&["confirm", "./toy"]);
-    assert_eq!(toy.said("calibrated"), pair("undecided", "hangs on hurry: fitted if three (1 of 2)"));
+    assert_eq!(
+        toy.class_and_across("calibrated"),
+        pair("undecided", "hangs on hurry: fitted if three (1 of 2)")
+    );
 }
 
 #[test]
@@ -307,7 +320,7 @@ fn what_changed_after_an_exploration_is_stale_and_judged_under_the_default_alone
     let toy = Toy::new(&[]);
     toy.0.edit("toy/paper.toml", "printed = \"24\"", "printed = \"23\"");
     let said = toy.0.done(&["judge", "./toy"]);
-    assert!(said.contains("1 claim is judged under the default reading alone"), "{said}");
+    assert!(said.contains("1 claim is judged under the default interpretation alone"), "{said}");
     assert_eq!(toy.claim("witness").across, None);
     assert!(toy.claim("fewer").across.is_some());
     toy.0.edit("toy/draws.toml", "expansions = 10_000", "expansions = 9_999");
@@ -321,7 +334,8 @@ fn what_changed_after_an_exploration_is_stale_and_judged_under_the_default_alone
 fn an_exploration_that_was_edited_is_refused_until_it_is_made_again() {
     let toy = Toy::new(&[CITED]);
     let path = toy.0.at(RUNS).join("explored.toml.gz");
-    let (whole, mut text) = (fs::read(&path).unwrap(), String::new());
+    let whole = fs::read(&path).unwrap();
+    let mut text = String::new();
     GzDecoder::new(&whole[..]).read_to_string(&mut text).unwrap();
     let edited = text.replacen("class = \"not_reproduced\"", "class = \"reproduced\"", 1);
     assert_ne!(edited, text);

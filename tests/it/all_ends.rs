@@ -19,8 +19,9 @@ fn mean(more: &str) -> (Estimate, Vec<String>) {
 
 #[test]
 fn what_ends_without_a_path_counts_only_where_all_ends_do() {
-    let ((solved, said), (all, all_said)) = (mean(""), mean(", all_ends = true"));
-    assert_eq!(all.n, 40, "every draw has an end");
+    let (solved, said) = mean("");
+    let (all, all_said) = mean(", all_ends = true");
+    assert_eq!(all.n, 40, "every instance has an end");
     assert!((10..35).contains(&solved.n), "{} of 40 are solved", solved.n);
     assert!(solved.value > 0.0 && (all.value - solved.value).abs() > 0.5, "{} {}", solved.value, all.value);
     let mentions =

@@ -119,7 +119,9 @@ fn answer<'a>(plan: &'a Plan, planner: &'a dyn Planner) -> Answer<'a> {
 
 #[test]
 fn lattice_astar_costs_what_the_verifier_finds_and_says_no_path_where_there_is_none() {
-    let (mut solved, mut shut, mut jumped) = (0, 0, 0);
+    let mut solved = 0;
+    let mut shut = 0;
+    let mut jumped = 0;
     for posed in sample(40) {
         for planner in [lattice("square", 1), lattice("square", 2), lattice("disc", 3), lattice("octagon", 2)]
         {
@@ -147,7 +149,9 @@ fn lattice_astar_costs_what_the_verifier_finds_and_says_no_path_where_there_is_n
 
 #[test]
 fn chaos_astar_never_beats_its_whole_region_and_depends_on_its_seed_alone() {
-    let (mut longer, mut solved, mut lost) = (0, 0, 0);
+    let mut longer = 0;
+    let mut solved = 0;
+    let mut lost = 0;
     let planner = chaos("").unwrap();
     let whole = lattice("square", 2);
     for posed in sample(12) {
@@ -190,7 +194,7 @@ fn a_subset_has_its_size_and_every_point_of_the_region_is_drawn_sometime() {
             let [start, goal] = &posed.ends;
             let request = Request { world: &posed.world, start, goal, expansions: 1, seed, trace: true };
             let plan = planner.plan(&request).unwrap();
-            let drawn = plan.exhibits.iter().find(|exhibit| exhibit.name == "drawn").unwrap();
+            let drawn = plan.traces.iter().find(|trace| trace.name == "drawn").unwrap();
             let steps: BTreeSet<[i32; 2]> =
                 drawn.values.chunks(2).map(|step| [step[0] as i32, step[1] as i32]).collect();
             assert_eq!(steps.len(), 12, "seed {seed}, {changes}");
@@ -281,9 +285,11 @@ fn a_heuristic_above_a_step_s_length_may_lengthen_paths_and_promises_nothing() {
     let longer = |radius: u8, heuristic: &str| {
         let planner = squares(radius, &format!("heuristic = '{heuristic}'"));
         let plain = squares(radius, "");
-        let (mut solved, mut longer) = (0, 0);
+        let mut solved = 0;
+        let mut longer = 0;
         for posed in sample(60) {
-            let (plan, truth) = (posed.plan(planner.as_ref(), 0), posed.plan(plain.as_ref(), 0));
+            let plan = posed.plan(planner.as_ref(), 0);
+            let truth = posed.plan(plain.as_ref(), 0);
             assert_eq!(plan.cost.is_some(), truth.cost.is_some(), "{}", posed.name);
             let (Some(cost), Some(least)) = (plan.cost, truth.cost) else { continue };
             assert!(cost >= least - 1e-9, "{}: {cost} below {least}", posed.name);
@@ -304,7 +310,9 @@ fn a_heuristic_above_a_step_s_length_may_lengthen_paths_and_promises_nothing() {
 fn straight_ties_keep_the_length_and_turn_less() {
     let [straight, fifo] = ["straight", "fifo"].map(|ties| squares(1, &format!("ties = '{ties}'")));
     let turns = |plan: &Plan| turn_sum_deg(&plan.path, TurnAngle::Exterior);
-    let (mut less, mut more, mut sums) = (0, 0, [0.0, 0.0]);
+    let mut less = 0;
+    let mut more = 0;
+    let mut sums = [0.0, 0.0];
     for posed in sample(60) {
         let [one, other] = [&straight, &fifo].map(|planner| posed.plan(planner.as_ref(), 0));
         let (Some(cost), Some(least)) = (one.cost, other.cost) else { continue };
@@ -320,7 +328,9 @@ fn straight_ties_keep_the_length_and_turn_less() {
 fn the_rim_of_a_free_square_stands_for_all_of_it_and_paths_end_at_the_goal_all_the_same() {
     let [rim, all] = ["outer_where_free", "all"].map(|sets| squares(2, &format!("sets = '{sets}'")));
     assert!(!rim.is_optimal() && !rim.is_complete() && all.is_optimal());
-    let (mut solved, mut fewer, mut inner) = (0, 0, 0);
+    let mut solved = 0;
+    let mut fewer = 0;
+    let mut inner = 0;
     for posed in sample(60) {
         let [plan, truth] = [&rim, &all].map(|planner| posed.plan(planner.as_ref(), 0));
         let (Some(cost), Some(least)) = (plan.cost, truth.cost) else { continue };

@@ -27,7 +27,7 @@ fn the_program_beside_replan_comes_first_then_the_path_and_without_both_the_mess
         let mut child = command.spawn().unwrap();
         // A program that is not there reads nothing.
         let _ = child.stdin.take().unwrap().write_all(b"table");
-        bench.said(&child.wait_with_output().unwrap())
+        bench.output(&child.wait_with_output().unwrap())
     };
     let missing = run(&["t.md"]);
     let told = "replan: `replan-audit` is neither beside this program nor on the PATH; `cargo build -p replan-audit` builds it\n";

@@ -61,10 +61,15 @@ const BROKEN: [(&str, &str, &[Mistake]); 10] = [
         ],
     ),
     (
-        "a ledger that leaves out a table and names claims that are not there",
+        "an inventory that leaves out a table and names claims that are not there",
         "grid",
         &[
-            ("paper.toml", "tables = 1", "tables = 2", "paper.toml:12:10: the ledger has no row for Table 2"),
+            (
+                "paper.toml",
+                "tables = 1",
+                "tables = 2",
+                "paper.toml:12:10: the inventory has no row for Table 2",
+            ),
             ("paper.toml", "\"fewer_nodes\", ", "\"fewer\", ", "paper.toml:24:11: there is no claim `fewer`"),
             (
                 "paper.toml",
@@ -81,9 +86,9 @@ const BROKEN: [(&str, &str, &[Mistake]); 10] = [
             ("compare.toml", "seed = 1\n", "", "compare.toml:1:1: missing key `seed`"),
             (
                 "compare.toml",
-                "replicates = 60",
-                "replicates = \"60\"",
-                "compare.toml:17:14: `replicates` is \"60\"",
+                "instances = 60",
+                "instances = \"60\"",
+                "compare.toml:17:14: `instances` is \"60\"",
             ),
             ("compare.toml", "goal = [36, 30]", "goal = [36, -30]", "compare.toml:21:13: `goal[1]` is -30"),
             (
@@ -106,8 +111,8 @@ const BROKEN: [(&str, &str, &[Mistake]); 10] = [
             ),
             (
                 "lengths.toml",
-                "problems = \"case 1\", replicates",
-                "problems = \"case 2\", replicates",
+                "problems = \"case 1\", instances",
+                "problems = \"case 2\", instances",
                 "lengths.toml:49:23: no problem group is called `case 2`",
             ),
         ],
@@ -181,7 +186,8 @@ fn broken(template: &str, mistakes: &[Mistake]) -> Bench {
 
 #[test]
 fn one_round_of_check_tells_every_mistake_of_ten_broken_papers() {
-    let (mut said, mut missed) = (BTreeMap::new(), Vec::new());
+    let mut said = BTreeMap::new();
+    let mut missed = Vec::new();
     for (what, template, mistakes) in BROKEN {
         let answer = broken(template, mistakes).run(&["check", "./toy"]);
         assert_eq!((answer.code, answer.out.as_str()), (Some(2), ""), "{what}: {}", answer.err);

@@ -15,15 +15,15 @@ seed = 7
 [budget]
 expansions = 1_000
 [quick]
-replicates = 1
+instances = 1
 [[keep]]
 problems = "cell"
-replicates = 2
+instances = 2
 [[problems]]
 label = "cell"
 family = "cell_queries"
-replicates = 5
-draw = "shared"
+instances = 5
+shared_instances = "shared"
 [problems.settings]
 robot = "data/robots/motoman_up6.toml"
 scene = "data/scenes/fu2018_cell.toml"
@@ -77,7 +77,7 @@ fn records(home: &Path, threads: usize) -> Vec<(String, Vec<u8>)> {
     };
     let report = run(&study, &options).unwrap();
     assert_eq!((report.units, report.trials), (5, 200));
-    ["trials", "prepared", "exhibits"]
+    ["trials", "preprocessing", "traces"]
         .map(|part| format!("s.{part}.parquet"))
         .map(|name| (name.clone(), fs::read(folder.join(name)).unwrap()))
         .into()

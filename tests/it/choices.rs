@@ -76,7 +76,8 @@ fn an_option_of_one_contender_changes_its_trials_alone() {
         let mut lines = text.lines();
         let head: Vec<&str> = lines.next().unwrap().split(',').collect();
         let at = |name: &str| head.iter().position(|column| *column == name).unwrap();
-        let (contender, expansions) = (at("contender"), at("expansions"));
+        let contender = at("contender");
+        let expansions = at("expansions");
         let mut sums: BTreeMap<String, u64> = BTreeMap::new();
         for line in lines {
             let cells: Vec<&str> = line.split(',').collect();
@@ -105,12 +106,12 @@ fn an_option_is_laid_over_the_files_of_a_robot_and_of_its_scene() {
         let taken = [("tool".to_owned(), option.to_owned())].into();
         let interpretation = Interpretation::new(&study.choices, &taken).unwrap();
         let inputs = Inputs { roots: vec![bench.at("arm")] };
-        let prepared = study.groups[0]
+        let preprocessing = study.groups[0]
             .family(&study.groups[0].points[0], &interpretation, &inputs)
             .unwrap()
             .prepare(1)
             .unwrap();
-        let World::Roadmap(map) = prepared.world else { panic!("an arm's world is a roadmap") };
+        let World::Roadmap(map) = preprocessing.world else { panic!("an arm's world is a roadmap") };
         let Local::Arm(lines) = map.local() else { panic!("it is that of an arm in a cell") };
         let scene = lines.cell().scene();
         let wall = scene.obstacles().iter().find(|obstacle| obstacle.name == "wall").unwrap();
@@ -164,7 +165,11 @@ fn an_option_that_cannot_be_run_leaves_open_what_it_touches_and_is_shown() {
         assert!(settles.contains("hurry = none: that work is lost"), "{claim}: {settles}");
     }
     let explored = toy.stored("explored.toml.gz");
-    assert!(explored.readings.iter().all(|one| !one.contains_key("hurry")), "{:?}", explored.readings);
+    assert!(
+        explored.interpretations.iter().all(|one| !one.contains_key("hurry")),
+        "{:?}",
+        explored.interpretations
+    );
     let said = toy.0.run(&["run", "./toy", "--with", "hurry=none"]);
     assert_eq!(said.code, Some(2), "{}", said.err);
     assert!(said.err.contains("--with: option `none` of choice `hurry` cannot be run: that work is lost"));
@@ -233,8 +238,8 @@ const REFUSED: [(&str, &str, &str, &str); 18] = [
     (
         "paper",
         "room = 1 }",
-        "room = 1 }\nmore_draws = { draws = 19 }",
-        "`more_draws` of `draws` is 19, below its `draws`, 20; 20 or more are accepted",
+        "room = 1 }\nmore_draws = { instances = 19 }",
+        "`more_instances` of `draws` is 19, below its `draws`, 20; 20 or more are accepted",
     ),
     ("draws", "[budget]\nexpansions = 10_000\n", "", "missing key `budget`"),
     (
@@ -303,7 +308,7 @@ fn words_of_the_command_line_that_were_renamed_are_answered_with_the_new_ones() 
     for (words, new) in [
         (&["repro", "./mini", "--readings", "all"][..], "`--readings` is now `--with`"),
         (&["repro", "./mini", "--readings=all"], "`--readings` is now `--with`"),
-        (&["list", "readings"], "`list readings` is now `list choices`"),
+        (&["list", "interpretations"], "`list interpretations` is now `list choices`"),
     ] {
         let said = bench.run(words);
         assert_eq!(said.code, Some(2), "{}", said.err);
@@ -335,7 +340,8 @@ fn once<T: Ord + std::fmt::Debug>(said: &mut BTreeSet<T>, what: T) {
 #[test]
 fn nothing_of_choices_is_written_twice_in_the_committed_specs() {
     let files = committed();
-    let (mut options, mut choices) = (0, 0);
+    let mut options = 0;
+    let mut choices = 0;
     for (paper, _, spec) in files.iter().filter(|(_, file, _)| file == "paper") {
         let mut said = BTreeSet::new();
         for choice in spec.get("choice").and_then(Value::as_array).into_iter().flatten() {

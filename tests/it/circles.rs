@@ -33,7 +33,8 @@ struct Use {
 impl<'a> Read<'a> {
     fn new(file: &'a File) -> Self {
         let code = without_tests(&file.code);
-        let (mut body, mut uses) = (String::new(), Vec::new());
+        let mut body = String::new();
+        let mut uses = Vec::new();
         let mut rest = code.as_str();
         while let Some((at, is_public)) = next_use(rest) {
             let (before, from) = rest.split_at(at);
@@ -123,7 +124,9 @@ fn names(path: &str) -> Vec<String> {
 
 /// The parts of a braced list.
 fn parts(list: &str) -> Vec<&str> {
-    let (mut depth, mut start, mut parts) = (0, 0, Vec::new());
+    let mut depth = 0;
+    let mut start = 0;
+    let mut parts = Vec::new();
     for (at, c) in list.char_indices() {
         match c {
             '{' => depth += 1,
@@ -216,7 +219,8 @@ impl<'a> Package<'a> {
     fn circles(&self) -> Vec<Vec<String>> {
         let arrows = self.arrows();
         let reached = |from: &Module| {
-            let (mut seen, mut next) = (BTreeSet::new(), vec![from]);
+            let mut seen = BTreeSet::new();
+            let mut next = vec![from];
             while let Some(module) = next.pop() {
                 next.extend(arrows.get(module).into_iter().flatten().filter(|to| seen.insert((*to).clone())));
             }
@@ -229,7 +233,7 @@ impl<'a> Package<'a> {
             let circle: Vec<&Module> = to.iter().filter(|other| reach[other].contains(*from)).collect();
             if !circle.is_empty() {
                 circles.insert(
-                    circle.iter().map(|module| self.said(module, &circle, &arrows)).collect::<Vec<_>>(),
+                    circle.iter().map(|module| self.message(module, &circle, &arrows)).collect::<Vec<_>>(),
                 );
             }
         }
@@ -237,7 +241,7 @@ impl<'a> Package<'a> {
     }
 
     /// A file of `circle` and those of it that it takes names from.
-    fn said(
+    fn message(
         &self,
         module: &Module,
         circle: &[&Module],

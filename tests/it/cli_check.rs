@@ -4,7 +4,7 @@ use crate::paper::{Bench, CONTENDERS_END};
 
 /// Every fault that `said` tells is one of `expected`, in this order, and none is missing; the lines of the files below them
 /// are left out.
-fn assert_told(said: &str, expected: &[&str]) {
+fn assert_faults(said: &str, expected: &[&str]) {
     let told = said.strip_prefix("replan: ").unwrap_or(said);
     let told: Vec<&str> = told.lines().filter(|line| !line.starts_with("    ")).collect();
     assert_eq!(told.len(), expected.len(), "{said}");
@@ -21,7 +21,7 @@ fn fourteen_faults_of_as_many_kinds_are_told_in_one_round_and_once_each() {
         ("room", "searched = true", "searched = true\nfitted_to = [\"toll\"]"),
         ("room", "start = [0, 0]", "start = [3, 0]"),
         ("room", "goal = [6, 3]", "goal = [3, 1]"),
-        ("room", "replicates = 1 }]", "replicas = 1 }]"),
+        ("room", "instances = 1 }]", "replicas = 1 }]"),
         ("draws", "\"delete_inflections\"", "\"delete_reflections\""),
         ("draws", "weight = 1,", "weight = -1,"),
         ("paper", "default = \"opened\"", "default = \"open\""),
@@ -50,9 +50,9 @@ fn fourteen_faults_of_as_many_kinds_are_told_in_one_round_and_once_each() {
         "mini/room.toml:5:14: fitted_to: there is no claim `toll`",
         "mini/room.toml:17:44: the start [3.0, 0.0] is blocked",
         "mini/room.toml:17:59: the goal [3.0, 1.0] is blocked",
-        "mini/room.toml:28:31: unknown key `replicas` (did you mean `replicates`?); accepted: ",
+        "mini/room.toml:28:31: unknown key `replicas` (did you mean `instances`?); accepted: ",
     ];
-    assert_told(&said.err, &expected);
+    assert_faults(&said.err, &expected);
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn a_default_that_hides_what_a_contender_or_a_problem_says_is_refused() {
     bench.edit("mini/paper.toml", written, other);
     let said = bench.run(&["check", "./mini"]);
     assert_eq!(said.code, Some(2), "{}", said.err);
-    assert_told(
+    assert_faults(
         &said.err,
         &[
             "paper.toml:54:11: the default of choice `corners` changes the `ties` that contender `A*` says in study `draws`; the",
@@ -87,7 +87,7 @@ fn a_fault_is_told_once_whatever_choices_and_sweeps_lie_over_it() {
     let sweep = "\n[[sweep]]\nkey = \"ties\"\nof = \"astar\"\nvalues = [\"fifo\", \"lifo\"]\n";
     bench.edit("mini/draws.toml", CONTENDERS_END, &format!("{CONTENDERS_END}{sweep}"));
     let said = bench.run(&["check", "./mini"]);
-    assert_told(
+    assert_faults(
         &said.err,
         &[
             "draws.toml:19:27: size_cells: a grid of 0 × 12 cells; each side",
@@ -102,7 +102,7 @@ fn a_fault_is_told_once_whatever_choices_and_sweeps_lie_over_it() {
         "problem = { goal = [12, 9] }",
     );
     let said = bench.run(&["check", "./mini"]);
-    assert_told(&said.err, &[":20: goal is [12, 9], outside the map"]);
+    assert_faults(&said.err, &[":20: goal is [12, 9], outside the map"]);
 }
 
 #[test]
@@ -112,7 +112,7 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
         (
             "draws",
             &[
-                ("replicates = 24", "replicates = 1_000_000"),
+                ("instances = 24", "instances = 1_000_000"),
                 ("ties = \"fifo\" }\n\n", "ties = \"fifo\" }\nrepeats = 100_000\n\n"),
             ][..],
             &[
@@ -122,9 +122,9 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
         ),
         (
             "draws",
-            &[("replicates = 24", "replicates = 1_000_000"), ("[12, 12]", "[4096, 4096]")],
+            &[("instances = 24", "instances = 1_000_000"), ("[12, 12]", "[4096, 4096]")],
             &[
-                "draws.toml:18:14: 1000000 draws of 16777216 cells or samples each are 1.7e13; at most 1e12 are accepted",
+                "draws.toml:18:14: 1000000 instances of 16777216 cells or samples each are 1.7e13; at most 1e12 are accepted",
             ],
         ),
         (
@@ -135,7 +135,7 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
                 ("blocked_share = 0.3", "count = 1_000_000, side_cells = [1, 8192]"),
             ],
             &[
-                "draws.toml:18:14: 24 draws of 16777232777216 cells or samples each are 4.0e14; at most 1e12 are",
+                "draws.toml:18:14: 24 instances of 16777232777216 cells or samples each are 4.0e14; at most 1e12 are",
             ],
         ),
         (
@@ -145,9 +145,9 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
         ),
         (
             "room",
-            &[("replicates = 1 }]", "replicates = 2, contender = \"A*\", repeats = 3 }]")],
+            &[("instances = 1 }]", "instances = 2, contender = \"A*\", repeats = 3 }]")],
             &[
-                "room.toml:27:44: `replicates` is 2; there are 1, and no more is accepted",
+                "room.toml:27:44: `instances` is 2; there are 1, and no more is accepted",
                 "room.toml:27:75: `repeats` is 3; there are 1, and no more is accepted",
             ],
         ),
@@ -159,7 +159,7 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
         }
         let said = bench.run(&["check", "./mini"]);
         assert_eq!(said.code, Some(2), "{}{}", said.out, said.err);
-        assert_told(&said.err, expected);
+        assert_faults(&said.err, expected);
         bench.write(&name, &whole);
     }
     let many: Vec<String> = (0..101).map(|value| value.to_string()).collect();
@@ -187,7 +187,7 @@ fn files_of_something_else_beside_the_studies_are_told_from_studies() {
         bench.write(&format!("mini/{name}"), text.as_bytes());
     }
     let said = bench.done(&["check", "./mini"]);
-    let expected = "mini: 2 studies, 2 claims, 2 ledger rows are in order\n  \
+    let expected = "mini: 2 studies, 2 claims, 2 inventory rows are in order\n  \
         ./mini/Cargo.toml is taken for a file of something else, not for a study\n  \
         ./mini/empty.toml is taken for a file of something else, not for a study\n  \
         ./mini/notes.toml is taken for a file of something else, not for a study\n";
@@ -202,7 +202,7 @@ fn files_of_something_else_beside_the_studies_are_told_from_studies() {
         bench.write("mini/notes.toml", text.as_bytes());
         let said = bench.run(&["check", "./mini"]);
         assert_eq!(said.code, Some(2), "{}", said.err);
-        assert_told(&said.err, expected);
+        assert_faults(&said.err, expected);
     }
 }
 
@@ -257,7 +257,7 @@ fn an_option_of_a_choice_changes_what_exists() {
         "metric = { nodes = \"colsed\" }, stage = { asatr = { ties = \"lifo\" } }",
     );
     let said = bench.run(&["check", "./mini"]);
-    assert_told(
+    assert_faults(
         &said.err,
         &[
             "paper.toml:49:31: there is no metric `colsed` (did you mean `closed`?); there are ",

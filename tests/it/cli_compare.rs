@@ -6,7 +6,7 @@ use std::fs;
 /// A bench with a run in `a`, one of another seed in `b`, and one of a planner made worse on purpose in `worse`.
 fn runs() -> Bench {
     let bench = Bench::new();
-    bench.edit("mini/draws.toml", "replicates = 24", "replicates = 80");
+    bench.edit("mini/draws.toml", "instances = 24", "instances = 80");
     bench.edit("mini/draws.toml", "blocked_share = 0.3", "blocked_share = 0.15");
     bench.done(&["run", "./mini", "--out", "a"]);
     bench.done(&["run", "./mini", "--out", "b", "--seed", "99"]);
@@ -30,7 +30,11 @@ fn a_gate_catches_a_planner_made_worse_and_passes_an_equal_one() {
     // Other maps and wide intervals: a tight gate cannot tell, which is a failure if asked for.
     let open = bench.run(&[&["compare", "a", "b"], &gate[..]].concat());
     assert_eq!(open.code, Some(0), "{}", open.err);
-    assert!(open.out.contains("cannot tell: about ") && open.out.contains(" more draws; "), "{}", open.out);
+    assert!(
+        open.out.contains("cannot tell: about ") && open.out.contains(" more instances; "),
+        "{}",
+        open.out
+    );
     let strict = bench.run(&[&["compare", "a", "b", "--strict"], &gate[..]].concat());
     assert_eq!(strict.code, Some(3), "{}", strict.out);
 }
@@ -63,7 +67,7 @@ fn an_export_holds_every_trial_and_what_they_come_to() {
     bench.done(&["export", "a", "--csv", "--out", "csv"]);
     let trials = fs::read_to_string(bench.at("csv/draws.trials.csv")).unwrap();
     assert!(
-        trials.starts_with("group,draw,query,contender,reading_corners,repeat,seed,status,reason,"),
+        trials.starts_with("group,instance,query,contender,choice_corners,repeat,seed,status,reason,"),
         "{trials}"
     );
     assert_eq!(trials.lines().count(), 161);
@@ -72,7 +76,7 @@ fn an_export_holds_every_trial_and_what_they_come_to() {
         statistics.lines().any(|line| line.starts_with("draws,default,drawn,A*,,expansions,,80,")),
         "{statistics}"
     );
-    assert!(bench.at("csv/draws.times.csv").is_file() && bench.at("csv/room.prepared.csv").is_file());
+    assert!(bench.at("csv/draws.times.csv").is_file() && bench.at("csv/room.preprocessing.csv").is_file());
 }
 
 #[test]

@@ -32,7 +32,7 @@ fn ten_mistakes_in_different_tables_are_told_in_one_round_each_at_its_own_place(
 }
 
 #[test]
-fn a_toy_needs_no_ledger_no_counts_no_quick_and_no_ties() {
+fn a_toy_needs_no_inventory_no_counts_no_quick_and_no_ties() {
     let bench = Bench::new();
     let paper = fs::read_to_string(bench.at("mini/paper.toml")).unwrap();
     let claims = &paper[paper.find("[[table]]").unwrap()..];
@@ -40,14 +40,17 @@ fn a_toy_needs_no_ledger_no_counts_no_quick_and_no_ties() {
     bench.edit("mini/draws.toml", "[quick]\nreplicates = 3\n", "");
     bench.edit("mini/draws.toml", "settings = { weight = 1, ties = \"fifo\" }\n", "");
     bench.edit("mini/room.toml", "[quick]\nreplicates = 1\n", "");
-    assert_eq!(bench.done(&["check", "./mini"]), "mini: 2 studies, 2 claims, 0 ledger rows are in order\n");
+    assert_eq!(
+        bench.done(&["check", "./mini"]),
+        "mini: 2 studies, 2 claims, 0 inventory rows are in order\n"
+    );
     bench.done(&["run", "./mini"]);
     let manifest = bench.at("target/replan/mini/data/runs/mini/draws.manifest.toml");
     let manifest = fs::read_to_string(manifest).unwrap();
     for default in [
         "paper: prints = nothing",
-        "paper: ledger = nothing",
-        "quick: replicates = 2",
+        "paper: inventory = nothing",
+        "quick: instances = 2",
         "contender `A*`, astar: ties = \"fifo\"",
         "contender `A*`, astar: weight = 1.0",
     ] {
@@ -76,17 +79,17 @@ fn list_explains_one_thing_within_eighty_columns_and_meets_a_misspelled_name() {
     let bench = Bench::new();
     for (what, name, part) in [
         ("planners", "astar", "ties: \"fifo\", \"lifo\" or \"larger_g\"; \"fifo\" if left out"),
-        ("criteria", "one_draw", "[claim.check.one_draw.of]\n"),
-        ("checks", "one_draw", "contender = \"A*\""),
+        ("criteria", "one_instance", "[claim.check.one_instance.of]\n"),
+        ("checks", "one_instance", "contender = \"A*\""),
         ("rules", "straight_line", "start = [2.0, 2.0]"),
         ("planners", "direct", "planner = \"direct\"\n"),
         ("rules", "lattice_length", "goal = [36, 30]"),
         ("tasks", "plan", "task = \"plan\"\n"),
         ("families", "random_cells", "blocked_share: a number (a share of 1); required"),
         ("tasks", "plan", "It has no settings."),
-        ("prepared", "lattice", "free_cells"),
+        ("preprocessing", "lattice", "free_cells"),
         ("files", "robot", "joint.alpha_deg: a number from -360 to 360 (degrees); required"),
-        ("files", "study", "{ replicates = 2 } if left out"),
+        ("files", "study", "{ instances = 2 } if left out"),
     ] {
         let said = bench.done(&["list", what, name]);
         assert!(said.contains(part), "{part}\n{said}");

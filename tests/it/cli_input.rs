@@ -7,7 +7,10 @@ use std::fs::{self, File};
 #[test]
 fn every_wrong_word_in_a_spec_is_told_with_its_place_and_what_is_accepted() {
     let bench = Bench::new();
-    assert_eq!(bench.done(&["check", "./mini"]), "mini: 2 studies, 2 claims, 2 ledger rows are in order\n");
+    assert_eq!(
+        bench.done(&["check", "./mini"]),
+        "mini: 2 studies, 2 claims, 2 inventory rows are in order\n"
+    );
     let mut missed = Vec::new();
     for case in WRONG {
         let before = fs::read_to_string(bench.at(&file(case.file))).unwrap();

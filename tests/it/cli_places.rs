@@ -29,7 +29,7 @@ fn a_chapter_names_the_studies_that_leave_out_what_it_was_judged_under() {
     let untouched = |place: &str, flags: &[&str]| {
         bench.done(&[&["repro", "./mini"], flags].concat());
         let report = fs::read_to_string(bench.at(&format!("target/replan/{place}/paper_repro.md"))).unwrap();
-        report.contains("Without all of this reading: `room`; claims")
+        report.contains("Without all of this interpretation: `room`; claims")
     };
     assert!(!untouched("mini", &[]));
     assert!(untouched("mini-with-corners-forbid-any", &["--with", "corners=forbid_any"]));
@@ -115,8 +115,10 @@ fn a_run_that_is_not_a_full_one_is_refused_the_committed_places_however_they_are
 
 #[test]
 fn an_own_paper_writes_below_target_and_neither_into_the_project_nor_its_own_folder() {
-    let (bench, own) = (project(), Bench::new());
-    let (before, folder) = (bench.tree("experiments"), own.tree(""));
+    let bench = project();
+    let own = Bench::new();
+    let before = bench.tree("experiments");
+    let folder = own.tree("");
     bench.done(&["repro", own.at("mini").to_str().unwrap()]);
     assert!(own.tree("") == folder, "the paper's own folder was written to");
     assert!(bench.tree("experiments") == before, "the project was written to");
@@ -160,7 +162,8 @@ fn an_own_paper_runs_from_within_its_folder_and_through_a_link() {
     let bench = Bench::new();
     symlink(bench.at("mini"), bench.at("link")).unwrap();
     for (folder, name) in [("mini", "."), ("mini", "./"), ("mini", "../mini"), ("", "./link"), ("", "link")] {
-        let said = bench.said(&bench.command(&["run", name]).current_dir(bench.at(folder)).output().unwrap());
+        let said =
+            bench.output(&bench.command(&["run", name]).current_dir(bench.at(folder)).output().unwrap());
         assert_eq!(said.code, Some(0), "{name} in `{folder}`: {}", said.err);
         let again = said.out.contains("draws: 48 trials (24 of 24 units reused)");
         assert!(again || (folder, name) == ("mini", "."), "{name} in `{folder}`: {}", said.out);
@@ -168,7 +171,7 @@ fn an_own_paper_runs_from_within_its_folder_and_through_a_link() {
         assert!(!bench.at("mini/target").exists(), "{name} in `{folder}` wrote into the paper's folder");
     }
     let check = bench.command(&["check", "paper.toml"]).current_dir(bench.at("mini")).output().unwrap();
-    assert_eq!(bench.said(&check).out, "mini: 2 studies, 2 claims, 2 ledger rows are in order\n");
+    assert_eq!(bench.output(&check).out, "mini: 2 studies, 2 claims, 2 inventory rows are in order\n");
 }
 
 #[test]
@@ -178,7 +181,7 @@ fn a_paper_of_the_project_writes_the_committed_places_from_within_its_folder_too
     let before = bench.tree("");
     for (folder, name) in [("experiments/mini", "."), ("experiments", "mini"), ("experiments", "./mini")] {
         let command = bench.command(&["repro", name]).current_dir(bench.at(folder)).output().unwrap();
-        let said = bench.said(&command);
+        let said = bench.output(&command);
         assert_eq!(said.code, Some(0), "{name} in `{folder}`: {}", said.err);
         assert!(said.out.contains("(24 of 24 units reused)"), "{name} in `{folder}`: {}", said.out);
         let after = bench.tree("");

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::process::Command;
 
-/// The study of the room runs where readings are compatible alone, so that an exploration has all of its rounds.
+/// The study of the room runs where interpretations are compatible alone, so that an exploration has all of its rounds.
 const LATE: (&str, &str) = ("trials = 100_000", "trials = 100_000\nwhere_compatible = [\"room\"]");
 const EDITS: [(&str, &str); 4] = [CITED, MORE, MET, LATE];
 /// What is found, and what claims are by it.
@@ -53,7 +53,8 @@ fn rounds(toy: &Toy, command: &str, numbers: &[usize], parts: &str) -> Vec<Strin
 
 #[test]
 fn explorations_and_confirmations_in_shards_find_what_one_machine_finds() {
-    let (calm, toy) = (calm(), Toy::unexplored(&EDITS));
+    let calm = calm();
+    let toy = Toy::unexplored(&EDITS);
     assert_eq!(calm.len(), 3);
     for numbers in [&[1][..], &[2, 1], &[3, 1, 2]] {
         let parts = |command: &str| format!("{command}-{}", numbers.len());
@@ -119,11 +120,11 @@ fn parts_of_a_round_that_are_missing_double_or_of_another_exploration_are_refuse
         assert!(said.err.contains("parts/round-1/plan.toml: the parts here are of another "), "{}", said.err);
     }
     toy.0.done(&["merge", "parts"]);
-    // A round runs under the readings that come out of the one before it, and under no others.
+    // A round runs under the interpretations that come out of the one before it, and under no others.
     toy.0.edit(
         "parts/compatible/plan.toml",
-        "[[round.readings]]",
-        "[[round.readings]]\nhurry = \"none\"\n[[round.readings]]",
+        "[[round.interpretations]]",
+        "[[round.interpretations]]\nhurry = \"none\"\n[[round.interpretations]]",
     );
     let said = toy.0.run(&["merge", "parts"]);
     assert_eq!(said.code, Some(2), "{}", said.err);
@@ -138,7 +139,8 @@ fn parts_of_a_round_that_are_missing_double_or_of_another_exploration_are_refuse
 
 #[test]
 fn scripts_run_and_merge_round_after_round() {
-    let (calm, toy) = (calm(), Toy::unexplored(&EDITS));
+    let calm = calm();
+    let toy = Toy::unexplored(&EDITS);
     stub(&toy.0, "sbatch", SBATCH);
     stub(&toy.0, "parallel", PARALLEL);
     for (command, engine) in [("explore", "slurm"), ("confirm", "parallel")] {
@@ -170,7 +172,8 @@ exec "$REAL" "$@"
 
 #[test]
 fn hyperqueue_runs_round_after_round_and_again_what_was_killed() {
-    let (calm, toy) = (calm(), Toy::unexplored(&EDITS));
+    let calm = calm();
+    let toy = Toy::unexplored(&EDITS);
     stub(&toy.0, "replan", DYING);
     for (command, rounds) in [("explore", 3), ("confirm", 2)] {
         let arguments = ["--engine", "hyperqueue", "--shards", "2", "--out", command];

@@ -59,9 +59,9 @@ fn a_quick_run_is_marked_in_every_output_and_lies_elsewhere() {
     let before = bench.tree("target/replan/mini");
     let out = bench.done(&["repro", "./mini", "--quick"]);
     assert!(bench.tree("target/replan/mini") == before, "a quick run wrote where full runs lie");
-    assert!(out.contains("a quick run: few replicates, so these verdicts are not the study's"), "{out}");
+    assert!(out.contains("a quick run: few instances, so these verdicts are not the study's"), "{out}");
     let read = |name: &str| fs::read_to_string(bench.at("target/replan/mini-quick").join(name)).unwrap();
-    let marked = "Quick run: few replicates, not the study's result.";
+    let marked = "Quick run: few instances, not the study's result.";
     assert!(read("paper_repro.md").contains(marked));
     assert!(read("plots/mini/table1.tex").contains(marked));
     assert!(read("plots/mini/numbers.tex").contains(marked));
@@ -106,16 +106,17 @@ fn what_is_unchanged_is_reused_and_why_says_what_changed() {
     says(&why(&[]), "draws: 48 trials");
     let manifest = fs::read_to_string(bench.at(&format!("{RUNS}/draws.manifest.toml"))).unwrap();
     assert!(manifest.contains("command = \"replan run ./mini\"\n"), "{manifest}");
-    let (first, records) = (bench.facts(RUNS), bench.tree(RUNS));
+    let first = bench.facts(RUNS);
+    let records = bench.tree(RUNS);
     let again = why(&[]);
     says(&again, "draws: 48 trials (24 of 24 units reused)");
     says(&again, "  why: nothing that the stored trials depend on has changed");
     let is_record = |path: &std::path::Path| path.extension().is_some_and(|ending| ending == "parquet");
     assert!(bench.tree(RUNS).iter().filter(|(path, _)| is_record(path)).all(|(p, b)| records[p] == *b));
 
-    bench.edit("mini/draws.toml", "replicates = 24", "replicates = 30");
+    bench.edit("mini/draws.toml", "instances = 24", "instances = 30");
     says(&why(&[]), "draws: 60 trials (24 of 30 units reused)");
-    bench.edit("mini/draws.toml", "replicates = 30", "replicates = 24");
+    bench.edit("mini/draws.toml", "instances = 30", "instances = 24");
     says(&why(&[]), "draws: 48 trials (24 of 24 units reused)");
     assert!(bench.facts(RUNS) == first, "reuse brought other records than a run");
 
@@ -159,7 +160,7 @@ fn trials_that_ended_in_an_unexpected_way_are_counted_with_the_first_reason() {
 }
 
 #[test]
-fn a_figure_or_keep_added_later_gets_its_exhibits_and_another_timing_its_readings() {
+fn a_figure_or_keep_added_later_gets_its_traces_and_another_timing_its_readings() {
     let bench = Bench::new();
     bench.done(&["run", "./mini"]);
     let before = bench.tree(RUNS);
@@ -173,8 +174,8 @@ fn a_figure_or_keep_added_later_gets_its_exhibits_and_another_timing_its_reading
     );
     bench.done(&["run", "./mini"]);
     let kept = bench.tree(RUNS);
-    assert!(part(&kept, "exhibits").len() > part(&before, "exhibits").len(), "no exhibit was kept");
-    assert!(part(&kept, "trials") == part(&before, "trials"), "keeping exhibits changed rows");
+    assert!(part(&kept, "traces").len() > part(&before, "traces").len(), "no trace was kept");
+    assert!(part(&kept, "trials") == part(&before, "trials"), "keeping traces changed rows");
     bench.edit("mini/draws.toml", "repeats = 2", "repeats = 40");
     bench.done(&["run", "./mini"]);
     assert!(
@@ -188,7 +189,8 @@ fn a_question_in_other_words_keeps_the_clock_readings() {
     let bench = Bench::new();
     bench.done(&["run", "./mini"]);
     let read = |name: &str| fs::read(bench.at(&format!("{RUNS}/draws.{name}"))).unwrap();
-    let (times, manifest) = (read("times.parquet"), read("manifest.toml"));
+    let times = read("times.parquet");
+    let manifest = read("manifest.toml");
     bench.edit("mini/draws.toml", "Which side opens more?", "Who opens more?");
     bench.done(&["run", "./mini"]);
     assert!(read("manifest.toml") != manifest, "the manifest names the former spec");
@@ -290,7 +292,8 @@ fn what_is_drawn_is_drawn_again_only_where_something_changed() {
     let bench = Bench::new();
     let is_drawn = || !bench.done(&["repro", "./mini"]).contains("\nnothing to draw: ");
     assert!(is_drawn() && !is_drawn());
-    let (plots, figure) = (bench.tree("target/replan/mini/plots"), "target/replan/mini/plots/mini/fig1.svg");
+    let plots = bench.tree("target/replan/mini/plots");
+    let figure = "target/replan/mini/plots/mini/fig1.svg";
     // A file that was touched, or is gone, is drawn again.
     bench.write(figure, b"<svg/>");
     assert!(is_drawn() && bench.tree("target/replan/mini/plots") == plots);

@@ -9,10 +9,10 @@ use std::process::Command;
 use std::thread::sleep;
 use std::time::Duration;
 
-/// A bench with two groups of unlike cost, several readings and kept exhibits, and its whole run in `whole`.
+/// A bench with two groups of unlike cost, several interpretations and kept traces, and its whole run in `whole`.
 fn bench() -> Bench {
     let bench = Bench::new();
-    bench.edit("mini/draws.toml", "replicates = 24", "replicates = 50");
+    bench.edit("mini/draws.toml", "instances = 24", "instances = 50");
     bench.edit("mini/draws.toml", "[12, 12]", "[40, 40]");
     bench.edit("mini/draws.toml", "[11, 9]", "[39, 30]");
     let group = "[[problems]]\nlabel = \"small\"\nfamily = \"random_cells\"\nreplicates = 20\nsettings = { size_cells = \
@@ -41,7 +41,8 @@ fn shards_in_any_order_with_one_killed_halfway_give_the_bytes_of_one_machine() {
     let whole = bench.facts("whole");
     assert_eq!(whole.len(), 6, "{:?}", whole.keys());
     for (order, merged) in [(&[1][..], "one"), (&[3, 1, 2], "three"), (&[4, 7, 2, 1, 6, 3, 5], "seven")] {
-        let (of, parts) = (order.len(), format!("parts-{merged}"));
+        let of = order.len();
+        let parts = format!("parts-{merged}");
         if of == 7 {
             assert!(kill_at_work(&bench, "7/7", &parts, "7-of-7"), "no shard was caught at work");
         }
@@ -120,7 +121,7 @@ fn parts_that_are_missing_double_or_of_another_run_are_refused_by_name() {
     for (flags, complaint) in [
         (&["--seed", "9"][..], "2-of-3: study `draws`: seed 9, not 7"),
         (&["--quick"], "2-of-3: study `draws`: quick true, not false"),
-        (&["--with", "corners=forbid_any"], "2-of-3: study `draws`: ran under other readings"),
+        (&["--with", "corners=forbid_any"], "2-of-3: study `draws`: ran under other interpretations"),
     ] {
         let _ = fs::remove_dir_all(bench.at("other"));
         shard(2, "other", flags);
@@ -255,7 +256,8 @@ fn scripts_of_slurm_and_parallel_run_every_shard() {
     stub(&bench, "sbatch", SBATCH);
     stub(&bench, "parallel", PARALLEL);
     for (engine, script) in [("slurm", "run_slurm.sh"), ("parallel", "run_parallel.sh")] {
-        let (parts, merged) = (format!("the parts' of {engine}"), format!("merged {engine}"));
+        let parts = format!("the parts' of {engine}");
+        let merged = format!("merged {engine}");
         let arguments =
             ["--engine", engine, "--shards", "5", "--tasks", "2", "--out", &parts, "--merge", &merged];
         let out = bench.done(&[&["shard", "./mini", "--quick"], &arguments[..]].concat());

@@ -13,7 +13,7 @@ const JOURNAL: &str = "target/replan/mini/data/runs/mini/draws.journal";
 /// A bench whose study takes a moment: enough units that a run can be caught at work.
 fn slow() -> Bench {
     let bench = Bench::new();
-    bench.edit("mini/draws.toml", "replicates = 24", "replicates = 300");
+    bench.edit("mini/draws.toml", "instances = 24", "instances = 300");
     bench.edit("mini/draws.toml", "[12, 12]", "[60, 60]");
     bench.edit("mini/draws.toml", "[11, 9]", "[59, 50]");
     bench.edit(
@@ -73,7 +73,8 @@ fn a_run_killed_at_20_random_points_ends_with_the_bytes_of_an_undisturbed_one() 
     let bench = slow();
     let calm = undisturbed(&bench);
     let whole_bytes = 400_000;
-    let (mut midway, mut writing) = (0, 0);
+    let mut midway = 0;
+    let mut writing = 0;
     for round in 0..4_u64 {
         let mut stream = seed::stream(seed::derive(20, &["kill", &round.to_string()]));
         for kill in 0..5 {
@@ -117,7 +118,7 @@ fn ctrl_c_finishes_the_units_at_work_says_what_it_kept_and_the_run_goes_on() {
     assert!(await_journal(&bench, &mut run, 20_000), "the run was over before it could be interrupted");
     let sent = Command::new("sh").args(["-c", &format!("kill -INT {}", run.id())]).status().unwrap();
     assert!(sent.success());
-    let said = bench.said(&run.wait_with_output().unwrap());
+    let said = bench.output(&run.wait_with_output().unwrap());
     assert_eq!(said.code, Some(130), "{}", said.err);
     let kept = units(&bench);
     let message = format!(
@@ -143,7 +144,7 @@ fn ctrl_c_while_the_clock_is_read_keeps_the_trials_and_stores_no_half_sample() {
     sleep(Duration::from_millis(30));
     let sent = Command::new("sh").args(["-c", &format!("kill -INT {}", run.id())]).status().unwrap();
     assert!(sent.success());
-    let said = bench.said(&run.wait_with_output().unwrap());
+    let said = bench.output(&run.wait_with_output().unwrap());
     assert_eq!(said.code, Some(130), "{}", said.err);
     assert!(said.err.contains("300 of 300 units of study `draws` are kept"), "{}", said.err);
     assert!(bench.facts("target/replan/mini").is_empty(), "records were written");
@@ -182,7 +183,7 @@ fn ctrl_c_while_figures_are_drawn_ends_with_130_and_leaves_the_older_ones() {
     }
     let sent = Command::new("sh").args(["-c", &format!("kill -INT {}", run.id())]).status().unwrap();
     assert!(sent.success());
-    let said = bench.said(&run.wait_with_output().unwrap());
+    let said = bench.output(&run.wait_with_output().unwrap());
     assert_eq!(said.code, Some(130), "{}", said.err);
     assert!(said.err.contains("interrupted"), "{}", said.err);
     assert!(

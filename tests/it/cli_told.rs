@@ -18,7 +18,7 @@ fn what_may_take_long_says_so_without_a_terminal_on_standard_error_alone() {
         (&["render", "./toy"], "toy: drawing its figures and tables …"),
         (&["render", "./toy", "--check"], "toy: drawing its figures and tables …"),
         (&["check", "./toy", "--rerun", "3"], "toy/draws: running stored trials again …"),
-        (&["explore", "./toy", "--plan"], "toy: counting the trials of its readings …"),
+        (&["explore", "./toy", "--plan"], "toy: counting the trials of its interpretations …"),
         (&["compare", "target/replan/toy", "target/replan/toy"], "reading and comparing stored runs …"),
         (&["export", "target/replan/toy", "--csv"], "reading its records and computing their statistics …"),
         (&["repro", "./toy", "--trial", "room/room/a-star"], "toy: running trial room/room/a-star …"),
@@ -112,7 +112,7 @@ fn every_kind_of_file_has_an_example_of_its_kind() {
         assert!(root.join(file).is_file(), "{}: {file}", kind.name);
         if Path::new(file).extension().is_some_and(|end| end == "toml") {
             let document = Document::open(&root.join(file)).unwrap();
-            document.validate(&file_schema::of(kind.name)).unwrap();
+            document.validate(&file_schema::schema(kind.name)).unwrap();
         }
         assert!(listed(&["list", "files", kind.name]).contains(&format!("\nExample\n  {file}\n")), "{file}");
     }

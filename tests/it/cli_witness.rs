@@ -11,7 +11,7 @@ fn a_map_is_found_on_which_the_claim_holds_and_the_same_at_any_number_of_threads
     let ask = |out: &str, threads: &str| {
         let mut command =
             bench.command(&["witness", "./mini", "--claims", "cost", "--seed", "3", "--out", out]);
-        let said = bench.said(&command.env("RAYON_NUM_THREADS", threads).output().unwrap());
+        let said = bench.output(&command.env("RAYON_NUM_THREADS", threads).output().unwrap());
         assert_eq!(said.code, Some(0), "{}{}", said.out, said.err);
         said.out
     };
@@ -47,23 +47,24 @@ fn under_any_interpretation_each_search_draws_one_and_the_study_agrees_under_it(
         let cited = format!("[choice.option.{option}]\npractice = \"some program\"");
         bench.edit("mini/paper.toml", &format!("[choice.option.{option}]"), &cited);
     }
-    let (mut readings, mut attained) = (BTreeSet::new(), 0);
+    let mut interpretations = BTreeSet::new();
+    let mut attained = 0;
     for seed in 1..=8 {
         let (seed, out) = (seed.to_string(), format!("any{seed}"));
         let ask = ["witness", "./mini", "--claims", "cost", "--with", "any", "--seed", &seed, "--out", &out];
         let said = bench.done(&ask);
-        let reading = said.lines().find_map(|line| line.strip_prefix("reading: ")).unwrap();
-        let reading = reading.split(';').next().unwrap().to_owned();
+        let interpretation = said.lines().find_map(|line| line.strip_prefix("interpretation: ")).unwrap();
+        let interpretation = interpretation.split(';').next().unwrap().to_owned();
         let (path, _) = bench.tree(&out).into_iter().next().unwrap();
         fs::copy(bench.at(&out).join(path), bench.at("mini/room.map.txt")).unwrap();
-        let under = reading.replace("default", "corners=allow");
+        let under = interpretation.replace("default", "corners=allow");
         let judged = bench.done(&["repro", "./mini", "--with", &under, "--out", &format!("{out}/run")]);
         attained += u32::from(class_of("cost", &judged) == "attainable");
-        readings.insert(reading);
+        interpretations.insert(interpretation);
     }
     assert_eq!(attained, 8, "of 8 maps");
     let both = ["corners=forbid_any".to_owned(), "default".to_owned()];
-    assert_eq!(readings, BTreeSet::from(both), "a one-sided sample");
+    assert_eq!(interpretations, BTreeSet::from(both), "a one-sided sample");
 }
 
 #[test]
@@ -142,8 +143,8 @@ fn what_failed_on_draws_that_were_not_timed_is_no_failure_among_the_timed() {
     let line = judged.lines().find(|line| line.starts_with("nodes ")).unwrap();
     let solved = line.split_whitespace().find(|word| word.contains('/')).unwrap();
     let failed = judged_failures(&bench);
-    assert!(failed > 0, "no draw fails, so that none could be counted wrongly");
-    assert!(solved.ends_with("/12"), "12 of 24 draws are timed, and {solved} are counted\n{judged}");
+    assert!(failed > 0, "no instance fails, so that none could be counted wrongly");
+    assert!(solved.ends_with("/12"), "12 of 24 instances are timed, and {solved} are counted\n{judged}");
 }
 
 #[test]
@@ -171,7 +172,7 @@ fn a_claim_about_time_says_what_each_session_of_the_clock_found() {
     assert!(three[0] != three[1] && three[1] != three[2], "{three:?}");
 }
 
-/// How many draws the same paper counts as failed when it asks for what every trial has.
+/// How many instances the same paper counts as failed when it asks for what every trial has.
 fn judged_failures(bench: &Bench) -> u32 {
     bench.edit("mini/paper.toml", "metric = \"plan_time_us\"", "metric = \"nodes\"");
     let judged = bench.done(&["judge", "./mini"]);

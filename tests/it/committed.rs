@@ -10,7 +10,7 @@ use std::process::Command;
 use study::Inputs;
 use study::manifest::Manifest;
 use study::paper::Paper;
-use study::store::{Columns, Exhibits, Staged, read_records, stage_records};
+use study::store::{Columns, Staged, Traces, read_records, stage_records};
 
 /// The bytes of every file below `path`.
 fn size(path: &Path) -> u64 {
@@ -55,9 +55,9 @@ fn stored_records_are_the_bytes_that_this_program_would_write_of_them() {
             let values: Vec<&'static str> = study.columns().into_iter().collect();
             let columns = Columns { keys: study.key_columns(), values: &values };
             let place = tempfile::tempdir().unwrap();
-            let exhibits = Exhibits::held(&records.batch.kept);
+            let traces = Traces::held(&records.batch.kept);
             let mut staged = Staged::default();
-            let written = stage_records(&mut staged, place.path(), &study.name, &columns, &records, exhibits);
+            let written = stage_records(&mut staged, place.path(), &study.name, &columns, &records, traces);
             assert_eq!(written.unwrap(), manifest.files, "{}: {}", paper.id, study.name);
             studies += 1;
         }
@@ -76,8 +76,8 @@ fn every_stored_trial_has_the_row_of_what_was_prepared_by_which_it_is_found_agai
         for name in names.filter_map(|name| name.strip_suffix(".manifest.toml").map(str::to_owned)) {
             let manifest = Manifest::read(&folder, &name).unwrap();
             let batch = read_records(&folder, &name, &manifest.files).unwrap().batch;
-            let prepared: BTreeSet<_> = batch.prepared.iter().map(|row| &row.key).collect();
-            let lost = batch.rows.iter().find(|row| !prepared.contains(&row.key.on));
+            let preprocessing: BTreeSet<_> = batch.preprocessing.iter().map(|row| &row.key).collect();
+            let lost = batch.rows.iter().find(|row| !preprocessing.contains(&row.key.on));
             assert!(lost.is_none(), "{}: {name}: {lost:?}", folder.display());
             assert!(!batch.rows.is_empty(), "{}: {name}: no trial", folder.display());
             studies += 1;

@@ -13,7 +13,7 @@ use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use tried::{
-    CIRCLE, COUNTING, CUT_IN, DRIFT, FED_BY, FOLLOWING, LOOK_AT_POINTS, OFF, SETTINGS, WITHOUT_EXHIBITS,
+    CIRCLE, COUNTING, CUT_IN, DRIFT, FED_BY, FOLLOWING, LOOK_AT_POINTS, OFF, SETTINGS, WITHOUT_TRACES,
     is_among, names,
 };
 
@@ -96,17 +96,18 @@ fn an_outcome_depends_on_the_request_alone_and_not_on_threads_or_tracing() {
             let plan = |case: &Case| planner.plan(&request(case, PLENTY, trace));
             pool.install(|| cases.par_iter().map(plan).collect())
         };
-        let (alone, together) = (on(1, false), on(2, false));
+        let alone = on(1, false);
+        let together = on(2, false);
         let mut traced = on(2, true);
-        let mut exhibits = 0;
+        let mut traces = 0;
         for plan in traced.iter_mut().flatten() {
-            exhibits += std::mem::take(&mut plan.exhibits).len();
+            traces += std::mem::take(&mut plan.traces).len();
         }
         for (i, case) in cases.iter().enumerate() {
             assert_eq!(alone[i], together[i], "{name} on {}: 1 and 2 threads", case.name);
             assert_eq!(alone[i], traced[i], "{name} on {}: tracing changed the plan", case.name);
         }
-        assert_eq!(exhibits == 0, WITHOUT_EXHIBITS.contains(&entry.name), "{name}: {exhibits} exhibits");
+        assert_eq!(traces == 0, WITHOUT_TRACES.contains(&entry.name), "{name}: {traces} traces");
     }
 }
 
@@ -129,10 +130,12 @@ fn a_plan_depends_on_the_seed_only_if_its_planner_says_that_it_draws() {
 fn planners_find_a_path_exactly_where_their_graph_has_one() {
     let mut circled = BTreeSet::new();
     for subject in planners() {
-        let (mut solved, mut walled) = (0, 0);
+        let mut solved = 0;
+        let mut walled = 0;
         let cases = worlds(subject.entry.needs);
         for case in cases {
-            let (plan, truth) = (plan(subject.planner.as_ref(), case), case.truth(&subject));
+            let plan = plan(subject.planner.as_ref(), case);
+            let truth = case.truth(&subject);
             let what = format!("{} on {}", subject.name, case.name);
             let found = plan.ending == Ending::Solved;
             if plan.ending == Ending::BudgetSpent {
@@ -180,11 +183,13 @@ fn a_goal_that_is_the_start_is_reached_at_no_cost() {
 
 #[test]
 fn no_planner_is_refused_and_optimal_ones_cost_what_the_oracle_finds() {
-    let (mut above, mut excused) = (BTreeMap::new(), BTreeSet::new());
+    let mut above = BTreeMap::new();
+    let mut excused = BTreeSet::new();
     for subject in planners() {
         let above = above.entry(subject.entry.needs).or_insert(0);
         for case in worlds(subject.entry.needs) {
-            let (plan, truth) = (plan(subject.planner.as_ref(), case), case.truth(&subject));
+            let plan = plan(subject.planner.as_ref(), case);
+            let truth = case.truth(&subject);
             let Some((cost, optimum)) = plan.cost.zip(truth.optimum) else { continue };
             let what = format!("{} on {}", subject.name, case.name);
             if let Some(refusal) = case.refusal(&plan, &subject) {
@@ -211,7 +216,8 @@ fn astar_expands_less_than_dijkstra_so_that_its_heuristic_is_not_zero() {
         let Build::Planner(build) = planner::find("astar").unwrap().build else { panic!("astar plans") };
         build(&settings("astar")[index]).unwrap()
     };
-    let (dijkstra, astar) = (of(0), of(1));
+    let dijkstra = of(0);
+    let astar = of(1);
     let [mut all, mut guided] = [0, 0];
     for case in worlds(WorldKind::Lattice) {
         all += count(&plan(dijkstra.as_ref(), case), "expansions");
@@ -250,12 +256,13 @@ fn a_budget_is_kept_to_the_last_expansion() {
 #[test]
 fn counters_are_what_the_world_saw() {
     for subject in searching() {
-        let (mut exhausted, mut is_counted) = (0, false);
+        let mut exhausted = 0;
+        let mut is_counted = false;
         for case in worlds(subject.entry.needs) {
             let plan = subject.planner.plan(&request(case, PLENTY, true)).unwrap();
             let what = format!("{} on {}: {:?}", subject.name, case.name, plan.counts);
             for list in ["opened", "closed"] {
-                let shown: Vec<_> = plan.exhibits.iter().filter(|e| e.name.starts_with(list)).collect();
+                let shown: Vec<_> = plan.traces.iter().filter(|e| e.name.starts_with(list)).collect();
                 let points: usize = shown.iter().map(|e| e.values.len() / e.width).sum();
                 assert!(shown.is_empty() || count(&plan, list) == points as u64, "{what}: {points} {list}");
                 for side in &shown {
@@ -310,7 +317,7 @@ fn feeding(entry: &Entry) -> Vec<Subject> {
 fn tidied(tidier: &Tidier, posed: &Request<'_>, raw: &Plan, what: &str) -> Plan {
     let refine = |trace: bool| tidier.stage.refine(&Request { trace, ..*posed }, raw.clone());
     let (tidied, mut traced) = rayon::join(|| refine(false), || refine(true));
-    traced.exhibits.clear();
+    traced.traces.clear();
     assert_eq!(tidied, traced, "{what}: tracing or threads changed the plan");
     let mut added = tidied.counts.clone();
     added.retain(|column, value| raw.counts.get(column) != Some(value));
@@ -324,7 +331,8 @@ fn stages_keep_ends_and_truth_without_lengthening() {
     let [mut drifted, mut gave_up, mut cut_in] = [const { BTreeSet::new() }; 3];
     for tidier in stages() {
         let Tidier { name, entry, settings, .. } = &tidier;
-        let (mut solved, mut better) = (0, 0);
+        let mut solved = 0;
+        let mut better = 0;
         let feeding = feeding(entry);
         let follows = FOLLOWING.contains(&entry.name);
         for (subject, case) in feeding.iter().flat_map(|s| worlds(entry.needs).iter().map(move |c| (s, c))) {
@@ -347,7 +355,8 @@ fn stages_keep_ends_and_truth_without_lengthening() {
                 assert!(is_among(CUT_IN, entry, settings), "{what}: {refusal}");
                 cut_in.insert(entry.name);
             }
-            let (now, before) = (tidied.cost.unwrap(), raw.cost.unwrap());
+            let now = tidied.cost.unwrap();
+            let before = raw.cost.unwrap();
             if now >= before + 1e-9 {
                 assert!(is_among(DRIFT, entry, settings), "{what}: {now} from {before}");
                 drifted.insert(entry.name);

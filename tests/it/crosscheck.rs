@@ -1,6 +1,6 @@
 //! The cross-check from the command line, with answers that MuJoCo gave once and that are kept beside this file.
 
-use crate::paper::{Bench, Said};
+use crate::paper::{Bench, ProgramOutput};
 use polars::prelude::{Column, DataFrame, NamedFrom as _, Series};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -29,7 +29,7 @@ fn bench() -> Bench {
     bench
 }
 
-fn judged(bench: &Bench) -> Said {
+fn judged(bench: &Bench) -> ProgramOutput {
     bench.run(&["crosscheck", "./judged", "--answered", "--out", "out"])
 }
 
@@ -166,7 +166,8 @@ fn an_error_on_purpose_that_goes_unnoticed_fails_the_run() {
         // The judge answers as if nothing were wrong: its answers to the right model, for the rows that were asked.
         let (wrong, part) = name.split_once('.').unwrap();
         let read = |file: &str| frame_at(&bench.at(&format!("{ANSWERS}/{file}.{part}.parquet")));
-        let (right, height) = (read("scene"), read(wrong).height());
+        let right = read("scene");
+        let height = read(wrong).height();
         // Questions about frames start with the drawn ones; those near contact stand after the 40 drawn ones.
         let first = if part == "touch" { 40 } else { 0 };
         write_at(&bench.at(&format!("{ANSWERS}/{name}.parquet")), right.slice(first, height));

@@ -16,7 +16,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use study::family::Query;
 use study::paper::Paper;
-use study::prepared::Prepared;
+use study::preprocessing::Preprocessing;
 use study::{Inputs, Interpretation, family, task};
 
 fn everything() -> Vec<(&'static str, Vec<Item>)> {
@@ -98,14 +98,14 @@ fn every_example_of_a_planner_a_stage_a_family_and_a_task_builds() {
 }
 
 /// What the example of every family poses.
-fn posed() -> Vec<(Prepared, Vec<Query>)> {
+fn posed() -> Vec<(Preprocessing, Vec<Query>)> {
     let inputs = Inputs { roots: vec![root().to_owned(), root().join("experiments/zhang")] };
     let pose = |item: Item| {
         let family = (family::find(item.name).unwrap().build)(&example(&item), &inputs).unwrap();
-        let prepared = family.prepare(1).unwrap_or_else(|invalid| panic!("{}: {invalid}", item.name));
+        let preprocessing = family.prepare(1).unwrap_or_else(|invalid| panic!("{}: {invalid}", item.name));
         let queries = family.queries_for(1);
-        assert!(prepared.world.kind() == family.world() && !queries.is_empty(), "{}", item.name);
-        (prepared, queries)
+        assert!(preprocessing.world.kind() == family.world() && !queries.is_empty(), "{}", item.name);
+        (preprocessing, queries)
     };
     catalogue::families().into_iter().map(pose).collect()
 }
@@ -113,8 +113,11 @@ fn posed() -> Vec<(Prepared, Vec<Query>)> {
 #[test]
 fn every_example_of_a_planner_solves_a_problem_of_an_example_of_a_family() {
     let posed = posed();
-    let problems =
-        || posed.iter().flat_map(|(prepared, queries)| queries.iter().map(move |query| (prepared, query)));
+    let problems = || {
+        posed
+            .iter()
+            .flat_map(|(preprocessing, queries)| queries.iter().map(move |query| (preprocessing, query)))
+    };
     for item in catalogue::planners() {
         let entry = study::planner::find(item.name).unwrap();
         let engine::planner::Build::Planner(build) = entry.build else { panic!("{} is none", item.name) };
@@ -122,19 +125,25 @@ fn every_example_of_a_planner_solves_a_problem_of_an_example_of_a_family() {
             continue; // Its example names a program, which tests/it/external runs.
         }
         let planner = build(&example(&item)).unwrap();
-        let is_solved = |(prepared, query): (&Prepared, &Query)| {
+        let is_solved = |(preprocessing, query): (&Preprocessing, &Query)| {
             let Query { start, goal, .. } = query;
-            let request =
-                Request { world: &prepared.world, start, goal, expansions: 1_000_000, seed: 5, trace: false };
+            let request = Request {
+                world: &preprocessing.world,
+                start,
+                goal,
+                expansions: 1_000_000,
+                seed: 5,
+                trace: false,
+            };
             planner.plan(&request).is_ok_and(|plan| plan.ending == Ending::Solved)
         };
-        let mut fitting = problems().filter(|(prepared, _)| prepared.world.kind() == entry.needs);
+        let mut fitting = problems().filter(|(preprocessing, _)| preprocessing.world.kind() == entry.needs);
         assert!(fitting.any(is_solved), "{}: its example solves nothing", item.name);
     }
 }
 
 /// The keys under `schema` that are one value and may be left out without a word about what holds then.
-fn unsaid(schema: &Value, whole: &Value, path: &str, found: &mut BTreeSet<String>) {
+fn silent_keys(schema: &Value, whole: &Value, path: &str, found: &mut BTreeSet<String>) {
     let required =
         |key: &str| schema["required"].as_array().is_some_and(|all| all.iter().any(|one| one == key));
     for (key, part) in schema["properties"].as_object().into_iter().flatten() {
@@ -156,9 +165,9 @@ fn every_value_that_may_be_left_out_has_a_default_in_its_schema() {
         for item in items {
             let schema = item.settings.expect("it is set").schema();
             keys += base::settings::describe::fields(&schema).len();
-            unsaid(&schema, &schema, &format!("{kind} {}: ", item.name), &mut found);
+            silent_keys(&schema, &schema, &format!("{kind} {}: ", item.name), &mut found);
             for (name, part) in schema["$defs"].as_object().into_iter().flatten() {
-                unsaid(part, &schema, &format!("{kind} {}, {name}: ", item.name), &mut found);
+                silent_keys(part, &schema, &format!("{kind} {}, {name}: ", item.name), &mut found);
             }
         }
     }
@@ -168,7 +177,8 @@ fn every_value_that_may_be_left_out_has_a_default_in_its_schema() {
 
 #[test]
 fn every_example_is_shown_whole_as_it_stands_in_a_file_and_within_eighty_columns() {
-    let (mut shown, mut wide) = (0, Vec::new());
+    let mut shown = 0;
+    let mut wide = Vec::new();
     for (kind, items) in everything().into_iter().filter(|(kind, _)| *kind != "file") {
         for item in items {
             let text = item.shown().unwrap_or_else(|| panic!("{kind} {} has no example", item.name));
@@ -225,7 +235,8 @@ fn every_example_of_a_criterion_and_a_rule_builds_in_a_new_paper_and_so_names_no
 fn every_example_of_a_figure_builds_in_a_committed_paper() {
     let papers = committed_papers();
     for item in catalogue::figures() {
-        let (entry, settings) = (figure::find(item.name).unwrap(), example(&item));
+        let entry = figure::find(item.name).unwrap();
+        let settings = example(&item);
         let mut said = BTreeSet::new();
         let builds = papers.iter().any(|paper| {
             paper.studies.iter().any(|study| {
@@ -289,7 +300,7 @@ fn foreign_words(schema: &Value, found: &mut BTreeSet<String>) {
 fn no_schema_has_a_word_that_the_validator_does_not_know() {
     let mut found = BTreeSet::new();
     for kind in catalogue::files() {
-        foreign_words(&file_schema::of(kind.name), &mut found);
+        foreign_words(&file_schema::schema(kind.name), &mut found);
     }
     assert!(found.is_empty(), "{found:?}");
     foreign_words(&serde_json::json!({ "properties": { "a": { "pattern": "x" } } }), &mut found);
@@ -301,7 +312,7 @@ fn the_committed_schemas_are_current() {
     for kind in catalogue::files() {
         let path = root().join(format!("docs/schema/{}.schema.json", kind.name));
         let stored: Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
-        assert!(stored == file_schema::of(kind.name), "{}: run `replan schema`", path.display());
+        assert!(stored == file_schema::schema(kind.name), "{}: run `replan schema`", path.display());
     }
 }
 
@@ -338,7 +349,8 @@ fn every_committed_file_keeps_to_its_schema_and_a_misspelled_key_does_not() {
         }
     }
     for (kind, file) in files {
-        let (path, schema) = (root().join(&file), file_schema::of(kind));
+        let path = root().join(&file);
+        let schema = file_schema::schema(kind);
         let document = Document::open(&path).unwrap();
         document.validate(&schema).unwrap_or_else(|error| panic!("{error}"));
         let wrong = Document::new(&path, format!("no_such_key = 1\n{}", document.text()));

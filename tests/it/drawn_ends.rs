@@ -50,7 +50,8 @@ fn drawn_ends_are_free_apart_within_their_limits_and_fixed_by_the_seed() {
         assert!(family.draws_ends(), "{name}");
         let names: Vec<&str> = family.queries().iter().map(|query| query.name.as_str()).collect();
         assert_eq!(names, ["1", "2"], "{name}");
-        let (mut starts, mut low_goals) = (BTreeSet::new(), 0);
+        let mut starts = BTreeSet::new();
+        let mut low_goals = 0;
         for seed in 0..40 {
             let world = family.prepare(seed).unwrap().world;
             let queries = family.queries_for(seed);
@@ -79,18 +80,21 @@ fn drawn_ends_are_free_apart_within_their_limits_and_fixed_by_the_seed() {
 #[test]
 fn a_robot_among_solids_gets_drawn_configurations_in_place_of_its_problem_file() {
     let family = build("joint_queries", "queries = 2\nstart_mm = { x = [0, 400] }\nsamples = 2").unwrap();
-    let prepared = family.prepare(4).unwrap();
+    let preprocessing = family.prepare(4).unwrap();
     for Query { start, goal, .. } in family.queries_for(4) {
-        assert!(start != goal && is_free(&prepared.world, &start) && is_free(&prepared.world, &goal));
+        assert!(
+            start != goal && is_free(&preprocessing.world, &start) && is_free(&preprocessing.world, &goal)
+        );
         assert!((0.0..=400.0).contains(&family.stance(&start).unwrap().tip_mm[0]));
     }
-    assert_eq!(prepared.exhibits.iter().filter(|exhibit| exhibit.name.starts_with("pose ")).count(), 4);
+    assert_eq!(preprocessing.traces.iter().filter(|trace| trace.name.starts_with("pose ")).count(), 4);
 }
 
 #[test]
 fn one_more_query_moves_no_other_and_no_query_moves_the_map() {
     let of = |over: &str| build("random_cells", over).unwrap();
-    let (two, five) = (of("queries = 2"), of("queries = 5"));
+    let two = of("queries = 2");
+    let five = of("queries = 5");
     let fixed = of("start = [1, 1]\ngoal = [2, 2]\nqueries = 1");
     for seed in 0..20 {
         assert_eq!(two.queries_for(seed)[..], five.queries_for(seed)[..2], "seed {seed}");
@@ -114,7 +118,8 @@ fn a_drawn_cell_is_any_free_one_with_equal_chance() {
         let free = family.draw(*seed).unwrap().as_lattice().unwrap().grid().free_count();
         (4..7).contains(&free)
     });
-    let (seed, mut counts) = (seed.unwrap(), std::collections::BTreeMap::new());
+    let seed = seed.unwrap();
+    let mut counts = std::collections::BTreeMap::new();
     for query in family.queries_for(seed) {
         *counts.entry(format!("{:?} {:?}", query.start, query.goal)).or_insert(0) += 1;
     }
@@ -178,7 +183,7 @@ fn ends_that_cannot_be_drawn_are_refused_at_their_key_or_make_an_invalid_instanc
     ] {
         let family = build(name, over).unwrap();
         let Err(Invalid(reason)) = family.prepare(1) else { panic!("{name}: {over} was posed") };
-        assert_eq!(reason, format!("no free {end} was found in 100000 draws"));
+        assert_eq!(reason, format!("no free {end} was found in 100000 instances"));
         assert_eq!(family.queries_for(1).len(), family.queries().len(), "its trials are rows all the same");
     }
 }

@@ -64,7 +64,7 @@ fn verdicts_of_other_readings_are_stale_under_a_check() {
     bench.edit("mini/paper.toml", "closed = { metric", "shut = { metric");
     let said = ends(&bench, &["render", "./mini", "--out", "other", "--check"], 3);
     assert!(
-        said.contains("the stored verdicts are of other readings (choice `nodes` has no option"),
+        said.contains("the stored verdicts are of other interpretations (choice `nodes` has no option"),
         "{said}"
     );
     ends(&bench, &["render", "./mini", "--out", "other"], 2);

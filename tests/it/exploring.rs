@@ -1,7 +1,7 @@
 //! How `explore` and `confirm` spend their budget of trials, and how they go on after they were stopped.
 
 use crate::across::{CITED, RUNS, Toy, pair};
-use crate::paper::Said;
+use crate::paper::ProgramOutput;
 use replan::analysis::across::stored::Exploration;
 use replan::analysis::class::Polarity;
 use std::collections::BTreeSet;
@@ -11,33 +11,35 @@ use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::Duration;
 
-pub const MORE: (&str, &str) =
-    ("draws = { draws = 20, room = 1 }", "draws = { draws = 12, room = 1 }\nmore_draws = { draws = 30 }");
-/// What the default reading gives, so that no claim is open under it.
+pub const MORE: (&str, &str) = (
+    "instances = { instances = 20, room = 1 }",
+    "instances = { instances = 12, room = 1 }\nmore_draws = { instances = 30 }",
+);
+/// What the default interpretation gives, so that no claim is open under it.
 pub const MET: (&str, &str) = ("printed = \"24\"", "printed = \"4\"");
 
-/// How many draws the claim `fewer` was judged by, with and without a weight.
-fn draws(first: &Exploration) -> [BTreeSet<usize>; 2] {
-    let has_weight = |place: &usize| !first.readings[*place].contains_key("hurry");
+/// How many instances the claim `fewer` was judged by, with and without a weight.
+fn instances(first: &Exploration) -> [BTreeSet<usize>; 2] {
+    let has_weight = |place: &usize| !first.interpretations[*place].contains_key("hurry");
     let of = |wanted: bool| {
-        let is_of = |readings: &[usize]| readings.iter().all(|at| has_weight(at) == wanted);
+        let is_of = |interpretations: &[usize]| interpretations.iter().all(|at| has_weight(at) == wanted);
         let results = first.claims["fewer"].results.iter();
-        results.filter(|result| is_of(&result.readings)).map(|result| result.n).collect()
+        results.filter(|result| is_of(&result.interpretations)).map(|result| result.n).collect()
     };
     [of(true), of(false)]
 }
 
 #[test]
-fn a_second_round_draws_more_only_where_a_class_is_near_a_flip() {
+fn a_second_round_instances_more_only_where_a_class_is_near_a_flip() {
     let toy = Toy::unexplored(&[CITED, MORE, MET]);
     let plan = toy.0.done(&["explore", "./toy", "--plan"]);
     let first_round: u64 =
         plan.split([',', ' ']).find_map(|word| word.parse().ok().filter(|n| *n > 10)).unwrap();
     toy.0.done(&["explore", "./toy"]);
     let explored = toy.stored("explored.toml.gz");
-    // The reading that is near a flip, and the defaults beside it.
-    assert_eq!(draws(&explored), [BTreeSet::from([30]), BTreeSet::from([30])]);
-    // Each once more: three contenders on 30 draws, and one on the room.
+    // The interpretation that is near a flip, and the defaults beside it.
+    assert_eq!(instances(&explored), [BTreeSet::from([30]), BTreeSet::from([30])]);
+    // Each once more: three contenders on 30 instances, and one on the room.
     assert_eq!(explored.trials, first_round + 2 * (3 * 30 + 1));
     // Without room in the budget there is no second round.
     let toy =
@@ -45,7 +47,7 @@ fn a_second_round_draws_more_only_where_a_class_is_near_a_flip() {
     toy.0.done(&["explore", "./toy"]);
     let explored = toy.stored("explored.toml.gz");
     assert_eq!(
-        (draws(&explored), explored.trials),
+        (instances(&explored), explored.trials),
         ([BTreeSet::from([12]), BTreeSet::from([12])], first_round)
     );
 }
@@ -53,7 +55,7 @@ fn a_second_round_draws_more_only_where_a_class_is_near_a_flip() {
 #[test]
 fn a_confirmation_keeps_to_the_budget_of_trials_and_says_what_it_left_out() {
     let toy = Toy::new(&[CITED]);
-    // The default on the second seed: three contenders on 40 draws, and one on the room.
+    // The default on the second seed: three contenders on 40 instances, and one on the room.
     let budget = |trials: u64| {
         let text = fs::read_to_string(toy.0.at("toy/paper.toml")).unwrap();
         let line = text.lines().find(|line| line.starts_with("trials = ")).unwrap();
@@ -62,14 +64,13 @@ fn a_confirmation_keeps_to_the_budget_of_trials_and_says_what_it_left_out() {
     budget(120);
     let said = toy.0.run(&["confirm", "./toy"]);
     assert_eq!(said.code, Some(2), "{}", said.err);
-    let refused =
-        "./toy/paper.toml:7:10: the default reading takes 121 trials on the second seed; `trials` is 120";
+    let refused = "./toy/paper.toml:7:10: the default interpretation takes 121 trials on the second seed; `trials` is 120";
     assert!(said.err.contains(refused), "{}", said.err);
     assert!(!toy.0.at("target/replan/confirm").exists(), "trials were run");
     budget(181);
     let said = toy.0.done(&["confirm", "./toy"]);
     assert!(
-        said.contains("toy: readings that turn a claim and for which the budget has no room: 1\n"),
+        said.contains("toy: interpretations that turn a claim and for which the budget has no room: 1\n"),
         "{said}"
     );
     assert_eq!(toy.stored("second_seed.toml.gz").trials, 121);
@@ -77,26 +78,29 @@ fn a_confirmation_keeps_to_the_budget_of_trials_and_says_what_it_left_out() {
     budget(182);
     toy.0.done(&["confirm", "./toy"]);
     assert_eq!(toy.stored("second_seed.toml.gz").trials, 121 + 61);
-    assert_eq!(toy.said("fewer"), pair("undecided", "hangs on hurry: reproduced if three (1 of 2)"));
+    assert_eq!(
+        toy.class_and_across("fewer"),
+        pair("undecided", "hangs on hurry: reproduced if three (1 of 2)")
+    );
 }
 
 /// Enough trials that a command can be caught at work.
 const SLOW: [(&str, &str); 4] =
-    [CITED, ("[12, 12]", "[60, 60]"), ("[11, 9]", "[59, 50]"), ("replicates = 40", "replicates = 200")];
+    [CITED, ("[12, 12]", "[60, 60]"), ("[11, 9]", "[59, 50]"), ("instances = 40", "instances = 200")];
 
 /// Sends Ctrl-C once `file` has `bytes`, or says that the command was over before.
-fn interrupt(toy: &Toy, mut child: Child, file: &Path, bytes: u64) -> Said {
+fn interrupt(toy: &Toy, mut child: Child, file: &Path, bytes: u64) -> ProgramOutput {
     while fs::metadata(file).map_or(0, |file| file.len()) < bytes {
         assert!(child.try_wait().unwrap().is_none(), "over before {} was seen", file.display());
         sleep(Duration::from_micros(200));
     }
     let sent = Command::new("sh").args(["-c", &format!("kill -INT {}", child.id())]).status().unwrap();
     assert!(sent.success());
-    toy.0.said(&child.wait_with_output().unwrap())
+    toy.0.output(&child.wait_with_output().unwrap())
 }
 
 /// The units that a message says are kept.
-fn kept(said: &Said) -> u32 {
+fn kept(said: &ProgramOutput) -> u32 {
     let (before, _) =
         said.err.split_once(" units of study `draws` are kept").unwrap_or_else(|| panic!("{}", said.err));
     before.split_whitespace().rev().nth(2).unwrap().parse().unwrap()
@@ -182,7 +186,7 @@ fn noisy() -> Toy {
     let edits = [
         ("[[claim]]\nid = \"fewer\"", &*format!("{world}{claim}")),
         ("goal = [11, 9]", "goal = [9, 9]"),
-        ("draws = 20, room", "draws = 10, room"),
+        ("instances = 20, room", "instances = 10, room"),
         ("size_cells = [12, 12]", "size_cells = [10, 12]"),
     ];
     Toy::unexplored(&edits)
@@ -206,6 +210,6 @@ fn noise_among_a_hundred_readings_does_not_flip_a_class() {
     assert_eq!(class(&toy), ("reproduced", 0, flips));
     toy.0.done(&["confirm", "./toy"]);
     let second = toy.stored("second_seed.toml.gz");
-    assert_eq!((second.readings.len(), against(&second)), (1 + flips, 0), "each was asked once more");
+    assert_eq!((second.interpretations.len(), against(&second)), (1 + flips, 0), "each was asked once more");
     assert_eq!(class(&toy), ("reproduced", 0, flips));
 }

@@ -188,7 +188,7 @@ settings = { map = "room.map", scenarios = "room.scen" }
 [[problems]]
 label = "drawn"
 family = "random_cells"
-replicates = 2
+instances = 2
 settings = { size_cells = [8, 8], blocked_share = 0.2, start = [3, 3], goal = [3, 3], corner_rule = "allow" }
 "#;
 

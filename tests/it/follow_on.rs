@@ -6,8 +6,9 @@ use std::os::unix::fs::symlink;
 use std::path::Path;
 
 /// What `check` says of a committed paper with one change of one of its files, without excerpts.
-fn told(paper: &str, file: &str, from: &str, to: &str) -> Vec<String> {
-    let (bench, root) = (Bench::empty(), Path::new(env!("CARGO_MANIFEST_DIR")));
+fn faults_after(paper: &str, file: &str, from: &str, to: &str) -> Vec<String> {
+    let bench = Bench::empty();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     symlink(root.join("data"), bench.at("data")).unwrap();
     for entry in fs::read_dir(root.join("experiments").join(paper)).unwrap() {
         let entry = entry.unwrap();
@@ -35,10 +36,10 @@ fn a_fault_of_one_study_is_told_alone_in_a_paper_of_many() {
             "jump_deg = 4000 #",
             "`jump_deg` is 4000; a number from 0.001 to 3600",
         ),
-        ("tang2023", "postures.toml", "replicates = 1000", "replicates = \"9\"", "`replicates` is \"9\""),
+        ("tang2023", "postures.toml", "instances = 1000", "instances = \"9\"", "`instances` is \"9\""),
         ("tang2023", "paper.toml", "default = \"paper\"", "default = \"papper\"", "has no option `papper`"),
     ] {
-        let told = told(paper, file, from, to);
+        let told = faults_after(paper, file, from, to);
         let is_meant = told.len() == 1 && told[0].contains(wanted);
         assert!(is_meant, "{paper}/{file}: {from} to {to} is told:\n{}", told.join("\n"));
     }
@@ -61,7 +62,7 @@ fn a_study_that_plans_nothing_is_refused() {
 #[test]
 fn text_that_turns_a_terminal_or_a_page_is_refused() {
     for turning in ["\\u0000", "\\u001b[31m", "\\u202e"] {
-        let told = told("gallery", "paper.toml", "title = \"", &format!("title = \"{turning}"));
+        let told = faults_after("gallery", "paper.toml", "title = \"", &format!("title = \"{turning}"));
         assert!(told.len() == 1 && told[0].contains("`title` holds a control character"), "{told:?}");
     }
 }

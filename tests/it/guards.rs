@@ -14,7 +14,8 @@ const REPORT: &str = "paper_repro.md";
 
 /// A copy of the committed paper `movingai_sample` with all that is stored of it.
 fn committed() -> Bench {
-    let (bench, root) = (Bench::empty(), Path::new(env!("CARGO_MANIFEST_DIR")));
+    let bench = Bench::empty();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     for name in ["experiments", "data/runs", "plots"] {
         copy(&bench, root, &format!("{name}/movingai_sample"));
     }
@@ -249,7 +250,9 @@ fn a_record_that_is_gone_is_told_by_every_command_that_reads_the_run() {
     let bench = Bench::new();
     bench.done(&["repro", "./mini"]);
     let runs = "target/replan/mini/data/runs/mini";
-    for part in ["trials.parquet", "prepared.parquet", "times.parquet", "exhibits.parquet", "manifest.toml"] {
+    for part in
+        ["trials.parquet", "preprocessing.parquet", "times.parquet", "traces.parquet", "manifest.toml"]
+    {
         let file = format!("{runs}/draws.{part}");
         let whole = fs::read(bench.at(&file)).unwrap();
         fs::remove_file(bench.at(&file)).unwrap();
@@ -271,7 +274,7 @@ fn a_record_that_is_gone_is_told_by_every_command_that_reads_the_run() {
 fn a_touched_record_is_neither_shown_nor_exported() {
     let bench = Bench::new();
     bench.done(&["repro", "./mini"]);
-    for part in ["trials", "exhibits"] {
+    for part in ["trials", "traces"] {
         let file = format!("target/replan/mini/data/runs/mini/draws.{part}.parquet");
         let whole = fs::read(bench.at(&file)).unwrap();
         let mut touched = whole.clone();

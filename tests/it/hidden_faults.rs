@@ -7,7 +7,7 @@ use crate::paper::Bench;
 pub type Change<'a> = (&'a str, &'a str, &'a str);
 
 /// What `check` says of the template with the changes made, line by line without excerpts.
-fn told(template: &str, changes: &[Change<'_>]) -> Vec<String> {
+fn faults_after(template: &str, changes: &[Change<'_>]) -> Vec<String> {
     let bench = Bench::empty();
     bench.done(&["new", "toy", "--from", template]);
     for (file, from, to) in changes {
@@ -21,8 +21,8 @@ fn told(template: &str, changes: &[Change<'_>]) -> Vec<String> {
 }
 
 /// That exactly `wanted` is told, each line by how it begins.
-pub fn assert_told(template: &str, changes: &[Change<'_>], wanted: &[&str]) {
-    let told = told(template, changes);
+pub fn assert_faults(template: &str, changes: &[Change<'_>], wanted: &[&str]) {
+    let told = faults_after(template, changes);
     let fits =
         told.len() == wanted.len() && told.iter().zip(wanted).all(|(line, wanted)| line.starts_with(wanted));
     assert!(fits, "{changes:?}\nshould be told:\n{}\nis told:\n{}", wanted.join("\n"), told.join("\n"));
@@ -39,7 +39,7 @@ const IN_FILES: [&str; 3] = [
 
 #[test]
 fn faults_of_a_robot_a_scene_and_poses_are_told_together() {
-    assert_told("cell", &[ROBOT, SCENE, POSES], &IN_FILES);
+    assert_faults("cell", &[ROBOT, SCENE, POSES], &IN_FILES);
 }
 
 #[test]
@@ -47,10 +47,10 @@ fn a_wrong_setting_hides_no_fault_of_the_files_beside_it() {
     let samples = ("cell.toml", "samples = 300\ncounted", "samples = -300\ncounted");
     let [poses, robot, scene] = IN_FILES;
     let wanted = ["cell.toml:25:11: `samples` is -300", poses, robot, scene];
-    assert_told("cell", &[ROBOT, SCENE, POSES, samples], &wanted);
+    assert_faults("cell", &[ROBOT, SCENE, POSES, samples], &wanted);
     let missing = ("cell.toml", "samples = 300\ncounted", "counted");
     let wanted = ["cell.toml:19:1: missing key `samples`", poses, robot, scene];
-    assert_told("cell", &[ROBOT, SCENE, POSES, missing], &wanted);
+    assert_faults("cell", &[ROBOT, SCENE, POSES, missing], &wanted);
 }
 
 #[test]
@@ -58,11 +58,11 @@ fn every_fault_of_one_robot_file_is_told() {
     let capsules = ("robot.toml", "radius_mm = 75", "radius_mm = -75");
     let speeds = ("robot.toml", "speed_deg_s = ", "speed_rad_s = 1\nspeed_deg_s = ");
     let tool = ("robot.toml", "length_mm = 0", "length_mm = -5");
-    let told = told("cell", &[speeds, tool]);
+    let told = faults_after("cell", &[speeds, tool]);
     assert_eq!(told.len(), 2, "{told:?}");
     assert!(told.iter().any(|line| line.contains("both of speed_deg_s and speed_rad_s")), "{told:?}");
     assert!(told.iter().any(|line| line.contains("tool.length_mm is -")), "{told:?}");
-    let told = self::told("cell", &[capsules, SCENE]);
+    let told = self::faults_after("cell", &[capsules, SCENE]);
     assert_eq!(told.len(), 2, "{told:?}");
 }
 
@@ -71,11 +71,11 @@ fn a_key_too_many_and_a_key_too_few_in_one_table_are_both_told() {
     let unknown =
         ("lengths.toml", "radius_cells = 1 }, open_node = \"lowered\"", "radius_cells = 1 }, colour = 1");
     let wanted = ["lengths.toml:37:12: missing key `open_node`", "lengths.toml:37:70: unknown key `colour`"];
-    assert_told("arm", &[unknown], &wanted);
+    assert_faults("arm", &[unknown], &wanted);
     // What is missing in one contender is told although another's is only misspelt.
     let misspelt = ("lengths.toml", "radius_cells = 2 }, open_node", "radius_cells = 2 }, open_nodes");
     let wanted = [wanted[0], wanted[1], "lengths.toml:42:70: unknown key `open_nodes`"];
-    assert_told("arm", &[unknown, misspelt], &wanted);
+    assert_faults("arm", &[unknown, misspelt], &wanted);
 }
 
 #[test]
@@ -90,12 +90,12 @@ fn several_values_of_one_table_that_make_no_sense_are_told_together() {
         "compare.toml:22:8: goal is [360, 30]",
         "compare.toml:24:14: side_cells is [8, 2]",
     ];
-    assert_told("grid", &changes, &wanted);
+    assert_faults("grid", &changes, &wanted);
     // Values that are wrong by themselves are told together too.
     let negative = ("compare.toml", "start = [2, 2]", "start = [2, -2]");
     let none = ("compare.toml", "side_cells = [2, 8]", "side_cells = [0, 8]");
     let wanted = ["compare.toml:21:13: `start[1]` is -2", "compare.toml:24:15: `side_cells[0]` is 0"];
-    assert_told("grid", &[negative, none], &wanted);
+    assert_faults("grid", &[negative, none], &wanted);
 }
 
 #[test]
@@ -103,52 +103,52 @@ fn a_value_of_the_wrong_kind_hides_nothing_that_makes_no_sense_in_its_table() {
     let outside = ("compare.toml", "start = [2, 2]", "start = [2, 200]");
     let negative = ("compare.toml", "side_cells = [2, 8]", "side_cells = [2, -8]");
     let wanted = ["compare.toml:21:9: start is [2, 200]", "compare.toml:24:18: `side_cells[1]` is -8"];
-    assert_told("grid", &[outside, negative], &wanted);
+    assert_faults("grid", &[outside, negative], &wanted);
     // Whether a cell is outside a map whose size cannot be read is not known.
     let size = ("compare.toml", "size_cells = [40, 40]", "size_cells = [40, \"40\"]");
-    assert_told("grid", &[outside, size], &["compare.toml:20:19: `size_cells[1]` is \"40\""]);
+    assert_faults("grid", &[outside, size], &["compare.toml:20:19: `size_cells[1]` is \"40\""]);
     let contender = ("compare.toml", "settings = { weight = 2,", "settings = { weight = -2, colour = 1,");
     let wanted = ["compare.toml:36:23: weight is -2", "compare.toml:36:27: unknown key `colour`"];
-    assert_told("grid", &[contender], &wanted);
+    assert_faults("grid", &[contender], &wanted);
 }
 
 #[test]
 fn what_an_option_lays_over_settings_is_told_at_its_own_key() {
     let of_problem = ("paper.toml", "problem = { tool_mm = 160 }", "problem = { tool_mm = -160 }");
-    assert_told("cell", &[of_problem], &["paper.toml:34:32: `tool_mm` is -160"]);
+    assert_faults("cell", &[of_problem], &["paper.toml:34:32: `tool_mm` is -160"]);
     let unknown = ("paper.toml", "problem = { tool_mm = 160 }", "problem = { tol_mm = 160 }");
     let wanted = "paper.toml:34:20: choice `tool`: option `long` sets `tol_mm`, which no problem has of a study that inherits the choice \
          (did you mean `tool_mm`?)";
-    assert_told("cell", &[unknown], &[wanted]);
+    assert_faults("cell", &[unknown], &[wanted]);
     let of_stage = ("paper.toml", "ties = \"lifo\" } }", "ties = \"lilo\" } }");
-    assert_told("grid", &[of_stage], &["paper.toml:34:33: `ties` is \"lilo\""]);
+    assert_faults("grid", &[of_stage], &["paper.toml:34:33: `ties` is \"lilo\""]);
     // What the option does not touch is told where it stands, once.
     let other = ("compare.toml", "settings = { weight = 2,", "settings = { weight = -2,");
-    assert_told("grid", &[other], &["compare.toml:36:23: weight is -2"]);
+    assert_faults("grid", &[other], &["compare.toml:36:23: weight is -2"]);
 }
 
 #[test]
 fn a_label_without_a_name_is_told_and_nothing_that_follows_from_it() {
     let group = ("compare.toml", "label = \"maps\"", "label = \"\"");
-    assert_told("grid", &[group], &["compare.toml:16:9: problem group `` has no letter"]);
+    assert_faults("grid", &[group], &["compare.toml:16:9: problem group `` has no letter"]);
     let contender = ("compare.toml", "label = \"A*\"", "label = \"\"");
-    assert_told("grid", &[contender], &["compare.toml:29:9: contender `` has no letter"]);
+    assert_faults("grid", &[contender], &["compare.toml:29:9: contender `` has no letter"]);
     let number = ("compare.toml", "label = \"A*\"", "label = 3");
-    assert_told("grid", &[number], &["compare.toml:29:9: `label` is 3"]);
+    assert_faults("grid", &[number], &["compare.toml:29:9: `label` is 3"]);
 }
 
 #[test]
 fn a_figure_of_a_pose_or_a_claim_of_a_query_that_is_not_there_is_refused() {
     let pose = ("cell.toml", "\"high/goal\", \"C\"", "\"hugh/goal\", \"C\"");
-    assert_told(
+    assert_faults(
         "cell",
         &[pose],
         &["cell.toml:54:82: there is no query of cell `hugh` (did you mean `high`?); there are high, low"],
     );
     let end = ("cell.toml", "\"high/goal\", \"C\"", "\"high/end\", \"C\"");
-    assert_told("cell", &[end], &["cell.toml:54:82: `high/end` is no end of a query"]);
+    assert_faults("cell", &[end], &["cell.toml:54:82: `high/end` is no end of a query"]);
     let query = ("paper.toml", "problems = \"cell\", ", "problems = \"cell\", query = \"hugh\", ");
-    let told = told("cell", &[query]);
+    let told = faults_after("cell", &[query]);
     assert!(told.len() == 1 && told[0].contains("there is no query of cell `hugh`"), "{told:?}");
 }
 
@@ -164,7 +164,7 @@ fn swept(key: &str, values: &str) -> String {
 fn assert_swept(key: &str, values: &str, wanted: &[&str]) {
     let sweep = swept(key, values);
     let agreed = ("compare.toml", "weight = 2", "weight = 1");
-    assert_told("grid", &[agreed, ("compare.toml", FIGURE, &sweep)], wanted);
+    assert_faults("grid", &[agreed, ("compare.toml", FIGURE, &sweep)], wanted);
 }
 
 #[test]
@@ -192,20 +192,20 @@ fn what_is_wrong_with_a_sweep_is_told_there_and_once() {
 fn a_sweep_that_would_make_two_contenders_one_is_refused() {
     let sweep = swept("weight", "[1, 2]");
     let wanted = "compare.toml:39:7: sweep `weight` would hide that contender `A*` says 1 and contender `Weighted A*` 2; ";
-    assert_told("grid", &[("compare.toml", FIGURE, &sweep)], &[wanted]);
+    assert_faults("grid", &[("compare.toml", FIGURE, &sweep)], &[wanted]);
 }
 
 #[test]
 fn a_misspelt_value_is_told_as_such_where_the_default_of_a_choice_would_hide_it() {
     let misspelt = ("compare.toml", "weight = 1, ties = \"fifo\"", "weight = 1, ties = \"fifoo\"");
-    assert_told("grid", &[misspelt], &["compare.toml:31:33: `ties` is \"fifoo\" (did you mean `fifo`?); "]);
+    assert_faults("grid", &[misspelt], &["compare.toml:31:33: `ties` is \"fifoo\" (did you mean `fifo`?); "]);
 }
 
 #[test]
 fn queries_that_records_could_not_tell_apart_are_refused() {
     let twice = ("poses.toml", "name = \"high\"", "name = \"low\"");
     let wanted = "poses.toml:15:8: query 2 is the second called `low`; one name each is accepted";
-    assert_told("cell", &[twice], &[wanted]);
+    assert_faults("cell", &[twice], &[wanted]);
 }
 
 #[test]
@@ -216,19 +216,19 @@ fn a_ratio_to_a_printed_zero_is_refused() {
     let ratio = ("paper.toml", "margin = 5", change.as_str());
     let wanted =
         "paper.toml:59:106: claim `table1.weighted.saving` prints 0; a number to divide by is accepted";
-    assert_told("grid", &[zero, ratio], &[wanted]);
+    assert_faults("grid", &[zero, ratio], &[wanted]);
 }
 
 #[test]
 fn what_nothing_could_speak_against_is_refused() {
     let own = ("paper.toml", "against = \"8 neighbours\"", "against = \"24 neighbours\"");
     let wanted = "paper.toml:71:87: `24 neighbours` is held against itself; another contender is accepted";
-    assert_told("arm", &[own], &[wanted]);
+    assert_faults("arm", &[own], &[wanted]);
     let any =
         ("paper.toml", "[claim.check.on_every]", "[claim.check.share]\nhits = \"lower\"\naccepted = [0, 1]");
     let that = ("paper.toml", "that = \"lower\"\n", "");
     let wanted = "paper.toml:72:12: every share lies between 0 and 1; bounds that refuse some are accepted";
-    assert_told("arm", &[any, that], &[wanted]);
+    assert_faults("arm", &[any, that], &[wanted]);
 }
 
 #[test]
@@ -245,5 +245,5 @@ fn contenders_that_are_on_both_sides_are_refused() {
     );
     let that = ("paper.toml", "that = \"lower\"\n", "");
     let wanted = "paper.toml:72:10: `24 neighbours` is held against itself; another contender is accepted";
-    assert_told("arm", &[both, of, that], &[wanted]);
+    assert_faults("arm", &[both, of, that], &[wanted]);
 }

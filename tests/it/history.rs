@@ -120,7 +120,7 @@ fn a_change_is_reported_where_trials_are_recorded_and_recorded_again() {
     let outside = "\n[[contender]]\nlabel = \"Outside\"\nplanner = \"external\"\nsettings = { command = [\"sh\", \"-c\", \"exit 0\"], \
                    files = [], version = \"1\", time_s = 5.0, memory_mb = 128, output_mb = 4, install = \"a shell\" }\n\n[[contender]]";
     bench.edit("mini/draws.toml", "\n[[contender]]", outside);
-    bench.edit("mini/draws.toml", "replicates = 24", "replicates = 12");
+    bench.edit("mini/draws.toml", "instances = 24", "instances = 12");
     let first = bench.done(&["repro", "./mini"]);
     assert!(!first.contains("Changed after"), "{first}");
     bench.edit(PAPER, "margin = 0.25", "margin = 3.0");
@@ -246,7 +246,7 @@ fn entries_are_added_and_the_others_stay_as_they_are() {
     grows(&|| (), &["repro", "./mini"], 0);
     grows(&|| (), &["run", "./mini", "--clock"], 1);
     grows(&|| bench.edit(PAPER, "margin = 0.25", "margin = 0.5"), &["judge", "./mini"], 1);
-    grows(&|| bench.edit("mini/draws.toml", "replicates = 24", "replicates = 25"), &["repro", "./mini"], 1);
+    grows(&|| bench.edit("mini/draws.toml", "instances = 24", "instances = 25"), &["repro", "./mini"], 1);
     let last = before.rsplit("[[entry]]").next().unwrap();
     assert!(
         !last.contains("nodes") && last.contains("draws = "),

@@ -30,7 +30,8 @@ fn is_solved(planner: &dyn Planner, world: &World, [start, goal]: [u32; 2], what
     let optimum = case.optimal_cost();
     let refusal = match plan.ending {
         Ending::Solved => {
-            let (path, cost) = (&plan.path[..], plan.cost);
+            let path = &plan.path[..];
+            let cost = plan.cost;
             let answer = Answer { path, cost, in_graph: true, optimal: true, sight_corners: None };
             case.refuse_path(&answer, optimum)
         }
@@ -43,9 +44,11 @@ fn is_solved(planner: &dyn Planner, world: &World, [start, goal]: [u32; 2], what
 
 #[test]
 fn the_verifier_accepts_every_answer_of_the_planners_by_jump_points() {
-    let (mut solved, mut unsolved) = (0, 0);
+    let mut solved = 0;
+    let mut unsolved = 0;
     for seed in 0..24 {
-        let (mut stream, size) = (seed::stream(seed), [150, 90]);
+        let mut stream = seed::stream(seed);
+        let size = [150, 90];
         let grid: Grid2 = match seed / 3 % 4 {
             0 => independent_cells(&mut stream, size, 0.35, &[]),
             1 => rooms(&mut stream, size, 14, 0.5),
@@ -87,7 +90,8 @@ fn the_memory_that_was_prepared_is_a_count_and_an_unknown_setting_is_refused() {
     let bytes = |name: &str| {
         let (start, goal) = (&[0.0, 0.0], &[511.0, 0.0]);
         let request = Request { world: &world, start, goal, expansions: 10, seed: 0, trace: false };
-        built(name, "preparation = 'each_query'").plan(&request).unwrap().counts["prepared_bytes"].as_f64()
+        built(name, "preparation = 'each_query'").plan(&request).unwrap().counts["preprocessing_bytes"]
+            .as_f64()
     };
     // Four times 512 lines of 514 bits, each with walls beside it; and eight numbers of two bytes a cell.
     assert_eq!([bytes("jps"), bytes("jps_plus")], [4.0 * 512.0 * 9.0 * 16.0, 512.0 * 512.0 * 16.0]);

@@ -72,7 +72,7 @@ proptest! {
     #[test]
     fn an_overlay_wins_where_it_speaks_and_is_silent_elsewhere(base in table(), over in table()) {
         let under = Settings::composed("spec", base.clone());
-        let laid = under.overlaid(&over, "reading");
+        let laid = under.overlaid(&over, "interpretation");
         let keys: std::collections::BTreeSet<&String> = base.keys().chain(over.keys()).collect();
         prop_assert_eq!(laid.table().len(), keys.len());
         for key in keys {

@@ -22,7 +22,7 @@ mod cli_told;
 mod cli_witness;
 mod committed;
 mod conformance;
-mod counted_readings;
+mod counted_interpretations;
 mod crosscheck;
 mod documented;
 mod drawn_ends;

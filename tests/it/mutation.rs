@@ -63,7 +63,8 @@ fn is_located(message: &str) -> bool {
 #[test]
 fn no_damaged_spec_robot_scene_or_map_panics_and_every_refusal_says_where() {
     let subject = Subject::of_committed_papers();
-    let (mut faults, mut accepted) = (Vec::new(), 0);
+    let mut faults = Vec::new();
+    let mut accepted = 0;
     let all = cases();
     for case in 0..all {
         let mut stream = seed::stream(seed::derive(2024, &["mutation", &case.to_string()]));
@@ -85,9 +86,9 @@ fn sizes_that_cannot_be_meant_are_refused_with_their_limit() {
     for (file, from, to, said) in [
         (
             "zhang/ensemble.toml",
-            "replicates = 200",
-            "replicates = 4000000000",
-            "`replicates` is 4000000000; a whole number from 1 to 1000000 is",
+            "instances = 200",
+            "instances = 4000000000",
+            "`instances` is 4000000000; a whole number from 1 to 1000000 is",
         ),
         (
             "zhang/ensemble.toml",

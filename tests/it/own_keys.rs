@@ -1,11 +1,11 @@
 //! Each fault of a file stands at the line and column of its own key or value, and one fault is told once, alone.
 
-use crate::hidden_faults::{Change, assert_told};
+use crate::hidden_faults::{Change, assert_faults};
 use crate::paper::Bench;
 
 /// That the template with one change is told to be wrong in one place.
 fn assert_alone(template: &str, change: Change<'_>, wanted: &str) {
-    assert_told(template, &[change], &[wanted]);
+    assert_faults(template, &[change], &[wanted]);
 }
 
 #[test]
@@ -24,7 +24,7 @@ fn a_misspelt_criterion_is_told_at_its_name() {
     let wanted = "claim `fewer_nodes`: there is no criterion `lowr` (did you mean `lower`?)";
     assert_alone("grid", header, &format!("paper.toml:82:14: {wanted}"));
     let shown = ("paper.toml", "[claim.check.lower]", "[[claim.shows.lowr]]");
-    assert_told("grid", &[shown], &[&format!("paper.toml:82:15: {wanted}")]);
+    assert_faults("grid", &[shown], &[&format!("paper.toml:82:15: {wanted}")]);
     let inline = (
         "paper.toml",
         "[claim.check.lower]\nof = { study = \"compare\", problems = \"maps\", contender = \"Weighted A*\", against = \"A*\", \
@@ -57,9 +57,10 @@ fn what_bears_a_name_that_cannot_be_read_is_missed_nowhere() {
 
 #[test]
 fn a_figure_called_like_another_is_told_once() {
-    let (from, text) = ("id = \"maps\"", "id = \"maps\"\nkind = \"grid_search\"\ncaption = \"c\"\n");
+    let from = "id = \"maps\"";
+    let text = "id = \"maps\"\nkind = \"grid_search\"\ncaption = \"c\"\n";
     let settings = "settings = { problems = [\"maps\"], contenders = [\"A*\"] }\n";
-    let shows = "shows = [{ problems = \"maps\", replicates = 1 }]\n";
+    let shows = "shows = [{ problems = \"maps\", instances = 1 }]\n";
     let twice = format!("{text}{settings}{shows}[[figure]]\n{from}");
     let wanted = "compare.toml:46:6: another figure or table of the paper is called `maps` already";
     assert_alone("grid", ("compare.toml", from, &twice), wanted);
@@ -73,7 +74,7 @@ fn nothing_is_told_of_what_a_study_that_is_no_toml_may_say() {
     // What it does not say anywhere is told.
     let other = ("paper.toml", "\"maps\"]", "\"mapps\"]");
     let wanted = ["compare.toml:8:8: ", "paper.toml:19:22: there is no figure or table `mapps`"];
-    assert_told("grid", &[("compare.toml", "seed = 1", "seed = = 1"), other], &wanted);
+    assert_faults("grid", &[("compare.toml", "seed = 1", "seed = = 1"), other], &wanted);
 }
 
 #[test]
@@ -97,19 +98,19 @@ fn a_value_out_of_range_hides_no_fault_of_another_table() {
         ("compare.toml", "weight = 2", "weight = 1e308"),
         ("compare.toml", "weight = 1,", "weight = -1,"),
         ("compare.toml", "goal = [36, 30]", "goal = [46, 30]"),
-        ("compare.toml", "replicates = 60", "replicates = 4000000000"),
+        ("compare.toml", "instances = 60", "instances = 4000000000"),
         ("paper.toml", "\"50.9\", \"60\"", "\"50.9\", \"nan\""),
         ("paper.toml", "bound = 1.1", "bound = inf"),
     ];
     let wanted = [
-        "compare.toml:18:14: `replicates` is 4000000000",
+        "compare.toml:18:14: `instances` is 4000000000",
         "compare.toml:22:8: goal is [46, 30]",
         "compare.toml:31:23: weight is -1",
         "compare.toml:36:23: `weight` is 1e308",
         "paper.toml:71:20: claim `table1.weighted.saving`: `nan`",
         "paper.toml:93:9: `bound` is inf",
     ];
-    assert_told("grid", &changes, &wanted);
+    assert_faults("grid", &changes, &wanted);
 }
 
 #[test]
@@ -122,7 +123,7 @@ fn a_fault_of_the_first_claim_hides_none_of_the_second() {
     );
     let wanted =
         ["paper.toml:83:58: study `compare` has no contender `WA`", "paper.toml:86:1: missing key `at`"];
-    assert_told("grid", &[first, second], &wanted);
+    assert_faults("grid", &[first, second], &wanted);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Papers of one's own: what `replan new` writes, and every command and file of `docs/YOUR_OWN_PAPER.md`.
 
-use crate::paper::{Bench, Said};
+use crate::paper::{Bench, ProgramOutput};
 use std::fs;
 use std::path::Path;
 
@@ -78,8 +78,10 @@ fn letters(text: &str) -> String {
 fn every_command_and_file_of_the_page_on_papers_of_ones_own_does_what_the_page_says() {
     let page =
         fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/YOUR_OWN_PAPER.md")).unwrap();
-    let (bench, mut commands, mut shown) = (Bench::empty(), 0, 0);
-    let mut last = Said { code: None, out: String::new(), err: String::new(), doing: Vec::new() };
+    let bench = Bench::empty();
+    let mut commands = 0;
+    let mut shown = 0;
+    let mut last = ProgramOutput { code: None, out: String::new(), err: String::new(), doing: Vec::new() };
     for Block { info, text } in blocks(&page) {
         match info.split_once(' ').unwrap_or((info, "")) {
             ("sh", "") => {

@@ -3,8 +3,8 @@
 mod cell;
 mod curves;
 mod driver;
+mod interpretations;
 mod look;
-mod readings;
 mod states;
 
 use crate::paper::{Bench, committed};

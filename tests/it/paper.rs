@@ -15,12 +15,12 @@ figures = 1
 tables = 1
 equations = 0
 
-[[ledger]]
+[[inventory]]
 item = "Fig. 1"
 says = "a search in a room"
 figures = ["fig1"]
 
-[[ledger]]
+[[inventory]]
 item = "Table 1"
 says = "cost and nodes"
 figures = ["table1"]
@@ -77,7 +77,7 @@ seed = 7
 expansions = 10_000
 
 [quick]
-replicates = 3
+instances = 3
 
 [timing]
 problems = 2
@@ -86,7 +86,7 @@ repeats = 2
 [[problems]]
 label = "drawn"
 family = "random_cells"
-replicates = 24
+instances = 24
 settings = { size_cells = [12, 12], start = [0, 0], goal = [11, 9], blocked_share = 0.3, corner_rule = "allow" }
 
 [[contender]]
@@ -111,7 +111,7 @@ leaves_out = ["corners"]
 expansions = 10_000
 
 [quick]
-replicates = 1
+instances = 1
 
 [[problems]]
 label = "room"
@@ -127,7 +127,7 @@ settings = { weight = 1, ties = "fifo" }
 id = "fig1"
 kind = "grid_search"
 caption = "A search in a room."
-shows = [{ problems = "room", replicates = 1 }]
+shows = [{ problems = "room", instances = 1 }]
 settings = { problems = ["room"], contenders = ["A*"] }
 "#;
 
@@ -139,11 +139,11 @@ seed = 9
 [budget]
 expansions = 1_000
 [quick]
-replicates = 1
+instances = 1
 [[problems]]
 label = "plane"
 family = "plane_queries"
-replicates = 2
+instances = 2
 settings = { map = "bar.toml", samples = 30, radius_mm = 40 }
 [[contender]]
 label = "Improved A*"
@@ -169,7 +169,7 @@ pub struct Bench {
 
 /// What the program said; the bench's folder is written as `[dir]`.
 #[derive(Debug, PartialEq)]
-pub struct Said {
+pub struct ProgramOutput {
     pub code: Option<i32>,
     pub out: String,
     /// Standard error, but for the lines in `doing`.
@@ -227,10 +227,12 @@ impl Bench {
         found
     }
 
-    /// The records below `name` that must repeat: trials, prepared objects, exhibits.
+    /// The records below `name` that must repeat: trials, preprocessed objects, traces.
     pub fn facts(&self, name: &str) -> BTreeMap<String, Vec<u8>> {
         let is_fact = |path: &str| {
-            ["trials", "prepared", "exhibits"].iter().any(|part| path.ends_with(&format!(".{part}.parquet")))
+            ["trials", "preprocessing", "traces"]
+                .iter()
+                .any(|part| path.ends_with(&format!(".{part}.parquet")))
         };
         let named = self
             .tree(name)
@@ -248,8 +250,8 @@ impl Bench {
     }
 
     /// Runs the program to its end.
-    pub fn run(&self, arguments: &[&str]) -> Said {
-        self.said(&self.command(arguments).output().unwrap())
+    pub fn run(&self, arguments: &[&str]) -> ProgramOutput {
+        self.output(&self.command(arguments).output().unwrap())
     }
 
     /// Runs the program, which must succeed, and gives what it printed.
@@ -259,14 +261,14 @@ impl Bench {
         said.out
     }
 
-    pub fn said(&self, output: &Output) -> Said {
+    pub fn output(&self, output: &Output) -> ProgramOutput {
         let place = self.folder.path().display().to_string();
         let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap().replace(&place, "[dir]");
         let said = text(&output.stderr);
         let (doing, rest): (Vec<&str>, Vec<&str>) =
             said.split_inclusive('\n').partition(|line| line.ends_with(" …\n"));
         let doing = doing.iter().map(|line| line.trim_end().to_owned()).collect();
-        Said { code: output.status.code(), out: text(&output.stdout), err: rest.concat(), doing }
+        ProgramOutput { code: output.status.code(), out: text(&output.stdout), err: rest.concat(), doing }
     }
 }
 

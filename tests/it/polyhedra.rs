@@ -71,8 +71,8 @@ fn no_accepted_path_has_a_rod_below_the_floor() {
         stage("posture", POSTURE).refine(&request, tip_path)
     };
     let world = scene(None);
-    let (carried, solids) =
-        (world.as_polyhedra().unwrap().arm().unwrap(), solids(world.as_polyhedra().unwrap().bodies()));
+    let carried = world.as_polyhedra().unwrap().arm().unwrap();
+    let solids = solids(world.as_polyhedra().unwrap().bodies());
     let free = plan(&world);
     assert_eq!(free.ending, Ending::Solved);
     let lowest = lowest_cm(carried, &free.path);
@@ -95,7 +95,8 @@ fn no_accepted_path_has_a_rod_below_the_floor() {
 
 #[test]
 fn the_verifier_accepts_the_arms_paths_and_none_with_an_angle_bent() {
-    let (world, arm) = (scene(None), Arm { floor: Some(-60.0), ..aubo() });
+    let world = scene(None);
+    let arm = Arm { floor: Some(-60.0), ..aubo() };
     let solids = solids(world.as_polyhedra().unwrap().bodies());
     let (start, goal) = ([70.0, -46.0, 36.0], [70.0, 41.0, 51.0]);
     let case = rods::Case { arm: &arm, solids: &solids, start, goal };
@@ -111,7 +112,8 @@ fn the_verifier_accepts_the_arms_paths_and_none_with_an_angle_bent() {
         let case = rods::Case { goal, ..case };
         assert_eq!(plan.ending, Ending::Solved);
         assert_eq!(case.refuse_path(&plan.path, plan.cost), None);
-        let (middle, last) = (plan.path.len() / 2, plan.path.len() - 1);
+        let middle = plan.path.len() / 2;
+        let last = plan.path.len() - 1;
         for (at, by) in [(0, 1e-3), (last, 1e-3), (middle, 1e-2), (middle, 4.0), (middle, f64::NAN)] {
             let mut bent = plan.path.clone();
             bent[at][1] += by;

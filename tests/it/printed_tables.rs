@@ -67,7 +67,7 @@ fn forty() -> Bench {
     for (number, share) in [0.0, 0.1, 0.2, 0.3, 0.35].into_iter().enumerate() {
         writeln!(
             groups,
-            "  {{ label = \"{number}\", family = \"random_cells\", replicates = 12, settings = {{ size_cells = [20, 20], start = [1, 1], \
+            "  {{ label = \"{number}\", family = \"random_cells\", instances = 12, settings = {{ size_cells = [20, 20], start = [1, 1], \
              goal = [18, 15], blocked_share = {share}, corner_rule = \"allow\" }} }},"
         )
         .unwrap();
@@ -115,7 +115,8 @@ fn loaded(bench: &Bench, name: &str) -> Paper {
 fn a_claim_that_moves_into_a_table_asks_what_it_asked() {
     let bench = forty();
     let paper = loaded(&bench, "forty");
-    let (mut written, text) = (String::new(), std::fs::read_to_string(bench.at("forty/maps.toml")).unwrap());
+    let mut written = String::new();
+    let text = std::fs::read_to_string(bench.at("forty/maps.toml")).unwrap();
     for (number, label, id) in [(0, "A*", "astar0"), (3, "Weighted", "weighted3")] {
         let cells = [
             ("length", "path_cost_cells", "23.5", 2.0),
@@ -144,7 +145,8 @@ fn a_claim_that_moves_into_a_table_asks_what_it_asked() {
     }
     // Another margin is another question.
     bench.edit("forty/paper.toml", "margin = 2.0", "margin = 2.5");
-    let (claim, changed) = (&apart.claims[0], loaded(&bench, "forty"));
+    let claim = &apart.claims[0];
+    let changed = loaded(&bench, "forty");
     assert_ne!(meaning::hash(&apart, claim), meaning::hash(&changed, changed.claim(&claim.id).unwrap()));
 }
 

@@ -6,8 +6,8 @@ use replan::analysis::{criterion, metric, rule};
 use replan::render::figure;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-use study::paper::{Asked, Claim, Paper};
-use study::{column, family, planner as outside, prepared, task};
+use study::paper::{Claim, Paper, TestRole};
+use study::{column, family, planner as outside, preprocessing, task};
 
 /// A registry as tests see it: its folder below `src`, the names it lists, and the names that its `find` gives back.
 struct Registry {
@@ -30,7 +30,7 @@ fn registries() -> Vec<Registry> {
         registry!("engine/planner", planner),
         registry!("study/family", family),
         registry!("study/planner", outside),
-        registry!("study/prepared", prepared),
+        registry!("study/prepared", preprocessing),
         registry!("study/task", task),
         registry!("analysis/criterion", criterion),
         registry!("analysis/rule", rule),
@@ -96,22 +96,24 @@ fn what_stands_below_a_figure_says_of_how_many() {
     for entry in replan::render::figure::REGISTRY {
         let says = |what: &str| entry.statistic.contains(what);
         // Of every pair found, the panels' titles say how many there are.
-        let is_said =
-            says("{n}") || says("{readings}") || entry.statistic.starts_with("One ") || says("Every pair");
+        let is_said = says("{n}")
+            || says("{interpretations}")
+            || entry.statistic.starts_with("One ")
+            || says("Every pair");
         assert!(is_said, "{}: {}", entry.name, entry.statistic);
     }
 }
 
 /// The criteria that decide and the rules of every committed paper, with how many claims have each.
-fn asked() -> BTreeMap<String, usize> {
+fn used_criteria() -> BTreeMap<String, usize> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut asked = BTreeMap::new();
     for name in crate::paper::committed() {
         let folder = root.join("experiments").join(name);
         let inputs = study::Inputs { roots: vec![folder.clone(), root.to_owned()] };
         let paper = Paper::load(&folder, &inputs).unwrap();
-        for (how, name, _) in paper.claims.iter().flat_map(Claim::asked) {
-            *asked.entry(name.to_owned()).or_default() += usize::from(how != Asked::Shown);
+        for (how, name, _) in paper.claims.iter().flat_map(Claim::tests) {
+            *asked.entry(name.to_owned()).or_default() += usize::from(how != TestRole::Shown);
         }
     }
     asked
@@ -125,7 +127,7 @@ fn criteria_and_kinds_of_figure_stay_few() {
 
 #[test]
 fn no_criterion_or_rule_serves_one_claim_alone() {
-    let asked = asked();
+    let asked = used_criteria();
     assert!(asked.values().sum::<usize>() > 200, "the papers' claims are not found: {asked:?}");
     let names = criterion::REGISTRY.iter().chain(rule::REGISTRY).map(|entry| entry.name);
     let few: Vec<&str> = names.filter(|name| asked.get(*name).is_none_or(|claims| *claims < 2)).collect();

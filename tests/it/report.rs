@@ -34,7 +34,8 @@ fn anchors(text: &str) -> BTreeSet<&str> {
 /// Links of `page` that lead nowhere, and how many it has.
 fn broken(page: &Path) -> (Vec<String>, usize) {
     let text = read(page);
-    let (mut lost, mut count) = (Vec::new(), 0);
+    let mut lost = Vec::new();
+    let mut count = 0;
     for target in targets(&text) {
         count += 1;
         let (file, anchor) = target.split_once('#').unwrap_or((target, ""));
@@ -111,7 +112,8 @@ fn whether_a_cost_below_the_straight_line_is_possible_is_answered_within_three_c
 #[test]
 fn every_number_that_the_findings_ask_for_is_there() {
     for name in committed() {
-        let (paper, folder) = (loaded(&name), root().join("data/runs").join(&name));
+        let paper = loaded(&name);
+        let folder = root().join("data/runs").join(&name);
         let verdicts = Verdicts::read(&folder).unwrap();
         for text in paper.report.findings.iter().chain(&paper.report.finding) {
             assert!(!prose(text, &verdicts).contains('–'), "{name}: {text}");
@@ -122,8 +124,9 @@ fn every_number_that_the_findings_ask_for_is_there() {
 #[test]
 fn every_figure_of_the_papers_has_a_file_of_ours_or_the_reason_why_not() {
     for name in committed() {
-        let (paper, plots) = (loaded(&name), root().join("plots").join(&name));
-        for row in paper.ledger.iter().filter(|row| row.item.get_ref().starts_with("Fig. ")) {
+        let paper = loaded(&name);
+        let plots = root().join("plots").join(&name);
+        for row in paper.inventory.iter().filter(|row| row.item.get_ref().starts_with("Fig. ")) {
             assert!(!row.figures.is_empty() || row.none.is_some(), "{name}: {}", row.item.get_ref());
             for id in &row.figures {
                 let id = id.get_ref();
@@ -162,7 +165,7 @@ fn no_committed_svg_is_too_large_to_open() {
 }
 
 #[test]
-fn a_ledger_that_misses_a_number_or_names_what_does_not_exist_is_refused() {
+fn a_inventory_that_misses_a_number_or_names_what_does_not_exist_is_refused() {
     let numbers = "claims = [\"nodes\"]\nnumbers = [{ claims = [\"cost\"] }]";
     let with = |numbers: &str, count: u32| {
         let bench = Bench::new();
@@ -173,7 +176,7 @@ fn a_ledger_that_misses_a_number_or_names_what_does_not_exist_is_refused() {
     };
     assert_eq!(with(numbers, 1).code, Some(0), "{}", with(numbers, 1).err);
     for (numbers, count, said) in [
-        (numbers.to_owned(), 2, "9:11: the ledger lists 1 printed numbers; `numbers` says 2".to_owned()),
+        (numbers.to_owned(), 2, "9:11: the inventory lists 1 printed numbers; `numbers` says 2".to_owned()),
         (
             numbers.replace("{ claims", "{ printed = [\"7.83\"], claims"),
             1,
@@ -187,7 +190,7 @@ fn a_ledger_that_misses_a_number_or_names_what_does_not_exist_is_refused() {
         (
             numbers.replace("{ claims = [\"cost\"] }", "{ table = \"table1\" }"),
             2,
-            "the ledger lists 1 printed".to_owned(),
+            "the inventory lists 1 printed".to_owned(),
         ),
         (
             numbers.replace("{ claims = [\"cost\"] }", "{ table = \"table2\" }"),
@@ -197,7 +200,7 @@ fn a_ledger_that_misses_a_number_or_names_what_does_not_exist_is_refused() {
         (
             "numbers = [{ printed = [\"9\"], none = \"a setting\" }]".to_owned(),
             1,
-            "no row of the ledger lists the number 7.83 for claim `cost`".to_owned(),
+            "no row of the inventory lists the number 7.83 for claim `cost`".to_owned(),
         ),
         (
             numbers.replace("claims = [\"cost\"] }", "claims = [\"costs\"] }"),

@@ -1,7 +1,7 @@
 //! Obstacles of the planar arm in the planner's terms and in the verifier's.
 
 use engine::space::{HopRule, Obstacle};
-use study::prepared::workspace_map::ShapeSetting;
+use study::preprocessing::workspace_map::ShapeSetting;
 use verify::arm::{Body, Hops};
 
 /// An obstacle: its shape, and where its centre is.

@@ -2,13 +2,13 @@
 
 use crate::paper::Bench;
 use study::key::SweepValue;
-use study::record::{Batch, PreparedRow, Row};
+use study::record::{Batch, PreprocessingRow, Row};
 use study::reuse::stored;
 
 const PAPER: &str = r#"[source]
 title = "A tiny paper"
 authors = "N. N."
-[[ledger]]
+[[inventory]]
 item = "section 1"
 says = "it solves more"
 claims = ["more", "cost"]
@@ -40,17 +40,17 @@ expansions = 10_000
 [[problems]]
 label = "maps"
 family = "random_cells"
-replicates = 6
+instances = 6
 settings = { size_cells = 14, start = "drawn", goal = { x = 13 }, queries = 2, corner_rule = "forbid_any" }
 [[problems]]
 label = "plain"
 family = "random_cells"
-replicates = 3
+instances = 3
 settings = { size_cells = 14, start = [0, 0], goal = [13, 13], blocked_share = 0.3, corner_rule = "forbid_any" }
 [[problems]]
 label = "rectangles"
 family = "random_rectangles"
-replicates = 3
+instances = 3
 settings = { start = "drawn", goal = "drawn", count = 4, side_cells = [2, 4], corner_rule = "forbid_any" }
 [[sweep]]
 key = "blocked_share"
@@ -69,7 +69,7 @@ label = "JPS"
 planner = "jps"
 [[keep]]
 problems = "maps"
-replicates = 1
+instances = 1
 [[figure]]
 id = "share"
 kind = "sweep_curves"
@@ -101,16 +101,17 @@ fn a_sweep_over_problems_has_a_typed_column_that_is_null_on_other_groups() {
     let batch = run(&bench, "one", &[]);
     assert_eq!(batch.rows.len(), 2 * 2 * (6 * 2) + 2 * 3 + 2 * 2 * 3);
     for row in &batch.rows {
-        let (share, size) = (at(row, "blocked_share"), at(row, "size_cells"));
+        let share = at(row, "blocked_share");
+        let size = at(row, "size_cells");
         let group = &*row.key.on.group;
         assert_eq!((share.is_some(), size.is_some()), (group == "maps", group == "rectangles"), "{group}");
         assert_eq!(row.key.on.sweep, row.key.sweep, "no sweep here is over a contender");
     }
-    let cells = |row: &PreparedRow| row.values.get("free_cells").unwrap().as_f64();
+    let cells = |row: &PreprocessingRow| row.values.get("free_cells").unwrap().as_f64();
     let of = |share: f64| {
         let is_own =
-            |row: &&PreparedRow| row.key.sweep.value("blocked_share") == Some(&SweepValue::Real(share));
-        batch.prepared.iter().filter(is_own).map(cells).sum::<f64>() / 6.0
+            |row: &&PreprocessingRow| row.key.sweep.value("blocked_share") == Some(&SweepValue::Real(share));
+        batch.preprocessing.iter().filter(is_own).map(cells).sum::<f64>() / 6.0
     };
     assert!(
         (of(0.2) - 0.8 * 196.0).abs() < 20.0 && (of(0.4) - 0.6 * 196.0).abs() < 20.0,
@@ -157,26 +158,28 @@ fn points_of_a_sweep_have_seeds_of_their_own_unless_the_group_names_its_instance
     let seeds = |named: bool| {
         let bench = bench();
         if named {
-            bench.edit("mini/study.toml", "replicates = 6", "replicates = 6\ndraw = \"shared\"");
+            bench.edit("mini/study.toml", "instances = 6", "instances = 6\nshared_instances = \"shared\"");
         }
-        let prepared = run(&bench, "out", &[]).prepared;
-        let maps = prepared.into_iter().filter(|row| *row.key.group == *"maps");
+        let preprocessing = run(&bench, "out", &[]).preprocessing;
+        let maps = preprocessing.into_iter().filter(|row| *row.key.group == *"maps");
         maps.map(|row| row.seed).collect::<Vec<u64>>()
     };
-    let (own, shared) = (seeds(false), seeds(true));
+    let own = seeds(false);
+    let shared = seeds(true);
     assert!(own[..6].iter().all(|seed| !own[6..].contains(seed)), "{own:?}");
     assert_eq!(shared[..6], shared[6..]);
 }
 
 #[test]
 fn copied_groups_whose_instances_share_a_name_give_the_rows_of_a_sweep() {
-    let (swept, copied) = (bench(), bench());
-    swept.edit("mini/study.toml", "replicates = 6", "replicates = 6\ndraw = \"shared\"");
+    let swept = bench();
+    let copied = bench();
+    swept.edit("mini/study.toml", "instances = 6", "instances = 6\nshared_instances = \"shared\"");
     let (_, rest) = STUDY.split_once("[[problems]]\nlabel = \"plain\"").unwrap();
     let (head, _) = STUDY.split_once("[[problems]]").unwrap();
     let group = |share: &str| {
         format!(
-            "[[problems]]\nlabel = \"maps {share}\"\nfamily = \"random_cells\"\nreplicates = 6\ndraw = \"shared\"\n\
+            "[[problems]]\nlabel = \"maps {share}\"\nfamily = \"random_cells\"\nreplicates = 6\nshared_instances = \"shared\"\n\
              settings = {{ size_cells = 14, start = \"drawn\", goal = {{ x = 13 }}, queries = 2, corner_rule = \
              \"forbid_any\", blocked_share = {share} }}\n"
         )
@@ -192,7 +195,7 @@ fn copied_groups_whose_instances_share_a_name_give_the_rows_of_a_sweep() {
         let named = rows.into_iter().filter(|row| row.key.on.group.starts_with("maps")).map(|row| {
             let share = at(&row, "blocked_share").map(|share| format!("maps {share}"));
             let group = share.unwrap_or_else(|| row.key.on.group.to_string());
-            (group, row.draw(), row.key.query.clone(), row.key.contender.clone(), row.status, row.values)
+            (group, row.instance(), row.key.query.clone(), row.key.contender.clone(), row.status, row.values)
         });
         named.collect::<Vec<_>>()
     };

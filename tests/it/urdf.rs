@@ -41,9 +41,11 @@ fn forward_kinematics_of_every_urdf_robot_are_those_of_mujoco_to_a_billionth() {
         let judged = joints::Case::new(&robot, &[], &[], 1.0).unwrap();
         let open = OpenChain::new(&robot);
         let arm = Robot::load(&path).ok();
-        let (angles, frames) = (told["angles_rad"].as_array().unwrap(), told["frames"].as_array().unwrap());
+        let angles = told["angles_rad"].as_array().unwrap();
+        let frames = told["frames"].as_array().unwrap();
         for (q, frame) in angles.iter().zip(frames) {
-            let (q, frame) = (numbers(q), numbers(frame));
+            let q = numbers(q);
+            let frame = numbers(frame);
             let mut ours = vec![open.forward(&q)];
             if let Some(arm) = &arm {
                 let six: [f64; AXES] = q.clone().try_into().unwrap();

@@ -106,7 +106,8 @@ impl Case {
 
     /// Why the verifier refuses the path of a plan that `subject` made.
     pub fn refusal(&self, plan: &Plan, subject: &Subject) -> Option<String> {
-        let (steps, optimal) = (subject.planner.steps(), subject.planner.is_optimal());
+        let steps = subject.planner.steps();
+        let optimal = subject.planner.is_optimal();
         match &self.posed {
             Posed::Lattice(optimum) => {
                 lattice::refusal(self, *optimum, plan, [!subject.planner.is_any_angle(), optimal])

@@ -89,9 +89,9 @@ pub const WRONG: &[Wrong] = &[
     ),
     wrong(
         "draws",
-        "replicates = 24",
-        "replicates = 0",
-        "mini/draws.toml:18:14: `replicates` is 0; a whole number from 1 to 1000000 is",
+        "instances = 24",
+        "instances = 0",
+        "mini/draws.toml:18:14: `instances` is 0; a whole number from 1 to 1000000 is",
     ),
     wrong(
         "paper",
@@ -162,15 +162,15 @@ pub const WRONG: &[Wrong] = &[
     ),
     wrong(
         "room",
-        "shows = [{ problems = \"room\", replicates = 1 }]\n",
+        "shows = [{ problems = \"room\", instances = 1 }]\n",
         "",
         "mini/room.toml:24:6: figure `fig1` draws what is kept of trials on `room`, and none is kept; accepted is shows = [",
     ),
     wrong(
         "draws",
-        "replicates = 24",
-        "replicates = 4000000000",
-        "mini/draws.toml:18:14: `replicates` is 4000000000; a whole number from 1 to 1000000 is accepted",
+        "instances = 24",
+        "instances = 4000000000",
+        "mini/draws.toml:18:14: `instances` is 4000000000; a whole number from 1 to 1000000 is accepted",
     ),
     wrong(
         "room",
@@ -238,7 +238,7 @@ pub const WRONG: &[Wrong] = &[
         "paper",
         "figures = 1",
         "figures = 2",
-        "the ledger has no row for Fig. 2; the paper has 2 of its kind",
+        "the inventory has no row for Fig. 2; the paper has 2 of its kind",
     ),
     wrong(
         "paper",
@@ -248,7 +248,7 @@ pub const WRONG: &[Wrong] = &[
     ),
     wrong(
         "room",
-        "kind = \"grid_search\"\ncaption = \"A search in a room.\"\nshows = [{ problems = \"room\", replicates = 1 }]\nsettings = { problems = [\"room\"], contenders = [\"A*\"] }",
+        "kind = \"grid_search\"\ncaption = \"A search in a room.\"\nshows = [{ problems = \"room\", instances = 1 }]\nsettings = { problems = [\"room\"], contenders = [\"A*\"] }",
         "kind = \"sweep_curves\"\ncaption = \"What is saved.\"\nsettings = { rows = [{ contender = \"A*\" }], saving = { problems = [\"room\"], metric = \"nodes\", \
          contender = \"A*\", against = \"A*\", over = \"obstacles\" } }",
         "mini/room.toml:27:21: `saving` takes no `rows` beside it",

@@ -1,4 +1,4 @@
-//! How the classes of a claim under the readings that count make one.
+//! How the classes of a claim under the interpretations that count make one.
 
 use super::super::class::{Polarity, Verdict, combined as weakest};
 use super::count::Group;
@@ -23,25 +23,26 @@ pub fn flips(groups: &[Group]) -> Vec<&Group> {
 pub fn confirmed(groups: &[Group], second: impl Fn(&Group) -> Option<Verdict>) -> Vec<Verdict> {
     let flips = flips(groups);
     let class = |group: &Group| {
-        let is_flip = flips.iter().any(|flip| flip.reading == group.reading);
+        let is_flip = flips.iter().any(|flip| flip.interpretation == group.interpretation);
         let is_confirmed = || second(group).is_some_and(|again| again.polarity() == group.class.polarity());
         if is_flip && !is_confirmed() { Verdict::Undecided } else { group.class }
     };
     groups.iter().map(class).collect()
 }
 
-/// The class across readings of these, one for each result that counts.
+/// The class across interpretations of these, one for each result that counts.
 ///
 /// One witness makes an existential claim. What speaks one way gives the weakest of it; what speaks both ways is undecided;
 /// what is open under more than a tenth is undecided.
 pub fn combined(classes: &[Verdict], is_existential: bool) -> Verdict {
     let of = |wanted| classes.iter().copied().filter(move |class| class.polarity() == wanted);
-    let (holds, open, fails) =
-        (of(Polarity::For).count(), of(Polarity::Open).count(), of(Polarity::Against).count());
+    let holds = of(Polarity::For).count();
+    let open = of(Polarity::Open).count();
+    let fails = of(Polarity::Against).count();
     let enough = |speak: usize| speak * 10 >= TENTHS * (speak + open);
     let weakest_of = |wanted| weakest(of(wanted), false);
     if is_existential && holds > 0 {
-        // One reading gives it: the strongest of those that do.
+        // One interpretation gives it: the strongest of those that do.
         return of(Polarity::For).min().unwrap_or(Verdict::Undecided);
     }
     if holds > 0 && fails > 0 {

@@ -1,4 +1,4 @@
-//! Which readings count for a claim: those that vote and are compatible with what the study was calibrated to; equal results
+//! Which interpretations count for a claim: those that vote and are compatible with what the study was calibrated to; equal results
 //! count once.
 
 use super::super::class::{Polarity, Verdict};
@@ -9,8 +9,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use study::paper::Paper;
 use study::{Choice, Study};
 
-/// The readings of a paper.
-pub struct Axes {
+/// The interpretations of a paper.
+pub struct VotingChoices {
     /// Each choice.
     pub choices: Vec<Choice>,
     /// The claims that some study was calibrated to.
@@ -19,43 +19,43 @@ pub struct Axes {
     pub now: Now,
 }
 
-/// Readings that give one result for a claim.
+/// Interpretations that give one result for a claim.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Group {
     /// The first of them, by its place.
-    pub reading: usize,
+    pub interpretation: usize,
     /// All of them that count.
-    pub readings: Vec<usize>,
+    pub interpretations: Vec<usize>,
     /// The class.
     pub class: Verdict,
 }
 
-/// The readings that count for a claim.
+/// The interpretations that count for a claim.
 #[derive(Debug, Default)]
 pub struct Counted {
     /// By what they give.
     pub groups: Vec<Group>,
-    /// How many readings looked at it.
+    /// How many interpretations looked at it.
     pub looked: usize,
     /// How many would count, but do not look at it.
     pub not_looked_at: usize,
     /// How many vote, but are not compatible or are fitted worse than others.
     pub incompatible: usize,
-    /// No voting reading is compatible, so that all of them are judged.
+    /// No voting interpretation is compatible, so that all of them are judged.
     pub none_compatible: bool,
     /// One witness would do.
     pub is_existential: bool,
-    /// Its studies have no readings, so that it is asked under the defaults alone though other readings change trials.
+    /// Its studies have no choices, so that it is asked under the defaults alone though other interpretations change trials.
     pub is_of_defaults: bool,
 }
 
 impl Counted {
-    /// Counts a result of the claim for those of its readings that are `judged`; `default` is the class in the default run.
+    /// Counts a result of the claim for those of its interpretations that are `judged`; `default` is the class in the default run.
     fn take(&mut self, result: &ExploredResult, judged: &[usize], default: Option<&Verdict>) {
         let own: Vec<usize> =
-            result.readings.iter().copied().filter(|place| judged.contains(place)).collect();
-        let Some(reading) = own.first().copied() else { return };
-        // The default run has more draws than an exploration.
+            result.interpretations.iter().copied().filter(|place| judged.contains(place)).collect();
+        let Some(interpretation) = own.first().copied() else { return };
+        // The default run has more instances than an exploration.
         let is_default = own.contains(&0);
         let class = default.copied().filter(|_| is_default).unwrap_or(result.class);
         let seen = match result.sight {
@@ -66,29 +66,29 @@ impl Counted {
         self.not_looked_at += own.len() - seen.len();
         self.looked += seen.len();
         if !seen.is_empty() {
-            self.groups.push(Group { reading, readings: seen, class });
+            self.groups.push(Group { interpretation, interpretations: seen, class });
         }
     }
 }
 
-impl Axes {
+impl VotingChoices {
     /// Those of `paper`.
-    pub fn of(paper: &Paper) -> Self {
+    pub fn new(paper: &Paper) -> Self {
         let calibration = paper.studies.iter().flat_map(|study| study.fitted_to.iter().cloned()).collect();
-        Self { choices: paper.choices.clone(), calibration, now: Now::of(paper) }
+        Self { choices: paper.choices.clone(), calibration, now: Now::new(paper) }
     }
 
-    /// The option that `reading`, by what differs from the defaults, takes on `axis`.
-    pub fn option<'r>(axis: &'r Choice, reading: &'r BTreeMap<String, String>) -> &'r str {
-        reading.get(&axis.id).unwrap_or(&axis.default)
+    /// The option that `interpretation`, by what differs from the defaults, takes on `choice`.
+    pub fn option<'r>(choice: &'r Choice, interpretation: &'r BTreeMap<String, String>) -> &'r str {
+        interpretation.get(&choice.id).unwrap_or(&choice.default)
     }
 
-    /// Whether every option of `reading` votes.
-    pub fn votes(&self, reading: &BTreeMap<String, String>) -> bool {
-        self.choices.iter().all(|axis| axis.votes(Self::option(axis, reading)))
+    /// Whether every option of `interpretation` votes.
+    pub fn votes(&self, interpretation: &BTreeMap<String, String>) -> bool {
+        self.choices.iter().all(|choice| choice.votes(Self::option(choice, interpretation)))
     }
 
-    /// The readings of `first` that count for the claim called `id`; `default` are the claims' classes in the default run.
+    /// The interpretations of `first` that count for the claim called `id`; `default` are the claims' classes in the default run.
     pub fn counted(
         &self,
         paper: &Paper,
@@ -97,8 +97,9 @@ impl Axes {
         default: &BTreeMap<String, Verdict>,
     ) -> Counted {
         let Some(claim) = first.claims.get(id) else { return Counted::default() };
-        let voting: Vec<usize> =
-            (0..first.readings.len()).filter(|place| self.votes(&first.readings[*place])).collect();
+        let voting: Vec<usize> = (0..first.interpretations.len())
+            .filter(|place| self.votes(&first.interpretations[*place]))
+            .collect();
         let calibration = self.calibrating(paper, first, id);
         let compatible = self.compatible(first, &voting, &calibration, default);
         let none_compatible = compatible.is_empty() && !voting.is_empty();
@@ -113,7 +114,7 @@ impl Axes {
         for result in &claim.results {
             counted.take(result, &judged, default.get(id));
         }
-        counted.groups.sort_by_key(|group| group.reading);
+        counted.groups.sort_by_key(|group| group.interpretation);
         counted
     }
 
@@ -131,10 +132,11 @@ impl Axes {
             && asked.all(|study| study.choices.iter().all(|choice| !choice.touches_trials))
     }
 
-    /// The readings of `first` that vote and are compatible with every calibration claim; all that vote if none is.
+    /// The interpretations of `first` that vote and are compatible with every calibration claim; all that vote if none is.
     pub fn fitting(&self, first: &Exploration, default: &BTreeMap<String, Verdict>) -> Vec<usize> {
-        let voting: Vec<usize> =
-            (0..first.readings.len()).filter(|place| self.votes(&first.readings[*place])).collect();
+        let voting: Vec<usize> = (0..first.interpretations.len())
+            .filter(|place| self.votes(&first.interpretations[*place]))
+            .collect();
         let all = self.calibration.iter().map(String::as_str);
         let others = all.filter(|id| first.is_current(&self.now, id)).collect();
         let calibration = Calibration { others, own: Vec::new() };
@@ -142,17 +144,18 @@ impl Axes {
         if compatible.is_empty() { voting } else { compatible }
     }
 
-    /// How each setting of the readings that are not fitted agrees with the calibration claims under each option of the one
-    /// that is; none if no reading is fitted.
+    /// How each setting of the choices that are not fitted agrees with the calibration claims under each option of the one
+    /// that is; none if no interpretation is fitted.
     pub fn fits(&self, first: &Exploration, default: &BTreeMap<String, Verdict>) -> Vec<SettingFit> {
-        let Some(fitted) = self.choices.iter().find(|axis| axis.fitted) else { return Vec::new() };
-        let voting = (0..first.readings.len()).filter(|place| self.votes(&first.readings[*place]));
+        let Some(fitted) = self.choices.iter().find(|choice| choice.fitted) else { return Vec::new() };
+        let voting =
+            (0..first.interpretations.len()).filter(|place| self.votes(&first.interpretations[*place]));
         let best: BTreeSet<usize> = self.fitting(first, default).into_iter().collect();
         let calibration: Vec<&str> = self.calibration.iter().map(String::as_str).collect();
         let mut all: Vec<SettingFit> = Vec::new();
         for place in voting {
-            let reading = &first.readings[place];
-            let others = reading.iter().filter(|(id, _)| **id != fitted.id);
+            let interpretation = &first.interpretations[place];
+            let others = interpretation.iter().filter(|(id, _)| **id != fitted.id);
             let said: Vec<String> = others.map(|(id, option)| format!("{id} = {option}")).collect();
             let setting = if said.is_empty() { "the defaults".to_owned() } else { said.join(", ") };
             let fit = match held(first, place, &calibration, default) {
@@ -164,7 +167,7 @@ impl Axes {
                 all.push(SettingFit { setting, ..SettingFit::default() });
                 all.len() - 1
             });
-            all[at].fits.insert(Self::option(fitted, reading).to_owned(), fit);
+            all[at].fits.insert(Self::option(fitted, interpretation).to_owned(), fit);
         }
         all
     }
@@ -180,8 +183,8 @@ impl Axes {
         Calibration { others, own }
     }
 
-    /// The voting readings under which no other calibration claim is contradicted and each has power; of those that differ in
-    /// fitted readings alone, the ones that fit best.
+    /// The voting interpretations under which no other calibration claim is contradicted and each has power; of those that differ in
+    /// fitted interpretations alone, the ones that fit best.
     fn compatible(
         &self,
         first: &Exploration,
@@ -202,25 +205,25 @@ impl Axes {
         fits.into_iter().filter(is_best).map(|(place, _)| place).collect()
     }
 
-    /// The options that a reading takes where nothing is fitted.
+    /// The options that an interpretation takes where nothing is fitted.
     fn unfitted<'r>(&'r self, first: &'r Exploration, place: usize) -> Vec<&'r str> {
-        let axes = self.choices.iter().filter(|axis| !axis.fitted);
-        axes.map(|axis| Self::option(axis, &first.readings[place])).collect()
+        let choices = self.choices.iter().filter(|choice| !choice.fitted);
+        choices.map(|choice| Self::option(choice, &first.interpretations[place])).collect()
     }
 }
 
 /// The calibration claims as they stand to one claim.
 ///
-/// A claim never filters itself: only `others` make a reading incompatible. But what is fitted is fitted to all of them at
+/// A claim never filters itself: only `others` make an interpretation incompatible. But what is fitted is fitted to all of them at
 /// once, so that the claim is judged where it fares best together with the others, and not where they alone do.
 struct Calibration<'c> {
-    /// Those whose being contradicted makes a reading incompatible.
+    /// Those whose being contradicted makes an interpretation incompatible.
     others: Vec<&'c str>,
     /// The claim itself, its parts and the sentence that it is a part of, as far as they are calibration claims.
     own: Vec<&'c str>,
 }
 
-/// How well a setting of fitted readings fits, the worst first.
+/// How well a setting of fitted interpretations fits, the worst first.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 struct Goodness {
     /// No calibration claim, the judged one among them, is contradicted, and each has power.
@@ -230,7 +233,7 @@ struct Goodness {
 }
 
 impl Calibration<'_> {
-    /// How the reading at `place` fits; none if one of the others is contradicted or has no power there.
+    /// How the interpretation at `place` fits; none if one of the others is contradicted or has no power there.
     fn goodness(
         &self,
         first: &Exploration,
@@ -243,7 +246,7 @@ impl Calibration<'_> {
     }
 }
 
-/// How many calibration claims hold under the reading at `place`; none if one is contradicted or has no power there.
+/// How many calibration claims hold under the interpretation at `place`; none if one is contradicted or has no power there.
 fn held(
     first: &Exploration,
     place: usize,
@@ -253,7 +256,7 @@ fn held(
     let mut holds = 0;
     for id in calibration {
         let Some(result) = first.result(id, place) else { continue };
-        // What its studies were not explored for says nothing of other readings.
+        // What its studies were not explored for says nothing of other interpretations.
         if result.sight <= Sight::Unexplored {
             continue;
         }

@@ -1,45 +1,56 @@
-//! What each reading does to a claim when it alone departs from its default.
+//! What each choice does to a claim when it alone departs from its default.
 
 use super::super::class::{Polarity, Verdict};
-use super::super::verdict::{Effect, EffectOf};
-use super::count::Axes;
+use super::super::verdict::{Effect, EffectOfOption};
+use super::count::VotingChoices;
 use super::glance::Sight;
 use super::stored::Exploration;
 use std::collections::BTreeMap;
 
-/// The effects of voting options, by axis: the greatest of each; axes that cannot touch the claim are left out.
-pub fn effects(axes: &Axes, first: &Exploration, id: &str, default: Verdict) -> BTreeMap<String, EffectOf> {
-    let mut all: BTreeMap<String, EffectOf> = BTreeMap::new();
-    for (axis, option, effect) in each(axes, first, id, default, true) {
-        let better = all.get(&axis).is_none_or(|known| effect.0 > known.effect);
+/// The effects of voting options, by choice: the greatest of each; choices that cannot touch the claim are left out.
+pub fn effects(
+    choices: &VotingChoices,
+    first: &Exploration,
+    id: &str,
+    default: Verdict,
+) -> BTreeMap<String, EffectOfOption> {
+    let mut all: BTreeMap<String, EffectOfOption> = BTreeMap::new();
+    for (choice, option, effect) in each(choices, first, id, default, true) {
+        let better = all.get(&choice).is_none_or(|known| effect.0 > known.effect);
         if effect.0 > Effect::None && better {
-            all.insert(axis, EffectOf { effect: effect.0, option, class: effect.1 });
+            all.insert(choice, EffectOfOption { effect: effect.0, option, class: effect.1 });
         }
     }
     all
 }
 
 /// What probes do, each in a few words; those that change no class are left out.
-pub fn probes(axes: &Axes, first: &Exploration, id: &str, default: Verdict) -> Vec<String> {
-    let all = each(axes, first, id, default, false).into_iter();
+pub fn probes(choices: &VotingChoices, first: &Exploration, id: &str, default: Verdict) -> Vec<String> {
+    let all = each(choices, first, id, default, false).into_iter();
     let moving = all.filter(|(_, _, effect)| effect.0 > Effect::Number);
-    moving.map(|(axis, option, effect)| format!("{axis} = {option}: {}", effect.1.name())).collect()
+    moving.map(|(choice, option, effect)| format!("{choice} = {option}: {}", effect.1.name())).collect()
 }
 
-/// An axis, an option of it, and what that does, with the class under it.
-pub(super) type Found = (String, String, (Effect, Verdict));
+/// A choice, an option of it, and what that does, with the class under it.
+pub(super) type OptionEffect = (String, String, (Effect, Verdict));
 
 /// Every option, voting or not, that departs alone from the defaults, with what it does.
-pub(super) fn each(axes: &Axes, first: &Exploration, id: &str, default: Verdict, voting: bool) -> Vec<Found> {
+pub(super) fn each(
+    choices: &VotingChoices,
+    first: &Exploration,
+    id: &str,
+    default: Verdict,
+    voting: bool,
+) -> Vec<OptionEffect> {
     let Some(base) = first.result(id, 0) else { return Vec::new() };
     let mut all = Vec::new();
-    for axis in &axes.choices {
-        for option in axis.options.keys().filter(|option| **option != axis.default) {
-            let alone = BTreeMap::from([(axis.id.clone(), option.clone())]);
+    for choice in &choices.choices {
+        for option in choice.options.keys().filter(|option| **option != choice.default) {
+            let alone = BTreeMap::from([(choice.id.clone(), option.clone())]);
             let Some(result) = first.place(&alone).and_then(|place| first.result(id, place)) else {
                 continue;
             };
-            if axis.votes(option) != voting || result.sight <= Sight::Unexplored {
+            if choice.votes(option) != voting || result.sight <= Sight::Unexplored {
                 continue;
             }
             let effect = match (default.polarity(), result.class.polarity()) {
@@ -49,7 +60,7 @@ pub(super) fn each(axes: &Axes, first: &Exploration, id: &str, default: Verdict,
                 (_, Polarity::Open) | (Polarity::Open, _) => Effect::Opens,
                 _ => Effect::Turns,
             };
-            all.push((axis.id.clone(), option.clone(), (effect, result.class)));
+            all.push((choice.id.clone(), option.clone(), (effect, result.class)));
         }
     }
     all

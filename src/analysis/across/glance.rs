@@ -1,6 +1,6 @@
-//! What is found about every claim under one reading, in the few numbers that are stored.
+//! What is found about every claim under one interpretation, in the few numbers that are stored.
 
-use super::super::claims::{self, Weighed};
+use super::super::claims::{self, CappedFinding};
 use super::super::class::{self, Caps, Polarity, Verdict};
 use super::super::evidence::Evidence;
 use base::hash::sha256;
@@ -10,21 +10,21 @@ use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use study::paper::Claim;
 
-/// Whether a class says something of a claim under a reading, the least first.
+/// Whether a class says something of a claim under an interpretation, the least first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Sight {
     /// The claim is not meant there.
     Unmeant,
-    /// Its trials did not run under the reading, or the clock was not read.
+    /// Its trials did not run under the interpretation, or the clock was not read.
     Unexplored,
-    /// There are too few draws, hardly any printed value could have been refused, or no problem could be posed.
+    /// There are too few instances, hardly any printed value could have been refused, or no problem could be posed.
     Powerless,
     /// It was looked at.
     Looked,
 }
 
-/// A claim under one reading.
+/// A claim under one interpretation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Glance {
     /// Its class there.
@@ -33,7 +33,7 @@ pub struct Glance {
     pub sight: Sight,
     /// One witness would do.
     pub existential: bool,
-    /// Our number with its interval, and of how many draws.
+    /// Our number with its interval, and of how many instances.
     pub ours: Option<(f64, Option<[f64; 2]>, usize)>,
     /// A hash of the results that it rests on.
     pub results: String,
@@ -41,14 +41,14 @@ pub struct Glance {
     pub studies: BTreeSet<String>,
 }
 
-/// Every claim under the evidence's reading, by id.
+/// Every claim under the evidence's interpretation, by id.
 ///
 /// # Errors
 /// Those of [`validate`](claims::validate).
 pub fn glances(evidence: &Evidence<'_>) -> Result<BTreeMap<String, Glance>, SettingsError> {
     let paper = evidence.paper;
     let alone = |claim: &Claim| {
-        let glance = alone(claim, &claims::weighed(evidence, claim, true)?);
+        let glance = alone(claim, &claims::capped_findings(evidence, claim, true)?);
         Ok((claim.id.clone(), meant(evidence, claim, glance)))
     };
     // Gathered in order before any error is passed on, so that it is the first claim's.
@@ -65,11 +65,12 @@ fn meant(evidence: &Evidence<'_>, claim: &Claim, glance: Glance) -> Glance {
     Glance { class, sight: Sight::Unmeant, ours: None, results: String::new(), ..glance }
 }
 
-fn alone(claim: &Claim, weighed: &[Weighed]) -> Glance {
-    let decides = |one: &&Weighed| one.finding.verdict.is_some();
+fn alone(claim: &Claim, weighed: &[CappedFinding]) -> Glance {
+    let decides = |one: &&CappedFinding| one.finding.verdict.is_some();
     let verdicts = weighed.iter().filter_map(|one| one.finding.verdict);
     let class = class::combined(verdicts, claim.untestable.is_some());
-    let deciding: Vec<&Weighed> = weighed.iter().filter(|one| one.finding.verdict == Some(class)).collect();
+    let deciding: Vec<&CappedFinding> =
+        weighed.iter().filter(|one| one.finding.verdict == Some(class)).collect();
     let sight = deciding.iter().map(|one| sight(one, class)).max().unwrap_or(Sight::Looked);
     let ours = deciding.iter().find_map(|one| one.finding.ours.as_ref());
     let existential = weighed.iter().any(|one| decides(&one))
@@ -84,17 +85,17 @@ fn alone(claim: &Claim, weighed: &[Weighed]) -> Glance {
     }
 }
 
-/// What the findings that decide rest on, and what they say: readings that only change what a name means move these.
-fn digest(weighed: &[Weighed]) -> String {
+/// What the findings that decide rest on, and what they say: interpretations that only change what a name means move these.
+fn digest(weighed: &[CappedFinding]) -> String {
     let decides = weighed.iter().filter(|one| one.finding.verdict.is_some());
-    let said = |one: &Weighed| {
+    let said = |one: &CappedFinding| {
         let ours = one.finding.ours.as_ref().map(|ours| (ours.value.to_bits(), ours.n));
         format!("{} {:?} {ours:?} {}\n", one.finding.criterion, one.finding.verdict, one.results)
     };
     sha256(decides.map(said).collect::<String>().as_bytes())[..12].to_owned()
 }
 
-fn sight(one: &Weighed, class: Verdict) -> Sight {
+fn sight(one: &CappedFinding, class: Verdict) -> Sight {
     let Caps { powerless, few, clock, .. } = one.caps;
     if !one.is_covered || clock.is_some() {
         Sight::Unexplored
@@ -113,7 +114,7 @@ fn with_parts(evidence: &Evidence<'_>, mut glances: BTreeMap<String, Glance>) ->
         let parts: Vec<&Glance> = ids.iter().map(|id| &alone[id]).collect();
         let of_parts = of(&parts.iter().map(|part| part.class).collect::<Vec<_>>());
         let own = &alone[&claim.id];
-        let found = claim.asked().next().map(|_| own.class).into_iter().chain([of_parts]);
+        let found = claim.tests().next().map(|_| own.class).into_iter().chain([of_parts]);
         let class = class::combined(found, claim.untestable.is_some());
         let alike = |part: &&&Glance| part.class.polarity() == class.polarity();
         let mut speaks: Vec<&&Glance> = parts.iter().filter(alike).collect();

@@ -1,15 +1,15 @@
-//! What stands beside a class across readings: under how many it holds, or what it hangs on.
+//! What stands beside a class across interpretations: under how many it holds, or what it hangs on.
 
 use super::super::class::{Polarity, Verdict};
-use super::count::{Axes, Group};
+use super::count::{Group, VotingChoices};
 use super::glance::Sight;
 use super::stored::{Exploration, ExploredResult};
 use std::collections::BTreeMap;
 use study::Choice;
 
-/// In a few words what the readings make of the claim called `id`.
-pub fn said(
-    axes: &Axes,
+/// In a few words what the interpretations make of the claim called `id`.
+pub fn summary(
+    choices: &VotingChoices,
     first: &Exploration,
     id: &str,
     groups: &[Group],
@@ -18,19 +18,22 @@ pub fn said(
     is_existential: bool,
 ) -> String {
     let count = |wanted| votes.iter().filter(|vote| vote.polarity() == wanted).count();
-    let (holds, fails, all) = (count(Polarity::For), count(Polarity::Against), votes.len());
+    let holds = count(Polarity::For);
+    let fails = count(Polarity::Against);
+    let all = votes.len();
     if all == 1 {
-        return "no reading moves it".to_owned();
+        return "no choice moves it".to_owned();
     }
     if is_existential && holds > 0 {
         let met = groups.iter().zip(votes).find(|(_, vote)| vote.polarity() == Polarity::For);
         // The defaults need no name.
-        let departs = met.filter(|(group, _)| !first.readings[group.reading].is_empty());
-        let named = departs
-            .map_or_else(String::new, |(group, _)| format!(", {} among them", name(first, group.reading)));
+        let departs = met.filter(|(group, _)| !first.interpretations[group.interpretation].is_empty());
+        let named = departs.map_or_else(String::new, |(group, _)| {
+            format!(", {} among them", name(first, group.interpretation))
+        });
         return format!("met under {holds} of {all}{named}");
     }
-    let hangs = |parts: Parts| hangs(axes, first, id, groups, votes, parts);
+    let hangs = |parts: Parts| hangs(choices, first, id, groups, votes, parts);
     if holds > 0 && fails > 0 {
         return hangs(Parts::directions(votes));
     }
@@ -49,14 +52,14 @@ pub fn said(
     }
 }
 
-/// A reading by what differs from the defaults.
+/// An interpretation by what differs from the defaults.
 fn name(first: &Exploration, place: usize) -> String {
     let parts: Vec<String> =
-        first.readings[place].iter().map(|(id, option)| format!("{id} = {option}")).collect();
+        first.interpretations[place].iter().map(|(id, option)| format!("{id} = {option}")).collect();
     if parts.is_empty() { "the default".to_owned() } else { parts.join(", ") }
 }
 
-/// How often what is asked, and the contrary, comes out under an option of an axis.
+/// How often what is asked, and the contrary, comes out under an option of a choice.
 type Split<'a> = BTreeMap<&'a str, [usize; 2]>;
 
 /// What parts the classes of a claim: whether it holds or fails or, where it never fails, whether it is as good as it gets.
@@ -95,7 +98,7 @@ impl Parts {
 
 /// What it hangs on which of two sides the results are on.
 fn hangs(
-    axes: &Axes,
+    choices: &VotingChoices,
     first: &Exploration,
     id: &str,
     groups: &[Group],
@@ -103,28 +106,29 @@ fn hangs(
     parts: Parts,
 ) -> String {
     let class = parts.name.name();
-    let moving = axes.choices.iter().filter(|axis| moves(axis, first, id));
-    let splits = moving.map(|axis| (axis, split(axis, first, groups, votes, parts)));
+    let moving = choices.choices.iter().filter(|choice| moves(choice, first, id));
+    let splits = moving.map(|choice| (choice, split(choice, first, groups, votes, parts)));
     let splits: Vec<(&Choice, Split<'_>)> = splits.collect();
     let right = |split: &Split<'_>| split.values().map(|[one, other]| one.max(other)).sum::<usize>();
     let count = |side| votes.iter().filter(|vote| parts.side(**vote) == Some(side)).count();
-    let (asked, others) = (count(true), count(false));
+    let asked = count(true);
+    let others = count(false);
     let all = votes.len();
-    let deciding = splits.iter().find(|(axis, split)| {
-        is_clean(axis, first, groups, votes, parts) && decides(axis, split, first, id, parts)
+    let deciding = splits.iter().find(|(choice, split)| {
+        is_clean(choice, first, groups, votes, parts) && decides(choice, split, first, id, parts)
     });
-    if let Some((axis, split)) = deciding {
+    if let Some((choice, split)) = deciding {
         let options: Vec<&str> =
             split.iter().filter(|(_, [asked, _])| *asked > 0).map(|(option, _)| *option).collect();
-        return format!("hangs on {}: {class} if {} ({asked} of {all})", axis.id, options.join(" or "));
+        return format!("hangs on {}: {class} if {} ({asked} of {all})", choice.id, options.join(" or "));
     }
     // Many options part few results by chance, so that each costs one; of equals the first.
     let worth = |split: &Split<'_>| right(split) as i64 - split.len() as i64;
     let parting = splits.iter().rev().filter(|(_, split)| right(split) > asked.max(others));
-    let Some((axis, split)) = parting.max_by_key(|(_, split)| worth(split)) else {
-        return format!("hangs on several readings: {class} under {asked} of {all}");
+    let Some((choice, split)) = parting.max_by_key(|(_, split)| worth(split)) else {
+        return format!("hangs on several interpretations: {class} under {asked} of {all}");
     };
-    format!("hangs on {} and others: {class} under {asked} of {all} ({})", axis.id, shares(split))
+    format!("hangs on {} and others: {class} under {asked} of {all} ({})", choice.id, shares(split))
 }
 
 /// Under how many of its results each option is asked for; many that have all of them are counted, not listed.
@@ -143,48 +147,51 @@ fn shares(split: &Split<'_>) -> String {
     listed(&looked)
 }
 
-/// Whether no option of `axis` has readings on both sides; a result stands under all of its readings, not under the first alone.
-fn is_clean(axis: &Choice, first: &Exploration, groups: &[Group], votes: &[Verdict], parts: Parts) -> bool {
+/// Whether no option of `choice` has interpretations on both sides; a result stands under all of its interpretations, not under the first alone.
+fn is_clean(choice: &Choice, first: &Exploration, groups: &[Group], votes: &[Verdict], parts: Parts) -> bool {
     let mut sides: BTreeMap<&str, bool> = BTreeMap::new();
     let spoken = groups.iter().zip(votes).filter_map(|(group, vote)| Some((group, parts.side(*vote)?)));
     spoken.into_iter().all(|(group, side)| {
-        let options = group.readings.iter().map(|place| Axes::option(axis, &first.readings[*place]));
+        let options = group
+            .interpretations
+            .iter()
+            .map(|place| VotingChoices::option(choice, &first.interpretations[*place]));
         options.into_iter().all(|option| *sides.entry(option).or_insert(side) == side)
     })
 }
 
-/// What was found under `option` of `axis` where all else is at its default.
-fn alone<'f>(axis: &Choice, option: &str, first: &'f Exploration, id: &str) -> Option<&'f ExploredResult> {
-    let place = first.place(&BTreeMap::from([(axis.id.clone(), option.to_owned())]))?;
+/// What was found under `option` of `choice` where all else is at its default.
+fn alone<'f>(choice: &Choice, option: &str, first: &'f Exploration, id: &str) -> Option<&'f ExploredResult> {
+    let place = first.place(&BTreeMap::from([(choice.id.clone(), option.to_owned())]))?;
     first.result(id, place)
 }
 
-/// Whether some voting option of `axis` by itself gives other results than the defaults, or was not looked at: nothing hangs on
-/// an axis that moves nothing.
-fn moves(axis: &Choice, first: &Exploration, id: &str) -> bool {
+/// Whether some voting option of `choice` by itself gives other results than the defaults, or was not looked at: nothing hangs on
+/// a choice that moves nothing.
+fn moves(choice: &Choice, first: &Exploration, id: &str) -> bool {
     let Some(base) = first.result(id, 0) else { return true };
-    let voting = axis.options.keys().filter(|option| **option != axis.default && axis.votes(option));
-    let found: Vec<_> = voting.map(|option| alone(axis, option, first, id)).collect();
+    let voting = choice.options.keys().filter(|option| **option != choice.default && choice.votes(option));
+    let found: Vec<_> = voting.map(|option| alone(choice, option, first, id)).collect();
     let is_other = |found: &ExploredResult| {
         found.sight == Sight::Unexplored || found.results != base.results || found.class != base.class
     };
     found.is_empty() || found.iter().any(|found| found.is_none_or(is_other))
 }
 
-/// Whether each option of `axis` brings by itself, all else at its default, the side that its results are on, as far as that was
-/// looked at: in a sample of combinations an axis may part by chance what others decide.
-fn decides(axis: &Choice, split: &Split<'_>, first: &Exploration, id: &str, parts: Parts) -> bool {
+/// Whether each option of `choice` brings by itself, all else at its default, the side that its results are on, as far as that was
+/// looked at: in a sample of combinations a choice may part by chance what others decide.
+fn decides(choice: &Choice, split: &Split<'_>, first: &Exploration, id: &str, parts: Parts) -> bool {
     let counted =
-        split.iter().filter(|(option, counts)| **option != axis.default && counts.iter().any(|n| *n > 0));
+        split.iter().filter(|(option, counts)| **option != choice.default && counts.iter().any(|n| *n > 0));
     counted.into_iter().all(|(option, [asked, _])| {
-        let found = alone(axis, option, first, id);
+        let found = alone(choice, option, first, id);
         found.is_none_or(|found| (parts.side(found.class) == Some(true)) == (*asked > 0))
     })
 }
 
-/// By option of `axis`, how many results are on either side; a result under several options belongs to the first.
+/// By option of `choice`, how many results are on either side; a result under several options belongs to the first.
 fn split<'a>(
-    axis: &'a Choice,
+    choice: &'a Choice,
     first: &'a Exploration,
     groups: &[Group],
     votes: &[Verdict],
@@ -192,7 +199,9 @@ fn split<'a>(
 ) -> Split<'a> {
     let mut split = Split::new();
     for (group, vote) in groups.iter().zip(votes) {
-        let counts = split.entry(Axes::option(axis, &first.readings[group.reading])).or_default();
+        let counts = split
+            .entry(VotingChoices::option(choice, &first.interpretations[group.interpretation]))
+            .or_default();
         match parts.side(*vote) {
             Some(true) => counts[0] += 1,
             Some(false) => counts[1] += 1,

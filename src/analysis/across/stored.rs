@@ -1,4 +1,4 @@
-//! What exploring a paper's readings found: a row for every claim and result, under the readings that give it.
+//! What exploring a paper's choices found: a row for every claim and result, under the interpretations that give it.
 
 use super::super::claims::claim_hash;
 use super::super::class::Verdict;
@@ -19,7 +19,7 @@ use study::paper::Paper;
 use study::store::write_whole;
 use study::{Interpretation, Study, StudyError};
 
-/// Readings of a paper under which its claims were judged.
+/// Interpretations of a paper under which its claims were judged.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Exploration {
@@ -29,14 +29,14 @@ pub struct Exploration {
     pub command: String,
     /// How many trials it took.
     pub trials: u64,
-    /// The options that differ from the defaults of each reading, the default reading first.
-    pub readings: Vec<BTreeMap<String, String>>,
+    /// The options that differ from the defaults of each choice, the default interpretation first.
+    pub interpretations: Vec<BTreeMap<String, String>>,
     /// What the studies were when it was made, by name.
     pub studies: BTreeMap<String, String>,
     /// The claims, by id.
     #[serde(default)]
     pub claims: BTreeMap<String, ExploredClaim>,
-    /// Which claims hold jointly under some reading.
+    /// Which claims hold jointly under some interpretation.
     #[serde(default)]
     pub together: Vec<Together>,
 }
@@ -56,12 +56,12 @@ pub struct ExploredClaim {
     pub results: Vec<ExploredResult>,
 }
 
-/// What was found about a claim under some readings.
+/// What was found about a claim under some interpretations.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExploredResult {
-    /// The readings, by their places.
-    pub readings: Vec<usize>,
+    /// The interpretations, by their places.
+    pub interpretations: Vec<usize>,
     /// The class.
     pub class: Verdict,
     /// Whether that says something.
@@ -72,7 +72,7 @@ pub struct ExploredResult {
     /// Its interval.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interval: Option<[f64; 2]>,
-    /// Of how many draws.
+    /// Of how many instances.
     #[serde(default)]
     pub n: usize,
     /// A hash of the trials' results.
@@ -87,26 +87,30 @@ fn shown(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-/// What a reading is, by the options that differ from the defaults.
+/// What an interpretation is, by the options that differ from the defaults.
 pub fn differing(paper: &Paper, point: &Interpretation) -> BTreeMap<String, String> {
-    let readings = &paper.choices;
+    let interpretations = &paper.choices;
     let is_default = |id: &String, option: &String| {
-        readings.iter().any(|reading| reading.id == *id && reading.default == *option)
+        interpretations
+            .iter()
+            .any(|interpretation| interpretation.id == *id && interpretation.default == *option)
     };
     let other = point.options().iter().filter(|(id, option)| !is_default(id, option));
     other.map(|(id, option)| (id.clone(), option.clone())).collect()
 }
 
 impl Exploration {
-    /// That of `glances` under `points`; `more` are those of points, by their places, that ran once more with more draws.
-    pub fn of(
+    /// That of `glances` under `points`; `more` are those of points, by their places, that ran once more with more instances.
+    pub fn new(
         paper: &Paper,
         points: &[Interpretation],
         glances: &[BTreeMap<String, Glance>],
         more: &BTreeMap<usize, BTreeMap<String, Glance>>,
     ) -> Self {
         let of_claim = |id: &String| {
-            let (mut seen, mut studies, mut existential) = (Vec::new(), BTreeSet::new(), false);
+            let mut seen = Vec::new();
+            let mut studies = BTreeSet::new();
+            let mut existential = false;
             for (place, glances) in glances.iter().enumerate() {
                 let Some(first) = glances.get(id) else { continue };
                 existential |= first.existential;
@@ -120,7 +124,7 @@ impl Exploration {
         let ids: BTreeSet<&String> = glances.iter().flat_map(BTreeMap::keys).collect();
         Self {
             paper: paper.id.clone(),
-            readings: points.iter().map(|point| differing(paper, point)).collect(),
+            interpretations: points.iter().map(|point| differing(paper, point)).collect(),
             studies: paper.studies.iter().map(|study| (study.name.clone(), stamp(study))).collect(),
             claims: ids.into_iter().map(of_claim).collect(),
             ..Self::default()
@@ -146,8 +150,8 @@ impl Exploration {
             return Ok(None);
         }
         let again = "explore or confirm the paper again";
-        let (file, mut text) =
-            (File::open(path).map_err(StudyError::io(path, "opening the file"))?, String::new());
+        let file = File::open(path).map_err(StudyError::io(path, "opening the file"))?;
+        let mut text = String::new();
         let touched = |reason: &str| StudyError::Touched(format!("{}: {reason}; {again}", path.display()));
         let unpacked = GzDecoder::new(file).read_to_string(&mut text);
         unpacked.map_err(|error| touched(&format!("is no text packed by gzip ({error})")))?;
@@ -157,10 +161,11 @@ impl Exploration {
         }
         let read = Document::new(path, text).read_stored();
         let found: Self = read.map_err(|error| StudyError::touched(error, again))?;
-        let beyond =
-            |result: &ExploredResult| result.readings.iter().any(|place| *place >= found.readings.len());
+        let beyond = |result: &ExploredResult| {
+            result.interpretations.iter().any(|place| *place >= found.interpretations.len())
+        };
         if found.claims.values().flat_map(|claim| &claim.results).any(beyond) {
-            return Err(touched("a result names a reading that is not listed"));
+            return Err(touched("a result names an interpretation that is not listed"));
         }
         Ok(Some(found))
     }
@@ -178,14 +183,14 @@ impl Exploration {
         write_whole(path, &packed.map_err(StudyError::io(path, "packing the text"))?)
     }
 
-    /// The place of the reading with these options, if it was explored.
+    /// The place of the interpretation with these options, if it was explored.
     pub fn place(&self, options: &BTreeMap<String, String>) -> Option<usize> {
-        self.readings.iter().position(|reading| reading == options)
+        self.interpretations.iter().position(|interpretation| interpretation == options)
     }
 
-    /// What was found about the claim called `id` under the reading at `place`.
+    /// What was found about the claim called `id` under the interpretation at `place`.
     pub fn result(&self, id: &str, place: usize) -> Option<&ExploredResult> {
-        self.claims.get(id)?.results.iter().find(|result| result.readings.contains(&place))
+        self.claims.get(id)?.results.iter().find(|result| result.interpretations.contains(&place))
     }
 
     /// Whether what is stored of the claim called `id` is of the claim and the studies as they are `now`.
@@ -220,7 +225,7 @@ pub struct Now {
 
 impl Now {
     /// That of `paper`.
-    pub fn of(paper: &Paper) -> Self {
+    pub fn new(paper: &Paper) -> Self {
         let stands = |study: &Study| {
             let other = study.explore.as_ref()?.stands_for.clone()?;
             Some((study.name.clone(), other))
@@ -235,9 +240,9 @@ impl Now {
 }
 
 impl ExploredResult {
-    fn of(glance: &Glance) -> Self {
+    fn new(glance: &Glance) -> Self {
         let mut result = Self {
-            readings: Vec::new(),
+            interpretations: Vec::new(),
             class: glance.class,
             sight: glance.sight,
             value: None,
@@ -259,8 +264,8 @@ impl ExploredResult {
     }
 }
 
-/// What was found, equal results once, of a claim at a glance under the reading at each place, and with more draws where these ran.
-/// Readings that few draws do not tell apart and more draws do are two results; where more draws did not run, a reading stays with
+/// What was found, equal results once, of a claim at a glance under the interpretation at each place, and with more instances where these ran.
+/// Interpretations that few instances do not tell apart and more instances do are two results; where more instances did not run, an interpretation stays with
 /// the first that was equal.
 pub(super) fn results(seen: &[(usize, &Glance, Option<&Glance>)]) -> Vec<ExploredResult> {
     let mut found: Vec<(&str, Option<&Glance>, ExploredResult)> = Vec::new();
@@ -273,11 +278,11 @@ pub(super) fn results(seen: &[(usize, &Glance, Option<&Glance>)]) -> Vec<Explore
         let at = found.iter().position(is_it);
         let is_parted = at.is_none() && found.iter().any(|(few, ..)| *few == first.results);
         let at = at.unwrap_or_else(|| {
-            found.push((&first.results, None, ExploredResult::of(first)));
+            found.push((&first.results, None, ExploredResult::new(first)));
             found.len() - 1
         });
         let (_, known, result) = &mut found[at];
-        result.readings.push(*place);
+        result.interpretations.push(*place);
         let Some(more) = more else { continue };
         *known = Some(more);
         result.set(more);

@@ -3,9 +3,9 @@ use super::super::class::Verdict::{
     self, Attainable, Impossible, NotReproduced, Reproduced, Undecided, Untestable,
 };
 use super::combine::{combined, confirmed, flips};
-use super::count::{Axes, Group};
+use super::count::{Group, VotingChoices};
 use super::glance::{Glance, Sight};
-use super::hangs::said;
+use super::hangs::summary;
 use super::stored::{Exploration, ExploredClaim, ExploredResult, Now, results};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -13,8 +13,11 @@ use study::Choice;
 use study::spec::OptionSpec;
 
 fn groups(classes: &[Verdict]) -> Vec<Group> {
-    let group =
-        |(reading, class): (usize, &Verdict)| Group { reading, readings: vec![reading], class: *class };
+    let group = |(interpretation, class): (usize, &Verdict)| Group {
+        interpretation,
+        interpretations: vec![interpretation],
+        class: *class,
+    };
     classes.iter().enumerate().map(group).collect()
 }
 
@@ -76,14 +79,14 @@ fn one_witness_makes_an_existential_claim_and_none_leaves_it_open() {
 #[test]
 fn noise_among_a_hundred_readings_does_not_flip_a_class() {
     let found = groups(&many(&[(60, Reproduced), (3, NotReproduced), (37, Reproduced)]));
-    assert_eq!(flips(&found).iter().map(|flip| flip.reading).collect::<Vec<_>>(), [60, 61, 62]);
+    assert_eq!(flips(&found).iter().map(|flip| flip.interpretation).collect::<Vec<_>>(), [60, 61, 62]);
     let by_second = |second: Option<Verdict>| combined(&confirmed(&found, |_| second), false);
     assert_eq!(by_second(Some(Reproduced)), Reproduced);
     assert_eq!(by_second(Some(Undecided)), Reproduced);
     assert_eq!(by_second(None), Reproduced);
     // What turns twice is no noise.
     assert_eq!(by_second(Some(NotReproduced)), Undecided);
-    // Nor is noise what many readings show: unconfirmed they leave it open.
+    // Nor is noise what many interpretations show: unconfirmed they leave it open.
     let found = groups(&many(&[(30, Reproduced), (20, NotReproduced)]));
     assert_eq!(combined(&confirmed(&found, |_| None), false), Undecided);
 }
@@ -91,15 +94,15 @@ fn noise_among_a_hundred_readings_does_not_flip_a_class() {
 #[test]
 fn what_stands_alone_against_most_must_be_confirmed_whichever_way_it_speaks() {
     let found = groups(&many(&[(1, Reproduced), (19, NotReproduced)]));
-    assert_eq!(flips(&found).iter().map(|flip| flip.reading).collect::<Vec<_>>(), [0]);
+    assert_eq!(flips(&found).iter().map(|flip| flip.interpretation).collect::<Vec<_>>(), [0]);
     assert_eq!(combined(&confirmed(&found, |_| None), false), NotReproduced);
     assert_eq!(combined(&confirmed(&found, |_| Some(Reproduced)), false), Undecided);
     assert!(flips(&groups(&many(&[(9, NotReproduced), (3, Undecided)]))).is_empty());
 }
 
 /// Choices with these defaults.
-fn axes(defaults: &[(&str, &str)]) -> Axes {
-    let axis = |(id, default): &(&str, &str)| Choice {
+fn choices(defaults: &[(&str, &str)]) -> VotingChoices {
+    let choice = |(id, default): &(&str, &str)| Choice {
         id: (*id).to_owned(),
         why: String::new(),
         default: (*default).to_owned(),
@@ -109,14 +112,14 @@ fn axes(defaults: &[(&str, &str)]) -> Axes {
         touches_trials: true,
         place: None,
     };
-    let choices = defaults.iter().map(axis).collect();
-    Axes { choices, calibration: BTreeSet::new(), now: Now::default() }
+    let choices = defaults.iter().map(choice).collect();
+    VotingChoices { choices, calibration: BTreeSet::new(), now: Now::default() }
 }
 
-/// A class under the reading at `place`.
+/// A class under the interpretation at `place`.
 fn result((place, class): (usize, &Verdict)) -> ExploredResult {
     ExploredResult {
-        readings: vec![place],
+        interpretations: vec![place],
         class: *class,
         sight: Sight::Looked,
         value: None,
@@ -129,22 +132,29 @@ fn result((place, class): (usize, &Verdict)) -> ExploredResult {
 /// What a claim hangs on that holds with two options together and fails under the default and one of them alone; `alone` is
 /// its class under the other alone, which does not count.
 fn hangs_on(alone: Verdict) -> String {
-    let axes = axes(&[("corners", "allow"), ("ties", "fifo")]);
-    let reading = |options: &[(&str, &str)]| {
+    let choices = choices(&[("corners", "allow"), ("ties", "fifo")]);
+    let interpretation = |options: &[(&str, &str)]| {
         options.iter().map(|(id, option)| ((*id).to_owned(), (*option).to_owned())).collect()
     };
-    let (forbid, lifo) = (("corners", "forbid"), ("ties", "lifo"));
+    let forbid = ("corners", "forbid");
+    let lifo = ("ties", "lifo");
     let classes = [NotReproduced, alone, NotReproduced, Reproduced];
     let results = classes.iter().enumerate().map(result).collect();
     let claim = ExploredClaim { results, ..ExploredClaim::default() };
     let first = Exploration {
-        readings: vec![reading(&[]), reading(&[forbid]), reading(&[lifo]), reading(&[forbid, lifo])],
+        interpretations: vec![
+            interpretation(&[]),
+            interpretation(&[forbid]),
+            interpretation(&[lifo]),
+            interpretation(&[forbid, lifo]),
+        ],
         claims: BTreeMap::from([("fewer".to_owned(), claim)]),
         ..Exploration::default()
     };
-    let counted: Vec<Group> = groups(&classes).into_iter().filter(|group| group.reading != 1).collect();
+    let counted: Vec<Group> =
+        groups(&classes).into_iter().filter(|group| group.interpretation != 1).collect();
     let votes: Vec<Verdict> = counted.iter().map(|group| group.class).collect();
-    said(&axes, &first, "fewer", &counted, &votes, Undecided, false)
+    summary(&choices, &first, "fewer", &counted, &votes, Undecided, false)
 }
 
 #[test]
@@ -163,28 +173,33 @@ fn a_claim_does_not_hang_on_an_axis_whose_options_bring_the_same_alone() {
     let of = |options: &[(&str, &str)]| -> BTreeMap<String, String> {
         options.iter().map(|(id, option)| ((*id).to_owned(), (*option).to_owned())).collect()
     };
-    let (rim, never) = (("sets", "rim"), ("update", "never"));
+    let rim = ("sets", "rim");
+    let never = ("update", "never");
     // The sets part what counts as well as the update does; by themselves they change nothing.
-    let readings = vec![of(&[]), of(&[rim]), of(&[never]), of(&[rim, never])];
+    let interpretations = vec![of(&[]), of(&[rim]), of(&[never]), of(&[rim, never])];
     let said_of = |sets_alone: &str| {
         let mut results: Vec<ExploredResult> =
             [Reproduced, Reproduced, NotReproduced, NotReproduced].iter().enumerate().map(result).collect();
         results[1].results = sets_alone.to_owned();
         let claim = ExploredClaim { results, ..ExploredClaim::default() };
         let first = Exploration {
-            readings: readings.clone(),
+            interpretations: interpretations.clone(),
             claims: BTreeMap::from([("fewer".to_owned(), claim)]),
             ..Exploration::default()
         };
-        let mut axes = axes(&[("sets", "all"), ("update", "lowered")]);
-        for (axis, other) in axes.choices.iter_mut().zip(["rim", "never"]) {
+        let mut choices = choices(&[("sets", "all"), ("update", "lowered")]);
+        for (choice, other) in choices.choices.iter_mut().zip(["rim", "never"]) {
             let cited = OptionSpec { practice: Some("a handbook".to_owned()), ..OptionSpec::default() };
-            let names = [axis.default.clone(), other.to_owned()];
-            axis.options = names.map(|name| (name, Arc::new(cited.clone()))).into();
+            let names = [choice.default.clone(), other.to_owned()];
+            choice.options = names.map(|name| (name, Arc::new(cited.clone()))).into();
         }
         let counted = [(0, Reproduced), (3, NotReproduced)];
-        let counted = counted.map(|(reading, class)| Group { reading, readings: vec![reading], class });
-        said(&axes, &first, "fewer", &counted, &[Reproduced, NotReproduced], Undecided, false)
+        let counted = counted.map(|(interpretation, class)| Group {
+            interpretation,
+            interpretations: vec![interpretation],
+            class,
+        });
+        summary(&choices, &first, "fewer", &counted, &[Reproduced, NotReproduced], Undecided, false)
     };
     // They move no result, or move it and not its class.
     for sets_alone in ["0", "1"] {
@@ -201,19 +216,19 @@ fn a_claim_does_not_hang_on_one_axis_where_another_brings_the_same_result() {
         ..ExploredClaim::default()
     };
     let first = Exploration {
-        readings: vec![BTreeMap::new(), of("shape", "triangle"), of("hops", "swept")],
+        interpretations: vec![BTreeMap::new(), of("shape", "triangle"), of("hops", "swept")],
         claims: BTreeMap::from([("free".to_owned(), claim)]),
         ..Exploration::default()
     };
-    let axes = axes(&[("shape", "circle"), ("hops", "ends")]);
-    let said_of = |readings: Vec<usize>| {
-        let counted = [(vec![0], NotReproduced), (readings, Reproduced)].map(|(readings, class)| Group {
-            reading: readings[0],
-            readings,
-            class,
-        });
-        said(&axes, &first, "free", &counted, &[NotReproduced, Reproduced], Undecided, false)
-    };
+    let choices = choices(&[("shape", "circle"), ("hops", "ends")]);
+    let said_of =
+        |interpretations: Vec<usize>| {
+            let counted =
+                [(vec![0], NotReproduced), (interpretations, Reproduced)].map(|(interpretations, class)| {
+                    Group { interpretation: interpretations[0], interpretations, class }
+                });
+            summary(&choices, &first, "free", &counted, &[NotReproduced, Reproduced], Undecided, false)
+        };
     assert_eq!(said_of(vec![1]), "hangs on shape: reproduced if triangle (1 of 2)");
     let of_both = said_of(vec![1, 2]);
     assert!(of_both.contains(" and others: reproduced under 1 of 2"), "{of_both}");
@@ -233,16 +248,16 @@ fn an_axis_of_many_options_does_not_win_by_parting_few_results_each() {
     let results = all.iter().enumerate().map(result).collect();
     let claim = ExploredClaim { results, ..ExploredClaim::default() };
     let first = Exploration {
-        readings: orders.into_iter().map(of).collect(),
+        interpretations: orders.into_iter().map(of).collect(),
         claims: BTreeMap::from([("fewer".to_owned(), claim)]),
         ..Exploration::default()
     };
-    let axes = axes(&[("order", "a"), ("side", "a")]);
-    let said = said(&axes, &first, "fewer", &groups(&classes), &classes, Undecided, false);
+    let choices = choices(&[("order", "a"), ("side", "a")]);
+    let said = summary(&choices, &first, "fewer", &groups(&classes), &classes, Undecided, false);
     assert_eq!(said, "hangs on side and others: reproduced under 4 of 6 (a 3 of 3, b 1 of 3)");
 }
 
-/// Of so many draws, whose trials these are.
+/// Of so many instances, whose trials these are.
 fn glance(class: Verdict, n: usize, results: &str) -> Glance {
     Glance {
         class,
@@ -255,9 +270,11 @@ fn glance(class: Verdict, n: usize, results: &str) -> Glance {
 }
 
 #[test]
-fn readings_that_only_more_draws_tell_apart_are_two_results() {
-    let (few, other) = (glance(NotReproduced, 30, "few"), glance(NotReproduced, 30, "other"));
-    let (shorter, equal) = (glance(Reproduced, 500, "shorter"), glance(NotReproduced, 500, "equal"));
+fn readings_that_only_more_instances_tell_apart_are_two_results() {
+    let few = glance(NotReproduced, 30, "few");
+    let other = glance(NotReproduced, 30, "other");
+    let shorter = glance(Reproduced, 500, "shorter");
+    let equal = glance(NotReproduced, 500, "equal");
     let seen = [
         (0, &few, Some(&shorter)),
         (1, &few, Some(&equal)),
@@ -266,8 +283,9 @@ fn readings_that_only_more_draws_tell_apart_are_two_results() {
         (4, &few, Some(&equal)),
         (5, &few, Some(&shorter)),
     ];
-    let found: Vec<_> = results(&seen).into_iter().map(|one| (one.readings, one.class, one.n)).collect();
-    // What more draws did not look at stays with the first that few draws do not tell from it.
+    let found: Vec<_> =
+        results(&seen).into_iter().map(|one| (one.interpretations, one.class, one.n)).collect();
+    // What more instances did not look at stays with the first that few instances do not tell from it.
     let expected =
         [(vec![0, 2, 5], Reproduced, 500), (vec![1, 4], NotReproduced, 500), (vec![3], NotReproduced, 30)];
     assert_eq!(found, expected);

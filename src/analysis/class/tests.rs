@@ -36,7 +36,8 @@ fn what_the_paper_leaves_out_yields_to_what_speaks_against_it_and_to_nothing_els
 fn a_sentence_of_two_parts_takes_the_least_or_the_greatest_of_them() {
     for pair in pairs() {
         let polarities = pair.map(Verdict::polarity);
-        let (all, any) = (all_of(&pair), any_of(&pair));
+        let all = all_of(&pair);
+        let any = any_of(&pair);
         assert_eq!(all.polarity(), polarities[0].min(polarities[1]), "all of {pair:?}");
         assert_eq!(any.polarity(), polarities[0].max(polarities[1]), "any of {pair:?}");
         for (whole, takes) in [(all, Verdict::max as fn(_, _) -> _), (any, Verdict::min)] {

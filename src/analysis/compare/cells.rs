@@ -1,4 +1,4 @@
-//! What trials come to, cell by cell: one contender on one problem group at one point of the sweeps under one reading.
+//! What trials come to, cell by cell: one contender on one problem group at one point of the sweeps under one interpretation.
 
 use super::change::Measured;
 use super::pair::Unit;
@@ -9,7 +9,7 @@ use serde::Serialize;
 use stats::bootstrap::Resampling;
 use stats::{pooled, summary};
 use std::collections::BTreeMap;
-use study::key::{ReadingKey, SweepKey};
+use study::key::{InterpretationKey, SweepKey};
 use study::name;
 use study::record::{Row, Status};
 
@@ -18,8 +18,8 @@ use study::record::{Row, Status};
 pub struct Cell {
     /// The study.
     pub study: String,
-    /// The reading: what is not as by default.
-    pub reading: String,
+    /// The interpretation: what is not as by default.
+    pub interpretation: String,
     /// The problem group.
     pub group: String,
     /// The contender.
@@ -35,7 +35,7 @@ pub struct Cell {
     /// Those that are solved.
     pub solved: usize,
     /// What was drawn independently among them.
-    pub draws: usize,
+    pub instances: usize,
     /// Solved trials of which it was measured.
     pub measured: usize,
     /// The mean of these.
@@ -46,15 +46,18 @@ pub struct Cell {
 
 /// What every contender's trials of a run come to, study by study.
 pub fn cells(run: &StoredRun) -> Vec<Cell> {
-    run.studies.iter().flat_map(|(study, stored)| of_study(study, &Seen::of(stored))).collect()
+    run.studies.iter().flat_map(|(study, stored)| of_study(study, &Seen::new(stored))).collect()
 }
 
-/// The cells of one study, in the order of readings, groups, contenders, sweep points and metrics.
+/// The cells of one study, in the order of interpretations, groups, contenders, sweep points and metrics.
 fn of_study(study: &str, seen: &Seen<'_>) -> Vec<Cell> {
-    let mut cells: BTreeMap<(&ReadingKey, &str, &str, &SweepKey), Vec<&Row>> = BTreeMap::new();
+    let mut cells: BTreeMap<(&InterpretationKey, &str, &str, &SweepKey), Vec<&Row>> = BTreeMap::new();
     for row in seen.rows.values().flatten().filter(|row| row.status != Status::InvalidProblem) {
         let on = &row.key.on;
-        cells.entry((&on.reading, &on.group, &row.key.contender, &row.key.sweep)).or_default().push(row);
+        cells
+            .entry((&on.interpretation, &on.group, &row.key.contender, &row.key.sweep))
+            .or_default()
+            .push(row);
     }
     let mut found = Vec::new();
     for rows in cells.values() {
@@ -69,7 +72,7 @@ fn cell(study: &str, seen: &Seen<'_>, rows: &[&Row], metric: &'static Metric) ->
     let solved = rows.iter().filter(|row| row.status == Status::Solved).count();
     let mut units: BTreeMap<Unit<'_>, (Vec<f64>, usize)> = BTreeMap::new();
     for row in rows {
-        let (values, failed) = units.entry(seen.draws.unit(row)).or_default();
+        let (values, failed) = units.entry(seen.instances.unit(row)).or_default();
         match row.status {
             Status::Solved => values.extend(read(row)),
             _ => *failed += 1,
@@ -77,14 +80,15 @@ fn cell(study: &str, seen: &Seen<'_>, rows: &[&Row], metric: &'static Metric) ->
     }
     let key = &rows.first()?.key;
     let names = [study, metric.name, &key.contender, &key.on.group, &name::sweep(&key.sweep)];
-    let plan = plan(&[&["export"], &names[..], &[&seen.names.reading(&key.on.reading)]].concat());
+    let plan =
+        plan(&[&["export"], &names[..], &[&seen.names.interpretation(&key.on.interpretation)]].concat());
     let values: Vec<Vec<f64>> =
         units.values().map(|(values, _)| values.clone()).filter(|v| !v.is_empty()).collect();
     let all = values.concat();
     let sums: Vec<[f64; 2]> = values.iter().map(|unit| [unit.iter().sum(), unit.len() as f64]).collect();
     (!all.is_empty()).then(|| Cell {
         study: study.to_owned(),
-        reading: seen.names.reading(&key.on.reading),
+        interpretation: seen.names.interpretation(&key.on.interpretation),
         group: key.on.group.to_string(),
         contender: key.contender.to_string(),
         sweep: name::sweep(&key.sweep),
@@ -92,9 +96,9 @@ fn cell(study: &str, seen: &Seen<'_>, rows: &[&Row], metric: &'static Metric) ->
         unit: metric.unit.to_owned(),
         trials: rows.len(),
         solved,
-        draws: units.len(),
+        instances: units.len(),
         measured: all.len(),
-        mean: Measured::of(summary::mean(&all), pooled::ratio_of_sums(&sums, plan)),
+        mean: Measured::new(summary::mean(&all), pooled::ratio_of_sums(&sums, plan)),
         median: (all.len() == solved).then(|| median(units.values(), plan)).flatten(),
     })
 }
@@ -104,5 +108,5 @@ fn median<'u>(units: impl Iterator<Item = &'u (Vec<f64>, usize)>, plan: Resampli
     let failing =
         |(values, failed): &(Vec<f64>, usize)| [values.clone(), vec![f64::INFINITY; *failed]].concat();
     let units: Vec<Vec<f64>> = units.map(failing).collect();
-    Measured::of(summary::median(&units.concat()), pooled::median(&units, plan))
+    Measured::new(summary::median(&units.concat()), pooled::median(&units, plan))
 }

@@ -3,7 +3,7 @@
 use super::pair::{Pair, Unit};
 use super::run::Times;
 use crate::analysis::metric::{Better, Metric};
-use crate::analysis::statistic::{FEWEST_DRAWS, LEVEL, plan};
+use crate::analysis::statistic::{FEWEST_INSTANCES, LEVEL, plan};
 use serde::Serialize;
 use stats::bootstrap::{Estimate, Resampling};
 use stats::interval::Interval;
@@ -37,7 +37,7 @@ pub struct Change {
     /// Pairs of which the first side alone has one, as the other did not solve the problem; and the second alone.
     pub one_sided: [usize; 2],
     /// What was drawn independently, of all pairs.
-    pub draws: usize,
+    pub instances: usize,
     /// The mean of each side, over pairs that both have a number of.
     pub means: Option<[f64; 2]>,
     /// What the mean changes by, in the unit.
@@ -63,7 +63,7 @@ pub struct Change {
 pub struct Measured {
     /// The number.
     pub value: f64,
-    /// Its interval; none of fewer than two draws.
+    /// Its interval; none of fewer than two instances.
     pub interval: Option<[f64; 2]>,
 }
 
@@ -77,7 +77,7 @@ pub enum Word {
     Better,
     /// The second side is worse.
     Worse,
-    /// The interval holds no change, or too few draws give none.
+    /// The interval holds no change, or too few instances give none.
     Open,
 }
 
@@ -119,7 +119,7 @@ impl<'r> Sample<'r> {
     }
 
     /// A metric.
-    pub fn of(
+    pub fn of_metric(
         study: &'r str,
         contender: &'r str,
         metric: &'static Metric,
@@ -157,7 +157,9 @@ impl<'r> Sample<'r> {
         unit: &'static str,
         better: Better,
     ) -> Self {
-        let (one_sided, by_unit, is_clock) = ([0, 0], BTreeMap::new(), false);
+        let one_sided = [0, 0];
+        let by_unit = BTreeMap::new();
+        let is_clock = false;
         Self { study, contender, metric, unit, better, is_clock, one_sided, by_unit }
     }
 
@@ -171,8 +173,8 @@ impl<'r> Sample<'r> {
         self.by_unit.values().map(Vec::len).sum()
     }
 
-    /// How many draws it has.
-    pub fn draws(&self) -> usize {
+    /// How many instances it has.
+    pub fn instances(&self) -> usize {
         self.by_unit.len()
     }
 
@@ -183,8 +185,8 @@ impl<'r> Sample<'r> {
         self.by_unit.values().map(of_unit).filter(|pairs| !pairs.is_empty()).collect()
     }
 
-    /// What the mean changes by, in the unit, and in per cent of the first side's. Draws that all agree leave no width, which
-    /// they do for a claim: a run that repeats another has not changed, whatever draws that neither has might do.
+    /// What the mean changes by, in the unit, and in per cent of the first side's. Instances that all agree leave no width, which
+    /// they do for a claim: a run that repeats another has not changed, whatever instances that neither has might do.
     pub fn mean_changes(&self, plan: Resampling) -> [Option<Estimate>; 2] {
         let units = self.finite();
         let sums = |of: fn(&(f64, f64)) -> [f64; 2]| -> Vec<[f64; 2]> {
@@ -204,8 +206,8 @@ impl<'r> Sample<'r> {
     /// All that is said of it.
     pub fn change(&self) -> Change {
         let plan = plan(&["compare", self.study, self.contender, self.metric]);
-        let (finite, all) =
-            (self.finite().concat(), self.by_unit.values().flatten().copied().collect::<Vec<_>>());
+        let finite = self.finite().concat();
+        let all = self.by_unit.values().flatten().copied().collect::<Vec<_>>();
         let mean = |of: fn(&(f64, f64)) -> f64| summary::mean(&finite.iter().map(of).collect::<Vec<_>>());
         let means = mean(|pair| pair.0).zip(mean(|pair| pair.1));
         let [change, percent] = self.mean_changes(plan);
@@ -219,12 +221,12 @@ impl<'r> Sample<'r> {
             better: self.better.name().to_owned(),
             pairs: finite.len(),
             one_sided: self.one_sided,
-            draws: self.draws(),
+            instances: self.instances(),
             means: means.map(|(first, second)| [first, second]),
-            mean_change: Measured::of(means.map(|(first, second)| second - first), change),
+            mean_change: Measured::new(means.map(|(first, second)| second - first), change),
             mean_change_percent: means
                 .filter(|(first, _)| *first > 0.0)
-                .and_then(|(first, second)| Measured::of(Some(100.0 * (second / first - 1.0)), percent)),
+                .and_then(|(first, second)| Measured::new(Some(100.0 * (second / first - 1.0)), percent)),
             median_change: self.median(&all, plan),
             improvement_percent: self.improvement(&all, wins, equal, plan),
             wins,
@@ -239,7 +241,7 @@ impl<'r> Sample<'r> {
         let of_unit = |pairs: &Vec<(f64, f64)>| pairs.iter().map(change).collect::<Vec<_>>();
         let found = pooled::median(&self.by_unit.values().map(of_unit).collect::<Vec<_>>(), plan);
         let median = summary::median(&all.iter().map(change).collect::<Vec<_>>());
-        Measured::of(median, found).map(Measured::unbounded)
+        Measured::new(median, found).map(Measured::unbounded)
     }
 
     fn improvement(
@@ -256,12 +258,12 @@ impl<'r> Sample<'r> {
         };
         let found = pooled::ratio_of_sums(&self.by_unit.values().map(hits).collect::<Vec<_>>(), plan);
         let share = 100.0 * (wins as f64 + 0.5 * ties as f64) / all.len() as f64;
-        Measured::of((!all.is_empty()).then_some(share), found)
+        Measured::new((!all.is_empty()).then_some(share), found)
     }
 
     fn word(&self, change: Option<&Estimate>, is_equal: bool) -> Word {
         let worse = self.worse();
-        match change.filter(|found| found.units >= FEWEST_DRAWS).map(|found| found.interval) {
+        match change.filter(|found| found.units >= FEWEST_INSTANCES).map(|found| found.interval) {
             _ if is_equal => Word::Equal,
             Some(interval) if interval.low * worse > 0.0 && interval.high * worse > 0.0 => Word::Worse,
             Some(interval) if interval.low * worse < 0.0 && interval.high * worse < 0.0 => Word::Better,
@@ -283,7 +285,7 @@ pub fn joint_plan(lines: usize, names: &[&str]) -> Resampling {
 
 impl Measured {
     /// A number with its interval, if it has one.
-    pub fn of(value: Option<f64>, found: Option<Estimate>) -> Option<Self> {
+    pub fn new(value: Option<f64>, found: Option<Estimate>) -> Option<Self> {
         let interval = found.map(|found| [found.interval.low, found.interval.high]);
         value.map(|value| Self { value, interval })
     }

@@ -36,8 +36,8 @@ pub struct Passed {
     pub level: f64,
     /// What it says.
     pub outcome: Outcome,
-    /// About how many more draws would tell, if it cannot and any number would.
-    pub more_draws: Option<usize>,
+    /// About how many more instances would tell, if it cannot and any number would.
+    pub more_instances: Option<usize>,
     /// Why it cannot tell, if it cannot.
     pub why: Option<String>,
 }
@@ -127,20 +127,20 @@ pub fn pass(gates: &[Gate], samples: &[Sample<'_>], of_two_runs: bool) -> Result
 fn one(gate: &Gate, sample: &Sample<'_>, lines: usize, of_two_runs: bool) -> Passed {
     let plan = joint_plan(lines, &["gate", &gate.text, sample.study, sample.contender]);
     let found = sample.mean_changes(plan)[usize::from(gate.is_percent)];
-    let (outcome, more_draws, why) = said(gate, sample, found.as_ref(), of_two_runs);
+    let (outcome, more_instances, why) = verdict(gate, sample, found.as_ref(), of_two_runs);
     Passed {
         gate: gate.text.clone(),
         study: sample.study.to_owned(),
         contender: sample.contender.to_owned(),
-        change: Measured::of(found.map(|found| found.value), found),
+        change: Measured::new(found.map(|found| found.value), found),
         level: plan.level,
         outcome,
-        more_draws,
+        more_instances,
         why,
     }
 }
 
-fn said(
+fn verdict(
     gate: &Gate,
     sample: &Sample<'_>,
     found: Option<&Estimate>,
@@ -148,12 +148,12 @@ fn said(
 ) -> (Outcome, Option<usize>, Option<String>) {
     let cannot = |more, why: String| (Outcome::CannotTell, more, Some(why));
     if sample.is_clock && of_two_runs {
-        let why = "each run has one session of the clock, and what a session does to all of its readings is in no interval";
+        let why = "each run has one session of the clock, and what a session does to all of its interpretations is in no interval";
         return cannot(None, why.to_owned());
     }
-    if let Some(fewest) = needs(sample.draws()) {
-        let why = format!("{} draws, of {fewest} that an interval needs", sample.draws());
-        return cannot(Some(fewest - sample.draws()), why);
+    if let Some(fewest) = needs(sample.instances()) {
+        let why = format!("{} instances, of {fewest} that an interval needs", sample.instances());
+        return cannot(Some(fewest - sample.instances()), why);
     }
     let Some(found) = found else { return cannot(None, "the first side's mean is not above 0".to_owned()) };
     let worse = sample.worse();

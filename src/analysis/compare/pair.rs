@@ -1,10 +1,10 @@
 //! Pairs of trials with one key, and what was drawn independently among them.
 //!
-//! The unit of replication is a draw: all that ran on objects drawn from one seed, under every reading, by every contender.
-//! Where a problem group has a single draw, as a map that a paper prints, each seed of a contender that draws is a unit.
+//! The unit of replication is an instance: all that ran on objects drawn from one seed, under every interpretation, by every contender.
+//! Where a problem group has a single instance, as a map that a paper prints, each seed of a contender that draws is a unit.
 
 use std::collections::{BTreeMap, BTreeSet};
-use study::key::DrawKey;
+use study::key::InstanceKey;
 use study::record::{Batch, Row, Status};
 
 /// Two trials with one key.
@@ -14,22 +14,22 @@ pub struct Pair<'r> {
     /// The trial of each side.
     pub rows: [&'r Row; 2],
     /// Whether both sides drew the problem from one seed.
-    pub is_same_draw: bool,
+    pub is_same_instance: bool,
 }
 
 /// What was drawn independently.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Unit<'r> {
-    /// The draw's seed, or, if that is not stored, its group and number.
-    draw: Result<u64, (&'r str, u32)>,
+    /// The instance's seed, or, if that is not stored, its group and number.
+    instance: Result<u64, (&'r str, u32)>,
     /// The contender's seed, where that is what was drawn.
     repeat: u32,
 }
 
-/// The draws of one study.
-pub struct Draws<'r> {
-    seeds: BTreeMap<&'r DrawKey, u64>,
-    /// Problem groups that have more than one draw.
+/// The instances of one study.
+pub struct Instances<'r> {
+    seeds: BTreeMap<&'r InstanceKey, u64>,
+    /// Problem groups that have more than one instance.
     numbered: BTreeSet<&'r str>,
 }
 
@@ -41,11 +41,12 @@ pub struct Paired<'r> {
     pub lone: [Vec<&'r Row>; 2],
 }
 
-impl<'r> Draws<'r> {
+impl<'r> Instances<'r> {
     /// Those of a study's records.
-    pub fn of(batch: &'r Batch) -> Self {
-        let seeds = batch.prepared.iter().map(|row| (&*row.key, row.seed)).collect();
-        let numbered = batch.rows.iter().filter(|row| row.draw() > 0).map(|row| &*row.key.on.group).collect();
+    pub fn new(batch: &'r Batch) -> Self {
+        let seeds = batch.preprocessing.iter().map(|row| (&*row.key, row.seed)).collect();
+        let numbered =
+            batch.rows.iter().filter(|row| row.instance() > 0).map(|row| &*row.key.on.group).collect();
         Self { seeds, numbered }
     }
 
@@ -57,13 +58,13 @@ impl<'r> Draws<'r> {
     pub fn unit(&self, row: &'r Row) -> Unit<'r> {
         let group = &*row.key.on.group;
         let repeat = if self.numbered.contains(group) { 0 } else { row.key.repeat };
-        Unit { draw: self.seed(row).ok_or((group, row.draw())), repeat }
+        Unit { instance: self.seed(row).ok_or((group, row.instance())), repeat }
     }
 }
 
 /// The trials of two sides that have all of their key in common but for the contender; problems that could not be posed on
 /// some side are left out.
-pub fn paired<'r>(rows: [&[&'r Row]; 2], draws: [&Draws<'r>; 2]) -> Paired<'r> {
+pub fn paired<'r>(rows: [&[&'r Row]; 2], instances: [&Instances<'r>; 2]) -> Paired<'r> {
     let mut firsts: BTreeMap<_, &'r Row> = rows[0].iter().map(|row| (row.case(), *row)).collect();
     let mut found = Paired { pairs: Vec::new(), lone: [Vec::new(), Vec::new()] };
     for second in rows[1] {
@@ -72,8 +73,12 @@ pub fn paired<'r>(rows: [&[&'r Row]; 2], draws: [&Draws<'r>; 2]) -> Paired<'r> {
             continue;
         };
         if [first, second].iter().all(|row| row.status != Status::InvalidProblem) {
-            let is_same_draw = draws[0].seed(first) == draws[1].seed(second);
-            found.pairs.push(Pair { unit: draws[0].unit(first), rows: [first, second], is_same_draw });
+            let is_same_instance = instances[0].seed(first) == instances[1].seed(second);
+            found.pairs.push(Pair {
+                unit: instances[0].unit(first),
+                rows: [first, second],
+                is_same_instance,
+            });
         }
     }
     found.lone[0].extend(firsts.into_values());

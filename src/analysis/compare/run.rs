@@ -1,6 +1,6 @@
-//! Stored runs as comparisons read them: numbers without exhibits, by contender.
+//! Stored runs as comparisons read them: numbers without traces, by contender.
 
-use super::pair::Draws;
+use super::pair::Instances;
 use stats::summary;
 use std::collections::BTreeMap;
 use std::fs;
@@ -12,7 +12,7 @@ use study::name::Names;
 use study::record::Row;
 use study::store::{Records, read_numbers};
 
-/// A stored run: the records of every study in a folder, without exhibits.
+/// A stored run: the records of every study in a folder, without traces.
 pub struct StoredRun {
     /// What it is called.
     pub name: String,
@@ -20,7 +20,7 @@ pub struct StoredRun {
     pub studies: BTreeMap<String, (Manifest, Records)>,
 }
 
-/// The median clock reading of each timed trial.
+/// The median time of each timed trial.
 pub type Times<'r> = BTreeMap<&'r TrialKey, f64>;
 
 /// The records of one study on one side, ready to be asked.
@@ -29,9 +29,9 @@ pub struct Seen<'r> {
     pub manifest: &'r Manifest,
     /// The trials by contender, in the order of records.
     pub rows: BTreeMap<&'r str, Vec<&'r Row>>,
-    /// The draws.
-    pub draws: Draws<'r>,
-    /// The clock readings of the first session.
+    /// The instances.
+    pub instances: Instances<'r>,
+    /// The times of the first session.
     pub times: Times<'r>,
     /// How records are named, as far as they alone tell.
     pub names: Names,
@@ -74,18 +74,20 @@ pub fn stored_studies(folder: &Path) -> Vec<String> {
 
 impl<'r> Seen<'r> {
     /// Those of a stored study.
-    pub fn of((manifest, records): &'r (Manifest, Records)) -> Self {
+    pub fn new((manifest, records): &'r (Manifest, Records)) -> Self {
         let mut rows: BTreeMap<&str, Vec<&Row>> = BTreeMap::new();
         for row in &records.batch.rows {
             rows.entry(&row.key.contender).or_default().push(row);
         }
-        let mut readings: BTreeMap<&TrialKey, Vec<f64>> = BTreeMap::new();
+        let mut interpretations: BTreeMap<&TrialKey, Vec<f64>> = BTreeMap::new();
         for time in records.times.iter().filter(|time| time.session == 1) {
-            readings.entry(&time.trial).or_default().push(time.plan_wall_ns as f64);
+            interpretations.entry(&time.trial).or_default().push(time.plan_wall_ns as f64);
         }
-        let times = readings.into_iter().filter_map(|(key, times)| Some((key, summary::median(&times)?)));
-        let (times, draws) = (times.collect(), Draws::of(&records.batch));
-        Self { manifest, rows, draws, times, names: names(manifest, &records.batch.rows) }
+        let times =
+            interpretations.into_iter().filter_map(|(key, times)| Some((key, summary::median(&times)?)));
+        let times = times.collect();
+        let instances = Instances::new(&records.batch);
+        Self { manifest, rows, instances, times, names: names(manifest, &records.batch.rows) }
     }
 
     /// How many trials there are.
@@ -96,12 +98,13 @@ impl<'r> Seen<'r> {
 
 /// How trials are named, as far as records alone tell.
 fn names(manifest: &Manifest, rows: &[Row]) -> Names {
-    let (mut groups, mut contenders) = (BTreeMap::new(), BTreeMap::new());
+    let mut groups = BTreeMap::new();
+    let mut contenders = BTreeMap::new();
     for row in rows {
-        *groups.entry(&*row.key.on.group).or_insert(false) |= row.draw() > 0;
+        *groups.entry(&*row.key.on.group).or_insert(false) |= row.instance() > 0;
         *contenders.entry(&*row.key.contender).or_insert(false) |= row.key.repeat > 0;
     }
-    let defaults = manifest.axes.iter().zip(manifest.readings.iter().flatten());
-    let defaults = defaults.map(|(axis, option)| (axis.as_str(), option.as_str()));
+    let defaults = manifest.choices.iter().zip(manifest.interpretations.iter().flatten());
+    let defaults = defaults.map(|(choice, option)| (choice.as_str(), option.as_str()));
     Names::new(groups.into_iter(), contenders.into_iter(), defaults)
 }

@@ -3,9 +3,9 @@ use base::seed;
 use engine::planner::Value;
 use rand::RngExt as _;
 use std::sync::Arc;
-use study::key::{DrawKey, SweepKey, TrialKey};
+use study::key::{InstanceKey, SweepKey, TrialKey};
 use study::manifest::MadeBy;
-use study::record::{Batch, PreparedRow, Values};
+use study::record::{Batch, PreprocessingRow, Values};
 use study::store::Records;
 
 fn manifest(seed: u64) -> Manifest {
@@ -14,8 +14,8 @@ fn manifest(seed: u64) -> Manifest {
         command: String::new(),
         quick: false,
         seed,
-        axes: Vec::new(),
-        readings: vec![Vec::new()],
+        choices: Vec::new(),
+        interpretations: vec![Vec::new()],
         spec: String::new(),
         depends: String::new(),
         recorded: Vec::new(),
@@ -30,19 +30,26 @@ fn manifest(seed: u64) -> Manifest {
     }
 }
 
-/// A run of one contender on `group`, a draw a number; no path where there is none.
+/// A run of one contender on `group`, an instance a number; no path where there is none.
 fn run(seed: u64, group: &str, contender: &str, expansions: &[Option<u64>]) -> StoredRun {
     let mut batch = Batch::default();
-    for (draw, count) in (0..).zip(expansions) {
-        let on = Arc::new(DrawKey {
+    for (instance, count) in (0..).zip(expansions) {
+        let on = Arc::new(InstanceKey {
             group: group.into(),
             sweep: SweepKey::default(),
-            draw,
-            reading: ReadingKey::default(),
+            instance,
+            interpretation: InterpretationKey::default(),
         });
-        let (kind, values) = (String::new(), Values::default());
-        let drawn = seed::derive(seed, &[&draw.to_string()]);
-        batch.prepared.push(PreparedRow { key: on.clone(), kind, seed: drawn, reason: None, values });
+        let kind = String::new();
+        let values = Values::default();
+        let drawn = seed::derive(seed, &[&instance.to_string()]);
+        batch.preprocessing.push(PreprocessingRow {
+            key: on.clone(),
+            kind,
+            seed: drawn,
+            reason: None,
+            values,
+        });
         let values = count.map(|count| ("expansions", Value::Count(count))).into_iter().collect();
         let status = if count.is_some() { Status::Solved } else { Status::BudgetSpent };
         let key =
@@ -56,21 +63,22 @@ fn run(seed: u64, group: &str, contender: &str, expansions: &[Option<u64>]) -> S
     }
 }
 
-/// What `draws` maps cost, the second run's `percent` more of it and 5 % to and fro.
-fn costs(draws: usize, percent: f64) -> [Vec<Option<u64>>; 2] {
+/// What `instances` maps cost, the second run's `percent` more of it and 5 % to and fro.
+fn costs(instances: usize, percent: f64) -> [Vec<Option<u64>>; 2] {
     let stream = &mut seed::stream(seed::derive(11, &["costs"]));
     let of_map = |_| {
         let base: f64 = 1000.0 + 4000.0 * stream.random::<f64>();
         let other = base * (1.0 + percent / 100.0) * (1.0 + 0.1 * (stream.random::<f64>() - 0.5));
         (Some(base as u64), Some(other as u64))
     };
-    let (first, second) = (0..draws).map(of_map).unzip();
+    let (first, second) = (0..instances).map(of_map).unzip();
     [first, second]
 }
 
 fn compared(runs: &[StoredRun; 2], gates: &[&str]) -> Comparison {
     let gates = gates.iter().map(|text| Gate::parse(text).unwrap()).collect();
-    compare(&Sides::Runs([&runs[0], &runs[1]]), &Asked { gates, ..Asked::default() }).unwrap()
+    compare(&Sides::Runs([&runs[0], &runs[1]]), &CompareOptions { gates, ..CompareOptions::default() })
+        .unwrap()
 }
 
 fn change<'c>(of: &'c Comparison, metric: &str) -> &'c Change {
@@ -85,7 +93,7 @@ fn a_planner_made_worse_is_caught_and_an_equal_one_passes() {
         let found = compared(&[run(1, "g", "A", &first), run(1, "g", "A", &second)], &["expansions +2%"]);
         assert_eq!(found.gates[0].outcome, outcome, "{percent} %: {:?}", found.gates);
         let change = change(&found, "expansions");
-        assert_eq!((change.word, change.pairs, change.draws), (word, 60, 60));
+        assert_eq!((change.word, change.pairs, change.instances), (word, 60, 60));
         let measured = change.mean_change_percent.unwrap();
         let [low, high] = measured.interval.unwrap();
         assert!(low < percent && percent < high && high - low < 3.0, "{measured:?}");
@@ -94,20 +102,21 @@ fn a_planner_made_worse_is_caught_and_an_equal_one_passes() {
 }
 
 #[test]
-fn what_is_the_same_is_equal_and_no_gate_speaks_of_few_draws() {
-    let costs: Vec<Option<u64>> = (0..8).map(|draw| Some(10 + draw)).collect();
+fn what_is_the_same_is_equal_and_no_gate_speaks_of_few_instances() {
+    let costs: Vec<Option<u64>> = (0..8).map(|instance| Some(10 + instance)).collect();
     let found = compared(&[run(1, "g", "A", &costs), run(1, "g", "A", &costs)], &["expansions +0%"]);
     let change = change(&found, "expansions");
     assert_eq!((change.word, change.wins, change.ties, change.losses), (Word::Equal, 0, 8, 0));
     assert_eq!(change.improvement_percent.unwrap(), Measured { value: 50.0, interval: Some([50.0, 50.0]) });
-    assert_eq!((found.gates[0].outcome, found.gates[0].more_draws), (Outcome::CannotTell, Some(2)));
+    assert_eq!((found.gates[0].outcome, found.gates[0].more_instances), (Outcome::CannotTell, Some(2)));
 }
 
 #[test]
 fn a_problem_that_is_lost_is_a_loss_and_keeps_a_gate_open() {
-    let first: Vec<Option<u64>> = (0..30).map(|draw| Some(100 + draw)).collect();
-    let faster = |draw: usize, cost: &Option<u64>| cost.filter(|_| draw >= 18).map(|cost| cost - 50);
-    let second: Vec<Option<u64>> = first.iter().enumerate().map(|(draw, cost)| faster(draw, cost)).collect();
+    let first: Vec<Option<u64>> = (0..30).map(|instance| Some(100 + instance)).collect();
+    let faster = |instance: usize, cost: &Option<u64>| cost.filter(|_| instance >= 18).map(|cost| cost - 50);
+    let second: Vec<Option<u64>> =
+        first.iter().enumerate().map(|(instance, cost)| faster(instance, cost)).collect();
     let found =
         compared(&[run(1, "g", "A", &first), run(1, "g", "A", &second)], &["expansions +2%", "solved -1%"]);
     let solved = &found.solved[0];
@@ -125,7 +134,7 @@ fn a_problem_that_is_lost_is_a_loss_and_keeps_a_gate_open() {
 
 #[test]
 fn what_only_one_side_has_is_told_apart() {
-    let costs: Vec<Option<u64>> = (0..20).map(|draw| Some(10 + draw)).collect();
+    let costs: Vec<Option<u64>> = (0..20).map(|instance| Some(10 + instance)).collect();
     let told = |runs: &[StoredRun; 2]| -> Vec<(usize, String, usize)> {
         compared(runs, &[]).only.into_iter().map(|only| (only.side, only.what, only.trials)).collect()
     };
@@ -136,7 +145,7 @@ fn what_only_one_side_has_is_told_apart() {
     let h = run(1, "h", "A", &costs);
     assert_eq!(told(&[base(), h]), [other(0, "problem group `g`", 20), other(1, "problem group `h`", 20)]);
     let fewer = run(1, "g", "A", &costs[..12]);
-    assert_eq!(told(&[base(), fewer]), [other(0, "draws, queries, sweep points or seeds of `A`", 8)]);
+    assert_eq!(told(&[base(), fewer]), [other(0, "instances, queries, sweep points or seeds of `A`", 8)]);
     let mut gone = run(1, "g", "A", &costs);
     gone.studies = BTreeMap::from([("t".to_owned(), gone.studies.remove("s").unwrap())]);
     assert_eq!(told(&[base(), gone]), [other(0, "the study", 20), other(1, "the study", 20)]);
@@ -156,24 +165,24 @@ fn runs_of_other_seeds_are_compared_and_said_to_be() {
 }
 
 #[test]
-fn two_contenders_of_one_run_are_paired_draw_by_draw() {
+fn two_contenders_of_one_run_are_paired_instance_by_instance() {
     let [first, second] = costs(40, 20.0);
     let mut both = run(1, "g", "A", &first);
     let b = run(1, "g", "B", &second).studies.remove("s").unwrap();
     both.studies.get_mut("s").unwrap().1.batch.rows.extend(b.1.batch.rows);
-    let found = compare(&Sides::Contenders(&both, ["A", "B"]), &Asked::default()).unwrap();
+    let found = compare(&Sides::Contenders(&both, ["A", "B"]), &CompareOptions::default()).unwrap();
     let change = change(&found, "expansions");
     assert_eq!((change.contender.as_str(), change.word, change.losses), ("B against A", Word::Worse, 40));
-    let error = compare(&Sides::Contenders(&both, ["A", "C"]), &Asked::default()).unwrap_err();
+    let error = compare(&Sides::Contenders(&both, ["A", "C"]), &CompareOptions::default()).unwrap_err();
     assert_eq!(error, "--contenders: there is no stored trial of a contender `C`; there are A, B");
 }
 
 #[test]
 fn cells_hold_failures_in_their_medians_alone() {
-    let costs: Vec<Option<u64>> = (0..21).map(|draw| (draw < 12).then_some(10 + draw)).collect();
+    let costs: Vec<Option<u64>> = (0..21).map(|instance| (instance < 12).then_some(10 + instance)).collect();
     let cells = cells(&run(1, "g", "A", &costs));
     let cell = cells.iter().find(|cell| cell.metric == "expansions").unwrap();
-    assert_eq!((cell.trials, cell.solved, cell.draws, cell.measured), (21, 12, 21, 12));
+    assert_eq!((cell.trials, cell.solved, cell.instances, cell.measured), (21, 12, 21, 12));
     assert_eq!((cell.mean.unwrap().value, cell.median.unwrap().value), (15.5, 20.0));
     assert_eq!(cell.median.unwrap().interval.unwrap()[1], f64::INFINITY);
 }

@@ -3,12 +3,12 @@
 use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
+use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::{Evidence, Run};
-use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::{Case, Draw, Selection, cases, most_cases};
+use crate::analysis::selection::{Case, Instance, Selection, cases, most_cases};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{FEWEST_DRAWS, Share, plan};
+use crate::analysis::statistic::{FEWEST_INSTANCES, Share, plan};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -20,7 +20,7 @@ pub static ENTRY: Entry = Entry {
     name: "equals",
     about: "is a metric, on every trial, what another metric or another contender says that it is?",
     revision: 4,
-    settings: Accepted::of::<Settings>(),
+    settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
 truth = "optimal_cost_cells"
@@ -73,7 +73,7 @@ impl<'a> Equals<'a> {
 /// What all trials say.
 #[derive(Default)]
 struct Tally<'e> {
-    /// Trials that are the same, and trials, by draw.
+    /// Trials that are the same, and trials, by instance.
     counts: Vec<[f64; 2]>,
     /// The farthest apart.
     worst: f64,
@@ -97,11 +97,11 @@ impl Equals<'_> {
         Some((run.value(case.row, truth)?, own))
     }
 
-    fn tally<'e>(&self, run: &Run<'_>, draws: &[Draw<'e>]) -> Tally<'e> {
+    fn tally<'e>(&self, run: &Run<'_>, instances: &[Instance<'e>]) -> Tally<'e> {
         let mut all = Tally::default();
-        for draw in draws {
+        for instance in instances {
             let mut count = [0.0; 2];
-            for case in &draw.cases {
+            for case in &instance.cases {
                 let pair = self.pair(run, case);
                 let is_known = pair.is_some_and(|(_, own)| own.is_finite());
                 let is_cut =
@@ -124,24 +124,25 @@ impl Equals<'_> {
     }
 
     /// What the metric is held against.
-    fn truth_said(&self) -> String {
+    fn truth_name(&self) -> String {
         let other = || format!("that of {}", self.of.against.as_deref().unwrap_or_default());
         self.truth.map_or_else(other, |truth| truth.label.to_lowercase())
     }
 }
 
 impl Criterion for Equals<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> Found {
-        let Some(run) = self.of.run(evidence) else { return Found::default() };
-        let draws = self.of.draws(evidence);
-        let Tally { counts, worst, sums, wrong, unknown, broken } = self.tally(run, &draws);
+    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
+        let Some(run) = self.of.run(evidence) else { return CriterionResult::default() };
+        let instances = self.of.instances(evidence);
+        let Tally { counts, worst, sums, wrong, unknown, broken } = self.tally(run, &instances);
         let [same, all] = counts.iter().fold([0.0, 0.0], |sum, count| [sum[0] + count[0], sum[1] + count[1]]);
         let outcome = match (all > 0.0, same == all) {
             (false, _) => Outcome::Open,
             (true, true) => Outcome::Holds,
             (true, false) => Outcome::Fails,
         };
-        let (metric, truth) = (self.metric.label.to_lowercase(), self.truth_said());
+        let metric = self.metric.label.to_lowercase();
+        let truth = self.truth_name();
         let whole = 100.0 * (sums[0] / sums[1] - 1.0);
         let apart = if whole.is_finite() {
             format!("; they are {worst:.4} apart at most, and {whole:+.2} % on the whole")
@@ -149,15 +150,15 @@ impl Criterion for Equals<'_> {
             String::new()
         };
         let mut because =
-            vec![format!("{}: {metric} is {truth} on {same} of {all} trials{apart}", self.of.said())];
-        let refused = cases(&draws).filter(|case| case.row.status == Status::Rejected).count();
+            vec![format!("{}: {metric} is {truth} on {same} of {all} trials{apart}", self.of.description())];
+        let refused = cases(&instances).filter(|case| case.row.status == Status::Rejected).count();
         because.extend((refused > 0).then(|| format!("{refused} of these paths the verifier refuses")));
-        let ours = Share::of(&counts, most_cases(&draws), self.plan).map(|share| {
+        let ours = Share::new(&counts, most_cases(&instances), self.plan).map(|share| {
             let what = format!("trials on which {metric} is {truth}");
             share.estimate(&what).of_cases([same as usize, all as usize])
         });
         let trial = wrong.map(|row| run.trial(row));
-        Found {
+        CriterionResult {
             outcome: Some(outcome),
             ours,
             trial,
@@ -165,8 +166,11 @@ impl Criterion for Equals<'_> {
             units: "trials",
             // That something is wrong hangs on them only if nothing else is.
             censored: if broken > 0 { 0 } else { unknown },
-            needs: self.of.needs_draws(&draws, FEWEST_DRAWS).filter(|_| outcome == Outcome::Holds),
-            ..Found::default()
+            needs: self
+                .of
+                .needs_instances(&instances, FEWEST_INSTANCES)
+                .filter(|_| outcome == Outcome::Holds),
+            ..CriterionResult::default()
         }
     }
 

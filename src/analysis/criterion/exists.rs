@@ -1,7 +1,7 @@
 //! Whether the printed number is met exactly by any stored trial, alone or together with other printed numbers.
 //!
-//! A trial counts under the reading that it ran under, and under readings that differ from it only in what cannot touch it:
-//! one witness under one reading is no witness under another.
+//! A trial counts under the interpretation that it ran under, and under interpretations that differ from it only in what cannot touch it:
+//! one witness under one interpretation is no witness under another.
 
 mod differs;
 mod ran_under;
@@ -9,8 +9,8 @@ mod ran_under;
 use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
 use crate::analysis::context::{CONTENDER_KEYS, Context};
+use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::{Evidence, Pair, Run, default_point};
-use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
 use crate::analysis::selection_spec::Labels;
 use crate::analysis::verdict::Estimate;
@@ -30,7 +30,7 @@ pub static ENTRY: Entry = Entry {
     name: "exists",
     about: "does any stored trial meet the printed number exactly, where other named claims are met too?",
     revision: 1,
-    settings: Accepted::of::<Settings>(),
+    settings: Accepted::shape::<Settings>(),
     example: r#"
 metric = "path_cost_cells"
 contenders = "A*"
@@ -108,14 +108,14 @@ pub struct Seen<'e> {
     selected: bool,
 }
 
-/// What tells problems under one reading apart: study, group, draw and query.
+/// What tells problems under one interpretation apart: study, group, instance and query.
 pub type Problem<'e> = (&'e str, &'e str, u32, Option<&'e str>);
 
 impl<'e> Seen<'e> {
     /// The problem that it is about.
     pub fn problem(&self) -> Problem<'e> {
         let key = &self.row.key;
-        (&self.run.study.name, &key.on.group, key.on.draw, key.query.as_deref())
+        (&self.run.study.name, &key.on.group, key.on.instance, key.query.as_deref())
     }
 }
 
@@ -137,7 +137,9 @@ impl<'a> Attained<'a> {
             })?;
             given.push(Attained::new(&Context { claim, settings, ..*context })?);
         }
-        let (print, claim, against) = (context.print()?, context.claim.id.as_str(), settings.against);
+        let print = context.print()?;
+        let claim = context.claim.id.as_str();
+        let against = settings.against;
         Ok(Self { contenders, against, places, metric, print, given, claim, paper: context.paper })
     }
 
@@ -153,7 +155,7 @@ impl<'a> Attained<'a> {
         self.places.iter().any(is_there)
     }
 
-    /// The first of its contenders that the study has and that departs from no reading.
+    /// The first of its contenders that the study has and that departs from no interpretation.
     pub fn contender_of(&self, study: &Study) -> Option<&str> {
         let is_plain = |label: &&String| {
             study.contenders.iter().any(|own| own.label == **label && own.departs.is_empty())
@@ -181,10 +183,10 @@ impl<'a> Attained<'a> {
         self.print.agrees(value)
     }
 
-    /// Every trial that it is looked for in under the evidence's reading.
+    /// Every trial that it is looked for in under the evidence's interpretation.
     pub fn seen<'e>(&'e self, evidence: &'e Evidence<'_>) -> Vec<Seen<'e>> {
         let mut seen = Vec::new();
-        for (run, place, contenders) in self.asked(evidence) {
+        for (run, place, contenders) in self.places(evidence) {
             for group in &place.groups {
                 for contender in &contenders {
                     seen.extend(self.seen_in(run, (group, place.selected), contender));
@@ -194,8 +196,8 @@ impl<'a> Attained<'a> {
         seen
     }
 
-    /// Each place where trials ran under the evidence's reading, with the contenders whose trials did.
-    fn asked<'e>(&'e self, evidence: &'e Evidence<'_>) -> Vec<(&'e Run<'e>, &'e Place<'a>, Vec<&'e str>)> {
+    /// Each place where trials ran under the evidence's interpretation, with the contenders whose trials did.
+    fn places<'e>(&'e self, evidence: &'e Evidence<'_>) -> Vec<(&'e Run<'e>, &'e Place<'a>, Vec<&'e str>)> {
         let asked = |place: &'e Place<'a>| {
             let run = evidence.run(&place.study.name).filter(|run| run.is_covered())?;
             let ran = |label: &str| {
@@ -230,7 +232,8 @@ impl<'a> Attained<'a> {
         };
         let pairs = run.pairs(group, base, contender);
         let seen = pairs.iter().filter_map(|pair| {
-            let (row, value) = (pair.other, value(pair)?);
+            let row = pair.other;
+            let value = value(pair)?;
             Some(Seen { run, row, contender, value, selected })
         });
         seen.collect()
@@ -257,16 +260,17 @@ impl<'a> Attained<'a> {
         self.given.is_empty()
     }
 
-    /// Beside the defaults, the readings that contenders depart to under which it is met, each with the first trial that meets it.
+    /// Beside the defaults, the interpretations that contenders depart to under which it is met, each with the first trial that meets it.
     fn met_elsewhere(&self, evidence: &Evidence<'_>) -> Vec<String> {
         let default = default_point(self.paper);
         let points = if evidence.point == default { self.paper.departures() } else { Vec::new() };
         let met = |point: Interpretation| {
-            let (name, view) = (point.name().to_owned(), evidence.under(point));
+            let name = point.name().to_owned();
+            let view = evidence.under(point);
             let found = self.eligible(&view);
             let first = found.iter().find(|seen| !seen.selected && self.is_met(seen.value))?;
             let trial = first.run.trial(first.row);
-            Some(format!("met under another reading, {name}, where it counts: {trial}"))
+            Some(format!("met under another interpretation, {name}, where it counts: {trial}"))
         };
         points.into_iter().filter_map(met).collect()
     }
@@ -285,7 +289,9 @@ fn places<'a>(
     context: &Context<'a>,
     settings: &Settings,
 ) -> Result<(Vec<Place<'a>>, &'static Metric), SettingsError> {
-    let (mut places, mut metric, mut faults) = (Vec::new(), None, Faults::default());
+    let mut places = Vec::new();
+    let mut metric = None;
+    let mut faults = Faults::default();
     for (index, place) in settings.r#in.iter().enumerate() {
         let within = format!("in.{index}");
         let Some(study) = faults.keep(context.study(&within, &place.study, &[])) else { continue };
@@ -307,7 +313,7 @@ fn places<'a>(
 }
 
 impl Criterion for Attained<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> Found {
+    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
         let (selected, eligible): (Vec<Seen<'_>>, Vec<Seen<'_>>) =
             self.eligible(evidence).into_iter().partition(|seen| seen.selected);
         let met: Vec<&Seen<'_>> = eligible.iter().filter(|seen| self.is_met(seen.value)).collect();
@@ -317,7 +323,8 @@ impl Criterion for Attained<'_> {
         let distance = |seen: &Seen<'_>| (seen.value - self.print.printed.value()).abs();
         let nearest = eligible.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
         let outcome = if met.is_empty() { Outcome::Open } else { Outcome::Holds };
-        let mut found = Found { outcome: Some(outcome), existential: true, ..Found::default() };
+        let mut found =
+            CriterionResult { outcome: Some(outcome), existential: true, ..CriterionResult::default() };
         if let Some(shown) = met.first().copied().or(nearest) {
             found.trial = Some(shown.run.trial(shown.row));
             let how = if met.is_empty() { "nearest" } else { "met" };
@@ -356,7 +363,7 @@ impl Criterion for Attained<'_> {
     }
 
     fn is_covered(&self, evidence: &Evidence<'_>) -> bool {
-        !self.asked(evidence).is_empty()
+        !self.places(evidence).is_empty()
     }
 
     fn results(&self, evidence: &Evidence<'_>) -> String {

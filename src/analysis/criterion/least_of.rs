@@ -6,8 +6,8 @@
 use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
+use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::{Evidence, Run};
-use crate::analysis::found::Found;
 use crate::analysis::inclusion::Inclusion;
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::{Selection, is_unended};
@@ -28,7 +28,7 @@ pub static ENTRY: Entry = Entry {
     name: "least_of",
     about: "is a contender's median over seeds, failures infinite, below that of each other one on every problem?",
     revision: 2,
-    settings: Accepted::of::<Settings>(),
+    settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = ["maps"], metric = "expansions" }
 lower = "Weighted A*"
@@ -105,7 +105,8 @@ impl Compared {
 impl<'a> LeastOf<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
-        let (lower, higher) = (settings.lower.listed(), settings.higher.listed());
+        let lower = settings.lower.listed();
+        let higher = settings.higher.listed();
         for (key, labels) in [("lower", &lower), ("higher", &higher)] {
             if labels.is_empty() {
                 let message = format!("`{key}` needs at least one contender");
@@ -128,7 +129,7 @@ impl<'a> LeastOf<'a> {
             if !settings.by_inclusion {
                 return Ok(Inclusion::Open);
             }
-            Inclusion::of(of.study, context.point, low, high)
+            Inclusion::in_study(of.study, context.point, low, high)
         };
         let inclusions = pairs.iter().map(said).collect::<Result<_, _>>()?;
         let plan = plan(&context.seed_names());
@@ -146,7 +147,7 @@ impl<'a> LeastOf<'a> {
         self.of.rows(run, problem, contender).iter().filter_map(value).collect()
     }
 
-    /// What was drawn independently: seeds, or the repeated readings of the clock where there is one seed.
+    /// What was drawn independently: seeds, or the repeated times where there is one seed.
     fn units(&self, run: &Run<'_>, problem: &str, contender: &str, values: &[f64]) -> Vec<f64> {
         if !self.metric.is_clock() || values.len() > 1 {
             return values.to_vec();
@@ -214,7 +215,8 @@ impl<'a> LeastOf<'a> {
     ) -> Option<Compared> {
         let (lower, higher) = &self.pairs[index];
         let (one, other) = (sides.get(&(0, lower.as_str()))?, sides.get(&(1, higher.as_str()))?);
-        let ([from, to], inclusion) = ([one.interval, other.interval], self.inclusions[index]);
+        let [from, to] = [one.interval, other.interval];
+        let inclusion = self.inclusions[index];
         let first = self.of.rows(run, problem, lower).into_iter().next();
         Some(Compared {
             name: format!("{lower} against {higher}, {problem}"),
@@ -293,8 +295,8 @@ fn theorem(all: &[Compared]) -> Option<String> {
 }
 
 impl Criterion for LeastOf<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> Found {
-        let Some(run) = self.of.run(evidence) else { return Found::default() };
+    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
+        let Some(run) = self.of.run(evidence) else { return CriterionResult::default() };
         let all = self.compared(run, [f64::INFINITY; 2]);
         let outcome = self.outcome(&all);
         let largest = all.iter().max_by(|a, b| a.ratio.total_cmp(&b.ratio));
@@ -310,7 +312,7 @@ impl Criterion for LeastOf<'_> {
             Estimate { interval, ..Estimate::bare(100.0 * one.ratio, what, one.trials[0].max(one.trials[1])) }
         });
         let shown = all.iter().find(|one| !one.keeps).or(largest);
-        Found {
+        CriterionResult {
             outcome: Some(outcome),
             ours,
             trial: shown.and_then(|one| one.trial.clone()),
@@ -319,7 +321,7 @@ impl Criterion for LeastOf<'_> {
             limits: vec![100.0 * self.limit()],
             units: "seeds",
             needs: Some(FEWEST_SEEDS).filter(|fewest| all.iter().any(|one| one.is_few(*fewest))),
-            ..Found::default()
+            ..CriterionResult::default()
         }
     }
 

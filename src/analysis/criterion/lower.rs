@@ -1,14 +1,14 @@
-//! Whether one contender is lower (or higher) than another: sign and size over draws, or all along a sweep at once.
+//! Whether one contender is lower (or higher) than another: sign and size over instances, or all along a sweep at once.
 
 use super::{Criterion, Entry};
 use crate::analysis::censored::filled;
 use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
+use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::found::Found;
-use crate::analysis::selection::{self, Case, Draw, Selection, is_unended, solved};
+use crate::analysis::selection::{self, Case, Instance, Selection, is_unended, solved};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{FEWEST_DRAWS, OfAll, how, narrows, needs, plan, turned};
+use crate::analysis::statistic::{FEWEST_INSTANCES, OverallStatistic, how, narrows, needs, plan, turned};
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
@@ -25,9 +25,9 @@ use study::sweeps_of;
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "lower",
-    about: "is a contender lower than another on average over draws, or solves it more all along a sweep?",
+    about: "is a contender lower than another on average over instances, or solves it more all along a sweep?",
     revision: 3,
-    settings: Accepted::of::<Settings>(),
+    settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", metric = "opened", contender = "Weighted A*", against = "A*" }
 "#,
@@ -84,17 +84,17 @@ impl<'a> Lower<'a> {
     }
 
     fn change(&self, pairs: &[Vec<(f64, f64)>]) -> Option<Estimated> {
-        OfAll::ReductionPercent.of_pairs(pairs, self.plan).map(turned)
+        OverallStatistic::ReductionPercent.of_pairs(pairs, self.plan).map(turned)
     }
 
-    /// The change over draws in a sentence, with how many of all cases go which way.
-    fn told(&self, metric: &str, change: &Estimated, pairs: &[Vec<(f64, f64)>]) -> String {
+    /// The change over instances in a sentence, with how many of all cases go which way.
+    fn sentence(&self, metric: &str, change: &Estimated, pairs: &[Vec<(f64, f64)>]) -> String {
         let Estimated { value, interval, units, .. } = change;
         let signs = paired::signs(&pairs.concat());
         format!(
-            "{}: {metric} changes by {value:.2} % on the whole (95 % interval {:.2} to {:.2}, {} over {units} draws); lower on {}, \
+            "{}: {metric} changes by {value:.2} % on the whole (95 % interval {:.2} to {:.2}, {} over {units} instances); lower on {}, \
              equal on {}, higher on {} of {} cases{}",
-            self.of.said(),
+            self.of.description(),
             interval.low,
             interval.high,
             how(change),
@@ -106,12 +106,12 @@ impl<'a> Lower<'a> {
         )
     }
 
-    /// Over draws.
-    fn on_average(&self, evidence: &Evidence<'_>, metric: &str) -> Found {
-        let draws = self.of.draws(evidence);
-        let pairs = selection::pairs(&draws);
+    /// Over instances.
+    fn on_average(&self, evidence: &Evidence<'_>, metric: &str) -> CriterionResult {
+        let instances = self.of.instances(evidence);
+        let pairs = selection::pairs(&instances);
         let Some(change) = self.change(&pairs) else {
-            return Found::too_few(pairs.len(), draws.len(), FEWEST_DRAWS);
+            return CriterionResult::too_few(pairs.len(), instances.len(), FEWEST_INSTANCES);
         };
         let Estimated { value, interval, units, .. } = change;
         let found = outcome(self.way, self.by_percent, interval);
@@ -119,56 +119,59 @@ impl<'a> Lower<'a> {
             self.change(&pairs)
                 .is_some_and(|filled| outcome(self.way, self.by_percent, filled.interval) != found)
         };
-        let is_turned = filled(&self.of, &draws).into_iter().any(is_other);
-        let what = format!("change of {metric} in %, {} 95 % over draws", how(&change));
+        let is_turned = filled(&self.of, &instances).into_iter().any(is_other);
+        let what = format!("change of {metric} in %, {} 95 % over instances", how(&change));
         let of_case = |case: &Case<'_>| case.saving_percent().map(|saving| -saving);
-        Found {
+        CriterionResult {
             outcome: Some(found),
-            ours: Some(Estimate::new(value, interval, what, units).of_cases(solved(&draws))),
-            trial: selection::nearest(&self.of, evidence, &draws, of_case, value),
-            because: vec![self.told(metric, &change, &pairs)],
+            ours: Some(Estimate::new(value, interval, what, units).of_cases(solved(&instances))),
+            trial: selection::nearest(&self.of, evidence, &instances, of_case, value),
+            because: vec![self.sentence(metric, &change, &pairs)],
             limits: vec![0.0, if self.way == Way::Higher { self.by_percent } else { 0.0 - self.by_percent }],
             units: "draws",
             needs: needs(units),
             narrows: narrows(change.is_agreed),
-            censored: if is_turned { selection::censored(&draws) } else { 0 },
-            ..Found::default()
+            censored: if is_turned { selection::censored(&instances) } else { 0 },
+            ..CriterionResult::default()
         }
     }
 
-    /// The curve of each draw: how many points more of its queries are solved than by the other, along the sweep. What did not
+    /// The curve of each instance: how many points more of its queries are solved than by the other, along the sweep. What did not
     /// end is not solved or, if so wanted, is solved on the one side alone.
-    fn curves(&self, draws: &[Draw<'_>], unended: [bool; 2]) -> Vec<Vec<f64>> {
+    fn curves(&self, instances: &[Instance<'_>], unended: [bool; 2]) -> Vec<Vec<f64>> {
         let points = self.of.sweep_points();
         let is_solved = |row: &Row, unended: bool| row.is_solved() || unended && is_unended(row);
-        let at = |draw: &Draw<'_>, point: &SweepPoint| {
-            let draw = draw.at(&point.key);
-            let base = draw.percent(|case| case.base.is_some_and(|base| is_solved(base, unended[0])))?;
-            Some(draw.percent(|case| is_solved(case.row, unended[1]))? - base)
+        let at = |instance: &Instance<'_>, point: &SweepPoint| {
+            let instance = instance.at(&point.key);
+            let base = instance.percent(|case| case.base.is_some_and(|base| is_solved(base, unended[0])))?;
+            Some(instance.percent(|case| is_solved(case.row, unended[1]))? - base)
         };
-        draws.iter().filter_map(|draw| points.iter().map(|point| at(draw, point)).collect()).collect()
+        instances
+            .iter()
+            .filter_map(|instance| points.iter().map(|point| at(instance, point)).collect())
+            .collect()
     }
 
-    fn band(&self, draws: &[Draw<'_>], unended: [bool; 2]) -> Option<Band> {
-        sup_t_between(&self.curves(draws, unended), [-100.0, 100.0], self.plan)
+    fn band(&self, instances: &[Instance<'_>], unended: [bool; 2]) -> Option<Band> {
+        sup_t_between(&self.curves(instances, unended), [-100.0, 100.0], self.plan)
     }
 
     /// How many cases without an end could turn what was found along the sweep: as if the other alone solved them, then this one.
-    fn unended_along(&self, draws: &[Draw<'_>], outcome: Outcome) -> usize {
-        let unended = selection::unended(draws);
+    fn unended_along(&self, instances: &[Instance<'_>], outcome: Outcome) -> usize {
+        let unended = selection::unended(instances);
         let is_other = |one: [bool; 2]| {
-            self.band(draws, one).is_some_and(|found| all_along(self.way, &found.band).0 != outcome)
+            self.band(instances, one).is_some_and(|found| all_along(self.way, &found.band).0 != outcome)
         };
         let is_turned = unended > 0 && [[true, false], [false, true]].into_iter().any(is_other);
         if is_turned { unended } else { 0 }
     }
 
     /// Along the sweep.
-    fn along_sweep(&self, evidence: &Evidence<'_>) -> Found {
-        let draws = self.of.draws(evidence);
-        let units = self.curves(&draws, [false; 2]).len();
-        let Some(Band { mean, band, .. }) = self.band(&draws, [false; 2]) else {
-            return Found::too_few(units, draws.len(), FEWEST_DRAWS);
+    fn along_sweep(&self, evidence: &Evidence<'_>) -> CriterionResult {
+        let instances = self.of.instances(evidence);
+        let units = self.curves(&instances, [false; 2]).len();
+        let Some(Band { mean, band, .. }) = self.band(&instances, [false; 2]) else {
+            return CriterionResult::too_few(units, instances.len(), FEWEST_INSTANCES);
         };
         let points = self.of.sweep_points();
         let at = |index: usize| name::sweep(&points[index].key);
@@ -178,8 +181,8 @@ impl<'a> Lower<'a> {
         let (outcome, beyond) = all_along(self.way, &band);
         let because = format!(
             "{}: the mean share of solved queries differs by {:.1} points (band {:.1} to {:.1}) at {}, where it is least on the claim's \
-             side; the simultaneous 95 % band over {} draws is on that side at {beyond} of {} points",
-            self.of.said(),
+             side; the simultaneous 95 % band over {} instances is on that side at {beyond} of {} points",
+            self.of.description(),
             mean[least],
             band[least].low,
             band[least].high,
@@ -190,16 +193,16 @@ impl<'a> Lower<'a> {
         let what = format!("least mean difference in points, at {}, simultaneous 95 % band", at(least));
         let against =
             |case: &Case<'_>| (case.row.key.sweep == points[least].key).then(|| sign * solved_more(case));
-        Found {
+        CriterionResult {
             outcome: Some(outcome),
-            ours: Some(Estimate::new(mean[least], band[least], what, units).of_cases(solved(&draws))),
-            trial: selection::least(&self.of, evidence, &draws, against),
+            ours: Some(Estimate::new(mean[least], band[least], what, units).of_cases(solved(&instances))),
+            trial: selection::least(&self.of, evidence, &instances, against),
             because: vec![because],
             limits: vec![0.0],
             units: "draws",
-            censored: self.unended_along(&draws, outcome),
+            censored: self.unended_along(&instances, outcome),
             needs: needs(units),
-            ..Found::default()
+            ..CriterionResult::default()
         }
     }
 }
@@ -246,7 +249,7 @@ fn outcome(way: Way, by_percent: f64, change: Interval) -> Outcome {
 }
 
 impl Criterion for Lower<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> Found {
+    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
         match self.of.metric {
             Some(metric) => self.on_average(evidence, &metric.label.to_lowercase()),
             None => self.along_sweep(evidence),
@@ -298,14 +301,15 @@ mod tests {
     }
 
     #[test]
-    fn draws_that_all_agree_do_not_prove_that_nothing_changes() {
-        let of = |pair: (f64, f64), draws: usize| {
-            let found =
-                OfAll::ReductionPercent.of_pairs(&vec![vec![pair]; draws], plan(&["agreed"])).unwrap();
+    fn instances_that_all_agree_do_not_prove_that_nothing_changes() {
+        let of = |pair: (f64, f64), instances: usize| {
+            let found = OverallStatistic::ReductionPercent
+                .of_pairs(&vec![vec![pair]; instances], plan(&["agreed"]))
+                .unwrap();
             assert!(found.is_agreed && found.interval.half_width() > 0.0, "{found:?}");
             outcome(Way::Lower, 10.0, turned(found).interval)
         };
-        assert_eq!(of((5.0, 5.0), 20), Outcome::Open, "one draw in six may differ");
+        assert_eq!(of((5.0, 5.0), 20), Outcome::Open, "one instance in six may differ");
         assert_eq!(of((5.0, 5.0), 200), Outcome::Fails, "a tenth less is out of reach");
         assert_eq!(of((5.0, 1.0), 20), Outcome::Holds);
     }

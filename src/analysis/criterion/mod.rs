@@ -1,6 +1,6 @@
 //! Criteria: how statistics of stored trials are held against what a paper says; one a file, all in [`REGISTRY`].
 //!
-//! A criterion selects trials, takes a statistic of each draw, and says what it finds; its class is decided in
+//! A criterion selects trials, takes a statistic of each instance, and says what it finds; its class is decided in
 //! [`class`](super::class). Arithmetic on printed numbers alone is a [`rule`](super::rule).
 
 mod equals;
@@ -8,27 +8,27 @@ mod exists;
 mod least_of;
 mod lower;
 mod on_every;
-mod one_draw;
+mod one_instance;
 mod prints_as;
-mod row_one_draw;
+mod row_one_instance;
 mod share;
 mod trend;
 mod within;
 
 pub use exists::{Attained, ENTRY as EXISTS, Seen};
-pub use one_draw::{Draws, draws};
+pub use one_instance::{Instances, instances};
 
 use super::context::Context;
+use super::criterion_result::CriterionResult;
 use super::evidence::{Evidence, Run};
-use super::found::Found;
 use super::selection::Selection;
 use base::settings::{Accepted, SettingsError};
 use study::Study;
 
 /// A criterion with its settings, every name looked up.
 pub trait Criterion {
-    /// What it finds in the stored runs as the evidence's reading, and session of the clock, show them.
-    fn find(&self, evidence: &Evidence<'_>) -> Found;
+    /// What it finds in the stored runs as the evidence's interpretation, and session of the clock, show them.
+    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult;
 
     /// What it selects; none if it looks for trials in a way of its own.
     fn selections(&self) -> Vec<&Selection<'_>> {
@@ -45,18 +45,18 @@ pub trait Criterion {
         self.selections().iter().any(|of| of.is_clock())
     }
 
-    /// Whether trials ran under the evidence's reading of all that it looks at; of anything at all, if one witness would do.
+    /// Whether trials ran under the evidence's interpretation of all that it looks at; of anything at all, if one witness would do.
     fn is_covered(&self, evidence: &Evidence<'_>) -> bool {
         let is_run = |study: &&Study| evidence.run(&study.name).is_some_and(Run::is_covered);
         self.studies().iter().all(is_run) && self.selections().iter().all(|of| has_all(of, evidence))
     }
 
-    /// Whether each problem group that it looks at could be posed under the evidence's reading: one that could not says nothing.
+    /// Whether each problem group that it looks at could be posed under the evidence's interpretation: one that could not says nothing.
     fn is_posed(&self, evidence: &Evidence<'_>) -> bool {
         self.selections().iter().all(|of| of.is_posed(evidence))
     }
 
-    /// The results that it rests on under the evidence's reading, whatever the reading is called: equal text, equal results.
+    /// The results that it rests on under the evidence's interpretation, whatever the interpretation is called: equal text, equal results.
     fn results(&self, evidence: &Evidence<'_>) -> String {
         self.selections().into_iter().filter_map(|of| Some(selected(of, of.run(evidence)?))).collect()
     }
@@ -85,7 +85,7 @@ fn selected(of: &Selection<'_>, run: &Run<'_>) -> String {
                 let key = &row.key;
                 text += &format!(
                     "{group} {contender} {} {:?} {:?} {} {} {name:?} {value:?}\n",
-                    row.draw(),
+                    row.instance(),
                     key.query,
                     key.sweep,
                     key.repeat,
@@ -103,7 +103,7 @@ pub struct Entry {
     pub name: &'static str,
     /// One line for `replan list`.
     pub about: &'static str,
-    /// Raised whenever a change moves what it finds in the same trials: what was found under readings is then asked again.
+    /// Raised whenever a change moves what it finds in the same trials: what was found under interpretations is then asked again.
     pub revision: u32,
     /// The shape of its settings, which documents them.
     pub settings: Accepted,
@@ -120,9 +120,9 @@ pub static REGISTRY: &[&Entry] = &[
     &least_of::ENTRY,
     &lower::ENTRY,
     &on_every::ENTRY,
-    &one_draw::ENTRY,
+    &one_instance::ENTRY,
     &prints_as::ENTRY,
-    &row_one_draw::ENTRY,
+    &row_one_instance::ENTRY,
     &share::ENTRY,
     &trend::ENTRY,
     &within::ENTRY,

@@ -3,11 +3,11 @@
 use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
+use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::{Evidence, Run};
-use crate::analysis::found::Found;
-use crate::analysis::selection::{self, Case, Draw, Selection, cases, most_cases, solved};
+use crate::analysis::selection::{self, Case, Instance, Selection, cases, most_cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{FEWEST_DRAWS, Share, plan};
+use crate::analysis::statistic::{FEWEST_INSTANCES, Share, plan};
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
@@ -21,7 +21,7 @@ pub static ENTRY: Entry = Entry {
     name: "on_every",
     about: "does it hold on every case that a contender is lower, within a bound, or solves what another solves?",
     revision: 4,
-    settings: Accepted::of::<Settings>(),
+    settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", contender = "Weighted A*", against = "A*", metric = "opened" }
 that = "lower"
@@ -35,14 +35,14 @@ struct Settings {
     /// The trials that are looked at.
     of: SelectionSpec,
     /// What is to hold on each.
-    that: That,
+    that: Condition,
     /// The bound of `at_most`, `above` and `at_most_times`.
     bound: Option<f64>,
 }
 
 #[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
-enum That {
+enum Condition {
     /// The metric is below the other contender's, on every case that both solve.
     Lower,
     /// The metric is at most `bound` times the other contender's, on every case that both solve.
@@ -57,14 +57,14 @@ enum That {
 
 struct OnEvery<'a> {
     of: Selection<'a>,
-    that: That,
+    that: Condition,
     bound: f64,
     plan: Resampling,
 }
 
 /// How one case speaks.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Says {
+enum CaseOutcome {
     /// For it.
     For,
     /// Neither way: equal.
@@ -79,16 +79,16 @@ impl<'a> OnEvery<'a> {
         let of = Selection::new(context, &settings.of)?;
         of.some_contender(context)?;
         let that = settings.that;
-        let is_bounded = matches!(that, That::AtMost | That::Above | That::AtMostTimes);
+        let is_bounded = matches!(that, Condition::AtMost | Condition::Above | Condition::AtMostTimes);
         if is_bounded != settings.bound.is_some() {
             let needs = if is_bounded { "needs a `bound`" } else { "takes no `bound`" };
             let message = format!("this kind of `that` {needs}");
             return Err(context.settings.error_at("that", message).about("bound"));
         }
-        if !matches!(that, That::AtMost | That::Above) {
+        if !matches!(that, Condition::AtMost | Condition::Above) {
             of.against(context)?;
         }
-        if that != That::Solved {
+        if that != Condition::Solved {
             of.metric(context)?;
         }
         let plan = plan(&context.seed_names());
@@ -96,22 +96,22 @@ impl<'a> OnEvery<'a> {
     }
 
     /// How a case speaks; nothing if it is not asked.
-    fn says(&self, run: &Run<'_>, case: &Case<'_>) -> Option<Says> {
-        let holds = |holds| if holds { Says::For } else { Says::Against };
+    fn outcome_of_case(&self, run: &Run<'_>, case: &Case<'_>) -> Option<CaseOutcome> {
+        let holds = |holds| if holds { CaseOutcome::For } else { CaseOutcome::Against };
         let side = |gap: f64| match gap {
-            gap if gap < -EQUAL => Says::For,
-            gap if gap > EQUAL => Says::Against,
-            _ => Says::Equal,
+            gap if gap < -EQUAL => CaseOutcome::For,
+            gap if gap > EQUAL => CaseOutcome::Against,
+            _ => CaseOutcome::Equal,
         };
         match self.that {
-            That::Lower => case.pair().map(|(base, own)| side(own - base)),
-            That::AtMostTimes => case.pair().map(|(base, own)| holds(own <= self.bound * base + EQUAL)),
-            That::Above => case.value.map(|value| holds(value > self.bound + EQUAL)),
-            That::AtMost => {
+            Condition::Lower => case.pair().map(|(base, own)| side(own - base)),
+            Condition::AtMostTimes => case.pair().map(|(base, own)| holds(own <= self.bound * base + EQUAL)),
+            Condition::Above => case.value.map(|value| holds(value > self.bound + EQUAL)),
+            Condition::AtMost => {
                 let value = run.value(case.row, self.of.metric?).filter(|_| case.row.is_returned());
                 value.map(|value| holds(value <= self.bound + EQUAL))
             }
-            That::Solved => {
+            Condition::Solved => {
                 let is_asked = case.base.is_some_and(Row::is_solved) && !selection::is_unended(case.row);
                 is_asked.then(|| holds(case.row.is_solved()))
             }
@@ -122,57 +122,65 @@ impl<'a> OnEvery<'a> {
     fn claim(&self) -> String {
         let metric = self.of.metric.map_or_else(String::new, |metric| metric.title().to_lowercase());
         match self.that {
-            That::Lower => format!("{metric} is lower"),
-            That::AtMostTimes => format!("{metric} is at most {} times the other's", self.bound),
-            That::AtMost => format!("{metric} is at most {}", self.bound),
-            That::Above => format!("{metric} is above {}", self.bound),
-            That::Solved => "it is solved where the other solves it".to_owned(),
+            Condition::Lower => format!("{metric} is lower"),
+            Condition::AtMostTimes => format!("{metric} is at most {} times the other's", self.bound),
+            Condition::AtMost => format!("{metric} is at most {}", self.bound),
+            Condition::Above => format!("{metric} is above {}", self.bound),
+            Condition::Solved => "it is solved where the other solves it".to_owned(),
         }
     }
 
     /// How many cases might have been a counterexample and are not known to be none.
-    fn unknown(&self, draws: &[Draw<'_>]) -> usize {
+    fn unknown(&self, instances: &[Instance<'_>]) -> usize {
         match self.that {
-            That::Solved => {
+            Condition::Solved => {
                 let might_part = |case: &&Case<'_>| {
                     let [own, base] =
                         [Some(case.row), case.base].map(|row| row.is_some_and(selection::is_unended));
                     own && (base || case.base.is_some_and(Row::is_solved)) || base && !case.row.is_solved()
                 };
-                cases(draws).filter(might_part).count()
+                cases(instances).filter(might_part).count()
             }
             // Paths that the verifier refuses are looked at too.
-            That::AtMost => selection::unended(draws),
-            That::Lower | That::AtMostTimes | That::Above => selection::censored(draws),
+            Condition::AtMost => selection::unended(instances),
+            Condition::Lower | Condition::AtMostTimes | Condition::Above => selection::censored(instances),
         }
     }
 
-    fn said_by<'e>(&self, run: &Run<'_>, draws: &'e [Draw<'e>]) -> Vec<Vec<(Says, &'e Row)>> {
-        let of_draw = |draw: &'e Draw<'e>| {
-            draw.cases.iter().filter_map(|case| Some((self.says(run, case)?, case.row))).collect()
+    fn outcomes<'e>(&self, run: &Run<'_>, instances: &'e [Instance<'e>]) -> Vec<Vec<(CaseOutcome, &'e Row)>> {
+        let of_instance = |instance: &'e Instance<'e>| {
+            instance
+                .cases
+                .iter()
+                .filter_map(|case| Some((self.outcome_of_case(run, case)?, case.row)))
+                .collect()
         };
-        draws.iter().map(of_draw).collect()
+        instances.iter().map(of_instance).collect()
     }
 }
 
 impl OnEvery<'_> {
-    /// The share of cases that speak for it, of `most` of a draw at most.
-    fn share(&self, said: &[Vec<(Says, &Row)>], most: f64) -> Option<Estimate> {
-        let kept = |draw: &Vec<(Says, &Row)>| draw.iter().filter(|(says, _)| *says == Says::For).count();
-        let counts = said.iter().map(|draw| [kept(draw) as f64, draw.len() as f64]);
-        let share = Share::of(&counts.collect::<Vec<_>>(), most, self.plan)?;
+    /// The share of cases that speak for it, of `most` of an instance at most.
+    fn share(&self, said: &[Vec<(CaseOutcome, &Row)>], most: f64) -> Option<Estimate> {
+        let kept = |instance: &Vec<(CaseOutcome, &Row)>| {
+            instance.iter().filter(|(says, _)| *says == CaseOutcome::For).count()
+        };
+        let counts = said.iter().map(|instance| [kept(instance) as f64, instance.len() as f64]);
+        let share = Share::new(&counts.collect::<Vec<_>>(), most, self.plan)?;
         Some(share.estimate(&format!("cases on which {}", self.claim())))
     }
 }
 
 impl Criterion for OnEvery<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> Found {
-        let Some(run) = self.of.run(evidence) else { return Found::default() };
-        let draws = self.of.draws(evidence);
-        let said = self.said_by(run, &draws);
+    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
+        let Some(run) = self.of.run(evidence) else { return CriterionResult::default() };
+        let instances = self.of.instances(evidence);
+        let said = self.outcomes(run, &instances);
         let all = || said.iter().flatten();
-        let count = |wanted: Says| all().filter(|(says, _)| *says == wanted).count();
-        let (kept, equal, broken) = (count(Says::For), count(Says::Equal), count(Says::Against));
+        let count = |wanted: CaseOutcome| all().filter(|(says, _)| *says == wanted).count();
+        let kept = count(CaseOutcome::For);
+        let equal = count(CaseOutcome::Equal);
+        let broken = count(CaseOutcome::Against);
         let outcome = match (kept, equal, broken) {
             (0, 0, 0) => Outcome::Open,
             (_, 0, 0) => Outcome::Holds,
@@ -180,30 +188,30 @@ impl Criterion for OnEvery<'_> {
             (1.., _, 0) => Outcome::SignOnly,
             _ => Outcome::Fails,
         };
-        let counterexample = all().find(|(says, _)| *says == Says::Against);
-        let shown = counterexample.or_else(|| all().find(|(says, _)| *says == Says::Equal));
+        let counterexample = all().find(|(says, _)| *says == CaseOutcome::Against);
+        let shown = counterexample.or_else(|| all().find(|(says, _)| *says == CaseOutcome::Equal));
         let equally = if equal > 0 { format!(", equal on {equal}") } else { String::new() };
         let because = format!(
             "{}: {} on {kept} of {} cases{equally}, the contrary on {broken}",
-            self.of.said(),
+            self.of.description(),
             self.claim(),
             kept + equal + broken
         );
         // One counterexample is enough; that cases are equal is not.
-        let unknown = if broken > 0 { 0 } else { self.unknown(&draws) };
+        let unknown = if broken > 0 { 0 } else { self.unknown(&instances) };
         let left = (unknown > 0).then(|| format!("{unknown} more cases have no number to compare"));
-        Found {
+        CriterionResult {
             outcome: Some(outcome),
-            ours: self.share(&said, most_cases(&draws)).map(|ours| ours.of_cases(solved(&draws))),
+            ours: self.share(&said, most_cases(&instances)).map(|ours| ours.of_cases(solved(&instances))),
             trial: shown.map(|(_, row)| run.trial(row)),
             because: std::iter::once(because).chain(left).collect(),
             units: "cases",
             censored: unknown,
             needs: self
                 .of
-                .needs_draws(&draws, FEWEST_DRAWS)
+                .needs_instances(&instances, FEWEST_INSTANCES)
                 .filter(|_| matches!(outcome, Outcome::Holds | Outcome::SignOnly)),
-            ..Found::default()
+            ..CriterionResult::default()
         }
     }
 

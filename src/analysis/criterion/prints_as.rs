@@ -3,12 +3,12 @@
 use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
+use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::{self, Selection, cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::FEWEST_DRAWS;
+use crate::analysis::statistic::FEWEST_INSTANCES;
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, SettingsError};
 use proofs::exact::Print;
@@ -21,7 +21,7 @@ pub static ENTRY: Entry = Entry {
     name: "prints_as",
     about: "does a number that is the same in every trial print as the paper's?",
     revision: 3,
-    settings: Accepted::of::<Settings>(),
+    settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
 "#,
@@ -52,14 +52,15 @@ impl<'a> PrintsAs<'a> {
 }
 
 impl Criterion for PrintsAs<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> Found {
-        let draws = self.of.draws(evidence);
-        let (who, metric) = (self.of.said(), self.metric.label.to_lowercase());
-        let values: Vec<f64> = cases(&draws).filter_map(|case| case.value).collect();
+    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
+        let instances = self.of.instances(evidence);
+        let who = self.of.description();
+        let metric = self.metric.label.to_lowercase();
+        let values: Vec<f64> = cases(&instances).filter_map(|case| case.value).collect();
         let [Some(low), Some(high)] =
             [f64::min as fn(_, _) -> _, f64::max].map(|of| values.iter().copied().reduce(of))
         else {
-            return Found::open(format!("{who}: {metric} was not measured"));
+            return CriterionResult::open(format!("{who}: {metric} was not measured"));
         };
         let agree = [low, high].map(|value| self.print.agrees(value));
         let outcome = match agree {
@@ -69,17 +70,20 @@ impl Criterion for PrintsAs<'_> {
         };
         let verb = if agree == [true, true] { "prints as" } else { "does not print as" };
         let number = if low == high { format!("{low:.6}") } else { format!("{low:.6} to {high:.6}") };
-        let first = cases(&draws).find(|case| case.value.is_some());
+        let first = cases(&instances).find(|case| case.value.is_some());
         let ours = Estimate::bare(low, format!("{metric} of {}", self.of.contenders[0]), values.len());
-        Found {
+        CriterionResult {
             outcome: Some(outcome),
-            ours: Some(ours.of_cases(solved(&draws))),
+            ours: Some(ours.of_cases(solved(&instances))),
             trial: self.of.trial(evidence, first),
             // One that would print so leaves open what is not the same in every trial.
-            censored: if outcome == Outcome::Open { 0 } else { selection::unended(&draws) },
+            censored: if outcome == Outcome::Open { 0 } else { selection::unended(&instances) },
             because: vec![format!("{who}: {metric} {number}, which {verb} {}", self.print.printed)],
-            needs: self.of.needs_draws(&draws, FEWEST_DRAWS).filter(|_| outcome == Outcome::Holds),
-            ..Found::default()
+            needs: self
+                .of
+                .needs_instances(&instances, FEWEST_INSTANCES)
+                .filter(|_| outcome == Outcome::Holds),
+            ..CriterionResult::default()
         }
     }
 

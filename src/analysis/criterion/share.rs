@@ -1,11 +1,11 @@
-//! A share with its interval: of trials solved or with a mark, of events, of draws on which something holds throughout.
+//! A share with its interval: of trials solved or with a mark, of events, of instances on which something holds throughout.
 
 use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
+use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::found::Found;
-use crate::analysis::selection::{Case, Draw, Selection, cases, most_cases, solved};
+use crate::analysis::selection::{Case, Instance, Selection, cases, most_cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{Share, narrows, needs, plan};
 use base::settings::{Accepted, SettingsError};
@@ -22,9 +22,9 @@ use study::record::Row;
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "share",
-    about: "does a share lie within bounds: of trials solved or with a mark, of events, of draws?",
+    about: "does a share lie within bounds: of trials solved or with a mark, of events, of instances?",
     revision: 3,
-    settings: Accepted::of::<Settings>(),
+    settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = ["maps"], contender = "A*" }
 hits = "solved"
@@ -68,12 +68,12 @@ enum Hits {
     Lower,
     /// Cases that both solve, with the metric above the other contender's.
     Higher,
-    /// Draws with the metric below the other contender's on every case that both solve.
+    /// Instances with the metric below the other contender's on every case that both solve.
     LowerThroughout,
 }
 
 impl Hits {
-    fn said(self) -> &'static str {
+    fn label(self) -> &'static str {
         match self {
             Self::Solved => "trials solved",
             Self::Rejected => "paths refused by the verifier",
@@ -169,13 +169,13 @@ impl<'a> Counted<'a> {
         }
     }
 
-    /// Hits and chances of one draw; its cases of which nothing is known left out, or all as hits or as misses.
-    fn of_draw(&self, draw: &Draw<'_>, unknown: Option<bool>) -> [f64; 2] {
+    /// Hits and chances of one instance; its cases of which nothing is known left out, or all as hits or as misses.
+    fn of_instance(&self, instance: &Instance<'_>, unknown: Option<bool>) -> [f64; 2] {
         let of_case = |case: &Case<'_>| match unknown.filter(|_| self.is_unknown(case)) {
             Some(is_hit) => Some([f64::from(u8::from(is_hit)), 1.0]),
             None => self.counts(case),
         };
-        let counts = draw.cases.iter().filter_map(of_case);
+        let counts = instance.cases.iter().filter_map(of_case);
         let [hits, chances] = counts.fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
         if self.settings.hits == Hits::LowerThroughout && chances > 0.0 {
             return [f64::from(u8::from(hits == chances)), 1.0];
@@ -183,25 +183,26 @@ impl<'a> Counted<'a> {
         [hits, chances]
     }
 
-    /// The most chances that a draw could have had: of events the most that were seen, as they have no bound.
-    fn most(&self, draws: &[Draw<'_>]) -> f64 {
+    /// The most chances that an instance could have had: of events the most that were seen, as they have no bound.
+    fn most(&self, instances: &[Instance<'_>]) -> f64 {
         match self.settings.hits {
             Hits::LowerThroughout => 1.0,
             Hits::Events => 0.0,
-            _ => most_cases(draws),
+            _ => most_cases(instances),
         }
     }
 
     /// How many cases of which nothing is known could turn what was found: all are counted as hits, then all as misses.
-    fn censored(&self, draws: &[Draw<'_>], outcome: Option<Outcome>) -> usize {
-        let unknown = cases(draws).filter(|case| self.is_unknown(case)).count();
+    fn censored(&self, instances: &[Instance<'_>], outcome: Option<Outcome>) -> usize {
+        let unknown = cases(instances).filter(|case| self.is_unknown(case)).count();
         // How many events there would have been is not known even as a bound.
         if unknown == 0 || self.settings.hits == Hits::Events {
             return unknown;
         }
         let interval = |is_hit: bool| {
-            let counts: Vec<[f64; 2]> = draws.iter().map(|draw| self.of_draw(draw, Some(is_hit))).collect();
-            Share::of(&counts, self.most(draws), self.plan).and_then(|share| share.interval)
+            let counts: Vec<[f64; 2]> =
+                instances.iter().map(|instance| self.of_instance(instance, Some(is_hit))).collect();
+            Share::new(&counts, self.most(instances), self.plan).and_then(|share| share.interval)
         };
         // All that the share may be: anything from the one interval to the other.
         let widest = interval(false).zip(interval(true)).map(|(none, all)| Interval::new(none.low, all.high));
@@ -222,13 +223,13 @@ impl<'a> Counted<'a> {
     }
 
     /// A trial of what there is too little or too much of or, where the share is accepted, of the rarer kind.
-    fn shown(&self, evidence: &Evidence<'_>, draws: &[Draw<'_>], share: f64) -> Option<String> {
+    fn shown(&self, evidence: &Evidence<'_>, instances: &[Instance<'_>], share: f64) -> Option<String> {
         let is_miss_shown = match self.settings.accepted {
             Some([low, _]) if share < low => true,
             Some([_, high]) if share > high => false,
             _ => share > 0.5,
         };
-        let counted = || cases(draws).filter(|case| self.counts(case).is_some());
+        let counted = || cases(instances).filter(|case| self.counts(case).is_some());
         let is_shown = |case: &&Case<'_>| {
             self.counts(case).is_some_and(|[hits, chances]| (hits < chances) == is_miss_shown)
         };
@@ -238,14 +239,14 @@ impl<'a> Counted<'a> {
 
 impl Counted<'_> {
     /// What is counted, in words.
-    fn said(&self) -> String {
+    fn description(&self) -> String {
         let named = match self.settings.bound {
             Some(bound) => {
                 format!("{} {bound}", self.of.metric.map_or("", |metric| metric.label).to_lowercase())
             }
             None => self.settings.columns.join(" and "),
         };
-        let hits = self.settings.hits.said();
+        let hits = self.settings.hits.label();
         if named.is_empty() { hits.to_owned() } else { format!("{hits} ({named})") }
     }
 
@@ -256,16 +257,19 @@ impl Counted<'_> {
         let accepted = self.settings.accepted.map_or_else(String::new, |[least, most]| {
             format!("; accepted {} to {} %", 100.0 * least, 100.0 * most)
         });
-        let (who, what, percent) = (self.of.said(), self.said(), 100.0 * share.value);
+        let who = self.of.description();
+        let what = self.description();
+        let percent = 100.0 * share.value;
         format!("{who}: {what} {hits} of {chances}, {percent:.2} %{interval}{accepted}")
     }
 }
 
 impl Counted<'_> {
     /// Why paths were refused, where those are counted: the verifier's words without numbers, the most frequent first.
-    fn refusals(&self, draws: &[Draw<'_>]) -> Option<String> {
+    fn refusals(&self, instances: &[Instance<'_>]) -> Option<String> {
         let mut kinds: BTreeMap<String, usize> = BTreeMap::new();
-        for case in cases(draws).filter(|case| self.settings.hits == Hits::Rejected && case.row.is_returned())
+        for case in
+            cases(instances).filter(|case| self.settings.hits == Hits::Rejected && case.row.is_returned())
         {
             if let Some(reason) = &case.row.reason {
                 *kinds.entry(without_numbers(reason)).or_default() += 1;
@@ -290,27 +294,31 @@ fn without_numbers(text: &str) -> String {
 }
 
 impl Criterion for Counted<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> Found {
-        let draws = self.of.draws(evidence);
-        let counts: Vec<[f64; 2]> = draws.iter().map(|draw| self.of_draw(draw, None)).collect();
-        let Some(share) = Share::of(&counts, self.most(&draws), self.plan) else {
-            let because = format!("{}: nothing to count {} among", self.of.said(), self.said());
-            return Found { outcome: self.settings.accepted.map(|_| Outcome::Open), ..Found::open(because) };
+    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
+        let instances = self.of.instances(evidence);
+        let counts: Vec<[f64; 2]> =
+            instances.iter().map(|instance| self.of_instance(instance, None)).collect();
+        let Some(share) = Share::new(&counts, self.most(&instances), self.plan) else {
+            let because = format!("{}: nothing to count {} among", self.of.description(), self.description());
+            return CriterionResult {
+                outcome: self.settings.accepted.map(|_| Outcome::Open),
+                ..CriterionResult::open(because)
+            };
         };
         let total = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
         let undecided = self.settings.accepted.map(|_| Outcome::Open);
         let outcome = share.interval.map_or(undecided, |interval| self.outcome(interval));
-        Found {
+        CriterionResult {
             outcome,
-            ours: Some(share.estimate(&self.said()).of_cases(solved(&draws))),
-            trial: self.shown(evidence, &draws, share.value),
-            because: std::iter::once(self.because(&share, total)).chain(self.refusals(&draws)).collect(),
+            ours: Some(share.estimate(&self.description()).of_cases(solved(&instances))),
+            trial: self.shown(evidence, &instances, share.value),
+            because: std::iter::once(self.because(&share, total)).chain(self.refusals(&instances)).collect(),
             limits: self.settings.accepted.map_or_else(Vec::new, |accepted| accepted.to_vec()),
             units: "draws",
-            censored: self.censored(&draws, outcome),
-            needs: needs(share.draws).filter(|_| !share.is_exact),
+            censored: self.censored(&instances, outcome),
+            needs: needs(share.instances).filter(|_| !share.is_exact),
             narrows: narrows(share.is_agreed),
-            ..Found::default()
+            ..CriterionResult::default()
         }
     }
 

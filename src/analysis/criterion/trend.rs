@@ -3,12 +3,12 @@
 use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
+use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::{self, Case, Draw, Selection, by_draw, cases, solved};
+use crate::analysis::selection::{self, Case, Instance, Selection, by_instance, cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{FEWEST_DRAWS, needs, plan};
+use crate::analysis::statistic::{FEWEST_INSTANCES, needs, plan};
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
@@ -21,9 +21,9 @@ use study::column;
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "trend",
-    about: "does a metric, or what a contender saves, grow along a column? the slope over draws, with medians",
+    about: "does a metric, or what a contender saves, grow along a column? the slope over instances, with medians",
     revision: 3,
-    settings: Accepted::of::<Settings>(),
+    settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", contender = "A*", metric = "opened" }
 over = "path_cost_cells"
@@ -67,36 +67,37 @@ impl<'a> Trend<'a> {
 
     /// How many cases without an end could turn what was found: each is given a number below or above all that were seen
     /// together, whichever goes against a slope that rises, then against one that falls.
-    fn censored(&self, draws: &[Draw<'_>], outcome: Outcome) -> usize {
-        let seen: Vec<(f64, f64)> = cases(draws).filter_map(|case| self.point(case)).collect();
+    fn censored(&self, instances: &[Instance<'_>], outcome: Outcome) -> usize {
+        let seen: Vec<(f64, f64)> = cases(instances).filter_map(|case| self.point(case)).collect();
         let middle = summary::mean(&seen.iter().map(|(x, _)| *x).collect::<Vec<_>>());
         let Some(middle) = middle else { return 0 };
         let least = seen.iter().fold(0.0, |least: f64, (_, y)| least.min(*y));
         let most = seen.iter().fold(0.0, |most: f64, (_, y)| most.max(y.abs())) * seen.len() as f64;
         // One whose place is not known either may stand anywhere.
         let is_lost = |case: &Case<'_>| case.is_unended() && case.row.value(&self.over).is_none();
-        if cases(draws).any(is_lost) {
-            return selection::unended(draws);
+        if cases(instances).any(is_lost) {
+            return selection::unended(instances);
         }
         let number = |case: &Case<'_>, rising: bool| {
             let place = case.row.value(&self.over).filter(|_| case.is_unended());
             self.point(case).or_else(|| place.map(|x| (x, if (x > middle) == rising { most } else { least })))
         };
         let turned = [true, false].into_iter().any(|rising| {
-            let points = by_draw(draws, |case| number(case, rising));
+            let points = by_instance(instances, |case| number(case, rising));
             pooled::slope(&points, self.plan).is_some_and(|found| self.outcome(found.interval) != outcome)
         });
-        if turned { selection::unended(draws) } else { 0 }
+        if turned { selection::unended(instances) } else { 0 }
     }
 
     /// The trial that does most for the slope that was found.
-    fn shown(&self, evidence: &Evidence<'_>, draws: &[Draw<'_>], outcome: Outcome) -> Option<String> {
+    fn shown(&self, evidence: &Evidence<'_>, instances: &[Instance<'_>], outcome: Outcome) -> Option<String> {
         let (places, numbers): (Vec<f64>, Vec<f64>) =
-            cases(draws).filter_map(|case| self.point(case)).unzip();
-        let (place, number) = (summary::mean(&places)?, summary::mean(&numbers)?);
+            cases(instances).filter_map(|case| self.point(case)).unzip();
+        let place = summary::mean(&places)?;
+        let number = summary::mean(&numbers)?;
         let sign = if self.rising == (outcome != Outcome::Fails) { -1.0 } else { 1.0 };
         let against = |case: &Case<'_>| self.point(case).map(|(x, y)| sign * (x - place) * (y - number));
-        selection::least(&self.of, evidence, draws, against)
+        selection::least(&self.of, evidence, instances, against)
     }
 
     fn point(&self, case: &Case<'_>) -> Option<(f64, f64)> {
@@ -117,11 +118,11 @@ impl<'a> Trend<'a> {
 }
 
 impl Criterion for Trend<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> Found {
-        let draws = self.of.draws(evidence);
-        let points = by_draw(&draws, |case| self.point(case));
+    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
+        let instances = self.of.instances(evidence);
+        let points = by_instance(&instances, |case| self.point(case));
         let Some(found) = pooled::slope(&points, self.plan) else {
-            return Found::too_few(points.len(), draws.len(), FEWEST_DRAWS);
+            return CriterionResult::too_few(points.len(), instances.len(), FEWEST_INSTANCES);
         };
         let outcome = self.outcome(found.interval);
         let metric = self.metric.label.to_lowercase();
@@ -133,8 +134,8 @@ impl Criterion for Trend<'_> {
         let medians = summary::medians_by_thirds(&points.concat());
         let medians = medians.iter().map(|median| format!("{median:.3}")).collect::<Vec<_>>().join(", ");
         let because = format!(
-            "{}: {subject} along {} changes by {:+.4}{unit} each (95 % interval {:+.4} to {:+.4}, {} draws); medians by thirds of {} {}",
-            self.of.said(),
+            "{}: {subject} along {} changes by {:+.4}{unit} each (95 % interval {:+.4} to {:+.4}, {} instances); medians by thirds of {} {}",
+            self.of.description(),
             self.over,
             found.value,
             found.interval.low,
@@ -143,17 +144,18 @@ impl Criterion for Trend<'_> {
             self.over,
             medians,
         );
-        let what = format!("slope of {subject} along {}:{unit} each, bootstrap 95 % over draws", self.over);
-        Found {
+        let what =
+            format!("slope of {subject} along {}:{unit} each, bootstrap 95 % over instances", self.over);
+        CriterionResult {
             outcome: Some(outcome),
-            ours: Some(Estimate::of(found, what).of_cases(solved(&draws))),
-            trial: self.shown(evidence, &draws, outcome),
+            ours: Some(Estimate::from_bootstrap(found, what).of_cases(solved(&instances))),
+            trial: self.shown(evidence, &instances, outcome),
             because: vec![because],
             limits: vec![0.0],
             units: "draws",
-            censored: self.censored(&draws, outcome),
+            censored: self.censored(&instances, outcome),
             needs: needs(found.units),
-            ..Found::default()
+            ..CriterionResult::default()
         }
     }
 

@@ -3,12 +3,12 @@
 use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
+use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::{self, Draw, Selection, solved};
+use crate::analysis::selection::{self, Instance, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{FEWEST_DRAWS, OfAll, how, narrows, needs, plan};
+use crate::analysis::statistic::{FEWEST_INSTANCES, OverallStatistic, how, narrows, needs, plan};
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
@@ -22,7 +22,7 @@ pub static ENTRY: Entry = Entry {
     name: "within",
     about: "does the interval of a mean, median, deviation, ratio or reduction lie within a margin or within bounds?",
     revision: 4,
-    settings: Accepted::of::<Settings>(),
+    settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", contender = "Weighted A*", against = "A*", metric = "opened" }
 statistic = "ratio"
@@ -36,8 +36,8 @@ accepted = [0.0, 0.5]
 struct Settings {
     /// The trials that are looked at.
     of: SelectionSpec,
-    /// What is taken of all draws.
-    statistic: OfAll,
+    /// What is taken of all instances.
+    statistic: OverallStatistic,
     /// How far the statistic may be from the printed number, in its unit.
     #[schemars(range(min = 0.0, max = 1e9))]
     margin: Option<f64>,
@@ -50,7 +50,7 @@ struct Settings {
 struct Within<'a> {
     of: Selection<'a>,
     metric: &'static Metric,
-    statistic: OfAll,
+    statistic: OverallStatistic,
     accepted: Interval,
     /// The printed number, if it is what the margin is about.
     printed: Option<f64>,
@@ -79,7 +79,7 @@ impl<'a> Within<'a> {
         if settings.statistic.is_paired() {
             of.against(context)?;
         }
-        if settings.statistic == OfAll::RatioOfGroups && of.groups.len() != 2 {
+        if settings.statistic == OverallStatistic::RatioOfGroups && of.groups.len() != 2 {
             let message = format!("`of` names {} problem groups; two are accepted", of.groups.len());
             return Err(context.settings.error_at("of.problems", message));
         }
@@ -109,7 +109,8 @@ impl<'a> Within<'a> {
 
     /// What an interval says of the claim.
     fn outcome(&self, found: Interval) -> Outcome {
-        let (accepted, found) = (self.accepted, on_bounds(self.accepted, found));
+        let accepted = self.accepted;
+        let found = on_bounds(self.accepted, found);
         if accepted.contains(found.low) && accepted.contains(found.high) {
             return Outcome::Holds;
         }
@@ -126,31 +127,31 @@ impl<'a> Within<'a> {
         if is_same_side { Outcome::SignOnly } else { Outcome::Fails }
     }
 
-    /// Draws of which there are too few; of two groups each needs as many, but for one in which nothing is drawn.
-    fn needs(&self, draws: &[Draw<'_>], units: usize) -> Option<usize> {
-        if self.statistic != OfAll::RatioOfGroups {
+    /// Instances of which there are too few; of two groups each needs as many, but for one in which nothing is drawn.
+    fn needs(&self, instances: &[Instance<'_>], units: usize) -> Option<usize> {
+        if self.statistic != OverallStatistic::RatioOfGroups {
             return needs(units);
         }
-        let of_group = |group: &String| draws.iter().filter(|draw| draw.group == group).count();
+        let of_group = |group: &String| instances.iter().filter(|instance| instance.group == group).count();
         let is_enough = |group: &String| of_group(group) == 1 && !self.of.study.is_drawn(group);
         self.of.groups.iter().filter(|group| !is_enough(group)).find_map(|group| needs(of_group(group)))
     }
 
-    fn estimated(&self, draws: &[Draw<'_>]) -> Option<Estimated> {
-        self.statistic.of(draws, self.plan)
+    fn estimated(&self, instances: &[Instance<'_>]) -> Option<Estimated> {
+        self.statistic.estimate(instances, self.plan)
     }
 
     /// How many cases without a number could turn what was found.
-    fn censored(&self, draws: &[Draw<'_>], found: Interval, outcome: Outcome) -> usize {
-        let others = self.statistic.otherwise(&self.of, draws, self.plan);
+    fn censored(&self, instances: &[Instance<'_>], found: Interval, outcome: Outcome) -> usize {
+        let others = self.statistic.otherwise(&self.of, instances, self.plan);
         // What they may make of it reaches from the one to the other: two that both fail may do so on either side.
         let both = |one: Interval, two: Interval| Interval::new(one.low.min(two.low), one.high.max(two.high));
         let whole = others.iter().copied().fold(found, both);
         let turned = others.into_iter().chain([whole]).any(|interval| self.outcome(interval) != outcome);
         match turned {
             false => 0,
-            true if self.statistic.is_paired() => selection::censored(draws),
-            true => selection::unended(draws),
+            true if self.statistic.is_paired() => selection::censored(instances),
+            true => selection::unended(instances),
         }
     }
 }
@@ -163,16 +164,17 @@ fn on_bounds(accepted: Interval, found: Interval) -> Interval {
 }
 
 impl Criterion for Within<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> Found {
-        let draws = self.of.draws(evidence);
-        let Some(found) = self.estimated(&draws).filter(|found| found.interval.low.is_finite()) else {
-            let counted = draws.iter().filter(|draw| draw.cases.iter().any(|case| case.value.is_some()));
-            return Found::too_few(counted.count(), draws.len(), FEWEST_DRAWS)
-                .hanging_on(selection::unended(&draws));
+    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
+        let instances = self.of.instances(evidence);
+        let Some(found) = self.estimated(&instances).filter(|found| found.interval.low.is_finite()) else {
+            let counted =
+                instances.iter().filter(|instance| instance.cases.iter().any(|case| case.value.is_some()));
+            return CriterionResult::too_few(counted.count(), instances.len(), FEWEST_INSTANCES)
+                .hanging_on(selection::unended(&instances));
         };
         let outcome = self.outcome(found.interval);
         let metric = self.metric.label.to_lowercase();
-        let what = format!("{} of {metric}, {} 95 % over draws", self.statistic.name(), how(&found));
+        let what = format!("{} of {metric}, {} 95 % over instances", self.statistic.name(), how(&found));
         let Interval { low, high } = found.interval;
         let accepted = match self.printed {
             Some(printed) => format!("printed {printed}, margin {}", self.accepted.high - printed),
@@ -180,24 +182,24 @@ impl Criterion for Within<'_> {
         };
         let agreed = if found.is_agreed { " that all agree" } else { "" };
         let because = format!(
-            "{}: {} of {metric} {:.4} (95 % interval {low:.4} to {high:.4}, {} draws{agreed}); {accepted}",
-            self.of.said(),
+            "{}: {} of {metric} {:.4} (95 % interval {low:.4} to {high:.4}, {} instances{agreed}); {accepted}",
+            self.of.description(),
             self.statistic.name(),
             found.value,
             found.units,
         );
-        let ours = Estimate::new(found.value, found.interval, what, found.units).of_cases(solved(&draws));
-        Found {
+        let ours = Estimate::new(found.value, found.interval, what, found.units).of_cases(solved(&instances));
+        CriterionResult {
             outcome: Some(outcome),
             ours: Some(ours),
-            trial: self.shown(evidence, &draws, found.value),
+            trial: self.shown(evidence, &instances, found.value),
             because: vec![because],
             limits: vec![self.accepted.low, self.accepted.high],
             units: "draws",
-            censored: self.censored(&draws, found.interval, outcome),
-            needs: self.needs(&draws, found.units),
+            censored: self.censored(&instances, found.interval, outcome),
+            needs: self.needs(&instances, found.units),
             narrows: narrows(found.is_agreed),
-            ..Found::default()
+            ..CriterionResult::default()
         }
     }
 
@@ -208,13 +210,15 @@ impl Criterion for Within<'_> {
 
 impl Within<'_> {
     /// The trial whose own number is nearest to the statistic.
-    fn shown(&self, evidence: &Evidence<'_>, draws: &[Draw<'_>], value: f64) -> Option<String> {
+    fn shown(&self, evidence: &Evidence<'_>, instances: &[Instance<'_>], value: f64) -> Option<String> {
         let own = |case: &selection::Case<'_>| match self.statistic {
-            OfAll::Ratio => case.pair().filter(|(base, _)| *base > 0.0).map(|(base, own)| own / base),
-            OfAll::ReductionPercent => case.saving_percent(),
+            OverallStatistic::Ratio => {
+                case.pair().filter(|(base, _)| *base > 0.0).map(|(base, own)| own / base)
+            }
+            OverallStatistic::ReductionPercent => case.saving_percent(),
             _ => case.value,
         };
-        selection::nearest(&self.of, evidence, draws, own, value)
+        selection::nearest(&self.of, evidence, instances, own, value)
     }
 }
 

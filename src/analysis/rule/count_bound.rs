@@ -13,7 +13,7 @@ pub static ENTRY: Entry = Entry {
     name: "count_bound",
     about: "is a printed count at most what A* with the Euclidean heuristic can open or close on any map?",
     revision: 1,
-    settings: Accepted::of::<Settings>(),
+    settings: Accepted::shape::<Settings>(),
     example: r#"
 size = [40, 40]
 start = [2, 2]
@@ -28,14 +28,15 @@ closed = "closed"
             context.settings.read()?;
         let [metric, opened, closed] =
             [context.known_metric(&metric)?, context.known_metric(&opened)?, context.known_metric(&closed)?];
-        // Which bound holds for the metric under the reading.
+        // Which bound holds for the metric under the interpretation.
         let applies: Option<fn(CountBound) -> usize> = match metric.name {
             name if name == opened.name => Some(|bound| bound.opened),
             name if name == closed.name => Some(|bound| bound.closed),
             _ => None,
         };
-        let (print, ends, optimum) =
-            (context.print()?, Ends { size, start, goal }, Octile { straight, diagonal });
+        let print = context.print()?;
+        let ends = Ends { size, start, goal };
+        let optimum = Octile { straight, diagonal };
         Ok(rule(move |_| refused(proof::count_bound(print, ends, optimum, applies))))
     },
 };
@@ -51,7 +52,7 @@ struct Settings {
     goal: [i32; 2],
     /// Straight and diagonal moves of A*'s path.
     optimum: [u32; 2],
-    /// What the printed number counts, as readings name it.
+    /// What the printed number counts, as interpretations name it.
     metric: String,
     /// The metric that counts opened nodes.
     opened: String,

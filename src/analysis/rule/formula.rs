@@ -3,7 +3,7 @@
 //! What is one paper's mathematics is no rule of its own: it stands under a name in [`proofs::formula::REGISTRY`].
 
 use super::{Entry, decided, rule};
-use crate::analysis::found::Found;
+use crate::analysis::criterion_result::CriterionResult;
 use base::settings::Accepted;
 use proofs::formula;
 use schemars::JsonSchema;
@@ -15,7 +15,7 @@ pub static ENTRY: Entry = Entry {
     name: "formula",
     about: "does a formula of the paper, evaluated as printed, give what the text says of it?",
     revision: 1,
-    settings: Accepted::of::<Settings>(),
+    settings: Accepted::shape::<Settings>(),
     example: r#"
 name = "forbidden_disc"
 with = { l1 = 25.0, l2 = 15.0, radius = 10.0 }
@@ -29,7 +29,7 @@ with = { l1 = 25.0, l2 = 15.0, radius = 10.0 }
         };
         let numbers = formula.numbers(&with).map_err(|message| context.settings.error_at("with", message))?;
         let existential = formula.is_existential;
-        Ok(rule(move |_| Found { existential, ..decided((formula.prove)(&numbers)) }))
+        Ok(rule(move |_| CriterionResult { existential, ..decided((formula.prove)(&numbers)) }))
     },
 };
 

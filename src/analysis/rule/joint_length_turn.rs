@@ -12,7 +12,7 @@ pub static ENTRY: Entry = Entry {
     name: "joint_length_turn",
     about: "has any polyline through cell centres both a printed length and a printed turn sum?",
     revision: 1,
-    settings: Accepted::of::<Settings>(),
+    settings: Accepted::shape::<Settings>(),
     example: r#"
 size = [40, 40]
 start = [2, 2]
@@ -28,13 +28,14 @@ longest = 15.0
         let read: Settings = context.settings.read()?;
         let Settings { size, start, goal, longest, .. } = read;
         check_search(context, size, longest)?;
-        let (length, turn) = (context.print_of(&read.length)?, context.print_of(&read.turn)?);
+        let length = context.print_of(&read.length)?;
+        let turn = context.print_of(&read.turn)?;
         let meant = match context.known_metric(&read.metric)?.name {
             name if name == read.interior => Convention::Interior,
             name if name == read.exterior => Convention::Exterior,
             name => {
                 let message = format!(
-                    "`{}` stands for `{name}` under this reading; `{}` or `{}` is accepted",
+                    "`{}` stands for `{name}` under this interpretation; `{}` or `{}` is accepted",
                     read.metric, read.exterior, read.interior
                 );
                 return Err(context.settings.error_at("metric", message));
@@ -61,7 +62,7 @@ struct Settings {
     length: String,
     /// The claim that prints the turn sum.
     turn: String,
-    /// What the turn sum is, as readings name it.
+    /// What the turn sum is, as interpretations name it.
     metric: String,
     /// The metric that sums changes of heading.
     exterior: String,

@@ -11,7 +11,7 @@ pub static ENTRY: Entry = Entry {
     name: "largest_saving",
     about: "is a printed saving on a printed length possible for any path between start and goal?",
     revision: 1,
-    settings: Accepted::of::<Settings>(),
+    settings: Accepted::shape::<Settings>(),
     example: r#"
 baseline = "table1.astar.length"
 start = [2, 2]
@@ -20,8 +20,9 @@ size = [40, 40]
 "#,
     build: |context| {
         let Settings { baseline, start, goal, size } = context.settings.read()?;
-        let (baseline, print, ends) =
-            (context.print_of(&baseline)?, context.print()?, Ends { size, start, goal });
+        let baseline = context.print_of(&baseline)?;
+        let print = context.print()?;
+        let ends = Ends { size, start, goal };
         Ok(rule(move |_| refused(proof::largest_saving(print, baseline, ends))))
     },
 };

@@ -11,7 +11,7 @@ pub static ENTRY: Entry = Entry {
     name: "lattice_length",
     about: "is a printed length a + b√2 for any 8-connected path between the cells, rounded or truncated?",
     revision: 1,
-    settings: Accepted::of::<Settings>(),
+    settings: Accepted::shape::<Settings>(),
     example: "start = [2, 2]\ngoal = [36, 30]",
     build: |context| {
         let Settings { start, goal, size } = context.settings.read()?;
@@ -20,7 +20,8 @@ pub static ENTRY: Entry = Entry {
             let message = "`start` and `goal` are given together or not at all";
             return Err(context.settings.error_at(given, message).about("start").about("goal"));
         }
-        let (print, ends) = (context.print()?, start.zip(goal).map(|(start, goal)| [start, goal]));
+        let print = context.print()?;
+        let ends = start.zip(goal).map(|(start, goal)| [start, goal]);
         Ok(rule(move |_| refused(proof::lattice_length(print, ends, size))))
     },
 };

@@ -17,35 +17,40 @@ mod turn_needs_length;
 use super::class::Outcome;
 use super::context::Context;
 use super::criterion::{Criterion, Entry};
+use super::criterion_result::CriterionResult;
 use super::evidence::Evidence;
-use super::found::Found;
 use base::settings::SettingsError;
 use proofs::proof::Proof;
 
 /// A rule: a criterion that selects no trial. The evidence only remembers what other claims have asked.
 struct Rule<F>(F);
 
-impl<F: Fn(&Evidence<'_>) -> Found> Criterion for Rule<F> {
-    fn find(&self, evidence: &Evidence<'_>) -> Found {
+impl<F: Fn(&Evidence<'_>) -> CriterionResult> Criterion for Rule<F> {
+    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
         (self.0)(evidence)
     }
 }
 
 /// The rule that finds this.
-fn rule<'a>(find: impl Fn(&Evidence<'_>) -> Found + 'a) -> Box<dyn Criterion + 'a> {
+fn rule<'a>(find: impl Fn(&Evidence<'_>) -> CriterionResult + 'a) -> Box<dyn Criterion + 'a> {
     Box::new(Rule(find))
 }
 
 /// What a proof finds that can only refuse: that something is possible does not make it so.
-fn refused(proof: Proof) -> Found {
+fn refused(proof: Proof) -> CriterionResult {
     let outcome = (!proof.is_possible).then_some(Outcome::Proved);
-    Found { outcome, because: proof.because, premises: proof.premises, ..Found::default() }
+    CriterionResult {
+        outcome,
+        because: proof.because,
+        premises: proof.premises,
+        ..CriterionResult::default()
+    }
 }
 
 /// What a proof finds that decides either way.
-fn decided(proof: Proof) -> Found {
+fn decided(proof: Proof) -> CriterionResult {
     let outcome = if proof.is_possible { Outcome::Holds } else { Outcome::Proved };
-    Found { outcome: Some(outcome), ..refused(proof) }
+    CriterionResult { outcome: Some(outcome), ..refused(proof) }
 }
 
 /// Refuses a grid or a length that a search for polylines would not come to the end of.

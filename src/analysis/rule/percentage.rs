@@ -11,14 +11,15 @@ pub static ENTRY: Entry = Entry {
     name: "percentage",
     about: "is a printed reduction what the printed cells give?",
     revision: 1,
-    settings: Accepted::of::<Settings>(),
+    settings: Accepted::shape::<Settings>(),
     example: r#"
 before = "table1.astar.length"
 after = "table1.weighted.length"
 "#,
     build: |context| {
         let Settings { before, after } = context.settings.read()?;
-        let (print, cells) = (context.print()?, [context.print_of(&before)?, context.print_of(&after)?]);
+        let print = context.print()?;
+        let cells = [context.print_of(&before)?, context.print_of(&after)?];
         let proof = proof::percentage(print, cells).ok_or_else(|| {
             let [before, after] = cells.map(|cell| cell.printed);
             context.settings.error(format!(

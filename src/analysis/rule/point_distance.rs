@@ -1,7 +1,7 @@
 //! Whether a printed distance is that between the two printed points.
 
 use super::{Entry, decided, rule};
-use crate::analysis::found::Found;
+use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::verdict::Estimate;
 use base::settings::Accepted;
 use proofs::proof;
@@ -13,17 +13,18 @@ pub static ENTRY: Entry = Entry {
     name: "point_distance",
     about: "is a printed distance that between two printed points?",
     revision: 1,
-    settings: Accepted::of::<Settings>(),
+    settings: Accepted::shape::<Settings>(),
     example: "
 from = [2.5, 2.5]
 to = [36.5, 30.5]
 ",
     build: |context| {
-        let (Settings { from, to }, print) = (context.settings.read()?, context.print()?);
+        let Settings { from, to } = context.settings.read()?;
+        let print = context.print()?;
         Ok(rule(move |_| {
             let (distance, proof) = proof::point_distance(print, from, to);
             let ours = Estimate::bare(distance, "computed from the printed points", 1);
-            Found { ours: Some(ours), ..decided(proof) }
+            CriterionResult { ours: Some(ours), ..decided(proof) }
         }))
     },
 };

@@ -13,7 +13,7 @@ pub static ENTRY: Entry = Entry {
     name: "straight_line",
     about: "is a printed length at least the straight line between start and goal?",
     revision: 1,
-    settings: Accepted::of::<Settings>(),
+    settings: Accepted::shape::<Settings>(),
     example: "
 start = [2.0, 2.0]
 goal = [36.0, 30.0]

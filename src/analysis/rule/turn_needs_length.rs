@@ -12,7 +12,7 @@ pub static ENTRY: Entry = Entry {
     name: "turn_needs_length",
     about: "how long is a polyline through cell centres with a printed turn sum at least, and is that below a printed length?",
     revision: 1,
-    settings: Accepted::of::<Settings>(),
+    settings: Accepted::shape::<Settings>(),
     example: r#"
 size = [40, 40]
 start = [2, 2]
@@ -27,7 +27,8 @@ longest = 15.0
         let read: Settings = context.settings.read()?;
         let Settings { size, start, goal, longest, shorter, .. } = read;
         check_search(context, size, longest)?;
-        let (turn, against) = (context.print_of(&read.turn)?, context.print_of(&read.against)?);
+        let turn = context.print_of(&read.turn)?;
+        let against = context.print_of(&read.against)?;
         let is_exterior = context.known_metric(&read.metric)?.name == read.exterior;
         let meant = if is_exterior { Convention::Exterior } else { Convention::Interior };
         let ends = Ends { size, start, goal };
@@ -55,7 +56,7 @@ struct Settings {
     /// Whether the claim is that the path is shorter than that; otherwise nothing is judged.
     #[serde(default)]
     shorter: bool,
-    /// What the turn sum is, as readings name it.
+    /// What the turn sum is, as interpretations name it.
     metric: String,
     /// The metric that sums changes of heading.
     exterior: String,

@@ -150,7 +150,7 @@ impl Test for AnyAngle {
         Some(self.polyline(prints)?.is_some())
     }
 
-    fn said(&self, prints: &[Print], _is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], _is_possible: bool) -> String {
         let [turns, length] = [prints[0], prints[1]].map(|print| print.printed);
         match self.polyline(prints) {
             None | Some(None) => {

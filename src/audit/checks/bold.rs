@@ -63,7 +63,7 @@ impl Test for Bold {
         Some(!is_better(self.better, prints[1], prints[0]))
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         if is_possible {
             return format!("{} is bold and the best of its column", prints[0].printed);
         }

@@ -59,7 +59,7 @@ impl Test for Clock {
         Some(first <= last)
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         let printed = prints[0].printed;
         let (first, last) = ticks(prints[0], self.tick).unwrap_or((1, 0));
         let tick = self.tick;

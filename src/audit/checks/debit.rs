@@ -78,7 +78,7 @@ impl Test for Debit {
         Some(all.iter().any(|(_, variances)| variances.iter().any(|variance| squared.contains(*variance))))
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         let [sd, mean] = [prints[0].printed, prints[1].printed];
         let listed = self.variances(prints[1]).unwrap_or_default();
         let shown_ones = listed.iter().take(3).map(|(k, variances)| {

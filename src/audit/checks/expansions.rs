@@ -60,7 +60,7 @@ impl Test for Expansions {
         Some(!span.is_empty())
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         let verb = if is_possible { "no more than" } else { "not between 0 and" };
         format!("{} expansions are {verb} the {} free cells", prints[0].printed, self.free)
     }

@@ -58,12 +58,15 @@ fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
 }
 
 fn of_sample(sample: &Sample) -> Option<Grim> {
-    let (n, grain) = (sample.n?, sample.grain?);
+    let n = sample.n?;
+    let grain = sample.grain?;
     let number = sample.get(Statistic::Mean)?.clone();
     let (step, factor) = if sample.is_count { (grain, count(n)) } else { (div(grain, count(n))?, whole(1)) };
     let value_ends = [sample.least, sample.most];
     let ends = value_ends.map(|end| end.and_then(|end| mul(end, factor)));
-    let (numbers, is_count, values) = ([number], sample.is_count, sample.values());
+    let numbers = [number];
+    let is_count = sample.is_count;
+    let values = sample.values();
     Some(Grim { numbers, step, n, grain, is_count, value_ends, ends, values })
 }
 
@@ -101,13 +104,16 @@ impl Grim {
 
 /// What programs make of a mean of `count` grains in floats, by the order in which they multiply and divide.
 fn floats(count: Exact, grim: &Grim) -> [f64; 2] {
-    let (count, n, grain) = (float(count), grim.n as f64, float(grim.grain));
+    let count = float(count);
+    let n = grim.n as f64;
+    let grain = float(grim.grain);
     [count / n * grain, count * grain / n]
 }
 
 /// Whether digits that are cut off, or rounded up or down, end as `print` does if floats move the point.
 fn is_printed_by(float: f64, print: Print) -> bool {
-    let (scaled, units) = (float * print.printed.scale() as f64, print.printed.units() as f64);
+    let scaled = float * print.printed.scale() as f64;
+    let units = print.printed.units() as f64;
     let [cut, down, up] = [scaled.trunc(), scaled.floor(), scaled.ceil()].map(|end| end == units);
     match print.digits {
         Digits::Any => cut || down || up,
@@ -128,7 +134,7 @@ impl Test for Grim {
         Some(first <= last)
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         let printed = prints[0].printed;
         let (first, last) = self.counts(prints[0]).unwrap_or((1, 0));
         let places = printed.decimals() as usize + 2;

@@ -10,7 +10,7 @@ use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};
 use crate::witness::{Budget, Moments, Witness, counted};
 use proofs::exact::{Exact, Print, Span, ceil, div, float, floor, mul, spelled, whole};
-use proofs::reach::{Asked, extremes, is_met};
+use proofs::reach::{SumQuery, extremes, is_met};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
@@ -129,7 +129,7 @@ impl Squares {
         let mut is_decided = true;
         for (first, last) in self.plausible() {
             for squares in (first..=last).step_by(2) {
-                let asked = Asked { n: self.n, sum: self.sum, squares, ends: self.ends };
+                let asked = SumQuery { n: self.n, sum: self.sum, squares, ends: self.ends };
                 match is_met(asked, steps) {
                     Some(true) => return Some(true),
                     Some(false) => *steps = steps.saturating_sub(1),
@@ -231,7 +231,7 @@ impl Test for Moment {
         if met.contains(&Some(true)) { Some(true) } else { (!met.contains(&None)).then_some(false) }
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         let [spread, mean] = [prints[0], prints[1]].map(|print| print.printed);
         let what = if self.is_error { "standard error" } else { "standard deviation" };
         if is_possible {

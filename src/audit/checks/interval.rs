@@ -118,7 +118,7 @@ impl Test for KofN {
         Some(self.intervals().into_iter().any(|(_, interval)| self.fits(interval, prints)))
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         let verb = if is_possible { "is" } else { "is none of the intervals" };
         let all = float(self.all);
         let places = prints[0].printed.decimals() as usize + 1;

@@ -146,7 +146,7 @@ impl Test for Length {
         Some(!moves(prints[0], self.lattice, self.displacement)?.is_empty())
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         let printed = prints[0].printed;
         let between = self.displacement.map_or(String::new(), |[dx, dy]| format!(" over ({dx}, {dy}) cells"));
         if !is_possible {

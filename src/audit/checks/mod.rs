@@ -56,7 +56,7 @@ pub trait Test {
     fn is_possible(&self, prints: &[Print]) -> Option<bool>;
 
     /// What holds, with the numbers that show it.
-    fn said(&self, prints: &[Print], is_possible: bool) -> String;
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String;
 
     /// The premises that the answer rests on.
     fn premises(&self) -> Vec<String>;

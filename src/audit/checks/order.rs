@@ -82,7 +82,7 @@ impl Test for Order {
         Some(self.broken(prints).is_none())
     }
 
-    fn said(&self, prints: &[Print], _is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], _is_possible: bool) -> String {
         match self.broken(prints) {
             Some([i, j]) => format!(
                 "{} {} is above {} {}",

@@ -143,7 +143,9 @@ impl PValue {
         let chance = |k: u64| libm::exp(choose(n1, k) + choose(n2, hits - k) - all);
         let range = hits.saturating_sub(n2)..=hits.min(n1);
         let own = chance(k1);
-        let (mut two, mut low, mut high) = (0.0, 0.0, 0.0);
+        let mut two = 0.0;
+        let mut low = 0.0;
+        let mut high = 0.0;
         for k in range {
             let p = chance(k);
             two += if p <= own * (1.0 + 1e-7) { p } else { 0.0 };
@@ -171,7 +173,7 @@ impl Test for PValue {
         Some(!self.fitting(prints[0]).is_empty())
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         let ([k1, k2], [n1, n2]) = (self.k, self.n);
         let p = format!("{} {}", self.bound.map_or("=", Bound::mark), prints[0].printed);
         if is_possible {

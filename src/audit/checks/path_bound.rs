@@ -85,7 +85,7 @@ impl Test for PathBound {
         Some(against(prints[0], self.apart, self.moves)?.0.is_ge())
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         let bound = against(prints[0], self.apart, self.moves)
             .map_or(f64::NAN, |(_, [a, b])| float(a) + float(b).sqrt());
         let what = match self.moves {

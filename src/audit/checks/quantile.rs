@@ -61,7 +61,8 @@ impl Quantile {
         if [0, 10_000].contains(&self.parts) {
             return Some(vec![self.grain]);
         }
-        let (n, share) = (count(self.n), Exact::new(i128::from(self.parts), 10_000));
+        let n = count(self.n);
+        let share = Exact::new(i128::from(self.parts), 10_000);
         // Hyndman and Fan's rules 4 to 9 put the quantile at place n p + m.
         let linear = add(whole(1), mul(share, whole(-1))?)?;
         let mut offsets = vec![linear];
@@ -97,7 +98,7 @@ impl Test for Quantile {
         Some(found.contains(&true))
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         let finest = self.steps().and_then(|steps| steps.into_iter().min());
         let verb = if is_possible { "can be" } else { "is no" };
         let steps =

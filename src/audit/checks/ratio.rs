@@ -77,7 +77,7 @@ impl Test for Formed {
         Some(self.allowed(prints)?.iter().any(|(_, span)| span.meets(&printed)))
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         let allowed = self.allowed(prints).unwrap_or_default();
         let [value, a, b] = [prints[0], prints[1], prints[2]].map(|print| print.printed);
         let verb = if is_possible { "follows from" } else { "does not follow from" };

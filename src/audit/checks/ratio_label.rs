@@ -82,7 +82,8 @@ fn of_samples(samples: [Sample; 3]) -> Option<RatioLabel> {
     if samples.iter().any(|sample| sample.n != Some(n)) {
         return None;
     }
-    let (mut numbers, mut kinds) = (Vec::new(), Vec::new());
+    let mut numbers = Vec::new();
+    let mut kinds = Vec::new();
     for (which, sample) in samples.iter().enumerate() {
         for (statistic, number) in &sample.numbers {
             let share = match statistic {
@@ -177,7 +178,7 @@ impl Test for RatioLabel {
         Some(matches!(self.contradiction(prints, [0, 1, 2])?, Search::Nothing))
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         let [r, a, b] = &self.names;
         if is_possible {
             return format!("{r} may be {a} over {b}");

@@ -93,7 +93,7 @@ impl Test for Rises {
         Some(prints[1].span().low <= prints[0].span().high)
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         let verb = if is_possible { "does not fall" } else { "falls" };
         format!("success {verb} from {} to {} as samples grow", prints[1].printed, prints[0].printed)
     }
@@ -108,7 +108,8 @@ impl Test for Rises {
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
-        let (more, fewer) = (prints[0].span(), prints[1].span());
+        let more = prints[0].span();
+        let fewer = prints[1].span();
         let steps =
             json!([{ "fewer_at_least": fewer.low.to_string(), "more_at_most": more.high.to_string() }]);
         self.is_anytime.then(|| Proof { given: json!({}), steps })

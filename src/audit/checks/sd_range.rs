@@ -118,7 +118,7 @@ impl Test for SdRange {
         Some(squared.low <= self.most(prints)? && is_enough)
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         let sd = prints[0].printed;
         let places = sd.decimals() as usize + 2;
         let end = |value: Option<Exact>| {
@@ -157,7 +157,8 @@ impl Test for SdRange {
             },
             "ends": self.ends.map(|ends| ends.map(spelled)),
         });
-        let (squared, most) = (prints[0].span().squared()?, self.most(prints)?);
+        let squared = prints[0].span().squared()?;
+        let most = self.most(prints)?;
         let steps = if squared.low > most {
             json!([{ "squared_at_least": spelled(squared.low), "most": spelled(most) }])
         } else {
@@ -176,7 +177,7 @@ impl Test for Negative {
         Some(!is_negative(prints[0]))
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         let verb = if is_possible { "is not below 0" } else { "is below 0, as no deviation is" };
         format!("{} {verb}", prints[0].printed)
     }

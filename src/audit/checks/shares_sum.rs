@@ -103,7 +103,7 @@ impl Test for SharesSum {
         Some(is_each && low <= i128::from(n) && i128::from(n) <= high)
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         let sum = Self::sum(prints).map_or("?".to_owned(), |sum| shown_span(&sum, 6));
         let n = self.n.map_or(String::new(), |n| format!(" as counts of {n}"));
         let verb = if is_possible { "can sum" } else { "cannot sum" };

@@ -90,7 +90,7 @@ impl Test for SumOfMeans {
         Some(self.allowed(prints)?.meets(&prints[0].span()))
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         let allowed = self.allowed(prints).map_or("?".to_owned(), |span| shown_span(&span, 6));
         let verb = if is_possible { "is" } else { "is not" };
         format!("{} {verb} the sum of the parts, which is {allowed}", prints[0].printed)

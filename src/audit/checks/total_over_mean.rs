@@ -83,7 +83,7 @@ impl Test for TotalOverMean {
         })
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         let quotient = self.quotient(prints).unwrap_or(Span::point(whole(0)));
         let (first, last) = counts(&quotient);
         let found = match (first <= last, first == last) {

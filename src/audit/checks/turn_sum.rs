@@ -104,7 +104,7 @@ impl Test for TurnSum {
         Some(sums.iter().any(|sum| span.contains(whole(45 * *sum))))
     }
 
-    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
         let [turns, length] = [prints[0], prints[1]].map(|print| print.printed);
         let verb = if is_possible { "is" } else { "is not" };
         let sums = self.sums(prints[1]).unwrap_or_default();

@@ -29,7 +29,7 @@ const WORDS: &str = "zero two three four five six seven eight nine ten eleven tw
 const FRACTIONS: [&str; 5] = ["frac", "tfrac", "dfrac", "nicefrac", "sfrac"];
 
 /// A number that stands in the text.
-pub(super) struct Found {
+pub(super) struct Occurrence {
     /// Line, from 1.
     pub(super) line: usize,
     /// Column in characters, from 1.
@@ -41,8 +41,8 @@ pub(super) struct Found {
 /// The numbers that stand in the text as such, in digits or in words, but for those that a comment on their line excuses
 /// (`% typed: 2, twelve`); and every command, with the place of its backslash.
 pub(super) struct Scanned {
-    pub(super) numbers: Vec<Found>,
-    pub(super) commands: Vec<Found>,
+    pub(super) numbers: Vec<Occurrence>,
+    pub(super) commands: Vec<Occurrence>,
 }
 
 fn is_among(words: &str, word: &str) -> bool {
@@ -93,8 +93,8 @@ struct Scan {
     left: usize,
     /// Where the name of the last command ends: what follows is no part of a word.
     behind: usize,
-    found: Vec<Found>,
-    commands: Vec<Found>,
+    found: Vec<Occurrence>,
+    commands: Vec<Occurrence>,
 }
 
 impl Scan {
@@ -128,7 +128,7 @@ impl Scan {
                 None
             };
             let column = offset + start + 1;
-            self.found.extend(number.map(|number| Found { line, column, number }));
+            self.found.extend(number.map(|number| Occurrence { line, column, number }));
         }
     }
 
@@ -138,7 +138,7 @@ impl Scan {
         let number: String = letters.collect();
         self.behind = start + 1 + number.len();
         if !number.is_empty() {
-            self.commands.push(Found { line, column: offset + start + 1, number });
+            self.commands.push(Occurrence { line, column: offset + start + 1, number });
         }
     }
 
@@ -188,7 +188,8 @@ impl Scan {
 /// The number that starts at `start`, without marks between its thousands, and where it ends.
 fn digits(chars: &[char], start: usize) -> (String, usize) {
     let is_digit = |at: usize| chars.get(at).is_some_and(char::is_ascii_digit);
-    let (mut number, mut at) = (String::new(), start);
+    let mut number = String::new();
+    let mut at = start;
     while is_digit(at) || chars.get(at) == Some(&'.') && is_digit(at + 1) {
         number.push(chars[at]);
         at += 1;

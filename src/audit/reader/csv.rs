@@ -69,7 +69,8 @@ fn delimiter(header: &str) -> char {
 /// The cells of a header line. Commas in brackets or quotes divide nothing, so that annotations need no quotes.
 fn split(header: &str, delimiter: char) -> Vec<String> {
     let mut cells = vec![String::new()];
-    let (mut is_quoted, mut depth) = (false, 0_i32);
+    let mut is_quoted = false;
+    let mut depth = 0_i32;
     for c in header.chars() {
         match c {
             '"' => is_quoted = !is_quoted,

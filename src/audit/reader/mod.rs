@@ -144,12 +144,14 @@ fn table(raw: Raw, faults: &mut Vec<Fault>) -> Option<Table> {
 /// The column that a header cell describes; guessed if it has no annotation. A unit in brackets is none.
 fn column(raw: &Raw, index: usize, header: &str) -> Result<Column, String> {
     let plain = cells::plain(header).0;
-    let (mut name, mut unit) = (plain.trim(), "");
+    let mut name = plain.trim();
+    let mut unit = "";
     if let Some((before, annotation)) = plain.strip_suffix(']').and_then(|text| text.rsplit_once('[')) {
         let annotation = annotation.trim();
         match Meaning::parse(annotation) {
             Ok(mut meaning) => {
-                let (name, annotation) = (before.trim().to_owned(), annotation.to_owned());
+                let name = before.trim().to_owned();
+                let annotation = annotation.to_owned();
                 meaning.unit = meaning.unit.or_else(|| unit_of(&name));
                 return Ok(Column { name, meaning, written: Some(annotation.clone()), annotation });
             }

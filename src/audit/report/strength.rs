@@ -60,7 +60,8 @@ pub fn power(test: &dyn Test, prints: &[Print], most: i128) -> Option<Power> {
     let (low, high, why) = window(test, first)?;
     let count = i128::from(high - low) + 1;
     let is_sampled = count > most;
-    let (mut tried, mut refused) = (0, 0);
+    let mut tried = 0;
+    let mut refused = 0;
     let mut all = prints.to_vec();
     for index in 0..count.min(most) {
         // Multiples of the golden section spread evenly and fall in step with no grid.

@@ -21,7 +21,8 @@ pub fn rooms(
     door_share: f64,
 ) -> Result<Grid2, GridError> {
     assert!(room_cells > 0, "rooms of no cell");
-    let (mut grid, pitch) = (Grid2::new(size_cells[0], size_cells[1])?, room_cells + 1);
+    let mut grid = Grid2::new(size_cells[0], size_cells[1])?;
+    let pitch = room_cells + 1;
     for cell in 0..grid.cell_count() {
         let [x, y] = [cell % grid.width(), cell / grid.width()];
         grid.set_blocked(cell, x % pitch == room_cells || y % pitch == room_cells);
@@ -60,7 +61,8 @@ pub fn streets(
 ) -> Result<Grid2, GridError> {
     let mut grid = Grid2::new(size_cells[0], size_cells[1])?;
     let bands = size_cells.map(|size| {
-        let (mut bands, mut at) = (Vec::new(), street_cells);
+        let mut bands = Vec::new();
+        let mut at = street_cells;
         while at < size {
             let side = stream.random_range(block_cells[0]..=block_cells[1]);
             bands.push([at, (at + side).min(size)]);

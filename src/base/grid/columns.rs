@@ -54,7 +54,8 @@ pub struct Columns {
 impl Columns {
     /// The columns of `grid`.
     pub fn new(grid: &Grid2) -> Self {
-        let (size, stride) = ([grid.width(), grid.height()], grid.height() + MAX_REACH_CELLS);
+        let size = [grid.width(), grid.height()];
+        let stride = grid.height() + MAX_REACH_CELLS;
         let mut columns = Self { size, stride, free: Bits::default() };
         columns.free = Bits::none(columns.place_count());
         for cell in (0..grid.cell_count()).filter(|&cell| grid.is_free(cell)) {
@@ -115,7 +116,8 @@ mod tests {
 
     #[test]
     fn a_window_holds_the_free_cells_of_a_column_with_the_highest_first() {
-        let (mut free, reach) = (0, MAX_REACH_CELLS as i32);
+        let mut free = 0;
+        let reach = MAX_REACH_CELLS as i32;
         for seed in 0..20 {
             let size_cells = [3 + seed as u32, 70 - 3 * seed as u32];
             let grid = independent_cells(&mut seed::stream(seed), size_cells, 0.4, &[]).unwrap();

@@ -30,7 +30,8 @@ impl Components {
 /// The components of the free cells of `grid` under its legal `moves`.
 pub fn components(grid: &Grid2, moves: &Moves) -> Components {
     let mut labels = vec![u32::MAX; grid.cell_count() as usize];
-    let (mut sizes, mut stack) = (Vec::new(), Vec::new());
+    let mut sizes = Vec::new();
+    let mut stack = Vec::new();
     for seed_cell in 0..grid.cell_count() {
         if labels[seed_cell as usize] != u32::MAX || !grid.is_free(seed_cell) {
             continue;

@@ -5,7 +5,8 @@ use super::{GridError, MAX_CELLS, MAX_SIDE_NODES};
 /// The 26 steps from a node to its neighbours: dz rises, for each dz dy, for each dy dx.
 pub const STEPS_26: [[i32; 3]; 26] = {
     let mut steps = [[0; 3]; 26];
-    let (mut code, mut at) = (0, 0);
+    let mut code = 0;
+    let mut at = 0;
     while code < 27 {
         if code != 13 {
             steps[at] = [code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1];
@@ -71,13 +72,15 @@ impl Grid3 {
 
     /// Whole coordinates of `node`.
     pub fn xyz(&self, node: u32) -> [i32; 3] {
-        let (row, layer) = (self.size[0] + 2, self.size[1] + 2);
+        let row = self.size[0] + 2;
+        let layer = self.size[1] + 2;
         [node % row, node / row % layer, node / row / layer].map(|c| c as i32 - 1)
     }
 
     /// What a step adds to a node's number.
     pub fn offset(&self, [dx, dy, dz]: [i32; 3]) -> i32 {
-        let (row, layer) = (self.size[0] as i32 + 2, self.size[1] as i32 + 2);
+        let row = self.size[0] as i32 + 2;
+        let layer = self.size[1] as i32 + 2;
         (dz * layer + dy) * row + dx
     }
 

@@ -143,7 +143,8 @@ fn pgm(bytes: &[u8], is_text: bool) -> Read {
         let raster = rest.get(1..).unwrap_or_default();
         if full > 255 { wide(raster) } else { raster.iter().copied().map(u16::from).collect() }
     };
-    let (found, wanted) = (samples.len() as u64, u64::from(width) * u64::from(height));
+    let found = samples.len() as u64;
+    let wanted = u64::from(width) * u64::from(height);
     if found != wanted {
         return Err(format!(
             "the PGM image has {found} pixels; {width} × {height} are accepted, as its head says"

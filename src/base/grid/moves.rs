@@ -95,7 +95,8 @@ impl Moves {
     /// The cells reached from `cell` in one legal move, in the order of [`DIRECTIONS`], each with whether the move
     /// is diagonal.
     pub fn from_cell(&self, cell: u32) -> impl Iterator<Item = (u32, bool)> {
-        let (mask, width) = (self.mask(cell), self.width as i32);
+        let mask = self.mask(cell);
+        let width = self.width as i32;
         DIRECTIONS
             .iter()
             .enumerate()

@@ -66,7 +66,9 @@ pub fn parse_movingai_map(text: &str) -> Result<Grid2, GridError> {
 }
 
 fn fill_row(grid: &mut Grid2, index: usize, row: &str) -> Result<(), GridError> {
-    let (line, found, width) = (index + 5, row.chars().count(), grid.width());
+    let line = index + 5;
+    let found = row.chars().count();
+    let width = grid.width();
     if found != width as usize {
         return Err(GridError::RowLength { line, found, accepted: width as usize });
     }

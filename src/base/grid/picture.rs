@@ -62,7 +62,8 @@ fn grid(path: &Path, image: &Image, is_free: impl Fn(Pixel) -> bool) -> Result<G
     let mut grid = Grid2::new(width, height)
         .map_err(|source| GridError::InFile { path: path.to_owned(), source: Box::new(source) })?;
     for (index, pixel) in (0..).zip(image.pixels()) {
-        let (x, row) = (index % width, index / width);
+        let x = index % width;
+        let row = index / width;
         grid.set_blocked((height - 1 - row) * width + x, !is_free(pixel));
     }
     Ok(grid)

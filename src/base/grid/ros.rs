@@ -29,7 +29,8 @@ impl Head {
     /// The head in the file at `path`.
     pub(super) fn read(path: &Path) -> Result<Self, SettingsError> {
         let document = Document::open(path)?;
-        let (root, yaml) = (Yaml::parse(&document)?, Yaml(Source(&document)));
+        let root = Yaml::parse(&document)?;
+        let yaml = Yaml(Source(&document));
         yaml.only(&root, &READ)?;
         let resolution = yaml.get(&root, "resolution")?;
         yaml.0.sizes(&resolution.at, "resolution", [yaml.number(resolution, "resolution")?])?;
@@ -96,7 +97,8 @@ fn free_below(yaml: Yaml<'_>, root: &Node) -> Result<f64, SettingsError> {
             }
         }
     };
-    let ((_, blocked), (node, free)) = (share("occupied_thresh", 0.65)?, share("free_thresh", 0.196)?);
+    let (_, blocked) = share("occupied_thresh", 0.65)?;
+    let (node, free) = share("free_thresh", 0.196)?;
     if free <= blocked {
         return Ok(free);
     }

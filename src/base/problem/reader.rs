@@ -170,7 +170,8 @@ impl Reader<'_> {
     fn placed(self, entry: &Node, sizes: &[&str]) -> Result<Pose, SettingsError> {
         const EULER: &str = "orientation_euler_xyz";
         const QUATERNION: &str = "orientation_quat_xyzw";
-        let (yaml, source) = (self.yaml, self.yaml.0);
+        let yaml = self.yaml;
+        let source = self.yaml.0;
         if let Some(pose) = yaml.find(entry, "pose")? {
             yaml.only(entry, &[sizes, &["name", "pose"]].concat())?;
             return Ok(self.unit(source.pose(&pose.at, "pose", yaml.exactly::<7>(pose, "pose")?)?));

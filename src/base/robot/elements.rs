@@ -84,7 +84,8 @@ impl Elements<'_> {
         name: &'static str,
     ) -> Result<Node<'n, 'input>, SettingsError> {
         child(of, name).ok_or_else(|| {
-            let (what, whose) = (of.tag_name().name(), of.attribute("name").unwrap_or_default());
+            let what = of.tag_name().name();
+            let whose = of.attribute("name").unwrap_or_default();
             self.fault(&of.range(), format!("{what} `{whose}` has no `{name}`; one is accepted"))
         })
     }

@@ -46,7 +46,8 @@ pub fn read_srdf(path: &Path, robot: &Robot) -> Result<MayTouch, SettingsError> 
 /// # Errors
 /// As [`read_srdf`].
 pub fn parse_srdf(document: &Document, robot: &Robot) -> Result<MayTouch, SettingsError> {
-    let (parsed, xml) = (parsed(document)?, Elements(Source(document)));
+    let parsed = parsed(document)?;
+    let xml = Elements(Source(document));
     let root = parsed.root_element();
     let name = root.attribute("name").unwrap_or(&robot.name);
     if name != robot.name {
@@ -59,7 +60,8 @@ pub fn parse_srdf(document: &Document, robot: &Robot) -> Result<MayTouch, Settin
         return Err(xml.fault(&other.range(), message));
     }
     let mut notes = unread(root, "SRDF", READ);
-    let (mut pairs, mut unknown) = (BTreeSet::new(), BTreeSet::new());
+    let mut pairs = BTreeSet::new();
+    let mut unknown = BTreeSet::new();
     for pair in elements(root, "disable_collisions") {
         let [a, b] = [xml.text(pair, "link1")?, xml.text(pair, "link2")?];
         unknown.extend([a, b].into_iter().filter(|link| !robot.owners.iter().any(|owner| owner == link)));

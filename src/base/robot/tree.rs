@@ -26,7 +26,8 @@ impl<'a, 'input> Tree<'a, 'input> {
                 return Err(xml.fault(&link.range(), message));
             }
         }
-        let (mut led_to, mut joints) = (BTreeSet::new(), BTreeSet::new());
+        let mut led_to = BTreeSet::new();
+        let mut joints = BTreeSet::new();
         for joint in elements(root, "joint") {
             let name = xml.text(joint, "name")?;
             if !joints.insert(name) {
@@ -84,7 +85,8 @@ impl<'a, 'input> Tree<'a, 'input> {
         link: &'a str,
         pose: Pose,
     ) -> Result<(Vec<(Node<'a, 'input>, Pose)>, Vec<(&'a str, Pose, u32)>), SettingsError> {
-        let (mut moving, mut links) = (Vec::new(), vec![(link, pose, 0)]);
+        let mut moving = Vec::new();
+        let mut links = vec![(link, pose, 0)];
         let mut next = 0;
         while let Some(&(link, pose, depth)) = links.get(next) {
             for &joint in self.ahead.get(link).into_iter().flatten() {

@@ -124,7 +124,8 @@ impl<'a, 'input> Walk<'_, 'a, 'input> {
     }
 
     fn solid(&mut self, link: &str, pose: Pose, collision: Node<'a, 'input>) -> Result<Solid, SettingsError> {
-        let (tree, xml) = (self.tree, self.tree.xml);
+        let tree = self.tree;
+        let xml = self.tree.xml;
         let count = self.robot.owners.iter().filter(|owner| *owner == link).count();
         let name = if count == 0 { link.to_owned() } else { format!("{link} {}", count + 1) };
         let pose = pose.then(&tree.origin(collision)?);
@@ -156,7 +157,8 @@ impl<'a, 'input> Walk<'_, 'a, 'input> {
     /// The hull of a mesh, scaled as the element says.
     fn mesh(&mut self, mesh: Node<'a, 'input>) -> Result<Form, SettingsError> {
         let xml = self.tree.xml;
-        let (given, at) = (xml.text(mesh, "filename")?, place(mesh, "filename"));
+        let given = xml.text(mesh, "filename")?;
+        let at = place(mesh, "filename");
         if !Path::new(given).extension().is_some_and(|end| end.eq_ignore_ascii_case("stl")) {
             return Err(xml.fault(&at, format!("the mesh `{given}` is no STL file; STL files are accepted")));
         }

@@ -24,7 +24,7 @@ impl std::fmt::Debug for Accepted {
 
 impl Accepted {
     /// The shape of `T`.
-    pub const fn of<T: JsonSchema + 'static>() -> Self {
+    pub const fn shape<T: JsonSchema + 'static>() -> Self {
         Self {
             inside: |generator| generator.subschema_for::<T>(),
             with: |generator| generator.into_root_schema_for::<T>(),

@@ -149,8 +149,8 @@ impl Document {
     }
 
     /// Whether some value in it is the text `word`.
-    pub fn says(&self, word: &str) -> bool {
-        self.parsed().is_ok_and(|value| says(value.get_ref(), word))
+    pub fn contains_word(&self, word: &str) -> bool {
+        self.parsed().is_ok_and(|value| contains_word(value.get_ref(), word))
     }
 
     /// An error at the byte range `span` of this document.
@@ -172,7 +172,7 @@ impl Document {
         }
     }
 
-    /// An error at the value that `path` leads to, by keys and by the numbers of elements from 0: `ledger.0.item`.
+    /// An error at the value that `path` leads to, by keys and by the numbers of elements from 0: `inventory.0.item`.
     /// As far as the document does not have it, the place is that of the innermost value it has.
     pub fn error_at(&self, path: &str, message: impl Into<String>) -> SettingsError {
         let span = self.parsed().map_or(0..0, |value| span_of(value, path));
@@ -232,11 +232,11 @@ impl Document {
     }
 }
 
-fn says(value: &DeValue<'_>, word: &str) -> bool {
+fn contains_word(value: &DeValue<'_>, word: &str) -> bool {
     match value {
         DeValue::String(text) => text == word,
-        DeValue::Table(table) => table.iter().any(|(_, inner)| says(inner.get_ref(), word)),
-        DeValue::Array(elements) => elements.iter().any(|inner| says(inner.get_ref(), word)),
+        DeValue::Table(table) => table.iter().any(|(_, inner)| contains_word(inner.get_ref(), word)),
+        DeValue::Array(elements) => elements.iter().any(|inner| contains_word(inner.get_ref(), word)),
         _ => false,
     }
 }

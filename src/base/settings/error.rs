@@ -15,7 +15,7 @@ pub enum SettingsError {
         reason: String,
     },
     /// The file is read, but a value in it is not what was expected.
-    #[error("{}:{line}:{column}: {}{message}{}", path.display(), said_with(with), below(excerpt))]
+    #[error("{}:{line}:{column}: {}{message}{}", path.display(), laid_over(with), below(excerpt))]
     At {
         /// The file.
         path: PathBuf,
@@ -23,7 +23,7 @@ pub enum SettingsError {
         line: usize,
         /// Column in characters, from 1.
         column: usize,
-        /// What was laid over what stands there: readings, sweeps.
+        /// What was laid over what stands there: options, sweeps.
         with: Vec<String>,
         /// The names that were looked up, if it was not found.
         about: Box<[Box<str>]>,
@@ -32,7 +32,7 @@ pub enum SettingsError {
         /// The line itself.
         excerpt: Box<str>,
     },
-    /// A table that was put together by the program (a reading or a sweep laid over a spec) is wrong.
+    /// A table that was put together by the program (an option or a sweep laid over a spec) is wrong.
     #[error("{origin}: {message}")]
     Composed {
         /// What put it together.
@@ -172,7 +172,7 @@ fn lines(errors: &[SettingsError]) -> String {
     lines.join("\n")
 }
 
-fn said_with(with: &[String]) -> String {
+fn laid_over(with: &[String]) -> String {
     if with.is_empty() { String::new() } else { format!("with {}: ", with.join(", ")) }
 }
 
@@ -185,7 +185,7 @@ pub struct Faults {
 }
 
 impl Faults {
-    /// Adds what is wrong. What is wrong under several readings is told once, with what they have in common.
+    /// Adds what is wrong. What is wrong under several interpretations is told once, with what they have in common.
     pub fn add(&mut self, error: SettingsError) {
         for fault in error.each() {
             match self.found.iter_mut().find(|known| fault.repeats(known)) {

@@ -14,6 +14,7 @@ mod likeness;
 mod nearest;
 mod place;
 mod reader;
+mod renamed;
 mod salvage;
 mod schema;
 mod spanned;
@@ -25,6 +26,7 @@ pub use document::Document;
 pub use error::{Faults, SettingsError};
 pub use nearest::{did_you_mean, none_called};
 pub use place::Place;
+pub use renamed::renamed;
 pub use spanned::{AnyTable, AnyValue, Spanned};
 pub use table::{Part, Settings};
 

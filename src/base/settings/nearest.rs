@@ -3,11 +3,19 @@
 /// A longer name is not compared: it takes the product of the lengths.
 const LONGEST: usize = 64;
 
+use super::renamed::renamed;
+
 /// ` (did you mean X?)` with the known name nearest to `written`, or nothing if none is near.
 ///
 /// A name longer than 64 characters is near to none. Near is at most a third of the letters added, left out, changed or swapped with their neighbour, whatever their case; a
 /// name that begins with what was written, or ends in it after a `/`, is near.
+///
+/// ` (it is X now)` if it was renamed to a known name.
 pub fn did_you_mean<'a>(written: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    let known: Vec<&str> = known.into_iter().collect();
+    if let Some(now) = renamed("names").get(written).filter(|now| known.contains(&now.as_str())) {
+        return format!(" (it is `{now}` now)");
+    }
     nearest(written, known)
         .filter(|name| *name != written)
         .map_or_else(String::new, |name| format!(" (did you mean `{name}`?)"))

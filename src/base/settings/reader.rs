@@ -73,7 +73,7 @@ impl Reader<'_, '_> {
     fn is_not(self, expected: &dyn Expected) -> Refused {
         let found = match self.0.get_ref() {
             DeValue::String(text) => Unexpected::Str(text),
-            value @ DeValue::Integer(_) => match Whole::of(value) {
+            value @ DeValue::Integer(_) => match Whole::new(value) {
                 Whole::Signed(whole) => Unexpected::Signed(whole),
                 Whole::Unsigned(whole) => Unexpected::Unsigned(whole),
                 Whole::None => return self.refused(TOO_FAR),
@@ -101,7 +101,7 @@ impl<'de> Deserializer<'de> for Reader<'_, '_> {
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refused> {
         match self.0.get_ref() {
             DeValue::String(text) => visitor.visit_str(text),
-            value @ DeValue::Integer(_) => match Whole::of(value) {
+            value @ DeValue::Integer(_) => match Whole::new(value) {
                 Whole::Signed(whole) => visitor.visit_i64(whole),
                 Whole::Unsigned(whole) => visitor.visit_u64(whole),
                 Whole::None => Err(self.refused(TOO_FAR)),
@@ -205,7 +205,7 @@ enum Whole {
 }
 
 impl Whole {
-    fn of(value: &DeValue<'_>) -> Self {
+    fn new(value: &DeValue<'_>) -> Self {
         let Some(whole) = whole(value) else { return Self::None };
         match (i64::try_from(whole), u64::try_from(whole)) {
             (Ok(whole), _) => Self::Signed(whole),

@@ -175,7 +175,8 @@ impl<'a> Node<'a> {
     }
 
     fn number(self, what: &str, furthest: f64) -> String {
-        let ((low, high), (above, below)) = (self.bounds(), self.open_bounds());
+        let (low, high) = self.bounds();
+        let (above, below) = self.open_bounds();
         let (low, high) = (low.max(-furthest), high.min(furthest));
         let told = |end: f64| {
             if what == "a number" && end.abs() >= 1e9 { format!("{end:e}") } else { end.to_string() }

@@ -61,9 +61,9 @@ fn an_overlay_that_changes_nothing_keeps_the_place() {
     let settings = second_part("[[part]]\nsettings = { weight = 1 }\n[[part]]\nsettings = { weight = 2 }\n");
     let same: Table = toml::from_str("weight = 2").unwrap();
     let other: Table = toml::from_str("weight = 'heavy'").unwrap();
-    assert_eq!(settings.overlaid(&same, "reading weight"), settings);
-    let error = settings.overlaid(&other, "reading weight").read::<Inner>().unwrap_err().to_string();
-    assert!(error.starts_with("a.toml:4:23: with reading weight: `weight` is \"heavy\""), "{error}");
+    assert_eq!(settings.overlaid(&same, "option weight"), settings);
+    let error = settings.overlaid(&other, "option weight").read::<Inner>().unwrap_err().to_string();
+    assert!(error.starts_with("a.toml:4:23: with option weight: `weight` is \"heavy\""), "{error}");
 }
 
 /// Line and column of an error.
@@ -104,7 +104,7 @@ fn a_key_that_no_overlay_gave_is_at_fault_where_the_table_below_has_it() {
     let settings =
         second_part("[[part]]\nsettings = { weight = 1 }\n[[part]]\nsettings = { wait = 3, weight = 2 }\n");
     let over: Table = toml::from_str("weight = 4").unwrap();
-    let error = settings.overlaid(&over, "reading weight").read::<Inner>().unwrap_err();
+    let error = settings.overlaid(&over, "option weight").read::<Inner>().unwrap_err();
     assert_eq!(place(&error), (4, 14), "{error}");
 }
 
@@ -197,7 +197,7 @@ enum Solid {
 }
 
 /// Line, column and message of everything that is wrong with `text`.
-fn said(text: &str) -> Vec<(usize, usize, String)> {
+fn faults_of(text: &str) -> Vec<(usize, usize, String)> {
     let document = Document::new(Path::new("a.toml"), text.to_owned());
     let errors = document.read::<Many>().unwrap_err().each();
     let place = |error| match error {
@@ -266,7 +266,7 @@ const FAULTS: &[(&str, usize, usize, &str)] = &[
 #[test]
 fn each_fault_stands_at_its_own_key_or_value_with_what_is_accepted() {
     for (text, line, column, message) in FAULTS {
-        let found = said(text);
+        let found = faults_of(text);
         let [(l, c, m)] = found.as_slice() else { panic!("{text}: {found:?}") };
         assert_eq!((*l, *c), (*line, *column), "{text}: {m}");
         assert!(m.starts_with(message), "{text}\nis said: {m}\nshould be: {message}");
@@ -276,14 +276,14 @@ fn each_fault_stands_at_its_own_key_or_value_with_what_is_accepted() {
 #[test]
 fn all_faults_of_a_file_are_found_at_once_in_the_order_of_their_places() {
     let text = "coumt = 3\nreach_cm = 0\nnmae = 'x'\n[[solid]]\nshape = 'ball'\nradius = 'r'\n[[solid]]\nshape = 'cone'\n";
-    let lines: Vec<usize> = said(text).into_iter().map(|(line, ..)| line).collect();
-    assert_eq!(lines, [1, 2, 3, 6, 8], "{:?}", said(text));
+    let lines: Vec<usize> = faults_of(text).into_iter().map(|(line, ..)| line).collect();
+    assert_eq!(lines, [1, 2, 3, 6, 8], "{:?}", faults_of(text));
 }
 
 #[test]
 fn a_record_of_settings_has_the_values_that_hold_where_keys_are_left_out() {
     let settings = Settings::composed("a test", toml::from_str("count = 1\nreach_cm = 2").unwrap());
-    let whole = settings.completed(Accepted::of::<Many>());
+    let whole = settings.completed(Accepted::shape::<Many>());
     let expected: Table = toml::from_str("count = 1\nreach_cm = 2\nname = 'plain'").unwrap();
     assert_eq!(*whole.table(), expected);
 }

@@ -3,6 +3,7 @@
 //! It knows the part of JSON Schema that our types use; a test of the registries refuses a schema with any other word.
 
 use super::nearest::{did_you_mean, nearest};
+use super::renamed::renamed_key;
 use super::schema::Node;
 use crate::text::{brief, unseen, written};
 use std::ops::Range;
@@ -46,14 +47,14 @@ impl Subject<'_> {
 }
 
 /// What was found so far.
-enum Found {
+enum FoundFaults {
     /// Every fault, in words.
     All(Vec<Fault>),
     /// Whether there is any: branches that a value is tried on are many, and words for what nobody meant cost time.
     Any(bool),
 }
 
-impl Found {
+impl FoundFaults {
     fn push(&mut self, fault: impl FnOnce() -> Fault) {
         match self {
             Self::All(faults) => faults.push(fault()),
@@ -73,7 +74,7 @@ pub(super) fn faults(schema: &serde_json::Value, value: &Spanned<DeValue<'_>>) -
     faults
 }
 
-fn check(node: Node<'_>, subject: Subject<'_>, found: &mut Found) {
+fn check(node: Node<'_>, subject: Subject<'_>, found: &mut FoundFaults) {
     if found.is_settled() {
         return;
     }
@@ -92,26 +93,26 @@ fn check(node: Node<'_>, subject: Subject<'_>, found: &mut Found) {
 }
 
 fn all_of(node: Node<'_>, subject: Subject<'_>) -> Vec<Fault> {
-    let mut found = Found::All(Vec::new());
+    let mut found = FoundFaults::All(Vec::new());
     check(node, subject, &mut found);
     match found {
-        Found::All(faults) => faults,
-        Found::Any(_) => Vec::new(),
+        FoundFaults::All(faults) => faults,
+        FoundFaults::Any(_) => Vec::new(),
     }
 }
 
 fn fits(node: Node<'_>, subject: Subject<'_>) -> bool {
-    let mut found = Found::Any(false);
+    let mut found = FoundFaults::Any(false);
     check(node, subject, &mut found);
     !found.is_settled()
 }
 
 /// A value that may be one of several things: the faults of the one that was meant.
-fn choice(node: Node<'_>, branches: &[Node<'_>], subject: Subject<'_>, found: &mut Found) {
+fn choice(node: Node<'_>, branches: &[Node<'_>], subject: Subject<'_>, found: &mut FoundFaults) {
     if branches.iter().any(|branch| fits(*branch, subject)) {
         return;
     }
-    if let Found::Any(any) = found {
+    if let FoundFaults::Any(any) = found {
         *any = true;
         return;
     }
@@ -134,7 +135,7 @@ fn choice(node: Node<'_>, branches: &[Node<'_>], subject: Subject<'_>, found: &m
 }
 
 /// Finds the branch that a table names, by a key whose word tells the branches apart or by a key that one branch has.
-fn tagged(branches: &[Node<'_>], subject: Subject<'_>, table: &DeTable<'_>, found: &mut Found) -> bool {
+fn tagged(branches: &[Node<'_>], subject: Subject<'_>, table: &DeTable<'_>, found: &mut FoundFaults) -> bool {
     let tables: Vec<Node<'_>> =
         branches.iter().copied().filter(|branch| branch.properties().next().is_some()).collect();
     let Some(first) = tables.first() else { return false };
@@ -177,7 +178,7 @@ fn acts(c: char) -> bool {
     turns || (c.is_control() && unseen(c).is_some())
 }
 
-fn plain(node: Node<'_>, subject: Subject<'_>, found: &mut Found) {
+fn plain(node: Node<'_>, subject: Subject<'_>, found: &mut FoundFaults) {
     let words = node.words();
     if !words.is_empty() {
         match subject.value.get_ref() {
@@ -214,7 +215,8 @@ fn plain(node: Node<'_>, subject: Subject<'_>, found: &mut Found) {
 }
 
 fn is_within(node: Node<'_>, number: f64) -> bool {
-    let ((low, high), (above, below)) = (node.bounds(), node.open_bounds());
+    let (low, high) = node.bounds();
+    let (above, below) = node.open_bounds();
     is_usable(node, number) && low <= number && number <= high && above < number && number < below
 }
 
@@ -223,7 +225,7 @@ fn is_usable(node: Node<'_>, number: f64) -> bool {
     number.is_finite() && (number.abs() <= LARGEST || !node.kinds().contains(&"number"))
 }
 
-fn array(node: Node<'_>, subject: Subject<'_>, elements: &[Spanned<DeValue<'_>>], found: &mut Found) {
+fn array(node: Node<'_>, subject: Subject<'_>, elements: &[Spanned<DeValue<'_>>], found: &mut FoundFaults) {
     let (least, most) = node.counts();
     if !(least..=most).contains(&(elements.len() as u64)) {
         return found.push(|| refused(subject, &node.accepted()));
@@ -240,16 +242,17 @@ fn array(node: Node<'_>, subject: Subject<'_>, elements: &[Spanned<DeValue<'_>>]
     }
 }
 
-fn keys(node: Node<'_>, subject: Subject<'_>, table: &DeTable<'_>, found: &mut Found) {
+fn keys(node: Node<'_>, subject: Subject<'_>, table: &DeTable<'_>, found: &mut FoundFaults) {
     let other = node.part("additionalProperties");
     let mut meant = Vec::new();
     for (key, value) in table {
-        let (name, span) = (key.get_ref().as_ref(), key.span());
+        let name = key.get_ref().as_ref();
+        let span = key.span();
         match node.property(name).or(other) {
             Some(part) if !part.refuses_all() => {
                 check(part, Subject { name, key: Some(&span), value }, found);
             }
-            Some(_) if matches!(found, Found::Any(_)) => *found = Found::Any(true),
+            Some(_) if matches!(found, FoundFaults::Any(_)) => *found = FoundFaults::Any(true),
             Some(_) => {
                 let near = nearest(name, node.properties().map(|(key, _)| key));
                 meant.extend(near);
@@ -266,23 +269,9 @@ fn keys(node: Node<'_>, subject: Subject<'_>, table: &DeTable<'_>, found: &mut F
     }
 }
 
-/// Keys that were renamed or moved, and what is written now.
-const RENAMED: [(&str, &str); 3] = [
-    (
-        "reading",
-        "what the paper leaves open is a `[[choice]]` of paper.toml, written once for all studies; `leaves_out` names those that a \
-         study does not inherit",
-    ),
-    ("choice", "choices are written in paper.toml, once for all studies"),
-    (
-        "explore",
-        "`[explore]` is written in paper.toml, with `draws = { STUDY = N }` for each study that is explored",
-    ),
-];
-
 fn unknown(node: Node<'_>, name: &str) -> String {
-    if let Some((_, now)) = RENAMED.iter().find(|(was, _)| *was == name) {
-        return format!("`{name}` is no key here: {now}");
+    if let Some(message) = renamed_key(name) {
+        return message;
     }
     let known: Vec<&str> = node.properties().map(|(key, _)| key).collect();
     let hint = did_you_mean(name, known.iter().copied());

@@ -54,7 +54,8 @@ impl Judge {
     /// Code 4 with what is missing and what to run.
     pub fn ready(program: Option<&str>, folder: &Path) -> Result<Self, Failure> {
         let venv = std::path::absolute(folder.join("venv"))?;
-        let (python, stamp) = (venv.join("bin/python"), venv.join("requirements.sha256"));
+        let python = venv.join("bin/python");
+        let stamp = venv.join("requirements.sha256");
         let wanted = fs::read(REQUIREMENTS).map_err(|e| {
             Failure::input(format!("{REQUIREMENTS}: {e}; run replan from the project's own folder"))
         })?;

@@ -40,7 +40,7 @@ pub fn run(paper: Option<&str>, out: Option<&Path>, python: Option<&str>) -> Res
     let judge = Judge::ready(python, &home(None)?.join(FOLDER))?;
     let request = out.unwrap_or(Path::new("")).join(FOLDER).join(REQUEST);
     std::fs::create_dir_all(request.parent().unwrap_or(Path::new("")))?;
-    write_whole(&request, format!("{:#}\n", asked(&places)).as_bytes())?;
+    write_whole(&request, format!("{:#}\n", request_json(&places)).as_bytes())?;
     doing("computing the statistics of stored runs again");
     if judge.recompute(&request)? {
         return Ok(());
@@ -49,7 +49,7 @@ pub fn run(paper: Option<&str>, out: Option<&Path>, python: Option<&str>) -> Res
 }
 
 /// The request: every metric, and where the papers and their runs lie.
-fn asked(places: &[Places]) -> Value {
+fn request_json(places: &[Places]) -> Value {
     let of_metric = |metric: &Metric| {
         json!({
             "name": metric.name,

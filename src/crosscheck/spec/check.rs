@@ -52,7 +52,8 @@ impl Spec {
     }
 
     fn check_paths(&self, paths: &StoredPaths, place: &str, paper: &Paper, faults: &mut Faults) {
-        let (name, label) = (paths.study.as_str(), paths.problems.as_str());
+        let name = paths.study.as_str();
+        let label = paths.problems.as_str();
         let Some(study) = paper.study(name) else {
             let known = paper.studies.iter().map(|study| study.name.as_str());
             let fault = self.document.error_at(&format!("{place}.study"), none_called("study", name, known));

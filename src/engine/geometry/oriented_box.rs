@@ -76,11 +76,13 @@ fn excess(p: &Vec3, half: &Vec3) -> Vec3 {
 fn share_nearest_box(a: &Vec3, d: &Vec3, half: &Vec3) -> f64 {
     // Half the derivative of the squared distance at share t.
     let slope = |t: f64| excess(&(a + d * t), half).dot(d);
-    let (mut low, mut slope_low) = (0.0, slope(0.0));
+    let mut low = 0.0;
+    let mut slope_low = slope(0.0);
     if slope_low >= 0.0 {
         return 0.0;
     }
-    let (mut high, mut slope_high) = (1.0, slope(1.0));
+    let mut high = 1.0;
+    let mut slope_high = slope(1.0);
     if slope_high <= 0.0 {
         return 1.0;
     }

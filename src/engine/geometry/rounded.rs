@@ -144,7 +144,8 @@ fn of_tetrahedron([a, b, c, d]: [Vec3; 4]) -> (Vec3, Vec<Vec3>) {
     let faces = [[a, b, c, d], [a, b, d, c], [a, c, d, b], [b, c, d, a]];
     let is_outside = |[p, q, r, other]: &[Vec3; 4]| {
         let normal = (q - p).cross(&(r - p));
-        let (inner, origin) = (normal.dot(&(other - p)), -normal.dot(p));
+        let inner = normal.dot(&(other - p));
+        let origin = -normal.dot(p);
         // A flat tetrahedron has no inside.
         inner * origin <= 0.0 || inner.abs() <= 1e-14 * normal.norm() * (other - p).norm()
     };

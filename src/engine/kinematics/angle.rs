@@ -25,7 +25,8 @@ mod tests {
     #[test]
     fn a_copy_is_whole_turns_away_and_at_most_half_a_turn_from_the_reference() {
         for step in -400..400 {
-            let (angle, reference) = (f64::from(step) * 0.07, f64::from(step % 37) * 0.31);
+            let angle = f64::from(step) * 0.07;
+            let reference = f64::from(step % 37) * 0.31;
             let copy = nearest_copy(angle, reference);
             let turns = (copy - angle) / TAU;
             assert!((turns - turns.round()).abs() < 1e-12, "{angle} near {reference}: {copy}");

@@ -80,7 +80,8 @@ impl Arm {
     /// other way round, and to one that has its wrist so.
     #[inline]
     pub fn flips_rad(&self, q: &Joints, reference: &Joints) -> [f64; 2] {
-        let (own, other) = (self.solver.folds_rad(q), self.solver.folds_rad(reference));
+        let own = self.solver.folds_rad(q);
+        let other = self.solver.folds_rad(reference);
         [0, 1].map(|i: usize| wrapped(own[i] + other[i]).abs())
     }
 

@@ -85,7 +85,8 @@ impl Planar2r {
     /// # Source
     /// Law of cosines, as in Lynch & Park, *Modern Robotics* (2017), ch. 6, planar 2R chain.
     pub fn inverse(&self, target: &Vec2) -> Result<Branches, KinematicsError> {
-        let ([inner, outer], distance2) = (self.reach(), target.norm_squared());
+        let [inner, outer] = self.reach();
+        let distance2 = target.norm_squared();
         let (to_outer, to_inner) = (outer * outer - distance2, distance2 - inner * inner);
         if !(to_outer >= 0.0 && to_inner >= 0.0) {
             let distance = target.norm();

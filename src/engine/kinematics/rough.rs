@@ -32,10 +32,11 @@ fn rough(v: &Vec3) -> [f32; 3] {
 
 impl RoughChain {
     /// The numbers of `chain`.
-    pub fn of(chain: &Chain) -> Self {
+    pub fn from_chain(chain: &Chain) -> Self {
         let base = chain.base();
         let row = |i: usize| {
-            let (joint, (sin_alpha, cos_alpha)) = (&chain.joints()[i], chain.twists()[i]);
+            let joint = &chain.joints()[i];
+            let (sin_alpha, cos_alpha) = chain.twists()[i];
             Row {
                 offset_rad: joint.offset_rad as f32,
                 a_m: joint.a_m as f32,

@@ -210,7 +210,8 @@ impl Chain {
     /// Frame `i + 1` from frame `i`, column by column: a quarter of the work of a matrix product.
     #[inline]
     fn next(&self, frame: &Frame, i: usize, angle_rad: f64) -> Frame {
-        let (joint, (sin_alpha, cos_alpha)) = (&self.joints[i], self.twists[i]);
+        let joint = &self.joints[i];
+        let (sin_alpha, cos_alpha) = self.twists[i];
         let (s, c) = libm::sincos(angle_rad + joint.offset_rad);
         let [x, y, z] = [frame.axis(0), frame.axis(1), frame.axis(2)];
         let turned_x = x * c + y * s;

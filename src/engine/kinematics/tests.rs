@@ -61,7 +61,8 @@ fn the_up6_is_where_its_table_of_poses_says() {
     let chain = up6.arm().chain();
     for Printed { name, degrees, flange_mm, tip_mm, approach } in UP6_POSES {
         let q = radians(degrees);
-        let (flange, tip) = (chain.flange(&q), chain.forward(&q));
+        let flange = chain.flange(&q);
+        let tip = chain.forward(&q);
         let off = |found: Vec3, printed: [f64; 3]| (found - Vec3::from(printed)).abs().max();
         assert!(off(flange.origin * 1e3, flange_mm) <= 0.0501, "{name}: flange {:?}", flange.origin);
         assert!(off(tip.origin * 1e3, tip_mm) <= 0.0501, "{name}: tip {:?}", tip.origin);
@@ -107,7 +108,8 @@ fn modified_row(joint: &Joint, angle_rad: f64) -> Matrix4<f64> {
 
 #[test]
 fn modified_rows_put_every_frame_of_the_link_where_craig_does() {
-    let (seed, mut worst) = (714, 0.0_f64);
+    let seed = 714;
+    let mut worst = 0.0_f64;
     let mut stream = seed::stream(seed);
     for _ in 0..1_000 {
         let rows: [Joint; AXES] = std::array::from_fn(|_| Joint {
@@ -121,7 +123,8 @@ fn modified_rows_put_every_frame_of_the_link_where_craig_does() {
         });
         let (chain, near) = Chain::modified(rows, Frame::IDENTITY, Frame::IDENTITY).unwrap();
         let q = draw(&mut stream, &chain);
-        let (frames, mut craig) = (chain.frames(&q), Matrix4::identity());
+        let frames = chain.frames(&q);
+        let mut craig = Matrix4::identity();
         for link in 0..=AXES {
             let ours = frames[link] * near[link];
             worst = worst.max((ours.rotation - craig.fixed_view::<3, 3>(0, 0)).abs().max());
@@ -153,7 +156,8 @@ fn urdf_flange(q: &Joints) -> Isometry3<f64> {
 
 #[test]
 fn the_aubo_rows_and_the_makers_chain_of_frames_are_one_robot() {
-    let (seed, aubo) = (710, robot("aubo_i10"));
+    let seed = 710;
+    let aubo = robot("aubo_i10");
     let mut stream = seed::stream(seed);
     for index in 0..10_000 {
         let q = draw(&mut stream, aubo.arm().chain());
@@ -166,13 +170,15 @@ fn the_aubo_rows_and_the_makers_chain_of_frames_are_one_robot() {
 
 #[test]
 fn the_base_stands_before_the_chain_and_the_tool_after_it() {
-    let (seed, up6) = (711, robot("motoman_up6"));
+    let seed = 711;
+    let up6 = robot("motoman_up6");
     let chain = up6.arm().chain();
     let base = Frame::at(Vec3::new(1.0, 2.0, 3.0)) * Frame::turned(&Vec3::z(), 0.4);
     let tool = Frame::at(Vec3::new(0.1, 0.0, 0.2)) * Frame::turned(&Vec3::x(), 0.7);
     let moved = Chain::new(*chain.joints(), base, tool).unwrap();
     let q = draw(&mut seed::stream(seed), chain);
-    let (expected, found) = (base * chain.flange(&q) * tool, moved.forward(&q));
+    let expected = base * chain.flange(&q) * tool;
+    let found = moved.forward(&q);
     assert!((expected.rotation - found.rotation).norm() < 1e-14, "{expected:?} {found:?}");
     assert!((expected.origin - found.origin).norm() < 1e-14, "{expected:?} {found:?}");
     let frames = moved.frames(&q);
@@ -190,9 +196,11 @@ fn the_jacobian_is_what_finite_differences_say_for_any_point_of_any_link() {
     let step = 1e-6;
     for (seed, name) in [(712, "motoman_up6"), (713, "aubo_i10")] {
         let robot = robot(name);
-        let (chain, mut stream) = (robot.arm().chain(), seed::stream(seed));
+        let chain = robot.arm().chain();
+        let mut stream = seed::stream(seed);
         for case in 0..1_000 {
-            let (q, link) = (draw(&mut stream, chain), case % 7);
+            let q = draw(&mut stream, chain);
+            let link = case % 7;
             let local = Vec3::from_fn(|_, _| stream.random_range(-0.5..0.5));
             let frames = chain.frames(&q);
             let jacobian = Chain::jacobian(&frames, link, &frames[link].point(&local));

@@ -148,12 +148,14 @@ impl CaseTrial {
 
     /// The goals whose shortest lengths from `start` are worth a try.
     fn near(&mut self, start: u32, excess: u32) -> Vec<u32> {
-        let ([lowest, highest], mut near) = (self.bounds, Vec::new());
-        let (shortest, back) = (&mut self.shortest, &mut self.back);
+        let [lowest, highest] = self.bounds;
+        let mut near = Vec::new();
+        let shortest = &mut self.shortest;
+        let back = &mut self.back;
         shortest.fill(None);
         back.begin(start);
         self.flood.flood(start, highest, |cell, cost| {
-            back.tell(cell, cost);
+            back.set_length(cell, cost);
             if cost + excess >= lowest {
                 shortest[cell as usize] = Some(cost);
                 near.push(cell);
@@ -164,7 +166,8 @@ impl CaseTrial {
 
     /// What A* returns to `goal`; nothing if that is not within the bounds and the excess.
     fn length(&mut self, goal: u32, excess: u32) -> Option<Length> {
-        let ([lowest, highest], shortest) = (self.bounds, self.shortest[goal as usize]?);
+        let [lowest, highest] = self.bounds;
+        let shortest = self.shortest[goal as usize]?;
         let most = highest.min(shortest + excess);
         let Ok(length) = self.back.length(goal, most) else { return Some(Length::AtMost(most)) };
         length.map(ScaledOctile::scaled).filter(|length| *length >= lowest).map(Length::Known)

@@ -39,7 +39,8 @@ impl Targets {
     /// How many targets there are.
     pub fn count(&self) -> usize {
         let odd = |case: usize| self.lengths[case].iter().filter(|l| !l.straight.is_multiple_of(2)).count();
-        let (odds, all) = ([odd(0), odd(1)], [self.lengths[0].len(), self.lengths[1].len()]);
+        let odds = [odd(0), odd(1)];
+        let all = [self.lengths[0].len(), self.lengths[1].len()];
         odds[0] * odds[1] + (all[0] - odds[0]) * (all[1] - odds[1])
     }
 

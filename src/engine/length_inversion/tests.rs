@@ -3,7 +3,7 @@ use crate::geometry::Vec2;
 use crate::geometry::planar::Circle;
 use crate::kinematics::planar_2r::Planar2r;
 use crate::search::{
-    Combined, FirstWayAstar, GridGraph, Heap, Octile, Rules, ScaledOctile, Search, Terms, Ties, Update,
+    Combined, FirstWayAstar, GridGraph, Heap, Octile, Rules, ScaledOctile, Search, SideInputs, Ties, Update,
     euclidean_to, sum,
 };
 use crate::space::{ArmRules, ArmWorld, HopRule, Obstacle, TipLattice, reproduced_rules as rules};
@@ -52,7 +52,9 @@ fn every_target_that_is_hit_has_a_pair_and_the_printed_one_is_among_them() {
     let grids = grids();
     let targets = Targets::new(LENGTHS, 1.0);
     let Met { hits, attainable } = &targets.met(&grids, Match::ByPlace)[0];
-    let (mut checked, mut met, mut attained) = (0, 0, 0);
+    let mut checked = 0;
+    let mut met = 0;
+    let mut attained = 0;
     for (a, first) in (0..).zip(&targets.lengths[0]).step_by(7) {
         for (b, second) in (0..).zip(&targets.lengths[1]).step_by(11) {
             let found = pairs(&grids, &scaled([*first, *second]), Match::ByPlace);
@@ -134,7 +136,8 @@ fn many() -> [Vec<Moves>; 2] {
 
 #[test]
 fn grids_matched_by_place_are_those_asked_one_at_a_time() {
-    let (grids, targets) = (many(), Targets::new(Small::LENGTHS, 0.75));
+    let grids = many();
+    let targets = Targets::new(Small::LENGTHS, 0.75);
     let hits = hits_of(&targets, &grids, Match::ByPlace);
     let asked = [[10, 14], [9, 13], [12, 10]];
     let asked = asked.map(|[straight, diagonal]| scaled([Octile { straight, diagonal }; 2]));
@@ -155,12 +158,16 @@ fn grids_matched_by_place_are_those_asked_one_at_a_time() {
 
 #[test]
 fn grids_matched_freely_give_what_any_two_of_them_give() {
-    let (many, targets, lengths) = (many(), Targets::new(Small::LENGTHS, 0.75), scaled(Small::LENGTHS));
+    let many = many();
+    let targets = Targets::new(Small::LENGTHS, 0.75);
+    let lengths = scaled(Small::LENGTHS);
     // All grids of one case and three of the other, so that every two can be asked alone.
     let grids = [many[0].clone(), [3, 32, 66].map(|place| many[1][place].clone()).to_vec()];
-    let (found, hits) = (pairs(&grids, &lengths, Match::Freely), hits_of(&targets, &grids, Match::Freely));
+    let found = pairs(&grids, &lengths, Match::Freely);
+    let hits = hits_of(&targets, &grids, Match::Freely);
     assert_eq!([found.len(), hits.len()], [1, 1]);
-    let (mut pairs_of_any, mut hits_of_any) = (std::collections::BTreeSet::new(), targets.none());
+    let mut pairs_of_any = std::collections::BTreeSet::new();
+    let mut hits_of_any = targets.none();
     for one in 0..6 {
         for two in 0..3 {
             let grids = alone(&grids, [one, two]);
@@ -179,7 +186,7 @@ const ORDERS: [Ties; 3] = [Ties::Fifo, Ties::Lifo, Ties::LargerG];
 /// The path length that the kernel's A* returns if it never lowers open nodes.
 fn kernel_length(ties: Ties, world: &ArmWorld, moves: &Moves, [start, goal]: Pair) -> Option<Octile> {
     let estimate = Combined { h: euclidean_to(world.grid(), goal), combine: sum };
-    let terms = Terms {
+    let terms = SideInputs {
         graph: &mut GridGraph::new(moves),
         estimate: &estimate,
         observer: &mut (),
@@ -197,7 +204,8 @@ fn where_open_nodes_are_never_lowered_lengths_between_many_pairs_are_the_kernels
         let most = length + 8 * ScaledOctile::STRAIGHT;
         let mut flood = search(&moves);
         let mut searches = ORDERS.map(|ties| (ties, FirstWayAstar::new(&moves, ties)));
-        let (mut checked, mut longer) = (0, 0);
+        let mut checked = 0;
+        let mut longer = 0;
         for goal in (0..moves.cell_count()).step_by(61) {
             for (_, search) in &mut searches {
                 search.aim(goal);
@@ -255,7 +263,8 @@ impl Small {
 
     /// The shortest lengths between all cells, by start and goal.
     fn shortest(moves: &Moves) -> Vec<Vec<Option<u32>>> {
-        let (mut flood, cells) = (search(moves), moves.cell_count());
+        let mut flood = search(moves);
+        let cells = moves.cell_count();
         let from = |start| {
             let mut costs = vec![None; cells as usize];
             flood.flood(start, u32::MAX / 2, |cell, cost| costs[cell as usize] = Some(cost));
@@ -283,7 +292,8 @@ impl Small {
 
     /// The pairs that meet a target, with the kernel's lengths, and for how many these are not shortest.
     fn met(&self, ties: Ties, pairs: &[(Pair, [u32; 2])]) -> (Vec<([Octile; 2], Pair)>, usize) {
-        let (mut met, mut longer) = (Vec::new(), 0);
+        let mut met = Vec::new();
+        let mut longer = 0;
         for (pair, costs) in pairs {
             let lengths = [0, 1].map(|case| {
                 let length = kernel_length(ties, &self.worlds[case], &self.moves[case], *pair);
@@ -303,7 +313,9 @@ impl Small {
 #[test]
 fn where_open_nodes_are_never_lowered_pairs_and_targets_are_those_of_the_kernels_lengths() {
     let small = Small::new();
-    let (targets, moves, pairs) = (&small.targets, &small.moves, small.pairs_in_reach());
+    let targets = &small.targets;
+    let moves = &small.moves;
+    let pairs = small.pairs_in_reach();
     let mut of_orders = Vec::new();
     for ties in ORDERS {
         let (met, longer) = small.met(ties, &pairs);

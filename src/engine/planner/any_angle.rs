@@ -3,7 +3,7 @@
 use super::lattice::{self, Posed, SightSetting, TiesSetting, sees};
 use super::pool::Pool;
 use super::{Invalid, Plan, Planner, Request, Value};
-use crate::search::{AnyAngle, Closings, Heap, Observer, Seen, Sighted, Trace, When};
+use crate::search::{AnyAngle, Closings, Heap, Observer, Seen, Sighted, VisitOrder, When};
 use base::settings::{Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -59,26 +59,28 @@ impl AnyAngleSettings {
     /// The plan of a search that looks at lines of sight at the time `when`; its path lists corners alone.
     fn plan(&self, request: &Request<'_>, when: When) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
-        let (grid, closings) = (posed.world.grid(), Closings::default());
-        let mut watching = (Trace::default(), closings.of(0));
+        let grid = posed.world.grid();
+        let closings = Closings::default();
+        let mut watching = (VisitOrder::default(), closings.one_side(0));
         let Seen { report, sight_checks } = if request.trace {
             self.search(&posed, request.expansions, when, &mut watching)
         } else {
             self.search(&posed, request.expansions, when, &mut ())
         };
-        let mut exhibits = Vec::new();
+        let mut traces = Vec::new();
         if request.trace {
-            exhibits.push(lattice::cells(grid, "opened_start_side", &watching.0.opened));
-            exhibits.push(lattice::closings(grid, closings));
+            traces.push(lattice::cells(grid, "opened_start_side", &watching.0.opened));
+            traces.push(lattice::closings(grid, closings));
         }
-        let plan = lattice::plan(grid, &report.outcome, &[report.counters], exhibits);
+        let plan = lattice::plan(grid, &report.outcome, &[report.counters], traces);
         let mut plan = lattice::with_distinct(plan, report.counters.opened);
         plan.counts.insert("sight_checks", Value::Count(sight_checks));
         Ok(plan)
     }
 
     fn search(&self, posed: &Posed<'_>, expansions: u64, when: When, observer: &mut impl Observer) -> Seen {
-        let (world, grid) = (posed.world, posed.world.grid());
+        let world = posed.world;
+        let grid = posed.world.grid();
         let sight = self.line_of_sight.into();
         let sees = |from: u32, to: u32| sees(world, sight, grid.xy(from), grid.xy(to));
         let on = Sighted { grid, moves: world.moves(), sees };

@@ -4,8 +4,8 @@ use super::lattice::{self, COLUMNS_DISTINCT, Posed, TiesSetting, UPDATE};
 use super::pool::Pool;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
-    Closings, Combined, GridGraph, Heap, Observer, Octile, Report, Rules, Search, Stop, Terms, Trace,
-    euclidean_to, falling, weighted,
+    Closings, Combined, GridGraph, Heap, Observer, Octile, Report, Rules, Search, SideInputs, Stop,
+    VisitOrder, euclidean_to, falling, weighted,
 };
 use crate::space::WorldKind;
 use base::grid::NeighbourOrder;
@@ -20,7 +20,7 @@ pub static ENTRY: Entry = Entry {
     revision: 3,
     needs: WorldKind::Lattice,
     columns: COLUMNS_DISTINCT,
-    settings: Accepted::of::<Astar>(),
+    settings: Accepted::shape::<Astar>(),
     example: r#"
 weight = 1
 ties = "fifo"
@@ -95,9 +95,10 @@ impl Astar {
         expansions: u64,
         observer: &mut O,
     ) -> Report<Octile> {
-        let (grid, goal) = (posed.world.grid(), posed.goal);
+        let grid = posed.world.grid();
+        let goal = posed.goal;
         let estimate = Combined { h: euclidean_to(grid, goal), combine };
-        let terms = Terms {
+        let terms = SideInputs {
             graph: &mut GridGraph::in_order(posed.world.moves(), self.neighbours),
             estimate: &estimate,
             observer,
@@ -114,19 +115,20 @@ impl Astar {
 impl Planner for Astar {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
-        let (grid, closings) = (posed.world.grid(), Closings::default());
-        let mut watching = (Trace::default(), closings.of(0));
+        let grid = posed.world.grid();
+        let closings = Closings::default();
+        let mut watching = (VisitOrder::default(), closings.one_side(0));
         let report = if request.trace {
             self.run(&posed, request.expansions, &mut watching)
         } else {
             self.run(&posed, request.expansions, &mut ())
         };
-        let mut exhibits = Vec::new();
+        let mut traces = Vec::new();
         if request.trace {
-            exhibits.push(lattice::cells(grid, "opened_start_side", &watching.0.opened));
-            exhibits.push(lattice::closings(grid, closings));
+            traces.push(lattice::cells(grid, "opened_start_side", &watching.0.opened));
+            traces.push(lattice::closings(grid, closings));
         }
-        let plan = lattice::plan(grid, &report.outcome, &[report.counters], exhibits);
+        let plan = lattice::plan(grid, &report.outcome, &[report.counters], traces);
         Ok(lattice::with_distinct(plan, report.counters.opened))
     }
 

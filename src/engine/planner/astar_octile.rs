@@ -18,7 +18,7 @@ pub static ENTRY: Entry = Entry {
     revision: 2,
     needs: WorldKind::Lattice,
     columns: COLUMNS_DISTINCT,
-    settings: Accepted::of::<AstarOctile>(),
+    settings: Accepted::shape::<AstarOctile>(),
     example: "",
     build: Build::Planner(|settings| {
         let read: AstarOctile = settings.read()?;

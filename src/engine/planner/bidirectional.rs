@@ -21,7 +21,7 @@ pub static ENTRY: Entry = Entry {
     revision: 2,
     needs: WorldKind::Lattice,
     columns: COLUMNS_DISTINCT,
-    settings: Accepted::of::<TwoSided>(),
+    settings: Accepted::shape::<TwoSided>(),
     example: r#"
 weight = "one"
 meeting = "generated_any"
@@ -170,7 +170,8 @@ impl TwoSided {
         expansions: u64,
         mut observers: [O; 2],
     ) -> BidirectionalReport<Octile> {
-        let (grid, rules) = (posed.world.grid(), self.rules(expansions));
+        let grid = posed.world.grid();
+        let rules = self.rules(expansions);
         let ends = [posed.start, posed.goal];
         let mut graph = GridGraph::in_order(posed.world.moves(), self.neighbours);
         match self.aim {
@@ -201,20 +202,20 @@ impl Planner for TwoSided {
         let mut memory = self.pool.any(|| Bidirectional::new(Heap::new(self.ties.into())));
         let closings = Closings::default();
         let report = if request.trace {
-            self.run(&mut memory, &posed, request.expansions, [0, 1].map(|side| closings.of(side)))
+            self.run(&mut memory, &posed, request.expansions, [0, 1].map(|side| closings.one_side(side)))
         } else {
             self.run(&mut memory, &posed, request.expansions, [(), ()])
         };
-        let mut exhibits = Vec::new();
+        let mut traces = Vec::new();
         if request.trace {
-            exhibits.push(lattice::cells(grid, "opened_start_side", memory.opened(0)));
-            exhibits.push(lattice::cells(grid, "opened_goal_side", memory.opened(1)));
-            exhibits.push(lattice::closings(grid, closings));
-            exhibits.extend(report.meeting.map(|cell| lattice::cells(grid, "meeting", &[cell])));
+            traces.push(lattice::cells(grid, "opened_start_side", memory.opened(0)));
+            traces.push(lattice::cells(grid, "opened_goal_side", memory.opened(1)));
+            traces.push(lattice::closings(grid, closings));
+            traces.extend(report.meeting.map(|cell| lattice::cells(grid, "meeting", &[cell])));
         }
         let opened = memory.opened_distinct();
         self.pool.keep(memory);
-        Ok(lattice::with_distinct(lattice::plan(grid, &report.outcome, &report.sides, exhibits), opened))
+        Ok(lattice::with_distinct(lattice::plan(grid, &report.outcome, &report.sides, traces), opened))
     }
 
     fn is_optimal(&self) -> bool {

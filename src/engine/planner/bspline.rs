@@ -5,7 +5,7 @@
 //! up to a fifth of a step; `guarded` raises the multiplicity of the control points where it touches, up to three,
 //! at which the curve follows the path itself.
 
-use super::polyhedra::{densified, exhibit, points, polyhedra, replace};
+use super::polyhedra::{densified, points, polyhedra, replace, trace};
 use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
 use crate::geometry::{Segment, Vec3};
 use crate::shorten::cubic_spline;
@@ -21,7 +21,7 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Polyhedra,
     columns: &["cut_in_cm", "raised_points"],
-    settings: Accepted::of::<Spline>(),
+    settings: Accepted::shape::<Spline>(),
     example: r#"
 control = "steps"
 guarded = true
@@ -94,7 +94,7 @@ impl Stage for Spline {
         let raised = multiplicity.iter().filter(|times| **times > 1).count();
         plan.counts.insert("raised_points", Value::Count(raised as u64));
         if request.trace {
-            plan.exhibits.push(exhibit("polyline", &nodes));
+            plan.traces.push(trace("polyline", &nodes));
         }
         let mut smooth: Vec<Vec3> = curve.into_iter().map(|(_, point)| point.into()).collect();
         smooth.dedup();

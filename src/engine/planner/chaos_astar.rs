@@ -2,7 +2,8 @@
 
 use super::pool::Pool;
 use super::tips::{
-    self, COLUMNS, Heuristic, Manner, OpenSetting, Posed, RegionSetting, RegionShape, TipSearch, TipTies,
+    self, COLUMNS, Heuristic, OpenSetting, Posed, RegionSetting, RegionShape, TipSearch, TipSearchOptions,
+    TipTies,
 };
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::Successors;
@@ -21,7 +22,7 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Arm,
     columns: COLUMNS,
-    settings: Accepted::of::<ChaosAstar>(),
+    settings: Accepted::shape::<ChaosAstar>(),
     example: r#"
 region_shape = "square"
 region_radius_cells = 1
@@ -225,13 +226,13 @@ impl Planner for Ready {
         };
         let mut search = self.pool.any(|| TipSearch::new(&self.offsets, self.read.ties));
         let ChaosAstar { heuristic, open_node, .. } = self.read;
-        let manner = Manner { heuristic, open_node, expansions: request.expansions };
+        let manner = TipSearchOptions { heuristic, open_node, expansions: request.expansions };
         let (report, scans) = posed.search(&mut search, &self.offsets, &mut part, manner);
         self.pool.keep(search);
         let mut plan = posed.plan(&report, scans, request.trace);
         if request.trace {
-            plan.exhibits.push(tips::steps("region", self.offsets.steps()));
-            plan.exhibits.push(tips::steps("drawn", &part.first));
+            plan.traces.push(tips::steps("region", self.offsets.steps()));
+            plan.traces.push(tips::steps("drawn", &part.first));
         }
         Ok(plan)
     }
@@ -305,7 +306,8 @@ mod tests {
     #[test]
     fn the_steps_tried_are_those_drawn_with_a_near_goal_for_the_last() {
         let world = ArmWorld::new(reproduced_rules(HopRule::EndPoints), Vec::new());
-        let (offsets, grid) = (Offsets::disc(3), world.grid());
+        let offsets = Offsets::disc(3);
+        let grid = world.grid();
         let goal = grid.cell(80, 20).unwrap();
         let at: Vec<[i32; 2]> = (0..40).map(|k| [76 + k % 8, 18 + k / 8]).collect();
         let mut goals = 0;

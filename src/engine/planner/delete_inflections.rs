@@ -16,7 +16,7 @@ pub static ENTRY: Entry = Entry {
     revision: 3,
     needs: WorldKind::Lattice,
     columns: &[],
-    settings: Accepted::of::<DeleteInflections>(),
+    settings: Accepted::shape::<DeleteInflections>(),
     example: r#"
 line_of_sight = "exact_interior"
 "#,
@@ -56,12 +56,8 @@ impl Stage for DeleteInflections {
         });
         if request.trace {
             let values = plan.path.concat();
-            plan.exhibits.push(super::Exhibit { name: "raw_path".to_owned(), width: 2, values });
-            plan.exhibits.push(super::Exhibit {
-                name: "refused_sight".to_owned(),
-                width: 4,
-                values: refused,
-            });
+            plan.traces.push(super::Trace { name: "raw_path".to_owned(), width: 2, values });
+            plan.traces.push(super::Trace { name: "refused_sight".to_owned(), width: 4, values: refused });
         }
         plan.path = kept.into_iter().map(|i| corners[i].map(f64::from).to_vec()).collect();
         plan.cost = Some(path_length(&plan.path));

@@ -14,7 +14,7 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Roadmap,
     columns: &[],
-    settings: Accepted::of::<Direct>(),
+    settings: Accepted::shape::<Direct>(),
     example: "",
     build: Build::Planner(|settings| {
         let read: Direct = settings.read()?;

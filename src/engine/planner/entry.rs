@@ -21,7 +21,7 @@ pub struct Request<'a> {
     pub expansions: u64,
     /// The seed of a planner that draws.
     pub seed: u64,
-    /// Whether to keep what figures need ([`Plan::exhibits`]); it must not change anything else.
+    /// Whether to keep what figures need ([`Plan::traces`]); it must not change anything else.
     pub trace: bool,
 }
 
@@ -50,7 +50,7 @@ pub type Counts = BTreeMap<&'static str, Value>;
 
 /// A sequence of points that a figure needs: a path, opened cells, a trajectory.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Exhibit {
+pub struct Trace {
     /// What it is, as figures ask for it.
     pub name: String,
     /// How many numbers make one point.
@@ -86,7 +86,7 @@ pub struct Plan {
     /// What was counted.
     pub counts: Counts,
     /// What figures need, if the request asked for it.
-    pub exhibits: Vec<Exhibit>,
+    pub traces: Vec<Trace>,
     /// Why it ended so, where the ending alone does not say it; of a path, what should be known if it is refused.
     pub reason: Option<String>,
 }

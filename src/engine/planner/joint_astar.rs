@@ -13,7 +13,7 @@ use super::polyhedra::polyhedra;
 use super::{Build, Ending, Entry, Invalid, Plan, Planner, Request};
 use crate::geometry::Vec3;
 use crate::kinematics::{AXES, Joints};
-use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, Stop, Terms, Ties, sum};
+use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, SideInputs, Stop, Ties, sum};
 use crate::shorten::path_length;
 use crate::space::polyhedra::{Apart, CarriedArm, DOWN};
 use crate::space::{PolyhedraWorld, WorldKind};
@@ -30,7 +30,7 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::ArmAmongPolyhedra,
     columns: COLUMNS,
-    settings: Accepted::of::<JointAstar>(),
+    settings: Accepted::shape::<JointAstar>(),
     example: "
 delta_deg = 10.0
 neighbours = 12
@@ -138,7 +138,7 @@ impl Graph for Space<'_> {
             let states = self.states.borrow();
             (states.cell(node), states.reached(node))
         };
-        let mut around = Around::of(&cell);
+        let mut around = Around::new(&cell);
         let here = angles(&self.start, &cell, self.delta);
         for (step, length) in &self.steps {
             let (to, length): (Cell, f64) = (std::array::from_fn(|i| cell[i] + step[i]), *length);
@@ -207,11 +207,12 @@ impl Planner for JointAstar {
             let apart = arm.apart(world.bodies());
             Space { world, arm, start, delta, steps, states: &states, apart }
         };
-        let (mut graph, probe) = (space(steps(self.neighbours, delta)), space(Vec::new()));
+        let mut graph = space(steps(self.neighbours, delta));
+        let probe = space(Vec::new());
         let at = |node: u32| angles(&start, &states.borrow().cell(node), delta);
         let h = |node: u32| greatest_difference(&at(node), &goal);
         let is_goal = |node: u32| h(node) <= delta * self.goal_steps && probe.is_clear(&at(node), &goal);
-        let terms = Terms {
+        let terms = SideInputs {
             graph: &mut graph,
             estimate: &Combined { h, combine: sum },
             observer: &mut (),
@@ -251,13 +252,13 @@ fn joint_plan(
     trace: bool,
 ) -> Plan {
     let tips: Vec<Vec<f64>> = trail.iter().map(|q| arm.tip(q).as_slice().to_vec()).collect();
-    let exhibits = if trace && !trail.is_empty() { super::posture::trails(arm, trail) } else { Vec::new() };
+    let traces = if trace && !trail.is_empty() { super::posture::trails(arm, trail) } else { Vec::new() };
     Plan {
         ending,
         path: trail.iter().map(|q| q.to_vec()).collect(),
         cost: (ending == Ending::Solved).then(|| path_length(&tips)),
         counts,
-        exhibits,
+        traces,
         reason: None,
     }
 }

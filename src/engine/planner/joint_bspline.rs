@@ -26,7 +26,7 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::ArmAmongPolyhedra,
     columns: &["raised_points"],
-    settings: Accepted::of::<JointSpline>(),
+    settings: Accepted::shape::<JointSpline>(),
     example: r#"
 control = "trail"
 guarded = true
@@ -73,7 +73,8 @@ impl Stage for JointSpline {
         let world = polyhedra(request.world);
         let arm = world.arm().expect("a checked study gives this stage an arm");
         let trail: Vec<Joints> = plan.path.iter().map(|q| std::array::from_fn(|i| q[i])).collect();
-        let (mut multiplicity, apart) = (vec![1; trail.len()], arm.apart(world.bodies()));
+        let mut multiplicity = vec![1; trail.len()];
+        let apart = arm.apart(world.bodies());
         let mut curve = self.curve(&trail, &multiplicity);
         while self.guarded && raise(&curve, &mut multiplicity, |a, b| is_clear(world, arm, a, b, &apart)) {
             curve = self.curve(&trail, &multiplicity);
@@ -84,8 +85,8 @@ impl Stage for JointSpline {
         smooth.dedup();
         if request.trace {
             let made = trails(arm, &smooth);
-            plan.exhibits.retain(|old| made.iter().all(|new| new.name != old.name));
-            plan.exhibits.extend(made);
+            plan.traces.retain(|old| made.iter().all(|new| new.name != old.name));
+            plan.traces.extend(made);
         }
         let tips: Vec<Vec<f64>> = smooth.iter().map(|q| arm.tip(q).as_slice().to_vec()).collect();
         plan.cost = Some(path_length(&tips));

@@ -1,7 +1,7 @@
 //! Jump point search, online: runs are scanned in blocks, intermediate jump points are pruned (B + P).
 //!
 //! Counters and ties are defined with [`JumpSearch`](crate::search::JumpSearch). Every corner rule is supported. The planner
-//! needs bits of rows and columns ([`JumpLines`]), about one byte for each cell; `prepared_bytes` counts them. They are
+//! needs bits of rows and columns ([`JumpLines`]), about one byte for each cell; `preprocessing_bytes` counts them. They are
 //! made in one pass over the map and shared by all queries. With `preparation = "each_query"` every query makes them
 //! anew: in a study that has both contenders, the difference of their clock readings is the cost of preparation.
 //!
@@ -22,7 +22,7 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Lattice,
     columns: COLUMNS,
-    settings: Accepted::of::<JumpPoints>(),
+    settings: Accepted::shape::<JumpPoints>(),
     example: "preparation = \"kept\"",
     build: Build::Planner(|settings| {
         let read: JumpPoints = settings.read()?;

@@ -1,7 +1,7 @@
 //! Jump point search with preprocessing: JPS+, with intermediate pruning.
 //!
 //! It expands what [`jps`](super::jps) expands, in the same order, and looks distances up instead of scanning for them.
-//! Every corner rule is supported. The table ([`JumpTable`]) takes 16 bytes for each cell; `prepared_bytes` counts them.
+//! Every corner rule is supported. The table ([`JumpTable`]) takes 16 bytes for each cell; `preprocessing_bytes` counts them.
 //! It belongs to the world and is made when it is first asked for, so that all contenders share it. No clock reading
 //! counts it: a study plans every query once before it times it. With `preparation = "each_query"` every query makes
 //! the table anew: in a study that has both contenders, the difference of their clock readings is the cost of
@@ -23,7 +23,7 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Lattice,
     columns: COLUMNS,
-    settings: Accepted::of::<JumpPoints>(),
+    settings: Accepted::shape::<JumpPoints>(),
     example: "preparation = \"kept\"",
     build: Build::Planner(|settings| {
         let read: JumpPoints = settings.read()?;

@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The columns that every search by jump points fills.
-pub(super) const COLUMNS: &[&str] = &["opened", "closed", "expansions", "generated", "prepared_bytes"];
+pub(super) const COLUMNS: &[&str] = &["opened", "closed", "expansions", "generated", "preprocessing_bytes"];
 
 /// When what a planner needs of a map is made.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -51,7 +51,7 @@ impl JumpPoints {
         let report = search.solve(jumps, posed.start, posed.goal, request.expansions);
         self.pool.keep(search);
         let mut plan = lattice::plan(grid, &report.outcome, &[report.counters], Vec::new());
-        plan.counts.insert("prepared_bytes", Value::Count(bytes as u64));
+        plan.counts.insert("preprocessing_bytes", Value::Count(bytes as u64));
         Ok(plan)
     }
 }

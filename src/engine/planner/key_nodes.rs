@@ -63,7 +63,8 @@ fn off(point: &Vec3, a: &Vec3, direction: &Vec3) -> f64 {
 /// Where on the line the broken way over it is shortest: turning one point about the line into the plane of the
 /// other, on the other side, makes it straight.
 fn shortest_over(at_x: f64, off_x: f64, goal: &Vec3, a: &Vec3, direction: &Vec3) -> f64 {
-    let (at_goal, off_goal) = ((goal - a).dot(direction), off(goal, a, direction));
+    let at_goal = (goal - a).dot(direction);
+    let off_goal = off(goal, a, direction);
     let sum = off_x + off_goal;
     if sum > 0.0 { (at_x * off_goal + at_goal * off_x) / sum } else { at_x }
 }
@@ -80,7 +81,8 @@ mod tests {
         for seed in 0..200 {
             let mut stream = seed::stream(seed);
             let mut draw = |reach: f64| Vec3::from_fn(|_, _| stream.random_range(-reach..reach));
-            let (x, goal) = (draw(9.0), draw(9.0));
+            let x = draw(9.0);
+            let goal = draw(9.0);
             let cube = Convex::cuboid(draw(2.0), Vec3::new(2.0, 3.0, 4.0)).unwrap();
             for index in 0..cube.edges().len() {
                 let found = key(&cube, index, &x, &goal, 0.0);
@@ -99,7 +101,8 @@ mod tests {
     #[test]
     fn a_point_on_an_edge_has_no_face_in_front_as_printed_and_two_with_the_guard() {
         let cube = Convex::cuboid(Vec3::zeros(), Vec3::repeat(2.0)).unwrap();
-        let (x, goal) = (Vec3::new(1.0, 1.0, 0.3), Vec3::new(-5.0, -5.0, 0.0));
+        let x = Vec3::new(1.0, 1.0, 0.3);
+        let goal = Vec3::new(-5.0, -5.0, 0.0);
         assert!(keys(&cube, &x, &goal, PRINTED).is_empty());
         assert_eq!(keys(&cube, &x, &goal, GUARDED).len(), 7);
     }

@@ -33,7 +33,7 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Polyhedra,
     columns: &["opened", "expansions", "generated", "fell_back"],
-    settings: Accepted::of::<Keynode>(),
+    settings: Accepted::shape::<Keynode>(),
     example: r#"
 search = "greedy"
 cluster = false

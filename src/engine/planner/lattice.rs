@@ -1,6 +1,6 @@
 //! What the planners on a lattice share: their ends, their settings' words, their plans.
 
-use super::{Counts, Ending, Exhibit, Invalid, Plan, Request, Value};
+use super::{Counts, Ending, Invalid, Plan, Request, Trace, Value};
 use crate::search::{Closing, Closings, Cost, Counters, Outcome, Ties, Update};
 use crate::space::{LatticeWorld, World};
 use base::grid::{CornerRule, Grid2, Sight};
@@ -117,7 +117,7 @@ pub(super) fn plan<C: Cost>(
     grid: &Grid2,
     outcome: &Outcome<C>,
     sides: &[Counters],
-    exhibits: Vec<Exhibit>,
+    traces: Vec<Trace>,
 ) -> Plan {
     let sum = |get: fn(&Counters) -> u64| Value::Count(sides.iter().map(get).sum());
     let counts = Counts::from([
@@ -134,7 +134,7 @@ pub(super) fn plan<C: Cost>(
         Outcome::NoPath => (Ending::NoPath, Vec::new(), None),
         Outcome::BudgetSpent => (Ending::BudgetSpent, Vec::new(), None),
     };
-    Plan { ending, path, cost, counts, exhibits, reason: None }
+    Plan { ending, path, cost, counts, traces, reason: None }
 }
 
 /// The same plan, with how many different nodes were opened: those of [`COLUMNS_DISTINCT`].
@@ -143,20 +143,20 @@ pub(super) fn with_distinct(mut plan: Plan, opened: u64) -> Plan {
     plan
 }
 
-/// The cells as an exhibit, in the order given.
-pub(super) fn cells(grid: &Grid2, name: &str, cells: &[u32]) -> Exhibit {
+/// The cells as a trace, in the order given.
+pub(super) fn cells(grid: &Grid2, name: &str, cells: &[u32]) -> Trace {
     let values = cells.iter().flat_map(|cell| grid.xy(*cell).map(f64::from)).collect();
-    Exhibit { name: name.to_owned(), width: 2, values }
+    Trace { name: name.to_owned(), width: 2, values }
 }
 
-/// Cells in the order in which they were closed, as an exhibit: x, y, the side that closed it (0 from the start, 1 from the
+/// Cells in the order in which they were closed, as a trace: x, y, the side that closed it (0 from the start, 1 from the
 /// goal), and how many cells the start's and the goal's side had opened before.
-pub(super) fn closings(grid: &Grid2, closings: Closings) -> Exhibit {
+pub(super) fn closings(grid: &Grid2, closings: Closings) -> Trace {
     let row = |Closing { node, side, opened }| {
         let [x, y] = grid.xy(node).map(f64::from);
         [x, y, f64::from(side), f64::from(opened[0]), f64::from(opened[1])]
     };
-    Exhibit {
+    Trace {
         name: "closings".to_owned(),
         width: 5,
         values: closings.all().into_iter().flat_map(row).collect(),
@@ -195,7 +195,8 @@ mod tests {
     #[test]
     fn a_line_of_sight_is_free_both_ways_under_every_corner_rule() {
         // Bresenham's line is drawn from one end and may differ from the one drawn back.
-        let (mut free, mut parted) = (0, 0);
+        let mut free = 0;
+        let mut parted = 0;
         for seed in 0..40 {
             let grid = independent_cells(&mut seed::stream(seed), [9, 8], 0.2, &[]).unwrap();
             let cells: Vec<[i32; 2]> = (0..grid.cell_count()).map(|cell| grid.xy(cell)).collect();

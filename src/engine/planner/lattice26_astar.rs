@@ -6,7 +6,8 @@ use super::pool::Pool;
 use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Value};
 use crate::geometry::{Segment, Vec3};
 use crate::search::{
-    Combined, CubicAstar, CubicQuery, Graph, Heap, Outcome, Report, Rules, Search, Stop, Terms, Ties, sum,
+    Combined, CubicAstar, CubicQuery, Graph, Heap, Outcome, Report, Rules, Search, SideInputs, Stop, Ties,
+    sum,
 };
 use crate::space::{PolyhedraWorld, WorldKind};
 use base::grid::STEPS_26;
@@ -22,7 +23,7 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Polyhedra,
     columns: COLUMNS,
-    settings: Accepted::of::<Lattice26>(),
+    settings: Accepted::shape::<Lattice26>(),
     example: r#"
 checked = "segments"
 ties = "fifo"
@@ -93,7 +94,8 @@ impl LatticeSearch {
             }),
             Self::General(search) => {
                 let estimate = &Combined { h, combine: sum };
-                let terms = Terms { graph: &mut neighbours, estimate, observer: &mut (), update: UPDATE };
+                let terms =
+                    SideInputs { graph: &mut neighbours, estimate, observer: &mut (), update: UPDATE };
                 let rules = Rules { stop: Stop::GoalPopped, max_expansions };
                 search.run(terms, start, is_goal, rules, &mut ())
             }
@@ -128,7 +130,8 @@ impl Graph for Neighbours<'_> {
     }
 
     fn successors(&mut self, node: u32, mut visit: impl FnMut(u32, f64)) {
-        let (grid, is_near) = (self.world.grid(), self.is_near(node));
+        let grid = self.world.grid();
+        let is_near = self.is_near(node);
         for step in STEPS_26 {
             let to = node.wrapping_add_signed(grid.offset(step));
             if grid.is_free(to) && (!is_near || self.may_step(node, to)) {
@@ -140,7 +143,7 @@ impl Graph for Neighbours<'_> {
 }
 
 /// What a search on the lattice found: the points from start to goal, unless there are none.
-pub(super) struct Found {
+pub(super) struct LatticePath {
     pub(super) ending: Ending,
     pub(super) points: Vec<Vec3>,
     pub(super) report: Report<f64>,
@@ -152,7 +155,7 @@ pub(super) fn search(
     checked: Checked,
     memory: &mut LatticeSearch,
     max_expansions: u64,
-) -> Result<Found, Invalid> {
+) -> Result<LatticePath, Invalid> {
     let Posed { world, start, goal } = *posed;
     let first = entrance(world, &start).ok_or_else(|| {
         Invalid(format!("no free node of the lattice is seen from the start {}", listed(start)))
@@ -173,7 +176,7 @@ pub(super) fn search(
         Outcome::BudgetSpent => (Ending::BudgetSpent, Vec::new()),
     };
     points.dedup();
-    Ok(Found { ending, points, report })
+    Ok(LatticePath { ending, points, report })
 }
 
 /// The free node nearest to `start`, among the corners of the cells around it, that is seen from it.

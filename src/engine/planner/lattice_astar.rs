@@ -2,8 +2,8 @@
 
 use super::pool::Pool;
 use super::tips::{
-    self, COLUMNS, FreeHops, Heuristic, Manner, OpenSetting, Posed, RegionSetting, RegionShape, TipSearch,
-    TipTies,
+    self, COLUMNS, FreeHops, Heuristic, OpenSetting, Posed, RegionSetting, RegionShape, TipSearch,
+    TipSearchOptions, TipTies,
 };
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::Successors;
@@ -20,7 +20,7 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Arm,
     columns: COLUMNS,
-    settings: Accepted::of::<LatticeAstar>(),
+    settings: Accepted::shape::<LatticeAstar>(),
     example: r#"
 neighbourhood = { shape = "disc", radius_cells = 2 }
 open_node = "lowered"
@@ -75,7 +75,8 @@ struct OuterHops<'a> {
 
 impl Successors for OuterHops<'_> {
     fn expands(&mut self, cell: u32) {
-        let (grid, reach) = (self.world.grid(), self.reach);
+        let grid = self.world.grid();
+        let reach = self.reach;
         let [x, y] = grid.xy(cell);
         self.is_free = (-reach..=reach).all(|dx| (-reach..=reach).all(|dy| grid.is_free_xy(x + dx, y + dy)));
     }
@@ -107,7 +108,7 @@ impl Planner for Ready {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
         let LatticeAstar { ties, open_node, heuristic, .. } = self.read;
-        let manner = Manner { heuristic, open_node, expansions: request.expansions };
+        let manner = TipSearchOptions { heuristic, open_node, expansions: request.expansions };
         let mut search = self.pool.any(|| TipSearch::new(&self.offsets, ties));
         let reach = i32::from(self.read.neighbourhood.radius_cells);
         let (report, scans) = if self.uses_sets() {
@@ -119,7 +120,7 @@ impl Planner for Ready {
         self.pool.keep(search);
         let mut plan = posed.plan(&report, scans, request.trace);
         if request.trace {
-            plan.exhibits.push(tips::steps("region", self.offsets.steps()));
+            plan.traces.push(tips::steps("region", self.offsets.steps()));
         }
         Ok(plan)
     }

@@ -16,7 +16,7 @@ pub static ENTRY: Entry = Entry {
     revision: 2,
     needs: WorldKind::Lattice,
     columns: COLUMNS,
-    settings: Accepted::of::<AnyAngleSettings>(),
+    settings: Accepted::shape::<AnyAngleSettings>(),
     example: r#"
 line_of_sight = "exact_interior"
 ties = "fifo"

@@ -33,7 +33,8 @@ impl Turn {
     }
 
     fn point(self, grid: &Grid2, at: [i32; 2]) -> [i32; 2] {
-        let (size, [x, y]) = (self.size(grid), self.step(at));
+        let size = self.size(grid);
+        let [x, y] = self.step(at);
         [
             if self.reversed[0] { x + size[0] - 1 } else { x },
             if self.reversed[1] { y + size[1] - 1 } else { y },
@@ -133,7 +134,8 @@ fn cells(path: &[Vec<f64>]) -> Vec<[i32; 2]> {
 
 #[test]
 fn turning_a_map_with_its_neighbour_order_turns_the_path_and_keeps_every_count() {
-    let (mut solved, mut order_matters) = (0, 0);
+    let mut solved = 0;
+    let mut order_matters = 0;
     for number in 0..400 {
         let mut stream = seed::stream(number);
         let size = [stream.random_range(8..24), stream.random_range(8..24)];

@@ -40,7 +40,7 @@ mod theta_star;
 mod tips;
 mod visibility_edges;
 
-pub use entry::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Stage, Value};
+pub use entry::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Stage, Trace, Value};
 
 /// Every planner and stage, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[

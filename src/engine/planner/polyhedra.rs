@@ -1,6 +1,6 @@
 //! What the planners among polyhedra share: their ends, their plans, walking in steps.
 
-use super::{Counts, Ending, Exhibit, Invalid, Plan, Request};
+use super::{Counts, Ending, Invalid, Plan, Request, Trace};
 use crate::geometry::{Segment, Vec3};
 use crate::shorten::path_length;
 use crate::space::{PolyhedraWorld, World};
@@ -33,7 +33,7 @@ pub(super) fn plan(ending: Ending, points: &[Vec3], counts: Counts) -> Plan {
         _ => Vec::new(),
     };
     let cost = (ending == Ending::Solved).then(|| path_length(&path));
-    Plan { ending, path, cost, counts, exhibits: Vec::new(), reason: None }
+    Plan { ending, path, cost, counts, traces: Vec::new(), reason: None }
 }
 
 /// The points of a plan's path.
@@ -47,10 +47,10 @@ pub(super) fn replace(plan: &mut Plan, points: &[Vec3]) {
     plan.cost = Some(path_length(&plan.path));
 }
 
-/// `points` as an exhibit.
-pub(super) fn exhibit(name: &str, points: &[Vec3]) -> Exhibit {
+/// `points` as a trace.
+pub(super) fn trace(name: &str, points: &[Vec3]) -> Trace {
     let values = points.iter().flat_map(|point| point.as_slice().to_vec()).collect();
-    Exhibit { name: name.to_owned(), width: 3, values }
+    Trace { name: name.to_owned(), width: 3, values }
 }
 
 /// Whether `point` is where the point may be at all.

@@ -15,8 +15,8 @@ mod settings;
 #[cfg(test)]
 pub(super) mod tests;
 
-use super::polyhedra::{densified, exhibit, points, polyhedra};
-use super::{Build, Ending, Entry, Exhibit, Plan, Request, Stage, Value};
+use super::polyhedra::{densified, points, polyhedra, trace};
+use super::{Build, Ending, Entry, Plan, Request, Stage, Trace, Value};
 use crate::geometry::{Capsule, Vec3};
 use crate::kinematics::Joints;
 use crate::kinematics::ik::Branch;
@@ -40,7 +40,7 @@ pub static ENTRY: Entry = Entry {
         "posture_within_bounds",
         "posture_within_rad",
     ],
-    settings: Accepted::of::<Posture>(),
+    settings: Accepted::shape::<Posture>(),
     example: r#"
 adjust = true
 sign = "down"
@@ -79,7 +79,8 @@ impl Stage for Posture {
         let arm = world.arm().expect("a checked study gives this stage an arm");
         let nodes = densified(&points(&plan), world.step());
         let mut best: Option<Attempt<'_>> = None;
-        let (mut adjustments, mut tried) = (0, 0);
+        let mut adjustments = 0;
+        let mut tried = 0;
         for (branch, q) in self.starts(world, arm, &nodes[0]) {
             let attempt = self.attempt(world, arm, branch, q, &nodes);
             adjustments += attempt.follower.adjustments;
@@ -95,7 +96,7 @@ impl Stage for Posture {
         plan.counts.insert("adjustments", Value::Count(adjustments));
         plan.counts.insert("branches_tried", Value::Count(tried));
         if request.trace {
-            plan.exhibits.push(exhibit("tip_path", &nodes));
+            plan.traces.push(trace("tip_path", &nodes));
         }
         self.conclude(request, plan, best, &nodes)
     }
@@ -149,11 +150,11 @@ impl Posture {
             return without_path(plan);
         };
         if request.trace {
-            plan.exhibits.extend(trails(follower.arm, &follower.trail));
+            plan.traces.extend(trails(follower.arm, &follower.trail));
         }
         if let Some(node) = failed_at {
             if request.trace {
-                plan.exhibits.extend(follower.blocking(&nodes[node]).map(|rod| blocking(&rod)));
+                plan.traces.extend(follower.blocking(&nodes[node]).map(|rod| blocking(&rod)));
             }
             if self.diagnose {
                 let [near, wide] =
@@ -195,11 +196,11 @@ fn other(follower: &Follower<'_>, tip: &Vec3, reach: [f64; 3]) -> bool {
 }
 
 /// What figures need of a trail: rods, the tip's way, and its turns from pointing down.
-pub(super) fn trails(arm: &CarriedArm, trail: &[Joints]) -> Vec<Exhibit> {
+pub(super) fn trails(arm: &CarriedArm, trail: &[Joints]) -> Vec<Trace> {
     let tips: Vec<Vec3> = trail.iter().map(|q| arm.tip(q)).collect();
     let turn = |q: &Joints| rotation::log(&(arm.arm().chain().forward(q).rotation * DOWN.transpose()));
     let turns: Vec<Vec3> = trail.iter().map(turn).collect();
-    vec![rods(arm, trail), exhibit("tip_trail", &tips), exhibit("posture_trail", &turns)]
+    vec![rods(arm, trail), trace("tip_trail", &tips), trace("posture_trail", &turns)]
 }
 
 /// The rotation vector that takes the tip's posture at `from` to that at `to`.
@@ -209,14 +210,14 @@ pub(super) fn turn_between(arm: &CarriedArm, from: &Joints, to: &Joints) -> Vec3
 }
 
 /// The rod that would touch at the next node: both ends, radius.
-fn blocking(rod: &Capsule) -> Exhibit {
+fn blocking(rod: &Capsule) -> Trace {
     let ends = rod.segment.a.iter().chain(rod.segment.b.iter());
     let values = ends.copied().chain([rod.radius]).collect();
-    Exhibit { name: "blocking_rod".to_owned(), width: 7, values }
+    Trace { name: "blocking_rod".to_owned(), width: 7, values }
 }
 
 /// The rods at configurations spread evenly over the trail: number of the posture, both ends, radius.
-fn rods(arm: &CarriedArm, trail: &[Joints]) -> Exhibit {
+fn rods(arm: &CarriedArm, trail: &[Joints]) -> Trace {
     let last = trail.len() - 1;
     let mut values = Vec::new();
     for k in 0..SHOWN {
@@ -226,5 +227,5 @@ fn rods(arm: &CarriedArm, trail: &[Joints]) -> Exhibit {
             values.push(rod.radius);
         }
     }
-    Exhibit { name: "rods".to_owned(), width: 8, values }
+    Trace { name: "rods".to_owned(), width: 8, values }
 }

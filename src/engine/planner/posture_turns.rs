@@ -21,7 +21,7 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::ArmAmongPolyhedra,
     columns: &["beyond_bounds", "posture_nodes"],
-    settings: Accepted::of::<PostureTurns>(),
+    settings: Accepted::shape::<PostureTurns>(),
     example: r"
 bounds_rad = [0.2, 0.2, 0.1]
 ",
@@ -55,7 +55,8 @@ impl Stage for PostureTurns {
         let world = super::polyhedra::polyhedra(request.world);
         let arm = world.arm().expect("a checked study gives this stage an arm");
         let arrives = |pair: &&[Joints]| (arm.tip(&pair[1]) - arm.tip(&pair[0])).norm() > STILL_CM;
-        let (mut nodes, mut beyond) = (1, 0);
+        let mut nodes = 1;
+        let mut beyond = 0;
         for pair in trail.windows(2).filter(arrives) {
             let turn = turn_between(arm, first, &pair[1]);
             let is_beyond = |(angle, bound): (&f64, f64)| angle.abs() > bound + ROUNDING_RAD;
@@ -77,12 +78,14 @@ mod tests {
     /// Nodes along lines beside a box, and those at which the tip is turned by more than 0.05 rad.
     fn counted(bounds: &str) -> (u64, u64) {
         let (world, followed) = followed(bounds);
-        let (mut nodes, mut beyond) = (0, 0);
+        let mut nodes = 0;
+        let mut beyond = 0;
         for (line, plan) in followed {
             let [start, goal] = [line[0], line[line.len() - 1]].map(<[f64; 3]>::from);
             let request =
                 Request { world: &world, start: &start, goal: &goal, expansions: 1, seed: 0, trace: false };
-            let (path, is_solved) = (plan.path.clone(), plan.ending == Ending::Solved);
+            let path = plan.path.clone();
+            let is_solved = plan.ending == Ending::Solved;
             let stage = PostureTurns { bounds_rad: [0.05; 3] };
             let plan = stage.refine(&request, Plan { counts: Counts::new(), ..plan });
             assert_eq!(plan.path, path);

@@ -34,14 +34,14 @@ pub(super) fn solved(map: &Roadmap, nodes: &[u32], counts: Counts) -> Plan {
         path: nodes.iter().map(|node| map.config(*node)).collect(),
         cost: map.local().is_straight().then_some(length_mm),
         counts,
-        exhibits: Vec::new(),
+        traces: Vec::new(),
         reason: None,
     }
 }
 
 /// A plan without a path.
 pub(super) fn unsolved(ending: Ending, counts: Counts) -> Plan {
-    Plan { ending, path: Vec::new(), cost: None, counts, exhibits: Vec::new(), reason: None }
+    Plan { ending, path: Vec::new(), cost: None, counts, traces: Vec::new(), reason: None }
 }
 
 /// What an edge costs.

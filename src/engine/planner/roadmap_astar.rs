@@ -1,9 +1,9 @@
 //! A* on a roadmap, as Fu et al. write it: f = depth + distance, with or without a shot at the goal.
 
 use super::roadmap::{EdgeCost, Part, Posed, solved, unsolved};
-use super::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Value};
+use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Trace, Value};
 use crate::search::{
-    Combined, Counters, Heap, Outcome, Rules, Search, Shot, Stop, Terms, Ties, Trace, Update, sum,
+    Combined, Counters, Heap, Outcome, Rules, Search, Shot, SideInputs, Stop, Ties, Update, VisitOrder, sum,
 };
 use crate::space::WorldKind;
 use crate::space::roadmap::{Extent, Roadmap};
@@ -33,7 +33,7 @@ pub static ENTRY: Entry = Entry {
         "used_samples",
         "straight_mm",
     ],
-    settings: Accepted::of::<RoadmapAstar>(),
+    settings: Accepted::shape::<RoadmapAstar>(),
     example: r#"
 samples = 1500
 neighbour_mm = 500
@@ -196,10 +196,15 @@ impl Planner for RoadmapAstar {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
         let mut part = self.part(&posed)?;
-        let (map, start, goal) = (posed.map, posed.start, posed.goal);
-        let (to_goal_mm, weight) = (distance_to(map, goal), if self.blind { 0.0 } else { 1.0 });
+        let map = posed.map;
+        let start = posed.start;
+        let goal = posed.goal;
+        let to_goal_mm = distance_to(map, goal);
+        let weight = if self.blind { 0.0 } else { 1.0 };
         let estimate = Combined { h: |node| weight * to_goal_mm(node), combine: sum };
-        let (mut shots, mut checked, mut lists) = (0, 0, Trace::default());
+        let mut shots = 0;
+        let mut checked = 0;
+        let mut lists = VisitOrder::default();
         let mut shoot = |node: u32, _: f64| {
             let is_tried = match self.goal_shot {
                 ShotSetting::Never => false,
@@ -213,7 +218,7 @@ impl Planner for RoadmapAstar {
         };
         let rules = Rules { stop: Stop::GoalPopped, max_expansions: request.expansions };
         let update = Update { lower_open: true, reopen_closed: false };
-        let terms = Terms { graph: &mut part, estimate: &estimate, observer: &mut lists, update };
+        let terms = SideInputs { graph: &mut part, estimate: &estimate, observer: &mut lists, update };
         let report =
             Search::new(Heap::new(Ties::Fifo)).run(terms, start, |node| node == goal, rules, &mut shoot);
         let counts = self.counts(&part, &report.counters, [shots, checked]);
@@ -227,7 +232,7 @@ impl Planner for RoadmapAstar {
             }
         };
         if request.trace {
-            plan.exhibits.push(places("closed", map, &lists.closed));
+            plan.traces.push(places("closed", map, &lists.closed));
         }
         Ok(plan)
     }
@@ -249,9 +254,9 @@ impl Planner for RoadmapAstar {
 }
 
 /// The places of nodes, in the order given.
-fn places(name: &str, map: &Roadmap, nodes: &[u32]) -> Exhibit {
+fn places(name: &str, map: &Roadmap, nodes: &[u32]) -> Trace {
     let values = nodes.iter().flat_map(|node| map.place_mm(*node)).collect();
-    Exhibit { name: name.to_owned(), width: 3, values }
+    Trace { name: name.to_owned(), width: 3, values }
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Roadmap,
     columns: &["roadmap_pairs", "roadmap_edges", "roadmap_checked_states"],
-    settings: Accepted::of::<RoadmapCost>(),
+    settings: Accepted::shape::<RoadmapCost>(),
     example: "",
     build: Build::Stage(|settings| {
         let read: RoadmapCost = settings.read()?;

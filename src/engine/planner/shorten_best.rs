@@ -15,7 +15,7 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Roadmap,
     columns: &["joins"],
-    settings: Accepted::of::<ShortenBest>(),
+    settings: Accepted::shape::<ShortenBest>(),
     example: r#"
 least = "nodes"
 "#,
@@ -61,6 +61,6 @@ impl Stage for ShortenBest {
         let kept: Vec<u32> = kept.into_iter().map(|index| nodes[index]).collect();
         let mut counts = plan.counts;
         counts.insert("joins", Value::Count(joins));
-        Plan { exhibits: plan.exhibits, ..solved(map, &kept, counts) }
+        Plan { traces: plan.traces, ..solved(map, &kept, counts) }
     }
 }

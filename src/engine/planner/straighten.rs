@@ -15,7 +15,7 @@ pub static ENTRY: Entry = Entry {
     revision: 2,
     needs: WorldKind::Roadmap,
     columns: &["joins", "checked_states"],
-    settings: Accepted::of::<Straighten>(),
+    settings: Accepted::shape::<Straighten>(),
     example: r#"
 last = "goal"
 "#,
@@ -53,7 +53,8 @@ impl Stage for Straighten {
             LastSetting::AsPrinted => LastNode::BeforePrinted,
             LastSetting::Goal => LastNode::Goal,
         };
-        let (mut joins, mut checked) = (0, 0);
+        let mut joins = 0;
+        let mut checked = 0;
         let kept = straightening(nodes.len(), last, |i, j| {
             let (found, states) = map.join_counted(nodes[i], nodes[j]);
             joins += 1;
@@ -65,11 +66,11 @@ impl Stage for Straighten {
         counts.insert("joins", Value::Count(joins));
         let before = counts.get("checked_states").map_or(0.0, |value| value.as_f64());
         counts.insert("checked_states", Value::Count(before as u64 + checked));
-        let mut exhibits = plan.exhibits;
+        let mut traces = plan.traces;
         if request.trace {
             let values = plan.path.concat();
-            exhibits.push(super::Exhibit { name: "raw_path".to_owned(), width: map.local().width(), values });
+            traces.push(super::Trace { name: "raw_path".to_owned(), width: map.local().width(), values });
         }
-        Plan { exhibits, ..solved(map, &kept, counts) }
+        Plan { traces, ..solved(map, &kept, counts) }
     }
 }

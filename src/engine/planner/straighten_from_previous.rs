@@ -1,6 +1,6 @@
 //! Tang's local path optimisation as a stage.
 
-use super::polyhedra::{exhibit, points, polyhedra, replace};
+use super::polyhedra::{points, polyhedra, replace, trace};
 use super::{Build, Ending, Entry, Plan, Request, Stage};
 use crate::geometry::Segment;
 use crate::shorten::{Resume, stepwise_straightening};
@@ -16,7 +16,7 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Polyhedra,
     columns: &[],
-    settings: Accepted::of::<Straighten>(),
+    settings: Accepted::shape::<Straighten>(),
     example: r#"
 resume = "last_joined"
 "#,
@@ -59,7 +59,7 @@ impl Stage for Straighten {
         let can_join = |i: usize, j: usize| world.is_clear(&Segment::new(nodes[i], nodes[j]));
         let kept = stepwise_straightening(nodes.len(), resume, can_join);
         if request.trace {
-            plan.exhibits.push(exhibit("raw_path", &nodes));
+            plan.traces.push(trace("raw_path", &nodes));
         }
         replace(&mut plan, &kept.into_iter().map(|i| nodes[i]).collect::<Vec<_>>());
         plan

@@ -1,10 +1,10 @@
 //! What the planners share that move an arm's tip over its lattice: their ends, their settings' words, their plans.
 
-use super::{Counts, Ending, Exhibit, Invalid, Plan, Request, Value};
+use super::{Counts, Ending, Invalid, Plan, Request, Trace, Value};
 use crate::geometry::Vec2;
 use crate::search::{
     Bent, BentGraph, ColumnGraph, Combined, Cost as _, Graph, Heap, LatticeAstar, LatticeQuery, ListScans,
-    Outcome, Report, Route, Rules, Search, Stop, Successors, Terms, Ties, Update, sum,
+    Outcome, Report, Route, Rules, Search, SideInputs, Stop, Successors, Ties, Update, sum,
 };
 use crate::space::ArmWorld;
 use base::grid::{MAX_REACH_CELLS, Offsets};
@@ -161,7 +161,7 @@ impl TipSearch {
 
 /// What an A* over tip positions does beside choosing neighbours.
 #[derive(Clone, Copy)]
-pub(super) struct Manner {
+pub(super) struct TipSearchOptions {
     pub(super) heuristic: Heuristic,
     pub(super) open_node: OpenSetting,
     pub(super) expansions: u64,
@@ -199,11 +199,13 @@ impl<'a> Posed<'a> {
         search: &mut TipSearch,
         offsets: &Offsets,
         successors: &mut impl Successors,
-        manner: Manner,
+        manner: TipSearchOptions,
     ) -> (Report<f64>, ListScans) {
         let lattice = self.world.rules().lattice;
-        let (columns, spacing) = (self.world.columns(), lattice.step_cm());
-        let (goal, [width, height]) = (lattice.point(self.goal), lattice.size());
+        let columns = self.world.columns();
+        let spacing = lattice.step_cm();
+        let goal = lattice.point(self.goal);
+        let [width, height] = lattice.size();
         // Part of the heuristic stands here by column and by row: every node that is opened asks for it.
         let along_x: Vec<f64> = (0..width).map(|x| lattice.point(x).x - goal.x).collect();
         let along_y: Vec<f64> = (0..height).map(|y| lattice.point(y * width).y - goal.y).collect();
@@ -236,11 +238,11 @@ impl<'a> Posed<'a> {
         search: &mut Search<G::Cost, Heap>,
         graph: &mut G,
         h: impl Fn(u32) -> f64,
-        manner: Manner,
+        manner: TipSearchOptions,
     ) -> (Report<f64>, ListScans) {
         let mut scans = ListScans::default();
         let estimate = &Combined { h, combine: sum };
-        let terms = Terms { graph, estimate, observer: &mut scans, update: manner.open_node.into() };
+        let terms = SideInputs { graph, estimate, observer: &mut scans, update: manner.open_node.into() };
         let rules = Rules { stop: Stop::GoalPopped, max_expansions: manner.expansions };
         let report = search.run(terms, self.start, |cell| cell == self.goal, rules, &mut ());
         let outcome = match report.outcome {
@@ -253,7 +255,8 @@ impl<'a> Posed<'a> {
 
     /// The plan that a search's report amounts to; with `trace`, the arm's stations along its path.
     pub(super) fn plan(&self, report: &Report<f64>, scans: ListScans, trace: bool) -> Plan {
-        let (counters, ListScans { minimum_comparisons, membership_comparisons }) = (report.counters, scans);
+        let counters = report.counters;
+        let ListScans { minimum_comparisons, membership_comparisons } = scans;
         let counts = Counts::from([
             ("opened", Value::Count(counters.opened)),
             ("closed", Value::Count(counters.closed)),
@@ -268,7 +271,7 @@ impl<'a> Posed<'a> {
             path: Vec::new(),
             cost: None,
             counts,
-            exhibits: Vec::new(),
+            traces: Vec::new(),
             reason: None,
         };
         match &report.outcome {
@@ -283,7 +286,7 @@ impl<'a> Posed<'a> {
                 };
                 plan.path = route.nodes.iter().map(point).collect();
                 if trace {
-                    plan.exhibits.push(self.stations(&route.nodes));
+                    plan.traces.push(self.stations(&route.nodes));
                 }
             }
         }
@@ -291,21 +294,22 @@ impl<'a> Posed<'a> {
     }
 
     /// Joint angles in degrees, elbow and tip in centimetres at each cell: six numbers a station.
-    fn stations(&self, cells: &[u32]) -> Exhibit {
+    fn stations(&self, cells: &[u32]) -> Trace {
         let arm = self.world.rules().arm;
         let station = |cell: &u32| {
             let posture = self.world.posture(*cell);
-            let (elbow, tip) = (arm.elbow(posture), arm.forward(posture));
+            let elbow = arm.elbow(posture);
+            let tip = arm.forward(posture);
             [posture[0].to_degrees(), posture[1].to_degrees(), elbow.x, elbow.y, tip.x, tip.y]
         };
-        Exhibit { name: "stations".to_owned(), width: 6, values: cells.iter().flat_map(station).collect() }
+        Trace { name: "stations".to_owned(), width: 6, values: cells.iter().flat_map(station).collect() }
     }
 }
 
-/// Steps as an exhibit.
-pub(super) fn steps(name: &str, steps: &[[i32; 2]]) -> Exhibit {
+/// Steps as a trace.
+pub(super) fn steps(name: &str, steps: &[[i32; 2]]) -> Trace {
     let values = steps.iter().flat_map(|step| step.map(f64::from)).collect();
-    Exhibit { name: name.to_owned(), width: 2, values }
+    Trace { name: name.to_owned(), width: 2, values }
 }
 
 #[cfg(test)]
@@ -323,7 +327,9 @@ mod tests {
             assert!((heuristic.over(way) - expected).abs() < 1e-12, "{heuristic:?}");
         }
         // Of eight steps the diagonal ones are shorter than Manhattan says; a knight's step is shorter than octile says.
-        let (straight, diagonal, knight) = ([1, 0], [1, 1], [2, 1]);
+        let straight = [1, 0];
+        let diagonal = [1, 1];
+        let knight = [2, 1];
         for (steps, expected) in [
             (&[straight][..], [true, true, true]),
             (&[straight, diagonal], [true, false, true]),

@@ -9,7 +9,7 @@ use super::key_nodes::{GUARDED, key};
 use super::polyhedra::{Posed, plan};
 use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Value};
 use crate::geometry::{Segment, Vec3};
-use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, Stop, Terms, Ties, Update, sum};
+use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, SideInputs, Stop, Ties, Update, sum};
 use crate::space::{PolyhedraWorld, WorldKind};
 use base::settings::Accepted;
 use schemars::JsonSchema;
@@ -22,7 +22,7 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Polyhedra,
     columns: &["opened", "expansions", "generated"],
-    settings: Accepted::of::<Visibility>(),
+    settings: Accepted::shape::<Visibility>(),
     example: "
 spacing_cm = 3.0
 ",
@@ -124,7 +124,7 @@ impl Planner for Visibility {
         let posed = Posed::new(request)?;
         let samples = samples(&posed, self.spacing_cm);
         let h = |node: u32| (samples[node as usize].point - posed.goal).norm();
-        let terms = Terms {
+        let terms = SideInputs {
             graph: &mut Visible { world: posed.world, samples: &samples },
             estimate: &Combined { h, combine: sum },
             observer: &mut (),

@@ -14,7 +14,7 @@ use super::estimate::{Combined, euclidean_to, sum};
 use super::frontier::Frontier;
 use super::graph::{Graph, GridGraph};
 use super::observe::{Observer, Place};
-use super::side::{Side, Terms, Update};
+use super::side::{Side, SideInputs, Update};
 use super::{Outcome, Report, Route};
 use base::grid::{Grid2, Moves};
 
@@ -70,7 +70,8 @@ impl<Q: Frontier> AnyAngle<Q> {
     ) -> Seen {
         let estimate = Combined { h: euclidean_to(on.grid, ends[1]), combine: sum };
         let mut graph = Plane(GridGraph::new(on.moves));
-        let mut terms = Terms { graph: &mut graph, estimate: &estimate, observer, update: Update::default() };
+        let mut terms =
+            SideInputs { graph: &mut graph, estimate: &estimate, observer, update: Update::default() };
         self.side.begin(ends[0], &mut terms);
         let mut sight_checks = 0;
         let outcome = loop {

@@ -10,7 +10,7 @@ use super::estimate::Estimate;
 use super::frontier::Frontier;
 use super::graph::Graph;
 use super::observe::{Observer, Place};
-use super::side::{Side, Terms, Update};
+use super::side::{Side, SideInputs, Update};
 use super::{Counters, Outcome, Route};
 
 /// When the two sides have met.
@@ -109,7 +109,8 @@ impl<C: Cost, Q: Frontier + Clone> Bidirectional<C, Q> {
         let update = rules.update;
         for (side, root) in ends.into_iter().enumerate() {
             let observer = &mut observers[side];
-            self.sides[side].begin(root, &mut Terms { graph, estimate: &estimates[side], observer, update });
+            self.sides[side]
+                .begin(root, &mut SideInputs { graph, estimate: &estimates[side], observer, update });
         }
         let mut met = (ends[0] == ends[1]).then_some((ends[0], C::ZERO));
         let mut turn = 0;
@@ -125,7 +126,7 @@ impl<C: Cost, Q: Frontier + Clone> Bidirectional<C, Q> {
                 break Outcome::BudgetSpent;
             }
             let observer = &mut observers[side];
-            let terms = &mut Terms { graph, estimate: &estimates[side], observer, update };
+            let terms = &mut SideInputs { graph, estimate: &estimates[side], observer, update };
             self.step(side, offer.node, terms, rules, &mut met);
             turn = 1 - side;
         };
@@ -148,7 +149,7 @@ impl<C: Cost, Q: Frontier + Clone> Bidirectional<C, Q> {
         &mut self,
         side: usize,
         node: u32,
-        terms: &mut Terms<'_, G, E, O>,
+        terms: &mut SideInputs<'_, G, E, O>,
         rules: BidirectionalRules,
         met: &mut Met<C>,
     ) where

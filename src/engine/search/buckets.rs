@@ -70,7 +70,8 @@ impl<T: Copy> Buckets<T> {
             self.low
         );
         let slot = key as usize % BUCKETS;
-        let (word, bit) = (slot / 64, 1 << (slot % 64));
+        let word = slot / 64;
+        let bit = 1 << (slot % 64);
         let next = self.heads[slot];
         self.words[word] |= bit;
         self.summary |= 1 << word;
@@ -159,8 +160,9 @@ mod tests {
         for seed in 0..40 {
             let mut stream = seed::stream(seed);
             queue.clear();
-            let (mut truth, mut low, mut pushed) =
-                (BTreeSet::new(), stream.random_range(0..10_000_u64), 0_u32);
+            let mut truth = BTreeSet::new();
+            let mut low = stream.random_range(0..10_000_u64);
+            let mut pushed = 0_u32;
             let first = low;
             for _ in 0..2_000 {
                 if pushed == 0 || stream.random_bool(0.55) {

@@ -109,7 +109,8 @@ mod tests {
 
     #[test]
     fn pairs_are_ordered_as_their_values_are() {
-        let (mut equal, mut less) = (0, 0);
+        let mut equal = 0;
+        let mut less = 0;
         for a in 0..30 {
             for b in 0..30 {
                 for (c, d) in (0..30).flat_map(|c| (0..30).map(move |d| (c, d))) {
@@ -129,9 +130,13 @@ mod tests {
     #[test]
     fn pairs_closer_than_floating_point_sees_are_told_apart() {
         // Convergents p / q of √2 straddle it in turn: 1/1 lies below, 3/2 above, 7/5 below …
-        let (mut p, mut q, mut below, mut misjudged) = (1, 1, true, 0);
+        let mut p = 1;
+        let mut q = 1;
+        let mut below = true;
+        let mut misjudged = 0;
         while p < u32::MAX / 3 {
-            let (whole, root) = (Octile { straight: p, diagonal: 0 }, Octile { straight: 0, diagonal: q });
+            let whole = Octile { straight: p, diagonal: 0 };
+            let root = Octile { straight: 0, diagonal: q };
             let truth = if below { Ordering::Less } else { Ordering::Greater };
             assert_eq!((whole.compare(root), root.compare(whole)), (truth, truth.reverse()), "{p} / {q}");
             misjudged += u32::from(whole.value().total_cmp(&root.value()) != truth);

@@ -40,7 +40,8 @@ const TOWARDS: [u8; 512] = {
 
 /// Bit `i` is set if `DIRECTIONS[i]` is diagonal.
 const DIAGONAL: usize = {
-    let (mut bits, mut bit) = (0, 0);
+    let mut bits = 0;
+    let mut bit = 0;
     while bit < 8 {
         bits |= ((DIRECTIONS[bit][0] * DIRECTIONS[bit][1] != 0) as usize) << bit;
         bit += 1;
@@ -75,7 +76,8 @@ struct Open {
 impl FirstWayAstar {
     /// The search over the legal `moves` of a grid, with the order of `ties` among equal f, towards cell 0.
     pub fn new(moves: &Moves, ties: Ties) -> Self {
-        let (width, beside) = (moves.width(), moves.width() as usize + 1);
+        let width = moves.width();
+        let beside = moves.width() as usize + 1;
         let mut masks = vec![0; moves.cell_count() as usize + 2 * beside];
         for cell in 0..moves.cell_count() {
             masks[cell as usize + beside] = moves.mask(cell);
@@ -95,7 +97,8 @@ impl FirstWayAstar {
 
     /// Makes `goal` the goal of the queries that follow.
     pub fn aim(&mut self, goal: u32) {
-        let (width, beside) = (self.width, self.width + 1);
+        let width = self.width;
+        let beside = self.width + 1;
         let cells = &mut self.h[beside as usize..];
         for (row, cells) in (0..).zip(cells.chunks_mut(width as usize)) {
             let dy = f64::from((goal / width).abs_diff(row));
@@ -119,7 +122,9 @@ impl FirstWayAstar {
         }
         // 1393 / 985 is below √2, so that no such length is longer; f falls on no path to the goal but by its rounding.
         let bound = quantised(f64::from(most) * (SQRT_2 / f64::from(ScaledOctile::DIAGONAL))) + 1;
-        let (masks, h, unopened) = (&self.masks[..], &self.h[..], &mut self.unopened[..]);
+        let masks = &self.masks[..];
+        let h = &self.h[..];
+        let unopened = &mut self.unopened[..];
         unopened.fill(u8::MAX);
         unopened[start as usize / 8] &= !(1 << (start % 8));
         let first = Open { f: quantised(h[start as usize]), rank: 0, node: start, g: Octile::ZERO };
@@ -132,13 +137,15 @@ impl FirstWayAstar {
             while left != 0 {
                 let bit = left.trailing_zeros() as usize % 8;
                 left &= left - 1;
-                let (node, kind) = (at.node.wrapping_add_signed(self.steps[bit]), DIAGONAL >> bit & 1);
+                let node = at.node.wrapping_add_signed(self.steps[bit]);
+                let kind = DIAGONAL >> bit & 1;
                 let g = reached[kind];
                 if node == self.goal {
                     return (ScaledOctile::scaled(g) <= most).then_some(g);
                 }
                 unopened[node as usize / 8] &= !(1 << (node % 8));
-                let (f, rank) = (quantised(lengths[kind] + h[node as usize]), opened);
+                let f = quantised(lengths[kind] + h[node as usize]);
+                let rank = opened;
                 opened += 1;
                 if f <= bound {
                     self.open.offer(Open { f, rank, node, g });
@@ -153,7 +160,8 @@ impl FirstWayAstar {
 #[inline]
 fn around(bits: &[u8], cell: u32, width: u32) -> usize {
     let row = |middle: u32| {
-        let (byte, bit) = ((middle - 1) as usize / 8, (middle - 1) % 8);
+        let byte = (middle - 1) as usize / 8;
+        let bit = (middle - 1) % 8;
         usize::from(u16::from_le_bytes([bits[byte], bits[byte + 1]]) >> bit & 7)
     };
     row(cell - width) | row(cell) << 3 | row(cell + width) << 6

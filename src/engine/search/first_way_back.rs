@@ -70,7 +70,7 @@ struct Answer {
 }
 
 /// An answer, if there is one within the limit, and the least depth of a waiting node that was left out.
-type Asked = (Option<Answer>, u32);
+type AnswerWithinLimit = (Option<Answer>, u32);
 
 impl FirstWayBack {
     /// The search over the legal `moves` of a grid.
@@ -121,7 +121,7 @@ impl FirstWayBack {
     /// Tells the shortest length from the start to `cell`, in the units of [`ScaledOctile`]. It has to be told of all cells up
     /// to the bound of a query.
     #[inline]
-    pub fn tell(&mut self, cell: u32, length: u32) {
+    pub fn set_length(&mut self, cell: u32, length: u32) {
         let node = self.node(cell);
         let diagonal = self.diagonals[(length % ScaledOctile::STRAIGHT) as usize];
         let straight = (length - diagonal * ScaledOctile::DIAGONAL) / ScaledOctile::STRAIGHT;
@@ -156,11 +156,14 @@ impl FirstWayBack {
 
     /// With what f and g `node` is opened, if the f of the node that opens it is at most `limit`; `depth` nodes wait for the
     /// answer, the goal's own question counted.
-    fn ask(&mut self, node: usize, limit: u64, depth: u32) -> Result<Asked, Unsettled> {
+    fn ask(&mut self, node: usize, limit: u64, depth: u32) -> Result<AnswerWithinLimit, Unsettled> {
         self.left = self.left.checked_sub(1).ok_or(Unsettled)?;
         self.known[node] = Known { query: self.query, depth, ..self.known[node] };
         let (mut near, count) = self.neighbours(node, limit);
-        let (mut first, mut least, mut is_tied, mut waiting) = (None, limit, false, u32::MAX);
+        let mut first = None;
+        let mut least = limit;
+        let mut is_tied = false;
+        let mut waiting = u32::MAX;
         for place in 0..count {
             let next = (place..count).min_by_key(|place| near[*place]).unwrap_or(place);
             near.swap(place, next);
@@ -192,7 +195,9 @@ impl FirstWayBack {
     /// The neighbours of `node` as moves, behind the least f that each may have, if that is at most `limit`; how many they are.
     #[inline]
     fn neighbours(&self, node: usize, limit: u64) -> ([(u64, u8); 8], usize) {
-        let (mut near, mut count, mut left) = ([(u64::MAX, 0); 8], 0, self.masks[node]);
+        let mut near = [(u64::MAX, 0); 8];
+        let mut count = 0;
+        let mut left = self.masks[node];
         while left != 0 {
             let bit = left.trailing_zeros() as usize % 8;
             left &= left - 1;
@@ -208,7 +213,13 @@ impl FirstWayBack {
 
     /// What the neighbour of `node` that move `bit` leads to answers: its f, and the g that it would give `node`.
     #[inline]
-    fn answer(&mut self, node: usize, bit: u8, limit: u64, depth: u32) -> Result<Asked, Unsettled> {
+    fn answer(
+        &mut self,
+        node: usize,
+        bit: u8,
+        limit: u64,
+        depth: u32,
+    ) -> Result<AnswerWithinLimit, Unsettled> {
         let bit = usize::from(bit) % 8;
         let next = node.wrapping_add_signed(self.steps[bit]);
         let known = self.known[next];

@@ -100,7 +100,8 @@ impl JumpSearch {
         goal: u32,
         max_expansions: u64,
     ) -> Report<Octile> {
-        let ([width, height], moves) = (self.size, jumps.moves());
+        let [width, height] = self.size;
+        let moves = jumps.moves();
         assert_eq!(
             [moves.width(), moves.cell_count()],
             [width, width * height],
@@ -193,7 +194,8 @@ impl<J: Jumps> Query<'_, J> {
         self.in_open -= 1;
         self.counters.expansions += 1;
         self.counters.closed += 1;
-        let (at, is_left) = (self.place(from.node), |direction: u8| todo >> direction & 1 == 1);
+        let at = self.place(from.node);
+        let is_left = |direction: u8| todo >> direction & 1 == 1;
         // In the order of DIRECTIONS; a diagonal run with its two parts.
         if is_left(0) {
             self.diagonal::<0, 1, 3>(from, at);
@@ -266,7 +268,8 @@ impl<J: Jumps> Query<'_, J> {
         let [dx, dy] = DIRECTIONS[DIRECTION];
         let step = dy * self.width as i32 + dx;
         let to_corner = self.to_corner([dx, dy], start);
-        let (mut cell, mut length) = (from.node, 0);
+        let mut cell = from.node;
+        let mut length = 0;
         loop {
             let wanted = if length < to_corner { to_corner - length } else { u32::MAX };
             let hop = self.jumps.hop::<DIRECTION>(cell, wanted);
@@ -316,10 +319,13 @@ impl<J: Jumps> Query<'_, J> {
 
     /// The path to the goal: from node to node, diagonal moves first.
     fn route(&self, start: u32) -> Route<Octile> {
-        let (mut node, mut nodes, mut cost) = (self.goal, vec![self.goal], Octile::default());
+        let mut node = self.goal;
+        let mut nodes = vec![self.goal];
+        let mut cost = Octile::default();
         while node != start {
             let parent = self.records[node as usize].parent;
-            let ([x, y], [from_x, from_y]) = (self.place(node), self.place(parent));
+            let [x, y] = self.place(node);
+            let [from_x, from_y] = self.place(parent);
             let (dx, dy) = (from_x as i32 - x as i32, from_y as i32 - y as i32);
             let [diagonal, straight] = [dx.abs().min(dy.abs()), (dx.abs() - dy.abs()).abs()];
             cost.diagonal += diagonal as u32;

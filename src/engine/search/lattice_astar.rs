@@ -138,7 +138,8 @@ impl LatticeAstar {
         let [x, y] = query.columns.xy(place);
         let at = At { g, place, cell: y * query.columns.width() + x };
         query.successors.expands(at.cell);
-        let (before, mut looked_up) = (seen.lists, LookedUp::default());
+        let before = seen.lists;
+        let mut looked_up = LookedUp::default();
         for block in &shape.blocks {
             let Around { kept, open, opened, better } = at.around(simd, lists, shape, block, query);
             // New nodes first: their heuristic takes longest, and is worked out while the others are dealt with.
@@ -212,10 +213,12 @@ impl At {
     ) -> Around {
         let mut around = Around::default();
         for column in &block.columns {
-            let (first, shift) = (self.place.wrapping_add_signed(column.first), column.shift);
+            let first = self.place.wrapping_add_signed(column.first);
+            let shift = column.shift;
             let free = query.columns.free().window(first) & column.mask;
             let kept = query.successors.kept(self.cell, column.dx, shape.reach, free);
-            let (lengths, bounds) = (&column.lengths[..shape.rows], &lists.bounds[first as usize..]);
+            let lengths = &column.lengths[..shape.rows];
+            let bounds = &lists.bounds[first as usize..];
             around.kept |= kept << shift;
             around.open |= (kept & !lists.closed.window(first)) << shift;
             around.opened |= (lists.opened.window(first) & column.mask) << shift;

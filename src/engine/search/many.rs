@@ -59,7 +59,8 @@ impl ManyGrids {
     /// # Panics
     /// If there are no grids, more than [`Self::MOST`], or grids of different sizes.
     pub fn new(grids: &[Moves]) -> Result<Self, SearchError> {
-        let (width, cells) = (grids[0].width(), grids[0].cell_count());
+        let width = grids[0].width();
+        let cells = grids[0].cell_count();
         assert!(grids.len() <= Self::MOST, "{} grids; a search holds {}", grids.len(), Self::MOST);
         let before = width + 1;
         let padded = cells as usize + 2 * before as usize;
@@ -133,7 +134,8 @@ impl ManyGrids {
         while left != 0 {
             let bit = left.trailing_zeros() as usize % 8;
             left &= left - 1;
-            let (to, reached) = (node.wrapping_add_signed(self.steps[bit]), cost + COSTS[bit]);
+            let to = node.wrapping_add_signed(self.steps[bit]);
+            let reached = cost + COSTS[bit];
             let mut new = grids & legal[bit] & !self.closed[to as usize];
             if new == 0 {
                 continue;
@@ -166,7 +168,8 @@ struct WayRound {
 /// The ways that are shorter than move `into` and then move `out`, or as long with the diagonal move first.
 fn ways_round(into: usize, out: usize) -> Vec<WayRound> {
     let sum = |one: usize, two: usize| [0, 1].map(|axis| DIRECTIONS[one][axis] + DIRECTIONS[two][axis]);
-    let (target, cost) = (sum(into, out), COSTS[into] + COSTS[out]);
+    let target = sum(into, out);
+    let cost = COSTS[into] + COSTS[out];
     let direct = (0..8).filter(|first| DIRECTIONS[*first] == target);
     let direct = direct.map(|first| WayRound { first, second: None });
     let in_two = (0..64).map(|both| (both / 8, both % 8)).filter(|(first, second)| {

@@ -69,10 +69,10 @@ pub use jump::JumpSearch;
 pub use lattice_astar::{LatticeAstar, LatticeQuery};
 pub use many::{GridSet, ManyGrids};
 pub use neighbourhood::{ColumnGraph, Successors};
-pub use observe::{Closing, Closings, ListScans, Lists, Observer, OneSide, Place, Trace};
+pub use observe::{Closing, Closings, ListScans, Lists, Observer, OneSide, Place, VisitOrder};
 pub use octile::{OctileAstar, SearchError};
 pub use one_way::{BeforeExpansion, Rules, Search, Shot, Stop};
-pub use side::{Terms, Update};
+pub use side::{SideInputs, Update};
 pub use straight::{Bent, BentGraph};
 
 /// A path and what it costs.

@@ -104,7 +104,8 @@ impl Block {
                     column.mask |= 1 << bit;
                     column.lengths[bit / LANES][bit % LANES] = spacing * f64::from(dx * dx + dy * dy).sqrt();
                 }
-                let (length, xy) = (column.lengths[bit / LANES][bit % LANES], [dx, dy]);
+                let length = column.lengths[bit / LANES][bit % LANES];
+                let xy = [dx, dy];
                 block.steps.push(Step { length, place: columns.offset(xy), xy });
             }
             block.columns.push(column);
@@ -155,7 +156,8 @@ impl<S: Successors> Graph for ColumnGraph<'_, S> {
 
     fn successors(&mut self, node: u32, mut visit: impl FnMut(u32, f64)) {
         self.successors.expands(node);
-        let (place, width) = (self.columns.place(node), self.columns.width() as i32);
+        let place = self.columns.place(node);
+        let width = self.columns.width() as i32;
         for block in &self.shape.blocks {
             for column in &block.columns {
                 let free = column.free(self.columns, place);

@@ -130,7 +130,8 @@ impl NodeLists {
 
     /// The way to the node at `place`, as places.
     pub(super) fn route(&self, place: u32) -> Route<f64> {
-        let (mut nodes, mut at) = (Vec::new(), place);
+        let mut nodes = Vec::new();
+        let mut at = place;
         while let Some(node) = self.nodes.get(at as usize) {
             nodes.push(at);
             at = node.parent;
@@ -185,7 +186,9 @@ mod tests {
         let mut low = 100.0_f64;
         let start = lists.open_start(0, low);
         lists.close(start);
-        let (mut truth, mut opened, mut seen) = (BTreeSet::new(), 1, [0; 2]);
+        let mut truth = BTreeSet::new();
+        let mut opened = 1;
+        let mut seen = [0; 2];
         while opened < PLACES || !truth.is_empty() {
             let (g, choice, chance): (f64, u32, u64) = above(low);
             if choice == 0 && opened < PLACES {

@@ -49,14 +49,14 @@ impl Observer for () {}
 
 /// The order in which nodes were opened and closed, for figures.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Trace {
+pub struct VisitOrder {
     /// Nodes in the order in which they first entered OPEN.
     pub opened: Vec<u32>,
     /// Nodes in the order in which they were closed; a node that reopened stands here again.
     pub closed: Vec<u32>,
 }
 
-impl Observer for Trace {
+impl Observer for VisitOrder {
     fn opened(&mut self, node: u32) {
         self.opened.push(node);
     }
@@ -86,7 +86,7 @@ pub struct Closing {
 
 impl Closings {
     /// Who watches the start's side (0), which is the only one of a search in one direction, or the goal's (1).
-    pub fn of(&self, side: u32) -> OneSide<'_> {
+    pub fn one_side(&self, side: u32) -> OneSide<'_> {
         OneSide { both: self, side }
     }
 

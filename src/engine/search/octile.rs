@@ -163,7 +163,9 @@ impl OctileAstar {
 
     /// Walks back from the goal over cells whose g is less by just the cost of the move.
     fn route(&self, start: u32, goal: u32) -> Route<Octile> {
-        let (mut at, mut nodes, mut cost) = (goal, vec![self.cell(goal)], Octile::ZERO);
+        let mut at = goal;
+        let mut nodes = vec![self.cell(goal)];
+        let mut cost = Octile::ZERO;
         while at != start {
             let (before, step) = (0..8)
                 .filter(|bit| self.masks[at as usize] >> bit & 1 == 1)
@@ -202,7 +204,8 @@ impl Query<'_> {
         counters.generated += u64::from(mask.count_ones());
         // A loop of fixed length unrolls; walking the set bits is slower by a fifth on open maps.
         for (bit, (step, cost)) in self.steps.into_iter().zip(COSTS).enumerate() {
-            let (to, reached) = (node.wrapping_add_signed(step), value + cost);
+            let to = node.wrapping_add_signed(step);
+            let reached = value + cost;
             let known = self.values[to as usize];
             if reached < bound(mask, bit, known) {
                 counters.opened += u64::from(known - self.base > self.longest);

@@ -5,7 +5,7 @@ use super::estimate::Estimate;
 use super::frontier::Frontier;
 use super::graph::Graph;
 use super::observe::Observer;
-use super::side::{Side, Terms};
+use super::side::{Side, SideInputs};
 use super::{Outcome, Report, Route};
 
 /// When a path to the goal is accepted.
@@ -80,7 +80,7 @@ impl<C: Cost, Q: Frontier> Search<C, Q> {
     /// expansion that the budget allows.
     pub fn run<G, E, O>(
         &mut self,
-        mut terms: Terms<'_, G, E, O>,
+        mut terms: SideInputs<'_, G, E, O>,
         start: u32,
         is_goal: impl Fn(u32) -> bool,
         rules: Rules,

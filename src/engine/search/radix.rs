@@ -79,7 +79,8 @@ mod tests {
         for seed in 0..40 {
             let mut stream = seed::stream(seed);
             queue.clear();
-            let (mut truth, mut low) = (BTreeSet::new(), 0_u32);
+            let mut truth = BTreeSet::new();
+            let mut low = 0_u32;
             for pushed in 0..2_000_u32 {
                 let reach = [4, 100, 1 << 20][stream.random_range(0..3)];
                 let key = low + stream.random_range(0..reach);

@@ -27,7 +27,7 @@ impl Default for Update {
 
 /// What a side searches, how it values nodes, and who watches.
 #[derive(Debug)]
-pub struct Terms<'a, G, E, O> {
+pub struct SideInputs<'a, G, E, O> {
     /// The successor rule.
     pub graph: &'a mut G,
     /// The key of open nodes.
@@ -80,7 +80,7 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
     }
 
     /// Forgets the last search and opens `root`.
-    pub(super) fn begin<G, E, O>(&mut self, root: u32, terms: &mut Terms<'_, G, E, O>)
+    pub(super) fn begin<G, E, O>(&mut self, root: u32, terms: &mut SideInputs<'_, G, E, O>)
     where
         G: Graph<Cost = C>,
         E: Estimate<C>,
@@ -124,7 +124,7 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
     pub(super) fn expand<G, E, O>(
         &mut self,
         node: u32,
-        terms: &mut Terms<'_, G, E, O>,
+        terms: &mut SideInputs<'_, G, E, O>,
         each: impl FnMut(&Self, u32) -> bool,
     ) where
         G: Graph<Cost = C>,
@@ -139,7 +139,7 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
     pub(super) fn expand_by<G, E, O>(
         &mut self,
         node: u32,
-        terms: &mut Terms<'_, G, E, O>,
+        terms: &mut SideInputs<'_, G, E, O>,
         mut way: impl FnMut(&Self, u32, C) -> (u32, C),
         mut each: impl FnMut(&Self, u32) -> bool,
     ) where
@@ -147,7 +147,7 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
         E: Estimate<C>,
         O: Observer,
     {
-        let Terms { graph, estimate, observer, update } = terms;
+        let SideInputs { graph, estimate, observer, update } = terms;
         self.counters.expansions += 1;
         let mut goes_on = true;
         graph.successors(node, |to, cost| {
@@ -203,7 +203,8 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
                 self.records[node as usize].h = estimate.h(node);
             }
             let Record { h, rank, stamp, .. } = self.take(node, place, parent, g, observer);
-            let (f, tie) = (estimate.key(g, h), g.tie());
+            let f = estimate.key(g, h);
+            let tie = g.tie();
             self.frontier.push(Offer { f, g: g.value(), tie, rank, stamp, node });
         }
     }

@@ -30,7 +30,8 @@ impl Cost for Bent {
 
     fn plus(self, other: Self) -> Self {
         let ([ax, ay], [bx, by]) = (self.way, other.way);
-        let (cross, dot) = (ax * by - ay * bx, ax * bx + ay * by);
+        let cross = ax * by - ay * bx;
+        let dot = ax * bx + ay * by;
         // atan2(0, 0) is 0: the first step turns from nothing.
         let turn_deg = libm::atan2(f64::from(cross.abs()), f64::from(dot)).to_degrees();
         let turned_deg = self.turned_deg + other.turned_deg + turn_deg;

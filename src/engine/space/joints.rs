@@ -95,7 +95,8 @@ impl JointSpace {
     /// Why the robot cannot be at `q`; `None` if it can.
     pub fn refusal(&self, q: &[f64]) -> Option<String> {
         if let Some(joint) = self.chain.outside(q) {
-            let (name, [lower, upper]) = (&self.robot.joints[joint].name, self.robot.joints[joint].limits);
+            let name = &self.robot.joints[joint].name;
+            let [lower, upper] = self.robot.joints[joint].limits;
             let unit = if self.robot.joints[joint].kind == Kind::Slides { "m" } else { "rad" };
             return Some(format!("joint `{name}` is at {} {unit}, outside {lower} to {upper}", q[joint]));
         }

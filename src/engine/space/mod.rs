@@ -1,6 +1,6 @@
 //! Where a robot can be: worlds, the validity of a state and of a motion, and the count of every question.
 //!
-//! A [`World`] is what a planner plans in. It is built once by a prepared object and shared by all contenders.
+//! A [`World`] is what a planner plans in. It is built once by a preprocessed object and shared by all contenders.
 
 mod arm;
 pub mod cell;

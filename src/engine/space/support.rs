@@ -79,7 +79,8 @@ impl SupportEntry {
                 Ok(Support { base, floor_m: Some(base.origin.z), pedestal: None })
             }
             Self::Pedestal { base_mm, yaw_deg, floor_mm, sides_mm } => {
-                let (base, height_mm) = (frame(*base_mm, *yaw_deg), base_mm[2] - floor_mm);
+                let base = frame(*base_mm, *yaw_deg);
+                let height_mm = base_mm[2] - floor_mm;
                 if height_mm <= 0.0 {
                     let message = "floor_mm is at the base or above it; a floor below it is accepted, or \
                                    `under = \"floor\"`";

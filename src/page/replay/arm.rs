@@ -2,15 +2,15 @@
 //!
 //! Meshes stand once; frames are whole multiples of a step, as 16-bit numbers in base64.
 
-use super::{Case, said};
+use super::{Case, outcome_text};
 use crate::analysis::evidence::Evidence;
 use crate::page::PageError;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use engine::planner::Exhibit;
+use engine::planner::Trace;
 use serde::Serialize;
 use study::Inputs;
-use study::family::{Family, Stance};
+use study::family::{ArmPlacement, Family};
 use study::record::Row;
 
 /// The most frames of a replay: a motion looks steady at that.
@@ -59,18 +59,19 @@ struct Lane {
 /// # Errors
 /// A family that cannot be built again.
 pub fn scene(evidence: &Evidence<'_>, case: &Case<'_>, inputs: &Inputs) -> Result<Option<Scene>, PageError> {
-    let (run, on) = (case.run, &case.rows[0].key.on);
-    let (solids, rounds) = match (run.exhibit(on, "boxes"), run.exhibit(on, "bodies_vertices")) {
-        (Some(boxes), _) => (boxes.values.chunks(24).map(cuboid).collect(), run.exhibit(on, "rounds")),
-        (None, Some(vertices)) => (polyhedra(vertices, run.exhibit(on, "bodies_faces")), None),
+    let run = case.run;
+    let on = &case.rows[0].key.on;
+    let (solids, rounds) = match (run.trace(on, "boxes"), run.trace(on, "bodies_vertices")) {
+        (Some(boxes), _) => (boxes.values.chunks(24).map(cuboid).collect(), run.trace(on, "rounds")),
+        (None, Some(vertices)) => (polyhedra(vertices, run.trace(on, "bodies_faces")), None),
         (None, None) => return Ok(None),
     };
     let family =
         case.group.family(case.group.point(&on.sweep), &evidence.point.within(&run.study.choices), inputs)?;
     let lanes: Vec<Lane> = case.rows.iter().filter_map(|row| lane(case, family.as_ref(), row)).collect();
-    let floor = match run.exhibit(on, "floor") {
+    let floor = match run.trace(on, "floor") {
         Some(floor) => floor.values.first().copied(),
-        None => run.exhibit(on, "boxes").map(|_| 0.0),
+        None => run.trace(on, "boxes").map(|_| 0.0),
     };
     let rounds = rounds.into_iter().flat_map(|rounds| rounds.values.chunks(7).map(<[f64]>::to_vec)).collect();
     let moves = lanes.iter().any(|lane| !lane.radii.is_empty() || !lane.way.is_empty());
@@ -78,11 +79,11 @@ pub fn scene(evidence: &Evidence<'_>, case: &Case<'_>, inputs: &Inputs) -> Resul
 }
 
 fn lane(case: &Case<'_>, family: &dyn Family, row: &Row) -> Option<Lane> {
-    let kept = |name: &str| case.run.exhibit(&row.key, name);
+    let kept = |name: &str| case.run.trace(&row.key, name);
     let configurations = kept("trajectory")
         .map(|kept| taken(kept, |at| at[1..at.len() - 3].iter().map(|q| q.to_radians()).collect()))
         .or_else(|| kept("path").map(|kept| taken(kept, <[f64]>::to_vec)));
-    let stances: Vec<Stance> =
+    let stances: Vec<ArmPlacement> =
         configurations.into_iter().flatten().filter_map(|q| family.stance(&q)).collect();
     let stances = if stances.is_empty() { kept("rods").map(stored).unwrap_or_default() } else { stances };
     let way = ["tip_path", "raw_path"].iter().find_map(|name| kept(name)).filter(|way| way.width == 3);
@@ -96,7 +97,7 @@ fn lane(case: &Case<'_>, family: &dyn Family, row: &Row) -> Option<Lane> {
     let clearance = stances.iter().filter_map(|stance| Some((stance.clearance_mm? * 10.0).round() / 10.0));
     Some(Lane {
         label: row.key.contender.to_string(),
-        said: said(row),
+        said: outcome_text(row),
         radii,
         step,
         frames,
@@ -106,7 +107,7 @@ fn lane(case: &Case<'_>, family: &dyn Family, row: &Row) -> Option<Lane> {
 }
 
 /// At most [`FRAMES`] rows of what was kept, the ends among them.
-fn taken(kept: &Exhibit, of: impl Fn(&[f64]) -> Vec<f64>) -> Vec<Vec<f64>> {
+fn taken(kept: &Trace, of: impl Fn(&[f64]) -> Vec<f64>) -> Vec<Vec<f64>> {
     let rows: Vec<&[f64]> = kept.values.chunks(kept.width).collect();
     let count = rows.len().min(FRAMES);
     let place = |k: usize| if count < 2 { 0 } else { k * (rows.len() - 1) / (count - 1) };
@@ -114,20 +115,20 @@ fn taken(kept: &Exhibit, of: impl Fn(&[f64]) -> Vec<f64>) -> Vec<Vec<f64>> {
 }
 
 /// Postures that were stored as rods: number of the posture, both ends, radius, in centimetres.
-fn stored(rods: &Exhibit) -> Vec<Stance> {
+fn stored(rods: &Trace) -> Vec<ArmPlacement> {
     let rows: Vec<&[f64]> = rods.values.chunks(rods.width).collect();
     let stance = |rods: &[&[f64]]| {
         let mm = |rod: &&[f64]| std::array::from_fn(|i| rod[i + 1] * MM_PER_CM);
         let capsules_mm: Vec<[f64; 7]> = rods.iter().map(mm).collect();
         let tip_mm = capsules_mm.last().map_or([0.0; 3], |last| [last[3], last[4], last[5]]);
-        Stance { capsules_mm, tip_mm, clearance_mm: None }
+        ArmPlacement { capsules_mm, tip_mm, clearance_mm: None }
     };
     rows.chunk_by(|a, b| a[0] == b[0]).map(stance).collect()
 }
 
 /// The radii of the parts, how long a step is, and the frames in steps.
-fn steps(stances: &[Stance]) -> (Vec<f64>, f64, String) {
-    let places = |stance: &Stance| -> Vec<f64> {
+fn steps(stances: &[ArmPlacement]) -> (Vec<f64>, f64, String) {
+    let places = |stance: &ArmPlacement| -> Vec<f64> {
         let ends = stance.capsules_mm.iter().flat_map(|capsule| capsule[..6].to_vec());
         ends.chain(stance.tip_mm).collect()
     };
@@ -139,7 +140,7 @@ fn steps(stances: &[Stance]) -> (Vec<f64>, f64, String) {
     (radii.unwrap_or_default(), step, STANDARD.encode(bytes))
 }
 
-fn in_mm(points: &Exhibit) -> Vec<[f64; 3]> {
+fn in_mm(points: &Trace) -> Vec<[f64; 3]> {
     points.values.chunks(3).map(|p| [p[0], p[1], p[2]].map(|x| x * MM_PER_CM)).collect()
 }
 
@@ -153,7 +154,7 @@ fn cuboid(corners: &[f64]) -> Solid {
 }
 
 /// Polyhedra whose faces are listed as pairs of face and vertex.
-fn polyhedra(vertices: &Exhibit, faces: Option<&Exhibit>) -> Vec<Solid> {
+fn polyhedra(vertices: &Trace, faces: Option<&Trace>) -> Vec<Solid> {
     let pairs: Vec<&[f64]> = faces.map(|faces| faces.values.chunks(2).collect()).unwrap_or_default();
     let faces = pairs.chunk_by(|a, b| a[0] == b[0]).map(|face| face.iter().map(|p| p[1] as usize).collect());
     vec![Solid { vertices: in_mm(vertices), faces: faces.collect() }]

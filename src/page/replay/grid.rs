@@ -1,7 +1,7 @@
 //! A search on a grid: cells in the order in which they were opened and closed.
 
-use super::{Case, said};
-use engine::planner::Exhibit;
+use super::{Case, outcome_text};
+use engine::planner::Trace;
 use serde::Serialize;
 
 /// A map with what each trial did on it.
@@ -26,29 +26,30 @@ struct Lane {
 }
 
 /// The rows of what was kept, cut to `N` whole numbers each; none of what is narrower or was not kept.
-fn rows<const N: usize>(exhibit: Option<&Exhibit>) -> Vec<[u32; N]> {
-    let rows = exhibit.into_iter().flat_map(|exhibit| exhibit.values.chunks(exhibit.width));
+fn rows<const N: usize>(trace: Option<&Trace>) -> Vec<[u32; N]> {
+    let rows = trace.into_iter().flat_map(|trace| trace.values.chunks(trace.width));
     rows.filter_map(|row| row.first_chunk::<N>()).map(|row| row.map(|value| value as u32)).collect()
 }
 
-fn cells(exhibit: Option<&Exhibit>) -> Vec<[u32; 2]> {
-    rows(exhibit)
+fn cells(trace: Option<&Trace>) -> Vec<[u32; 2]> {
+    rows(trace)
 }
 
-fn centres(exhibit: Option<&Exhibit>) -> Vec<[f64; 2]> {
-    cells(exhibit).into_iter().map(|[x, y]| [f64::from(x) + 0.5, f64::from(y) + 0.5]).collect()
+fn centres(trace: Option<&Trace>) -> Vec<[f64; 2]> {
+    cells(trace).into_iter().map(|[x, y]| [f64::from(x) + 0.5, f64::from(y) + 0.5]).collect()
 }
 
 /// The search of `case`; none if it is not on a grid.
 pub fn scene(case: &Case<'_>) -> Option<Scene> {
     let run = case.run;
-    let kept = |name: &str| run.exhibit(&case.rows[0].key.on, name);
-    let (size, blocked) = (kept("size_cells")?, kept("blocked")?);
+    let kept = |name: &str| run.trace(&case.rows[0].key.on, name);
+    let size = kept("size_cells")?;
+    let blocked = kept("blocked")?;
     let lane = |row: &&study::record::Row| {
-        let kept = |name: &str| run.exhibit(&row.key, name);
+        let kept = |name: &str| run.trace(&row.key, name);
         Lane {
             label: row.key.contender.to_string(),
-            said: said(row),
+            said: outcome_text(row),
             opened: ["opened_start_side", "opened_goal_side"].map(|name| cells(kept(name))),
             closings: rows(kept("closings")),
             raw: centres(kept("raw_path")),

@@ -62,9 +62,10 @@ pub fn all(evidence: &Evidence<'_>, verdicts: &Verdicts, inputs: &Inputs) -> Res
         let made = in_order(&cases, |case| replay(evidence, case, inputs))?;
         for (case, replay) in cases.iter().zip(made) {
             let Some(replay) = replay else { continue };
-            let (group, draw) = (case.group.label.clone(), case.rows[0].draw());
+            let group = case.group.label.clone();
+            let instance = case.rows[0].instance();
             let is_named = replay.trials.iter().any(|trial| named.contains(trial.as_str()));
-            let is_drawn = drawn.contains(&(group, draw));
+            let is_drawn = drawn.contains(&(group, instance));
             ranked.push((!is_drawn, !is_named, replay));
         }
     }
@@ -72,16 +73,16 @@ pub fn all(evidence: &Evidence<'_>, verdicts: &Verdicts, inputs: &Inputs) -> Res
     Ok(ranked.into_iter().map(|(.., replay)| replay).collect())
 }
 
-/// The problems of which something was kept under the reading that claims are judged under, in the order of groups and draws.
+/// The problems of which something was kept under the interpretation that claims are judged under, in the order of groups and draws.
 fn cases<'r>(run: &'r Run<'r>) -> Vec<Case<'r>> {
     let mut cases = Vec::new();
     for group in &run.study.groups {
         let mut problems: BTreeMap<_, Vec<&Row>> = BTreeMap::new();
         for contender in &run.study.contenders {
             for row in run.rows(&group.label, &contender.label) {
-                let is_first = row.key.repeat == 0 && run.exhibits(&row.key).next().is_some();
+                let is_first = row.key.repeat == 0 && run.traces(&row.key).next().is_some();
                 if is_first {
-                    let key = (row.draw(), row.query().to_owned(), row.key.sweep.clone());
+                    let key = (row.instance(), row.query().to_owned(), row.key.sweep.clone());
                     problems.entry(key).or_default().push(row);
                 }
             }
@@ -105,7 +106,7 @@ fn replay(evidence: &Evidence<'_>, case: &Case<'_>, inputs: &Inputs) -> Result<O
 }
 
 /// What became of a trial, in words.
-fn said(row: &Row) -> String {
+fn outcome_text(row: &Row) -> String {
     let lengths = [("path_cost_cells", "cells"), ("path_length_cm", "cm"), ("path_length_mm", "mm")];
     let length = lengths.iter().find_map(|(column, unit)| Some(format!("{:.2} {unit}", row.value(column)?)));
     match (row.is_solved(), length) {

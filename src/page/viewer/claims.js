@@ -1,4 +1,4 @@
-// The table of claims: words, classes and readings to filter by, heads to sort by, lines that open.
+// The table of claims: words, classes and interpretations to filter by, heads to sort by, lines that open.
 export function claims() {
   const table = document.getElementById("claimed");
   if (!table) return;
@@ -6,7 +6,7 @@ export function claims() {
   const lines = [...table.tBodies];
   const words = new Map(lines.map((line) => [line, line.textContent.toLowerCase()]));
 
-  for (const axis of new Set(lines.flatMap(axes))) form.elements.hangs.append(new Option(axis));
+  for (const choice of new Set(lines.flatMap(choices))) form.elements.hangs.append(new Option(choice));
   if (form.elements.hangs.length === 1) form.elements.hangs.parentElement.hidden = true;
 
   const hasParts = lines.some((line) => "part" in line.dataset);
@@ -19,7 +19,7 @@ export function claims() {
     for (const line of lines) {
       const shown = asked.every((word) => words.get(line).includes(word))
         && (!kind || line.dataset.class === kind)
-        && (!hangs || axes(line).includes(hangs))
+        && (!hangs || choices(line).includes(hangs))
         && (!under || (under === "differs" ? "differs" in line.dataset : line.dataset.under === under))
         && (form.elements.parts.checked || asked.length > 0 || !("part" in line.dataset));
       line.hidden = !shown;
@@ -66,8 +66,8 @@ export function claims() {
   follow();
 }
 
-// The readings that a claim's class hangs on.
-function axes(line) {
+// The interpretations that a claim's class hangs on.
+function choices(line) {
   return line.dataset.hangs ? line.dataset.hangs.split(" ") : [];
 }
 

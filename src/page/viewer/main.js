@@ -1,9 +1,9 @@
-// The page's script: filters and sorts claims, shows readings, unpacks figures, plays replays, shows curves. It computes no result.
+// The page's script: filters and sorts claims, shows interpretations, unpacks figures, plays replays, shows curves. It computes no result.
 import { claims } from "./claims.js";
 import { curves } from "./curves.js";
 import { figures } from "./figures.js";
 import { player } from "./player.js";
-import { readings } from "./readings.js";
+import { interpretations } from "./interpretations.js";
 import { unpack } from "./unpack.js";
 
 const packed = (kind) => [...document.querySelectorAll(`script[data-kind="${kind}"]`)];
@@ -12,9 +12,9 @@ figures(packed("figure"), unpack);
 curves(packed("curves"), unpack);
 const show = player(packed("replay"), unpack);
 claims();
-const read = readings(packed("readings"));
+const read = interpretations(packed("interpretations"));
 
-// Links within the page name what they show: #claim=ID, #class=WORD, #reading=AXIS:OPTION,…, #replay=TRIAL&step=N.
+// Links within the page name what they show: #claim=ID, #class=WORD, #interpretation=CHOICE:OPTION,…, #replay=TRIAL&step=N.
 async function follow() {
   const asked = new URLSearchParams(location.hash.slice(1));
   (await read)(asked);

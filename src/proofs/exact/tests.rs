@@ -9,7 +9,8 @@ fn span(text: &str, digits: Digits) -> Span {
 fn a_span_holds_exactly_the_values_that_each_rounding_prints_so() {
     // The oracle rounds integers: v in thousandths, printed to tenths.
     let oracle = |v: i64, digits: Digits| -> i64 {
-        let (down, rest) = (v.div_euclid(100), v.rem_euclid(100));
+        let down = v.div_euclid(100);
+        let rest = v.rem_euclid(100);
         let up = down + i64::from(rest > 0);
         let away = if v >= 0 { down + 1 } else { down };
         let nearest = |tie: i64| match rest.cmp(&50) {

@@ -59,7 +59,9 @@ fn astar(
 #[test]
 fn no_map_makes_astar_exceed_the_bound() {
     let size = 9;
-    let (mut solved, mut detours, mut tight) = (0, 0, 0);
+    let mut solved = 0;
+    let mut detours = 0;
+    let mut tight = 0;
     for map in 0..600 {
         let mut stream = seed::stream(seed::derive(map, &["fvalues"]));
         let share = [0.0, 0.1, 0.2, 0.35][map as usize % 4];

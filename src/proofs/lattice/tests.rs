@@ -72,7 +72,8 @@ fn octile_distance_is_the_shortest_joining_length() {
 
 #[test]
 fn the_grid_papers_lengths_read_as_they_do_by_hand() {
-    let (simple, complex) = ([4, 13], [-15, -3]);
+    let simple = [4, 13];
+    let complex = [-15, -3];
     let found = |text, digits, trip| lengths_printing(printed(text), digits, Step::ONE, Some(trip));
     assert_eq!(found("14.65", Digits::Truncated, simple), [octile(9, 4)]);
     assert_eq!(found("14.65", Digits::Rounded, simple), []);

@@ -47,7 +47,8 @@ pub fn percentage(print: Print, [before, after]: [Print; 2]) -> Option<Proof> {
     let possible = of_cells([before, after].map(Print::span)).filter(|_| has_meaning)?;
     let [low, high] = [possible.low, possible.high].map(|end| decimal(end, 2));
     let range = format!("the cells' digits allow {low} to {high} %");
-    let (span, printed) = (print.span(), print.printed);
+    let span = print.span();
+    let printed = print.printed;
     let (is_possible, found) = if span.contains(exact) {
         (true, format!("which prints as {printed}; {range}"))
     } else if possible.meets(&span) {
@@ -68,7 +69,8 @@ pub fn clock_ticks(tick: Tick, times: &[Print], chosen: &str) -> Proof {
     let digits = times[times.len() - 1].digits;
     let times: Vec<_> = times.iter().map(|time| time.printed).collect();
     let counts: Vec<Option<u64>> = times.iter().map(|time| tick.count(*time, digits)).collect();
-    let (own, all) = (times[times.len() - 1], times.len());
+    let own = times[times.len() - 1];
+    let all = times.len();
     let said = match counts[counts.len() - 1] {
         Some(ticks) => format!("{own} s prints {ticks} ticks of {spelled}"),
         None => format!("{own} s is no whole number of ticks of {spelled}"),

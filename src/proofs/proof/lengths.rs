@@ -36,7 +36,8 @@ pub fn straight_line(
     size: Option<[i32; 2]>,
 ) -> Proof {
     let least = bounds::straight_line(start, goal);
-    let (printed, longest) = (print.printed, print.interval().high);
+    let printed = print.printed;
+    let longest = print.interval().high;
     let is_short = bounds::against(print, apart, Moves::Any).is_some_and(|(order, _)| order.is_lt());
     let found = if is_short {
         format!("{printed} is shorter by at least {:.4}, whatever its digits stand for", least - longest)
@@ -70,7 +71,8 @@ pub fn lattice_length(print: Print, ends: Option<[Cell; 2]>, size: Option<[i32; 
         let said = if listed.is_empty() { "no such length".to_owned() } else { listed.join(", ") };
         format!("{} read as {how}: {said}", print.printed)
     });
-    let (mut because, is_possible) = (read.to_vec(), !lengths(print.digits).is_empty());
+    let mut because = read.to_vec();
+    let is_possible = !lengths(print.digits).is_empty();
     if let (false, Some(ends)) = (is_possible, ends) {
         let (below, above) = nearest_lengths(print.printed, displacement(ends));
         let near: Vec<String> = [below, above].into_iter().flatten().map(spelled).collect();

@@ -75,7 +75,8 @@ impl Half {
             }
             search.extend(label.cell, Some(id));
         }
-        let (labels, best) = (search.labels, search.best);
+        let labels = search.labels;
+        let best = search.best;
         let settled = |alike: BTreeMap<_, Best>| {
             let settled = alike.into_values().filter(|best| best.is_settled);
             settled.map(|best| labels[best.id]).collect()
@@ -126,14 +127,17 @@ impl Search<'_> {
 
     /// Whether the label is the best of its like, which is settled with it.
     fn settle(&mut self, id: usize, label: &Label) -> bool {
-        let (key, state) = (self.key(label), self.state(label));
+        let key = self.key(label);
+        let state = self.state(label);
         let best = self.best[state].get_mut(&key).filter(|best| best.id == id);
         best.map(|best| best.is_settled = true).is_some()
     }
 
     /// Queues a label unless one like it leaves the queue first.
     fn queue(&mut self, estimate: f64, label: Label) {
-        let (key, state, id) = (self.key(&label), self.state(&label), self.labels.len());
+        let key = self.key(&label);
+        let state = self.state(&label);
+        let id = self.labels.len();
         let next = Best { estimate: estimate.to_bits(), id, is_settled: false };
         let best = self.best[state].entry(key).or_insert(Best { estimate: u64::MAX, ..next });
         if !best.is_settled && next.estimate < best.estimate {
@@ -169,8 +173,10 @@ impl Search<'_> {
                 continue;
             }
             let bend_deg = arrival.map_or(0.0, |arrival| self.net.bend_deg(arrival, segment.direction));
-            let (length, turn_deg) = (length + segment.length, turn_deg + bend_deg);
-            let (to, direction) = (segment.to, segment.direction);
+            let length = length + segment.length;
+            let turn_deg = turn_deg + bend_deg;
+            let to = segment.to;
+            let direction = segment.direction;
             if turn_deg > self.most_deg || turn_deg + self.net.least_turn_deg(to, direction) > high_deg {
                 continue;
             }

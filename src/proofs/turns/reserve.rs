@@ -35,7 +35,8 @@ struct Backward<'a> {
 impl Reserve {
     /// The ways of `net` towards a turn sum of `wanted_deg`.
     pub(super) fn new(net: &Net, wanted_deg: f64) -> Self {
-        let (directions, states) = (net.directions(), net.len() * net.directions());
+        let directions = net.directions();
+        let states = net.len() * net.directions();
         let mut incoming = vec![Vec::new(); states];
         for from in 0..net.len() {
             for segment in net.segments(from) {

@@ -44,7 +44,8 @@ fn an_end_off_by_a_cell_does_not_rescue_the_grid_papers_pairs() {
     {
         let (near_start, near_goal) = (with_neighbours(start), with_neighbours(goal));
         for (starts, goals) in [(near_start, vec![goal]), (vec![start], near_goal)] {
-            let (convention, turn_deg) = (Convention::Exterior, Interval::new(low, high));
+            let convention = Convention::Exterior;
+            let turn_deg = Interval::new(low, high);
             let pair = Interval::new(length[0], length[1]);
             let mut query = TurnQuery { size: SIZE, starts, goals, convention, turn_deg, length: pair };
             assert_eq!(shortest_polyline(&query), None);
@@ -94,7 +95,8 @@ fn enumerate(
 
 #[test]
 fn no_enumerated_polyline_is_shorter_and_one_is_as_short() {
-    let (mut found, mut missing) = (0, 0);
+    let mut found = 0;
+    let mut missing = 0;
     for (start, goal, longest) in [([0, 0], [3, 2], 6.9), ([1, 1], [2, 2], 6.1), ([0, 3], [3, 3], 6.7)] {
         for convention in [Convention::Exterior, Convention::Interior] {
             let mut all = Vec::new();
@@ -111,7 +113,8 @@ fn no_enumerated_polyline_is_shorter_and_one_is_as_short() {
                 let query = TurnQuery { size: [4, 4], starts, goals, convention, turn_deg, length };
                 let got = shortest_polyline(&query);
                 *if got.is_some() { &mut found } else { &mut missing } += 1;
-                let (got, expected) = (got.map_or(-1.0, |p| p.length), expected.unwrap_or(-1.0));
+                let got = got.map_or(-1.0, |p| p.length);
+                let expected = expected.unwrap_or(-1.0);
                 assert!((got - expected).abs() < 1e-9, "{query:?}: {got}, not {expected}");
             }
         }

@@ -63,7 +63,8 @@ fn place((x, y): BackendCoord) -> [f64; 2] {
 }
 
 fn boxed(from: BackendCoord, to: BackendCoord) -> Rect {
-    let ([x, y], [right, bottom]) = (place(from), place(to));
+    let [x, y] = place(from);
+    let [right, bottom] = place(to);
     Rect { x, y, w: right - x, h: bottom - y }
 }
 

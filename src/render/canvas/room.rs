@@ -9,7 +9,8 @@ pub(super) type Quad = [[f64; 2]; 4];
 pub(super) fn turned(bounds: Rect, at: [f64; 2], turn_deg: f64) -> Quad {
     let (sine, cosine) = libm::sincos(turn_deg.to_radians());
     let place = |x: f64, y: f64| [at[0] + x * cosine - y * sine, at[1] + x * sine + y * cosine];
-    let (right, bottom) = (bounds.right(), bounds.bottom());
+    let right = bounds.right();
+    let bottom = bounds.bottom();
     [place(bounds.x, bounds.y), place(right, bounds.y), place(right, bottom), place(bounds.x, bottom)]
 }
 

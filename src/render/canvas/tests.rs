@@ -15,7 +15,7 @@ fn drawn() -> Figure {
         canvas.rect(Rect { x: 0.0, y: 0.0, w: 200.0, h: 50.0 }, Some(Fill::solid(ORANGE)), None);
     });
     canvas.polyline(&[[100.0, 50.0], [230.0, 50.0]], &Stroke::solid(BLUE, 2.0).dashed(Dash::Dashed));
-    canvas.text([100.0, 40.0], "θ₁ = −√2 / °", &Type::of(TextSize::TICK));
+    canvas.text([100.0, 40.0], "θ₁ = −√2 / °", &Type::regular(TextSize::TICK));
     canvas.finish(&provenance()).unwrap()
 }
 
@@ -108,7 +108,7 @@ fn discs_say_how_they_are_painted_once_until_another_paint_or_shape_comes() {
 #[test]
 fn overlapping_and_escaping_labels_are_named() {
     let mut canvas = Canvas::new(Width::Single, 50.0);
-    let set = Type::of(TextSize::TICK);
+    let set = Type::regular(TextSize::TICK);
     canvas.text([10.0, 20.0], "first", &set);
     canvas.text([15.0, 22.0], "second", &set);
     canvas.text([230.0, 40.0], "outside", &set);
@@ -142,7 +142,8 @@ fn boxes_overlap_only_if_no_side_parts_them() {
 fn a_side_of_either_box_may_part_the_two() {
     // The corner (40, 0) of the level bar lies 2.5 pt off the tilted one; their upright hulls overlap.
     let bar = Rect { x: 0.0, y: 0.0, w: 40.0, h: 6.0 };
-    let (level, tilted) = (turned(bar, [0.0; 2], 0.0), turned(bar, [40.0, -12.0], 45.0));
+    let level = turned(bar, [0.0; 2], 0.0);
+    let tilted = turned(bar, [40.0, -12.0], 45.0);
     assert!(!overlap(&level, &tilted) && !overlap(&tilted, &level));
     let closer = turned(bar, [38.0, -6.0], 45.0);
     assert!(overlap(&level, &closer) && overlap(&closer, &level));
@@ -151,7 +152,7 @@ fn a_side_of_either_box_may_part_the_two() {
 #[test]
 fn an_undrawable_character_is_refused_by_name() {
     let mut canvas = Canvas::new(Width::Single, 50.0);
-    canvas.text([10.0, 20.0], "路径", &Type::of(TextSize::TICK));
+    canvas.text([10.0, 20.0], "路径", &Type::regular(TextSize::TICK));
     let message = canvas.finish(&provenance()).unwrap_err().to_string();
     assert!(message.contains("`路`") && message.contains("`路径`"), "{message}");
 }

@@ -146,7 +146,7 @@ impl Axis {
 
     /// Whether labels of `ticks` fit side by side on `length_pt`.
     pub(super) fn fits(&self, ticks: &[Tick], length_pt: f64) -> bool {
-        let set = Type::of(TextSize::TICK);
+        let set = Type::regular(TextSize::TICK);
         let mut spans: Vec<(f64, f64)> = ticks
             .iter()
             .filter(|tick| !tick.label.is_empty())

@@ -180,7 +180,7 @@ impl Mark for Labels {
     fn draw(&self, _: &mut Canvas, _: &View) {}
 
     fn draw_over(&self, canvas: &mut Canvas, view: &View) {
-        let set = Type { rim: true, ..Type::of(TextSize::TICK).aligned(Align::Start, Stand::Centre) };
+        let set = Type { rim: true, ..Type::regular(TextSize::TICK).aligned(Align::Start, Stand::Centre) };
         let side = 2.0 * MARKER_PT;
         let around = |at: [f64; 2]| Rect { x: at[0] - MARKER_PT, y: at[1] - MARKER_PT, w: side, h: side };
         let is_placed = |at: &[f64; 2]| at.iter().all(|value| value.is_finite());
@@ -236,7 +236,8 @@ mod tests {
 
     #[test]
     fn no_name_covers_a_bar() {
-        let (at, size) = ([100.0, 100.0], [30.0, 9.0]);
+        let at = [100.0, 100.0];
+        let size = [30.0, 9.0];
         let frame = Rect { x: 0.0, y: 0.0, w: 200.0, h: 200.0 };
         let bars = [[[70.0, 100.0], [130.0, 100.0]], [[100.0, 85.0], [100.0, 115.0]]];
         let covering = |places: &[Placed]| {

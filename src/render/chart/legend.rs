@@ -42,7 +42,7 @@ const APART_PT: f64 = 12.0;
 const LINE_PT: f64 = 11.0;
 
 fn entry_width(key: &Key) -> f64 {
-    SWATCH_PT + GAP_PT + Type::of(TextSize::LABEL).width_pt(&key.label)
+    SWATCH_PT + GAP_PT + Type::regular(TextSize::LABEL).width_pt(&key.label)
 }
 
 /// Entries per line on a page `width_pt` wide: as few lines as fit with half a gap at either edge, evenly filled.
@@ -80,7 +80,7 @@ pub(super) fn draw(canvas: &mut Canvas, keys: &[Key], room: Rect) {
         let y = room.y + 3.0 + LINE_PT * (row as f64 + 0.5);
         for (column, key) in line.iter().enumerate() {
             swatch(canvas, &key.swatch, [x, y]);
-            let set = Type::of(TextSize::LABEL).aligned(Align::Start, Stand::Centre);
+            let set = Type::regular(TextSize::LABEL).aligned(Align::Start, Stand::Centre);
             canvas.text([x + SWATCH_PT + GAP_PT, y], &key.label, &set);
             x += APART_PT + if aligned { widths[column] } else { entry_width(key) };
         }
@@ -88,7 +88,8 @@ pub(super) fn draw(canvas: &mut Canvas, keys: &[Key], room: Rect) {
 }
 
 fn swatch(canvas: &mut Canvas, swatch: &Swatch, [x, y]: [f64; 2]) {
-    let (ends, middle) = ([[x, y], [x + SWATCH_PT, y]], [x + SWATCH_PT / 2.0, y]);
+    let ends = [[x, y], [x + SWATCH_PT, y]];
+    let middle = [x + SWATCH_PT / 2.0, y];
     let area = Rect { x: x + 3.0, y: y - 3.5, w: SWATCH_PT - 6.0, h: 7.0 };
     match swatch {
         Swatch::Line(stroke, marker) => {
@@ -122,7 +123,8 @@ mod tests {
     #[test]
     fn every_entry_stays_on_the_page() {
         for count in 1..12 {
-            let (keys, width) = (keys(count), Width::Single.pt() - 8.0);
+            let keys = keys(count);
+            let width = Width::Single.pt() - 8.0;
             let broken = lines(&keys, width);
             assert_eq!(broken.iter().map(|line| line.len()).sum::<usize>(), count);
             for line in &broken {

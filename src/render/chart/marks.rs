@@ -110,7 +110,7 @@ pub struct Points {
 
 impl Points {
     /// Points without a label.
-    pub fn of(points: Vec<[f64; 2]>, marker: Marker, radius_pt: f64, color: Rgb) -> Self {
+    pub fn unlabelled(points: Vec<[f64; 2]>, marker: Marker, radius_pt: f64, color: Rgb) -> Self {
         Self { points, marker, radius_pt, color, label: String::new() }
     }
 
@@ -273,7 +273,7 @@ pub struct Note {
 impl Note {
     /// A small text right of `at`, with a white rim.
     pub fn beside(at: [f64; 2], text: impl Into<String>) -> Self {
-        let set = Type { rim: true, ..Type::of(TextSize::TICK).aligned(Align::Start, Stand::Centre) };
+        let set = Type { rim: true, ..Type::regular(TextSize::TICK).aligned(Align::Start, Stand::Centre) };
         Self { at, shift_pt: [4.0, 0.0], text: text.into(), set }
     }
 

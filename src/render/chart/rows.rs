@@ -26,7 +26,8 @@ pub struct Interval {
 impl Mark for Interval {
     fn draw(&self, canvas: &mut Canvas, view: &View) {
         let [low, _, high] = self.values;
-        let (left, y) = (view.frame.x - 1.0, view.at([0.0, self.row])[1]);
+        let left = view.frame.x - 1.0;
+        let y = view.at([0.0, self.row])[1];
         let end =
             |value: f64, open: f64| if value.is_finite() { view.at([value, self.row])[0] } else { open };
         let (from, to) = (end(low, left), end(high, view.frame.right() + 1.0));
@@ -75,7 +76,8 @@ impl Mark for BoxStrip {
         let strip = self.values.iter().enumerate();
         let dots = strip.map(|(index, &value)| (self.at + jitter(index) * self.width * 1.5, value));
         view.plot(canvas, Dash::Solid, dots.map(|at| Circle::new(at, units(0.9), pale)));
-        let (ink, half) = (Stroke::solid(self.color.mixed(INK, 0.35), 0.9), self.width / 2.0);
+        let ink = Stroke::solid(self.color.mixed(INK, 0.35), 0.9);
+        let half = self.width / 2.0;
         let [bottom, lower, median, upper, top] = self.quantiles;
         let level = |reach: f64, value: f64| [(self.at - reach, value), (self.at + reach, value)];
         let stem = |from: f64, to: f64| [(self.at, from), (self.at, to)];

@@ -16,7 +16,7 @@ pub struct Rules {
     pub stroke: Stroke,
 }
 
-const FLAG: Type = Type::of(TextSize::TICK);
+const FLAG: Type = Type::regular(TextSize::TICK);
 const LEADER_PT: f64 = 7.0;
 const UPRIGHT_PT: f64 = 8.5;
 /// How far flags may reach over either end of the frame.
@@ -86,7 +86,8 @@ impl Mark for Rules {
 
     fn draw_over(&self, canvas: &mut Canvas, view: &View) {
         let order = self.order(view);
-        let (flags, top) = (self.flags(view, &order), view.frame.y - LEADER_PT);
+        let flags = self.flags(view, &order);
+        let top = view.frame.y - LEADER_PT;
         let level = FLAG.colored(self.stroke.color).aligned(Align::Middle, Stand::Base);
         let upright =
             Type { turn_deg: -90.0, ..FLAG.colored(self.stroke.color).aligned(Align::Start, Stand::Centre) };
@@ -120,7 +121,8 @@ mod tests {
 
     #[test]
     fn spread_boxes_stay_apart_and_move_only_when_they_must() {
-        let (mut moved, mut kept) = (0, 0);
+        let mut moved = 0;
+        let mut kept = 0;
         for case in 0..500 {
             let mut random = seed::stream(seed::derive(case, &["spread"]));
             let mut wanted: Vec<f64> = (0..5).map(|_| random.random_range(0.0..100.0)).collect();

@@ -19,8 +19,8 @@ const TICK_PT: f64 = 2.25;
 const LABEL_PT: f64 = 2.0 * TICK_PT;
 /// Room that an axis label needs below its baseline.
 const DROP_PT: f64 = 2.5;
-const TICK: Type = Type::of(TextSize::TICK);
-const LABEL: Type = Type::of(TextSize::LABEL);
+const TICK: Type = Type::regular(TextSize::TICK);
+const LABEL: Type = Type::regular(TextSize::LABEL);
 /// Turn of names under a horizontal axis that is too short for them.
 const TILT_DEG: f64 = -35.0;
 
@@ -50,7 +50,8 @@ fn line_pt(size: TextSize) -> f64 {
 impl Sheet {
     /// A sheet of `columns` columns (at least one) whose plots are at most `plot_pt` points high.
     pub fn new(width: Width, columns: usize, plot_pt: f64) -> Self {
-        let (title, note) = (String::new(), String::new());
+        let title = String::new();
+        let note = String::new();
         Self { width, columns: columns.max(1), plot_pt, title, note, panels: Vec::new(), level: false }
     }
 
@@ -113,7 +114,7 @@ impl Sheet {
         let below = legend.bottom() + if note.is_empty() { 0.0 } else { 3.0 };
         let height_pt = below + note.len() as f64 * line_pt(TextSize::TICK) + EDGE_PT;
         let mut canvas = Canvas::new(self.width, height_pt);
-        let set = Type::of(TextSize::TITLE).bold().aligned(Align::Start, Stand::Below);
+        let set = Type::regular(TextSize::TITLE).bold().aligned(Align::Start, Stand::Below);
         lines(&mut canvas, &title, [EDGE_PT, EDGE_PT], &set);
         for (index, (panel, (view, margin))) in self.panels.iter().zip(&views).enumerate() {
             self.heading(&mut canvas, index, view, margin);
@@ -164,7 +165,10 @@ impl Sheet {
         let columns = self.column_spans();
         let side = self.sides(self.cell_pt().0);
         let mut placed = Vec::new();
-        let (mut head, mut over, mut tallest, mut foot) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
+        let mut head = 0.0_f64;
+        let mut over = 0.0_f64;
+        let mut tallest = 0.0_f64;
+        let mut foot = 0.0_f64;
         for (column, panel) in panels.iter().enumerate() {
             let (left, right) = if panel.trim == Trim::Bare { (0.0, 0.0) } else { side[column] };
             let (from, cell) = columns[column];
@@ -295,7 +299,9 @@ impl Panel {
 
     /// The mesh of plotters: grid, ticks, their labels, labels of the axes.
     fn mesh(&self, canvas: &mut Canvas, view: &View, xs: &[Tick], ys: &[Tick]) {
-        let (frame, left, foot) = (view.frame, self.left(view.frame.h), self.foot(view) - DROP_PT);
+        let frame = view.frame;
+        let left = self.left(view.frame.h);
+        let foot = self.foot(view) - DROP_PT;
         let area = DrawingArea::from(Pen::new(canvas, Dash::Solid))
             .shrink((units(frame.x - left), units(frame.y)), (units(left + frame.w), units(frame.h + foot)));
         let (x, y) = (view.x.clone(), view.y.clone());
@@ -330,7 +336,8 @@ fn name(ticks: &[Tick], at: f64) -> String {
 
 /// Short ticks without grid line and label, which the mesh of plotters does not have.
 fn minor_ticks(canvas: &mut Canvas, view: &View, xs: &[Tick], ys: &[Tick]) {
-    let ([left, bottom], thin) = ([view.frame.x, view.frame.bottom()], Stroke::solid(INK, 0.5));
+    let [left, bottom] = [view.frame.x, view.frame.bottom()];
+    let thin = Stroke::solid(INK, 0.5);
     let [low_x, low_y] = [view.x.ends()[0], view.y.ends()[0]];
     for tick in xs.iter().filter(|tick| tick.label.is_empty()) {
         let [x, _] = view.at([tick.at, low_y]);

@@ -49,7 +49,8 @@ fn an_entry_of_the_legend_appears_once_however_many_panels_use_it() {
     let mut sheet = Sheet::new(Width::Single, 2, 60.0);
     for _ in 0..2 {
         let mut panel = Panel::new("", Axis::over("x", [0.0, 2.0]), Axis::over("y", [0.0, 2.0]));
-        let (points, label) = (vec![[1.0, 1.0]], "both".to_owned());
+        let points = vec![[1.0, 1.0]];
+        let label = "both".to_owned();
         panel.add(Points { points, marker: Marker::Plus, radius_pt: 2.0, color: BLUE, label });
         sheet.add(panel);
     }

@@ -12,7 +12,7 @@ use crate::render::style::{
     Width, YELLOW, series_stroke,
 };
 use base::settings::Accepted;
-use engine::planner::Exhibit;
+use engine::planner::Trace;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use study::record::Row;
@@ -22,7 +22,7 @@ pub static ENTRY: Entry = Entry {
     name: "arm_plane",
     about: "a planar arm among obstacles: zones, paths of the tip, the arm at stations along them; or both postures at the goal",
     statistic: "One stored trial a panel.",
-    settings: Accepted::of::<ArmPlane>(),
+    settings: Accepted::shape::<ArmPlane>(),
     example: r#"
 stations = 7
 panels = [
@@ -64,7 +64,7 @@ struct ArmPlane {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelSetting {
-    /// The problem group; its first draw is shown.
+    /// The problem group; its first instance is shown.
     problem: String,
     /// What stands above it; the problem group if absent.
     title: Option<String>,
@@ -84,7 +84,7 @@ impl Kind for ArmPlane {
     fn shown(&self) -> Vec<Shown<'_>> {
         let panels = self.panels.iter();
         if self.postures {
-            return panels.flat_map(|panel| Shown::prepared(&panel.problem)).collect();
+            return panels.flat_map(|panel| Shown::preprocessing(&panel.problem)).collect();
         }
         panels.flat_map(|panel| Shown::first(&panel.problem, &panel.contenders)).collect()
     }
@@ -96,7 +96,7 @@ impl Kind for ArmPlane {
         }
         let mut sheet = Sheet::new(Width::Double, 2, PLOT_PT);
         for panel in &self.panels {
-            let both = ask::exhibit(scene, ask::draw(scene, &panel.problem, 0)?, "branches")?;
+            let both = ask::trace(scene, ask::instance(scene, &panel.problem, 0)?, "branches")?;
             let stations: Vec<&[f64]> = both.values.chunks(both.width).collect();
             for (name, station) in [("elbow down", stations[1]), ("elbow up", stations[0])] {
                 sheet.add(posture(name, station, &stations)?);
@@ -110,9 +110,11 @@ impl ArmPlane {
     fn panel(&self, scene: &Scene<'_>, setting: &PanelSetting) -> Result<Panel, RenderError> {
         let rows = setting.contenders.iter().map(|label| ask::trial(scene, &setting.problem, 0, None, label));
         let rows: Vec<&Row> = rows.collect::<Result<_, _>>()?;
-        let map = ask::draw(scene, &setting.problem, 0)?;
-        let lattice = &ask::exhibit(scene, map, "lattice")?.values;
-        let (low, step, size) = ([lattice[0], lattice[1]], lattice[2], [lattice[3], lattice[4]]);
+        let map = ask::instance(scene, &setting.problem, 0)?;
+        let lattice = &ask::trace(scene, map, "lattice")?.values;
+        let low = [lattice[0], lattice[1]];
+        let step = lattice[2];
+        let size = [lattice[3], lattice[4]];
         let ends = |axis: usize| match self.window_cm {
             Some(window) => [window[2 * axis], window[2 * axis + 1]],
             None => [low[axis] - step, low[axis] + step * size[axis]],
@@ -127,11 +129,11 @@ impl ArmPlane {
             .trimmed(Trim::Frame)
             .with_equal_scales();
         if setting.zones {
-            let zones = ask::exhibit(scene, map, "zones")?;
+            let zones = ask::trace(scene, map, "zones")?;
             panel.add(zone_cells(zones, [low[0] - step / 2.0, low[1] - step / 2.0], step, size[0] as usize));
         }
         for index in 1.. {
-            let Some(outline) = scene.run.exhibit(map, &format!("obstacle_{index}")) else { break };
+            let Some(outline) = scene.run.trace(map, &format!("obstacle_{index}")) else { break };
             panel.add(obstacle(outline, !setting.zones));
         }
         for (index, row) in rows.iter().enumerate() {
@@ -141,13 +143,13 @@ impl ArmPlane {
     }
 
     fn add_path(&self, scene: &Scene<'_>, row: &Row, index: usize, panel: &mut Panel) {
-        let Some(stations) = scene.run.exhibit(&row.key, "stations") else { return };
+        let Some(stations) = scene.run.trace(&row.key, "stations") else { return };
         let stations: Vec<&[f64]> = stations.values.chunks(stations.width).collect();
         if index == 0 {
             for station in spread(&stations, self.stations) {
                 let joints = vec![[0.0, 0.0], [station[2], station[3]], [station[4], station[5]]];
                 panel.add(Line::through(joints.clone(), Stroke::solid(GREY, 1.4)).labelled("arm"));
-                panel.add(Points::of(joints[..2].to_vec(), Marker::Circle, 1.6, INK));
+                panel.add(Points::unlabelled(joints[..2].to_vec(), Marker::Circle, 1.6, INK));
             }
         }
         if !self.paths {
@@ -193,7 +195,7 @@ const ZONES: [(&str, Rgb); 5] = [
     ("a link would hit", ORANGE.mixed(WHITE, 0.35)),
 ];
 
-fn zone_cells(zones: &Exhibit, corner: [f64; 2], step: f64, columns: usize) -> Cells {
+fn zone_cells(zones: &Trace, corner: [f64; 2], step: f64, columns: usize) -> Cells {
     Cells {
         corner,
         cell: [step, step],
@@ -205,7 +207,7 @@ fn zone_cells(zones: &Exhibit, corner: [f64; 2], step: f64, columns: usize) -> C
 }
 
 /// An obstacle; its outline alone where zones show what lies in it.
-fn obstacle(outline: &Exhibit, is_filled: bool) -> Shape {
+fn obstacle(outline: &Trace, is_filled: bool) -> Shape {
     Shape {
         corners: ask::points(outline),
         fill: is_filled.then(|| Fill::sheer(BLUE.mixed(BLACK, 0.3), 0.45)),
@@ -227,7 +229,8 @@ fn posture(name: &str, station: &[f64], all: &[&[f64]]) -> Result<Panel, RenderE
     let title = format!("{name}: θ1 = {:.2}°, θ2 = {:.2}°", station[0], station[1]).replace('-', "−");
     let (x, y) = (Axis::linear("x (cm)", low[0], high[0])?, Axis::linear("y (cm)", low[1], high[1])?);
     let mut panel = Panel::new(title, x, y).trimmed(Trim::Grid).with_equal_scales();
-    let (elbow, tip) = ([station[2], station[3]], [station[4], station[5]]);
+    let elbow = [station[2], station[3]];
+    let tip = [station[4], station[5]];
     panel.add(Line::through(vec![[0.0, 0.0], elbow], Stroke::solid(BLUE, 2.6)).labelled("link 1"));
     panel.add(Line::through(vec![elbow, tip], Stroke::solid(VERMILLION, 2.6)).labelled("link 2"));
     // The elbow's name stands on the side to which the arm bends, where no link is.
@@ -235,9 +238,9 @@ fn posture(name: &str, station: &[f64], all: &[&[f64]]) -> Result<Panel, RenderE
     for (text, at, color, to_right) in
         [("base", [0.0, 0.0], INK, true), ("elbow", elbow, INK, bends_right), ("tip", tip, GREEN, true)]
     {
-        panel.add(Points::of(vec![at], Marker::Circle, 3.0, color));
+        panel.add(Points::unlabelled(vec![at], Marker::Circle, 3.0, color));
         let (align, shift) = if to_right { (Align::Start, 6.0) } else { (Align::End, -6.0) };
-        let set = Type::of(TextSize::TICK).aligned(align, Stand::Centre);
+        let set = Type::regular(TextSize::TICK).aligned(align, Stand::Centre);
         panel.add(Note { at, shift_pt: [shift, 0.0], text: text.to_owned(), set });
     }
     Ok(panel)

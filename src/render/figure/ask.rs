@@ -10,9 +10,9 @@ use crate::render::chart::Panel;
 use crate::render::chart::marks::Points;
 use crate::render::style::{Marker, Rgb};
 use base::settings::{Faults, Settings, SettingsError, did_you_mean, none_called};
-use engine::planner::Exhibit;
+use engine::planner::Trace;
 use std::sync::Arc;
-use study::key::{DrawKey, Owner, SweepKey};
+use study::key::{InstanceKey, Owner, SweepKey};
 use study::paper::{Paper, printed_by};
 use study::record::Row;
 use study::{Study, labels_of};
@@ -75,7 +75,7 @@ pub(super) fn produced(
 
 /// All trials of one contender on one problem group.
 pub(super) fn trials<'s>(run: &Run<'s>, problems: &str, contender: &str) -> Selection<'s> {
-    Selection::of(run.study, &[problems.to_owned()], &[contender.to_owned()])
+    Selection::all(run.study, &[problems.to_owned()], &[contender.to_owned()])
 }
 
 /// The same at one point of the sweeps.
@@ -88,9 +88,9 @@ pub(super) fn number(row: &Row, column: &str, decimals: usize) -> String {
     row.value(column).map_or_else(|| "–".to_owned(), |value| format!("{value:.decimals$}"))
 }
 
-/// The points of an exhibit of coordinates, the two that begin each of its rows.
-pub(super) fn points(exhibit: &Exhibit) -> Vec<[f64; 2]> {
-    exhibit.values.chunks(exhibit.width).map(|point| [point[0], point[1]]).collect()
+/// The points of a trace of coordinates, the two that begin each of its rows.
+pub(super) fn points(trace: &Trace) -> Vec<[f64; 2]> {
+    trace.values.chunks(trace.width).map(|point| [point[0], point[1]]).collect()
 }
 
 /// Marks the first of `points` as the start and the last as the goal, each as said.
@@ -98,7 +98,7 @@ pub(super) fn add_ends(panel: &mut Panel, points: &[[f64; 2]], radius_pt: f64, l
     let ends = [("start", points.first()), ("goal", points.last())];
     for ((label, at), (marker, color)) in ends.into_iter().zip(looks) {
         let at = at.into_iter().copied().collect();
-        panel.add(Points::of(at, marker, radius_pt, color).labelled(label));
+        panel.add(Points::unlabelled(at, marker, radius_pt, color).labelled(label));
     }
 }
 
@@ -138,51 +138,51 @@ pub(super) fn place(scene: &Scene<'_>, label: &str) -> usize {
     contenders.iter().position(|contender| contender.label == label).unwrap_or(contenders.len())
 }
 
-/// The exhibit `name` of a trial or a prepared object.
+/// The trace `name` of a trial or a preprocessed object.
 ///
 /// # Errors
 /// [`RenderError::NotStored`] if it was not kept.
-pub(super) fn exhibit<'s>(
+pub(super) fn trace<'s>(
     scene: &Scene<'s>,
     of: impl Into<Owner>,
     name: &str,
-) -> Result<&'s Exhibit, RenderError> {
+) -> Result<&'s Trace, RenderError> {
     let of = of.into();
-    scene.run.exhibit(of.clone(), name).ok_or_else(|| RenderError::NotStored {
-        what: format!("the exhibit `{name}` of `{}`", scene.run.owner(&of)),
+    scene.run.trace(of.clone(), name).ok_or_else(|| RenderError::NotStored {
+        what: format!("the trace `{name}` of `{}`", scene.run.owner(&of)),
     })
 }
 
-/// What names the draw of this number of the problem group `problems`.
+/// What names the instance of this number of the problem group `problems`.
 ///
 /// # Errors
 /// [`RenderError::NotStored`] if there is none.
-pub(super) fn draw<'s>(
+pub(super) fn instance<'s>(
     scene: &Scene<'s>,
     problems: &str,
     number: u32,
-) -> Result<&'s Arc<DrawKey>, RenderError> {
-    let found = scene.run.prepared(problems).find(|row| row.key.draw == number);
-    let missing = || RenderError::NotStored { what: format!("draw {number} of `{problems}`") };
+) -> Result<&'s Arc<InstanceKey>, RenderError> {
+    let found = scene.run.preprocessing(problems).find(|row| row.key.instance == number);
+    let missing = || RenderError::NotStored { what: format!("instance {number} of `{problems}`") };
     found.map(|row| &row.key).ok_or_else(missing)
 }
 
-/// The first trial of `contender` on the draw `replicate` of `problems`, for the query called `of_query`.
+/// The first trial of `contender` on the instance `number` of `problems`, for the query called `of_query`.
 ///
 /// # Errors
 /// [`RenderError::NotStored`] if there is none.
 pub(super) fn trial<'s>(
     scene: &Scene<'s>,
     problems: &str,
-    replicate: u32,
+    number: u32,
     of_query: Option<&str>,
     contender: &str,
 ) -> Result<&'s Row, RenderError> {
     let rows = scene.run.rows(problems, contender).into_iter();
     let mut wanted =
-        rows.filter(|row| row.draw() == replicate && of_query.is_none_or(|name| row.query() == name));
+        rows.filter(|row| row.instance() == number && of_query.is_none_or(|name| row.query() == name));
     wanted.next().ok_or_else(|| RenderError::NotStored {
-        what: format!("a trial of `{contender}` on draw {replicate} of `{problems}`"),
+        what: format!("a trial of `{contender}` on instance {number} of `{problems}`"),
     })
 }
 
@@ -201,41 +201,43 @@ pub(super) fn trial_at<'s>(
     rows.find(|row| at.is_none_or(|sweep| row.key.sweep == *sweep)).ok_or_else(missing)
 }
 
-/// Of the draws on which every contender has a trial with the exhibit `name` for the query called `of_query`, the one on which
-/// the last contender's saving of the first one's way is nearest to the median over all draws; the first if nothing is saved.
+/// Of the instances on which every contender has a trial with the trace `name` for the query called `of_query`, the one on which
+/// the last contender's saving of the first one's way is nearest to the median over all instances; the first if nothing is saved.
 ///
 /// # Errors
 /// [`RenderError::NotStored`] if there is none.
-pub(super) fn shared_draw(
+pub(super) fn shared_instance(
     scene: &Scene<'_>,
     problems: &str,
     of_query: &str,
     contenders: &[String],
     name: &str,
 ) -> Result<u32, RenderError> {
-    let has_it = |replicate: u32, contender: &String| {
-        trial(scene, problems, replicate, Some(of_query), contender)
-            .is_ok_and(|row| scene.run.exhibit(&row.key, name).is_some())
+    let has_it = |number: u32, contender: &String| {
+        trial(scene, problems, number, Some(of_query), contender)
+            .is_ok_and(|row| scene.run.trace(&row.key, name).is_some())
     };
     let group = scene.run.study.groups.iter().find(|group| group.label == problems);
-    let draws = 0..group.map_or(0, |group| group.replicates);
-    let kept: Vec<u32> =
-        draws.filter(|draw| contenders.iter().all(|contender| has_it(*draw, contender))).collect();
+    let instances = 0..group.map_or(0, |group| group.instances);
+    let kept: Vec<u32> = instances
+        .filter(|instance| contenders.iter().all(|contender| has_it(*instance, contender)))
+        .collect();
     let savings = savings(scene, problems, of_query, contenders);
-    let off = |draw: &u32| savings.off_median(*draw);
+    let off = |instance: &u32| savings.off_median(*instance);
     let found = kept.iter().copied().min_by(|a, b| off(a).total_cmp(&off(b)));
     found.ok_or_else(|| RenderError::NotStored {
         what: format!(
-            "the exhibit `{name}` of {} for query {of_query} on one draw",
+            "the trace `{name}` of {} for query {of_query} on one instance",
             contenders.join(" and ")
         ),
     })
 }
 
-/// By draw, what the last contender saves of the first one's way on a query, percent.
+/// By instance, what the last contender saves of the first one's way on a query, percent.
 pub(super) fn savings(scene: &Scene<'_>, problems: &str, of_query: &str, contenders: &[String]) -> Savings {
     let [first, .., last] = contenders else { return Savings::default() };
     let all = trials(scene.run, problems, last);
-    let (metric, query) = (metric::find("path_length_mm"), Some(of_query.to_owned()));
-    Savings::of(&Selection { against: Some(first.clone()), metric, query, ..all }, scene.evidence)
+    let metric = metric::find("path_length_mm");
+    let query = Some(of_query.to_owned());
+    Savings::new(&Selection { against: Some(first.clone()), metric, query, ..all }, scene.evidence)
 }

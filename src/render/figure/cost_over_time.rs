@@ -1,8 +1,8 @@
-//! What planners have found by each moment: the median cost of the best path so far, over all queries of all draws.
+//! What planners have found by each moment: the median cost of the best path so far, over all queries of all instances.
 
 use super::{CurveLine, Curves, Entry, Kind, Scene, Shown, ask};
 use crate::analysis::metric::Metric;
-use crate::analysis::shown::{Found, best_over_time};
+use crate::analysis::shown::{CostHistory, best_over_time};
 use crate::analysis::statistic::Estimate;
 use crate::render::RenderError;
 use crate::render::chart::marks::{Band, Line};
@@ -17,9 +17,9 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "cost_over_time",
     about: "cost of the best path found so far by planners from outside, over time: medians with intervals, failures infinite",
-    statistic: "Medians over all queries with 95 % bootstrap intervals over draws; a query without a path by then costs infinitely much, \
+    statistic: "Medians over all queries with 95 % bootstrap intervals over instances; a query without a path by then costs infinitely much, \
                 and a curve begins where half of the queries have one; {n}.",
-    settings: Accepted::of::<Read>(),
+    settings: Accepted::shape::<Read>(),
     example: r#"
 problems = "cell"
 contenders = ["RRT*", "BIT*"]
@@ -31,7 +31,7 @@ until_s = 1.0
         ask::known(settings, study, [&read.problems], &read.contenders)?;
         let metric = ask::produced(settings, study, &read.metric)?;
         let group = study.groups.iter().find(|group| group.label == read.problems);
-        Ok(Box::new(CostOverTime { draws: group.map_or(0, |group| group.replicates), read, metric }))
+        Ok(Box::new(CostOverTime { instances: group.map_or(0, |group| group.instances), read, metric }))
     },
 };
 
@@ -52,7 +52,7 @@ struct Read {
 struct CostOverTime {
     read: Read,
     metric: &'static Metric,
-    draws: u32,
+    instances: u32,
 }
 
 /// How many moments a curve has.
@@ -66,26 +66,26 @@ impl CostOverTime {
     }
 
     /// When a trial found what: its incumbents, and the path that it returned.
-    fn found(&self, scene: &Scene<'_>, row: &Row) -> Found {
-        let kept = scene.run.exhibit(&row.key, "incumbents").filter(|kept| kept.width == 2);
-        let mut found: Found = kept.map(ask::points).unwrap_or_default();
+    fn found(&self, scene: &Scene<'_>, row: &Row) -> CostHistory {
+        let kept = scene.run.trace(&row.key, "incumbents").filter(|kept| kept.width == 2);
+        let mut found: CostHistory = kept.map(ask::points).unwrap_or_default();
         let returned = row.value("solve_wall_ns").zip(scene.run.value(row, self.metric));
         found.extend(returned.filter(|_| row.is_solved()).map(|(ns, cost)| [ns / NS_PER_S, cost]));
         found
     }
 
-    /// What each query of each draw found.
-    fn draws(&self, scene: &Scene<'_>, contender: &str) -> Vec<Vec<Found>> {
+    /// What each query of each instance found.
+    fn instances(&self, scene: &Scene<'_>, contender: &str) -> Vec<Vec<CostHistory>> {
         let rows = scene.run.rows(&self.read.problems, contender);
-        let of_draw = |rows: &[&Row]| rows.iter().map(|row| self.found(scene, row)).collect();
-        rows.chunk_by(|a, b| a.key.on == b.key.on).map(of_draw).collect()
+        let of_instance = |rows: &[&Row]| rows.iter().map(|row| self.found(scene, row)).collect();
+        rows.chunk_by(|a, b| a.key.on == b.key.on).map(of_instance).collect()
     }
 
     fn all(&self, scene: &Scene<'_>) -> Vec<(&String, Vec<Option<Estimate>>)> {
         let moments = self.moments();
         let of = |contender| {
             let names = [scene.run.study.name.as_str(), "cost over time", contender];
-            best_over_time(&self.draws(scene, contender), &moments, &names)
+            best_over_time(&self.instances(scene, contender), &moments, &names)
         };
         self.read.contenders.iter().map(|contender| (contender, of(contender))).collect()
     }
@@ -107,7 +107,7 @@ impl Kind for CostOverTime {
     fn shown(&self) -> Vec<Shown<'_>> {
         let of = |contender| {
             let problems = self.read.problems.as_str();
-            (0..self.draws).map(move |draw| Shown { problems, contender: Some(contender), draw })
+            (0..self.instances).map(move |instance| Shown { problems, contender: Some(contender), instance })
         };
         self.read.contenders.iter().flat_map(|contender| of(contender.as_str())).collect()
     }
@@ -130,7 +130,8 @@ impl Kind for CostOverTime {
     }
 
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let (moments, all) = (self.moments(), self.all(scene));
+        let moments = self.moments();
+        let all = self.all(scene);
         let found = || all.iter().flat_map(|(_, medians)| medians).flatten();
         let ends = found().flat_map(|median| [median.interval.low, median.interval.high]);
         let ends: Vec<f64> = ends.filter(|end| end.is_finite()).collect();
@@ -156,8 +157,8 @@ mod tests {
     #[test]
     fn who_finds_no_path_for_half_of_the_queries_is_named_below_the_figure() {
         let (fast, slow) = ("BIT*".to_owned(), "RRT*".to_owned());
-        let draws: Vec<_> = [0.1, 0.2, 0.3].map(|at| vec![vec![[at, 10.0]]]).into();
-        let by = |moment: f64| best_over_time(&draws, &[moment], &["a test"]);
+        let instances: Vec<_> = [0.1, 0.2, 0.3].map(|at| vec![vec![[at, 10.0]]]).into();
+        let by = |moment: f64| best_over_time(&instances, &[moment], &["a test"]);
         let all = [(&fast, by(0.5)), (&slow, by(0.05))];
         let said = note(0.5, &all);
         assert!(said.ends_with("No path for half of the queries within 0.5 s: RRT*."), "{said}");

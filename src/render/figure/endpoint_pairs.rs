@@ -14,7 +14,7 @@ pub static ENTRY: Entry = Entry {
     name: "endpoint_pairs",
     about: "where pairs of end points lie that have the printed lengths, one series a variant",
     statistic: "Every pair that was found; nothing is left out.",
-    settings: Accepted::of::<EndpointPairs>(),
+    settings: Accepted::shape::<EndpointPairs>(),
     example: r#"
 problem = "workspace"
 panels = [
@@ -55,7 +55,7 @@ struct PanelSetting {
 
 impl Kind for EndpointPairs {
     fn shown(&self) -> Vec<Shown<'_>> {
-        Shown::prepared(&self.problem)
+        Shown::preprocessing(&self.problem)
     }
 
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
@@ -69,7 +69,7 @@ impl Kind for EndpointPairs {
                     continue;
                 }
                 let row = ask::trial(scene, &self.problem, 0, None, label)?;
-                let found = ask::exhibit(scene, &row.key, "pairs")?;
+                let found = ask::trace(scene, &row.key, "pairs")?;
                 let pairs = found.values.chunks(4).map(|p| [[p[0], p[1]], [p[2], p[3]]]);
                 series.push((label, pairs.collect::<Pairs>()));
             }
@@ -100,9 +100,9 @@ fn panel(title: &str, first: usize, series: &[(&String, Pairs)]) -> Result<Panel
         let radius_pt = 2.0 + 0.9 * (series.len() - 1 - place) as f64;
         let of_end = |end: usize| pairs.iter().map(|pair| pair[end]).collect::<Vec<_>>();
         // The caption says what a diamond is: a line of the legend for each would come apart from its circle's.
-        let one = Points::of(of_end(0), Marker::Circle, radius_pt, series_color(index));
+        let one = Points::unlabelled(of_end(0), Marker::Circle, radius_pt, series_color(index));
         panel.add(one.labelled(format!("{label} ({})", pairs.len())));
-        panel.add(Points::of(of_end(1), Marker::Diamond, radius_pt, series_color(index)));
+        panel.add(Points::unlabelled(of_end(1), Marker::Diamond, radius_pt, series_color(index)));
     }
     Ok(panel)
 }

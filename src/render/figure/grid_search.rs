@@ -10,7 +10,7 @@ use crate::render::style::{
     BLACK, BLUE, Dash, GREEN, GREY, Marker, ORANGE, PURPLE, Rgb, SKY, Stroke, VERMILLION, WHITE, Width,
 };
 use base::settings::Accepted;
-use engine::planner::Exhibit;
+use engine::planner::Trace;
 use engine::shorten::bends;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -21,7 +21,7 @@ pub static ENTRY: Entry = Entry {
     name: "grid_search",
     about: "searches on grid maps: opened cells of each side, then or by moments, paths, bends; one panel a trial or moment",
     statistic: "One stored trial a panel.",
-    settings: Accepted::of::<GridSearch>(),
+    settings: Accepted::shape::<GridSearch>(),
     example: r#"
 problems = ["W1"]
 contenders = ["A*", "Improved A*"]
@@ -40,7 +40,7 @@ contenders = ["A*", "Improved A*"]
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GridSearch {
-    /// Problem groups; the first draw of each is shown.
+    /// Problem groups; the first instance of each is shown.
     problems: Vec<String>,
     /// The contenders, by their labels.
     contenders: Vec<String>,
@@ -69,7 +69,7 @@ impl Kind for GridSearch {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let mut panels = Vec::new();
         for problem in &self.problems {
-            let map = |contender: &String| Map::of(scene, ask::trial(scene, problem, 0, None, contender)?);
+            let map = |contender: &String| Map::new(scene, ask::trial(scene, problem, 0, None, contender)?);
             let maps = self.contenders.iter().map(map).collect::<Result<Vec<_>, _>>()?;
             // One part for all contenders, so that their panels show the same.
             let part: Vec<[f64; 2]> = maps.iter().filter(|_| self.part).flat_map(Map::opened).collect();
@@ -91,23 +91,24 @@ struct Map<'a> {
     scene: &'a Scene<'a>,
     row: &'a Row,
     size: [usize; 2],
-    walls: &'a Exhibit,
+    walls: &'a Trace,
 }
 
 impl<'a> Map<'a> {
-    fn of(scene: &'a Scene<'a>, row: &'a Row) -> Result<Self, RenderError> {
-        let stored = |name: &str| ask::exhibit(scene, &row.key.on, name);
-        let (size, walls) = (stored("size_cells")?, stored("blocked")?);
+    fn new(scene: &'a Scene<'a>, row: &'a Row) -> Result<Self, RenderError> {
+        let stored = |name: &str| ask::trace(scene, &row.key.on, name);
+        let size = stored("size_cells")?;
+        let walls = stored("blocked")?;
         Ok(Self { scene, row, size: [size.values[0] as usize, size.values[1] as usize], walls })
     }
 
-    fn exhibit(&self, name: &str) -> Option<&'a Exhibit> {
-        self.scene.run.exhibit(&self.row.key, name)
+    fn trace(&self, name: &str) -> Option<&'a Trace> {
+        self.scene.run.trace(&self.row.key, name)
     }
 
-    /// The cells of an exhibit, in its order; none if it was not kept.
+    /// The cells of a trace, in its order; none if it was not kept.
     fn listed(&self, name: &str) -> Vec<[f64; 2]> {
-        self.exhibit(name).map(ask::points).unwrap_or_default()
+        self.trace(name).map(ask::points).unwrap_or_default()
     }
 
     /// The centres of all that was opened.
@@ -138,11 +139,11 @@ impl<'a> Map<'a> {
             goal,
             ["opened by the start's side", "opened by the goal's side"],
         ));
-        if let Some(raw) = self.exhibit("raw_path") {
+        if let Some(raw) = self.trace("raw_path") {
             let dashed = Stroke::solid(BLUE, 1.0).dashed(Dash::Dashed);
             panel.add(Line::through(centres(raw), dashed).labelled("path as searched"));
         }
-        if let Some(path) = self.exhibit("path") {
+        if let Some(path) = self.trace("path") {
             panel.add(Line::through(centres(path), Stroke::solid(VERMILLION, 1.6)).labelled("returned path"));
             ask::add_ends(&mut panel, &centres(path), 3.2, ENDS);
         }
@@ -158,12 +159,13 @@ impl<'a> Map<'a> {
         let mut panel = self.panel_about(title, &self.opened())?;
         let [start, goal] = [0, 1].map(|side: usize| sides[side][..shown[side]].to_vec());
         panel.add(self.painted_sides(start, goal, ["opened from the start", "opened from the goal"]));
-        let path = self.exhibit("raw_path").or_else(|| self.exhibit("path")).map(centres).unwrap_or_default();
+        let path = self.trace("raw_path").or_else(|| self.trace("path")).map(centres).unwrap_or_default();
         if share >= 1.0 {
             panel.add(Line::through(path.clone(), Stroke::solid(BLUE, 1.4)).labelled("path found"));
-            let met: Vec<[f64; 2]> = self.exhibit("meeting").map(centres).unwrap_or_default();
+            let met: Vec<[f64; 2]> = self.trace("meeting").map(centres).unwrap_or_default();
             if !met.is_empty() {
-                panel.add(Points::of(met, Marker::Square, 2.0, BLACK).labelled("where the sides met"));
+                panel
+                    .add(Points::unlabelled(met, Marker::Square, 2.0, BLACK).labelled("where the sides met"));
             }
         }
         ask::add_ends(&mut panel, &path, 3.2, ENDS);
@@ -172,8 +174,10 @@ impl<'a> Map<'a> {
 
     /// Bends before and after, and the lines of sight that were refused.
     fn tidied(&self, problem: &str) -> Result<Panel, RenderError> {
-        let stored = |name: &str| ask::exhibit(self.scene, &self.row.key, name);
-        let (raw, path, refused) = (stored("raw_path")?, stored("path")?, stored("refused_sight")?);
+        let stored = |name: &str| ask::trace(self.scene, &self.row.key, name);
+        let raw = stored("raw_path")?;
+        let path = stored("path")?;
+        let refused = stored("refused_sight")?;
         let raw_points: Vec<&[f64]> = raw.values.chunks(raw.width).collect();
         let bent: Vec<[f64; 2]> = bends(&raw_points).into_iter().map(|i| centres(raw)[i]).collect();
         let path = centres(path);
@@ -188,7 +192,7 @@ impl<'a> Map<'a> {
         panel.add(Line::through(lines.collect(), dotted).labelled("line of sight refused"));
         let dashed = Stroke::solid(BLUE, 1.0).dashed(Dash::Dashed);
         panel.add(Line::through(centres(raw), dashed).labelled("path as searched"));
-        panel.add(Points::of(bent, Marker::Circle, 1.8, BLUE).labelled("its bends"));
+        panel.add(Points::unlabelled(bent, Marker::Circle, 1.8, BLUE).labelled("its bends"));
         let kept = Line::through(path.clone(), Stroke::solid(VERMILLION, 1.6)).marked(Marker::Square);
         panel.add(kept.labelled("after deletion"));
         ask::add_ends(&mut panel, &path, 3.2, ENDS);
@@ -249,7 +253,7 @@ fn window(title: String, [x, y]: [[f64; 2]; 2]) -> Result<Panel, RenderError> {
 const ENDS: [(Marker, Rgb); 2] = [(Marker::Circle, GREEN), (Marker::Diamond, GREEN)];
 
 /// A cell (x, y) is drawn as the unit square from (x, y) to (x + 1, y + 1), as the paper places its points.
-fn centres(path: &Exhibit) -> Vec<[f64; 2]> {
+fn centres(path: &Trace) -> Vec<[f64; 2]> {
     ask::points(path).into_iter().map(|[x, y]| [x + 0.5, y + 0.5]).collect()
 }
 

@@ -4,7 +4,7 @@ use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::Selection;
 use crate::analysis::shown::{mean_difference, mean_solved, of_all};
-use crate::analysis::statistic::{Estimate, INTERVALS, OfAll};
+use crate::analysis::statistic::{Estimate, INTERVALS, OverallStatistic};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::rows::Interval;
@@ -23,8 +23,8 @@ use study::paper::Paper;
 pub static ENTRY: Entry = Entry {
     name: "intervals",
     about: "shares solved, their differences from one group, or reductions, by problem group or contender, with intervals",
-    statistic: "Means over draws with 95 % intervals: bootstrap, or where all draws agree what allows for others; of reductions, trials that one of both did not solve are left out; {n}.",
-    settings: Accepted::of::<Read>(),
+    statistic: "Means over instances with 95 % intervals: bootstrap, or where all instances agree what allows for others; of reductions, trials that one of both did not solve are left out; {n}.",
+    settings: Accepted::shape::<Read>(),
     example: r#"
 problems = ["cell"]
 sweep = "samples=800"
@@ -123,14 +123,15 @@ impl Intervals {
 
     /// What panel `index` shows of `contender`, in one row.
     fn estimate(&self, scene: &Scene<'_>, index: usize, row: usize, contender: &str) -> Option<Estimate> {
-        let (spec, what) = (&self.read.panels[index], &self.panels[index]);
+        let spec = &self.read.panels[index];
+        let what = &self.panels[index];
         let contenders = [contender.to_owned()];
         let study = scene.run.study;
         if what.metric.is_some() {
-            let of = Selection::of(study, &spec.problems, &contenders);
+            let of = Selection::all(study, &spec.problems, &contenders);
             let of = Selection { metric: what.metric, against: spec.against.clone(), ..of };
             let names = [study.name.as_str(), &spec.title, contender];
-            return of_all(OfAll::ReductionPercent, &of, scene.evidence, &names);
+            return of_all(OverallStatistic::ReductionPercent, &of, scene.evidence, &names);
         }
         let group = &self.read.problems[if self.is_by_group() { row } else { 0 }];
         let of = |group: &str| ask::trials_at(scene.run, group, contender, &self.sweep);
@@ -157,7 +158,8 @@ impl Intervals {
     }
 
     fn axis(&self, index: usize, found: &[(f64, &String, Option<Estimate>)]) -> Result<Axis, RenderError> {
-        let (spec, what) = (&self.read.panels[index], &self.panels[index]);
+        let spec = &self.read.panels[index];
+        let what = &self.panels[index];
         if what.metric.is_some() {
             let ends = found
                 .iter()
@@ -172,7 +174,8 @@ impl Intervals {
     }
 
     fn panel(&self, scene: &Scene<'_>, index: usize, names: &[String]) -> Result<Panel, RenderError> {
-        let (spec, what) = (&self.read.panels[index], &self.panels[index]);
+        let spec = &self.read.panels[index];
+        let what = &self.panels[index];
         let found = self.found(scene, index);
         let is_first = index.is_multiple_of(self.columns());
         let shown = names.iter().map(|name| if is_first { name.as_str() } else { "" });
@@ -235,8 +238,8 @@ impl Kind for Intervals {
             let cells = found.iter().map(|panel| panel[place].2.as_ref().map_or_else(dash, shown));
             table.row(row(contender, cells.collect()));
         }
-        let what = OfAll::ReductionPercent.name();
-        table.note(format!("The {what} against {against}, with 95 % intervals over draws: {INTERVALS}."));
+        let what = OverallStatistic::ReductionPercent.name();
+        table.note(format!("The {what} against {against}, with 95 % intervals over instances: {INTERVALS}."));
         Ok(Some(table))
     }
 }

@@ -1,14 +1,14 @@
 //! Kinds of figure: one a file, all in [`REGISTRY`].
 //!
-//! A kind turns stored records and exhibits into a [`Sheet`]; it runs no trial and draws no statistics of its own.
+//! A kind turns stored records and traces into a [`Sheet`]; it runs no trial and draws no statistics of its own.
 
 mod arm_plane;
 mod ask;
-mod claims_by_axes;
+mod claims_by_choices;
 mod cost_over_time;
-mod draws;
 mod endpoint_pairs;
 mod grid_search;
+mod instances;
 mod intervals;
 mod motion_curves;
 mod neighbourhoods;
@@ -52,7 +52,7 @@ pub trait Kind {
     /// [`RenderError::NotStored`] if the run lacks what it shows; axes that cannot be drawn.
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError>;
 
-    /// The trials whose exhibits it draws: a spec must keep them.
+    /// The trials whose traces it draws: a spec must keep them.
     fn shown(&self) -> Vec<Shown<'_>> {
         Vec::new()
     }
@@ -70,7 +70,7 @@ pub trait Kind {
     /// The numbers behind the figure as a table under its own name, where they are worth one.
     ///
     /// # Errors
-    /// As [`draw`](Self::draw).
+    /// As [`instance`](Self::instance).
     fn table(&self, _scene: &Scene<'_>, _label: &str, _caption: &str) -> Result<Option<Table>, RenderError> {
         Ok(None)
     }
@@ -112,36 +112,36 @@ pub struct Shown<'a> {
     pub problems: &'a str,
     /// The contender; any if what was prepared for the group is drawn.
     pub contender: Option<&'a str>,
-    /// The draw.
-    pub draw: u32,
+    /// The instance.
+    pub instance: u32,
 }
 
 impl<'a> Shown<'a> {
-    /// The first draw of `problems`, by each of `contenders`.
+    /// The first instance of `problems`, by each of `contenders`.
     fn first(problems: &'a str, contenders: &'a [String]) -> Vec<Self> {
-        let by = |label: &'a String| Self { problems, contender: Some(label), draw: 0 };
+        let by = |label: &'a String| Self { problems, contender: Some(label), instance: 0 };
         contenders.iter().map(by).collect()
     }
 
-    /// What was prepared for the first draw of `problems`.
-    fn prepared(problems: &'a str) -> Vec<Self> {
-        vec![Self { problems, contender: None, draw: 0 }]
+    /// What was prepared for the first instance of `problems`.
+    fn preprocessing(problems: &'a str) -> Vec<Self> {
+        vec![Self { problems, contender: None, instance: 0 }]
     }
 
     /// Whether `study` keeps it.
     fn is_kept(&self, study: &Study) -> bool {
         study.kept().filter(|trials| trials.problems == self.problems).any(|trials| {
             let is_by = |label: &str| trials.contender.as_deref().is_none_or(|kept| kept == label);
-            trials.has_draw(self.draw) && self.contender.is_none_or(is_by)
+            trials.has_instance(self.instance) && self.contender.is_none_or(is_by)
         })
     }
 }
 
-/// The problem groups of `study`, each with its draw, of which figures draw what was kept.
+/// The problem groups of `study`, each with its instance, of which figures draw what was kept.
 pub fn drawn(study: &Study, paper: &Paper) -> BTreeSet<(String, u32)> {
     let kinds = study.figures.iter().filter_map(|figure| build(figure, study, paper).ok());
     let shown = |kind: Box<dyn Kind>| -> Vec<(String, u32)> {
-        kind.shown().iter().map(|shown| (shown.problems.to_owned(), shown.draw)).collect()
+        kind.shown().iter().map(|shown| (shown.problems.to_owned(), shown.instance)).collect()
     };
     kinds.flat_map(shown).collect()
 }
@@ -152,8 +152,8 @@ pub struct Entry {
     pub name: &'static str,
     /// One line for `replan list`.
     pub about: &'static str,
-    /// What it shows of how many, and what it leaves out, for captions; `{n}` stands for the number of draws and trials,
-    /// `{readings}` for that of readings.
+    /// What it shows of how many, and what it leaves out, for captions; `{n}` stands for the number of instances and trials,
+    /// `{interpretations}` for that of interpretations.
     pub statistic: &'static str,
     /// The shape of its settings, which documents them.
     pub settings: Accepted,
@@ -163,25 +163,27 @@ pub struct Entry {
     pub build: fn(&Settings, &Study, &Paper) -> Result<Box<dyn Kind>, SettingsError>,
 }
 
-/// What stands below a figure: its caption, and what its kind shows of how many draws and trials, or readings.
+/// What stands below a figure: its caption, and what its kind shows of how many instances and trials, or interpretations.
 pub fn caption(spec: &FigureSpec, run: &Run<'_>, paper: &Paper, verdicts: &Verdicts) -> String {
     let Some(entry) = find(spec.kind.get_ref()) else { return spec.caption.clone() };
     let own = build(spec, run.study, paper).ok().and_then(|kind| kind.statistic());
     let settings = spec.settings.as_ref().map(base::settings::Spanned::get_ref);
-    let Trials { draws, solved, all } = trials(run, settings);
-    let n = format!("n = {draws} draws, {solved} of {all} trials solved");
-    let readings = verdicts.explored.as_ref().map_or(0, |explored| explored.readings);
+    let Trials { instances, solved, all } = trials(run, settings);
+    let n = format!("n = {instances} instances, {solved} of {all} trials solved");
+    let interpretations = verdicts.explored.as_ref().map_or(0, |explored| explored.interpretations);
     let statistic = own.unwrap_or(entry.statistic);
-    let statistic = statistic.replace("{n}", &n).replace("{readings}", &format!("n = {readings} readings"));
+    let statistic = statistic
+        .replace("{n}", &n)
+        .replace("{interpretations}", &format!("n = {interpretations} interpretations"));
     format!("{} {statistic}", spec.caption)
 }
 
 /// Every kind, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
     &arm_plane::ENTRY,
-    &claims_by_axes::ENTRY,
+    &claims_by_choices::ENTRY,
     &cost_over_time::ENTRY,
-    &draws::ENTRY,
+    &instances::ENTRY,
     &endpoint_pairs::ENTRY,
     &grid_search::ENTRY,
     &intervals::ENTRY,
@@ -251,13 +253,15 @@ pub fn build(figure: &FigureSpec, study: &Study, paper: &Paper) -> Result<Box<dy
 /// Refuses a figure that draws what no trial of the study would keep.
 fn check_kept(figure: &FigureSpec, study: &Study, kind: &dyn Kind) -> Result<(), SettingsError> {
     let mut faults = Faults::default();
-    for Shown { problems, contender, draw } in kind.shown().into_iter().filter(|shown| !shown.is_kept(study))
+    for Shown { problems, contender, instance } in
+        kind.shown().into_iter().filter(|shown| !shown.is_kept(study))
     {
-        let (id, replicates) = (figure.id.get_ref(), draw + 1);
+        let id = figure.id.get_ref();
+        let instances = instance + 1;
         let by = contender.map_or_else(String::new, |label| format!(", contender = \"{label}\""));
         let message = format!(
             "figure `{id}` draws what is kept of trials on `{problems}`, and none is kept; accepted is \
-             shows = [{{ problems = \"{problems}\"{by}, replicates = {replicates} }}]"
+             shows = [{{ problems = \"{problems}\"{by}, instances = {instances} }}]"
         );
         faults.add(study.document.error(figure.id.span(), message));
     }

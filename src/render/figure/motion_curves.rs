@@ -6,7 +6,7 @@ use crate::render::chart::marks::Line;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Width, series_stroke};
 use base::settings::{Accepted, Faults};
-use engine::planner::Exhibit;
+use engine::planner::Trace;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use study::key::SweepKey;
@@ -17,7 +17,7 @@ pub static ENTRY: Entry = Entry {
     name: "motion_curves",
     about: "how tip, posture or joints change along a motion, over its time or the tip's way; one panel a contender or joint",
     statistic: "One stored trial a panel.",
-    settings: Accepted::of::<Read>(),
+    settings: Accepted::shape::<Read>(),
     example: r#"
 panels = [{ problem = "C1", contenders = ["This method"] }]
 quantity = "joints"
@@ -46,14 +46,14 @@ struct Read {
     quantity: Quantity,
     /// The sweeps' values of the trial that is shown, as `setting=value,…`; the first trial if absent.
     sweep: Option<String>,
-    /// The query, where a draw has several; the first draw on which every contender's motion is kept is shown.
+    /// The query, where an instance has several; the first instance on which every contender's motion is kept is shown.
     query: Option<String>,
 }
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelSetting {
-    /// The problem group; its first draw is shown.
+    /// The problem group; its first instance is shown.
     problem: String,
     /// Whose motions, of the first seed: one panel each, or all in one panel a joint.
     contenders: Vec<String>,
@@ -84,7 +84,7 @@ enum Quantity {
 type Curves<'a> = Vec<(&'a String, Vec<[f64; 2]>)>;
 
 impl Quantity {
-    /// The exhibit, the first of its columns and what stands along the axis.
+    /// The trace, the first of its columns and what stands along the axis.
     fn shown(self) -> (&'static str, usize, &'static str) {
         match self {
             Self::Tip => ("tip_trail", 0, "tip (cm)"),
@@ -104,7 +104,7 @@ impl Quantity {
         }
     }
 
-    /// How many columns of an exhibit this wide are drawn.
+    /// How many columns of a trace this wide are drawn.
     fn columns(self, width: usize) -> usize {
         if self == Self::TimedJoints { 6 } else { width }
     }
@@ -123,7 +123,7 @@ impl Kind for MotionCurves {
         for panel in &self.read.panels {
             for contender in &panel.contenders {
                 let row = self.row(scene, panel, contender)?;
-                found.push((row, ask::exhibit(scene, &row.key, self.read.quantity.shown().0)?));
+                found.push((row, ask::trace(scene, &row.key, self.read.quantity.shown().0)?));
             }
         }
         let timed = self.read.quantity == Quantity::TimedJoints;
@@ -131,10 +131,10 @@ impl Kind for MotionCurves {
         if !timed {
             sheet = sheet.noted("Stored configurations follow each other at equal times.");
         }
-        for (row, exhibit) in &found {
+        for (row, trace) in &found {
             // Motions are compared, on one scale.
-            let all: Vec<&Exhibit> = found.iter().map(|(_, exhibit)| *exhibit).collect();
-            sheet.add(self.panel(row, exhibit, &all)?);
+            let all: Vec<&Trace> = found.iter().map(|(_, trace)| *trace).collect();
+            sheet.add(self.panel(row, trace, &all)?);
         }
         Ok(sheet)
     }
@@ -147,21 +147,22 @@ impl MotionCurves {
         panel: &PanelSetting,
         contender: &str,
     ) -> Result<&'s Row, RenderError> {
-        let (problem, query) = (&panel.problem, self.read.query.as_deref());
+        let problem = &panel.problem;
+        let query = self.read.query.as_deref();
         if let Some(query) = query {
-            let draw =
-                ask::shared_draw(scene, problem, query, &panel.contenders, self.read.quantity.shown().0)?;
-            return ask::trial(scene, problem, draw, Some(query), contender);
+            let instance =
+                ask::shared_instance(scene, problem, query, &panel.contenders, self.read.quantity.shown().0)?;
+            return ask::trial(scene, problem, instance, Some(query), contender);
         }
         ask::trial_at(scene, problem, self.sweep.as_ref(), contender)
     }
 
     /// One contender's motion, on the scale of `all`.
-    fn panel(&self, row: &Row, exhibit: &Exhibit, all: &[&Exhibit]) -> Result<Panel, RenderError> {
+    fn panel(&self, row: &Row, trace: &Trace, all: &[&Trace]) -> Result<Panel, RenderError> {
         let quantity = self.read.quantity;
         let (_, first, axis) = quantity.shown();
-        let columns = first..first + quantity.columns(exhibit.width);
-        let stops: Vec<&[f64]> = exhibit.values.chunks(exhibit.width).collect();
+        let columns = first..first + quantity.columns(trace.width);
+        let stops: Vec<&[f64]> = trace.values.chunks(trace.width).collect();
         let shown = all.iter().flat_map(|e| e.values.chunks(e.width)).flat_map(|stop| &stop[columns.clone()]);
         let y = Axis::over(axis, shown.copied());
         let (title, x) = if quantity == Quantity::TimedJoints {
@@ -233,7 +234,7 @@ impl MotionCurves {
 
 /// The way along the path and the joint's angle at every station.
 fn curve(scene: &Scene<'_>, row: &Row, joint: usize) -> Option<Vec<[f64; 2]>> {
-    let stations = scene.run.exhibit(&row.key, "stations")?;
+    let stations = scene.run.trace(&row.key, "stations")?;
     let stations: Vec<&[f64]> = stations.values.chunks(stations.width).collect();
     let mut way = 0.0;
     let mut before = [stations[0][4], stations[0][5]];

@@ -6,7 +6,7 @@ use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
 use crate::render::style::{BLUE, GREY, Marker, Stroke, VERMILLION, WHITE, Width};
 use base::settings::Accepted;
-use engine::planner::Exhibit;
+use engine::planner::Trace;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use study::record::Row;
@@ -15,8 +15,8 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "neighbourhoods",
     about: "the neighbours of a lattice point, one panel a contender; those that were drawn, where some are",
-    statistic: "One draw of each.",
-    settings: Accepted::of::<Neighbourhoods>(),
+    statistic: "One instance of each.",
+    settings: Accepted::shape::<Neighbourhoods>(),
     example: r#"
 problem = "case 1"
 contenders = ["A* 8"]
@@ -52,8 +52,8 @@ impl Kind for Neighbourhoods {
         let rows: Vec<&Row> = rows.collect::<Result<_, _>>()?;
         let width = if rows.len() == 1 { Width::Single } else { Width::Double };
         let panels = rows.iter().map(|row| {
-            let drawn = scene.run.exhibit(&row.key, "drawn");
-            let mut panel = panel(row, ask::exhibit(scene, &row.key, "region")?, drawn)?;
+            let drawn = scene.run.trace(&row.key, "drawn");
+            let mut panel = panel(row, ask::trace(scene, &row.key, "region")?, drawn)?;
             if let Some(radius) = self.octagon_radius {
                 panel.add(octagon(radius).labelled("octagon"));
             }
@@ -72,10 +72,11 @@ fn octagon(radius: f64) -> Line {
     Line::through((0..=8).map(corner).collect(), Stroke::solid(VERMILLION, 0.8))
 }
 
-fn panel(row: &Row, region: &Exhibit, drawn: Option<&Exhibit>) -> Result<Panel, RenderError> {
+fn panel(row: &Row, region: &Trace, drawn: Option<&Trace>) -> Result<Panel, RenderError> {
     let reach = region.values.iter().copied().fold(1.0, f64::max) + 0.6;
     let axis = |label: &str| Axis::linear(label, -reach, reach).map(Axis::whole);
-    let (tried, all) = (ask::points(drawn.unwrap_or(region)), ask::points(region));
+    let tried = ask::points(drawn.unwrap_or(region));
+    let all = ask::points(region);
     let title = format!("{}: {} of {}", row.key.contender, tried.len(), all.len());
     let mut panel =
         Panel::new(title, axis("x (steps)")?, axis("y (steps)")?).trimmed(Trim::Grid).with_equal_scales();
@@ -83,7 +84,7 @@ fn panel(row: &Row, region: &Exhibit, drawn: Option<&Exhibit>) -> Result<Panel, 
         panel.add(Line::through(vec![[0.0, 0.0], step], Stroke::solid(BLUE.mixed(WHITE, 0.5), 0.6)));
     }
     let mut points = |points: Vec<[f64; 2]>, color, radius_pt, label: &str| {
-        panel.add(Points::of(points, Marker::Circle, radius_pt, color).labelled(label));
+        panel.add(Points::unlabelled(points, Marker::Circle, radius_pt, color).labelled(label));
     };
     if drawn.is_some() {
         let left = all.into_iter().filter(|step| !tried.contains(step)).collect();

@@ -1,4 +1,4 @@
-//! A metric by query and contender over the draws on which all compared contenders solve the query, and what the last of
+//! A metric by query and contender over the instances on which all compared contenders solve the query, and what the last of
 //! them saves against the first.
 
 use super::{Entry, Kind, Scene, ask};
@@ -19,9 +19,9 @@ use study::key::SweepKey;
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "paired_boxes",
-    about: "a metric by query and contender, boxes over the draws on which all compared contenders solve the query, and savings",
-    statistic: "Median, quartiles, 5 and 95 %; a draw on which a contender does not solve the query is left out; {n}.",
-    settings: Accepted::of::<Read>(),
+    about: "a metric by query and contender, boxes over the instances on which all compared contenders solve the query, and savings",
+    statistic: "Median, quartiles, 5 and 95 %; an instance on which a contender does not solve the query is left out; {n}.",
+    settings: Accepted::shape::<Read>(),
     example: r#"
 problems = "cell"
 metric = "path_length_mm"
@@ -50,7 +50,7 @@ savings = ["length.least", "length.greatest"]
 struct Read {
     /// The problem group, by its label.
     problems: String,
-    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
+    /// The metric: a name that `replan list metrics` gives, or one that an interpretation gives a meaning.
     metric: String,
     /// The contenders, by their labels.
     contenders: Vec<String>,
@@ -78,28 +78,28 @@ struct PairedBoxes {
 /// With more contenders than this there is no room for single values beside their boxes.
 const MOST_STRIPS: usize = 3;
 
-/// By query: of each contender the values on the draws that all of them solve.
+/// By query: of each contender the values on the instances that all of them solve.
 type ByQuery = Vec<(String, Vec<Spread>)>;
 
 /// By query and over all: what the last contender saves.
 type Savings = Vec<(String, Spread)>;
 
 impl PairedBoxes {
-    /// What is asked of the draws: every contender's metric on them, held against the first one's.
-    fn asked<'s>(&self, scene: &Scene<'s>) -> Selection<'s> {
+    /// What is asked of the instances: every contender's metric on them, held against the first one's.
+    fn selection<'s>(&self, scene: &Scene<'s>) -> Selection<'s> {
         let groups = std::slice::from_ref(&self.read.problems);
         Selection {
             metric: Some(self.metric),
             sweep: Some(vec![self.sweep.clone()]),
             against: self.read.contenders.first().cloned(),
-            whole_draws: true,
-            ..Selection::of(scene.run.study, groups, &self.read.contenders)
+            whole_instances: true,
+            ..Selection::all(scene.run.study, groups, &self.read.contenders)
         }
     }
 
     /// What is shown of each query that is asked for.
     fn values(&self, scene: &Scene<'_>) -> ByQuery {
-        let mut values = spreads_by_query(&self.asked(scene), scene.evidence);
+        let mut values = spreads_by_query(&self.selection(scene), scene.evidence);
         values.retain(|(name, _)| self.read.queries.is_empty() || self.read.queries.contains(name));
         values
     }
@@ -107,7 +107,7 @@ impl PairedBoxes {
     /// One box a query and contender.
     fn boxes(&self, scene: &Scene<'_>, values: &ByQuery) -> Result<Panel, RenderError> {
         let names = values.iter().map(|(name, columns)| match columns.first() {
-            Some(column) => of_so_many(name, column),
+            Some(column) => name_with_count(name, column),
             None => name.clone(),
         });
         let columns = || values.iter().flat_map(|(_, columns)| columns);
@@ -143,7 +143,7 @@ impl PairedBoxes {
 
     fn savings_panel(&self, scene: &Scene<'_>, savings: &Savings) -> Result<Panel, RenderError> {
         let low = savings.iter().flat_map(|(_, saving)| &saving.values).copied().fold(0.0, f64::min);
-        let names = savings.iter().map(|(name, saving)| of_so_many(name, saving));
+        let names = savings.iter().map(|(name, saving)| name_with_count(name, saving));
         let y = Axis::linear("saving (%)", low - 5.0, 103.0)?;
         let contenders = (self.read.contenders.first(), self.read.contenders.last());
         let title = match contenders {
@@ -174,8 +174,8 @@ impl PairedBoxes {
     }
 }
 
-/// The name of a query with how many draws its numbers are from.
-fn of_so_many(name: &str, numbers: &Spread) -> String {
+/// The name of a query with how many instances its numbers are from.
+fn name_with_count(name: &str, numbers: &Spread) -> String {
     format!("{name} (n = {})", numbers.values.len())
 }
 
@@ -185,7 +185,7 @@ impl Kind for PairedBoxes {
         let mut sheet = Sheet::new(Width::Double, 1, 190.0);
         sheet.add(self.boxes(scene, &values)?);
         if self.read.savings.is_some() {
-            sheet.add(self.savings_panel(scene, &savings_by_query(&self.asked(scene), scene.evidence))?);
+            sheet.add(self.savings_panel(scene, &savings_by_query(&self.selection(scene), scene.evidence))?);
         }
         Ok(sheet)
     }
@@ -201,7 +201,8 @@ impl Kind for PairedBoxes {
         let (first, last) = (&self.read.contenders[0], &self.read.contenders[self.read.contenders.len() - 1]);
         let heads = ["query", "n", first, last, "mean saving (%)", "5 % to 95 %", "least to greatest"];
         table.head(heads.map(Cell::from).to_vec());
-        for (place, (name, saved)) in savings_by_query(&self.asked(scene), scene.evidence).iter().enumerate()
+        for (place, (name, saved)) in
+            savings_by_query(&self.selection(scene), scene.evidence).iter().enumerate()
         {
             let number = |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{value:.1}"));
             let middle = |column: usize| {
@@ -222,7 +223,7 @@ impl Kind for PairedBoxes {
             ];
             table.row(row.map(Cell::from).to_vec());
         }
-        table.note(format!("{}: medians over draws; savings draw by draw.", self.metric.title()));
+        table.note(format!("{}: medians over instances; savings instance by instance.", self.metric.title()));
         Ok(Some(table))
     }
 }

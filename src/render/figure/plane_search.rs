@@ -17,10 +17,10 @@ pub static ENTRY: Entry = Entry {
     name: "plane_search",
     about: "a particle's searches on one roadmap in the plane: nodes closed so far, shots at the goal, paths",
     statistic: "One stored trial a panel.",
-    settings: Accepted::of::<PlaneSearch>(),
+    settings: Accepted::shape::<PlaneSearch>(),
     example: r#"
 problems = "plane"
-draw = 13
+instance = 13
 radius_mm = 220
 panels = [{ contender = "Original A*", title = "", bare = true }]
 "#,
@@ -36,17 +36,17 @@ panels = [{ contender = "Original A*", title = "", bare = true }]
 struct PlaneSearch {
     /// The problem group, by its label.
     problems: String,
-    /// Which draw of the group.
-    draw: u32,
+    /// Which instance of the group.
+    instance: u32,
     /// The radius of a neighbourhood.
     radius_mm: f64,
     /// The panels, in their order.
-    panels: Vec<PanelOf>,
+    panels: Vec<SearchPanel>,
 }
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct PanelOf {
+struct SearchPanel {
     /// The contender, by its label.
     contender: String,
     /// What stands above it.
@@ -68,7 +68,7 @@ impl Kind for PlaneSearch {
     fn shown(&self) -> Vec<Shown<'_>> {
         let shown = self.panels.iter().map(|panel| {
             let contender = (!panel.bare).then_some(panel.contender.as_str());
-            Shown { problems: &self.problems, contender, draw: self.draw }
+            Shown { problems: &self.problems, contender, instance: self.instance }
         });
         shown.collect()
     }
@@ -77,8 +77,8 @@ impl Kind for PlaneSearch {
         let mut sheet = Sheet::new(Width::Double, self.panels.len().min(2), 200.0);
         for of in &self.panels {
             let mut panel = self.map(scene, &of.title)?;
-            let row = ask::trial(scene, &self.problems, self.draw, None, &of.contender)?;
-            let path = ask::points(ask::exhibit(scene, &row.key, "path")?);
+            let row = ask::trial(scene, &self.problems, self.instance, None, &of.contender)?;
+            let path = ask::points(ask::trace(scene, &row.key, "path")?);
             // Obstacles are drawn over samples and ways: no mark of what is free covers a wall.
             if !of.bare {
                 ways(&mut panel, scene, row, &path, of)?;
@@ -103,10 +103,10 @@ fn ways(
     scene: &Scene<'_>,
     row: &Row,
     path: &[[f64; 2]],
-    of: &PanelOf,
+    of: &SearchPanel,
 ) -> Result<(), RenderError> {
     if let Some(kept) = of.straightened {
-        let raw = ask::points(ask::exhibit(scene, &row.key, "raw_path")?);
+        let raw = ask::points(ask::trace(scene, &row.key, "raw_path")?);
         let stroke = Stroke::solid(GREY, 1.0).dashed(if kept > 0 { Dash::Dashed } else { Dash::Solid });
         panel.add(Line::through(raw, stroke).labelled("path as searched"));
         if kept > 0 {
@@ -115,7 +115,7 @@ fn ways(
         }
         return Ok(());
     }
-    let closed = ask::points(ask::exhibit(scene, &row.key, "closed")?);
+    let closed = ask::points(ask::trace(scene, &row.key, "closed")?);
     let (points, width, label) = match of.searches {
         None => (path.to_vec(), 1.5, "path"),
         Some(shown) => (closed[..(shown + 1).min(closed.len())].to_vec(), 1.2, "way so far"),
@@ -127,21 +127,21 @@ fn ways(
 impl PlaneSearch {
     /// The plane with the samples of its roadmap.
     fn map(&self, scene: &Scene<'_>, title: &str) -> Result<Panel, RenderError> {
-        let draw = ask::draw(scene, &self.problems, self.draw)?;
-        let size = ask::exhibit(scene, draw, "size_mm")?;
+        let instance = ask::instance(scene, &self.problems, self.instance)?;
+        let size = ask::trace(scene, instance, "size_mm")?;
         let x = Axis::linear("x (mm)", 0.0, size.values[0])?;
         let mut panel = Panel::new(title, x, Axis::linear("y (mm)", 0.0, size.values[1])?)
             .trimmed(Trim::Frame)
             .with_equal_scales();
-        let samples = ask::points(ask::exhibit(scene, draw, "samples")?);
-        let samples = Points::of(samples, Marker::Circle, 1.2, GREY.mixed(WHITE, 0.35));
+        let samples = ask::points(ask::trace(scene, instance, "samples")?);
+        let samples = Points::unlabelled(samples, Marker::Circle, 1.2, GREY.mixed(WHITE, 0.35));
         panel.add(Behind(samples.labelled("sample")));
         Ok(panel)
     }
 
     fn obstacles(&self, panel: &mut Panel, scene: &Scene<'_>) -> Result<(), RenderError> {
-        let draw = ask::draw(scene, &self.problems, self.draw)?;
-        let corners = ask::exhibit(scene, draw, "obstacles")?;
+        let instance = ask::instance(scene, &self.problems, self.instance)?;
+        let corners = ask::trace(scene, instance, "obstacles")?;
         let numbered: Vec<[f64; 3]> = corners.values.chunks(3).map(|c| [c[0], c[1], c[2]]).collect();
         for obstacle in numbered.chunk_by(|a, b| a[0] == b[0]) {
             let fill = Some(Fill::solid(BLUE.mixed(WHITE, 0.45)));
@@ -157,9 +157,9 @@ impl PlaneSearch {
         scene: &Scene<'_>,
         row: &Row,
         path: &[[f64; 2]],
-        of: &PanelOf,
+        of: &SearchPanel,
     ) -> Result<(), RenderError> {
-        let closed = ask::points(ask::exhibit(scene, &row.key, "closed")?);
+        let closed = ask::points(ask::trace(scene, &row.key, "closed")?);
         let all = of.searches.is_none();
         let shown = of.searches.unwrap_or(closed.len()).min(closed.len());
         let Some(goal) = path.last() else { return Ok(()) };
@@ -178,7 +178,7 @@ impl PlaneSearch {
             let note = if goal[0] > at[0] { Note::below_left } else { Note::beside };
             panel.add(note(*at, (number + 1).to_string()));
         }
-        panel.add(Points::of(picked, Marker::Circle, 2.6, SKY).labelled("searched"));
+        panel.add(Points::unlabelled(picked, Marker::Circle, 2.6, SKY).labelled("searched"));
         Ok(())
     }
 }
@@ -200,7 +200,7 @@ fn straightened(
     path: &[[f64; 2]],
     kept: usize,
 ) -> Result<(), RenderError> {
-    let raw = ask::points(ask::exhibit(scene, &row.key, "raw_path")?);
+    let raw = ask::points(ask::trace(scene, &row.key, "raw_path")?);
     let shown = path[..kept.min(path.len())].to_vec();
     let reached = shown.last().and_then(|last| raw.iter().position(|at| at == last)).unwrap_or(0);
     let inner = raw.iter().enumerate().skip(1).take(raw.len() - 2);
@@ -209,7 +209,7 @@ fn straightened(
     // A legend names no mark that is nowhere.
     let mut mark = |places: Vec<[f64; 2]>, marker, radius, colour, label: &str| {
         if !places.is_empty() {
-            panel.add(Points::of(places, marker, radius, colour).labelled(label));
+            panel.add(Points::unlabelled(places, marker, radius, colour).labelled(label));
         }
     };
     mark(places(open), Marker::Circle, 2.4, SKY, "searched");

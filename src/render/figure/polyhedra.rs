@@ -10,12 +10,12 @@ use crate::render::style::{
     BLACK, BLUE, Dash, GREEN, ORANGE, PURPLE, Rgb, SKY, Stroke, VERMILLION, WHITE, Width,
 };
 use base::settings::{Accepted, Faults};
-use engine::planner::Exhibit;
+use engine::planner::Trace;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use study::key::{DrawKey, SweepKey};
+use study::key::{InstanceKey, SweepKey};
 use study::record::{Row, Status};
 
 /// The registry's entry.
@@ -23,7 +23,7 @@ pub static ENTRY: Entry = Entry {
     name: "polyhedra",
     about: "tip paths, or the whole arm along its path, among solid polyhedra; one row a contender, one panel a view",
     statistic: "One stored trial a panel.",
-    settings: Accepted::of::<Read>(),
+    settings: Accepted::shape::<Read>(),
     example: r#"
 problem = "E1"
 contenders = ["A*", "Improved A*"]
@@ -50,14 +50,14 @@ views = ["corner"]
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Read {
-    /// The problem group; its first draw is shown, or the first that only the first contender solves.
+    /// The problem group; its first instance is shown, or the first that only the first contender solves.
     problem: String,
-    /// The query, where a draw has several.
+    /// The query, where an instance has several.
     query: Option<String>,
     /// Whether the whole arm is drawn along its path; else the path of its tip alone.
     #[serde(default)]
     arm: bool,
-    /// Whether the draw is the first that only the first contender solves, if there is one whose arm is stored.
+    /// Whether the instance is the first that only the first contender solves, if there is one whose arm is stored.
     #[serde(default)]
     first_alone: bool,
     /// One row each.
@@ -126,7 +126,7 @@ impl Kind for Polyhedra {
                     if *is_arm { arm(&mut solids, scene, row)? } else { paths(&mut solids, scene, row)? };
                 keys.extend(around);
                 let seen = if views.len() > 1 { format!(", {}", view.name()) } else { String::new() };
-                let title = format!("{}: {}{seen}", row.key.contender, self.said(row));
+                let title = format!("{}: {}{seen}", row.key.contender, self.outcome_text(row));
                 sheet.add(panel(title, solids, *view, keys));
             }
         }
@@ -136,7 +136,7 @@ impl Kind for Polyhedra {
 
 impl Polyhedra {
     /// What became of the trial, for the panel's title.
-    fn said(&self, row: &Row) -> String {
+    fn outcome_text(&self, row: &Row) -> String {
         if !self.read.arm {
             let length =
                 row.value("path_length_cm").map_or_else(|| "–".to_owned(), |cm| format!("{cm:.1} cm"));
@@ -149,19 +149,18 @@ impl Polyhedra {
         }
     }
 
-    /// The first draw with a stored arm that only the first contender solves.
+    /// The first instance with a stored arm that only the first contender solves.
     fn chosen(&self, scene: &Scene<'_>) -> Option<u32> {
         let rows = |contender: &String| scene.run.rows(&self.read.problem, contender).into_iter();
         let (first, others) = self.read.contenders.split_first()?;
-        let fails = |replicate: u32, other: &String| {
-            rows(other).any(|row| row.draw() == replicate && !row.is_solved())
-        };
+        let fails =
+            |number: u32, other: &String| rows(other).any(|row| row.instance() == number && !row.is_solved());
         let is_chosen = |row: &&Row| {
             row.is_solved()
-                && scene.run.exhibit(&row.key, "rods").is_some()
-                && others.iter().all(|other| fails(row.draw(), other))
+                && scene.run.trace(&row.key, "rods").is_some()
+                && others.iter().all(|other| fails(row.instance(), other))
         };
-        rows(first).find(is_chosen).map(Row::draw)
+        rows(first).find(is_chosen).map(Row::instance)
     }
 
     fn row<'a>(&self, scene: &'a Scene<'_>, contender: &str) -> Result<&'a Row, RenderError> {
@@ -170,7 +169,7 @@ impl Polyhedra {
         let is_asked = |row: &&Row| {
             self.sweep.as_ref().is_none_or(|sweep| row.key.sweep == *sweep)
                 && self.read.query.as_ref().is_none_or(|query| row.query() == query)
-                && chosen.is_none_or(|replicate| row.draw() == replicate)
+                && chosen.is_none_or(|number| row.instance() == number)
         };
         rows.into_iter().find(is_asked).ok_or_else(|| RenderError::NotStored {
             what: format!("a trial of `{contender}` on `{}`", self.read.problem),
@@ -189,7 +188,7 @@ fn axis(share: f64) -> Stroke {
 }
 
 fn arm(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, RenderError> {
-    let rods = ask::exhibit(scene, &row.key, "rods")?;
+    let rods = ask::trace(scene, &row.key, "rods")?;
     let last = rods.values.chunks(rods.width).map(|rod| rod[0]).fold(1.0, f64::max);
     for rod in rods.values.chunks(rods.width) {
         let (from, to) = ([rod[1], rod[2], rod[3]], [rod[4], rod[5], rod[6]]);
@@ -202,16 +201,16 @@ fn arm(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, Re
     }
     let along = Key::line("axes of the rods on the way", axis(0.0));
     let mut keys = vec![along, cell_key("arm at the end", shade(1.0))];
-    let trail = scene.run.exhibit(&row.key, "tip_trail").map(points).unwrap_or_default();
+    let trail = scene.run.trace(&row.key, "tip_trail").map(points).unwrap_or_default();
     // The whole way, where it is stored: a trail that stops short does not show the goal.
-    let path = scene.run.exhibit(&row.key, "tip_path").map_or_else(|| trail.clone(), points);
+    let path = scene.run.trace(&row.key, "tip_path").map_or_else(|| trail.clone(), points);
     if way(&path) > way(&trail) + END_CM {
         let stroke = Stroke::solid(PURPLE, 1.3);
         solids.polyline(path.clone(), stroke);
         keys.push(Key::line("path to be followed", stroke));
     }
     keys.push(seen_through(solids, trail, "way of the tip", Stroke::solid(BLACK, 1.3)));
-    if let Some(rod) = scene.run.exhibit(&row.key, "blocking_rod").map(|found| &found.values) {
+    if let Some(rod) = scene.run.trace(&row.key, "blocking_rod").map(|found| &found.values) {
         let stroke = Stroke::solid(VERMILLION, 2.4);
         solids.overlay(vec![[rod[0], rod[1], rod[2]], [rod[3], rod[4], rod[5]]], stroke);
         keys.push(Key::line("axis of the rod that would touch at the next node", stroke));
@@ -252,8 +251,8 @@ fn way(points: &[Vec3]) -> f64 {
 /// Adds the path as searched and as returned, with their ends.
 fn paths(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, RenderError> {
     let mut keys = Vec::new();
-    let path = points(ask::exhibit(scene, &row.key, "path")?);
-    let raw = scene.run.exhibit(&row.key, "raw_path").map(points);
+    let path = points(ask::trace(scene, &row.key, "path")?);
+    let raw = scene.run.trace(&row.key, "raw_path").map(points);
     // A path that was searched is told from the returned one only where straightening did something.
     if let Some(raw) = raw.filter(|raw| (way(raw) - way(&path)).abs() > SEEN_CM) {
         let stroke = Stroke::solid(BLUE, 0.8);
@@ -265,25 +264,27 @@ fn paths(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, 
     Ok(keys)
 }
 
-/// The points of an exhibit three numbers wide.
-fn points(exhibit: &Exhibit) -> Vec<Vec3> {
-    exhibit.values.chunks(exhibit.width).map(|point| [point[0], point[1], point[2]]).collect()
+/// The points of a trace three numbers wide.
+fn points(trace: &Trace) -> Vec<Vec3> {
+    trace.values.chunks(trace.width).map(|point| [point[0], point[1], point[2]]).collect()
 }
 
-/// Adds the obstacles of the prepared object `of`, what the arm stands on, and with `frame` the edges of the domain; the
+/// Adds the obstacles of the preprocessed object `of`, what the arm stands on, and with `frame` the edges of the domain; the
 /// legend's entries.
 fn add_obstacles(
     solids: &mut Solids,
     scene: &Scene<'_>,
-    of: &Arc<DrawKey>,
+    of: &Arc<InstanceKey>,
     frame: bool,
 ) -> Result<Vec<Key>, RenderError> {
-    let (blue, stone, grey) = (SKY.mixed(WHITE, 0.25), BLACK.mixed(WHITE, 0.55), BLACK.mixed(WHITE, 0.88));
+    let blue = SKY.mixed(WHITE, 0.25);
+    let stone = BLACK.mixed(WHITE, 0.55);
+    let grey = BLACK.mixed(WHITE, 0.88);
     let mut keys = vec![cell_key("obstacle", blue)];
-    let pedestal = scene.run.exhibit(of, "pedestal").map(|found| found.values[0] as usize);
+    let pedestal = scene.run.trace(of, "pedestal").map(|found| found.values[0] as usize);
     keys.extend(pedestal.map(|_| cell_key("pedestal", stone)));
-    let vertices = points(ask::exhibit(scene, of, "bodies_vertices")?);
-    let listed = ask::exhibit(scene, of, "bodies_faces")?;
+    let vertices = points(ask::trace(scene, of, "bodies_vertices")?);
+    let listed = ask::trace(scene, of, "bodies_faces")?;
     let mut faces: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for pair in listed.values.chunks(listed.width) {
         faces.entry(pair[0] as usize).or_default().push(pair[1] as usize);
@@ -293,12 +294,12 @@ fn add_obstacles(
         let color = if pedestal == Some(body) { stone } else { blue };
         solids.polyhedron(vertices, faces, Paint::sheer(color, 0.82));
     }
-    if let Some(floor) = scene.run.exhibit(of, "floor") {
+    if let Some(floor) = scene.run.trace(of, "floor") {
         solids.sheet(points(floor), Paint::sheer(grey, 0.9));
         keys.push(cell_key("floor", grey));
     }
     if frame {
-        let corners = points(ask::exhibit(scene, of, "domain")?);
+        let corners = points(ask::trace(scene, of, "domain")?);
         for edge in edges(corners[0], corners[1]) {
             solids.polyline(edge.to_vec(), Stroke::solid(BLACK.mixed(WHITE, 0.7), 0.4));
         }

@@ -1,4 +1,4 @@
-//! What became of the pairs that roadmaps tried: shares by reason, mean over draws.
+//! What became of the pairs that roadmaps tried: shares by reason, mean over instances.
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::tabulated::mean_percent;
@@ -12,14 +12,14 @@ use base::settings::Accepted;
 use engine::planner::Value;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use study::record::PreparedRow;
+use study::record::PreprocessingRow;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "rejections",
-    about: "what became of the pairs of samples that roadmaps tried, by the first reason: mean share over draws",
-    statistic: "Means over draws; a draw without such pairs is left out; {n}.",
-    settings: Accepted::of::<Rejections>(),
+    about: "what became of the pairs of samples that roadmaps tried, by the first reason: mean share over instances",
+    statistic: "Means over instances; an instance without such pairs is left out; {n}.",
+    settings: Accepted::shape::<Rejections>(),
     example: r#"
 problems = ["cell"]
 "#,
@@ -54,13 +54,13 @@ const BARS: [(&str, &str); 9] = [
 const PANELS: [(&[&str], &str); 2] =
     [(&[], "of all pairs"), (&["rejected_branch"], "of pairs on one branch")];
 
-fn count(row: &PreparedRow, column: &str) -> Option<f64> {
+fn count(row: &PreprocessingRow, column: &str) -> Option<f64> {
     row.values.get(column).map(Value::as_f64)
 }
 
 impl Rejections {
-    fn rows<'s>(scene: &'s Scene<'_>, problems: &str) -> Vec<&'s PreparedRow> {
-        scene.run.prepared(problems).collect()
+    fn rows<'s>(scene: &'s Scene<'_>, problems: &str) -> Vec<&'s PreprocessingRow> {
+        scene.run.preprocessing(problems).collect()
     }
 
     /// The bars that any roadmap of the figure has pairs for, without those left out.
@@ -80,7 +80,7 @@ impl Rejections {
         let width = 0.8 / self.problems.len() as f64;
         for (index, problems) in self.problems.iter().enumerate() {
             let rows = Self::rows(scene, problems);
-            let all = |row: &&PreparedRow| {
+            let all = |row: &&PreprocessingRow| {
                 let out: f64 = left_out.iter().filter_map(|column| count(row, column)).sum();
                 Some(count(row, "pairs")? - out)
             };
@@ -90,8 +90,9 @@ impl Rejections {
                 let Some(mean) = mean_percent(&rows, |row| count(row, column), all) else { continue };
                 let left = place as f64 - 0.4 + index as f64 * width;
                 bars.push([left, left + width, mean]);
-                let set = Type::of(TextSize::TICK).aligned(Align::Middle, Stand::Base);
-                let (at, text) = ([left + width / 2.0, mean], format!("{mean:.1}"));
+                let set = Type::regular(TextSize::TICK).aligned(Align::Middle, Stand::Base);
+                let at = [left + width / 2.0, mean];
+                let text = format!("{mean:.1}");
                 panel.add(Note { at, shift_pt: [0.0, -3.0], text, set });
             }
             let label = if self.problems.len() > 1 { problems.clone() } else { String::new() };

@@ -24,10 +24,10 @@ use study::{Study, sweeps_of};
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "sweep_curves",
-    about: "along a sweep: shares of solved queries with simultaneous bands or draw by draw, printed rows on top; or metrics, \
+    about: "along a sweep: shares of solved queries with simultaneous bands or instance by instance, printed rows on top; or metrics, \
             several studies, a saving along a column",
-    statistic: "Shares are means over draws, unsolved queries counted as such; other metrics are of single trials; {n}.",
-    settings: Accepted::of::<Read>(),
+    statistic: "Shares are means over instances, unsolved queries counted as such; other metrics are of single trials; {n}.",
+    settings: Accepted::shape::<Read>(),
     example: r#"
 problems = "cell"
 sweep = "samples"
@@ -45,14 +45,14 @@ rows = [
                 read.lacks(
                     settings,
                     "across",
-                    &["problems", "rows", "single_draws", "metrics", "printed_ratio"],
+                    &["problems", "rows", "single_instances", "metrics", "printed_ratio"],
                 )?;
                 read.has(settings, &["sweep", "axis"])?;
                 Box::new(across.built((read.sweep, read.axis), settings, study, paper)?)
             }
             (None, Some(saving)) => {
                 let others =
-                    ["problems", "sweep", "axis", "rows", "single_draws", "metrics", "printed_ratio"];
+                    ["problems", "sweep", "axis", "rows", "single_instances", "metrics", "printed_ratio"];
                 read.lacks(settings, "saving", &others)?;
                 Box::new(saving.built(settings, study)?)
             }
@@ -80,11 +80,11 @@ struct Read {
     rows: Vec<ReadRow>,
     /// In place of rows: one contender's shares, one curve a study.
     across: Option<across::Across>,
-    /// In place of a sweep and rows: one contender's saving over another along a column of the problem, draw by draw.
+    /// In place of a sweep and rows: one contender's saving over another along a column of the problem, instance by instance.
     saving: Option<saving::Saving>,
-    /// Draws every draw's own curve beside their mean, one panel a contender.
+    /// Draws every instance's own curve beside their mean, one panel a contender.
     #[serde(default)]
-    single_draws: bool,
+    single_instances: bool,
     /// Metrics on a logarithmic scale, one panel each, in place of shares of solved queries.
     #[serde(default)]
     metrics: Vec<String>,
@@ -117,7 +117,7 @@ impl Read {
             "problems" => self.problems.is_empty(),
             "sweep" => self.sweep.is_empty(),
             "axis" => self.axis.is_empty(),
-            "single_draws" => !self.single_draws,
+            "single_instances" => !self.single_instances,
             "metrics" => self.metrics.is_empty(),
             "printed_ratio" => self.printed_ratio.is_none(),
             _ => self.rows.is_empty(),
@@ -155,7 +155,7 @@ struct RowOf {
     printed: Vec<[f64; 2]>,
 }
 
-/// At most this many draws are drawn one by one, the first ones.
+/// At most this many instances are drawn one by one, the first ones.
 const DRAWN: usize = 60;
 
 impl SweepCurves {
@@ -191,7 +191,7 @@ impl SweepCurves {
         Ok(Self { read, points, metrics, rows })
     }
 
-    /// Each draw's row of shares.
+    /// Each instance's row of shares.
     fn curves(&self, scene: &Scene<'_>, contender: &str) -> shown::Curves {
         let at = |(_, at): &(f64, SweepKey)| ask::trials_at(scene.run, &self.read.problems, contender, at);
         shown::Curves::solved(&self.points.iter().map(at).collect::<Vec<_>>(), scene.evidence)
@@ -219,17 +219,17 @@ impl SweepCurves {
         let index = ask::series(scene, &row.contender, place);
         let curves = self.curves(scene, &row.contender);
         let Some(found) = curves.band(&["success_bands", &row.contender]) else {
-            let what = format!("two draws of `{}` on `{}`", row.contender, self.read.problems);
+            let what = format!("two instances of `{}` on `{}`", row.contender, self.read.problems);
             return Err(RenderError::NotStored { what });
         };
         let edges = self.over(&found.band).map(|(x, [low, high])| [x, *low, *high]).collect();
-        let label = format!("{}: mean of {} draws, 95 % band", row.contender, curves.draws.len());
+        let label = format!("{}: mean of {} instances, 95 % band", row.contender, curves.instances.len());
         panel.add(Band { edges, fill: Fill::sheer(series_color(index), 0.25), label: String::new() });
         let points = self.over(&found.mean).map(|(x, y)| [x, *y]).collect();
         panel.add(Line::through(points, series_stroke(index)).labelled(label));
         if let Some(range) = curves.one_more().filter(|_| !row.printed.is_empty()) {
             let edges = self.over(range).map(|(x, range)| [x, range.low, range.high]).collect();
-            let label = format!("{}: one more draw, 95 %", row.contender);
+            let label = format!("{}: one more instance, 95 %", row.contender);
             panel.add(Band { edges, fill: Fill::sheer(series_color(index), 0.1), label });
         }
         Ok(())
@@ -240,28 +240,29 @@ impl SweepCurves {
         let row = &self.rows[place];
         let index = ask::series(scene, &row.contender, place);
         let size = 2.4 + 1.4 * place as f64;
-        let printed = Points::of(row.printed.clone(), series_marker(index), size, series_color(index));
+        let printed =
+            Points::unlabelled(row.printed.clone(), series_marker(index), size, series_color(index));
         panel.add(printed.labelled(format!("{}: printed", row.contender)));
     }
 
-    fn single_draws(&self, scene: &Scene<'_>, place: usize) -> Result<Panel, RenderError> {
+    fn single_instances(&self, scene: &Scene<'_>, place: usize) -> Result<Panel, RenderError> {
         let row = &self.rows[place];
         let color = series_color(ask::series(scene, &row.contender, place));
         let curves = self.curves(scene, &row.contender);
         let mut panel = self.panel(&row.contender)?;
         let thin = Stroke::solid(color.mixed(WHITE, 0.6), 0.35);
-        for (draw, curve) in curves.draws.iter().take(DRAWN).enumerate() {
+        for (instance, curve) in curves.instances.iter().take(DRAWN).enumerate() {
             // Equal rows are moved apart by up to a point and a half, so that they can be told.
-            let shift = ((draw as f64 * 0.618_033_988_749_895).fract() - 0.5) * 3.0;
+            let shift = ((instance as f64 * 0.618_033_988_749_895).fract() - 0.5) * 3.0;
             let line = Line::through(
                 self.over(curve).map(|(x, y)| [x, (y + shift).clamp(0.0, 100.0)]).collect(),
                 thin,
             );
-            panel.add(line.labelled(if draw == 0 { "one roadmap (first 60)" } else { "" }));
+            panel.add(line.labelled(if instance == 0 { "one roadmap (first 60)" } else { "" }));
         }
         let means = self.over(curves.means()).map(|(x, y)| [x, y]).collect();
-        panel.add(Line::through(means, Stroke::solid(GREY, 1.8)).labelled("mean of all draws"));
-        let printed = Points::of(row.printed.clone(), series_marker(0), 2.8, VERMILLION);
+        panel.add(Line::through(means, Stroke::solid(GREY, 1.8)).labelled("mean of all instances"));
+        let printed = Points::unlabelled(row.printed.clone(), series_marker(0), 2.8, VERMILLION);
         panel.add(printed.labelled("printed"));
         Ok(panel)
     }
@@ -309,14 +310,14 @@ impl SweepCurves {
 
 impl Kind for SweepCurves {
     fn curves(&self, scene: &Scene<'_>, caption: &str) -> Option<Curves> {
-        if self.read.single_draws || !self.metrics.is_empty() {
+        if self.read.single_instances || !self.metrics.is_empty() {
             return None;
         }
         let line = |(of, row): (usize, &RowOf)| {
             let curves = self.curves(scene, &row.contender);
             let found = curves.band(&["success_bands", &row.contender])?;
             let band = [0, 1].map(|end| found.band.iter().map(|ends| ends[end]).collect());
-            let label = format!("{}: mean of {} draws", row.contender, curves.draws.len());
+            let label = format!("{}: mean of {} instances", row.contender, curves.instances.len());
             let values = found.mean.into_iter().map(Some).collect();
             Some(CurveLine { label, of, values, band: Some(band), is_printed: false })
         };
@@ -349,8 +350,8 @@ impl Kind for SweepCurves {
             let sheet = Sheet::new(Width::Double, self.metrics.len(), 165.0).noted(note);
             return sheet.with(self.metrics.iter().map(|metric| self.metric(scene, metric)));
         }
-        if self.read.single_draws {
-            let panels = (0..self.rows.len()).map(|place| self.single_draws(scene, place));
+        if self.read.single_instances {
+            let panels = (0..self.rows.len()).map(|place| self.single_instances(scene, place));
             return Sheet::new(Width::Double, self.rows.len(), 170.0).with(panels);
         }
         let mut panel = self.panel("")?;

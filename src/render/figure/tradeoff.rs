@@ -4,7 +4,7 @@
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::Selection;
-use crate::analysis::shown::{change_percent, means_of_whole_draws, median_point};
+use crate::analysis::shown::{change_percent, means_of_whole_instances, median_point};
 use crate::analysis::statistic::{Estimate, INTERVALS};
 use crate::render::RenderError;
 use crate::render::chart::labels::Labels;
@@ -21,8 +21,8 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "tradeoff",
     about: "one metric against another, a point a contender: means with intervals both ways, or all trials and their medians",
-    statistic: "Means over draws that every contender solves, changes of means over pairs, or medians with failures at infinity, which are not drawn; {n}.",
-    settings: Accepted::of::<Tradeoff>(),
+    statistic: "Means over instances that every contender solves, changes of means over pairs, or medians with failures at infinity, which are not drawn; {n}.",
+    settings: Accepted::shape::<Tradeoff>(),
     example: r#"
 x = "opened"
 y = "path_cost_cells"
@@ -73,19 +73,19 @@ struct Ready {
 }
 
 impl Ready {
-    /// Means over the draws that every contender solved.
+    /// Means over the instances that every contender solved.
     fn means(&self, scene: &Scene<'_>, spec: &PanelSpec) -> Panel {
-        let [(x, draws), (y, _)] = self.metrics.map(|metric| {
-            let all = Selection::of(scene.run.study, &spec.problems, &self.read.contenders);
-            let whole = Selection { metric: Some(metric), whole_draws: true, ..all };
-            means_of_whole_draws(&whole, scene.evidence)
+        let [(x, instances), (y, _)] = self.metrics.map(|metric| {
+            let all = Selection::all(scene.run.study, &spec.problems, &self.read.contenders);
+            let whole = Selection { metric: Some(metric), whole_instances: true, ..all };
+            means_of_whole_instances(&whole, scene.evidence)
         });
         let points: Vec<_> = x.into_iter().zip(y).map(|(x, y)| x.zip(y)).collect();
         let ends = |axis: usize| {
             let of = move |(a, b): &(Estimate, Estimate)| [a.interval, b.interval][axis];
             points.iter().flatten().map(of).flat_map(|interval| [interval.low, interval.high])
         };
-        let title = format!("{}, {draws} maps", spec.title);
+        let title = format!("{}, {instances} maps", spec.title);
         let [x, y] = [0, 1].map(|axis| Axis::over(self.metrics[axis].title(), ends(axis)));
         let mut panel = Panel::new(title, x, y);
         for (contender, point) in self.read.contenders.iter().zip(&points) {
@@ -107,7 +107,7 @@ impl Ready {
         axis: usize,
     ) -> Option<Estimate> {
         let metric = self.metrics[axis];
-        let all = Selection::of(scene.run.study, &spec.problems, std::slice::from_ref(label));
+        let all = Selection::all(scene.run.study, &spec.problems, std::slice::from_ref(label));
         let of = Selection { metric: Some(metric), against: Some(base.clone()), ..all };
         change_percent(&of, scene.evidence, &[&scene.run.study.name, label, base, metric.name])
     }
@@ -129,7 +129,8 @@ impl Ready {
         let units: BTreeSet<usize> = points.iter().map(|(_, a, _)| a.units).collect();
         let units: Vec<String> = units.iter().map(usize::to_string).collect();
         let mut panel = Panel::new(format!("{}, {} maps", spec.title, units.join(" or ")), x, y);
-        let (mut names, mut bars) = (vec![([0.0, 0.0], base.clone())], Vec::new());
+        let mut names = vec![([0.0, 0.0], base.clone())];
+        let mut bars = Vec::new();
         panel.add(marked(vec![[0.0, 0.0]], 3.0, ask::place(scene, base), 0.0));
         for (label, a, b) in &points {
             let point = marked(vec![[a.value, b.value]], 3.0, ask::place(scene, label), 0.0);
@@ -167,7 +168,8 @@ impl Ready {
         for (label, all) in series.iter().filter(|(_, all)| all.len() > 1) {
             panel.add(marked(all.clone(), 0.9, ask::place(scene, label), 0.45));
         }
-        let (is_named, mut names) = (series.len() > SERIES.len(), Vec::new());
+        let is_named = series.len() > SERIES.len();
+        let mut names = Vec::new();
         for (label, all) in &series {
             let at = median_point(all);
             let point = marked(at.into_iter().collect(), 3.6, ask::place(scene, label), 0.0);
@@ -181,7 +183,8 @@ impl Ready {
 
 impl Kind for Ready {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let (panels, sheet) = (&self.read.panels, |pt| Sheet::new(Width::Double, self.read.panels.len(), pt));
+        let panels = &self.read.panels;
+        let sheet = |pt| Sheet::new(Width::Double, self.read.panels.len(), pt);
         if self.read.trials {
             return sheet(190.0).with(panels.iter().map(|panel| self.trials(scene, panel)));
         }
@@ -222,5 +225,5 @@ fn title(title: &str, series: &[(&String, Vec<[f64; 2]>)]) -> String {
 fn marked(points: Vec<[f64; 2]>, radius_pt: f64, index: usize, pale: f64) -> Points {
     let round = index / SERIES.len();
     let color = series_color(index).mixed(BLACK, if round == 0 { 0.0 } else { 0.4 });
-    Points::of(points, series_marker(index + round), radius_pt, color.mixed(WHITE, pale))
+    Points::unlabelled(points, series_marker(index + round), radius_pt, color.mixed(WHITE, pale))
 }

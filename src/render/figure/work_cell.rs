@@ -8,19 +8,19 @@ use crate::render::latex::{Cell, Column, Table};
 use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark};
 use crate::render::style::{Dash, GREY, Rgb, Stroke, WHITE, Width, YELLOW, series_color};
 use base::settings::{Accepted, Faults, Settings, SettingsError};
-use engine::planner::Exhibit;
+use engine::planner::Trace;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::sync::Arc;
 use study::Study;
-use study::key::DrawKey;
+use study::key::InstanceKey;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "work_cell",
     about: "a work cell from two sides: its robot at several poses, or the ways of its tool by contenders on one query",
     statistic: "One stored trial a way.",
-    settings: Accepted::of::<WorkCell>(),
+    settings: Accepted::shape::<WorkCell>(),
     example: r#"
 problems = "cell"
 poses = [["4/start", "H"], ["1/start", "P1"], ["3/start", "P2"], ["2/goal", "P3"], ["7/start", "P5"], ["9/start", "P6"]]
@@ -55,7 +55,7 @@ struct WorkCell {
     #[serde(default = "one")]
     #[schemars(range(min = 1, max = 1000))]
     at_once: usize,
-    /// Contenders whose ways on `query` are shown, on the kept draw whose saving is nearest to the median.
+    /// Contenders whose ways on `query` are shown, on the kept instance whose saving is nearest to the median.
     #[serde(default)]
     contenders: Vec<String>,
     /// The query of the ways, by its name.
@@ -79,12 +79,13 @@ const MARGIN_MM: f64 = 100.0;
 /// The colour of obstacles.
 const OBSTACLE: Rgb = YELLOW.mixed(GREY, 0.35).mixed(WHITE, 0.35);
 
-/// The cell of a draw: floor and obstacles.
-fn furnished(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Result<Solids, RenderError> {
+/// The cell of an instance: floor and obstacles.
+fn furnished(scene: &Scene<'_>, instance: &Arc<InstanceKey>) -> Result<Solids, RenderError> {
     let mut solids = Solids::default();
-    let (boxes, rounds) = (ask::exhibit(scene, draw, "boxes")?, ask::exhibit(scene, draw, "rounds")?);
-    if let Some(height) = floor_height(scene, draw) {
-        let sheet = floor(scene, draw, [boxes, rounds], height);
+    let boxes = ask::trace(scene, instance, "boxes")?;
+    let rounds = ask::trace(scene, instance, "rounds")?;
+    if let Some(height) = floor_height(scene, instance) {
+        let sheet = floor(scene, instance, [boxes, rounds], height);
         solids.sheet(sheet, Paint { outlined: true, ..Paint::solid(GREY.mixed(WHITE, 0.82)) });
     }
     for corners in boxes.values.chunks(boxes.width) {
@@ -95,17 +96,17 @@ fn furnished(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Result<Solids, RenderErr
     Ok(solids)
 }
 
-/// How high the floor is: at 0 unless the draw says otherwise; `None` if it says that there is none.
-fn floor_height(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Option<f64> {
-    ask::exhibit(scene, draw, "floor").map_or(Some(0.0), |exhibit| exhibit.values.first().copied())
+/// How high the floor is: at 0 unless the instance says otherwise; `None` if it says that there is none.
+fn floor_height(scene: &Scene<'_>, instance: &Arc<InstanceKey>) -> Option<f64> {
+    ask::trace(scene, instance, "floor").map_or(Some(0.0), |trace| trace.values.first().copied())
 }
 
 /// The floor below everything that stands in the cell, the robot at its queries' ends among it.
-fn floor(scene: &Scene<'_>, draw: &Arc<DrawKey>, stills: [&Exhibit; 2], height: f64) -> Vec<[f64; 3]> {
-    let bodies = scene.run.exhibits(draw).filter(|exhibit| exhibit.name.starts_with("body "));
+fn floor(scene: &Scene<'_>, instance: &Arc<InstanceKey>, stills: [&Trace; 2], height: f64) -> Vec<[f64; 3]> {
+    let bodies = scene.run.traces(instance).filter(|trace| trace.name.starts_with("body "));
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for exhibit in stills.into_iter().chain(bodies) {
-        for row in exhibit.values.chunks(exhibit.width) {
+    for trace in stills.into_iter().chain(bodies) {
+        for row in trace.values.chunks(trace.width) {
             // A capsule's seventh number is its radius; a box has corners alone.
             let reach = if row.len() == 7 { row[6] } else { 0.0 };
             for point in row.chunks_exact(3) {
@@ -121,7 +122,7 @@ fn floor(scene: &Scene<'_>, draw: &Arc<DrawKey>, stills: [&Exhibit; 2], height: 
 }
 
 /// The parts of `body` that are elsewhere than in `first`, by more than they are thick.
-fn moved(body: &Exhibit, first: &Exhibit) -> Exhibit {
+fn moved(body: &Trace, first: &Trace) -> Trace {
     let parts = body.values.chunks(body.width).zip(first.values.chunks(first.width));
     let apart_mm = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
     let stands = |(part, other): &(&[f64], &[f64])| {
@@ -129,21 +130,23 @@ fn moved(body: &Exhibit, first: &Exhibit) -> Exhibit {
         ends.iter().all(|apart_mm| *apart_mm <= 2.0 * part[6])
     };
     let values = parts.filter(|pair| !stands(pair)).flat_map(|(part, _)| part.to_vec()).collect();
-    Exhibit { values, ..body.clone() }
+    Trace { values, ..body.clone() }
 }
 
 /// Adds capsules given by their ends and radius.
-fn add_capsules(solids: &mut Solids, capsules: &Exhibit, paint: Paint) {
+fn add_capsules(solids: &mut Solids, capsules: &Trace, paint: Paint) {
     for c in capsules.values.chunks(capsules.width) {
         solids.capsule([c[0], c[1], c[2]], [c[3], c[4], c[5]], c[6], paint);
     }
 }
 
 /// Which straight lines between the ends of queries are free, and how clear of everything.
-fn straight_lines(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Option<String> {
-    let lines = ask::exhibit(scene, draw, "straight lines").ok()?;
-    let names = scene.run.exhibits(draw).filter_map(|e| e.name.strip_prefix("pose ")?.strip_suffix("/start"));
-    let (mut free, mut blocked) = (Vec::new(), Vec::new());
+fn straight_lines(scene: &Scene<'_>, instance: &Arc<InstanceKey>) -> Option<String> {
+    let lines = ask::trace(scene, instance, "straight lines").ok()?;
+    let names =
+        scene.run.traces(instance).filter_map(|e| e.name.strip_prefix("pose ")?.strip_suffix("/start"));
+    let mut free = Vec::new();
+    let mut blocked = Vec::new();
     for (name, line) in names.zip(lines.values.chunks(lines.width)) {
         if line[0] > 0.0 {
             free.push(format!("{name}: {:.0}", line[1]));
@@ -162,7 +165,7 @@ fn straight_lines(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Option<String> {
 }
 
 /// A pose in words: joint angles, where flange and tip are, and where the tool points.
-fn posed(pose: &Exhibit) -> [String; 4] {
+fn posed(pose: &Trace) -> [String; 4] {
     let axes = pose.width - 9;
     let numbers = |(from, to, decimals): (usize, usize, usize)| {
         let of = |value: &f64| axis::number(*value, decimals);
@@ -200,24 +203,24 @@ impl WorkCell {
 
     /// The robot at its poses.
     fn poses(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let draw = ask::draw(scene, &self.problems, 0)?;
+        let instance = ask::instance(scene, &self.problems, 0)?;
         let mut sheet = Sheet::new(Width::Double, VIEWS.len(), 200.0);
-        if let Some(said) = straight_lines(scene, draw) {
+        if let Some(said) = straight_lines(scene, instance) {
             sheet = sheet.titled(said);
         }
         let named: Vec<(usize, &[String; 2])> = self.poses.iter().enumerate().collect();
         for (row, shown) in named.chunks(self.at_once.max(1)).enumerate() {
             for (title, camera) in VIEWS {
-                let mut solids = furnished(scene, draw)?;
+                let mut solids = furnished(scene, instance)?;
                 if row == 0 {
-                    self.name_boxes(&mut solids, ask::exhibit(scene, draw, "boxes")?)?;
+                    self.name_boxes(&mut solids, ask::trace(scene, instance, "boxes")?)?;
                 }
                 let mut keys = vec![cell_key("obstacles", OBSTACLE)];
                 for (place, (index, [pose, name])) in shown.iter().enumerate() {
                     let color = series_color(*index).mixed(WHITE, 0.35);
-                    let body = ask::exhibit(scene, draw, &format!("body {pose}"))?;
+                    let body = ask::trace(scene, instance, &format!("body {pose}"))?;
                     // What hardly moves from pose to pose is drawn once.
-                    let first = ask::exhibit(scene, draw, &format!("body {}", shown[0].1[0]))?;
+                    let first = ask::trace(scene, instance, &format!("body {}", shown[0].1[0]))?;
                     let parts = if place == 0 { body.clone() } else { moved(body, first) };
                     add_capsules(&mut solids, &parts, Paint { outlined: false, ..Paint::solid(color) });
                     if let Some(tip) = body.values.chunks(body.width).next_back() {
@@ -232,7 +235,7 @@ impl WorkCell {
     }
 
     /// Writes the names of boxes across their middles.
-    fn name_boxes(&self, solids: &mut Solids, boxes: &Exhibit) -> Result<(), RenderError> {
+    fn name_boxes(&self, solids: &mut Solids, boxes: &Trace) -> Result<(), RenderError> {
         let all = boxes.values.chunks(boxes.width);
         if self.boxes.len() > all.len() {
             let what =
@@ -250,33 +253,28 @@ impl WorkCell {
     /// The ways of the tool, one column a contender.
     fn ways(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let shared =
-            |exhibit| ask::shared_draw(scene, &self.problems, &self.query, &self.contenders, exhibit);
-        let replicate = shared("trajectory").or_else(|_| shared("way_mm"))?;
+            |trace| ask::shared_instance(scene, &self.problems, &self.query, &self.contenders, trace);
+        let number = shared("trajectory").or_else(|_| shared("way_mm"))?;
         let mut sheet = Sheet::new(Width::Double, self.contenders.len(), 200.0);
-        if let Some(rank) = self.rank(scene, replicate) {
+        if let Some(rank) = self.rank(scene, number) {
             sheet = sheet.titled(rank);
         }
         let all =
             (0..VIEWS.len()).flat_map(|view| (0..self.contenders.len()).map(move |index| (view, index)));
-        sheet.with(all.map(|(view, index)| self.way(scene, replicate, index, view)))
+        sheet.with(all.map(|(view, index)| self.way(scene, number, index, view)))
     }
 
-    fn way(
-        &self,
-        scene: &Scene<'_>,
-        replicate: u32,
-        index: usize,
-        view: usize,
-    ) -> Result<Panel, RenderError> {
-        let draw = ask::draw(scene, &self.problems, replicate)?;
-        let (contender, (seen, camera)) = (&self.contenders[index], VIEWS[view]);
-        let mut solids = furnished(scene, draw)?;
-        let body = ask::exhibit(scene, draw, &format!("body {}/start", self.query))?;
+    fn way(&self, scene: &Scene<'_>, number: u32, index: usize, view: usize) -> Result<Panel, RenderError> {
+        let instance = ask::instance(scene, &self.problems, number)?;
+        let contender = &self.contenders[index];
+        let (seen, camera) = VIEWS[view];
+        let mut solids = furnished(scene, instance)?;
+        let body = ask::trace(scene, instance, &format!("body {}/start", self.query))?;
         let pale = Paint { outlined: false, ..Paint::solid(GREY.mixed(WHITE, 0.45)) };
         add_capsules(&mut solids, body, pale);
-        let row = ask::trial(scene, &self.problems, replicate, Some(&self.query), contender)?;
-        let stops = ask::exhibit(scene, &row.key, "trajectory")
-            .or_else(|_| ask::exhibit(scene, &row.key, "way_mm"))?;
+        let row = ask::trial(scene, &self.problems, number, Some(&self.query), contender)?;
+        let stops =
+            ask::trace(scene, &row.key, "trajectory").or_else(|_| ask::trace(scene, &row.key, "way_mm"))?;
         // The tip is the last of what is said of each stop.
         let points: Vec<[f64; 3]> = stops
             .values
@@ -301,14 +299,14 @@ impl WorkCell {
         Ok(panel(&title, solids, camera, Vec::new()))
     }
 
-    /// What the picked draw's saving is among those of all draws, in words.
-    fn rank(&self, scene: &Scene<'_>, draw: u32) -> Option<String> {
+    /// What the picked instance's saving is among those of all instances, in words.
+    fn rank(&self, scene: &Scene<'_>, instance: u32) -> Option<String> {
         let savings = ask::savings(scene, &self.problems, &self.query, &self.contenders);
-        let (own, rank) = savings.rank(draw)?;
+        let (own, rank) = savings.rank(instance)?;
         Some(format!(
             "saving {own:.1} %: {} of {} roadmaps save less, the median saves {:.1} %",
             rank.below,
-            rank.draws(),
+            rank.instances(),
             savings.median?
         ))
     }
@@ -317,7 +315,7 @@ impl WorkCell {
 impl Kind for WorkCell {
     fn shown(&self) -> Vec<Shown<'_>> {
         match &self.contenders[..] {
-            [] => Shown::prepared(&self.problems),
+            [] => Shown::preprocessing(&self.problems),
             contenders => Shown::first(&self.problems, contenders),
         }
     }
@@ -330,7 +328,7 @@ impl Kind for WorkCell {
         if self.poses.is_empty() {
             return Ok(None);
         }
-        let draw = ask::draw(scene, &self.problems, 0)?;
+        let instance = ask::instance(scene, &self.problems, 0)?;
         let kinds = [
             Column::Left,
             Column::Left,
@@ -344,11 +342,10 @@ impl Kind for WorkCell {
         let heads =
             ["group", "", "joint angles (°)", "flange (mm)", "tip (mm)", "direction", "straight line"];
         table.head(heads.map(Cell::from).to_vec());
-        let lines = ask::exhibit(scene, draw, "straight lines").ok();
+        let lines = ask::trace(scene, instance, "straight lines").ok();
         let mut lines = lines.into_iter().flat_map(|lines| lines.values.chunks(lines.width));
-        for exhibit in scene.run.exhibits(draw) {
-            let Some((group, end)) =
-                exhibit.name.strip_prefix("pose ").and_then(|name| name.rsplit_once('/'))
+        for trace in scene.run.traces(instance) {
+            let Some((group, end)) = trace.name.strip_prefix("pose ").and_then(|name| name.rsplit_once('/'))
             else {
                 continue;
             };
@@ -357,7 +354,7 @@ impl Kind for WorkCell {
             let line = line.map_or_else(String::new, |line| {
                 if line[0] > 0.0 { format!("free, {:.1} mm", line[1]) } else { "blocked".to_owned() }
             });
-            let row = [group.to_owned(), end.to_owned()].into_iter().chain(posed(exhibit)).chain([line]);
+            let row = [group.to_owned(), end.to_owned()].into_iter().chain(posed(trace)).chain([line]);
             table.row(row.map(Cell::from).collect());
         }
         Ok(Some(table))

@@ -111,7 +111,9 @@ impl Table {
     /// [`RenderError::RowWidth`] if a line does not fill the columns.
     pub fn latex(&self, made: &str) -> Result<String, RenderError> {
         let comment: String = made.lines().fold(String::new(), |all, line| all + "% " + line + "\n");
-        let (caption, label, widths) = (escaped(&self.caption), &self.label, self.widths());
+        let caption = escaped(&self.caption);
+        let label = &self.label;
+        let widths = self.widths();
         let characters: usize = widths.iter().sum::<usize>() + 2 * widths.len();
         let size = SIZES.iter().find(|(most, _)| characters <= *most).map_or("tiny", |(_, size)| size);
         let mut text = format!(
@@ -169,7 +171,8 @@ impl Table {
             Line::Head(cells) | Line::Row(cells) => cells,
         };
         if cells.len() != expected {
-            let (table, found) = (self.label.clone(), cells.len());
+            let table = self.label.clone();
+            let found = cells.len();
             return Err(RenderError::RowWidth { table, row, found, expected });
         }
         let row: Vec<String> = cells.iter().map(Cell::latex).collect();

@@ -1,9 +1,9 @@
 //! A paper's chapter: what was found, its tables beside ours, figures, and claims that lead to their evidence.
 
-use super::{SECTIONS, Undrawn, begin_of_line, item, link, linked, paragraph, place, said};
+use super::{SECTIONS, Undrawn, begin_of_line, item, link, linked, paper_statement, paragraph, place};
 use crate::analysis::class::Verdict;
 use crate::analysis::evidence::{Evidence, Run};
-use crate::analysis::verdict::{Judged, Verdicts};
+use crate::analysis::verdict::{ClaimVerdict, Verdicts};
 use crate::render::figure::caption;
 use crate::render::prose::{COLUMNS, markdown, prose, wrapped};
 use crate::render::tables::{self, short};
@@ -62,7 +62,8 @@ impl Page<'_> {
     /// # Errors
     /// A table for which something is not stored.
     pub fn chapter(&self) -> Result<Chapter, RenderError> {
-        let (paper, verdicts) = (self.evidence.paper, self.verdicts);
+        let paper = self.evidence.paper;
+        let verdicts = self.verdicts;
         let state = state(self.evidence, verdicts);
         let mut text = heading(paper);
         if !state.is_empty() {
@@ -90,8 +91,9 @@ impl Page<'_> {
 
     /// The paper's tables that hold claims, and those of our results that the chapter shows.
     fn tables(&self, text: &mut String) -> Result<(), RenderError> {
-        let (paper, details) = (self.evidence.paper, self.details_file());
-        let class = |judged: &Judged| link(judged, judged.outcome(), &details);
+        let paper = self.evidence.paper;
+        let details = self.details_file();
+        let class = |judged: &ClaimVerdict| link(judged, judged.outcome(), &details);
         for table in paper.tables.iter().filter(|table| table.has_claims()) {
             *text += &paragraph(&table.caption);
             *text += &tables::markdown(self.evidence, table, self.verdicts, class)?;
@@ -115,7 +117,8 @@ impl Page<'_> {
 
     /// The figures of the chapter.
     fn shown(&self) -> Vec<&FigureSpec> {
-        let (paper, all) = (self.evidence.paper, || self.evidence.paper.figures());
+        let paper = self.evidence.paper;
+        let all = || self.evidence.paper.figures();
         match &paper.report.figures {
             Some(ids) => ids.iter().filter_map(|id| all().find(|figure| figure.id == *id)).collect(),
             None => all().take(FIGURES).collect(),
@@ -150,9 +153,10 @@ impl Page<'_> {
     }
 
     fn claims(&self, text: &mut String) {
-        let (paper, verdicts) = (self.evidence.paper, self.verdicts);
+        let paper = self.evidence.paper;
+        let verdicts = self.verdicts;
         let headlines = paper.claims.iter().filter(|claim| claim.headline);
-        let mut shown: Vec<&Judged> = headlines.filter_map(|claim| verdicts.claim(&claim.id)).collect();
+        let mut shown: Vec<&ClaimVerdict> = headlines.filter_map(|claim| verdicts.claim(&claim.id)).collect();
         if shown.is_empty() {
             shown.extend(verdicts.claims.iter().filter(|judged| judged.is_counted()).take(CLAIMS));
         }
@@ -163,11 +167,13 @@ impl Page<'_> {
                 || "–".to_owned(),
                 |ours| format!("{} ({}; n = {})", short(ours), markdown(&ours.what), ours.n),
             );
-            let readings = judged.beside_if_other();
-            let readings = readings.map_or_else(String::new, |words| format!(" ({})", markdown(&words)));
+            let interpretations = judged.beside_if_other();
+            let interpretations =
+                interpretations.map_or_else(String::new, |words| format!(" ({})", markdown(&words)));
             let claim = link(judged, &format!("`{}`", judged.claim), &details);
-            let (said, class) = (markdown(&format!("{}: {}", judged.at, said(judged))), judged.outcome());
-            *text += &format!("| {claim} | {said} | {ours} | {class}{readings} |\n");
+            let said = markdown(&format!("{}: {}", judged.at, paper_statement(judged)));
+            let class = judged.outcome();
+            *text += &format!("| {claim} | {said} | {ours} | {class}{interpretations} |\n");
         }
         let all = verdicts.claims.len();
         let mut more = format!("{} More: [evidence of all {all} claims]({details})", self.counts());

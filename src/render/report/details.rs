@@ -1,15 +1,15 @@
-//! The details of a chapter: the evidence on each claim under an anchor, what holds together, readings, the ledger, studies. What two
+//! The details of a chapter: the evidence on each claim under an anchor, what holds together, interpretations, the inventory, studies. What two
 //! claims have in common is said once.
 
 use super::chapter::Page;
-use super::readings::across_lines;
-use super::{SECTIONS, anchor, item, linked, links, paragraph, place, said};
-use crate::analysis::verdict::{Finding, Judged, Together, Verdicts};
+use super::interpretations::across_lines;
+use super::{SECTIONS, anchor, item, linked, links, paper_statement, paragraph, place};
+use crate::analysis::verdict::{ClaimVerdict, CriterionFinding, Together, Verdicts};
 use crate::render::prose::{COLUMNS, markdown, wrapped};
 use crate::render::results;
 use crate::render::tables::{self, short};
 use std::collections::{BTreeMap, BTreeSet};
-use study::paper::{LedgerRow, cells_named};
+use study::paper::{InventoryRow, cells_named};
 use study::record::Status;
 use study::recorded_mark;
 
@@ -21,7 +21,8 @@ const SHORT: usize = 60;
 impl Page<'_> {
     /// The details; `back` leads to the report from where they lie.
     pub fn details(&self, back: &str) -> String {
-        let (paper, verdicts) = (self.evidence.paper, self.verdicts);
+        let paper = self.evidence.paper;
+        let verdicts = self.verdicts;
         let id = markdown(&paper.id);
         let mut text = format!("# {id}: evidence and details\n\n[The chapter]({back}#{})", anchor(&paper.id));
         for (name, to) in SECTIONS {
@@ -36,13 +37,13 @@ impl Page<'_> {
         section(&mut text, 1);
         self.together(&mut text);
         section(&mut text, 2);
-        self.readings(&mut text);
+        self.interpretations(&mut text);
         section(&mut text, 3);
         self.changes(&mut text);
         section(&mut text, 4);
         self.shown_besides(&mut text);
         section(&mut text, 5);
-        text.extend(paper.ledger.iter().map(|row| self.ledger(row)));
+        text.extend(paper.inventory.iter().map(|row| self.inventory(row)));
         section(&mut text, 6);
         self.studies(&mut text);
         text.trim_end().to_owned() + "\n"
@@ -55,15 +56,15 @@ impl Page<'_> {
             return;
         }
         *text += &paragraph(&format!(
-            "Claims met exactly under one reading by one choice of contenders, each environment on one map of ours. Every such \
+            "Claims met exactly under one interpretation by one choice of contenders, each environment on one map of ours. Every such \
              choice of maps was looked at. Of the {} sets that lie within no other the {} largest are listed, and the largest of each \
-             further reading; all stand in `verdicts.toml` beside the stored run.",
+             further interpretation; all stand in `verdicts.toml` beside the stored run.",
             sets.len(),
             sets.len().min(LISTED_SETS)
         ));
         let (first, rest) = sets.split_at(LISTED_SETS.min(sets.len()));
-        let mut seen: BTreeSet<&str> = first.iter().map(|set| set.reading.as_str()).collect();
-        let further = rest.iter().filter(|set| seen.insert(&set.reading));
+        let mut seen: BTreeSet<&str> = first.iter().map(|set| set.interpretation.as_str()).collect();
+        let further = rest.iter().filter(|set| seen.insert(&set.interpretation));
         let all = first.iter().map(|set| (set, true)).chain(further.map(|set| (set, false)));
         for (set, with_fail) in all {
             *text += &together(set, with_fail);
@@ -119,7 +120,7 @@ impl Page<'_> {
         *text += "\n";
     }
 
-    fn ledger(&self, row: &LedgerRow) -> String {
+    fn inventory(&self, row: &InventoryRow) -> String {
         let paper = self.evidence.paper;
         let names = |ids: &[base::settings::Spanned<String>]| {
             let named = ids.iter().flat_map(|id| cells_named(id.get_ref(), &paper.cells));
@@ -171,8 +172,10 @@ impl Page<'_> {
 
     fn studies(&self, text: &mut String) {
         for run in self.evidence.runs() {
-            let (study, trials) = (run.study, run.records.batch.rows.len());
-            let (seed, spec) = (run.manifest.seed, &run.manifest.spec[..12]);
+            let study = run.study;
+            let trials = run.records.batch.rows.len();
+            let seed = run.manifest.seed;
+            let spec = &run.manifest.spec[..12];
             let mark = recorded_mark(study.recorded());
             let about = format!(
                 "**`{}`**: {} {trials} trials, seed {seed}, spec `{spec}`.{}",
@@ -216,7 +219,7 @@ fn alike(counted: &[(String, String)]) -> String {
         }
     };
     if groups.is_empty() {
-        "no trials under this reading".to_owned()
+        "no trials under this interpretation".to_owned()
     } else {
         groups.iter().map(each).collect::<Vec<_>>().join("; ")
     }
@@ -228,7 +231,8 @@ fn section(text: &mut String, at: usize) {
 }
 
 fn together(set: &Together, with_fail: bool) -> String {
-    let about = format!("{} ({}: {}; {})", set.reading.replace(',', ", "), set.study, set.problem, set.under);
+    let about =
+        format!("{} ({}: {}; {})", set.interpretation.replace(',', ", "), set.study, set.problem, set.under);
     let mut text = item(0, &markdown(&about)) + &item(1, &format!("hold: {}", links(&set.hold)));
     if with_fail && !set.fail.is_empty() {
         text += &item(1, &format!("fail: {}", links(&set.fail)));
@@ -237,11 +241,15 @@ fn together(set: &Together, with_fail: bool) -> String {
 }
 
 /// What was found about one claim; `known` has the claims that said something first.
-fn evidence<'a>(judged: &'a Judged, verdicts: &Verdicts, known: &mut BTreeMap<String, &'a str>) -> String {
+fn evidence<'a>(
+    judged: &'a ClaimVerdict,
+    verdicts: &Verdicts,
+    known: &mut BTreeMap<String, &'a str>,
+) -> String {
     let mut text = format!("{}\n", place(&judged.claim));
-    let readings = judged.beside().map_or_else(String::new, |words| format!(", {}", markdown(&words)));
-    let mut about = format!("**`{}`: {}{readings}**. ", judged.claim, judged.outcome());
-    about += &markdown(&format!("{}: {}", judged.at, said(judged)));
+    let interpretations = judged.beside().map_or_else(String::new, |words| format!(", {}", markdown(&words)));
+    let mut about = format!("**`{}`: {}{interpretations}**. ", judged.claim, judged.outcome());
+    about += &markdown(&format!("{}: {}", judged.at, paper_statement(judged)));
     if let Some(whole) = &judged.part_of {
         about += &format!(". A part of {}", links(&[whole]));
     }
@@ -260,7 +268,7 @@ fn evidence<'a>(judged: &'a Judged, verdicts: &Verdicts, known: &mut BTreeMap<St
 
 /// What one criterion found, as items of a list with their depths.
 fn finding_lines<'a>(
-    finding: &'a Finding,
+    finding: &'a CriterionFinding,
     verdicts: &Verdicts,
     known: &mut BTreeMap<String, &'a str>,
     claim: &'a str,

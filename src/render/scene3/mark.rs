@@ -62,7 +62,8 @@ impl Lens {
 
     /// Where a point of the world lies on the page.
     pub fn at(&self, point: Vec3) -> [f64; 2] {
-        let ([right, up, _], offset) = (self.camera.axes(), sub(point, self.middle));
+        let [right, up, _] = self.camera.axes();
+        let offset = sub(point, self.middle);
         let place = |axis: Vec3, sign: f64| self.scale * sign * dot(offset, axis);
         [self.shift[0] + place(right, 1.0), self.shift[1] + place(up, -1.0)]
     }
@@ -105,20 +106,22 @@ impl SceneMark {
             let end = |length: f64| [centre[0] + length * dx, centre[1] + length * dy];
             canvas.polyline(&[centre, end(11.0)], &Stroke::solid(color, 1.0));
             let length = 11.0 + 4.5 / libm::hypot(dx, dy);
-            let set = Type::of(TextSize::TICK).colored(color).aligned(Align::Middle, Stand::Centre);
+            let set = Type::regular(TextSize::TICK).colored(color).aligned(Align::Middle, Stand::Centre);
             canvas.text(end(length), name, &set);
         }
     }
 
     fn scale_bar(&self, canvas: &mut Canvas, lens: &Lens, foot: Rect) {
         let Some(bar) = &self.bar else { return };
-        let (right, y, length) = (foot.right() - 4.0, foot.bottom() - 5.0, bar.length * lens.scale);
+        let right = foot.right() - 4.0;
+        let y = foot.bottom() - 5.0;
+        let length = bar.length * lens.scale;
         let ink = Stroke::solid(INK, 1.0);
         canvas.polyline(&[[right - length, y], [right, y]], &ink);
         for x in [right - length, right] {
             canvas.polyline(&[[x, y - 2.0], [x, y + 2.0]], &ink);
         }
-        let set = Type::of(TextSize::TICK).aligned(Align::Middle, Stand::Base);
+        let set = Type::regular(TextSize::TICK).aligned(Align::Middle, Stand::Base);
         let half = set.width_pt(&bar.label) / 2.0;
         let middle = (right - length / 2.0).min(foot.right() - half - 1.0);
         canvas.text([middle, y - 3.5], &bar.label, &set);
@@ -164,7 +167,8 @@ fn batches(lens: &Lens, items: &[Item]) -> Vec<Batch> {
     for run in items.chunk_by(follows) {
         let rest = run.iter().skip(1).flat_map(|item| item.points.iter().skip(1));
         let points: Vec<[f64; 2]> = run[0].points.iter().chain(rest).map(|&point| lens.at(point)).collect();
-        let (look, room) = (run[0].look, room_of(&points));
+        let look = run[0].look;
+        let room = room_of(&points);
         let own = opaque(look);
         if own.is_some() && area(&points) < LEAST_FACE {
             continue;
@@ -204,14 +208,15 @@ fn draw_items(canvas: &mut Canvas, lens: &Lens, items: &[Item]) {
 
 /// A tag: a dotted one stands on that side of its point where least of the lines drawn over everything passes.
 fn draw_tag(canvas: &mut Canvas, lens: &Lens, tag: &Tag, overlays: &[Vec<[f64; 2]>]) {
-    let set = Type { rim: true, ..Type::of(TextSize::TICK).aligned(Align::Start, Stand::Centre) };
+    let set = Type { rim: true, ..Type::regular(TextSize::TICK).aligned(Align::Start, Stand::Centre) };
     let [x, y] = lens.at(tag.at);
     if !tag.dotted {
         canvas.text([x, y], &tag.text, &set.aligned(Align::Middle, Stand::Centre));
         return;
     }
     canvas.circle([x, y], 1.3, Some(Fill::solid(INK)), None);
-    let (width, half) = (set.width_pt(&tag.text), TextSize::TICK.pt() / 2.0);
+    let width = set.width_pt(&tag.text);
+    let half = TextSize::TICK.pt() / 2.0;
     let sides = [(1.0, -3.0), (-1.0, -3.0), (1.0, 5.0), (-1.0, 5.0)];
     let covered = |(side, down): (f64, f64)| {
         let near = side * (3.5 + width / 2.0);

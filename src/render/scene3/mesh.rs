@@ -56,7 +56,8 @@ impl Mesh {
         let span = sub(to, from);
         let axis = if dot(span, span) > 0.0 { unit(span) } else { [0.0, 0.0, 1.0] };
         let aside = if axis[2].abs() < 0.9 { [0.0, 0.0, 1.0] } else { [1.0, 0.0, 0.0] };
-        let (right, up) = (unit(cross(axis, aside)), cross(axis, unit(cross(axis, aside))));
+        let right = unit(cross(axis, aside));
+        let up = cross(axis, unit(cross(axis, aside)));
         let quarter = std::f64::consts::FRAC_PI_2;
         let latitudes = (1..=RINGS).map(|ring| (from, -quarter + quarter * ring as f64 / RINGS as f64));
         let latitudes = latitudes.chain((0..RINGS).map(|ring| (to, quarter * ring as f64 / RINGS as f64)));
@@ -79,7 +80,8 @@ impl Mesh {
 
     /// Faces that look at the camera, then the outlines that part them; all belong to `solid`.
     pub fn visible(&self, solid: usize, camera: &Camera) -> Vec<Item> {
-        let (mut items, mut fronts) = (Vec::new(), vec![None; self.faces.len()]);
+        let mut items = Vec::new();
+        let mut fronts = vec![None; self.faces.len()];
         for (index, face) in self.faces.iter().enumerate() {
             let mut corners = self.corners(face);
             let mut outward = normal(&corners);
@@ -128,7 +130,8 @@ impl Mesh {
 }
 
 fn capsule_faces() -> Vec<Vec<usize>> {
-    let (rings, last) = (2 * RINGS, 2 * RINGS * SIDES + 1);
+    let rings = 2 * RINGS;
+    let last = 2 * RINGS * SIDES + 1;
     let at = |ring: usize, side: usize| 1 + ring * SIDES + side % SIDES;
     let mut faces = Vec::new();
     for side in 0..SIDES {

@@ -112,7 +112,9 @@ fn least_cutting(region: &[Item], slack: f64) -> Option<Plane> {
         .collect();
     let stride = planes.len().div_ceil(TRIES).max(1);
     let cost = |plane: &Plane| {
-        let (mut cut, mut above, mut below) = (0_i64, 0_i64, 0_i64);
+        let mut cut = 0_i64;
+        let mut above = 0_i64;
+        let mut below = 0_i64;
         for item in region {
             let (low, high) = heights(item, *plane);
             cut += i64::from(low < -slack && high > slack);
@@ -161,7 +163,8 @@ fn kept(points: &[Vec3], plane: Plane, sign: f64) -> Vec<Vec3> {
     let mut part = Vec::new();
     for index in 0..points.len() {
         let (a, b) = (points[index], points[(index + 1) % points.len()]);
-        let (up, next) = (height(a), height(b));
+        let up = height(a);
+        let next = height(b);
         if up >= 0.0 {
             part.push(a);
         }

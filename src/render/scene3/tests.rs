@@ -47,7 +47,8 @@ fn crowded(case: u64) -> Scene {
 
 #[test]
 fn nothing_is_followed_by_what_lies_behind_it_even_where_solids_pierce_each_other() {
-    let (mut compared, mut pierced) = (0, 0);
+    let mut compared = 0;
+    let mut pierced = 0;
     for case in 0..12 {
         let camera = Camera::parallel(30.0 * case as f64 + 7.0, 25.0);
         let scene = marked(crowded(case), camera);
@@ -131,8 +132,8 @@ fn no_face_that_an_edge_bounds_is_drawn_over_it_not_even_the_floor() {
     };
     let mut drawn = 0.0;
     for (index, line) in items.iter().enumerate().filter(|(_, item)| !is_face(item)) {
-        let (span, middle) =
-            (sub(line.points[1], line.points[0]), along(line.points[0], line.points[1], 1.0));
+        let span = sub(line.points[1], line.points[0]);
+        let middle = along(line.points[0], line.points[1], 1.0);
         let later = items[index..].iter().filter(|item| is_face(item));
         assert!(!later.into_iter().any(|face| touches(face, middle.map(|v| v / 2.0))), "{line:?} is covered");
         drawn += dot(span, span).sqrt();

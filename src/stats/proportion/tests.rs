@@ -48,7 +48,7 @@ fn clopper_pearson_gives_what_newcombe_and_r_print() {
 }
 
 #[test]
-fn draws_that_agree_at_an_end_have_the_closed_form() {
+fn instances_that_agree_at_an_end_have_the_closed_form() {
     for n in [1_u8, 5, 10, 20, 145] {
         let low = libm::pow(0.025, 1.0 / f64::from(n));
         let all = |hits: f64| mean_of_agreed(&vec![[hits, 7.0]; usize::from(n)], 0.0, 0.95);
@@ -57,49 +57,50 @@ fn draws_that_agree_at_an_end_have_the_closed_form() {
         let exact = clopper_pearson(usize::from(n), usize::from(n), 0.95).unwrap();
         close(all(7.0), exact.low, exact.high, 1e-12);
     }
-    // Twice the mean number of chances on the largest draw: twice as wide.
+    // Twice the mean number of chances on the largest instance: twice as wide.
     let uneven: Vec<[f64; 2]> = (0..20).map(|i| if i < 4 { [6.0, 6.0] } else { [2.25, 2.25] }).collect();
     close(mean_of_agreed(&uneven, 0.0, 0.95), 1.0 - 2.0 * (1.0 - libm::pow(0.025, 0.05)), 1.0, 1e-12);
-    // A draw that differs may have more chances than any that was seen.
-    let most = 2.0 * uneven.iter().fold(0.0, |most: f64, draw| most.max(draw[1]));
+    // An instance that differs may have more chances than any that was seen.
+    let most = 2.0 * uneven.iter().fold(0.0, |most: f64, instance| most.max(instance[1]));
     close(mean_of_agreed(&uneven, most, 0.95), 1.0 - 4.0 * (1.0 - libm::pow(0.025, 0.05)), 1.0, 1e-12);
 }
 
 #[test]
-fn draws_that_agree_between_the_ends_leave_room_for_those_that_differ() {
+fn instances_that_agree_between_the_ends_leave_room_for_those_that_differ() {
     let differ = 1.0 - libm::pow(0.025, 0.05);
-    let draws: Vec<[f64; 2]> =
+    let instances: Vec<[f64; 2]> =
         (1..=20).map(|i| [f64::from(3 * (i % 2 + 1)), f64::from(4 * (i % 2 + 1))]).collect();
-    // Half of the draws have twice the chances of the others: a third wider.
+    // Half of the instances have twice the chances of the others: a third wider.
     let wide = differ * 4.0 / 3.0;
-    close(mean_of_agreed(&draws, 0.0, 0.95), 0.75 - 0.75 * wide, 0.75 + 0.25 * wide, 1e-12);
+    close(mean_of_agreed(&instances, 0.0, 0.95), 0.75 - 0.75 * wide, 0.75 + 0.25 * wide, 1e-12);
 }
 
 #[test]
 fn agreement_misleads_no_oftener_than_its_level_says() {
     // Each value of (3/4, anything else) at its most misleading: just so many differ that the interval misses the truth.
     let mut missed = 0;
-    let (n, runs) = (12, 4000);
+    let n = 12;
+    let runs = 4000;
     let differ = 1.0 - libm::pow(0.025, 1.0 / f64::from(n)) + 1e-9;
     let mut stream = base::seed::stream(base::seed::derive(47, &["agreed"]));
     for _ in 0..runs {
-        let draw =
+        let instance =
             |_| if rand::RngExt::random::<f64>(&mut stream) < differ { [0.0, 4.0] } else { [3.0, 4.0] };
-        let found = mean_of_agreed(&(0..n).map(draw).collect::<Vec<_>>(), 0.0, 0.95);
+        let found = mean_of_agreed(&(0..n).map(instance).collect::<Vec<_>>(), 0.0, 0.95);
         missed += u32::from(found.is_some_and(|found| !found.contains(0.75 * (1.0 - differ))));
     }
     assert!((40..=160).contains(&missed), "seed 47: {missed} of {runs}, where 100 are expected");
 }
 
 #[test]
-fn draws_that_do_not_agree_have_no_such_interval() {
-    for draws in [vec![], vec![[1.0, 1.0], [0.0, 1.0]], vec![[1.0, 2.0], [1.0, 3.0]], vec![[0.0, 0.0]]] {
-        assert_eq!(mean_of_agreed(&draws, 0.0, 0.95), None, "{draws:?}");
+fn instances_that_do_not_agree_have_no_such_interval() {
+    for instances in [vec![], vec![[1.0, 1.0], [0.0, 1.0]], vec![[1.0, 2.0], [1.0, 3.0]], vec![[0.0, 0.0]]] {
+        assert_eq!(mean_of_agreed(&instances, 0.0, 0.95), None, "{instances:?}");
     }
 }
 
 #[test]
-fn so_many_agreeing_draws_reach_a_width_and_one_fewer_do_not() {
+fn so_many_agreeing_instances_reach_a_width_and_one_fewer_do_not() {
     for (width, needed) in [(0.1, 36), (0.005, 736), (0.5, 6)] {
         let found = |n: usize| mean_of_agreed(&vec![[1.0, 1.0]; n], 0.0, 0.95).unwrap().low;
         assert_eq!(agreeing_for_width(width, 0.95), needed);
@@ -113,7 +114,8 @@ fn binomial_tails_add_up_to_what_pascals_triangle_gives() {
         for share in [0.01, 0.3, 0.5, 0.97] {
             let mut mass = vec![1.0];
             for _ in 0..trials {
-                let (stay, hit) = (mass.iter().map(|m| m * (1.0 - share)), mass.iter().map(|m| m * share));
+                let stay = mass.iter().map(|m| m * (1.0 - share));
+                let hit = mass.iter().map(|m| m * share);
                 // Nobody has one hit more than trials, nor came to none by a hit.
                 mass = stay.chain([0.0]).zip([0.0].into_iter().chain(hit)).map(|(a, b)| a + b).collect();
             }
@@ -131,7 +133,8 @@ fn binomial_tails_add_up_to_what_pascals_triangle_gives() {
 
 #[test]
 fn exact_intervals_cover_at_their_level_and_wilson_nearly() {
-    let (mut least_exact, mut least_wilson) = (1.0_f64, 1.0_f64);
+    let mut least_exact = 1.0_f64;
+    let mut least_wilson = 1.0_f64;
     for share in (1..50).map(|i| f64::from(i) / 50.0) {
         let covered = |interval: fn(usize, usize, f64) -> Option<Interval>| -> f64 {
             let hit = |&hits: &usize| interval(hits, 30, 0.95).unwrap().contains(share);
@@ -154,25 +157,26 @@ fn half_an_interval_takes_four_times_the_units() {
 
 #[test]
 fn a_rank_counts_ties_apart() {
-    let rank = Rank::of(3.0, &[1.0, 3.0, 5.0, 3.0, f64::INFINITY]);
+    let rank = Rank::new(3.0, &[1.0, 3.0, 5.0, 3.0, f64::INFINITY]);
     assert_eq!(rank, Rank { below: 1, equal: 2, above: 2 });
     assert_eq!(rank.share_at_most(), Some(0.6));
     assert_eq!(rank.interval_at_most(0.95), clopper_pearson(3, 5, 0.95));
-    assert_eq!(Rank::of(9.0, &[1.0; 99]).p_two_sided(), 0.02);
-    assert_eq!(Rank::of(1.0, &[1.0; 99]).p_two_sided(), 1.0);
-    assert_eq!(Rank::of(1.0, &[]).share_at_most(), None);
+    assert_eq!(Rank::new(9.0, &[1.0; 99]).p_two_sided(), 0.02);
+    assert_eq!(Rank::new(1.0, &[1.0; 99]).p_two_sided(), 1.0);
+    assert_eq!(Rank::new(1.0, &[]).share_at_most(), None);
 }
 
 #[test]
-fn predictive_intervals_hold_the_next_draw_at_their_level() {
+fn predictive_intervals_hold_the_next_instance_at_their_level() {
     let mut stream = seed::stream(seed::derive(5, &["predictive"]));
-    let (mut inside, runs) = (0, 4000);
+    let mut inside = 0;
+    let runs = 4000;
     for _ in 0..runs {
-        let draws: Vec<f64> = (0..59).map(|_| stream.random::<f64>()).collect();
-        inside += u32::from(predictive(&draws, 0.9).unwrap().contains(stream.random()));
+        let instances: Vec<f64> = (0..59).map(|_| stream.random::<f64>()).collect();
+        inside += u32::from(predictive(&instances, 0.9).unwrap().contains(stream.random()));
     }
     let share = f64::from(inside) / f64::from(runs);
-    // 59 draws and k = 3: exactly 0.9; three standard errors are 0.014.
+    // 59 instances and k = 3: exactly 0.9; three standard errors are 0.014.
     assert!((share - 0.9).abs() < 0.015, "seed 5: {share}");
     let ramp: Vec<f64> = (1..=39).map(f64::from).collect();
     assert_eq!(predictive(&ramp, 0.95), Some(Interval::new(1.0, 39.0)));
@@ -180,16 +184,16 @@ fn predictive_intervals_hold_the_next_draw_at_their_level() {
 }
 
 #[test]
-fn a_ratio_that_every_draw_has_allows_for_draws_that_differ() {
-    let of = |draws: &[[f64; 2]]| ratio_of_agreed(draws, 0.95);
+fn a_ratio_that_every_instance_has_allows_for_instances_that_differ() {
+    let of = |instances: &[[f64; 2]]| ratio_of_agreed(instances, 0.95);
     let differ = 1.0 - libm::pow(0.025, 0.05);
     close(of(&[[4.0, 8.0]; 20]), 0.5 - differ, 0.5 + differ, 1e-12);
     close(of(&[[6.0, 2.0]; 20]), 3.0 - 3.0 * differ, 3.0 + 3.0 * differ, 1e-12);
     close(of(&[[0.0, 2.0]; 20]), 0.0, differ, 1e-12);
-    // Half of the draws are three times as large: the largest is 1.5 of the mean.
+    // Half of the instances are three times as large: the largest is 1.5 of the mean.
     let uneven: Vec<[f64; 2]> = (0..20).map(|i| if i % 2 == 0 { [1.0, 1.0] } else { [3.0, 3.0] }).collect();
     close(of(&uneven), 1.0 - 1.5 * differ, 1.0 + 1.5 * differ, 1e-12);
-    // A draw without anything on either side differs from no ratio, and rounding parts none.
+    // An instance without anything on either side differs from no ratio, and rounding parts none.
     close(of(&[[0.0, 0.0], [1.0, 1.0]]), 0.0, 1.0 + 2.0 * (1.0 - libm::sqrt(0.025)), 1e-12);
     assert!(of(&[[0.1 + 0.2, 0.3], [0.3, 0.1 + 0.2]]).is_some());
     for others in
@@ -204,13 +208,13 @@ fn the_interval_of_an_agreed_ratio_misses_the_truth_no_more_often_than_it_says()
     let mut stream = base::seed::stream(base::seed::derive(47, &["agreed ratio"]));
     let mut nearest: f64 = 0.0;
     for share in [0.03, 0.1, 0.17, 0.2, 0.3] {
-        // So many draws have twice the ratio of the others.
+        // So many instances have twice the ratio of the others.
         let missed = (0..4000).filter(|_| {
             let one = |stream: &mut base::seed::Stream| {
                 [1.0 + f64::from(u8::from(stream.random::<f64>() < share)), 1.0]
             };
-            let draws: Vec<_> = (0..20).map(|_| one(&mut stream)).collect();
-            ratio_of_agreed(&draws, 0.95).is_some_and(|found| !found.contains(1.0 + share))
+            let instances: Vec<_> = (0..20).map(|_| one(&mut stream)).collect();
+            ratio_of_agreed(&instances, 0.95).is_some_and(|found| !found.contains(1.0 + share))
         });
         let missed = missed.count() as f64 / 4000.0;
         assert!(missed <= 0.032, "seed 47, {share}: {missed}");

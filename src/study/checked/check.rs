@@ -103,9 +103,10 @@ impl Study {
         known: &mut Families,
         faults: &mut Faults,
     ) -> Result<Vec<(&Group, Arc<dyn Family>)>, StudyError> {
-        let (mut families, mut posed) = (Vec::new(), BTreeMap::new());
+        let mut families = Vec::new();
+        let mut posed = BTreeMap::new();
         for (group, at) in self.posed() {
-            let Some(family) = keep(faults, known.of((group, at), default, inputs))? else { continue };
+            let Some(family) = keep(faults, known.family((group, at), default, inputs))? else { continue };
             let ends = family.check_ends();
             let of_family = posed.entry(group.family.name).or_insert(ends.clone());
             if ends.is_ok() {
@@ -128,7 +129,7 @@ impl Study {
     ) -> Result<(), StudyError> {
         let mut families: Vec<(&Group, Arc<dyn Family>)> = Vec::new();
         for (group, at) in self.posed() {
-            match keep(faults, known.of((group, at), point, inputs))? {
+            match keep(faults, known.family((group, at), point, inputs))? {
                 Some(family) => families.push((group, family)),
                 None => group.check_rest(at, point, inputs, faults),
             }
@@ -174,7 +175,9 @@ impl Study {
     /// Refuses sweeps that no record could name or that change nothing, and leaves out the former.
     fn check_sweeps(&mut self, faults: &mut Faults) {
         let used = self.stage_names();
-        let (mut keys, mut kept, mut points) = (BTreeSet::new(), Vec::new(), 1_usize);
+        let mut keys = BTreeSet::new();
+        let mut kept = Vec::new();
+        let mut points = 1_usize;
         // Settings of problems that some sweep would have filled.
         let mut unfilled = BTreeSet::new();
         for sweep in std::mem::take(&mut self.sweeps) {

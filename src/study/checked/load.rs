@@ -217,7 +217,7 @@ fn sweeps(specs: Vec<SweepSpec>, document: &Arc<Document>, faults: &mut Faults) 
 
 fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, SettingsError> {
     let known = family::REGISTRY.iter().map(|entry| entry.name);
-    let replicates = spec.replicates.unwrap_or(1);
+    let instances = spec.instances.unwrap_or(1);
     let family = look_up(document, "problem family", &spec.family, family::find, known)?;
     let written = Settings::written(document, &spec.settings);
     let settings = match &spec.file {
@@ -228,9 +228,9 @@ fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, Setting
         label: spec.label.get_ref().clone(),
         place: spec.place,
         family,
-        replicates,
-        draw: spec.draw.clone(),
-        is_numbered: replicates > 1,
+        instances,
+        shared_instances: spec.shared_instances.clone(),
+        is_numbered: instances > 1,
         settings: settings.completed(family.settings),
         points: vec![SweepPoint::default()],
         queries: Vec::new(),

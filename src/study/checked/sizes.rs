@@ -11,7 +11,7 @@ use std::sync::Arc;
 const TRIALS: f64 = 1e7;
 /// The most timed runs of a study.
 const TIMED: f64 = 1e7;
-/// The most cells, samples and the like that the draws of a problem group are made of together.
+/// The most cells, samples and the like that the instances of a problem group are made of together.
 const CELLS: f64 = 1e12;
 /// The most combinations of the sweeps' values.
 pub(super) const SWEPT: usize = 10_000;
@@ -20,14 +20,14 @@ impl Study {
     /// Refuses products of sizes that cannot be meant, trials that nobody runs, and seeds for a contender that draws nothing.
     pub(super) fn check_sizes(&self, families: &[(&Group, Arc<dyn Family>)], faults: &mut Faults) {
         for (group, family) in families {
-            let cells = f64::from(group.replicates) * family.cells() as f64;
+            let cells = f64::from(group.instances) * family.cells() as f64;
             if cells > CELLS {
                 let message = format!(
-                    "{} draws of {} cells or samples each are {cells:.1e}; at most {CELLS:.0e} are accepted in all",
-                    group.replicates,
+                    "{} instances of {} cells or samples each are {cells:.1e}; at most {CELLS:.0e} are accepted in all",
+                    group.instances,
                     family.cells()
                 );
-                faults.add(self.document.error_at(&format!("problems.{}.replicates", group.place), message));
+                faults.add(self.document.error_at(&format!("problems.{}.instances", group.place), message));
             }
         }
         self.check_runs(faults);
@@ -56,7 +56,7 @@ impl Study {
         let swept = self.contender_points().len();
         let each = families
             .iter()
-            .map(|(group, family)| f64::from(group.replicates) * family.queries().len().max(1) as f64);
+            .map(|(group, family)| f64::from(group.instances) * family.queries().len().max(1) as f64);
         let problems = each.sum::<f64>();
         let of = |contender: &Contender| problems * f64::from(contender.repeats) * swept as f64;
         let trials: f64 = self.contenders.iter().map(of).sum();
@@ -68,9 +68,9 @@ impl Study {
                 self.contenders.len(),
                 largest.repeats
             );
-            let widest = families.iter().max_by_key(|(group, _)| group.replicates).map(|(group, _)| *group);
-            let place = match widest.filter(|group| group.replicates > largest.repeats) {
-                Some(group) => format!("problems.{}.replicates", group.place),
+            let widest = families.iter().max_by_key(|(group, _)| group.instances).map(|(group, _)| *group);
+            let place = match widest.filter(|group| group.instances > largest.repeats) {
+                Some(group) => format!("problems.{}.instances", group.place),
                 None => format!("contender.{}.repeats", largest.place),
             };
             faults.add(self.document.error_at(&place, message));
@@ -82,18 +82,18 @@ impl Study {
         }
     }
 
-    /// Refuses draws and seeds beyond those that there are.
+    /// Refuses instances and seeds beyond those that there are.
     fn check_shown(&self, shown: &[TrialsSpec], place: &str, faults: &mut Faults) {
         for (index, trials) in shown.iter().enumerate() {
             let group = self.groups.iter().find(|group| group.label == trials.problems);
             let of = |label: &String| self.contenders.iter().find(|contender| contender.label == *label);
             let contender = trials.contender.as_ref().and_then(of);
             let asked = [
-                ("replicates", Some(trials.replicates), group.map(|group| group.replicates)),
+                ("instances", Some(trials.instances), group.map(|group| group.instances)),
                 (
                     "also",
                     trials.also.iter().max().map(|last| last.saturating_add(1)),
-                    group.map(|group| group.replicates),
+                    group.map(|group| group.instances),
                 ),
                 ("repeats", trials.repeats, contender.map(|contender| contender.repeats)),
             ];

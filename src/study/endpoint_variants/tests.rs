@@ -86,7 +86,8 @@ impl Question for Pairs {
 fn every_variant_gets_its_own_answer_and_free_shapes_include_what_uniform_ones_give() {
     let uniform =
         ["circle", "square", "hexagon", "triangle"].map(|shape| variant(&format!("shape = '{shape}'")));
-    let (free, never) = (variant(FREE), variant("shape = 'circle'\nopen_node = 'never'\nties = 'lifo'"));
+    let free = variant(FREE);
+    let never = variant("shape = 'circle'\nopen_node = 'never'\nties = 'lifo'");
     let impossible = Variant { diameter_cm: -1.0, ..variant("shape = 'circle'") };
     let [circles, squares, hexagons, triangles] = &uniform;
     let never_fifo = variant("shape = 'circle'\nopen_node = 'never'\nties = 'fifo'");

@@ -3,8 +3,8 @@
 use super::ends::{Ends, PlaneEnd, is_within};
 use super::{Entry, Family, Query};
 use crate::StudyError;
-use crate::prepared::workspace_map::{self, ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
-use crate::prepared::{Prepared, lattice};
+use crate::preprocessing::workspace_map::{self, ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
+use crate::preprocessing::{Preprocessing, lattice};
 use crate::verification::ARM_COLUMNS;
 use base::seed::Stream;
 use base::settings::{Accepted, Faults, Settings, SettingsError};
@@ -23,9 +23,9 @@ pub static ENTRY: Entry = Entry {
     about: "a planar arm among obstacles, its tip on a lattice; start and goal are written, or drawn with each instance",
     revision: 1,
     is_drawn: false,
-    prepared: workspace_map::ENTRY.name,
+    preprocessing: workspace_map::ENTRY.name,
     columns: ARM_COLUMNS,
-    settings: Accepted::of::<ArmWorkspace>(),
+    settings: Accepted::shape::<ArmWorkspace>(),
     example: r#"
 links_cm = [30, 20]
 x_cm = [-50, 50]
@@ -79,7 +79,7 @@ struct ArmWorkspace {
     obstacle_diameter_cm: f64,
     /// One shape for all obstacles, or one for each.
     obstacle_shapes: Vec<ShapeSetting>,
-    /// Shapes that the obstacles take in turn, in place of `obstacle_shapes`: for readings of problems with more obstacles and
+    /// Shapes that the obstacles take in turn, in place of `obstacle_shapes`: for options of problems with more obstacles and
     /// with fewer.
     #[serde(default)]
     shapes_in_turn: Vec<ShapeSetting>,
@@ -108,7 +108,7 @@ enum BlockedEnds {
     /// The study is wrong.
     #[default]
     Refused,
-    /// The problem cannot be posed under this reading: ends that one reading leaves free another may block.
+    /// The problem cannot be posed under this interpretation: ends that one interpretation leaves free another may block.
     InvalidProblem,
 }
 
@@ -134,12 +134,14 @@ impl ArmWorkspace {
             .map_err(|error| settings.error_at("links_cm", format!("links_cm: {error}")));
         let lattice = TipLattice::new(self.x_cm, self.y_cm, self.step_cm)
             .map_err(|(key, message)| settings.error_at(key, message));
-        let (arm, lattice) = (faults.keep(arm), faults.keep(lattice));
+        let arm = faults.keep(arm);
+        let lattice = faults.keep(lattice);
         let ends = faults.keep(self.ends(settings));
         let obstacles =
             faults.keep(self.obstacles().map_err(|(key, message)| settings.error_at(&key, message)));
         let limit = self.q2_limit_rad().map_err(|message| settings.error_at("theta2_limit_deg", message));
-        let (limit, posed) = (faults.keep(limit), arm.zip(lattice).zip(ends).zip(obstacles));
+        let limit = faults.keep(limit);
+        let posed = arm.zip(lattice).zip(ends).zip(obstacles);
         let ((((arm, lattice), ends), obstacles), q2_limit_rad) = faults.or(posed.zip(limit))?;
         let rules = ArmRules {
             arm,
@@ -212,7 +214,8 @@ impl ArmWorkspace {
 
     /// The obstacles, or the key at fault and what is wrong.
     fn obstacles(&self) -> Result<Vec<Obstacle>, (String, String)> {
-        let (count, shapes) = (self.obstacles_cm.len(), &self.obstacle_shapes);
+        let count = self.obstacles_cm.len();
+        let shapes = &self.obstacle_shapes;
         if shapes.len() != 1 && shapes.len() != count {
             let message = format!(
                 "obstacle_shapes names {} shapes for {count} obstacles; one for all or one for each is accepted",
@@ -266,7 +269,7 @@ impl Family for Posed {
         WorldKind::Arm
     }
 
-    fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
+    fn prepare(&self, seed: u64) -> Result<Preprocessing, Invalid> {
         if let Some(blocked) = &self.blocked {
             return Err(blocked.clone());
         }

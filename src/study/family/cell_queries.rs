@@ -7,9 +7,9 @@ pub use groups::GROUPS_FILE;
 
 use super::ends::{Ends, SpaceLimits, is_within};
 use super::input::{input, load_robot, load_scene};
-use super::{Entry, Family, Query, Stance};
-use crate::prepared::Prepared;
-use crate::prepared::nested_roadmap::{self, Neighbours};
+use super::{ArmPlacement, Entry, Family, Query};
+use crate::preprocessing::Preprocessing;
+use crate::preprocessing::nested_roadmap::{self, Neighbours};
 use crate::verification::roadmap::ARM_COLUMNS;
 use crate::{Inputs, StudyError};
 use base::seed::{self, Stream};
@@ -35,9 +35,9 @@ pub static ENTRY: Entry = Entry {
     about: "queries of a six-axis arm in its cell, on roadmaps of free configurations drawn at random",
     revision: 5,
     is_drawn: true,
-    prepared: nested_roadmap::ENTRY.name,
+    preprocessing: nested_roadmap::ENTRY.name,
     columns: ARM_COLUMNS,
-    settings: Accepted::of::<CellQueries>(),
+    settings: Accepted::shape::<CellQueries>(),
     example: r#"
 robot = "data/robots/motoman_up6.toml"
 scene = "data/scenes/fu2018_cell.toml"
@@ -355,7 +355,9 @@ impl Posed {
     /// Free configurations, as many as were asked for, and how many draws they took; fewer if the draws run out.
     fn samples(&self, seed: u64) -> (Vec<Sample>, u32) {
         let mut stream = seed::stream(seed);
-        let (wanted, mut samples, mut draws) = (self.read.samples, Vec::new(), 0);
+        let wanted = self.read.samples;
+        let mut samples = Vec::new();
+        let mut draws = 0;
         let is_done = |accepted: usize, draws: u32| match self.read.counted {
             CountedSetting::Accepted => accepted >= wanted as usize || draws / DRAWS_PER_SAMPLE >= wanted,
             CountedSetting::Drawn => draws >= wanted,
@@ -416,7 +418,7 @@ impl Family for Posed {
         WorldKind::Roadmap
     }
 
-    fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
+    fn prepare(&self, seed: u64) -> Result<Preprocessing, Invalid> {
         let queries = self.queries_drawn(seed)?;
         let (samples, draws) = self.samples(seed);
         let counted = match self.read.counted {
@@ -424,19 +426,20 @@ impl Family for Posed {
             CountedSetting::Drawn => Counted::Drawn,
         };
         if counted == Counted::Accepted && samples.len() < self.read.samples as usize {
-            let (found, wanted) = (samples.len(), self.read.samples);
+            let found = samples.len();
+            let wanted = self.read.samples;
             return Err(Invalid(format!(
                 "{found} of {wanted} free configurations were found in {draws} draws"
             )));
         }
         let lines = Lines::new(self.cell.clone(), self.read.rules());
         let local = Local::Arm(Box::new(lines.clone()));
-        let mut prepared = nested_roadmap::prepare(local, samples, draws, self.near, counted);
-        if let (World::Roadmap(map), Some(unit_mm)) = (&mut prepared.world, self.read.radius_mm) {
+        let mut preprocessing = nested_roadmap::prepare(local, samples, draws, self.near, counted);
+        if let (World::Roadmap(map), Some(unit_mm)) = (&mut preprocessing.world, self.read.radius_mm) {
             map.set_unit(unit_mm, self.read.times());
         }
-        prepared.exhibits = picture::exhibits(&lines, &queries);
-        Ok(prepared)
+        preprocessing.traces = picture::traces(&lines, &queries);
+        Ok(preprocessing)
     }
 
     fn queries(&self) -> &[Query] {
@@ -463,7 +466,7 @@ impl Family for Posed {
         Some(nested_roadmap::extent(self.read.samples, self.near, self.read.times()))
     }
 
-    fn stance(&self, q_rad: &[f64]) -> Option<Stance> {
+    fn stance(&self, q_rad: &[f64]) -> Option<ArmPlacement> {
         picture::stance(&self.cell, q_rad)
     }
 

@@ -1,14 +1,14 @@
-//! Draws of other families on which one planner's record lies in given bands, found by rejection.
+//! Instances of other families on which one planner's record lies in given bands, found by rejection.
 //!
-//! One draw tries maps in a written order until one is accepted: try `i` takes its family and its seed from the
-//! draw's seed and `i`. Accepted draws are therefore independent and distributed as the mixture of the families,
+//! One instance tries maps in a written order until one is accepted: try `i` takes its family and its seed from the
+//! instance's seed and `i`. Accepted instances are therefore independent and distributed as the mixture of the families,
 //! given the bands. How many tries each took is recorded, so that acceptance rates are known, and may be listed in a
 //! file ([`found`]): a listed draw is looked at again, but not the tries before it.
 
 mod found;
 
 use super::{Entry, Family, Query};
-use crate::prepared::{Prepared, lattice};
+use crate::preprocessing::{Preprocessing, lattice};
 use crate::verification::{LATTICE_COLUMNS, measured};
 use crate::{Inputs, StudyError, column};
 use base::hash::sha256;
@@ -29,9 +29,9 @@ pub static ENTRY: Entry = Entry {
     about: "draws of other families, each with equal chance, on which one planner's record lies in given bands",
     revision: 1,
     is_drawn: true,
-    prepared: lattice::ENTRY.name,
+    preprocessing: lattice::ENTRY.name,
     columns: LATTICE_COLUMNS,
-    settings: Accepted::of::<Conditioned>(),
+    settings: Accepted::shape::<Conditioned>(),
     example: r#"
 corner_rule = "allow"
 planner = "astar"
@@ -94,7 +94,7 @@ of = [
 #[serde(deny_unknown_fields)]
 struct Conditioned {
     /// The families that are drawn from.
-    of: Vec<Of>,
+    of: Vec<ConditionedFamily>,
     /// Settings that all of them share.
     #[schemars(with = "AnyTable")]
     shared: Table,
@@ -109,7 +109,7 @@ struct Conditioned {
     given: BTreeMap<String, [f64; 2]>,
     /// At most this many expansions a try.
     expansions: u64,
-    /// At most this many tries a draw; a draw that is not accepted is an invalid problem.
+    /// At most this many tries an instance; an instance that is not accepted is an invalid problem.
     #[schemars(range(max = 1_000_000_000))]
     tries: u64,
     /// A file that lists how many tries draws took, so that they need not be tried again.
@@ -118,7 +118,7 @@ struct Conditioned {
 
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct Of {
+struct ConditionedFamily {
     /// The family, by name.
     family: String,
     /// Its settings besides the shared ones.
@@ -143,8 +143,13 @@ impl Conditioned {
         let revisions: Vec<Option<u32>> =
             of.iter().map(|of| super::find(&of.family).map(|entry| entry.revision)).collect();
         let revision = planner::find(planner).map(|entry| entry.revision);
+        // As lists were sealed from the first on.
+        let family = |one: &ConditionedFamily| {
+            format!("Of {{ family: {:?}, settings: {:?} }}", one.family, one.settings)
+        };
+        let families = of.iter().map(family).collect::<Vec<_>>().join(", ");
         let text = format!(
-            "{} {of:?} {shared} {corner_rule} {planner} {planner_settings} {given:?} {expansions} {revisions:?} {revision:?}",
+            "{} [{families}] {shared} {corner_rule} {planner} {planner_settings} {given:?} {expansions} {revisions:?} {revision:?}",
             ENTRY.revision
         );
         sha256(text.as_bytes())[..16].to_owned()
@@ -173,7 +178,7 @@ impl Conditioned {
     }
 
     fn families(&self, settings: &Settings, inputs: &Inputs) -> Result<Vec<Box<dyn Family>>, StudyError> {
-        let build = |(index, of): (usize, &Of)| {
+        let build = |(index, of): (usize, &ConditionedFamily)| {
             let entry = super::find(&of.family).ok_or_else(|| {
                 let known: Vec<&str> = super::REGISTRY.iter().map(|entry| entry.name).collect();
                 let message =
@@ -183,7 +188,8 @@ impl Conditioned {
             let mut table = self.shared.clone();
             table.extend(of.settings.clone());
             table.insert("corner_rule".to_owned(), Toml::String(self.corner_rule.clone()));
-            let (whose, own) = (format!("`of` {}", of.family), format!("of.{index}.settings"));
+            let whose = format!("`of` {}", of.family);
+            let own = format!("of.{index}.settings");
             let family =
                 (entry.build)(&Settings::of_parts(settings, &[&own, "shared", ""], whose, table), inputs)?;
             if family.world() == WorldKind::Lattice {
@@ -251,7 +257,7 @@ impl Family for Rejection {
         WorldKind::Lattice
     }
 
-    fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
+    fn prepare(&self, seed: u64) -> Result<Preprocessing, Invalid> {
         let mut stream = seed::stream(seed);
         let known = self.found.get(&seed).copied().unwrap_or(0);
         for tries in 1..=self.read.tries {
@@ -262,9 +268,9 @@ impl Family for Rejection {
                 continue;
             }
             if self.families[family].draw(seed).is_ok_and(|world| self.accepts(&world)) {
-                let mut prepared = self.families[family].prepare(seed)?;
-                prepared.values.insert("tries", Value::Count(tries));
-                return Ok(prepared);
+                let mut preprocessing = self.families[family].prepare(seed)?;
+                preprocessing.values.insert("tries", Value::Count(tries));
+                return Ok(preprocessing);
             }
         }
         Err(Invalid(format!("none of {} maps was accepted", self.read.tries)))

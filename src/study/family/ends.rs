@@ -232,7 +232,8 @@ impl Ends {
         let keys = ["start_mm", "goal_mm"];
         let mut faults = Faults::default();
         let [start, goal] = [0, 1].map(|end| {
-            let (key, limits) = (keys[end], limits[end]);
+            let key = keys[end];
+            let limits = limits[end];
             if limits.is_some() && count.is_none() {
                 let message = format!(
                     "{key} limits queries that are drawn; `queries`, how many, is accepted beside it"

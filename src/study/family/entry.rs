@@ -2,14 +2,14 @@
 
 use crate::StudyError;
 use crate::inputs::Inputs;
-use crate::prepared::Prepared;
+use crate::preprocessing::Preprocessing;
 use base::settings::{Accepted, Settings, SettingsError};
 use engine::planner::{Counts, Invalid};
 use engine::space::roadmap::Extent;
 use engine::space::{World, WorldKind};
 use std::path::PathBuf;
 
-/// One question asked of a prepared object.
+/// One question asked of a preprocessed object.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Query {
     /// Its name within the instance; empty where an instance has one query only.
@@ -29,7 +29,7 @@ impl Query {
 
 /// Where the parts of an arm are at one configuration, in millimetres.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Stance {
+pub struct ArmPlacement {
     /// Both ends and the radius of each capsule, x, y, z, x, y, z, radius.
     pub capsules_mm: Vec<[f64; 7]>,
     /// The tip.
@@ -43,18 +43,18 @@ pub trait Family: Send + Sync {
     /// The kind of world its problems are posed in.
     fn world(&self) -> WorldKind;
 
-    /// The prepared object that belongs to `seed`.
+    /// The preprocessed object that belongs to `seed`.
     ///
     /// # Errors
-    /// [`Invalid`] if this draw cannot be posed; its trials are then rows with that status.
-    fn prepare(&self, seed: u64) -> Result<Prepared, Invalid>;
+    /// [`Invalid`] if this instance cannot be posed; its trials are then rows with that status.
+    fn prepare(&self, seed: u64) -> Result<Preprocessing, Invalid>;
 
     /// The world of [`prepare`](Self::prepare) alone, for those who draw many and keep few.
     ///
     /// # Errors
     /// As [`prepare`](Self::prepare).
     fn draw(&self, seed: u64) -> Result<World, Invalid> {
-        self.prepare(seed).map(|prepared| prepared.world)
+        self.prepare(seed).map(|preprocessing| preprocessing.world)
     }
 
     /// The queries of every instance: their names and, where nothing of them is drawn, their ends.
@@ -80,7 +80,7 @@ pub trait Family: Send + Sync {
         Ok(())
     }
 
-    /// About how many cells, samples or the like a draw is made of.
+    /// About how many cells, samples or the like an instance is made of.
     fn cells(&self) -> u64 {
         1
     }
@@ -97,7 +97,7 @@ pub trait Family: Send + Sync {
     }
 
     /// Where its arm is with its joints at `q_rad`; `None` without an arm, or for another number of joints.
-    fn stance(&self, q_rad: &[f64]) -> Option<Stance> {
+    fn stance(&self, q_rad: &[f64]) -> Option<ArmPlacement> {
         let _ = q_rad;
         None
     }
@@ -122,10 +122,10 @@ pub struct Entry {
     pub about: &'static str,
     /// Raised whenever a change moves what it draws.
     pub revision: u32,
-    /// Whether its seed decides anything of what it poses: a single draw is then one of many, not the paper's own.
+    /// Whether its seed decides anything of what it poses: a single instance is then one of many, not the paper's own.
     pub is_drawn: bool,
-    /// The kind of prepared object it builds.
-    pub prepared: &'static str,
+    /// The kind of preprocessed object it builds.
+    pub preprocessing: &'static str,
     /// The columns that every trial on its problems has.
     pub columns: &'static [&'static str],
     /// The shape of its settings, which documents them.

@@ -4,7 +4,7 @@ use super::ends::{Ends, PlaneEnd};
 use super::random_maps::{draw_cell, ends_on};
 use super::{Entry, Family, Query};
 use crate::StudyError;
-use crate::prepared::{Prepared, lattice};
+use crate::preprocessing::{Preprocessing, lattice};
 use crate::verification::LATTICE_COLUMNS;
 use base::grid::{FileMap, read_map};
 use base::settings::{Accepted, Faults};
@@ -21,9 +21,9 @@ pub static ENTRY: Entry = Entry {
     about: "one map from a file (text, PNG, ROS, Moving AI); start and goal are written, or drawn with each instance",
     revision: 1,
     is_drawn: false,
-    prepared: lattice::ENTRY.name,
+    preprocessing: lattice::ENTRY.name,
     columns: LATTICE_COLUMNS,
-    settings: Accepted::of::<GridMap>(),
+    settings: Accepted::shape::<GridMap>(),
     example: r#"
 map = "data/maps/zhang_w1.map.txt"
 start = [22, 15]
@@ -84,7 +84,7 @@ impl Family for Posed {
         WorldKind::Lattice
     }
 
-    fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
+    fn prepare(&self, seed: u64) -> Result<Preprocessing, Invalid> {
         let queries = self.drawn(seed)?;
         lattice::prepare(self.map.grid.clone(), self.corners, queries.iter().map(Query::ends))
     }

@@ -4,9 +4,9 @@ mod picture;
 
 use super::ends::{Ends, SpaceLimits, is_within};
 use super::input::input;
-use super::{Entry, Family, Query, Stance};
-use crate::prepared::Prepared;
-use crate::prepared::nested_roadmap::{self, Neighbours};
+use super::{ArmPlacement, Entry, Family, Query};
+use crate::preprocessing::Preprocessing;
+use crate::preprocessing::nested_roadmap::{self, Neighbours};
 use crate::verification::roadmap::JOINT_COLUMNS;
 use crate::{Inputs, StudyError};
 use base::problem::{Asked, Ended, Problem, parse_problem};
@@ -31,9 +31,9 @@ pub static ENTRY: Entry = Entry {
     about: "a robot of any number of axes (URDF) among solids (robometrics or MotionBenchMaker), on roadmaps in joint space",
     revision: 2,
     is_drawn: true,
-    prepared: nested_roadmap::ENTRY.name,
+    preprocessing: nested_roadmap::ENTRY.name,
     columns: JOINT_COLUMNS,
-    settings: Accepted::of::<JointQueries>(),
+    settings: Accepted::shape::<JointQueries>(),
     example: r#"
 robot = "data/robots/panda.urdf"
 problem = "data/scenes/shelf_panda.json"
@@ -144,7 +144,9 @@ impl Posed {
         for (what, end) in ends.filter(|_| problem.is_valid && drawn.is_none()) {
             unposed.keep(posed(&space, &document, what, end));
         }
-        let (floor_m, is_valid, ends) = (support.floor_m(), problem.is_valid, unposed.done());
+        let floor_m = support.floor_m();
+        let is_valid = problem.is_valid;
+        let ends = unposed.done();
         Ok(Self { read, near, space, floor_m, queries, is_valid, drawn, ends, notes, inputs })
     }
 }
@@ -257,13 +259,15 @@ impl Family for Posed {
         WorldKind::Roadmap
     }
 
-    fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
+    fn prepare(&self, seed: u64) -> Result<Preprocessing, Invalid> {
         if !self.is_valid {
             return Err(Invalid("the problem set calls this problem invalid".to_owned()));
         }
         let queries = self.queries_drawn(seed)?;
-        let (mut stream, wanted) = (seed::stream(seed), self.read.samples);
-        let (mut samples, mut draws) = (Vec::new(), 0);
+        let mut stream = seed::stream(seed);
+        let wanted = self.read.samples;
+        let mut samples = Vec::new();
+        let mut draws = 0;
         while samples.len() < wanted as usize {
             if draws / DRAWS_PER_SAMPLE >= wanted {
                 let found = samples.len();
@@ -278,9 +282,9 @@ impl Family for Posed {
             draws += 1;
         }
         let local = Local::Joints(Box::new(self.space.clone()));
-        let mut prepared = nested_roadmap::prepare(local, samples, draws, self.near, Counted::Accepted);
-        prepared.exhibits = picture::exhibits(&self.space, self.floor_m, &queries);
-        Ok(prepared)
+        let mut preprocessing = nested_roadmap::prepare(local, samples, draws, self.near, Counted::Accepted);
+        preprocessing.traces = picture::traces(&self.space, self.floor_m, &queries);
+        Ok(preprocessing)
     }
 
     fn queries(&self) -> &[Query] {
@@ -303,7 +307,7 @@ impl Family for Posed {
         Some(nested_roadmap::extent(self.read.samples, self.near, 1.0))
     }
 
-    fn stance(&self, q_rad: &[f64]) -> Option<Stance> {
+    fn stance(&self, q_rad: &[f64]) -> Option<ArmPlacement> {
         picture::stance(&self.space, q_rad)
     }
 

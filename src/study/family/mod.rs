@@ -1,7 +1,7 @@
 //! Problem families: one a file, all in [`REGISTRY`].
 //!
 //! A family poses problems: it draws what is to be prepared from a seed, and names the queries that are asked of
-//! it. Its settings come from the study, with the reading's options laid on top.
+//! it. Its settings come from the study, with the interpretation's options laid on top.
 
 mod arm_workspace;
 pub(super) mod cell_queries;
@@ -21,7 +21,7 @@ mod random_maps;
 mod random_polyhedra;
 mod random_rectangles;
 
-pub use entry::{Entry, Family, Query, Stance};
+pub use entry::{ArmPlacement, Entry, Family, Query};
 
 /// Every family, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[

@@ -7,7 +7,7 @@
 
 use super::{Entry, Family, Query};
 use crate::StudyError;
-use crate::prepared::{Prepared, lattice};
+use crate::preprocessing::{Preprocessing, lattice};
 use base::grid::{Grid2, Scenario, read_movingai_map, read_scenarios};
 use base::settings::{Accepted, Faults};
 use engine::planner::{Counts, Invalid, Value};
@@ -23,7 +23,7 @@ pub static ENTRY: Entry = Entry {
     about: "a MovingAI map (.map) with the queries of a scenario file (.scen) and their printed optimal lengths",
     revision: 1,
     is_drawn: false,
-    prepared: lattice::ENTRY.name,
+    preprocessing: lattice::ENTRY.name,
     columns: &[
         "path_cost_cells",
         "turn_exterior_deg",
@@ -32,7 +32,7 @@ pub static ENTRY: Entry = Entry {
         "optimal_cost_cells",
         "printed_optimal_cells",
     ],
-    settings: Accepted::of::<MovingAi>(),
+    settings: Accepted::shape::<MovingAi>(),
     example: r#"
 map = "data/maps/movingai_sample.map"
 scenarios = "data/maps/movingai_sample.scen"
@@ -118,7 +118,7 @@ impl Family for Posed {
         WorldKind::Lattice
     }
 
-    fn prepare(&self, _seed: u64) -> Result<Prepared, Invalid> {
+    fn prepare(&self, _seed: u64) -> Result<Preprocessing, Invalid> {
         Ok(lattice::prepare_map(self.grid.clone(), self.corners))
     }
 

@@ -3,7 +3,7 @@
 use super::ends::{Ends, PlaneEnd};
 use super::{Entry, Family, Query};
 use crate::StudyError;
-use crate::prepared::{Prepared, nested_roadmap};
+use crate::preprocessing::{Preprocessing, nested_roadmap};
 use crate::verification::roadmap::PLANE_COLUMNS;
 use base::seed::{self, Stream};
 use base::settings::{Accepted, Document, Faults, Settings, SettingsError, Spanned};
@@ -11,7 +11,7 @@ use base::text::listed;
 use engine::geometry::Vec2;
 use engine::geometry::planar::ConvexPolygon;
 use engine::kinematics::FARTHEST_MM;
-use engine::planner::{Exhibit, Invalid};
+use engine::planner::{Invalid, Trace};
 use engine::space::WorldKind;
 use engine::space::roadmap::{Counted, Extent, Local, Near, PlaneMap, Sample};
 use rand::RngExt as _;
@@ -26,9 +26,9 @@ pub static ENTRY: Entry = Entry {
     about: "a particle among polygons, on roadmaps of free points drawn at random; start and goal are written, or drawn too",
     revision: 1,
     is_drawn: true,
-    prepared: nested_roadmap::ENTRY.name,
+    preprocessing: nested_roadmap::ENTRY.name,
     columns: PLANE_COLUMNS,
-    settings: Accepted::of::<PlaneQueries>(),
+    settings: Accepted::shape::<PlaneQueries>(),
     example: r#"
 map = "data/scenes/fu2018_particle.toml"
 samples = 40
@@ -117,7 +117,7 @@ impl EndOf<'_> {
 }
 
 /// What a file of polygons may hold.
-pub const MAP_FILE: Accepted = Accepted::of::<MapFile>();
+pub const MAP_FILE: Accepted = Accepted::shape::<MapFile>();
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -196,10 +196,11 @@ impl Family for Drawn {
         WorldKind::Roadmap
     }
 
-    fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
+    fn prepare(&self, seed: u64) -> Result<Preprocessing, Invalid> {
         self.drawn(seed)?;
         let mut stream = seed::stream(seed);
-        let (mut samples, mut draws) = (Vec::new(), 0);
+        let mut samples = Vec::new();
+        let mut draws = 0;
         let whole = self.plane.size_mm().map(|side| [0.0, side]);
         while samples.len() < self.read.samples as usize {
             if draws / 1000 > self.read.samples {
@@ -215,16 +216,20 @@ impl Family for Drawn {
         let corners =
             polygons.flat_map(|(i, p)| p.vertices().iter().flat_map(move |v| [i as f64, v.x, v.y])).collect();
         let local = Local::Plane(self.plane.clone());
-        let mut prepared = nested_roadmap::prepare(
+        let mut preprocessing = nested_roadmap::prepare(
             local,
             samples,
             draws,
             Near::Places(self.read.radius_mm),
             Counted::Accepted,
         );
-        prepared.exhibits.push(Exhibit { name: "size_mm".to_owned(), width: 2, values: vec![width, height] });
-        prepared.exhibits.push(Exhibit { name: "obstacles".to_owned(), width: 3, values: corners });
-        Ok(prepared)
+        preprocessing.traces.push(Trace {
+            name: "size_mm".to_owned(),
+            width: 2,
+            values: vec![width, height],
+        });
+        preprocessing.traces.push(Trace { name: "obstacles".to_owned(), width: 3, values: corners });
+        Ok(preprocessing)
     }
 
     fn queries(&self) -> &[Query] {

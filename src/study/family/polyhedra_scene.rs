@@ -2,8 +2,8 @@
 //! or without.
 
 use super::input::{input, load_robot, load_scene};
-use super::{Entry, Family, Query, Stance};
-use crate::prepared::{Prepared, polyhedra};
+use super::{ArmPlacement, Entry, Family, Query};
+use crate::preprocessing::{Preprocessing, polyhedra};
 use crate::verification::CARRIED_COLUMNS;
 use crate::{Inputs, StudyError};
 use base::seed;
@@ -27,9 +27,9 @@ pub static ENTRY: Entry = Entry {
     about: "one scene of polyhedra from a file, with written queries or ones drawn around them; an arm may carry the tip",
     revision: 3,
     is_drawn: false,
-    prepared: polyhedra::ENTRY.name,
+    preprocessing: polyhedra::ENTRY.name,
     columns: CARRIED_COLUMNS,
-    settings: Accepted::of::<SceneSettings>(),
+    settings: Accepted::shape::<SceneSettings>(),
     example: r#"
 scene = "data/scenes/tang_c1.toml"
 step_cm = 1
@@ -239,7 +239,7 @@ impl Family for Posed {
         if self.world.arm().is_some() { WorldKind::ArmAmongPolyhedra } else { WorldKind::Polyhedra }
     }
 
-    fn prepare(&self, _seed: u64) -> Result<Prepared, Invalid> {
+    fn prepare(&self, _seed: u64) -> Result<Preprocessing, Invalid> {
         Ok(polyhedra::prepare(self.world.clone()))
     }
 
@@ -258,8 +258,9 @@ impl Family for Posed {
         self.queries.iter().map(&mut drawn).collect()
     }
 
-    fn stance(&self, q_rad: &[f64]) -> Option<Stance> {
-        let (arm, q) = (self.world.arm()?, joints(q_rad)?);
+    fn stance(&self, q_rad: &[f64]) -> Option<ArmPlacement> {
+        let arm = self.world.arm()?;
+        let q = joints(q_rad)?;
         let mm = |point: &Vec3| -> [f64; 3] { (point * MM_PER_CM).into() };
         let capsule = |rod: &Capsule| {
             let ([ax, ay, az], [bx, by, bz]) = (mm(&rod.segment.a), mm(&rod.segment.b));
@@ -269,7 +270,7 @@ impl Family for Posed {
         let domain = self.world.domain();
         let clearance_cm = arm.clearance(&q, self.world.bodies(), (domain.max - domain.min).norm(), false);
         let clearance_mm = Some(clearance_cm * MM_PER_CM);
-        Some(Stance { capsules_mm, tip_mm: mm(&arm.tip(&q)), clearance_mm })
+        Some(ArmPlacement { capsules_mm, tip_mm: mm(&arm.tip(&q)), clearance_mm })
     }
 
     fn inputs(&self) -> &[PathBuf] {

@@ -5,7 +5,7 @@
 use super::ends::{Ends, PlaneEnd};
 use super::{Entry, Family, Query};
 use crate::StudyError;
-use crate::prepared::{Prepared, lattice};
+use crate::preprocessing::{Preprocessing, lattice};
 use crate::verification::LATTICE_COLUMNS;
 use base::grid::{Grid2, GridError};
 use base::seed::{self, Stream};
@@ -29,9 +29,9 @@ pub(super) const fn entry<O: Obstacles>(
         about,
         revision: 1,
         is_drawn: true,
-        prepared: lattice::ENTRY.name,
+        preprocessing: lattice::ENTRY.name,
         columns: LATTICE_COLUMNS,
-        settings: Accepted::of::<O>(),
+        settings: Accepted::shape::<O>(),
         example,
         build: |settings, _inputs| RandomMaps::<O>::build(settings),
     }
@@ -99,14 +99,16 @@ macro_rules! settings {
             #[schemars(range(max = 10_000))]
             queries: Option<std::num::NonZeroU32>,
             /// When a diagonal move past blocked cells is allowed.
-            corner_rule: $crate::prepared::lattice::CornerSetting,
+            corner_rule: $crate::preprocessing::lattice::CornerSetting,
             $($own)*
         }
 
         impl $crate::family::random_maps::Framed for $name {
             fn frame(&self) -> $crate::family::random_maps::Frame<'_> {
                 let Self { start, goal, queries, corner_rule, .. } = self;
-                let (size_cells, queries, corner_rule) = (self.size_cells.sides(), *queries, *corner_rule);
+                let size_cells = self.size_cells.sides();
+                let queries = *queries;
+                let corner_rule = *corner_rule;
                 $crate::family::random_maps::Frame { size_cells, start, goal, queries, corner_rule }
             }
         }
@@ -201,7 +203,7 @@ impl<O: Obstacles> Family for RandomMaps<O> {
         WorldKind::Lattice
     }
 
-    fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
+    fn prepare(&self, seed: u64) -> Result<Preprocessing, Invalid> {
         let grid = self.map(seed);
         let queries = self.queries_on(&grid, seed)?;
         lattice::prepare(grid, self.read.frame().corner_rule, queries.iter().map(Query::ends))

@@ -3,7 +3,7 @@
 use super::polyhedra_scene::{Contact, QuerySettings};
 use super::{Entry, Family, Query};
 use crate::StudyError;
-use crate::prepared::{Prepared, polyhedra};
+use crate::preprocessing::{Preprocessing, polyhedra};
 use crate::verification::POLYHEDRA_COLUMNS;
 use base::seed::{self, Stream};
 use base::settings::{Accepted, Faults, Settings, SettingsError};
@@ -20,9 +20,9 @@ pub static ENTRY: Entry = Entry {
     about: "a random number of random obstacles in a cube, disjoint or not, with written queries or a drawn one",
     revision: 2,
     is_drawn: true,
-    prepared: polyhedra::ENTRY.name,
+    preprocessing: polyhedra::ENTRY.name,
     columns: POLYHEDRA_COLUMNS,
-    settings: Accepted::of::<RandomPolyhedra>(),
+    settings: Accepted::shape::<RandomPolyhedra>(),
     example: r#"
 side_cm = 60
 step_cm = 1
@@ -176,7 +176,8 @@ impl RandomPolyhedra {
             ShapeName::Pyramid => Convex::pyramid(center, size.x, size.y),
             ShapeName::Prism => {
                 let axis = [Axis::X, Axis::Y, Axis::Z][stream.random_range(0..3)];
-                let (sides, turn) = (stream.random_range(5..=8), stream.random_range(0.0..1.0));
+                let sides = stream.random_range(5..=8);
+                let turn = stream.random_range(0.0..1.0);
                 Convex::prism(axis, center, size.x / 2.0, size.y, sides, turn)
             }
         };
@@ -250,7 +251,7 @@ impl Family for Drawn {
         WorldKind::Polyhedra
     }
 
-    fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
+    fn prepare(&self, seed: u64) -> Result<Preprocessing, Invalid> {
         let bodies = match self.read.drawn {
             None => self.read.bodies(&mut seed::stream(seed), &self.written)?,
             Some(drawn) => self.read.environment(seed, drawn)?.0,
@@ -287,14 +288,15 @@ mod tests {
 
     #[test]
     fn a_drawn_query_belongs_to_its_environment_and_is_blocked_where_that_is_asked_for() {
-        let (mut blocked, mut pairs) = ([0, 0], std::collections::BTreeSet::new());
+        let mut blocked = [0, 0];
+        let mut pairs = std::collections::BTreeSet::new();
         for (index, line) in ["any", "blocked"].into_iter().enumerate() {
             let family = build(&format!("drawn = {{ apart_cm = 40, line = '{line}' }}")).unwrap();
             for seed in 0..60 {
                 let [query] = family.queries_for(seed).try_into().unwrap();
                 assert_eq!(vec![query.clone()], family.queries_for(seed), "seed {seed}");
-                let prepared = family.prepare(seed).unwrap();
-                let world = prepared.world.as_polyhedra().unwrap();
+                let preprocessing = family.prepare(seed).unwrap();
+                let world = preprocessing.world.as_polyhedra().unwrap();
                 let [start, goal] = [&query.start, &query.goal].map(|end| point(end));
                 assert!((start - goal).norm() >= 40.0, "seed {seed}");
                 assert!([start, goal].iter().all(|end| world.is_free(end)), "seed {seed}");

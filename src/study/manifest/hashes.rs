@@ -8,7 +8,7 @@ use crate::{Study, StudyError};
 use base::hash::sha256;
 use std::collections::BTreeMap;
 
-/// What something depends on, by label: a hash, and the numbers of the readings under which it is that.
+/// What something depends on, by label: a hash, and the numbers of the interpretations under which it is that.
 pub type Hashes = BTreeMap<String, BTreeMap<String, Vec<usize>>>;
 
 /// What each problem group of `study`, at each point of the sweeps over it, depends on under `points`.
@@ -18,10 +18,10 @@ pub(super) fn problem_hashes(
     built: &BuiltStudy<'_>,
 ) -> Result<Hashes, StudyError> {
     let mut hashes = Hashes::new();
-    for (reading, point) in points.iter().enumerate() {
+    for (interpretation, point) in points.iter().enumerate() {
         for (place, (group, at)) in study.posed().enumerate() {
             let settings = group.settings_under(at, point);
-            // The object's own exhibits are kept for every draw of which anything is.
+            // The object's own traces are kept for every instance of which anything is.
             let kept: Vec<_> = study.kept().filter(|trials| trials.problems == group.label).collect();
             let text = format!(
                 "{} {} {} {} {:?} {} {} {} {} {:?} {:?} {:?} {:?}",
@@ -29,19 +29,19 @@ pub(super) fn problem_hashes(
                 study.name,
                 study.seed,
                 group.label,
-                group.draw,
+                group.shared_instances,
                 study.task.name,
                 study.task.revision,
                 group.family.name,
                 group.family.revision,
                 study.budget,
                 (settings.table(), study.task_settings.table()),
-                kept.iter().map(|trials| trials.replicates).max(),
-                built.inputs_of(reading, place)?,
+                kept.iter().map(|trials| trials.instances).max(),
+                built.inputs_of(interpretation, place)?,
             );
             let also: Vec<u32> = kept.iter().flat_map(|trials| trials.also.iter().copied()).collect();
             let text = if also.is_empty() { text } else { format!("{text} {also:?}") };
-            note(&mut hashes, &name::group(&group.label, &at.key), &text, reading);
+            note(&mut hashes, &name::group(&group.label, &at.key), &text, interpretation);
         }
     }
     Ok(hashes)
@@ -55,7 +55,7 @@ pub(super) fn contender_hashes(
 ) -> Result<Hashes, StudyError> {
     let mut hashes = Hashes::new();
     let sweeps: Vec<SweepPoint> = study.contender_points();
-    for (reading, point) in points.iter().enumerate() {
+    for (interpretation, point) in points.iter().enumerate() {
         for contender in &study.contenders {
             let mut text = format!("{} {}", contender.label, contender.repeats);
             for stage in &contender.stages {
@@ -68,19 +68,19 @@ pub(super) fn contender_hashes(
             }
             let is_own = |of: &Option<String>| of.as_ref().is_none_or(|label| *label == contender.label);
             for trials in study.kept().filter(|trials| is_own(&trials.contender)) {
-                text += &format!("\n{} {} {:?}", trials.problems, trials.replicates, trials.repeats);
+                text += &format!("\n{} {} {:?}", trials.problems, trials.instances, trials.repeats);
                 if !trials.also.is_empty() {
                     text += &format!(" and {:?}", trials.also);
                 }
-                if let Some(exhibits) = &trials.exhibits {
-                    text += &format!(" {exhibits:?}");
+                if let Some(traces) = &trials.traces {
+                    text += &format!(" {traces:?}");
                 }
             }
-            let files = built.files_of(reading, &contender.label)?;
+            let files = built.files_of(interpretation, &contender.label)?;
             if !files.is_empty() {
                 text += &format!("\n{files:?}");
             }
-            note(&mut hashes, &contender.label, &text, reading);
+            note(&mut hashes, &contender.label, &text, interpretation);
         }
     }
     Ok(hashes)
@@ -89,13 +89,13 @@ pub(super) fn contender_hashes(
 /// How many digits of a hash tell what trials depend on apart.
 const DIGITS: usize = 16;
 
-/// Notes that the thing called `label` depends on what `text` says under the reading of this number.
-fn note(hashes: &mut Hashes, label: &str, text: &str, reading: usize) {
+/// Notes that the thing called `label` depends on what `text` says under the interpretation of this number.
+fn note(hashes: &mut Hashes, label: &str, text: &str, interpretation: usize) {
     let hash = sha256(text.as_bytes())[..DIGITS].to_owned();
-    hashes.entry(label.to_owned()).or_default().entry(hash).or_default().push(reading);
+    hashes.entry(label.to_owned()).or_default().entry(hash).or_default().push(interpretation);
 }
 
-/// What is new, has changed or is gone among the things called `what`; `both` are the readings of both runs.
+/// What is new, has changed or is gone among the things called `what`; `both` are the interpretations of both runs.
 pub(super) fn changes(what: &str, ours: &Hashes, theirs: &Hashes, both: &[[usize; 2]]) -> Vec<String> {
     let mut changes = Vec::new();
     for label in ours.keys() {
@@ -107,7 +107,7 @@ pub(super) fn changes(what: &str, ours: &Hashes, theirs: &Hashes, both: &[[usize
         } else if changed > 0 {
             let under = match both.len() {
                 1 => String::new(),
-                all => format!(" under {changed} of {all} readings"),
+                all => format!(" under {changed} of {all} interpretations"),
             };
             changes.push(format!("{what} `{label}` has changed{under}"));
         }
@@ -117,8 +117,11 @@ pub(super) fn changes(what: &str, ours: &Hashes, theirs: &Hashes, both: &[[usize
     changes
 }
 
-/// What the thing called `label` depends on under the reading of this number.
-pub(super) fn hash_of<'h>(hashes: &'h Hashes, label: &str, reading: usize) -> Option<&'h str> {
+/// What the thing called `label` depends on under the interpretation of this number.
+pub(super) fn hash_of<'h>(hashes: &'h Hashes, label: &str, interpretation: usize) -> Option<&'h str> {
     let under = hashes.get(label)?.iter();
-    under.filter(|(_, readings)| readings.contains(&reading)).map(|(hash, _)| hash.as_str()).next()
+    under
+        .filter(|(_, interpretations)| interpretations.contains(&interpretation))
+        .map(|(hash, _)| hash.as_str())
+        .next()
 }

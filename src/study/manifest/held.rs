@@ -42,18 +42,23 @@ impl Manifest {
         Ok(found)
     }
 
-    /// The readings that it lists.
+    /// The interpretations that it lists.
     fn points(&self, study: &Study) -> Result<Vec<Interpretation>, String> {
-        if self.readings.is_empty() {
-            return Err("`readings` lists none".to_owned());
+        if self.interpretations.is_empty() {
+            return Err("`interpretations` lists none".to_owned());
         }
         let point = |options: &Vec<String>| {
-            if options.len() != self.axes.len() {
-                return Err(format!("`readings` has {} options for {} axes", options.len(), self.axes.len()));
+            if options.len() != self.choices.len() {
+                return Err(format!(
+                    "`interpretations` has {} options for {} choices",
+                    options.len(),
+                    self.choices.len()
+                ));
             }
-            let chosen = self.axes.iter().cloned().zip(options.iter().cloned()).collect();
-            Interpretation::new(&study.choices, &chosen).map_err(|message| format!("`readings`: {message}"))
+            let chosen = self.choices.iter().cloned().zip(options.iter().cloned()).collect();
+            Interpretation::new(&study.choices, &chosen)
+                .map_err(|message| format!("`interpretations`: {message}"))
         };
-        self.readings.iter().map(point).collect()
+        self.interpretations.iter().map(point).collect()
     }
 }

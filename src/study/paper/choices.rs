@@ -167,7 +167,7 @@ impl Paper {
         }
     }
 
-    /// What is explored are studies of the paper, with more draws where there are more; a second seed is another one.
+    /// What is explored are studies of the paper, with more instances where there are more; a second seed is another one.
     fn check_explored(&self, faults: &mut Faults) {
         for study in self.studies.iter().filter(|study| study.second_seed == Some(study.seed)) {
             let message = format!("the second seed is the first, {}; another one is accepted", study.seed);
@@ -179,30 +179,32 @@ impl Paper {
             faults.add(self.document.error_at_key(&steps, message).about(about));
         };
         let studies = || self.studies.iter().map(|study| study.name.as_str());
-        let explored = || explore.draws.keys().map(String::as_str);
+        let explored = || explore.instances.keys().map(String::as_str);
         for name in explored().filter(|name| self.study(name).is_none()) {
             wrong(&["draws", name], none_called("study", name, studies()), name);
         }
         let counts: [(&str, &BTreeMap<String, Count>); 2] =
-            [("more_draws", &explore.more_draws), ("repeats", &explore.repeats)];
+            [("more_instances", &explore.more_instances), ("repeats", &explore.repeats)];
         let of_explored = counts.iter().flat_map(|(key, all)| all.keys().map(move |name| (*key, name)));
         let stands = explore.stands_for.keys().map(|name| ("stands_for", name));
-        for (key, name) in of_explored.chain(stands).filter(|(_, name)| !explore.draws.contains_key(*name)) {
+        for (key, name) in
+            of_explored.chain(stands).filter(|(_, name)| !explore.instances.contains_key(*name))
+        {
             wrong(&[key, name], none_called("study among `draws`", name, explored()), name);
         }
         for (name, other) in explore.stands_for.iter().filter(|(_, other)| self.study(other).is_none()) {
             wrong(&["stands_for", name], none_called("study", other, studies()), other);
         }
-        for (name, more) in &explore.more_draws {
-            if let Some(few) = explore.draws.get(name).filter(|few| *few > more) {
+        for (name, more) in &explore.more_instances {
+            if let Some(few) = explore.instances.get(name).filter(|few| *few > more) {
                 let message = format!(
-                    "`more_draws` of `{name}` is {}, below its `draws`, {}; {1} or more are accepted",
+                    "`more_instances` of `{name}` is {}, below its `draws`, {}; {1} or more are accepted",
                     more.0, few.0
                 );
-                wrong(&["more_draws", name], message, name);
+                wrong(&["more_instances", name], message, name);
             }
         }
-        for name in explore.where_compatible.iter().filter(|name| !explore.draws.contains_key(*name)) {
+        for name in explore.where_compatible.iter().filter(|name| !explore.instances.contains_key(*name)) {
             wrong(&["where_compatible"], none_called("explored study", name, explored()), name);
         }
     }

@@ -95,7 +95,7 @@ pub struct Claim {
     /// The choices under some of whose options alone it is meant, each with those options.
     pub holds_when: BTreeMap<String, Vec<String>>,
     /// How it is judged, and what is shown beside: rules and criteria by name.
-    pub(super) asked: Vec<(Asked, String, Settings)>,
+    pub(super) asked: Vec<(TestRole, String, Settings)>,
     /// The claims that it is made of.
     pub parts: Parts,
     /// Where it is written.
@@ -130,7 +130,7 @@ impl Written {
 
 /// What a claim asks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Asked {
+pub enum TestRole {
     /// A rule: arithmetic on printed numbers.
     Rule,
     /// A criterion that decides.
@@ -139,7 +139,7 @@ pub enum Asked {
     Shown,
 }
 
-impl Asked {
+impl TestRole {
     /// The key that the settings stand under in a claim.
     pub fn key(self) -> &'static str {
         match self {
@@ -177,7 +177,7 @@ impl Parts {
 
 impl Claim {
     /// Every rule and criterion with its settings.
-    pub fn asked(&self) -> impl Iterator<Item = (Asked, &str, &Settings)> {
+    pub fn tests(&self) -> impl Iterator<Item = (TestRole, &str, &Settings)> {
         self.asked.iter().map(|(asked, name, settings)| (*asked, name.as_str(), settings))
     }
 
@@ -194,7 +194,7 @@ impl Claim {
     }
 
     /// Whether it holds the same number against the same trials, in the same way.
-    pub fn asks_as(&self, other: &Self) -> bool {
+    pub fn tests_alike(&self, other: &Self) -> bool {
         let asked = self.criteria().map(|(name, settings)| (name, settings.table()));
         self.printed == other.printed
             && asked.eq(other.criteria().map(|(name, settings)| (name, settings.table())))
@@ -202,13 +202,13 @@ impl Claim {
 
     /// Every criterion that decides or is shown, with its settings.
     pub fn criteria(&self) -> impl Iterator<Item = (&str, &Settings)> {
-        let criteria = self.asked().filter(|(asked, ..)| *asked != Asked::Rule);
+        let criteria = self.tests().filter(|(asked, ..)| *asked != TestRole::Rule);
         criteria.map(|(_, name, settings)| (name, settings))
     }
 
     /// The settings of the criterion called `name` that it is judged by.
     pub fn check(&self, name: &str) -> Option<&Settings> {
-        let mut decides = self.asked().filter(|(asked, own, _)| *asked == Asked::Decides && *own == name);
+        let mut decides = self.tests().filter(|(asked, own, _)| *asked == TestRole::Decides && *own == name);
         decides.next().map(|(.., settings)| settings)
     }
 }
@@ -226,7 +226,7 @@ pub(super) fn claim(
         check_printed(document, id, printed, faults);
     }
     let parts = faults.keep(parts(document, spec)).unwrap_or(Parts::None);
-    let asked = asked(document, (number, spec), cells);
+    let asked = tests(document, (number, spec), cells);
     if asked.is_empty()
         && spec.untestable.is_none()
         && given(spec).next().is_none()
@@ -294,13 +294,13 @@ pub(super) fn check_printed(
     }
 }
 
-fn asked(
+fn tests(
     document: &Arc<Document>,
     (number, spec): (usize, &ClaimSpec),
     cells: &[String],
-) -> Vec<(Asked, String, Settings)> {
+) -> Vec<(TestRole, String, Settings)> {
     let number = number.to_string();
-    let one = |asked: Asked, name: &String, table: &Spanned<Table>, index: Option<usize>| {
+    let one = |asked: TestRole, name: &String, table: &Spanned<Table>, index: Option<usize>| {
         let mut named = table.get_ref().clone();
         if !name_cells(&mut named, cells) {
             return (asked, name.clone(), Settings::written(document, table));
@@ -311,13 +311,13 @@ fn asked(
         let settings = Settings::layered(document, table.span(), vec![Part { place, key: None }], named);
         (asked, name.clone(), settings)
     };
-    let rules = spec.rule.iter().map(|(name, table)| one(Asked::Rule, name, table, None));
-    let checks = spec.check.iter().map(|(name, table)| one(Asked::Decides, name, table, None));
+    let rules = spec.rule.iter().map(|(name, table)| one(TestRole::Rule, name, table, None));
+    let checks = spec.check.iter().map(|(name, table)| one(TestRole::Decides, name, table, None));
     let shown = spec
         .shows
         .iter()
         .flat_map(|(name, tables)| tables.iter().enumerate().map(move |(index, table)| (name, index, table)));
-    let shown = shown.map(|(name, index, table)| one(Asked::Shown, name, table, Some(index)));
+    let shown = shown.map(|(name, index, table)| one(TestRole::Shown, name, table, Some(index)));
     rules.chain(checks).chain(shown).collect()
 }
 

@@ -29,11 +29,11 @@ pub const FIGURES: usize = 6;
 pub const CLAIMS: usize = 25;
 
 /// The forms in which a place can ask for what was found: with one decimal, as a percentage, the ends of the interval, the
-/// number of draws, the class, and the least and the greatest percentage over the readings that count.
-pub const FORMS: [&str; 7] = ["tenths", "percent", "low", "high", "n", "verdict", OVER_READINGS];
+/// number of instances, the class, and the least and the greatest percentage over the interpretations that count.
+pub const FORMS: [&str; 7] = ["tenths", "percent", "low", "high", "n", "verdict", OVER_INTERPRETATIONS];
 
-/// The form that asks what a number is over readings.
-pub const OVER_READINGS: &str = "percents";
+/// The form that asks what a number is over interpretations.
+pub const OVER_INTERPRETATIONS: &str = "percents";
 
 /// `text` with every `{claim}` or `{claim:form}` replaced by what `with` says of the claim in that form.
 pub fn filled(text: &str, mut with: impl FnMut(&str, &str) -> String) -> String {
@@ -49,9 +49,9 @@ pub fn filled(text: &str, mut with: impl FnMut(&str, &str) -> String) -> String 
 }
 
 impl Paper {
-    /// Whether a finding asks what the number beside the claim called `id` is over readings.
-    pub fn asks_over_readings(&self, id: &str) -> bool {
-        let wanted = format!("{{{id}:{OVER_READINGS}}}");
+    /// Whether a finding asks what the number beside the claim called `id` is over interpretations.
+    pub fn asks_over_interpretations(&self, id: &str) -> bool {
+        let wanted = format!("{{{id}:{OVER_INTERPRETATIONS}}}");
         self.report.findings.iter().any(|text| text.contains(&wanted))
     }
 

@@ -73,7 +73,7 @@ pub enum Show {
     Value,
     /// The median over what the problems prepared before any query (a roadmap), all of it counted once for all of its queries; for
     /// contenders that search it, and not for those from outside, which do not.
-    Prepared,
+    Preprocessing,
 }
 
 impl Paper {

@@ -1,4 +1,4 @@
-//! What must hold in a paper as a whole: names that exist, tables that fit, a ledger without gaps.
+//! What must hold in a paper as a whole: names that exist, tables that fit, an inventory without gaps.
 
 use super::table_spec::TableSpec;
 use super::{Claim, ClaimSpec, Paper, Parts};
@@ -20,7 +20,7 @@ impl Paper {
             tables.iter().flat_map(|table| &table.rows).flat_map(|row| &row.with).collect();
         self.check_parts(specs, &with, &claims, faults);
         self.check_headlines(faults);
-        self.check_ledger(&claims, &studies, &figures, faults);
+        self.check_inventory(&claims, &studies, &figures, faults);
         self.check_report(&claims, &figures, faults);
         self.check_results(faults);
         self.check_choices(faults);

@@ -173,7 +173,7 @@ pub(super) struct CellSpec {
     pub(super) says: Option<String>,
     /// The paper's own words, where they are given word for word.
     pub(super) quote: Option<String>,
-    /// How the number's digits end, where it says so; otherwise the reading decides.
+    /// How the number's digits end, where it says so; otherwise the interpretation decides.
     pub(super) digits: Option<Digits>,
     /// Whether it is one of the few claims that say what the paper is about.
     pub(super) headline: bool,
@@ -181,7 +181,7 @@ pub(super) struct CellSpec {
     pub(super) untestable: Option<String>,
     /// What was changed in how it is judged after a run had been seen, and why.
     pub(super) changed_after_run: Option<String>,
-    /// The readings under which alone it is meant, each with the options that count: a premise that the paper states.
+    /// The interpretations under which alone it is meant, each with the options that count: a premise that the paper states.
     pub(super) holds_when: BTreeMap<String, Vec<String>>,
     /// The trials that criteria look at: laid under their `of`.
     #[schemars(with = "AnyTable")]

@@ -4,7 +4,7 @@
 //! parts are its cells; a cell that is untestable is no part of it and counts by itself. Claims that are made here are as those that
 //! are written: nothing above this floor tells them apart.
 
-use super::claim::{Asked, Claim, Parts, Written, check_printed, name_cells};
+use super::claim::{Claim, Parts, TestRole, Written, check_printed, name_cells};
 use super::ids::twice;
 use super::table_spec::{CellSpec, ColumnSpec, RowSpec, TableSpec};
 use base::settings::{Document, Faults, Part, Place, Settings, Spanned, none_called};
@@ -94,8 +94,8 @@ static NOTHING: LazyLock<CellSpec> = LazyLock::new(CellSpec::default);
 
 impl<'a> Layer<'a> {
     /// Its rules, or its criteria that decide.
-    fn named(&self, kind: Asked) -> &'a Named {
-        if kind == Asked::Rule { self.rule } else { self.check }
+    fn named(&self, kind: TestRole) -> &'a Named {
+        if kind == TestRole::Rule { self.rule } else { self.check }
     }
 }
 
@@ -354,7 +354,8 @@ impl Cell<'_> {
 
     /// What is said of how it is judged, the nearest first.
     fn layers(&self) -> [Layer<'_>; 4] {
-        let (number, index) = (self.table.1.to_string(), self.row.1.to_string());
+        let number = self.table.1.to_string();
+        let index = self.row.1.to_string();
         let entry = self.column.1.to_string();
         [
             layer!(self.own(), ["table", &number, "row", &index, "cell", self.column.2]),
@@ -366,7 +367,9 @@ impl Cell<'_> {
 
     /// The claim that it is.
     fn claim(&self, faults: &mut Faults) -> Claim {
-        let (table, row, column) = (self.table.0, self.row.0, self.column.0);
+        let table = self.table.0;
+        let row = self.row.0;
+        let column = self.column.0;
         let (printed, at) = self.printed;
         let id = self.id();
         let own = self.own();
@@ -417,7 +420,8 @@ impl Cell<'_> {
 
     /// The trials of which the first stands beside it.
     fn beside(&self) -> Option<Settings> {
-        let (table, row) = (self.table.0, self.row.0);
+        let table = self.table.0;
+        let row = self.row.0;
         if table.beside.is_empty() && row.beside.is_empty() {
             return None;
         }
@@ -460,11 +464,11 @@ fn asked(
     document: &Arc<Document>,
     layers: &[Layer<'_>],
     is_untestable: bool,
-) -> Vec<(Asked, String, Settings)> {
+) -> Vec<(TestRole, String, Settings)> {
     let mut found = Vec::new();
-    for kind in [Asked::Rule, Asked::Decides] {
+    for kind in [TestRole::Rule, TestRole::Decides] {
         let Some(nearest) = layers.iter().position(|layer| !layer.named(kind).is_empty()) else { continue };
-        if kind == Asked::Decides && is_untestable && nearest > 0 {
+        if kind == TestRole::Decides && is_untestable && nearest > 0 {
             continue;
         }
         for name in layers[nearest].named(kind).keys() {
@@ -478,7 +482,7 @@ fn asked(
                 }
             }
             let span = layers[nearest].named(kind)[name].span();
-            if kind == Asked::Decides {
+            if kind == TestRole::Decides {
                 lay_under(&mut table, &laid_under(layers));
                 parts.extend(of_parts(document, layers));
             }
@@ -496,7 +500,7 @@ fn asked(
             let mut parts = vec![part(document, &[&layer.steps[..], &own].concat(), None)];
             parts.extend(of_parts(document, layers));
             found.push((
-                Asked::Shown,
+                TestRole::Shown,
                 name.clone(),
                 Settings::layered(document, settings.span(), parts, table),
             ));

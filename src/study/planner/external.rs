@@ -7,7 +7,7 @@
 use crate::clock;
 use base::settings::{Accepted, Settings, SettingsError};
 use base::text::listed;
-use engine::planner::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Value};
+use engine::planner::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Trace, Value};
 use engine::space::WorldKind;
 use external::message::{Limits, Seeding};
 use external::{COUNTERS, End, Process, Program, Query, Space, Talk, describe, greet, solve};
@@ -40,7 +40,7 @@ pub static ENTRY: Entry = Entry {
         "iterations",
         "samples",
     ],
-    settings: Accepted::of::<Written>(),
+    settings: Accepted::shape::<Written>(),
     example: r#"
 command = ["python3", "planners/python/examples/grid_astar.py"]
 files = ["planners/python/examples/grid_astar.py", "planners/python/replan_planner/__init__.py"]
@@ -107,7 +107,8 @@ impl External {
         }
         let limits = Limits { time_s, memory_mb: memory_mb.into(), output_mb: output_mb.into() };
         let program = Program { command, limits, hello_s: HELLO_S };
-        let (idle, queries) = (Mutex::default(), AtomicU64::new(1));
+        let idle = Mutex::default();
+        let queries = AtomicU64::new(1);
         Ok(Self { program, version, files, any_angle, install, idle, queries })
     }
 
@@ -118,7 +119,8 @@ impl External {
         }
         let mut process = Process::start(&self.program).map_err(|error| error.to_string())?;
         let hello = greet(&mut process, &self.program)?;
-        let (found, wanted) = (hello.version, &self.version);
+        let found = hello.version;
+        let wanted = &self.version;
         if found == *wanted {
             return Ok(process);
         }
@@ -135,11 +137,13 @@ impl External {
         };
         let hello = process.hello.clone().expect("it was greeted");
         if !hello.worlds.contains(&world.kind()) {
-            let (name, kind) = (&hello.name, world.kind());
+            let name = &hello.name;
+            let kind = world.kind();
             return Ok(broken(format!("{name} does not plan in worlds of kind {kind}, its `hello` says")));
         }
         let (start, goal) = (request.start, request.goal);
-        let (id, seed) = (self.queries.fetch_add(1, Ordering::Relaxed), request.seed >> (64 - SEED_BITS));
+        let id = self.queries.fetch_add(1, Ordering::Relaxed);
+        let seed = request.seed >> (64 - SEED_BITS);
         let query = Query { id, seed, world, start, goal };
         let talk = solve(&mut process, query, self.program.limits, space, clock::now_ns);
         let is_sound = !matches!(talk.end, End::Broken(_)) && !talk.is_cut_off && talk.end != End::TimeSpent;
@@ -173,12 +177,12 @@ impl Planner for External {
             }
         }
         let (talk, promises) = self.talk(request, &mut space)?;
-        let exhibits = if request.trace { incumbents(&talk, &mut space) } else { Vec::new() };
+        let traces = if request.trace { incumbents(&talk, &mut space) } else { Vec::new() };
         let mut counts = counts(&talk);
         counts.insert("promises_determinism", Value::Count(promises.into()));
         let cost = talk.cost.or_else(|| space.cost(&talk.path)).filter(|_| !talk.path.is_empty());
         let (ending, reason) = ended(&talk, self.program.limits.time_s);
-        Ok(Plan { ending, path: talk.path, cost, counts, exhibits, reason })
+        Ok(Plan { ending, path: talk.path, cost, counts, traces, reason })
     }
 
     fn is_optimal(&self) -> bool {
@@ -202,7 +206,8 @@ impl Planner for External {
     }
 
     fn lacks(&self) -> Option<String> {
-        let (install, name) = (&self.install, &self.program.command[0]);
+        let install = &self.install;
+        let name = &self.program.command[0];
         let missing = format!("there is no program `{name}`; to install: {install}");
         if name.contains('/') {
             return (!Path::new(name).is_file()).then_some(missing);
@@ -253,8 +258,9 @@ fn counts(talk: &Talk) -> Counts {
 }
 
 /// The incumbents that are better than all before and free by replan's own checks: when each came, in seconds, and its cost.
-fn incumbents(talk: &Talk, space: &mut Space<'_>) -> Vec<Exhibit> {
-    let (mut values, mut best) = (Vec::new(), f64::INFINITY);
+fn incumbents(talk: &Talk, space: &mut Space<'_>) -> Vec<Trace> {
+    let mut values = Vec::new();
+    let mut best = f64::INFINITY;
     for (passed_s, path) in talk.incumbents.iter().filter(|(_, path)| !path.is_empty()) {
         let Some(cost) = space.length(path).filter(|cost| *cost < best) else { continue };
         if path.windows(2).all(|two| space.is_free(&two[0], &two[1]) == Ok(true)) {
@@ -265,5 +271,5 @@ fn incumbents(talk: &Talk, space: &mut Space<'_>) -> Vec<Exhibit> {
     if values.is_empty() {
         return Vec::new();
     }
-    vec![Exhibit { name: "incumbents".to_owned(), width: 2, values }]
+    vec![Trace { name: "incumbents".to_owned(), width: 2, values }]
 }

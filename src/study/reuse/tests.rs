@@ -4,7 +4,7 @@ use crate::manifest::Manifest;
 use crate::paper::Paper;
 use crate::record::Row;
 use crate::session::{Options, Report, run};
-use crate::store::{Columns, Exhibits, Records, Staged, read_records, stage_records};
+use crate::store::{Columns, Records, Staged, Traces, read_records, stage_records};
 use crate::{Inputs, runner::Unwatched};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -33,14 +33,14 @@ seed = 4
 [budget]
 expansions = 10_000
 [quick]
-replicates = 1
+instances = 1
 [[keep]]
 problems = 'maps'
-replicates = 2
+instances = 2
 [[problems]]
 label = 'maps'
 family = 'random_cells'
-replicates = 6
+instances = 6
 settings = { size_cells = [30, 30], start = [22, 15], goal = [26, 28], blocked_share = 0.2, corner_rule = 'allow' }
 [[problems]]
 label = 'drawn'
@@ -108,9 +108,10 @@ impl House {
         let study = &paper.studies[0];
         let values: Vec<&'static str> = study.columns().into_iter().collect();
         let columns = Columns { keys: study.key_columns(), values: &values };
-        let (mut staged, mut manifest) = (Staged::default(), Manifest::read(folder, "s").unwrap());
+        let mut staged = Staged::default();
+        let mut manifest = Manifest::read(folder, "s").unwrap();
         manifest.files =
-            stage_records(&mut staged, folder, "s", &columns, records, Exhibits::held(&records.batch.kept))
+            stage_records(&mut staged, folder, "s", &columns, records, Traces::held(&records.batch.kept))
                 .unwrap();
         manifest.stage(&mut staged, folder).unwrap();
         staged.put().unwrap();
@@ -118,7 +119,7 @@ impl House {
 
     fn facts(&self, out: &str) -> BTreeMap<&'static str, Vec<u8>> {
         let read = |part| (part, fs::read(self.at(out).join(format!("s.{part}.parquet"))).unwrap());
-        ["trials", "prepared", "exhibits"].map(read).into()
+        ["trials", "preprocessing", "traces"].map(read).into()
     }
 
     fn records(&self, out: &str) -> Records {
@@ -140,13 +141,13 @@ fn changes() -> Vec<(&'static str, String, Vec<&'static str>, usize)> {
         (
             "settings",
             STUDY.replace("weight = 2", "weight = 4"),
-            vec!["contender `second` has changed under 2 of 2 readings"],
+            vec!["contender `second` has changed under 2 of 2 interpretations"],
             14,
         ),
         (
             "a stage",
             STUDY.replace("then = [{ stage = 'delete_inflections', settings = { line_of_sight = 'exact_interior' } }]\n", ""),
-            vec!["contender `second` has changed under 2 of 2 readings"],
+            vec!["contender `second` has changed under 2 of 2 interpretations"],
             14,
         ),
         (
@@ -182,7 +183,7 @@ fn a_changed_contender_runs_alone_and_the_records_are_those_of_a_fresh_run() {
         assert_eq!(again.reused, if kept == 0 { again.units } else { 0 }, "{what}");
         house.run(&spec, "fresh");
         assert!(house.facts("runs") == house.facts("fresh"), "{what}: reuse gave other records than a run");
-        assert!(!house.records("runs").batch.kept.is_empty(), "{what}: no exhibit was kept");
+        assert!(!house.records("runs").batch.kept.is_empty(), "{what}: no trace was kept");
     }
 }
 
@@ -191,7 +192,8 @@ fn trials_of_a_contender_that_has_not_changed_are_taken_as_they_are_stored() {
     let house = House::new();
     house.run(STUDY, "runs");
     // A mark that no run would leave shows which rows were taken over.
-    let (folder, mut records) = (house.at("runs"), house.records("runs"));
+    let folder = house.at("runs");
+    let mut records = house.records("runs");
     records.batch.rows.iter_mut().for_each(|row| row.seed = 1);
     house.rewrite(&folder, &records);
     house.run(&STUDY.replace("weight = 2", "weight = 4"), "runs");
@@ -212,37 +214,37 @@ fn a_papers_folder_spelled_otherwise_reruns_nothing_and_another_map_reruns_its_g
     }
     fs::write(house.at("p/drawn.txt"), "...\n...\n...\n").unwrap();
     let other = house.run(STUDY, "runs");
-    assert_eq!(other.why, ["problem group `drawn` has changed under 2 of 2 readings"]);
+    assert_eq!(other.why, ["problem group `drawn` has changed under 2 of 2 interpretations"]);
     assert_eq!((other.reused, other.units), (12, 14));
 }
 
 #[test]
-fn draws_are_kept_by_their_numbers_too_and_no_others() {
+fn instances_are_kept_by_their_numbers_too_and_no_others() {
     let house = House::new();
     let kept = |out: &str| -> BTreeSet<u32> {
         let kept = house.records(out).batch.kept.into_iter();
         kept.filter_map(|kept| match kept.of {
-            Owner::Trial(key) if *key.on.group == *"maps" => Some(key.on.draw),
+            Owner::Trial(key) if *key.on.group == *"maps" => Some(key.on.instance),
             _ => None,
         })
         .collect()
     };
     house.run(STUDY, "runs");
     assert_eq!(kept("runs"), BTreeSet::from([0, 1]));
-    let also = STUDY.replace("replicates = 2", "replicates = 2\nalso = [4]");
+    let also = STUDY.replace("instances = 2", "instances = 2\nalso = [4]");
     let again = house.run(&also, "runs");
-    assert_eq!(again.reused, 0, "a spec that keeps another draw takes over none that it lacks");
+    assert_eq!(again.reused, 0, "a spec that keeps another instance takes over none that it lacks");
     assert_eq!(kept("runs"), BTreeSet::from([0, 1, 4]));
 }
 
 #[test]
-fn of_a_trial_only_the_exhibits_that_are_named_are_kept() {
+fn of_a_trial_only_the_traces_that_are_named_are_kept() {
     let house = House::new();
-    let named = STUDY.replace("replicates = 2", "replicates = 2\nexhibits = ['path']");
+    let named = STUDY.replace("instances = 2", "instances = 2\nexhibits = ['path']");
     let names = |out: &str| -> BTreeSet<String> {
         let kept = house.records(out).batch.kept.into_iter();
         let of_trials = kept.filter(|kept| matches!(kept.of, Owner::Trial(_)));
-        of_trials.map(|kept| kept.exhibit.name).collect()
+        of_trials.map(|kept| kept.trace.name).collect()
     };
     house.run(STUDY, "runs");
     house.run(&named, "named");
@@ -250,6 +252,6 @@ fn of_a_trial_only_the_exhibits_that_are_named_are_kept() {
     assert_eq!(names("named"), BTreeSet::from(["path".to_owned()]));
     assert!(house.records("runs").batch.rows == house.records("named").batch.rows);
     let again = house.run(&named, "runs");
-    assert_eq!(again.reused, 0, "a spec that keeps other exhibits takes over none");
+    assert_eq!(again.reused, 0, "a spec that keeps other traces takes over none");
     assert!(house.facts("runs") == house.facts("named"));
 }

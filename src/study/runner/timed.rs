@@ -3,7 +3,7 @@
 use super::{BuiltStudy, Progress, SESSION};
 use crate::StudyError;
 use crate::clock;
-use crate::prepared::Prepared;
+use crate::preprocessing::Preprocessing;
 use crate::record::Timing;
 use crate::spec::TimingSpec;
 use crate::unit::{Entrant, Unit};
@@ -14,9 +14,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 const PASSES: u32 = 4;
 
 impl BuiltStudy<'_> {
-    /// The timed passes: one thread, warmed up, with only the pipeline's call between two readings of the clock.
+    /// The timed passes: one thread, warmed up, with only the pipeline's call between two times.
     ///
-    /// They time the first draws of every group under the first point, every contender and sweep. A machine that gets
+    /// They time the first instances of every group under the first point, every contender and sweep. A machine that gets
     /// slower or faster meanwhile must not favour anyone: contenders take turns within each repeat, forwards and backwards,
     /// and the repeats are spread over several passes through the whole sample.
     ///
@@ -31,41 +31,43 @@ impl BuiltStudy<'_> {
         let Some(timing) = self.study.timing else { return Ok(Vec::new()) };
         let units = self.units();
         let total = units.len();
-        let is_timed = |unit: &&Unit<'_>| *unit.point == self.points[0] && unit.key.draw < timing.problems;
-        let sample: Vec<(&Unit<'_>, Prepared)> = units
+        let is_timed =
+            |unit: &&Unit<'_>| *unit.point == self.points[0] && unit.key.instance < timing.problems;
+        let sample: Vec<(&Unit<'_>, Preprocessing)> = units
             .iter()
             .filter(is_timed)
             .filter_map(|unit| Some((unit, unit.family.prepare(unit.seed).ok()?)))
             .collect();
         let passes = PASSES.min(timing.repeats);
         progress.begin(&format!("{}: clock", self.study.name), sample.len() * passes as usize);
-        let mut readings = Vec::new();
+        let mut interpretations = Vec::new();
         for pass in 0..passes {
-            for (unit, prepared) in &sample {
+            for (unit, preprocessing) in &sample {
                 if stop.load(Ordering::Relaxed) {
                     progress.end();
                     let study = self.study.name.clone();
                     return Err(StudyError::Interrupted { study, kept: total, total });
                 }
                 let repeats: Vec<u32> = (pass..timing.repeats).step_by(passes as usize).collect();
-                let of_unit = self.time_unit(unit, prepared, timing, &repeats);
-                readings.extend(of_unit.into_iter().map(|reading| Timing { session, ..reading }));
+                let of_unit = self.time_unit(unit, preprocessing, timing, &repeats);
+                interpretations
+                    .extend(of_unit.into_iter().map(|interpretation| Timing { session, ..interpretation }));
                 progress.step();
             }
         }
         progress.end();
-        Ok(readings)
+        Ok(interpretations)
     }
 
-    /// The readings of one unit's trials at these repeats.
+    /// The interpretations of one unit's trials at these repeats.
     fn time_unit(
         &self,
         unit: &Unit<'_>,
-        prepared: &Prepared,
+        preprocessing: &Preprocessing,
         timing: TimingSpec,
         repeats: &[u32],
     ) -> Vec<Timing> {
-        let mut readings = Vec::new();
+        let mut interpretations = Vec::new();
         for query in &unit.queries() {
             let seeds = |entrant: &Entrant<'_>| entrant.contender.repeats.min(timing.seeds.unwrap_or(1));
             // What is recorded has clocks of its own.
@@ -73,7 +75,7 @@ impl BuiltStudy<'_> {
             let of_entrant = |entrant| (0..seeds(entrant)).map(move |seed| (entrant, seed));
             let runs = repeated.flat_map(of_entrant);
             let request = |(entrant, seed): &(&Entrant<'_>, u32)| Request {
-                world: &prepared.world,
+                world: &preprocessing.world,
                 start: &query.start,
                 goal: &query.goal,
                 expansions: self.study.budget.expansions,
@@ -83,7 +85,7 @@ impl BuiltStudy<'_> {
             let warmed: Vec<_> = runs.filter(|run| run.0.pipeline.plan(&request(run)).is_ok()).collect();
             let mut read = |run: &(&Entrant<'_>, u32), repeat: u32| {
                 let request = request(run);
-                readings.push(Timing {
+                interpretations.push(Timing {
                     trial: unit.trial(query, run.0, run.1),
                     session: SESSION,
                     clock_repeat: repeat,
@@ -96,7 +98,7 @@ impl BuiltStudy<'_> {
                 }
             }
         }
-        readings
+        interpretations
     }
 }
 

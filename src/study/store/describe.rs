@@ -8,38 +8,38 @@ use serde::{Deserialize, Serialize};
 /// How columns of swept settings begin.
 pub const SWEEP: &str = "sweep_";
 
-/// How columns of readings begin.
-pub const READING: &str = "reading_";
+/// How columns of choices begin.
+pub const CHOICE: &str = "choice_";
 
 /// The columns that name records and say how they came about; measured ones are those of [`column::COLUMNS`].
 const KEYS: [(&str, Option<&str>, &str); 16] = [
     ("group", None, "label of the problem group"),
-    ("draw", None, "which independent draw of the group, from 0: the unit of replication"),
+    ("instance", None, "which independent instance of the group, from 0: the unit of replication"),
     (
         "query",
         None,
-        "query asked of the draw; null where a draw has one query only, and for a prepared object",
+        "query asked of the instance; null where an instance has one query only, and for a preprocessed object",
     ),
-    ("contender", None, "label of the contender or of the variant; null for a prepared object"),
+    ("contender", None, "label of the contender or of the variant; null for a preprocessed object"),
     (
         "repeat",
         None,
-        "which of the contender's seeds, from 0; a variant has 0 and its findings count from 1; null for a prepared object",
+        "which of the contender's seeds, from 0; a variant has 0 and its findings count from 1; null for a preprocessed object",
     ),
-    ("seed", None, "seed that the contender or the prepared object draws from"),
+    ("seed", None, "seed that the contender or the preprocessed object draws from"),
     (
         "status",
         None,
         "how the trial ended: solved, no_path, budget_spent, time_spent, rejected, invalid_problem or crashed",
     ),
     ("reason", None, "why it ended so; null if it is solved or built"),
-    ("kind", None, "kind of prepared object"),
-    ("name", None, "what the exhibit is, as figures ask for it"),
-    ("width", None, "how many numbers make one point of the exhibit"),
+    ("kind", None, "kind of preprocessed object"),
+    ("name", None, "what the trace is, as figures ask for it"),
+    ("width", None, "how many numbers make one point of the trace"),
     ("columns", None, "names of the numbers of a point, separated by commas; null where they are not named"),
-    ("values", None, "numbers of the exhibit, point after point"),
+    ("values", None, "numbers of the trace, point after point"),
     ("session", None, "session in which the clock was read, from 1; sessions are never pooled"),
-    ("clock_repeat", None, "which reading of the clock in its session, from 0"),
+    ("clock_repeat", None, "which choice of the clock in its session, from 0"),
     (clock::COLUMN, Some("ns"), clock::ABOUT),
 ];
 
@@ -77,7 +77,7 @@ fn meaning(name: &str, keys: &KeyColumns) -> Option<(Option<&'static str>, Strin
         let (_, of) = keys.sweeps.iter().find(|(key, _)| **key == *setting)?;
         return Some((None, format!("value of the setting `{setting}` of `{of}`, which the study sweeps")));
     }
-    let reading = name.strip_prefix(READING)?;
-    let is_read = keys.readings.iter().any(|id| **id == *reading);
-    is_read.then(|| (None, format!("option taken of the reading `{reading}`")))
+    let choice = name.strip_prefix(CHOICE)?;
+    let is_read = keys.choices.iter().any(|id| **id == *choice);
+    is_read.then(|| (None, format!("option taken of the choice `{choice}`")))
 }

@@ -1,10 +1,10 @@
 //! The journal of a run: one line a finished unit, so that a killed run goes on where it stopped.
 //!
 //! The first line names what the run depends on. A later line is a checksum and a JSON object; reading stops at the
-//! first line that is torn or damaged, and the file is cut there. It is where exhibits wait as well: beyond the first few
+//! first line that is torn or damaged, and the file is cut there. It is where traces wait as well: beyond the first few
 //! megabytes they are on disk alone until the run is over.
 
-use super::exhibits::{GROUP_VALUES, sweep_of};
+use super::traces::{GROUP_VALUES, sweep_of};
 use crate::StudyError;
 use crate::key::SweepKey;
 use crate::record::{Batch, Kept};
@@ -25,7 +25,7 @@ pub struct Journal {
     end: u64,
     /// Where each unit's line begins, and how long it is.
     lines: BTreeMap<usize, (u64, usize)>,
-    /// Exhibits that are in memory too, by their units.
+    /// Traces that are in memory too, by their units.
     held: BTreeMap<usize, Vec<Kept>>,
     /// How many more of their numbers may be.
     room: usize,
@@ -50,7 +50,7 @@ impl Journal {
         folder.join(format!("{study}.journal"))
     }
 
-    /// Opens the journal at `path` for a run that depends on `key`, and returns the units it holds, without their exhibits.
+    /// Opens the journal at `path` for a run that depends on `key`, and returns the units it holds, without their traces.
     ///
     /// A journal of another run is emptied: its units answer another question.
     ///
@@ -71,13 +71,15 @@ impl Journal {
     }
 
     fn new(path: PathBuf, file: File) -> Self {
-        let (lines, held) = (BTreeMap::new(), BTreeMap::new());
+        let lines = BTreeMap::new();
+        let held = BTreeMap::new();
         Self { path, file, end: 0, lines, held, room: GROUP_VALUES, sweep: None }
     }
 
     /// The units of a journal for `key`, up to the first line that is not sound.
     fn read(&mut self, key: &str) -> io::Result<BTreeMap<usize, Batch>> {
-        let (mut units, mut line) = (BTreeMap::new(), Vec::new());
+        let mut units = BTreeMap::new();
+        let mut line = Vec::new();
         let mut reader = BufReader::new(self.file.try_clone()?);
         reader.read_until(b'\n', &mut line)?;
         if line != format!("{key}\n").as_bytes() {
@@ -95,7 +97,7 @@ impl Journal {
         }
     }
 
-    /// Adds a finished unit, and takes its exhibits out of `batch`.
+    /// Adds a finished unit, and takes its traces out of `batch`.
     ///
     /// # Errors
     /// [`StudyError::Io`], for example when the disk is full; lines already written stay.
@@ -111,23 +113,23 @@ impl Journal {
 
     fn hold(&mut self, unit: usize, kept: Vec<Kept>) {
         self.sweep = self.sweep.take().or_else(|| sweep_of(&kept));
-        let numbers = kept.iter().map(|kept| kept.exhibit.values.len()).sum::<usize>();
+        let numbers = kept.iter().map(|kept| kept.trace.values.len()).sum::<usize>();
         if let Some(room) = self.room.checked_sub(numbers) {
             self.room = room;
             self.held.insert(unit, kept);
         }
     }
 
-    /// The sweep of an exhibit that belongs to a trial, if any does.
+    /// The sweep of a trace that belongs to a trial, if any does.
     pub fn sweep(&self) -> Option<&SweepKey> {
         self.sweep.as_ref()
     }
 
-    /// Takes the exhibits of a unit; none if it is not here.
+    /// Takes the traces of a unit; none if it is not here.
     ///
     /// # Errors
     /// [`StudyError::Io`].
-    pub fn exhibits(&mut self, unit: usize) -> Result<Vec<Kept>, StudyError> {
+    pub fn traces(&mut self, unit: usize) -> Result<Vec<Kept>, StudyError> {
         if let Some(kept) = self.held.remove(&unit) {
             return Ok(kept);
         }
@@ -169,25 +171,27 @@ fn parse(line: &[u8]) -> Option<Line> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::key::{DrawKey, Owner, ReadingKey};
+    use crate::key::{InstanceKey, InterpretationKey, Owner};
     use crate::record::Kept;
-    use engine::planner::Exhibit;
+    use engine::planner::Trace;
 
     fn batch(number: u32) -> Batch {
         let values = vec![f64::from(number) / 3.0, 0.1 + 0.2, f64::MIN_POSITIVE];
-        let reading = ReadingKey::new(vec![("corners".into(), "cut".into())]);
+        let interpretation = InterpretationKey::new(vec![("corners".into(), "cut".into())]);
         let sweep = SweepKey::default();
-        let of = Owner::Draw(DrawKey { group: "a".into(), sweep, draw: number, reading }.into());
-        let exhibit = Exhibit { name: "path".to_owned(), width: 1, values };
-        Batch { kept: vec![Kept { of, exhibit }], ..Batch::default() }
+        let of = Owner::Instance(
+            InstanceKey { group: "a".into(), sweep, instance: number, interpretation }.into(),
+        );
+        let trace = Trace { name: "path".to_owned(), width: 1, values };
+        Batch { kept: vec![Kept { of, trace }], ..Batch::default() }
     }
 
     fn kept(journal: &mut Journal, unit: usize) -> Vec<Kept> {
-        journal.exhibits(unit).unwrap()
+        journal.traces(unit).unwrap()
     }
 
     #[test]
-    fn exhibits_that_there_is_no_room_for_come_back_from_disk() {
+    fn traces_that_there_is_no_room_for_come_back_from_disk() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.journal");
         let (mut journal, _) = Journal::open(&path, "key").unwrap();

@@ -4,19 +4,19 @@
 //! the old file or the new one. The journal is the one file that grows; a torn last line is dropped on reading.
 
 mod describe;
-mod exhibits;
 mod journal;
 mod pick;
 mod read;
 mod table;
+mod traces;
 
-pub use exhibits::{ExhibitReader, GROUP_VALUES};
 pub use journal::{Journal, journal_units};
-pub use pick::KeptExhibits;
+pub use pick::KeptTraces;
 pub use read::quoted;
+pub use traces::{GROUP_VALUES, TraceReader};
 
-use self::exhibits::ExhibitWriter;
-use self::read::{Draws, Stored};
+use self::read::{Instances, Stored};
+use self::traces::TraceWriter;
 use super::StudyError;
 use super::key::{KeyColumns, SweepKey};
 use super::record::{Batch, Kept, Timing};
@@ -29,9 +29,9 @@ use std::path::{Path, PathBuf};
 /// The records of one study.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Records {
-    /// Prepared objects, trials and exhibits.
+    /// Preprocessed objects, trials and traces.
     pub batch: Batch,
-    /// Clock readings.
+    /// Times.
     pub times: Vec<Timing>,
 }
 
@@ -52,9 +52,9 @@ pub fn part_path(folder: &Path, study: &str, part: &str) -> PathBuf {
     folder.join(format!("{study}.{part}.parquet"))
 }
 
-/// Exhibits on their way to a file, in the order of records.
-pub struct Exhibits<'a> {
-    /// The exhibits.
+/// Traces on their way to a file, in the order of records.
+pub struct Traces<'a> {
+    /// The traces.
     pub each: Box<dyn Iterator<Item = Result<Kept, StudyError>> + 'a>,
     /// The sweep of one that belongs to a trial, if any does.
     pub sweep: Option<SweepKey>,
@@ -62,31 +62,32 @@ pub struct Exhibits<'a> {
     pub group_values: usize,
 }
 
-impl<'a> Exhibits<'a> {
+impl<'a> Traces<'a> {
     /// Those that are held in memory.
     pub fn held(kept: &'a [Kept]) -> Self {
         Self {
             each: Box::new(kept.iter().cloned().map(Ok)),
-            sweep: exhibits::sweep_of(kept),
+            sweep: traces::sweep_of(kept),
             group_values: GROUP_VALUES,
         }
     }
 }
 
-/// Stages every part of `records` for `folder`, with `exhibits` in place of those that they hold, and gives the hash of each
+/// Stages every part of `records` for `folder`, with `traces` in place of those that they hold, and gives the hash of each
 /// file by its part.
 ///
 /// # Errors
-/// [`StudyError::Io`]; no file has changed then. Those of `exhibits`.
+/// [`StudyError::Io`]; no file has changed then. Those of `traces`.
 pub fn stage_records(
     staged: &mut Staged,
     folder: &Path,
     study: &str,
     columns: &Columns<'_>,
     records: &Records,
-    exhibits: Exhibits<'_>,
+    traces: Traces<'_>,
 ) -> Result<BTreeMap<String, String>, StudyError> {
-    let (keys, mut hashes) = (&columns.keys, BTreeMap::new());
+    let keys = &columns.keys;
+    let mut hashes = BTreeMap::new();
     let mut frame = |staged: &mut Staged, part: &str, frame| -> Result<(), StudyError> {
         let bytes = table::to_parquet(frame, keys);
         staged.add(&part_path(folder, study, part), &bytes)?;
@@ -94,19 +95,19 @@ pub fn stage_records(
         Ok(())
     };
     frame(staged, "trials", table::trials(&records.batch.rows, keys, columns.values))?;
-    frame(staged, "prepared", table::prepared(&records.batch.prepared, keys))?;
-    let path = part_path(folder, study, "exhibits");
+    frame(staged, "preprocessing", table::preprocessing(&records.batch.preprocessing, keys))?;
+    let path = part_path(folder, study, "traces");
     let hash = staged.add_with(&path, |out| {
         let io = || StudyError::io(&path, "writing the file");
-        let Exhibits { each, sweep, group_values } = exhibits;
-        let mut file = ExhibitWriter::new(out, keys, sweep, group_values).map_err(io())?;
+        let Traces { each, sweep, group_values } = traces;
+        let mut file = TraceWriter::new(out, keys, sweep, group_values).map_err(io())?;
         for kept in each {
             file.add(kept?).map_err(io())?;
         }
         file.finish().map_err(io())
     })?;
     frame(staged, "times", table::times(&records.times, keys))?;
-    hashes.insert("exhibits".to_owned(), hash);
+    hashes.insert("traces".to_owned(), hash);
     Ok(hashes)
 }
 
@@ -122,7 +123,7 @@ pub fn read_records(
     read_parts(folder, study, hashes, true)
 }
 
-/// As [`read_records`], without exhibits: whoever looks at numbers alone holds none of them in memory.
+/// As [`read_records`], without traces: whoever looks at numbers alone holds none of them in memory.
 ///
 /// # Errors
 /// As [`read_records`].
@@ -138,21 +139,21 @@ fn read_parts(
     folder: &Path,
     study: &str,
     hashes: &BTreeMap<String, String>,
-    with_exhibits: bool,
+    with_traces: bool,
 ) -> Result<Records, StudyError> {
-    let draws = &mut Draws::default();
+    let instances = &mut Instances::default();
     let open = |part: &str| open(folder, study, part, hashes);
     Ok(Records {
         batch: Batch {
-            rows: open("trials")?.guarded(|file| file.trials(draws))?,
-            prepared: open("prepared")?.guarded(|file| file.prepared(draws))?,
-            kept: if with_exhibits {
-                open("exhibits")?.guarded(|file| file.exhibits(draws))?
+            rows: open("trials")?.guarded(|file| file.trials(instances))?,
+            preprocessing: open("preprocessing")?.guarded(|file| file.preprocessing(instances))?,
+            kept: if with_traces {
+                open("traces")?.guarded(|file| file.traces(instances))?
             } else {
                 Vec::new()
             },
         },
-        times: open("times")?.guarded(|file| file.times(draws))?,
+        times: open("times")?.guarded(|file| file.times(instances))?,
     })
 }
 
@@ -180,18 +181,18 @@ fn hash_of(path: &Path) -> Result<String, StudyError> {
     Ok(hasher.finish())
 }
 
-/// The exhibits of `study` in `folder`, to be read one group at a time; they must have their hash among `hashes`.
+/// The traces of `study` in `folder`, to be read one group at a time; they must have their hash among `hashes`.
 ///
 /// # Errors
 /// As [`read_records`].
-pub fn open_exhibits(
+pub fn open_traces(
     folder: &Path,
     study: &str,
     hashes: &BTreeMap<String, String>,
-) -> Result<ExhibitReader, StudyError> {
-    let path = part_path(folder, study, "exhibits");
-    check(&path, &hash_of(&path)?, hashes.get("exhibits"))?;
-    ExhibitReader::open(&path)
+) -> Result<TraceReader, StudyError> {
+    let path = part_path(folder, study, "traces");
+    check(&path, &hash_of(&path)?, hashes.get("traces"))?;
+    TraceReader::open(&path)
 }
 
 /// A file that its manifest names and that is gone or cannot be read.

@@ -1,47 +1,47 @@
-//! Exhibits that are read when they are asked for: the group of the file that holds them, and no other.
+//! Traces that are read when they are asked for: the group of the file that holds them, and no other.
 
-use super::exhibits::{groups, read_group};
-use super::read::{Draws, Stored};
+use super::read::{Instances, Stored};
+use super::traces::{groups, read_group};
 use super::{check, hash_of, part_path};
 use crate::StudyError;
 use crate::key::Owner;
 use crate::parquet::FrameReader;
 use crate::record::Kept;
-use engine::planner::Exhibit;
+use engine::planner::Trace;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// The exhibits of one study's records.
+/// The traces of one study's records.
 #[derive(Debug, Default)]
-pub struct KeptExhibits {
+pub struct KeptTraces {
     /// The file that holds them; none if they are in memory already.
     path: Option<PathBuf>,
-    found: OnceLock<Found>,
+    found: OnceLock<TraceIndex>,
     damage: OnceLock<String>,
 }
 
-/// Where each exhibit stands, and those that were read.
+/// Where each trace stands, and those that were read.
 #[derive(Debug, Default)]
-struct Found {
+struct TraceIndex {
     /// Its group and its place there.
     places: BTreeMap<Owner, Vec<(usize, usize)>>,
     /// What each group of the file holds.
-    groups: Vec<OnceLock<Vec<Exhibit>>>,
+    groups: Vec<OnceLock<Vec<Trace>>>,
 }
 
-impl KeptExhibits {
+impl KeptTraces {
     /// Those of a run that is in memory.
     pub fn held(kept: Vec<Kept>) -> Self {
         let mut places: BTreeMap<Owner, Vec<(usize, usize)>> = BTreeMap::new();
         let mut all = Vec::with_capacity(kept.len());
-        for (place, Kept { of, exhibit }) in kept.into_iter().enumerate() {
+        for (place, Kept { of, trace }) in kept.into_iter().enumerate() {
             places.entry(of).or_default().push((0, place));
-            all.push(exhibit);
+            all.push(trace);
         }
         let groups = vec![OnceLock::from(all)];
-        Self { found: OnceLock::from(Found { places, groups }), ..Self::default() }
+        Self { found: OnceLock::from(TraceIndex { places, groups }), ..Self::default() }
     }
 
     /// Those of `study` in `folder`, whose file must have its hash among `hashes`; none of them is read yet.
@@ -49,14 +49,14 @@ impl KeptExhibits {
     /// # Errors
     /// [`StudyError::Touched`].
     pub fn stored(folder: &Path, study: &str, hashes: &BTreeMap<String, String>) -> Result<Self, StudyError> {
-        let path = part_path(folder, study, "exhibits");
-        check(&path, &hash_of(&path)?, hashes.get("exhibits"))?;
+        let path = part_path(folder, study, "traces");
+        check(&path, &hash_of(&path)?, hashes.get("traces"))?;
         Ok(Self { path: Some(path), ..Self::default() })
     }
 
-    /// The exhibits of `owner`, in the order in which they were kept; none where the file cannot be read, which
+    /// The traces of `owner`, in the order in which they were kept; none where the file cannot be read, which
     /// [`damage`](Self::damage) tells.
-    pub fn of<'s>(&'s self, owner: &Owner) -> impl Iterator<Item = &'s Exhibit> + use<'s> {
+    pub fn owned_by<'s>(&'s self, owner: &Owner) -> impl Iterator<Item = &'s Trace> + use<'s> {
         let found = self.found();
         let places = found.places.get(owner).map_or(&[][..], Vec::as_slice);
         places.iter().filter_map(|(group, place)| {
@@ -64,16 +64,16 @@ impl KeptExhibits {
         })
     }
 
-    fn found(&self) -> &Found {
+    fn found(&self) -> &TraceIndex {
         once(&self.found, || self.or_damage(Self::find))
     }
 
-    /// The exhibits of `owner`, of a file that is read from one end to the other: no other group stays in memory.
+    /// The traces of `owner`, of a file that is read from one end to the other: no other group stays in memory.
     ///
     /// # Errors
     /// [`StudyError::Touched`].
-    pub fn take(&mut self, owner: &Owner) -> Result<Vec<Exhibit>, StudyError> {
-        let exhibits = self.of(owner).cloned().collect();
+    pub fn take(&mut self, owner: &Owner) -> Result<Vec<Trace>, StudyError> {
+        let traces = self.owned_by(owner).cloned().collect();
         if let Some(found) = self.found.get_mut() {
             let own = found.places.get(owner).and_then(|places| places.last()).map(|(group, _)| *group);
             for (number, group) in found.groups.iter_mut().enumerate() {
@@ -82,7 +82,7 @@ impl KeptExhibits {
                 }
             }
         }
-        self.damage().map(|()| exhibits)
+        self.damage().map(|()| traces)
     }
 
     /// Whose they are, in the order of the file.
@@ -120,13 +120,13 @@ impl KeptExhibits {
         })
     }
 
-    /// Whose the exhibits in the file at `path` are, without reading them.
-    fn find(path: &Path) -> Result<Found, StudyError> {
-        let mut found = Found::default();
+    /// Whose the traces in the file at `path` are, without reading them.
+    fn find(path: &Path) -> Result<TraceIndex, StudyError> {
+        let mut found = TraceIndex::default();
         let file = File::open(path).map_err(StudyError::io(path, "opening the file"))?;
         let read = || FrameReader::open(file)?.columns(|name| name != "values");
-        let stored = Stored::of(path.to_owned(), read)?;
-        let mut owners = stored.guarded(|file| file.owners(&mut Draws::default()))?.into_iter();
+        let stored = Stored::read_by(path.to_owned(), read)?;
+        let mut owners = stored.guarded(|file| file.owners(&mut Instances::default()))?.into_iter();
         for (number, count) in groups(path)?.into_iter().enumerate() {
             for (place, owner) in owners.by_ref().take(count).enumerate() {
                 found.places.entry(owner).or_default().push((number, place));
@@ -136,9 +136,9 @@ impl KeptExhibits {
         Ok(found)
     }
 
-    fn group(path: &Path, group: usize) -> Result<Vec<Exhibit>, StudyError> {
-        let kept = read_group(path, group, &mut Draws::default())?;
-        Ok(kept.into_iter().map(|kept| kept.exhibit).collect())
+    fn group(path: &Path, group: usize) -> Result<Vec<Trace>, StudyError> {
+        let kept = read_group(path, group, &mut Instances::default())?;
+        Ok(kept.into_iter().map(|kept| kept.trace).collect())
     }
 }
 

@@ -3,13 +3,13 @@
 //! A label that stands in many cells becomes one shared text: cells are numbered first, and keys are put together from the
 //! numbers.
 
-use super::describe::{READING, SWEEP};
+use super::describe::{CHOICE, SWEEP};
 use crate::StudyError;
 use crate::column::{self, Kind};
-use crate::key::{DrawKey, Owner, ReadingKey, SweepKey, SweepValue, Text, TrialKey};
+use crate::key::{InstanceKey, InterpretationKey, Owner, SweepKey, SweepValue, Text, TrialKey};
 use crate::parquet::FrameReader;
-use crate::record::{Kept, PreparedRow, Row, Status, Timing, Values};
-use engine::planner::{Exhibit, Value};
+use crate::record::{Kept, PreprocessingRow, Row, Status, Timing, Values};
+use engine::planner::{Trace, Value};
 use polars::prelude::{AnyValue, Column, DataFrame, DataType, PolarsResult};
 use std::collections::BTreeMap;
 use std::io::Cursor;
@@ -18,12 +18,12 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Once};
 
-/// Draws that several files of a study name.
+/// Instances that several files of a study name.
 #[derive(Default)]
-pub struct Draws(BTreeMap<DrawKey, Arc<DrawKey>>);
+pub struct Instances(BTreeMap<InstanceKey, Arc<InstanceKey>>);
 
-impl Draws {
-    fn shared(&mut self, key: DrawKey) -> Arc<DrawKey> {
+impl Instances {
+    fn shared(&mut self, key: InstanceKey) -> Arc<InstanceKey> {
         if let Some(known) = self.0.get(&key) {
             return known.clone();
         }
@@ -41,7 +41,9 @@ struct Numbered<T> {
 
 impl<T: Ord + Clone> Numbered<T> {
     fn new(cells: impl Iterator<Item = T>) -> Self {
-        let (mut known, mut values, mut numbers) = (BTreeMap::new(), Vec::<T>::new(), Vec::new());
+        let mut known = BTreeMap::new();
+        let mut values = Vec::<T>::new();
+        let mut numbers = Vec::new();
         // What came after each number the last time.
         let mut after: Vec<usize> = Vec::new();
         let mut last = 0;
@@ -83,7 +85,7 @@ impl<T: Clone> Numbered<T> {
         pairs.map(|pair| (self.values[pair / width].clone(), other.values[pair % width].clone()))
     }
 
-    fn of(&self, row: usize) -> &T {
+    fn at(&self, row: usize) -> &T {
         &self.values[self.numbers[row]]
     }
 }
@@ -127,11 +129,11 @@ pub struct Stored {
 impl Stored {
     /// The frame in `bytes`, read from `path`.
     pub fn open(path: PathBuf, bytes: Vec<u8>) -> Result<Self, StudyError> {
-        Self::of(path, || FrameReader::open(Cursor::new(bytes))?.frame())
+        Self::read_by(path, || FrameReader::open(Cursor::new(bytes))?.frame())
     }
 
     /// The frame that `read` reads from `path`.
-    pub fn of(
+    pub fn read_by(
         path: PathBuf,
         read: impl FnOnce() -> PolarsResult<DataFrame> + UnwindSafe,
     ) -> Result<Self, StudyError> {
@@ -143,7 +145,7 @@ impl Stored {
 
     /// What `made` makes of the frame: polars reads some of a file only when its cells are asked for.
     pub fn guarded<T>(&self, made: impl FnOnce(&Self) -> Result<T, StudyError>) -> Result<T, StudyError> {
-        // Nothing that is left half-done by a panic is used again: the error ends the reading of the whole run.
+        // Nothing that is left half-done by a panic is used again: the error ends the interpretation of the whole run.
         unpanicked(AssertUnwindSafe(|| made(self))).unwrap_or_else(|| Err(touched(&self.path, UNREADABLE)))
     }
 
@@ -205,26 +207,27 @@ impl Stored {
         Ok(rows)
     }
 
-    /// What names each row's draw.
-    fn draws(&self, draws: &mut Draws) -> Result<Numbered<Arc<DrawKey>>, StudyError> {
-        let mut readings = Numbered { numbers: vec![0; self.frame.height()], values: vec![Vec::new()] };
-        for (id, column) in self.named(READING) {
+    /// What names each row's instance.
+    fn instances(&self, instances: &mut Instances) -> Result<Numbered<Arc<InstanceKey>>, StudyError> {
+        let mut interpretations =
+            Numbered { numbers: vec![0; self.frame.height()], values: vec![Vec::new()] };
+        for (id, column) in self.named(CHOICE) {
             let id = Text::from(id);
             let options = self.full_texts(column.name())?;
-            readings = readings.with(&options).map(|(mut reading, option)| {
-                reading.push((id.clone(), option));
-                reading
+            interpretations = interpretations.with(&options).map(|(mut interpretation, option)| {
+                interpretation.push((id.clone(), option));
+                interpretation
             });
         }
-        let readings = readings.map(ReadingKey::new);
-        let numbers = Numbered::new(self.wholes("draw")?.into_iter());
-        // Sweeps over settings of the problem stand before the draw's number.
-        let posed = self.frame.columns().iter().take_while(|column| *column.name() != "draw");
+        let interpretations = interpretations.map(InterpretationKey::new);
+        let numbers = Numbered::new(self.wholes("instance")?.into_iter());
+        // Sweeps over settings of the problem stand before the instance's number.
+        let posed = self.frame.columns().iter().take_while(|column| *column.name() != "instance");
         let swept =
             self.sweeps(posed.filter_map(|column| Some((column.name().strip_prefix(SWEEP)?, column))))?;
-        let keys = self.full_texts("group")?.with(&swept).with(&numbers).with(&readings);
-        Ok(keys.map(|(((group, sweep), draw), reading)| {
-            draws.shared(DrawKey { group, sweep, draw: draw as u32, reading })
+        let keys = self.full_texts("group")?.with(&swept).with(&numbers).with(&interpretations);
+        Ok(keys.map(|(((group, sweep), instance), interpretation)| {
+            instances.shared(InstanceKey { group, sweep, instance: instance as u32, interpretation })
         }))
     }
 
@@ -263,26 +266,29 @@ impl Stored {
         })
     }
 
-    /// What names each row, a trial or the prepared object itself.
-    pub fn owners(&self, draws: &mut Draws) -> Result<Vec<Owner>, StudyError> {
-        let (on, sweep) = (self.draws(draws)?, self.sweeps(self.named(SWEEP))?);
-        let (query, contender, repeat) =
-            (self.texts("query")?, self.texts("contender")?, self.maybe_wholes("repeat")?);
+    /// What names each row, a trial or the preprocessed object itself.
+    pub fn owners(&self, instances: &mut Instances) -> Result<Vec<Owner>, StudyError> {
+        let on = self.instances(instances)?;
+        let sweep = self.sweeps(self.named(SWEEP))?;
+        let query = self.texts("query")?;
+        let contender = self.texts("contender")?;
+        let repeat = self.maybe_wholes("repeat")?;
         let owner = |row: usize| {
-            let on = on.of(row).clone();
-            let Some(contender) = contender.of(row).clone() else { return Ok(Owner::Draw(on)) };
+            let on = on.at(row).clone();
+            let Some(contender) = contender.at(row).clone() else { return Ok(Owner::Instance(on)) };
             let repeat = repeat[row].ok_or_else(|| self.wrong("repeat"))? as u32;
-            let (query, sweep) = (query.of(row).clone(), sweep.of(row).clone());
+            let query = query.at(row).clone();
+            let sweep = sweep.at(row).clone();
             Ok(Owner::Trial(TrialKey { on, query, contender, sweep, repeat }))
         };
         (0..self.frame.height()).map(owner).collect()
     }
 
-    fn trial_keys(&self, draws: &mut Draws) -> Result<Vec<TrialKey>, StudyError> {
-        let owners = self.owners(draws)?.into_iter();
+    fn trial_keys(&self, instances: &mut Instances) -> Result<Vec<TrialKey>, StudyError> {
+        let owners = self.owners(instances)?.into_iter();
         let trial = |owner| match owner {
             Owner::Trial(key) => Ok(key),
-            Owner::Draw(_) => Err(self.wrong("contender")),
+            Owner::Instance(_) => Err(self.wrong("contender")),
         };
         owners.map(trial).collect()
     }
@@ -302,8 +308,10 @@ impl Stored {
     }
 
     /// The frame as trials.
-    pub fn trials(&self, draws: &mut Draws) -> Result<Vec<Row>, StudyError> {
-        let (keys, reason, seed) = (self.trial_keys(draws)?, self.texts("reason")?, self.wholes("seed")?);
+    pub fn trials(&self, instances: &mut Instances) -> Result<Vec<Row>, StudyError> {
+        let keys = self.trial_keys(instances)?;
+        let reason = self.texts("reason")?;
+        let seed = self.wholes("seed")?;
         let Numbered { numbers, values } = self.full_texts("status")?;
         let values = values.iter().map(|name| Status::find(name).ok_or_else(|| self.wrong("status")));
         let status = Numbered { numbers, values: values.collect::<Result<Vec<_>, _>>()? };
@@ -311,46 +319,50 @@ impl Stored {
         let row = |(row, (key, values))| Row {
             key,
             seed: seed[row],
-            status: *status.of(row),
-            reason: reason.of(row).as_deref().map(str::to_owned),
+            status: *status.at(row),
+            reason: reason.at(row).as_deref().map(str::to_owned),
             values,
         };
         Ok(rows.map(row).collect())
     }
 
-    /// The frame as prepared objects.
-    pub fn prepared(&self, draws: &mut Draws) -> Result<Vec<PreparedRow>, StudyError> {
-        let (keys, kind) = (self.draws(draws)?, self.full_texts("kind")?);
-        let (reason, seed) = (self.texts("reason")?, self.wholes("seed")?);
-        let row = |(row, values)| PreparedRow {
-            key: keys.of(row).clone(),
-            kind: kind.of(row).as_ref().to_owned(),
+    /// The frame as preprocessed objects.
+    pub fn preprocessing(&self, instances: &mut Instances) -> Result<Vec<PreprocessingRow>, StudyError> {
+        let keys = self.instances(instances)?;
+        let kind = self.full_texts("kind")?;
+        let reason = self.texts("reason")?;
+        let seed = self.wholes("seed")?;
+        let row = |(row, values)| PreprocessingRow {
+            key: keys.at(row).clone(),
+            kind: kind.at(row).as_ref().to_owned(),
             seed: seed[row],
-            reason: reason.of(row).as_deref().map(str::to_owned),
+            reason: reason.at(row).as_deref().map(str::to_owned),
             values,
         };
         Ok(self.values()?.into_iter().enumerate().map(row).collect())
     }
 
-    /// The frame as exhibits.
-    pub fn exhibits(&self, draws: &mut Draws) -> Result<Vec<Kept>, StudyError> {
-        let (of, name, width) = (self.owners(draws)?, self.full_texts("name")?, self.wholes("width")?);
+    /// The frame as traces.
+    pub fn traces(&self, instances: &mut Instances) -> Result<Vec<Kept>, StudyError> {
+        let of = self.owners(instances)?;
+        let name = self.full_texts("name")?;
+        let width = self.wholes("width")?;
         let lists = self.column("values")?.list().map_err(|_| self.wrong("values"))?.clone();
         let mut kept = Vec::new();
         for (row, of) in of.into_iter().enumerate() {
             let list = lists.get_as_series(row).ok_or_else(|| self.wrong("values"))?;
             let values = list.f64().map_err(|_| self.wrong("values"))?.into_no_null_iter().collect();
-            let exhibit =
-                Exhibit { name: name.of(row).as_ref().to_owned(), width: width[row] as usize, values };
-            kept.push(Kept { of, exhibit });
+            let trace = Trace { name: name.at(row).as_ref().to_owned(), width: width[row] as usize, values };
+            kept.push(Kept { of, trace });
         }
         Ok(kept)
     }
 
-    /// The frame as clock readings.
-    pub fn times(&self, draws: &mut Draws) -> Result<Vec<Timing>, StudyError> {
-        let keys = self.trial_keys(draws)?;
-        let (session, clock_repeat) = (self.wholes("session")?, self.wholes("clock_repeat")?);
+    /// The frame as times.
+    pub fn times(&self, instances: &mut Instances) -> Result<Vec<Timing>, StudyError> {
+        let keys = self.trial_keys(instances)?;
+        let session = self.wholes("session")?;
+        let clock_repeat = self.wholes("clock_repeat")?;
         let plan_wall_ns = self.wholes("plan_wall_ns")?;
         let row = |(row, trial)| Timing {
             trial,

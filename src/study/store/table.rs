@@ -1,10 +1,10 @@
 //! Records as data frames, and these as Parquet files that say what their columns mean.
 
-use super::describe::{READING, SWEEP, described};
+use super::describe::{CHOICE, SWEEP, described};
 use crate::column::{self, Kind};
-use crate::key::{DrawKey, KeyColumns, Owner, SweepKey, SweepValue, TrialKey};
+use crate::key::{InstanceKey, KeyColumns, Owner, SweepKey, SweepValue, TrialKey};
 use crate::parquet::write_frame;
-use crate::record::{Kept, PreparedRow, Row, Timing, Values};
+use crate::record::{Kept, PreprocessingRow, Row, Timing, Values};
 use engine::planner::Value;
 use polars::prelude::{Column, DataFrame, NamedFrom as _, Series};
 use std::collections::BTreeSet;
@@ -24,10 +24,10 @@ pub fn trials(rows: &[Row], keys: &KeyColumns, columns: &[&'static str]) -> Data
     assemble(rows.len(), frame)
 }
 
-/// The prepared objects as a frame, with the columns that any of them fills.
-pub fn prepared(rows: &[PreparedRow], keys: &KeyColumns) -> DataFrame {
-    let mut frame = draw_keys(rows, keys, |row| &*row.key);
-    frame.extend(reading_keys(rows, keys, |row| &*row.key));
+/// The preprocessed objects as a frame, with the columns that any of them fills.
+pub fn preprocessing(rows: &[PreprocessingRow], keys: &KeyColumns) -> DataFrame {
+    let mut frame = instance_keys(rows, keys, |row| &*row.key);
+    frame.extend(choice_columns(rows, keys, |row| &*row.key));
     frame.extend([
         text("kind", rows, |row| Some(row.kind.as_str())),
         whole("seed", rows, |row| Some(row.seed)),
@@ -39,33 +39,32 @@ pub fn prepared(rows: &[PreparedRow], keys: &KeyColumns) -> DataFrame {
     assemble(rows.len(), frame)
 }
 
-/// The exhibits as a frame: one row an exhibit, its numbers as a list, row by row of `width` numbers, and the names of the
-/// columns that they stand in where these are known. Sweeps are of the kinds that `sweep` has, if any trial has an exhibit.
-pub fn exhibits(kept: &[Kept], keys: &KeyColumns, sweep: Option<&SweepKey>) -> DataFrame {
+/// The traces as a frame: one row a trace, its numbers as a list, row by row of `width` numbers, and the names of the
+/// columns that they stand in where these are known. Sweeps are of the kinds that `sweep` has, if any trial has a trace.
+pub fn traces(kept: &[Kept], keys: &KeyColumns, sweep: Option<&SweepKey>) -> DataFrame {
     let lists: Vec<Series> =
-        kept.iter().map(|kept| Series::new("values".into(), kept.exhibit.values.as_slice())).collect();
+        kept.iter().map(|kept| Series::new("values".into(), kept.trace.values.as_slice())).collect();
     let values = if lists.is_empty() {
         // Without a first list polars cannot know what the lists hold.
         Series::new("values".into(), &[Series::new("values".into(), &[0.0_f64][..])]).clear()
     } else {
         Series::new("values".into(), lists)
     };
-    let columns: Vec<Option<String>> =
-        kept.iter().map(|kept| column::of_exhibit(&kept.exhibit.name)).collect();
+    let columns: Vec<Option<String>> = kept.iter().map(|kept| column::of_trace(&kept.trace.name)).collect();
     let mut frame = keys_of(kept, keys, sweep, |kept| match &kept.of {
-        Owner::Draw(key) => (&**key, None),
+        Owner::Instance(key) => (&**key, None),
         Owner::Trial(key) => (&*key.on, Some(key)),
     });
     frame.extend([
-        text("name", kept, |kept| Some(kept.exhibit.name.as_str())),
-        whole("width", kept, |kept| Some(kept.exhibit.width as u64)),
+        text("name", kept, |kept| Some(kept.trace.name.as_str())),
+        whole("width", kept, |kept| Some(kept.trace.width as u64)),
         Series::new("columns".into(), columns).into(),
         values.into(),
     ]);
     assemble(kept.len(), frame)
 }
 
-/// The clock readings as a frame.
+/// The times as a frame.
 pub fn times(times: &[Timing], keys: &KeyColumns) -> DataFrame {
     let mut frame = trial_keys(times, keys, |time| &time.trial);
     frame.extend([
@@ -78,7 +77,8 @@ pub fn times(times: &[Timing], keys: &KeyColumns) -> DataFrame {
 
 /// The bytes of `frame` as a Parquet file: the same for the same frame.
 pub fn to_parquet(frame: DataFrame, keys: &KeyColumns) -> Vec<u8> {
-    let (mut bytes, entries) = (Vec::new(), description(&frame, keys));
+    let mut bytes = Vec::new();
+    let entries = description(&frame, keys);
     write_frame(&mut bytes, frame, entries).expect("a frame of equally long columns is written to memory");
     bytes
 }
@@ -99,16 +99,16 @@ fn trial_keys<'a, R>(rows: &'a [R], keys: &KeyColumns, key: impl Fn(&'a R) -> &'
     keys_of(rows, keys, None, |row| (&*key(row).on, Some(key(row))))
 }
 
-/// The columns that name records which belong to a draw and, if there is one, to a trial on it; sweeps are of the kinds that
+/// The columns that name records which belong to an instance and, if there is one, to a trial on it; sweeps are of the kinds that
 /// `sweep` has, or of those found.
 fn keys_of<'a, R>(
     rows: &'a [R],
     keys: &KeyColumns,
     sweep: Option<&SweepKey>,
-    get: impl Fn(&'a R) -> (&'a DrawKey, Option<&'a TrialKey>),
+    get: impl Fn(&'a R) -> (&'a InstanceKey, Option<&'a TrialKey>),
 ) -> Vec<Column> {
     let trial = |row: &'a R| get(row).1;
-    let mut frame = draw_keys(rows, keys, |row| get(row).0);
+    let mut frame = instance_keys(rows, keys, |row| get(row).0);
     frame.push(text("query", rows, |row| trial(row)?.query.as_deref()));
     frame.push(text("contender", rows, |row| Some(&*trial(row)?.contender)));
     for (setting, _) in &keys.sweeps {
@@ -116,27 +116,35 @@ fn keys_of<'a, R>(
         let kind = sweep.and_then(|sweep| sweep.value(setting));
         frame.push(sweep_column(&format!("{SWEEP}{setting}"), &cells.collect::<Vec<_>>(), kind));
     }
-    frame.extend(reading_keys(rows, keys, |row| get(row).0));
+    frame.extend(choice_columns(rows, keys, |row| get(row).0));
     frame.push(whole("repeat", rows, |row| trial(row).map(|key| u64::from(key.repeat))));
     frame
 }
 
-/// The columns that name a draw but for its reading. Sweeps over settings of the problem stand before its number, all others
+/// The columns that name an instance but for its reading. Sweeps over settings of the problem stand before its number, all others
 /// after it.
-fn draw_keys<'a, R>(rows: &'a [R], keys: &KeyColumns, key: impl Fn(&'a R) -> &'a DrawKey) -> Vec<Column> {
+fn instance_keys<'a, R>(
+    rows: &'a [R],
+    keys: &KeyColumns,
+    key: impl Fn(&'a R) -> &'a InstanceKey,
+) -> Vec<Column> {
     let mut frame = vec![text("group", rows, |row| Some(&*key(row).group))];
     for (setting, kind) in &keys.posed {
         let cells: Vec<_> = rows.iter().map(|row| key(row).sweep.value(setting)).collect();
         frame.push(sweep_column(&format!("{SWEEP}{setting}"), &cells, Some(kind)));
     }
-    frame.push(whole("draw", rows, |row| Some(u64::from(key(row).draw))));
+    frame.push(whole("instance", rows, |row| Some(u64::from(key(row).instance))));
     frame
 }
 
-fn reading_keys<'a, R>(rows: &'a [R], keys: &KeyColumns, key: impl Fn(&'a R) -> &'a DrawKey) -> Vec<Column> {
-    let ids = keys.readings.iter().enumerate();
+fn choice_columns<'a, R>(
+    rows: &'a [R],
+    keys: &KeyColumns,
+    key: impl Fn(&'a R) -> &'a InstanceKey,
+) -> Vec<Column> {
+    let ids = keys.choices.iter().enumerate();
     let column = |(place, id): (usize, _)| {
-        text(&format!("{READING}{id}"), rows, |row| Some(&*key(row).reading.options().get(place)?.1))
+        text(&format!("{CHOICE}{id}"), rows, |row| Some(&*key(row).interpretation.options().get(place)?.1))
     };
     ids.map(column).collect()
 }

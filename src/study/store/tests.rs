@@ -1,15 +1,15 @@
-use super::KeptExhibits;
+use super::KeptTraces;
 use super::describe::{Described, described};
-use super::exhibits::{self, ExhibitReader, ExhibitWriter, GROUP_VALUES};
-use super::read::{Draws, Stored};
+use super::read::{Instances, Stored};
 use super::table::{self, DESCRIPTION};
+use super::traces::{self, GROUP_VALUES, TraceReader, TraceWriter};
 use super::{Staged, remove_temporaries, write_whole};
 use crate::column;
-use crate::key::{DrawKey, KeyColumns, Owner, ReadingKey, SweepKey, SweepValue, Text, TrialKey};
+use crate::key::{InstanceKey, InterpretationKey, KeyColumns, Owner, SweepKey, SweepValue, Text, TrialKey};
 use crate::parquet::FrameReader;
-use crate::record::{Kept, PreparedRow, Row, Status, Timing, Values};
+use crate::record::{Kept, PreprocessingRow, Row, Status, Timing, Values};
 use base::hash::sha256;
-use engine::planner::{Exhibit, Value};
+use engine::planner::{Trace, Value};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::Cursor;
@@ -21,29 +21,36 @@ fn keys() -> KeyColumns {
     KeyColumns {
         posed: Vec::new(),
         sweeps: sweeps.map(|key| (Text::from(key), Text::from("a_planner"))).into(),
-        readings: vec!["corners".into(), "ties".into()],
+        choices: vec!["corners".into(), "ties".into()],
     }
 }
 
-fn on(draw: u32) -> Arc<DrawKey> {
+fn on(instance: u32) -> Arc<InstanceKey> {
     let option = |id: &str, option: &str| (Text::from(id), Text::from(option));
-    let reading = ReadingKey::new(vec![option("corners", "cut"), option("ties", "fifo/lifo,a=b")]);
-    Arc::new(DrawKey { group: "a group".into(), sweep: SweepKey::default(), draw, reading })
+    let interpretation =
+        InterpretationKey::new(vec![option("corners", "cut"), option("ties", "fifo/lifo,a=b")]);
+    Arc::new(InstanceKey { group: "a group".into(), sweep: SweepKey::default(), instance, interpretation })
 }
 
-fn trial(draw: u32, query: Option<&str>) -> TrialKey {
+fn trial(instance: u32, query: Option<&str>) -> TrialKey {
     let sweep = SweepKey::new(vec![
         ("weight".into(), SweepValue::Real(1.5)),
         ("samples".into(), SweepValue::Whole(100)),
         ("kind".into(), SweepValue::Text("12".into())),
-        ("lazy".into(), SweepValue::Flag(draw == 0)),
+        ("lazy".into(), SweepValue::Flag(instance == 0)),
     ]);
-    TrialKey { on: on(draw), query: query.map(Text::from), contender: "A*".into(), sweep, repeat: draw + 3 }
+    TrialKey {
+        on: on(instance),
+        query: query.map(Text::from),
+        contender: "A*".into(),
+        sweep,
+        repeat: instance + 3,
+    }
 }
 
 fn rows() -> Vec<Row> {
-    let row = |draw, query, reason: Option<&str>, values: &[(&'static str, Value)]| Row {
-        key: trial(draw, query),
+    let row = |instance, query, reason: Option<&str>, values: &[(&'static str, Value)]| Row {
+        key: trial(instance, query),
         seed: u64::MAX,
         status: if reason.is_some() { Status::NoPath } else { Status::Solved },
         reason: reason.map(str::to_owned),
@@ -57,15 +64,15 @@ fn rows() -> Vec<Row> {
     ]
 }
 
-/// So many exhibits: the first ones of draws, the others of trials.
+/// So many traces: the first ones of instances, the others of trials.
 fn kept(count: u32) -> Vec<Kept> {
     let of = |number: u32| match number {
-        0..5 => Owner::Draw(on(number)),
+        0..5 => Owner::Instance(on(number)),
         _ => Owner::Trial(trial(number, None)),
     };
     let values = |number: u32| (0..number % 9).map(|value| f64::from(value) / 3.0).collect();
-    let exhibit = |number| Exhibit { name: "path".to_owned(), width: 1, values: values(number) };
-    (0..count).map(|number| Kept { of: of(number), exhibit: exhibit(number) }).collect()
+    let trace = |number| Trace { name: "path".to_owned(), width: 1, values: values(number) };
+    (0..count).map(|number| Kept { of: of(number), trace: trace(number) }).collect()
 }
 
 fn stored(frame: polars::prelude::DataFrame) -> Stored {
@@ -74,28 +81,37 @@ fn stored(frame: polars::prelude::DataFrame) -> Stored {
 
 #[test]
 fn typed_keys_and_values_come_back_from_parquet_as_they_were() {
-    let (rows, draws) = (rows(), &mut Draws::default());
+    let rows = rows();
+    let instances = &mut Instances::default();
     let trials = table::trials(&rows, &keys(), &["path_cost_cells", "opened", "closed"]);
-    let kinds = ["sweep_weight", "sweep_samples", "sweep_kind", "sweep_lazy", "reading_ties"]
+    let kinds = ["sweep_weight", "sweep_samples", "sweep_kind", "sweep_lazy", "choice_ties"]
         .map(|name| trials.column(name).unwrap().dtype().to_string());
     assert_eq!(kinds, ["f64", "i64", "str", "bool", "str"]);
     assert_eq!(trials.column("query").unwrap().null_count(), 1, "unknown is null");
     assert_eq!(trials.column("path_cost_cells").unwrap().null_count(), 2, "unmeasured is null");
-    let back = stored(trials).trials(draws).unwrap();
+    let back = stored(trials).trials(instances).unwrap();
     assert_eq!(back, rows);
     assert!(Arc::ptr_eq(&back[0].key.on, &back[1].key.on), "labels are copied");
-    let prepared =
-        vec![PreparedRow { key: on(1), kind: "k".into(), seed: 3, reason: None, values: Values::default() }];
-    assert_eq!(stored(table::prepared(&prepared, &keys())).prepared(draws).unwrap(), prepared);
-    let exhibit = |values: Vec<f64>| Exhibit { name: "path".to_owned(), width: 1, values };
+    let preprocessing = vec![PreprocessingRow {
+        key: on(1),
+        kind: "k".into(),
+        seed: 3,
+        reason: None,
+        values: Values::default(),
+    }];
+    assert_eq!(
+        stored(table::preprocessing(&preprocessing, &keys())).preprocessing(instances).unwrap(),
+        preprocessing
+    );
+    let trace = |values: Vec<f64>| Trace { name: "path".to_owned(), width: 1, values };
     let kept = vec![
-        Kept { of: Owner::Draw(on(1)), exhibit: exhibit(vec![]) },
-        Kept { of: Owner::Trial(trial(1, None)), exhibit: exhibit(vec![0.5, -0.0]) },
+        Kept { of: Owner::Instance(on(1)), trace: trace(vec![]) },
+        Kept { of: Owner::Trial(trial(1, None)), trace: trace(vec![0.5, -0.0]) },
     ];
-    assert_eq!(stored(table::exhibits(&kept, &keys(), None)).exhibits(draws).unwrap(), kept);
+    assert_eq!(stored(table::traces(&kept, &keys(), None)).traces(instances).unwrap(), kept);
     let time = |session| Timing { trial: trial(0, None), session, clock_repeat: 4, plan_wall_ns: 99 };
     let times = vec![time(1), time(2)];
-    assert_eq!(stored(table::times(&times, &keys())).times(draws).unwrap(), times);
+    assert_eq!(stored(table::times(&times, &keys())).times(instances).unwrap(), times);
 }
 
 #[test]
@@ -117,9 +133,9 @@ fn every_column_of_a_file_is_described_in_its_metadata() {
         of("sweep_weight").about,
         "value of the setting `weight` of `a_planner`, which the study sweeps"
     );
-    assert_eq!(of("reading_ties").about, "option taken of the reading `ties`");
+    assert_eq!(of("choice_ties").about, "option taken of the choice `ties`");
     for frame in
-        [table::prepared(&[], &keys()), table::exhibits(&[], &keys(), None), table::times(&[], &keys())]
+        [table::preprocessing(&[], &keys()), table::traces(&[], &keys(), None), table::times(&[], &keys())]
     {
         for column in frame.columns() {
             assert!(described(column.name(), &keys()).is_some(), "{} is not described", column.name());
@@ -131,7 +147,7 @@ fn every_column_of_a_file_is_described_in_its_metadata() {
 #[test]
 fn measured_columns_are_told_from_those_of_keys_by_their_names() {
     for column in column::COLUMNS {
-        let is_key = ["sweep_", "reading_"].iter().any(|prefix| column.name.starts_with(prefix));
+        let is_key = ["sweep_", "choice_"].iter().any(|prefix| column.name.starts_with(prefix));
         let described = described(column.name, &KeyColumns::default()).unwrap();
         assert!(!is_key && described.about == column.about, "{}", column.name);
     }
@@ -139,8 +155,9 @@ fn measured_columns_are_told_from_those_of_keys_by_their_names() {
 
 /// The file of `kept` in groups of at most so many numbers.
 fn in_groups(kept: &[Kept], most: usize) -> Vec<u8> {
-    let (mut bytes, keys) = (Vec::new(), keys());
-    let mut file = ExhibitWriter::new(&mut bytes, &keys, exhibits::sweep_of(kept), most).unwrap();
+    let mut bytes = Vec::new();
+    let keys = keys();
+    let mut file = TraceWriter::new(&mut bytes, &keys, traces::sweep_of(kept), most).unwrap();
     for kept in kept {
         file.add(kept.clone()).unwrap();
     }
@@ -150,39 +167,41 @@ fn in_groups(kept: &[Kept], most: usize) -> Vec<u8> {
 
 #[test]
 fn only_the_groups_that_are_asked_for_are_read_and_one_at_a_time_by_who_takes_them() {
-    let (all, folder) = (kept(40), tempfile::tempdir().unwrap());
-    let path = folder.path().join("a.exhibits.parquet");
+    let all = kept(40);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.traces.parquet");
     fs::write(&path, in_groups(&all, 7)).unwrap();
-    let hashes = |hash| BTreeMap::from([("exhibits".to_owned(), hash)]);
+    let hashes = |hash| BTreeMap::from([("traces".to_owned(), hash)]);
     let sound = hashes(sha256(&fs::read(&path).unwrap()));
-    let stored = KeptExhibits::stored(folder.path(), "a", &sound).unwrap();
+    let stored = KeptTraces::stored(folder.path(), "a", &sound).unwrap();
     assert_eq!(stored.in_memory(), 0, "no group is read before one is asked for");
     let (first, last) = (&all[0], &all[39]);
-    assert_eq!(stored.of(&last.of).collect::<Vec<_>>(), [&last.exhibit]);
+    assert_eq!(stored.owned_by(&last.of).collect::<Vec<_>>(), [&last.trace]);
     assert_eq!(stored.in_memory(), 1);
     assert_eq!(stored.owners().unwrap(), all.iter().map(|kept| &kept.of).collect::<Vec<_>>());
     let mut stored = stored;
     for kept in &all {
-        assert_eq!(stored.take(&kept.of).unwrap(), std::slice::from_ref(&kept.exhibit));
+        assert_eq!(stored.take(&kept.of).unwrap(), std::slice::from_ref(&kept.trace));
         assert_eq!(stored.in_memory(), 1);
     }
-    assert!(KeptExhibits::stored(folder.path(), "a", &hashes("0".repeat(64))).is_err());
-    let stored = KeptExhibits::stored(folder.path(), "a", &sound).unwrap();
+    assert!(KeptTraces::stored(folder.path(), "a", &hashes("0".repeat(64))).is_err());
+    let stored = KeptTraces::stored(folder.path(), "a", &sound).unwrap();
     fs::write(&path, "no Parquet").unwrap();
-    assert_eq!((stored.of(&first.of).count(), stored.damage().is_err()), (0, true));
+    assert_eq!((stored.owned_by(&first.of).count(), stored.damage().is_err()), (0, true));
 }
 
 #[test]
-fn exhibits_are_written_and_read_group_by_group() {
-    let (kept, keys) = (kept(40), keys());
+fn traces_are_written_and_read_group_by_group() {
+    let kept = kept(40);
+    let keys = keys();
     let written = |most: usize| in_groups(&kept, most);
-    assert!(written(GROUP_VALUES) == table::to_parquet(table::exhibits(&kept, &keys, None), &keys));
+    assert!(written(GROUP_VALUES) == table::to_parquet(table::traces(&kept, &keys, None), &keys));
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.exhibits.parquet");
+    let path = folder.path().join("a.traces.parquet");
     let mut sizes = Vec::new();
     for most in [1, 7, 50, GROUP_VALUES] {
         fs::write(&path, written(most)).unwrap();
-        let mut reader = ExhibitReader::open(&path).unwrap();
+        let mut reader = TraceReader::open(&path).unwrap();
         assert!(reader.has_trials().unwrap());
         for (place, own) in kept.iter().enumerate() {
             assert_eq!(reader.peek().unwrap(), Some(own), "{place} of groups of {most}");

@@ -1,6 +1,6 @@
 //! How often the printed distance of a segment and a polyhedron is wrong, on random segments beside each obstacle.
 //!
-//! One row a draw: the counts of that draw's samples. A sample is separated if the exact distance is above 0; it is
+//! One row an instance: the counts of that instance's samples. A sample is separated if the exact distance is above 0; it is
 //! overestimated if the printed distance is longer by more than a millionth of the obstacle's extent, and a
 //! collision is missed if the printed distance is not 0. The clamped formula for two segments is compared with the
 //! exact one on pairs of segments of the same samples; so is the same formula to the letter, with s and t as eqs. 11 and 12 name
@@ -39,7 +39,7 @@ pub static ENTRY: Entry = Entry {
         "segment_pairs_wrong_literal",
         "largest_excess_cm",
     ],
-    settings: Accepted::of::<FormulaError>(),
+    settings: Accepted::shape::<FormulaError>(),
     example: "
 samples = 500
 reach = 0.5
@@ -145,12 +145,12 @@ impl Task for FormulaError {
 
     fn run(&self, unit: &Unit<'_>) -> Batch {
         let mut row = super::variant_row(unit, LABEL);
-        let prepared = unit.family.prepare(unit.seed);
+        let preprocessing = unit.family.prepare(unit.seed);
         // Stored units are known by what was prepared for them: without this row every run would measure anew.
-        let prepared_row = super::prepared_row(unit, prepared.as_ref());
-        match prepared {
+        let preprocessing_row = super::preprocessing_row(unit, preprocessing.as_ref());
+        match preprocessing {
             Err(invalid) => (row.status, row.reason) = (Status::InvalidProblem, Some(invalid.0)),
-            Ok(prepared) => match prepared.world.as_polyhedra() {
+            Ok(preprocessing) => match preprocessing.world.as_polyhedra() {
                 None => {
                     let reason = "the task measures polyhedra, and this world has none".to_owned();
                     (row.status, row.reason) = (Status::InvalidProblem, Some(reason));
@@ -168,6 +168,6 @@ impl Task for FormulaError {
                 }
             },
         }
-        Batch { prepared: vec![prepared_row], rows: vec![row], kept: Vec::new() }
+        Batch { preprocessing: vec![preprocessing_row], rows: vec![row], kept: Vec::new() }
     }
 }

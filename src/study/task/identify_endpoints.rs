@@ -8,7 +8,7 @@ use crate::unit::Unit;
 use base::grid::Moves;
 use base::settings::Accepted;
 use engine::length_inversion::{self, Match, NeverLowered, Pair};
-use engine::planner::{Exhibit, Value};
+use engine::planner::{Trace, Value};
 use engine::search::Ties;
 use engine::space::{ArmRules, ArmWorld, TipLattice};
 use schemars::JsonSchema;
@@ -29,7 +29,7 @@ pub static ENTRY: Entry = Entry {
         "pairs_on_fives_tried",
         "candidates",
     ],
-    settings: Accepted::of::<Identify>(),
+    settings: Accepted::shape::<Identify>(),
     example: r#"
 excess_steps = 3.0
 cases = [
@@ -63,23 +63,23 @@ struct Identify {
 }
 
 /// What one variant gave.
-struct Found {
+struct VariantPairs {
     pairs: Vec<Pair>,
     /// How many had to be tried one by one.
     candidates: Option<usize>,
 }
 
 impl Question for Identify {
-    type Answer = Found;
+    type Answer = VariantPairs;
 
-    fn shortest(&self, cases: &[Vec<Moves>], rule: Match) -> Vec<Found> {
+    fn shortest(&self, cases: &[Vec<Moves>], rule: Match) -> Vec<VariantPairs> {
         let found = length_inversion::pairs(cases, &self.lengths(), rule);
-        found.into_iter().map(|pairs| Found { pairs, candidates: None }).collect()
+        found.into_iter().map(|pairs| VariantPairs { pairs, candidates: None }).collect()
     }
 
-    fn never_lowered(&self, cases: &[Moves], ties: &[Ties]) -> Vec<Found> {
+    fn never_lowered(&self, cases: &[Moves], ties: &[Ties]) -> Vec<VariantPairs> {
         let found = NeverLowered::find(cases, &self.lengths(), self.excess_steps, ties).into_iter();
-        found.map(|found| Found { pairs: found.pairs, candidates: Some(found.candidates) }).collect()
+        found.map(|found| VariantPairs { pairs: found.pairs, candidates: Some(found.candidates) }).collect()
     }
 }
 
@@ -90,11 +90,11 @@ impl Task for Identify {
 
     fn run(&self, unit: &Unit<'_>) -> Batch {
         let mut batch = Batch::default();
-        let prepared = unit.family.prepare(unit.seed);
-        batch.prepared.push(super::prepared_row(unit, prepared.as_ref()));
+        let preprocessing = unit.family.prepare(unit.seed);
+        batch.preprocessing.push(super::preprocessing_row(unit, preprocessing.as_ref()));
         let variants: Vec<&Variant> =
             self.variants.iter().filter(|variant| super::is_variant_wanted(unit, &variant.label)).collect();
-        let base = match super::arm_rules(prepared.as_ref()) {
+        let base = match super::arm_rules(preprocessing.as_ref()) {
             Ok(base) => base,
             Err(reason) => {
                 let row = |variant: &&Variant| super::invalid_variant(unit, &variant.label, &reason);
@@ -115,8 +115,8 @@ impl Task for Identify {
                     batch.rows.extend(of_variant);
                     if keeps {
                         let of = Owner::Trial(super::variant_key(unit, &variant.label, 0));
-                        let exhibit = Exhibit { name: "pairs".to_owned(), width: 4, values: points.concat() };
-                        batch.kept.push(Kept { of, exhibit });
+                        let trace = Trace { name: "pairs".to_owned(), width: 4, values: points.concat() };
+                        batch.kept.push(Kept { of, trace });
                     }
                 }
                 Err(reason) => batch.rows.push(super::invalid_variant(unit, &variant.label, &reason)),

@@ -6,8 +6,8 @@ mod null_rate;
 mod plan;
 
 use super::key::{SweepKey, TrialKey};
-use super::prepared::Prepared;
-use super::record::{Batch, PreparedRow, Row, Status, Values};
+use super::preprocessing::Preprocessing;
+use super::record::{Batch, PreprocessingRow, Row, Status, Values};
 use super::unit::Unit;
 use base::settings::{Accepted, Settings, SettingsError};
 use engine::planner::{Invalid, Value};
@@ -15,7 +15,7 @@ use engine::space::ArmRules;
 
 /// A task with its settings.
 pub trait Task: Send + Sync {
-    /// Does one unit of work: everything that shares one prepared object.
+    /// Does one unit of work: everything that shares one preprocessed object.
     fn run(&self, unit: &Unit<'_>) -> Batch;
 
     /// Does several units of one family and seed, which differ in their contenders alone; as [`run`](Self::run) of each, but
@@ -83,14 +83,14 @@ pub fn default() -> &'static Entry {
 #[cfg(test)]
 mod tests;
 
-/// The row of a unit's prepared object.
-fn prepared_row(unit: &Unit<'_>, prepared: Result<&Prepared, &Invalid>) -> PreparedRow {
-    PreparedRow {
+/// The row of a unit's preprocessed object.
+fn preprocessing_row(unit: &Unit<'_>, preprocessing: Result<&Preprocessing, &Invalid>) -> PreprocessingRow {
+    PreprocessingRow {
         key: unit.key.clone(),
-        kind: unit.group.family.prepared.to_owned(),
+        kind: unit.group.family.preprocessing.to_owned(),
         seed: unit.seed,
-        reason: prepared.err().map(|invalid| invalid.0.clone()),
-        values: prepared.map(|p| named(&p.values)).unwrap_or_default(),
+        reason: preprocessing.err().map(|invalid| invalid.0.clone()),
+        values: preprocessing.map(|p| named(&p.values)).unwrap_or_default(),
     }
 }
 
@@ -100,7 +100,8 @@ fn named<'a>(values: impl IntoIterator<Item = (&'a &'static str, &'a Value)>) ->
 
 /// What names what a unit gives for the variant called `label`: its own row, or one of its findings, counted from 1.
 fn variant_key(unit: &Unit<'_>, label: &str, finding: u32) -> TrialKey {
-    let (on, sweep) = (unit.key.clone(), SweepKey::default());
+    let on = unit.key.clone();
+    let sweep = SweepKey::default();
     TrialKey { on, query: None, contender: label.into(), sweep, repeat: finding }
 }
 
@@ -121,8 +122,8 @@ fn is_variant_wanted(unit: &Unit<'_>, label: &str) -> bool {
 }
 
 /// The rules of the prepared arm; why there are none.
-fn arm_rules(prepared: Result<&Prepared, &Invalid>) -> Result<ArmRules, String> {
-    let arm = prepared.map_err(|invalid| invalid.0.clone())?.world.as_arm();
+fn arm_rules(preprocessing: Result<&Preprocessing, &Invalid>) -> Result<ArmRules, String> {
+    let arm = preprocessing.map_err(|invalid| invalid.0.clone())?.world.as_arm();
     arm.map(|arm| *arm.rules()).ok_or_else(|| "this task needs the workspace of an arm".to_owned())
 }
 

@@ -26,7 +26,7 @@ pub static ENTRY: Entry = Entry {
         "targets_attainable",
         "attainable_hit_share_percent",
     ],
-    settings: Accepted::of::<NullRate>(),
+    settings: Accepted::shape::<NullRate>(),
     example: r#"
 window_cm = 5.0
 excess_steps = 3.0
@@ -99,12 +99,12 @@ struct Hits {
 }
 
 /// The settings with what they ask of grids.
-struct Asked<'a> {
+struct NullRateQuestion<'a> {
     null: &'a NullRate,
     targets: Targets,
 }
 
-impl Question for Asked<'_> {
+impl Question for NullRateQuestion<'_> {
     /// Which targets are met, by number, and which are attainable where that is known.
     type Answer = Hits;
 
@@ -130,14 +130,15 @@ impl Task for NullRate {
 
     fn run(&self, unit: &Unit<'_>) -> Batch {
         let mut batch = Batch::default();
-        let prepared = unit.family.prepare(unit.seed);
-        batch.prepared.push(super::prepared_row(unit, prepared.as_ref()));
+        let preprocessing = unit.family.prepare(unit.seed);
+        batch.preprocessing.push(super::preprocessing_row(unit, preprocessing.as_ref()));
         // The last row is over all variants, so that it takes every one of them.
         let wants_any = super::is_variant_wanted(unit, ANY);
         let is_wanted = |label: &str| wants_any || super::is_variant_wanted(unit, label);
         let variants: Vec<&Variant> = self.variants.iter().filter(|of| is_wanted(&of.label)).collect();
         let labels = variants.iter().map(|variant| variant.label.as_str()).chain(wants_any.then_some(ANY));
-        let asked = super::arm_rules(prepared.as_ref()).and_then(|base| Ok((base, self.asked(&base)?)));
+        let asked =
+            super::arm_rules(preprocessing.as_ref()).and_then(|base| Ok((base, self.question(&base)?)));
         batch.rows = match asked {
             Ok((base, asked)) => self.rows(unit, &base, &asked, &variants, wants_any),
             Err(reason) => labels.map(|label| super::invalid_variant(unit, label, &reason)).collect(),
@@ -148,21 +149,21 @@ impl Task for NullRate {
 
 impl NullRate {
     /// What is asked of grids on the lattice of `base`.
-    fn asked(&self, base: &ArmRules) -> Result<Asked<'_>, String> {
+    fn question(&self, base: &ArmRules) -> Result<NullRateQuestion<'_>, String> {
         let lengths = self.cases.each_ref().map(Case::length);
         let targets = Targets::new(lengths, self.window_cm / base.lattice.step_cm());
         if targets.count() == 0 {
             let window = self.window_cm;
             return Err(format!("no two lengths within {window} cm of the printed ones have equal parity"));
         }
-        Ok(Asked { null: self, targets })
+        Ok(NullRateQuestion { null: self, targets })
     }
 
     fn rows(
         &self,
         unit: &Unit<'_>,
         base: &ArmRules,
-        asked: &Asked<'_>,
+        asked: &NullRateQuestion<'_>,
         variants: &[&Variant],
         wants_any: bool,
     ) -> Vec<Row> {
@@ -196,7 +197,8 @@ impl NullRate {
 fn row(unit: &Unit<'_>, label: &str, targets: &Targets, met: &Hits) -> Row {
     let mut row = super::variant_row(unit, label);
     let counted = |all: &[bool]| all.iter().filter(|is_set| **is_set).count();
-    let (count, hit) = (targets.count(), counted(&met.hits));
+    let count = targets.count();
+    let hit = counted(&met.hits);
     row.status = Status::Solved;
     row.values = Values::from_iter([
         ("targets", Value::Count(count as u64)),

@@ -3,12 +3,12 @@
 use super::{Entry, Task};
 use crate::family::Query;
 use crate::key::Owner;
-use crate::prepared::Prepared;
+use crate::preprocessing::Preprocessing;
 use crate::record::{Batch, Kept, Row, Status};
 use crate::unit::{Entrant, Unit};
 use crate::verification::{self, Guide, Truth};
 use base::settings::{Accepted, NoSettings};
-use engine::planner::{Counts, Exhibit, Invalid, Plan, Request};
+use engine::planner::{Counts, Invalid, Plan, Request, Trace};
 use rayon::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -18,7 +18,7 @@ pub static ENTRY: Entry = Entry {
     about: "every contender plans on every problem; the verifier checks what comes back",
     revision: 1,
     columns: &[],
-    settings: Accepted::of::<NoSettings>(),
+    settings: Accepted::shape::<NoSettings>(),
     example: "",
     build: |settings| {
         let NoSettings {} = settings.read()?;
@@ -31,19 +31,19 @@ struct PlanTask;
 impl Task for PlanTask {
     fn run(&self, unit: &Unit<'_>) -> Batch {
         let queries = unit.queries();
-        let prepared = unit.family.prepare(unit.seed);
-        let guide = guide(&prepared, &queries);
+        let preprocessing = unit.family.prepare(unit.seed);
+        let guide = guide(&preprocessing, &queries);
         let mut batch = Batch::default();
-        begin(unit, &prepared, &mut batch);
+        begin(unit, &preprocessing, &mut batch);
         let run = |index: usize| {
             let mut batch = Batch::default();
             let truth =
-                prepared.as_ref().ok().map(|p| verification::truth(&p.world, &queries[index], &guide));
-            run_query(unit, (prepared.as_ref(), truth.as_ref()), (index, &queries[index]), &mut batch);
+                preprocessing.as_ref().ok().map(|p| verification::truth(&p.world, &queries[index], &guide));
+            run_query(unit, (preprocessing.as_ref(), truth.as_ref()), (index, &queries[index]), &mut batch);
             batch
         };
         // A roadmap numbers the ends of its queries as they come, so that their order matters; a lattice learns nothing.
-        let is_lattice = prepared.as_ref().is_ok_and(|p| p.world.as_lattice().is_some());
+        let is_lattice = preprocessing.as_ref().is_ok_and(|p| p.world.as_lattice().is_some());
         let done: Vec<Batch> = if is_lattice {
             (0..queries.len()).into_par_iter().map(run).collect()
         } else {
@@ -58,41 +58,41 @@ impl Task for PlanTask {
     fn run_alike(&self, units: &[&Unit<'_>]) -> Vec<Batch> {
         let [first, _, ..] = units else { return units.iter().map(|unit| self.run(unit)).collect() };
         let queries = first.queries();
-        let prepared = first.family.prepare(first.seed);
-        let guide = guide(&prepared, &queries);
+        let preprocessing = first.family.prepare(first.seed);
+        let guide = guide(&preprocessing, &queries);
         let mut batches = vec![Batch::default(); units.len()];
         for (unit, batch) in units.iter().zip(&mut batches) {
-            begin(unit, &prepared, batch);
+            begin(unit, &preprocessing, batch);
         }
         for (index, query) in queries.iter().enumerate() {
             // What the verifier learns about a query on one unit it need not work out again on the next.
-            let truth = prepared.as_ref().ok().map(|p| verification::truth(&p.world, query, &guide));
+            let truth = preprocessing.as_ref().ok().map(|p| verification::truth(&p.world, query, &guide));
             for (unit, batch) in units.iter().zip(&mut batches) {
-                run_query(unit, (prepared.as_ref(), truth.as_ref()), (index, query), batch);
+                run_query(unit, (preprocessing.as_ref(), truth.as_ref()), (index, query), batch);
             }
         }
         batches
     }
 }
 
-fn guide(prepared: &Result<Prepared, Invalid>, queries: &[Query]) -> Guide {
-    prepared.as_ref().map_or_else(|_| Guide::default(), |p| Guide::new(&p.world, queries))
+fn guide(preprocessing: &Result<Preprocessing, Invalid>, queries: &[Query]) -> Guide {
+    preprocessing.as_ref().map_or_else(|_| Guide::default(), |p| Guide::new(&p.world, queries))
 }
 
-/// Writes what is known of the prepared object itself.
-fn begin(unit: &Unit<'_>, prepared: &Result<Prepared, Invalid>, batch: &mut Batch) {
-    batch.prepared.push(super::prepared_row(unit, prepared.as_ref()));
-    if let Ok(prepared) = prepared
+/// Writes what is known of the preprocessed object itself.
+fn begin(unit: &Unit<'_>, preprocessing: &Result<Preprocessing, Invalid>, batch: &mut Batch) {
+    batch.preprocessing.push(super::preprocessing_row(unit, preprocessing.as_ref()));
+    if let Ok(preprocessing) = preprocessing
         && unit.is_kept(None, 0)
     {
-        batch.keep(&(&unit.key).into(), prepared.exhibits.clone());
+        batch.keep(&(&unit.key).into(), preprocessing.traces.clone());
     }
 }
 
 /// Every contender on one query.
 fn run_query(
     unit: &Unit<'_>,
-    (prepared, truth): (Result<&Prepared, &Invalid>, Option<&Truth>),
+    (preprocessing, truth): (Result<&Preprocessing, &Invalid>, Option<&Truth>),
     (index, query): (usize, &Query),
     batch: &mut Batch,
 ) {
@@ -101,8 +101,8 @@ fn run_query(
         let mut batch = Batch::default();
         for repeat in 0..entrant.contender.repeats {
             let trial = Trial { unit, query, entrant, repeat, known: &known };
-            match (prepared, truth) {
-                (Ok(prepared), Some(truth)) => trial.run(prepared, truth, &mut batch),
+            match (preprocessing, truth) {
+                (Ok(preprocessing), Some(truth)) => trial.run(preprocessing, truth, &mut batch),
                 (Err(invalid), _) => batch.rows.push(trial.invalid(invalid)),
                 (Ok(_), None) => unreachable!("the truth is known wherever the world is"),
             }
@@ -110,7 +110,7 @@ fn run_query(
         batch
     };
     // Among polyhedra a single trial may take seconds, and nothing is learnt from one to the next.
-    let is_long = prepared.is_ok_and(|p| p.world.as_polyhedra().is_some());
+    let is_long = preprocessing.is_ok_and(|p| p.world.as_polyhedra().is_some());
     let done: Vec<Batch> = if is_long {
         unit.entrants.par_iter().map(|entrant| run(entrant)).collect()
     } else {
@@ -128,8 +128,8 @@ impl Batch {
         self.kept.extend(part.kept);
     }
 
-    fn keep(&mut self, of: &Owner, exhibits: Vec<Exhibit>) {
-        self.kept.extend(exhibits.into_iter().map(|exhibit| Kept { of: of.clone(), exhibit }));
+    fn keep(&mut self, of: &Owner, traces: Vec<Trace>) {
+        self.kept.extend(traces.into_iter().map(|trace| Kept { of: of.clone(), trace }));
     }
 }
 
@@ -142,12 +142,12 @@ struct Trial<'a> {
 }
 
 impl Trial<'_> {
-    fn run(&self, prepared: &Prepared, truth: &Truth, batch: &mut Batch) {
+    fn run(&self, preprocessing: &Preprocessing, truth: &Truth, batch: &mut Batch) {
         let seed = self.entrant.seed(self.unit.terms, &self.problem(), self.repeat);
         let label = self.entrant.contender.label.as_str();
         let trace = self.unit.is_kept(Some(label), self.repeat);
         let request = Request {
-            world: &prepared.world,
+            world: &preprocessing.world,
             start: &self.query.start,
             goal: &self.query.goal,
             expansions: self.unit.terms.budget.expansions,
@@ -169,11 +169,11 @@ impl Trial<'_> {
                 row.values
                     .extend(plan.counts.iter().chain(&verified.values).map(|(name, value)| (*name, *value)));
                 if trace {
-                    let mut exhibits = std::mem::take(&mut plan.exhibits);
-                    exhibits.extend(verified.exhibits);
-                    exhibits.retain(|exhibit| self.unit.keeps(label, self.repeat, &exhibit.name));
-                    batch.keep(&(&row.key).into(), exhibits);
-                    batch.keep(&(&row.key).into(), path_exhibit(&plan));
+                    let mut traces = std::mem::take(&mut plan.traces);
+                    traces.extend(verified.traces);
+                    traces.retain(|trace| self.unit.keeps(label, self.repeat, &trace.name));
+                    batch.keep(&(&row.key).into(), traces);
+                    batch.keep(&(&row.key).into(), path_trace(&plan));
                 }
             }
         }
@@ -202,9 +202,9 @@ impl Trial<'_> {
     }
 }
 
-fn path_exhibit(plan: &Plan) -> Vec<Exhibit> {
+fn path_trace(plan: &Plan) -> Vec<Trace> {
     let Some(first) = plan.path.first() else { return Vec::new() };
-    vec![Exhibit { name: "path".to_owned(), width: first.len(), values: plan.path.concat() }]
+    vec![Trace { name: "path".to_owned(), width: first.len(), values: plan.path.concat() }]
 }
 
 fn panic_text(panic: &(dyn std::any::Any + Send)) -> String {

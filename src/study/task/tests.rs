@@ -19,7 +19,7 @@ question = 'q'
 [budget]
 expansions = 1000
 [quick]
-replicates = 1
+instances = 1
 [[problems]]
 label = 'w'
 family = 'arm_workspace'
@@ -70,14 +70,14 @@ fn facts(folder: &Path, threads: usize) -> BTreeMap<String, Vec<u8>> {
     };
     let report = run(&paper.studies[0], &options).unwrap();
     assert!(report.trials > 2, "{} trials", report.trials);
-    let files = ["trials", "prepared", "exhibits"].map(|kind| format!("s.{kind}.parquet"));
+    let files = ["trials", "preprocessing", "traces"].map(|kind| format!("s.{kind}.parquet"));
     files.map(|name| (name.clone(), fs::read(out.join(name)).unwrap())).into()
 }
 
 /// A paper with one study, whose settings of quick runs are `quick`.
 fn with_quick(quick: &str) -> Result<Paper, String> {
     let folder = tempfile::tempdir().unwrap();
-    let workspace = WORKSPACE.replace("replicates = 1\n", quick);
+    let workspace = WORKSPACE.replace("instances = 1\n", quick);
     let study =
         format!("task = 'identify_endpoints'\n{workspace}\n[task_settings]{CASES}]\nexcess_steps = 2.0\n");
     fs::create_dir(folder.path().join("p")).unwrap();
@@ -88,7 +88,7 @@ fn with_quick(quick: &str) -> Result<Paper, String> {
 
 #[test]
 fn a_quick_run_alone_takes_the_budget_clock_and_task_settings_of_quick() {
-    let quick = "replicates = 1
+    let quick = "instances = 1
 budget = { expansions = 7 }
 timing = { problems = 1, repeats = 1 }
 task_settings = { excess_steps = 0.5 }
@@ -150,7 +150,8 @@ fn single_variants_are_run_again_without_the_others_and_give_the_stored_rows() {
         facts(folder.path(), 2);
         let inputs = Inputs { roots: vec![folder.path().join("p")] };
         let paper = Paper::load(&folder.path().join("p"), &inputs).unwrap();
-        let (study, runs) = (&paper.studies[0], folder.path().join("2"));
+        let study = &paper.studies[0];
+        let runs = folder.path().join("2");
         let points = study.trial_interpretations().unwrap();
         for trial in ["w/swept", part, whole] {
             let (batch, stored) = run_one(study, &points, &inputs, &runs, trial).unwrap();
@@ -198,7 +199,8 @@ fn variants_that_never_lower_open_nodes_alone_have_ties_and_need_an_excess() {
         fs::write(folder.path().join("p/s.toml"), study).unwrap();
         Paper::load(&folder.path().join("p"), &Inputs::default()).map_err(|e| e.to_string())
     };
-    let (end_points, null) = ("excess_steps = 2.0\n", "window_cm = 2.0\n");
+    let end_points = "excess_steps = 2.0\n";
+    let null = "window_cm = 2.0\n";
     let both = format!("{null}{end_points}");
     let never = "shape = 'circle', open_node = 'never', ties = 'lifo'";
     for (task, close) in [("identify_endpoints", end_points), ("null_rate", &*both)] {

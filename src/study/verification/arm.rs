@@ -51,7 +51,7 @@ pub(super) fn verify(world: &ArmWorld, request: &Request<'_>, plan: &Plan, pipel
         (Ending::NoPath, Some(steps)) if pipeline.planner.is_complete() => case.refuse_no_path(steps),
         _ => None,
     };
-    Verified { outcome: outcome(request, plan, refusal), values, exhibits: Vec::new() }
+    Verified { outcome: outcome(request, plan, refusal), values, traces: Vec::new() }
 }
 
 fn measure(plan: &Plan, audit: &Audit, values: &mut Counts) {

@@ -89,7 +89,7 @@ pub fn verify(world: &PolyhedraWorld, request: &Request<'_>, plan: &Plan, truth:
             values.insert("bends", Value::Count(bends(&tips)));
         }
     }
-    Verified { outcome: outcome(request, plan, refusal), values, exhibits: Vec::new() }
+    Verified { outcome: outcome(request, plan, refusal), values, traces: Vec::new() }
 }
 
 /// What an arm did along its path, by column.

@@ -4,7 +4,7 @@ use super::Verified;
 use crate::record::Status;
 use engine::geometry::{Frame, Solid, Vec3};
 use engine::kinematics::Joints;
-use engine::planner::{Counts, Ending, Exhibit, Plan, Request, Value};
+use engine::planner::{Counts, Ending, Plan, Request, Trace, Value};
 use engine::space::cell::{EdgeEnd, LineRules, Lines, Path};
 use engine::space::roadmap::{Local, Roadmap, joints};
 use nalgebra::Matrix4;
@@ -39,7 +39,8 @@ impl Case {
         match roadmap.local() {
             Local::Arm(lines) => Self::Arm(Box::new(arm_case(lines))),
             Local::Joints(space) => {
-                let (robot, pairs) = (space.robot(), space.self_pairs());
+                let robot = space.robot();
+                let pairs = space.self_pairs();
                 let case = joint_space::Case::new(robot, space.obstacles(), pairs, space.step_rad());
                 Self::Joints(Box::new(case.expect("a family's solids enclose something")))
             }
@@ -55,12 +56,13 @@ impl Case {
 
     /// Verifies `plan`, made for `request`.
     pub fn verify(&self, request: &Request<'_>, plan: &Plan) -> Verified {
-        let (mut values, mut exhibits) = (Counts::new(), Vec::new());
+        let mut values = Counts::new();
+        let mut traces = Vec::new();
         let outcome = match plan.ending {
             Ending::Solved => {
                 let measured = match self {
-                    Self::Arm(case) => measure_arm(case, request, plan, &mut exhibits),
-                    Self::Joints(case) => measure_joints(case, request, plan, &mut exhibits),
+                    Self::Arm(case) => measure_arm(case, request, plan, &mut traces),
+                    Self::Joints(case) => measure_joints(case, request, plan, &mut traces),
                     Self::Plane(case) => measure_plane(case, request, plan),
                 };
                 let is_straight = request.world.as_roadmap().is_none_or(|map| map.local().is_straight());
@@ -76,9 +78,9 @@ impl Case {
             _ => super::outcome(request, plan, None),
         };
         if !request.trace {
-            exhibits.clear();
+            traces.clear();
         }
-        Verified { outcome, values, exhibits }
+        Verified { outcome, values, traces }
     }
 }
 
@@ -95,23 +97,18 @@ fn measure_joints(
     case: &joint_space::Case,
     request: &Request<'_>,
     plan: &Plan,
-    exhibits: &mut Vec<Exhibit>,
+    traces: &mut Vec<Trace>,
 ) -> Measured {
     let motion = case.motion(&plan.path, [request.start, request.goal])?;
     let mut values = counts(motion.length_m * 1e3, plan);
     values.insert("joint_travel_deg", Value::Real(motion.travel_rad.to_degrees()));
     if request.trace {
-        exhibits.push(Exhibit { name: "way_mm".to_owned(), width: 3, values: case.way_mm(&plan.path) });
+        traces.push(Trace { name: "way_mm".to_owned(), width: 3, values: case.way_mm(&plan.path) });
     }
     Ok((values, case.straight_m(request.start, request.goal) * 1e3))
 }
 
-fn measure_arm(
-    case: &cell::Case,
-    request: &Request<'_>,
-    plan: &Plan,
-    exhibits: &mut Vec<Exhibit>,
-) -> Measured {
+fn measure_arm(case: &cell::Case, request: &Request<'_>, plan: &Plan, traces: &mut Vec<Trace>) -> Measured {
     let angles = |config: &[f64]| joints(config).ok_or("a configuration without six angles");
     let path: Vec<Joints> = plan.path.iter().map(|config| angles(config)).collect::<Result<_, _>>()?;
     let (start, goal) = (angles(request.start)?, angles(request.goal)?);
@@ -125,7 +122,7 @@ fn measure_arm(
             let tool_mm = stop.tool_m.map(|x| x * 1e3);
             [stop.time_s].into_iter().chain(q_deg).chain(tool_mm)
         });
-        exhibits.push(Exhibit { name: "trajectory".to_owned(), width: 10, values: numbers.collect() });
+        traces.push(Trace { name: "trajectory".to_owned(), width: 10, values: numbers.collect() });
     }
     Ok((values, case.straight_m(&start, &goal) * 1e3))
 }

@@ -95,10 +95,12 @@ fn mutate(plan: &Plan, way: usize, stream: &mut Stream) -> Plan {
 #[test]
 fn every_mutation_that_makes_a_plan_wrong_is_refused() {
     let pipeline = pipeline("1");
-    let (mut refused, mut solved) = ([0; WAYS], 0);
+    let mut refused = [0; WAYS];
+    let mut solved = 0;
     for seed in 0..300 {
         let (world, query) = posed(seed);
-        let (request, truth) = (request(&world, &query), truth(&world, &query, &Guide::default()));
+        let request = request(&world, &query);
+        let truth = truth(&world, &query, &Guide::default());
         let plan = pipeline.planner.plan(&request).unwrap();
         let (status, reason) = verify(&request, &plan, &pipeline, &truth).outcome;
         assert!([Status::Solved, Status::NoPath].contains(&status), "seed {seed}: {status}, {reason:?}");
@@ -126,7 +128,8 @@ fn a_path_claimed_where_there_is_none_is_refused() {
     let mut claimed = 0;
     for seed in 0..300 {
         let (world, query) = posed(seed);
-        let (request, truth) = (request(&world, &query), truth(&world, &query, &Guide::default()));
+        let request = request(&world, &query);
+        let truth = truth(&world, &query, &Guide::default());
         if truth.optimal().is_some() {
             continue;
         }
@@ -146,7 +149,8 @@ fn a_detour_is_refused_of_an_optimal_planner_and_accepted_of_another() {
     let mut detours = 0;
     for seed in 0..300 {
         let (world, query) = posed(seed);
-        let (request, truth) = (request(&world, &query), truth(&world, &query, &Guide::default()));
+        let request = request(&world, &query);
+        let truth = truth(&world, &query, &Guide::default());
         let plan = greedy.planner.plan(&request).unwrap();
         let Some((cost, least)) = plan.cost.zip(truth.optimal()) else { continue };
         if cost < least + 1e-9 {

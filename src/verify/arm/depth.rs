@@ -35,7 +35,9 @@ fn least(of: &dyn Fn(f64) -> f64, places: u32) -> f64 {
     let at = |i: usize| values.get(i).copied().unwrap_or(f64::INFINITY);
     let is_low = |i: &usize| at(*i) <= at(i.wrapping_sub(1)) && at(*i) <= at(i + 1);
     let closer = |i: usize| {
-        let (mut place, mut half, mut best) = (i as f64 / f64::from(places), 1.0 / f64::from(places), at(i));
+        let mut place = i as f64 / f64::from(places);
+        let mut half = 1.0 / f64::from(places);
+        let mut best = at(i);
         for _ in 0..5 {
             let tried = (-8..=8).map(|k| (place + half * f64::from(k) / 8.0).clamp(0.0, 1.0));
             let (value, found) = tried.map(|at| (of(at), at)).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
@@ -81,7 +83,9 @@ fn obstacles() -> [Plain; 4] {
 
 #[test]
 fn the_depth_of_a_hit_is_the_least_shift_that_parts_arm_and_obstacle() {
-    let (mut hits, mut clear, mut first_link) = ([0; 4], 0, 0);
+    let mut hits = [0; 4];
+    let mut clear = 0;
+    let mut first_link = 0;
     for number in 0..400_u64 {
         let mut stream = seed::stream(number);
         let which = number as usize % 4;
@@ -126,7 +130,8 @@ fn of_several_hits_the_deepest_counts() {
             case.audit(&Answer { path: &path, cost: Some(length), steps: None, optimal: false }).unwrap();
         (audit.unsafe_hops, audit.deepest_cm)
     };
-    let (there, back) = (depth(&ends[..2]), depth(&[ends[1], ends[0]]));
+    let there = depth(&ends[..2]);
+    let back = depth(&[ends[1], ends[0]]);
     assert_eq!((there.0, back.0), (1, 1));
     assert!((there.1 - back.1).abs() < 1e-3 && there.1 > 0.1, "{there:?} and {back:?}");
     let all = depth(&[ends[0], ends[1], ends[2], ends[0]]);

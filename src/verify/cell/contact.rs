@@ -112,7 +112,8 @@ impl Obstacles {
         let axes: Vec<Segment> = self.body.parts.iter().map(axis).collect();
         let parts = self.body.parts.iter().enumerate();
         for (index, part) in parts.filter(|(_, part)| part.exposed) {
-            let (axis, reach_m) = (&axes[index], part.radius_m - ROUNDING_M);
+            let axis = &axes[index];
+            let reach_m = part.radius_m - ROUNDING_M;
             let bounds = Aabb::new(axis.a.min(axis.b), axis.a.max(axis.b));
             let is_hit = |still: &Still| is_within(axis, &bounds, still, reach_m);
             if let Some(hit) = self.stills.iter().position(is_hit) {
@@ -192,10 +193,12 @@ mod tests {
     #[test]
     fn segments_that_are_far_are_no_nearer_than_their_reach() {
         let mut stream = seed::stream(61);
-        let (mut far, mut others) = (0, 0);
+        let mut far = 0;
+        let mut others = 0;
         for index in 0..200_000 {
             let mut point = || Vector::from([0; 3].map(|_| stream.random_range(-1.0..1.0)));
-            let (p, apart) = (Segment::new(point(), point()), point());
+            let p = Segment::new(point(), point());
+            let apart = point();
             // One in three is parallel to the other, one in three goes on where the other ends.
             let q = match index % 3 {
                 0 => Segment::new(p.a + apart, p.b + apart),

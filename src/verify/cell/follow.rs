@@ -76,7 +76,8 @@ impl Ends {
 
 /// The leg from the configuration that the arm is in to the next one of the path.
 pub(super) fn leg(case: &Case, from: &Angles, to: &Angles) -> Result<Leg, String> {
-    let (chain, rules) = (&case.chain, &case.rules);
+    let chain = &case.chain;
+    let rules = &case.rules;
     let ends = Ends::new(&chain.tool(from), &chain.tool(to));
     let length_m = (ends.to.1 - ends.from.1).norm();
     let turn_rad = 2.0 * ends.half_rad;
@@ -88,7 +89,9 @@ pub(super) fn leg(case: &Case, from: &Angles, to: &Angles) -> Result<Leg, String
     };
     // What differs by rounding only must not fall on two sides of a whole number.
     let steps = (steps - 1e-9).ceil().max(1.0) as u32 * FINER;
-    let (mut states, mut places, mut frames) = (vec![*from], vec![ends.from.1], chain.frames(from));
+    let mut states = vec![*from];
+    let mut places = vec![ends.from.1];
+    let mut frames = chain.frames(from);
     for step in 1..=steps {
         let share = f64::from(step) / f64::from(steps);
         let last = &states[states.len() - 1];
@@ -222,12 +225,14 @@ fn measure(case: &Case, states: &[Angles], places: &[Vector3<f64>], [length_m, t
 
 /// Where the arm is at even times from the leg's start on, and at its end; joints go straight between two states.
 fn stops(case: &Case, states: &[Angles], law_m: f64) -> Vec<Stop> {
-    let (duration_s, last) = (time_s(law_m, law_m, LAW), states.len() - 1);
+    let duration_s = time_s(law_m, law_m, LAW);
+    let last = states.len() - 1;
     let count = (duration_s / STOP_S - 1e-9).ceil().max(1.0) as u32;
     let stop = |index: u32| {
         let time_s = (f64::from(index) * STOP_S).min(duration_s);
         let at = (way_m(time_s, law_m, LAW) / law_m * last as f64).clamp(0.0, last as f64);
-        let (before, share) = (at.floor() as usize, at.fract());
+        let before = at.floor() as usize;
+        let share = at.fract();
         let (a, b) = (&states[before], &states[(before + 1).min(last)]);
         let q = std::array::from_fn(|i| a[i] + (b[i] - a[i]) * share);
         Stop { time_s, q, tool_m: case.chain.tool(&q).1.into() }
@@ -288,7 +293,8 @@ fn quaternion(r: &Matrix3<f64>) -> Quaternion<f64> {
     ];
     let largest = (0..4).max_by(|a, b| squares[*a].total_cmp(&squares[*b])).unwrap_or(0);
     let twice = squares[largest].sqrt();
-    let (scale, half) = (0.5 / twice, twice / 2.0);
+    let scale = 0.5 / twice;
+    let half = twice / 2.0;
     let skew = |i: usize, j: usize| (r[(j, i)] - r[(i, j)]) * scale;
     let even = |i: usize, j: usize| (r[(j, i)] + r[(i, j)]) * scale;
     match largest {

@@ -95,7 +95,8 @@ impl Case {
             return Err("the path does not go from start to goal".to_owned());
         }
         let mut motion = Motion { length_m: 0.0, travel_rad: 0.0, peak_rad_s2: 0.0, stops: Vec::new() };
-        let (mut at, mut time_s) = (*first, 0.0);
+        let mut at = *first;
+        let mut time_s = 0.0;
         self.obstacles
             .refusal(&self.chain, &at, &self.chain.frames(&at))
             .map_or(Ok(()), |refusal| Err(format!("at the start, {refusal}")))?;

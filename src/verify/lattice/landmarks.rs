@@ -41,7 +41,8 @@ impl Costs {
 impl Landmarks {
     /// Landmarks in the part of the map where the start of `case` is; `None` if it is not free, or the map is too large for them.
     pub fn new(case: &Case<'_>) -> Option<Self> {
-        let (cells, width) = (case.grid.cell_count(), case.grid.width() as usize);
+        let cells = case.grid.cell_count();
+        let width = case.grid.width() as usize;
         let start = case.cell(case.start).filter(|[x, y]| case.grid.is_free_xy(*x, *y))?;
         if cells > MOST_CELLS {
             return None;
@@ -56,7 +57,8 @@ impl Landmarks {
             scratch.costs().collect()
         };
         // The first is as far as can be from the start, each other one from those before it.
-        let (mut nearest, mut costs) = (flood(start), vec![Costs([f64::INFINITY; COUNT]); cells as usize]);
+        let mut nearest = flood(start);
+        let mut costs = vec![Costs([f64::INFINITY; COUNT]); cells as usize];
         for landmark in 0..COUNT {
             let far = |cell: &usize| if nearest[*cell].is_finite() { nearest[*cell] } else { -1.0 };
             let index = (0..nearest.len()).max_by(|a, b| far(a).total_cmp(&far(b)))?;

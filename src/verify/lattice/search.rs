@@ -138,8 +138,10 @@ impl Case<'_> {
             while left != 0 {
                 let [dx, dy] = STEPS[left.trailing_zeros() as usize];
                 left &= left - 1;
-                let (next, is_diagonal) = ([at[0] + dx, at[1] + dy], u32::from(dx != 0 && dy != 0));
-                let (straight, diagonal) = (straight + 1 - is_diagonal, diagonal + is_diagonal);
+                let next = [at[0] + dx, at[1] + dy];
+                let is_diagonal = u32::from(dx != 0 && dy != 0);
+                let straight = straight + 1 - is_diagonal;
+                let diagonal = diagonal + is_diagonal;
                 let cost = octile(straight, diagonal);
                 if !scratch.lower(self.index(next), cost) {
                     continue;

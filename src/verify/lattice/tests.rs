@@ -65,7 +65,9 @@ fn a_segment_enters_the_cells_that_exact_clipping_finds() {
     for x in -6..=6 {
         for y in -6..=6 {
             for (cx, cy) in (-7..=7).flat_map(|cx| (-7..=7).map(move |cy| (cx, cy))) {
-                let (from, to, cell) = ([2, -1], [2 + x, y - 1], [2 + cx, cy - 1]);
+                let from = [2, -1];
+                let to = [2 + x, y - 1];
+                let cell = [2 + cx, cy - 1];
                 let truth = clips(from, to, cell) || cell == from && from == to;
                 let same_cell = from != to || cell == from;
                 assert!(!same_cell || enters(from, to, cell) == truth, "{from:?} to {to:?} in {cell:?}");
@@ -138,7 +140,8 @@ fn relaxed(grid: &Grid2, rule: CornerRule, start: u32) -> Vec<f64> {
 
 #[test]
 fn the_optimum_is_what_relaxing_every_move_gives() {
-    let (mut joined, mut parted) = (0, 0);
+    let mut joined = 0;
+    let mut parted = 0;
     for seed in 0..90 {
         let grid = grid(seed, 9, 0.35);
         let rule = RULES[(seed % 3) as usize];
@@ -193,7 +196,9 @@ fn large_grid(seed: u64) -> Grid2 {
 
 #[test]
 fn landmarks_change_no_optimum_and_know_where_there_is_no_path() {
-    let (mut solved, mut unsolved, mut longest) = (0, 0, 0.0_f64);
+    let mut solved = 0;
+    let mut unsolved = 0;
+    let mut longest = 0.0_f64;
     for seed in 100..112 {
         let grid = large_grid(seed);
         let mut stream = stream(derive(seed, &["queries"]));
@@ -210,7 +215,8 @@ fn landmarks_change_no_optimum_and_know_where_there_is_no_path() {
                     let case = Case { grid: &grid, corner_rule: rule, start: &start, goal: &goal };
                     let is_free = grid.is_free(cell(start)) && grid.is_free(cell(goal));
                     let truth = Some(truth[cell(goal) as usize]).filter(|cost| is_free && cost.is_finite());
-                    let (with, without) = (case.optimal_cost_by(landmarks.as_ref()), case.optimal_cost());
+                    let with = case.optimal_cost_by(landmarks.as_ref());
+                    let without = case.optimal_cost();
                     let off = with.zip(truth).map_or(0.0, |(with, truth)| (with - truth).abs());
                     let place =
                         format!("seed {seed}, {rule:?}: {start:?} to {goal:?}: {with:?}, not {truth:?}");
@@ -240,7 +246,8 @@ fn of_two_ways_in_one_bucket_the_shorter_is_found() {
         let is_free = free.contains(&grid.xy(cell));
         grid.set_blocked(cell, !is_free);
     }
-    let (ends, least) = ([[0.0, 13.0], [60.0, 13.0]], Some(82.0 + 2.0 * std::f64::consts::SQRT_2));
+    let ends = [[0.0, 13.0], [60.0, 13.0]];
+    let least = Some(82.0 + 2.0 * std::f64::consts::SQRT_2);
     for [start, goal] in [ends, [ends[1], ends[0]]] {
         let case = Case { grid: &grid, corner_rule: CornerRule::Allow, start: &start, goal: &goal };
         let landmarks = Landmarks::new(&case);

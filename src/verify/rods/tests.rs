@@ -100,7 +100,8 @@ fn solids_that_are_not_measured_are_none_that_could_be_nearest() {
         // Turns that fill the plane.
         let q = [2.0 * PI * share, 2.0 * PI * (share * 61.8) % (2.0 * PI) - PI, 0.3 * share, 0.0, 0.0, 0.0];
         for enough in [0.01, 1.0, 2.5, 30.0] {
-            let (found, truth) = (arm.clearance(&solids, &q, enough), exact(&q));
+            let found = arm.clearance(&solids, &q, enough);
+            let truth = exact(&q);
             if truth <= enough {
                 assert_eq!(found, truth, "configuration {k}, {enough}");
                 near += 1;

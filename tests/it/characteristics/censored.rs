@@ -2,19 +2,19 @@
 
 use super::synthetic::End::{At, NoPath, Rejected, Spent};
 use super::synthetic::{End, Made, SWEEP, Sample, Synthetic};
-use replan::analysis::verdict::Judged;
+use replan::analysis::verdict::ClaimVerdict;
 
 /// The class of a claim by `criterion` after `records`.
 fn class(criterion: &str, settings: &str, made: Made, records: Sample) -> &'static str {
     judged(criterion, settings, made, records).verdict.name()
 }
 
-/// How many draws our number rests on.
-fn draws(criterion: &str, settings: &str, records: Sample) -> usize {
+/// How many instances our number rests on.
+fn instances(criterion: &str, settings: &str, records: Sample) -> usize {
     judged(criterion, settings, Made::Plainly, records).findings[0].ours.as_ref().unwrap().n
 }
 
-fn judged(criterion: &str, settings: &str, made: Made, records: Sample) -> Judged {
+fn judged(criterion: &str, settings: &str, made: Made, records: Sample) -> ClaimVerdict {
     let of = "study = \"drawn\", problems = [\"map\"]";
     let settings = settings.replace("OF", of);
     let cells = ["low", "high"]
@@ -26,12 +26,12 @@ fn judged(criterion: &str, settings: &str, made: Made, records: Sample) -> Judge
     Synthetic::new(&claim, made).judgement(records.records(), &[])
 }
 
-/// A draw for each of these pairs of ends of A and B.
+/// An instance for each of these pairs of ends of A and B.
 fn pairs(all: &[(usize, End, End)]) -> Sample {
     let mut sample = Sample::default();
     for (count, own, other) in all {
         for _ in 0..*count {
-            sample.draw();
+            sample.instance();
             sample.trial("A", *own);
             sample.trial("B", *other);
         }
@@ -58,7 +58,7 @@ fn along_a_sweep_what_did_not_end_might_have_been_solved() {
     let of = |own: End, other: End| {
         let mut sample = Sample::default();
         for _ in 0..12 {
-            sample.draw();
+            sample.instance();
             for (query, value) in (0..5).flat_map(|query| SWEEP.map(|value| (query, value))) {
                 sample.query("A", Some(query), Some(value), if query == 0 { At(1.0) } else { own });
                 sample.query("B", Some(query), Some(value), if query == 0 { At(1.0) } else { other });
@@ -79,7 +79,8 @@ fn a_statistic_of_one_contender_hangs_on_what_did_not_end() {
         let all: Vec<_> = all.iter().map(|(count, end)| (*count, *end, At(1.0))).collect();
         class("within", &settings, Made::Plainly, pairs(&all))
     };
-    let (some, others) = ((15, At(90.0)), (15, At(110.0)));
+    let some = (15, At(90.0));
+    let others = (15, At(110.0));
     for (statistic, accepted) in [("mean", "[90.0, 110.0]"), ("deviation", "[5.0, 15.0]")] {
         assert_eq!(within(statistic, accepted, &[some, others]), "reproduced", "{statistic}");
         assert_eq!(within(statistic, accepted, &[some, others, (1, Spent)]), "undecided", "{statistic}");
@@ -98,9 +99,11 @@ fn a_side_that_did_not_end_might_have_been_the_better_one() {
         let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
         class(criterion, &format!("{of}\n{settings}"), Made::Plainly, pairs(&[usual, other]))
     };
-    let (less, more) = ((30, At(50.0), At(100.0)), (30, At(100.0), At(50.0)));
+    let less = (30, At(50.0), At(100.0));
+    let more = (30, At(100.0), At(50.0));
     for (end, class) in [(NoPath, "reproduced"), (Spent, "undecided")] {
-        let (own, other) = ((40, end, At(50.0)), (3, At(50.0), end));
+        let own = (40, end, At(50.0));
+        let other = (3, At(50.0), end);
         assert_eq!(of("lower", "is = \"lower\"", less, other), class, "the other one: {end:?}");
         assert_eq!(of("lower", "is = \"higher\"", more, own), class, "its own: {end:?}");
         let ratio = of("within", "statistic = \"ratio\"\naccepted = [0.0, 0.7]", less, other);
@@ -113,9 +116,9 @@ fn a_ratio_of_two_groups_hangs_on_what_did_not_end() {
     let ratio = |spent: usize| {
         let mut sample = Sample::default();
         for (group, value) in [("map", 100.0), ("other", 50.0)] {
-            for draw in 0..30 {
-                sample.draw_on(group);
-                sample.trial("A", if draw < spent { Spent } else { At(value) });
+            for instance in 0..30 {
+                sample.instance_on(group);
+                sample.trial("A", if instance < spent { Spent } else { At(value) });
             }
         }
         let of = "of = { study = \"drawn\", problems = [\"map\", \"other\"], contender = \"A\", metric = \"path_cost_cells\" }";
@@ -131,7 +134,9 @@ fn equal_cases_and_one_that_did_not_end_are_no_counterexample() {
         let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
         class("on_every", &format!("{of}\nthat = \"lower\""), Made::Plainly, pairs(all))
     };
-    let (equal, cut, broken) = ((9, At(5.0), At(5.0)), (1, Spent, At(5.0)), (1, At(6.0), At(5.0)));
+    let equal = (9, At(5.0), At(5.0));
+    let cut = (1, Spent, At(5.0));
+    let broken = (1, At(6.0), At(5.0));
     assert_eq!([of(&[equal]), of(&[equal, broken, cut])], ["not reproduced"; 2]);
     assert_eq!(of(&[equal, cut]), "undecided");
 }
@@ -142,7 +147,9 @@ fn what_is_wrong_is_wrong_however_many_others_did_not_end() {
         let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
         class("equals", of, Made::Plainly, pairs(all))
     };
-    let (same, cut, wrong) = ((12, At(5.0), At(5.0)), (2, Spent, At(5.0)), (1, At(6.0), At(5.0)));
+    let same = (12, At(5.0), At(5.0));
+    let cut = (2, Spent, At(5.0));
+    let wrong = (1, At(6.0), At(5.0));
     assert_eq!([of(&[same]), of(&[same, cut])], ["reproduced", "undecided"]);
     assert_eq!([of(&[same, wrong]), of(&[same, wrong, cut])], ["not reproduced"; 2]);
 }
@@ -178,13 +185,13 @@ fn what_compares_two_hangs_on_cases_of_which_one_alone_has_a_number() {
 fn a_row_of_numbers_and_a_trend_hang_on_what_did_not_end() {
     let drawn = |spent: usize| {
         let mut sample = Sample::default();
-        for draw in 0..60 {
-            sample.draw();
-            sample.trial("A", At(7.0 + f64::from(draw % 7 - 3)));
-            sample.with("optimal_cost_cells", f64::from(draw % 7));
+        for instance in 0..60 {
+            sample.instance();
+            sample.trial("A", At(7.0 + f64::from(instance % 7 - 3)));
+            sample.with("optimal_cost_cells", f64::from(instance % 7));
         }
         for _ in 0..spent {
-            sample.draw();
+            sample.instance();
             sample.trial("A", Spent);
         }
         sample
@@ -194,7 +201,7 @@ fn a_row_of_numbers_and_a_trend_hang_on_what_did_not_end() {
         "[{ contender = \"A\", statistics = [\"least\", \"greatest\"], claims = [\"low\", \"high\"] }]";
     let row = |spent| {
         class(
-            "row_one_draw",
+            "row_one_instance",
             &format!("{of}\nrows = {rows}\nrefused_below = 0.05"),
             Made::Plainly,
             drawn(spent),
@@ -210,36 +217,36 @@ fn a_row_of_numbers_and_a_trend_hang_on_what_did_not_end() {
 }
 
 #[test]
-fn rows_of_one_draw_are_joined_by_the_draw() {
-    // Of every second draw one row lacks a number: joined by their order the two would seem apart.
+fn rows_of_one_instance_are_joined_by_the_instance() {
+    // Of every second instance one row lacks a number: joined by their order the two would seem apart.
     let mut sample = Sample::default();
-    for draw in 0..120 {
-        sample.draw();
-        let cost = 7.0 + f64::from(draw % 11 - 5);
-        sample.trial("A", if draw % 2 == 0 { At(cost) } else { NoPath });
-        sample.trial("B", if draw % 3 == 0 { NoPath } else { At(cost) });
+    for instance in 0..120 {
+        sample.instance();
+        let cost = 7.0 + f64::from(instance % 11 - 5);
+        sample.trial("A", if instance % 2 == 0 { At(cost) } else { NoPath });
+        sample.trial("B", if instance % 3 == 0 { NoPath } else { At(cost) });
     }
     let row = |label: &str, claim: &str| {
         format!("{{ contender = \"{label}\", statistics = [\"mean\"], claims = [\"{claim}\"] }}")
     };
     let rows = format!("rows = [{}, {}]\nrefused_below = 0.05", row("A", "low"), row("B", "high"));
     let settings = format!("of = {{ OF, metric = \"path_cost_cells\" }}\n{rows}");
-    let both = draws("row_one_draw", &settings, sample);
-    assert_eq!(both, 40, "draws that have both: neither odd nor a multiple of 3");
+    let both = instances("row_one_instance", &settings, sample);
+    assert_eq!(both, 40, "instances that have both: neither odd nor a multiple of 3");
 }
 
 #[test]
-fn one_draw_of_what_was_drawn_is_one_of_many() {
-    let least = |draws: usize| {
+fn one_instance_of_what_was_drawn_is_one_of_many() {
+    let least = |instances: usize| {
         let settings = "of = { OF, metric = \"path_cost_cells\" }\nlower = \"A\"\nhigher = [\"B\"]";
-        class("least_of", settings, Made::Plainly, pairs(&[(draws, At(5.0), At(10.0))]))
+        class("least_of", settings, Made::Plainly, pairs(&[(instances, At(5.0), At(10.0))]))
     };
     assert_eq!([least(1), least(3), least(4)], ["undecided", "undecided", "reproduced"]);
-    let ratio = |draws: [usize; 2]| {
+    let ratio = |instances: [usize; 2]| {
         let mut sample = Sample::default();
-        for (group, count, value) in [("map", draws[0], 100.0), ("other", draws[1], 50.0)] {
+        for (group, count, value) in [("map", instances[0], 100.0), ("other", instances[1], 50.0)] {
             for _ in 0..count {
-                sample.draw_on(group);
+                sample.instance_on(group);
                 sample.trial("A", At(value));
             }
         }
@@ -259,10 +266,10 @@ fn one_draw_of_what_was_drawn_is_one_of_many() {
 fn what_did_not_end_might_have_had_marks() {
     let class = |hits: &str, spent: u32| {
         let mut sample = Sample::default();
-        for draw in 0..100 {
-            sample.draw();
-            sample.trial("A", if draw < spent { Spent } else { At(1.0) });
-            if draw >= spent {
+        for instance in 0..100 {
+            sample.instance();
+            sample.trial("A", if instance < spent { Spent } else { At(1.0) });
+            if instance >= spent {
                 sample.with("optimal_cost_cells", 0.0);
                 sample.with("expansions", 1.0);
             }
@@ -294,33 +301,33 @@ fn what_did_not_end_is_neither_solved_nor_not() {
 }
 
 #[test]
-fn draws_that_might_have_been_whole_are_not_forgotten() {
+fn instances_that_might_have_been_whole_are_not_forgotten() {
     let of = |lost: End| {
         let mut sample = Sample::default();
-        for draw in 0..40 {
-            sample.draw();
+        for instance in 0..40 {
+            sample.instance();
             sample.query("A", Some(0), None, At(1.0));
-            sample.query("A", Some(1), None, if draw == 0 { lost } else { At(1.0) });
+            sample.query("A", Some(1), None, if instance == 0 { lost } else { At(1.0) });
         }
-        let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\", whole_draws = true }";
+        let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\", whole_instances = true }";
         class("within", &format!("{of}\nstatistic = \"mean\"\naccepted = [0.0, 2.0]"), Made::Plainly, sample)
     };
     assert_eq!([of(At(1.0)), of(NoPath), of(Spent)], ["reproduced", "reproduced", "undecided"]);
 }
 
 #[test]
-fn one_draw_of_which_a_query_did_not_end_may_give_any_number() {
+fn one_instance_of_which_a_query_did_not_end_may_give_any_number() {
     let of = |statistic: &str, lost: End| {
         let mut sample = Sample::default();
-        for draw in 0..100 {
-            sample.draw();
-            sample.query("A", Some(0), None, At(40.0 + f64::from(draw % 5)));
+        for instance in 0..100 {
+            sample.instance();
+            sample.query("A", Some(0), None, At(40.0 + f64::from(instance % 5)));
             sample.query("A", Some(1), None, if lost.is_at() { At(42.0) } else { lost });
         }
         let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
-        class("one_draw", &format!("{of}\nstatistic = \"{statistic}\""), Made::Plainly, sample)
+        class("one_instance", &format!("{of}\nstatistic = \"{statistic}\""), Made::Plainly, sample)
     };
-    // What is printed, 0, lies below every draw: a greatest number that is not known is no lower.
+    // What is printed, 0, lies below every instance: a greatest number that is not known is no lower.
     for (statistic, cut) in [("mean", "undecided"), ("least", "undecided"), ("greatest", "not reproduced")] {
         assert_eq!([of(statistic, At(1.0)), of(statistic, Spent)], ["not reproduced", cut], "{statistic}");
     }
@@ -347,7 +354,7 @@ fn what_prints_alike_and_pairs_that_agree_hang_on_what_did_not_end() {
 }
 
 #[test]
-fn what_holds_on_each_of_few_draws_of_a_problem_that_is_drawn_is_not_firm() {
+fn what_holds_on_each_of_few_instances_of_a_problem_that_is_drawn_is_not_firm() {
     let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
     let prints = "of = { OF, contender = \"B\", metric = \"path_cost_cells\" }";
     for (criterion, settings) in [
@@ -356,25 +363,26 @@ fn what_holds_on_each_of_few_draws_of_a_problem_that_is_drawn_is_not_firm() {
         ("prints_as", prints.to_owned()),
     ] {
         let own = if criterion == "equals" { 0.0 } else { -1.0 };
-        let class = |draws, made| class(criterion, &settings, made, pairs(&[(draws, At(own), At(0.0))]));
-        let plainly = [1, 9, 10].map(|draws| class(draws, Made::Plainly));
+        let class =
+            |instances, made| class(criterion, &settings, made, pairs(&[(instances, At(own), At(0.0))]));
+        let plainly = [1, 9, 10].map(|instances| class(instances, Made::Plainly));
         assert_eq!(plainly, ["undecided", "undecided", "reproduced"], "{criterion}");
         assert_eq!(class(1, Made::Searched), "attainable", "{criterion}");
     }
 }
 
 #[test]
-fn seeds_on_a_problem_that_is_drawn_are_no_draws_of_it() {
+fn seeds_on_a_problem_that_is_drawn_are_no_instances_of_it() {
     let mut sample = Sample::default();
-    for draw in 0..12 {
-        sample.draw();
+    for instance in 0..12 {
+        sample.instance();
         for seed in 0..30 {
-            sample.seed("A", seed, At(f64::from(draw)));
+            sample.seed("A", seed, At(f64::from(instance)));
         }
     }
     let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
     let settings = format!("{of}\nstatistic = \"mean\"\naccepted = [0.0, 12.0]");
-    assert_eq!(draws("within", &settings, sample), 12);
+    assert_eq!(instances("within", &settings, sample), 12);
 }
 
 #[test]
@@ -382,7 +390,7 @@ fn a_contender_with_one_seed_stands_beside_each_seed_of_the_other() {
     let class_of = |many: &str, one: &str, [first, rest, other]: [f64; 3]| {
         let mut sample = Sample::default();
         for _ in 0..12 {
-            sample.draw();
+            sample.instance();
             sample.trial(one, At(other));
             for seed in 0..3 {
                 sample.seed(many, seed, At(if seed == 0 { first } else { rest }));

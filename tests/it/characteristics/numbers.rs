@@ -8,10 +8,10 @@ use rand::RngExt as _;
 use stats::proportion::normal_quantile;
 use study::store::Records;
 
-/// Draws of an ordinary study.
+/// Instances of an ordinary study.
 const MANY: usize = 30;
 
-/// Fewest draws of which an interval decides.
+/// Fewest instances of which an interval decides.
 const FEWEST: usize = 10;
 
 /// Fewer than an interval decides by.
@@ -24,13 +24,13 @@ pub fn scenarios() -> Vec<Scenario> {
         .collect()
 }
 
-/// Costs of A and B on `draws` maps: B's is lognormal, A's is `change` per cent more, give or take 10 % of B's.
-fn paired(stream: &mut Stream, draws: usize, change: f64) -> Vec<(f64, f64)> {
+/// Costs of A and B on `instances` maps: B's is lognormal, A's is `change` per cent more, give or take 10 % of B's.
+fn paired(stream: &mut Stream, instances: usize, change: f64) -> Vec<(f64, f64)> {
     let one = |stream: &mut Stream| {
         let base = 100.0 * libm::exp(0.3 * normal(stream));
         (base, base * (1.0 + change / 100.0 + 0.1 * normal(stream)))
     };
-    (0..draws).map(|_| one(stream)).collect()
+    (0..instances).map(|_| one(stream)).collect()
 }
 
 /// By how many per cent the sum of A is below that of B.
@@ -42,7 +42,7 @@ fn reduction(pairs: &[(f64, f64)]) -> f64 {
 fn recorded(pairs: &[(f64, f64)]) -> Records {
     let mut sample = Sample::default();
     for (base, own) in pairs {
-        sample.draw();
+        sample.instance();
         sample.trial("A", End::At(*own));
         sample.trial("B", End::At(*base));
     }
@@ -53,7 +53,7 @@ fn recorded(pairs: &[(f64, f64)]) -> Records {
 fn spent(stream: &mut Stream, pairs: &[(f64, f64)]) -> Records {
     let mut sample = Sample::default();
     for (index, (base, own)) in pairs.iter().enumerate() {
-        sample.draw();
+        sample.instance();
         let is_hard = index == 0 || stream.random_range(0..5) == 0;
         sample.trial("A", if is_hard { End::Spent } else { End::At(*own) });
         sample.trial("B", End::At(*base));
@@ -88,16 +88,24 @@ pub fn never_reproduced() -> Bounds {
 }
 
 /// A reduction that the paper prints as what its own maps gave: true is 20 %, the margin 10 points, `off` what was added.
-fn printed_reduction(truth: &'static str, draws: usize, made: Made, off: f64, bounds: Bounds) -> Scenario {
+fn printed_reduction(
+    truth: &'static str,
+    instances: usize,
+    made: Made,
+    off: f64,
+    bounds: Bounds,
+) -> Scenario {
     let world = move |stream: &mut Stream| {
-        let printed = reduction(&paired(stream, draws, -20.0)) + off;
-        let records = recorded(&paired(stream, draws, -20.0));
+        let printed = reduction(&paired(stream, instances, -20.0)) + off;
+        let records = recorded(&paired(stream, instances, -20.0));
         World::new(records, (printed - 20.0).abs() <= 10.0).of_true_sign().printing(format!("{printed:.3}"))
     };
     let about = match off {
-        0.0 => format!("a reduction of 20 %, printed from {draws} other maps, margin 10; {draws} maps"),
+        0.0 => {
+            format!("a reduction of 20 %, printed from {instances} other maps, margin 10; {instances} maps")
+        }
         off => format!(
-            "a reduction of 20 %, printed {off} more than {draws} other maps give, margin 10; {draws} maps"
+            "a reduction of 20 %, printed {off} more than {instances} other maps give, margin 10; {instances} maps"
         ),
     };
     let claim = claim("within", &format!("{PAIRED}statistic = \"reduction_percent\"\nmargin = 10.0\n"));
@@ -105,12 +113,12 @@ fn printed_reduction(truth: &'static str, draws: usize, made: Made, off: f64, bo
 }
 
 /// The same, printed at the very end of the margin.
-fn reduction_at_the_margin(truth: &'static str, draws: usize, off: f64, bounds: Bounds) -> Scenario {
+fn reduction_at_the_margin(truth: &'static str, instances: usize, off: f64, bounds: Bounds) -> Scenario {
     let world = move |stream: &mut Stream| {
-        let records = recorded(&paired(stream, draws, -20.0));
+        let records = recorded(&paired(stream, instances, -20.0));
         World::new(records, off < 10.0).of_true_sign().printing(format!("{:.3}", 20.0 + off))
     };
-    let about = format!("a reduction of 20 %, printed as {:.2}, margin 10; {draws} maps", 20.0 + off);
+    let about = format!("a reduction of 20 %, printed as {:.2}, margin 10; {instances} maps", 20.0 + off);
     let claim = claim("within", &format!("{PAIRED}statistic = \"reduction_percent\"\nmargin = 10.0\n"));
     Scenario { criterion: "within", truth, about, claim, made: Made::Plainly, world: Box::new(world), bounds }
 }
@@ -147,15 +155,15 @@ fn within() -> Vec<Scenario> {
 fn at_the_end(
     statistic: &'static str,
     about: &'static str,
-    (draws, truth): (usize, f64),
+    (instances, truth): (usize, f64),
     drawn: fn(&mut Stream) -> End,
     bound: f64,
 ) -> [Scenario; 2] {
     [("true by a little", 1.0 - 1e-4), ("false by a little", 1.0 + 1e-4)].map(|(of, share)| {
         let world = move |stream: &mut Stream| {
             let mut sample = Sample::default();
-            for _ in 0..draws {
-                sample.draw();
+            for _ in 0..instances {
+                sample.instance();
                 sample.trial("A", drawn(stream));
             }
             World::new(sample.records(), share < 1.0)
@@ -169,7 +177,7 @@ fn at_the_end(
         Scenario {
             criterion: "within",
             truth: of,
-            about: format!("{about}; {draws} maps"),
+            about: format!("{about}; {instances} maps"),
             claim: claim("within", &settings),
             made: Made::Plainly,
             world: Box::new(world),
@@ -208,17 +216,17 @@ fn within_of_one() -> Vec<Scenario> {
 
 fn lower_than(
     truth: &'static str,
-    draws: usize,
+    instances: usize,
     (change, by): (f64, f64),
     made: Made,
     bounds: Bounds,
 ) -> Scenario {
     let world = move |stream: &mut Stream| {
-        let world = World::new(recorded(&paired(stream, draws, change)), change < -by);
+        let world = World::new(recorded(&paired(stream, instances, change)), change < -by);
         World { sign: change < 0.0, ..world }
     };
     let least = if by > 0.0 { format!(" by at least {by} %") } else { String::new() };
-    let about = format!("A lower than B{least}; its change is {change} %; {draws} maps");
+    let about = format!("A lower than B{least}; its change is {change} %; {instances} maps");
     let claim = claim("lower", &format!("{PAIRED}by_percent = {by:.1}\n"));
     Scenario { criterion: "lower", truth, about, claim, made, world: Box::new(world), bounds }
 }
@@ -295,7 +303,7 @@ fn clocked() -> Vec<Scenario> {
             let loads: Vec<f64> = (0..sessions).map(|_| 1.0 + 0.1 * normal(stream)).collect();
             let mut sample = Sample::default();
             for (base, own) in paired(stream, MANY, 0.0) {
-                sample.draw();
+                sample.instance();
                 for (label, time, is_own) in [("A", own, true), ("B", base, false)] {
                     sample.trial(label, End::At(1.0));
                     for (session, load) in (1..).zip(&loads) {
@@ -308,21 +316,22 @@ fn clocked() -> Vec<Scenario> {
         let claim = claim("lower", &PAIRED.replace("path_cost_cells", "plan_time_ms"));
         let about = format!("times of our own clock in {said} sessions, each with a load of its own (10 %); A is no faster");
         let bounds = Bounds { false_against: None, ..bounds };
-        let (made, truth) = (Made::Timed, "own clock");
+        let made = Made::Timed;
+        let truth = "own clock";
         Scenario { criterion: "lower", truth, about, claim, made, world: Box::new(world), bounds }
     })
     .into()
 }
 
 /// A cost that grows by `slope` with the optimal one, which is spread evenly over 10, with noise of 10.
-fn grows(truth: &'static str, draws: usize, slope: f64, made: Made, bounds: Bounds) -> Scenario {
+fn grows(truth: &'static str, instances: usize, slope: f64, made: Made, bounds: Bounds) -> Scenario {
     let is_censored = truth == "censored";
     let world = move |stream: &mut Stream| {
         let mut sample = Sample::default();
-        for index in 0..draws {
+        for index in 0..instances {
             let place = 10.0 * stream.random::<f64>();
             let number = 100.0 + slope * place + 10.0 * normal(stream);
-            sample.draw();
+            sample.instance();
             // The hard ones are those that do not end.
             let is_spent = is_censored && (place > 7.0 || index == 0);
             sample.trial("A", if is_spent { End::Spent } else { End::At(number) });
@@ -333,7 +342,8 @@ fn grows(truth: &'static str, draws: usize, slope: f64, made: Made, bounds: Boun
     let settings = "of = { study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }\nover = \
                     \"optimal_cost_cells\"\nrising = true\n";
     let tail = if is_censored { ", of which those beyond 7 spend their budget" } else { "" };
-    let about = format!("a cost that grows by {slope} a cell over 10 cells, noise 10; {draws} maps{tail}");
+    let about =
+        format!("a cost that grows by {slope} a cell over 10 cells, noise 10; {instances} maps{tail}");
     let claim = claim("trend", settings);
     Scenario { criterion: "trend", truth, about, claim, made, world: Box::new(world), bounds }
 }
@@ -354,12 +364,12 @@ fn trend() -> Vec<Scenario> {
 }
 
 /// A contender that draws, on one map: its median is `share` of the other's, a tenth of its trials find no path.
-fn least(truth: &'static str, draws: usize, share: f64, made: Made, bounds: Bounds) -> Scenario {
+fn least(truth: &'static str, instances: usize, share: f64, made: Made, bounds: Bounds) -> Scenario {
     let spent = if truth == "censored" { 6 } else { 0 };
     let world = move |stream: &mut Stream| {
         let mut sample = Sample::default();
-        for _ in 0..draws {
-            sample.draw();
+        for _ in 0..instances {
+            sample.instance();
             let is_spent = stream.random_range(0..10) < spent;
             sample.trial("A", if is_spent { End::Spent } else { End::At(share * skewed(stream)) });
             sample.trial("B", End::At(skewed(stream)));
@@ -368,7 +378,7 @@ fn least(truth: &'static str, draws: usize, share: f64, made: Made, bounds: Boun
     };
     let settings = "of = { study = \"drawn\", problems = \"map\", metric = \"path_cost_cells\" }\nlower = \"A\"\nhigher = [\"B\"]\n";
     let tail = if spent > 0 { "; A spends its budget on six in ten" } else { "" };
-    let about = format!("A's median is {share} of B's, each of a lognormal cost; {draws} seeds{tail}");
+    let about = format!("A's median is {share} of B's, each of a lognormal cost; {instances} seeds{tail}");
     let claim = claim("least_of", settings);
     Scenario { criterion: "least_of", truth, about, claim, made, world: Box::new(world), bounds }
 }

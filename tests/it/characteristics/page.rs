@@ -23,7 +23,7 @@ fn percent(count: usize, of: usize) -> String {
 
 fn row(one: &Scenario, counts: &Counts) -> String {
     let count = |verdicts: &[Verdict]| {
-        percent(verdicts.iter().map(|verdict| counts.of(*verdict)).sum(), counts.papers)
+        percent(verdicts.iter().map(|verdict| counts.count(*verdict)).sum(), counts.papers)
     };
     let with = |count: usize, bound: Option<f64>| {
         bound.map_or(String::new(), |bound| {

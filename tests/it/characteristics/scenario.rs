@@ -74,7 +74,7 @@ pub struct Counts {
 }
 
 impl Counts {
-    pub fn of(&self, verdict: Verdict) -> usize {
+    pub fn count(&self, verdict: Verdict) -> usize {
         self.verdicts[Verdict::ALL.iter().position(|own| *own == verdict).unwrap()]
     }
 
@@ -115,7 +115,7 @@ impl Scenario {
 
     /// What is said more or less often than its bounds allow, beyond what so few papers can tell.
     pub fn broken(&self, counts: &Counts) -> Vec<String> {
-        let firm = counts.papers - counts.of(Verdict::Undecided) - counts.of(Verdict::Untestable);
+        let firm = counts.papers - counts.count(Verdict::Undecided) - counts.count(Verdict::Untestable);
         let Bounds { false_for, false_against, reproduced, firm: most_firm, right } = self.bounds;
         let said = |what: &str, count: usize, bound: f64| {
             format!("{}: {what} {count} of {} papers, bound {bound:.4}", self.name(), counts.papers)
@@ -124,7 +124,7 @@ impl Scenario {
         let most = [
             ("for a false claim", counts.false_for, false_for),
             ("against a true claim", counts.false_against, false_against),
-            ("reproduced", counts.of(Verdict::Reproduced), reproduced),
+            ("reproduced", counts.count(Verdict::Reproduced), reproduced),
             ("firm", firm, most_firm),
         ];
         let above = most.into_iter().filter_map(|(what, count, bound)| {

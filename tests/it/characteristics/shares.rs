@@ -1,4 +1,4 @@
-//! Criteria of shares and of single draws: share, `one_draw`, `row_one_draw`, and lower along a sweep.
+//! Criteria of shares and of single instances: share, `one_instance`, `row_one_instance`, and lower along a sweep.
 
 use super::numbers::{never_firm, never_reproduced};
 use super::scenario::{Bounds, Scenario, World};
@@ -7,16 +7,16 @@ use super::theory::{normal, one_end, taken_for_ordinary};
 use base::seed::Stream;
 use rand::RngExt as _;
 
-/// Queries of a draw, where it has several.
+/// Queries of an instance, where it has several.
 const QUERIES: u32 = 10;
 
 pub fn scenarios() -> Vec<Scenario> {
     [
         share_of_trials(&SOLVED),
         share_of_trials(&MARKED),
-        share_of_draws(),
-        one_draw(),
-        one_draw_of_shares(),
+        share_of_instances(),
+        one_instance(),
+        one_instance_of_shares(),
         rows(),
         curves(),
     ]
@@ -58,12 +58,12 @@ const MARKED: Counted = Counted {
 
 /// One query a map: the share of hits, claimed to be at least nine in ten.
 fn share_of_trials(Counted { hits, said, missed }: &'static Counted) -> Vec<Scenario> {
-    let scenario = |truth, draws: usize, share: f64, made, bounds| {
+    let scenario = |truth, instances: usize, share: f64, made, bounds| {
         let is_censored = truth == "censored";
         let world = move |stream: &mut Stream| {
             let mut sample = Sample::default();
-            for index in 0..draws {
-                sample.draw();
+            for index in 0..instances {
+                sample.instance();
                 let is_hit = stream.random::<f64>() < share && index > 0;
                 let missed = if is_censored { End::Spent } else { *missed };
                 sample.trial("A", if is_hit { End::At(1.0) } else { missed });
@@ -74,7 +74,7 @@ fn share_of_trials(Counted { hits, said, missed }: &'static Counted) -> Vec<Scen
             World::new(sample.records(), share >= 0.9)
         };
         let tail = if is_censored { ", the others without an end" } else { "" };
-        let about = format!("{:.2} % {said}{tail}, 90 % claimed; {draws} maps", 100.0 * share);
+        let about = format!("{:.2} % {said}{tail}, 90 % claimed; {instances} maps", 100.0 * share);
         let claim = claim("share", &format!("{OF_A}{hits}\naccepted = [0.9, 1.0]\n"));
         Scenario { criterion: "share", truth, about, claim, made, world: Box::new(world), bounds }
     };
@@ -92,23 +92,24 @@ fn share_of_trials(Counted { hits, said, missed }: &'static Counted) -> Vec<Scen
 }
 
 /// Ten queries a map, which are solved with a chance that is the map's own: even from 0.6 to 1, so 80 % in all.
-fn share_of_draws() -> Vec<Scenario> {
-    let scenario = |truth, draws: usize, claimed: f64, bounds| {
+fn share_of_instances() -> Vec<Scenario> {
+    let scenario = |truth, instances: usize, claimed: f64, bounds| {
         let world = move |stream: &mut Stream| {
             let mut sample = Sample::default();
-            for _ in 0..draws {
-                sample.draw();
+            for _ in 0..instances {
+                sample.instance();
                 let chance = 0.6 + 0.4 * stream.random::<f64>();
                 queries(&mut sample, stream, "A", None, chance);
             }
             World::new(sample.records(), claimed <= 0.8)
         };
         let about = format!(
-            "80 % of ten queries a map are solved, more on some maps than on others; {:.2} % claimed; {draws} maps",
+            "80 % of ten queries a map are solved, more on some maps than on others; {:.2} % claimed; {instances} maps",
             100.0 * claimed
         );
         let claim = claim("share", &format!("{OF_A}{}\naccepted = [{claimed}, 1.0]\n", SOLVED.hits));
-        let (made, world) = (Made::Plainly, Box::new(world));
+        let made = Made::Plainly;
+        let world = Box::new(world);
         Scenario { criterion: "share", truth, about, claim, made, world, bounds }
     };
     vec![
@@ -136,15 +137,15 @@ fn queries(
 }
 
 /// A cost that is normal, 100 give or take 10; printed is one more of ours, so many standard deviations off.
-fn one_draw() -> Vec<Scenario> {
+fn one_instance() -> Vec<Scenario> {
     let settings = "of = { study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }\nstatistic = \
                     \"mean\"\n";
-    let scenario = |truth, draws: usize, shift: f64, made, bounds| {
+    let scenario = |truth, instances: usize, shift: f64, made, bounds| {
         let is_censored = truth == "censored";
         let world = move |stream: &mut Stream| {
             let mut sample = Sample::default();
-            for index in 0..draws {
-                sample.draw();
+            for index in 0..instances {
+                sample.instance();
                 let own = 100.0 + 10.0 * normal(stream);
                 let is_spent = is_censored && (own > 110.0 || index == 0);
                 sample.trial("A", if is_spent { End::Spent } else { End::At(own) });
@@ -153,9 +154,10 @@ fn one_draw() -> Vec<Scenario> {
             World::new(sample.records(), shift == 0.0).printing(format!("{printed:.4}"))
         };
         let tail = if is_censored { "; the costly ones without an end" } else { "" };
-        let about = format!("printed is one more draw, {shift} standard deviations off; {draws} maps{tail}");
-        let claim = claim("one_draw", settings);
-        Scenario { criterion: "one_draw", truth, about, claim, made, world: Box::new(world), bounds }
+        let about =
+            format!("printed is one more instance, {shift} standard deviations off; {instances} maps{tail}");
+        let claim = claim("one_instance", settings);
+        Scenario { criterion: "one_instance", truth, about, claim, made, world: Box::new(world), bounds }
     };
     let plain = Made::Plainly;
     let ordinary = |shift: f64| Bounds {
@@ -163,7 +165,7 @@ fn one_draw() -> Vec<Scenario> {
         false_against: Some(0.05),
         ..Bounds::default()
     };
-    // Only what is printed far above every draw of ours, ended or not, is refused by those without an end too.
+    // Only what is printed far above every instance of ours, ended or not, is refused by those without an end too.
     let censored = Bounds { false_against: Some(0.05), ..Bounds::default() };
     vec![
         scenario("true", 200, 0.0, plain, Bounds { right: Some(0.95), ..ordinary(0.0) }),
@@ -178,7 +180,7 @@ fn one_draw() -> Vec<Scenario> {
 }
 
 /// The share of a map's ten queries that is solved, its chance even over `low..low + 0.2`; printed at a chance that is `off`.
-fn one_draw_of_shares() -> Vec<Scenario> {
+fn one_instance_of_shares() -> Vec<Scenario> {
     let settings =
         "of = { study = \"drawn\", problems = \"map\", contender = \"A\" }\nstatistic = \"solved_percent\"\n";
     let scenario = |truth, spread: f64, off: f64, bounds| {
@@ -186,7 +188,7 @@ fn one_draw_of_shares() -> Vec<Scenario> {
             let mut sample = Sample::default();
             let chance = |stream: &mut Stream| 0.5 + spread * (stream.random::<f64>() - 0.5);
             for _ in 0..200 {
-                sample.draw();
+                sample.instance();
                 let chance = chance(stream);
                 queries(&mut sample, stream, "A", None, chance);
             }
@@ -199,8 +201,9 @@ fn one_draw_of_shares() -> Vec<Scenario> {
             50.0 * spread,
             100.0 * off
         );
-        let (claim, made) = (claim("one_draw", settings), Made::Plainly);
-        Scenario { criterion: "one_draw", truth, about, claim, made, world: Box::new(world), bounds }
+        let claim = claim("one_instance", settings);
+        let made = Made::Plainly;
+        Scenario { criterion: "one_instance", truth, about, claim, made, world: Box::new(world), bounds }
     };
     vec![
         scenario("true", 0.2, 0.0, Bounds { false_against: Some(0.05), ..Bounds::default() }),
@@ -222,13 +225,13 @@ fn rows() -> Vec<Scenario> {
     let cell = |id: &String| {
         format!("[[claim]]\nid = \"{id}\"\nat = \"here\"\nprinted = \"0\"\nuntestable = \"a cell\"\n")
     };
-    let text = claim("row_one_draw", &settings) + &cells.iter().map(cell).collect::<String>();
-    let scenario = |truth, draws: usize, off: f64, made, bounds| {
+    let text = claim("row_one_instance", &settings) + &cells.iter().map(cell).collect::<String>();
+    let scenario = |truth, instances: usize, off: f64, made, bounds| {
         let is_censored = truth == "censored";
         let world = move |stream: &mut Stream| {
             let mut sample = Sample::default();
-            for _ in 0..draws {
-                sample.draw();
+            for _ in 0..instances {
+                sample.instance();
                 row(&mut sample, stream, if is_censored { 0.6 } else { 0.0 });
             }
             if is_censored {
@@ -241,9 +244,10 @@ fn rows() -> Vec<Scenario> {
         };
         let tail =
             if is_censored { "; ours 0.6 lower, the queries that are not solved without an end" } else { "" };
-        let about = format!("printed is one more row, each cell's chance {off} lower; {draws} maps{tail}");
+        let about =
+            format!("printed is one more row, each cell's chance {off} lower; {instances} maps{tail}");
         Scenario {
-            criterion: "row_one_draw",
+            criterion: "row_one_instance",
             truth,
             about,
             claim: text.clone(),
@@ -275,11 +279,11 @@ fn row(sample: &mut Sample, stream: &mut Stream, off: f64) -> Vec<u32> {
 /// A solves more than B all along the sweep, by `more` of all queries.
 fn curves() -> Vec<Scenario> {
     let settings = "of = { study = \"drawn\", problems = \"map\", contender = \"A\", against = \"B\" }\nis = \"higher\"\n";
-    let scenario = |truth, draws: usize, more: f64, bounds| {
+    let scenario = |truth, instances: usize, more: f64, bounds| {
         let world = move |stream: &mut Stream| {
             let mut sample = Sample::default();
-            for _ in 0..draws {
-                sample.draw();
+            for _ in 0..instances {
+                sample.instance();
                 row(&mut sample, stream, -more);
                 for value in SWEEP {
                     queries(&mut sample, stream, "B", Some(value), 0.3 + 0.125 * value as f64);
@@ -288,10 +292,11 @@ fn curves() -> Vec<Scenario> {
             World::new(sample.records(), more > 0.0)
         };
         let about = format!(
-            "A solves {:.0} points more than B at each of four points of a sweep; {draws} maps",
+            "A solves {:.0} points more than B at each of four points of a sweep; {instances} maps",
             100.0 * more
         );
-        let (claim, made) = (claim("lower", settings), Made::Swept);
+        let claim = claim("lower", settings);
+        let made = Made::Swept;
         Scenario { criterion: "lower", truth, about, claim, made, world: Box::new(world), bounds }
     };
     // All four points at once: neither end of a simultaneous band errs more often than both ends of one interval.

@@ -4,13 +4,13 @@ use engine::planner::Value;
 use replan::analysis::claims::judge;
 use replan::analysis::class::Verdict;
 use replan::analysis::evidence::{Evidence, default_point};
-use replan::analysis::verdict::Judged;
+use replan::analysis::verdict::ClaimVerdict;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 use study::Inputs;
-use study::key::{DrawKey, ReadingKey, SweepKey, SweepValue, TrialKey};
+use study::key::{InstanceKey, InterpretationKey, SweepKey, SweepValue, TrialKey};
 use study::manifest::{MadeBy, Manifest};
 use study::paper::Paper;
 use study::record::{Row, Status, Timing};
@@ -38,7 +38,7 @@ pub enum Made {
     SweptFitted,
     /// With a sweep, over inputs that were searched for.
     SweptSearched,
-    /// With readings of a clock.
+    /// With interpretations of a clock.
     Timed,
 }
 
@@ -68,13 +68,13 @@ impl Synthetic {
     }
 
     /// All that is found of it.
-    pub fn judgement(&mut self, records: Records, printed: &[(&str, String)]) -> Judged {
+    pub fn judgement(&mut self, records: Records, printed: &[(&str, String)]) -> ClaimVerdict {
         for (id, text) in printed {
             let claim = self.paper.claims.iter_mut().find(|claim| claim.id == *id).unwrap();
             claim.printed = Some(text.clone());
         }
         let stored = BTreeMap::from([("drawn".to_owned(), (manifest(), records))]);
-        let evidence = Evidence::of(&self.paper, default_point(&self.paper), stored);
+        let evidence = Evidence::held(&self.paper, default_point(&self.paper), stored);
         judge(&evidence).unwrap().claim(ASKED).unwrap().clone()
     }
 }
@@ -120,10 +120,10 @@ fn manifest() -> Manifest {
         command: "none".to_owned(),
         quick: false,
         seed: 1,
-        axes: Vec::new(),
+        choices: Vec::new(),
         recorded: Vec::new(),
         defaults: Vec::new(),
-        readings: vec![Vec::new()],
+        interpretations: vec![Vec::new()],
         spec: String::new(),
         depends: String::new(),
         made_by: MadeBy::default(),
@@ -160,35 +160,39 @@ impl End {
 #[derive(Default)]
 pub struct Sample {
     records: Records,
-    on: Option<Arc<DrawKey>>,
+    on: Option<Arc<InstanceKey>>,
 }
 
 impl Sample {
-    /// Begins the next draw.
-    pub fn draw(&mut self) {
-        self.draw_on("map");
+    /// Begins the next instance.
+    pub fn instance(&mut self) {
+        self.instance_on("map");
     }
 
-    /// Begins the next draw, of one of the two groups.
-    pub fn draw_on(&mut self, group: &str) {
-        let draw = self.on.as_ref().map_or(0, |on| on.draw + 1);
-        let key =
-            DrawKey { group: group.into(), sweep: SweepKey::default(), draw, reading: ReadingKey::default() };
+    /// Begins the next instance, of one of the two groups.
+    pub fn instance_on(&mut self, group: &str) {
+        let instance = self.on.as_ref().map_or(0, |on| on.instance + 1);
+        let key = InstanceKey {
+            group: group.into(),
+            sweep: SweepKey::default(),
+            instance,
+            interpretation: InterpretationKey::default(),
+        };
         self.on = Some(Arc::new(key));
     }
 
-    /// It, with a draw begun: what becomes of its trials is asked of nobody.
+    /// It, with an instance begun: what becomes of its trials is asked of nobody.
     pub fn begun(mut self) -> Self {
-        self.draw();
+        self.instance();
         self
     }
 
-    /// A trial of `contender` on the draw.
+    /// A trial of `contender` on the instance.
     pub fn trial(&mut self, contender: &str, end: End) {
         self.query(contender, None, None, end);
     }
 
-    /// A trial of `contender` on one of the draw's queries, at one value of the sweep.
+    /// A trial of `contender` on one of the instance's queries, at one value of the sweep.
     pub fn query(&mut self, contender: &str, query: Option<u32>, swept: Option<i64>, end: End) {
         let sweep = swept.map(|value| ("weight".into(), SweepValue::Whole(value)));
         let key = TrialKey {
@@ -208,7 +212,7 @@ impl Sample {
         self.records.batch.rows.push(Row { key, seed: 1, status, reason: None, values });
     }
 
-    /// A trial of `contender` on the draw, with one of its seeds.
+    /// A trial of `contender` on the instance, with one of its seeds.
     pub fn seed(&mut self, contender: &str, repeat: u32, end: End) {
         self.trial(contender, end);
         self.records.batch.rows.last_mut().unwrap().key.repeat = repeat;
@@ -227,7 +231,7 @@ impl Sample {
         }
     }
 
-    /// A reading of the clock, for the trial that was put last.
+    /// A time, for the trial that was put last.
     pub fn clock(&mut self, session: u32, plan_wall_ns: f64) {
         let trial = self.records.batch.rows.last().unwrap().key.clone();
         let plan_wall_ns = plan_wall_ns as u64;

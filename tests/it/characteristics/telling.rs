@@ -21,11 +21,11 @@ const OF: &str = "study = \"drawn\", problems = \"map\"";
 #[test]
 fn against_a_trend_stands_the_trial_that_does_most_against_it() {
     let mut sample = Sample::default();
-    for draw in 0..20 {
-        sample.draw();
+    for instance in 0..20 {
+        sample.instance();
         // The twelfth is farther out than the slope takes it.
-        sample.trial("A", At(100.0 - 3.0 * f64::from(draw) - if draw == 11 { 60.0 } else { 0.0 }));
-        sample.with("optimal_cost_cells", if draw == 11 { 30.0 } else { f64::from(draw) });
+        sample.trial("A", At(100.0 - 3.0 * f64::from(instance) - if instance == 11 { 60.0 } else { 0.0 }));
+        sample.with("optimal_cost_cells", if instance == 11 { 30.0 } else { f64::from(instance) });
     }
     let settings = format!(
         "of = {{ {OF}, contender = \"A\", metric = \"path_cost_cells\" }}\nover = \"optimal_cost_cells\"\nrising = true"
@@ -38,7 +38,7 @@ fn against_a_trend_stands_the_trial_that_does_most_against_it() {
 fn along_a_sweep_the_other_alone_solves_the_trial_that_is_named() {
     let mut sample = Sample::default();
     for _ in 0..40 {
-        sample.draw();
+        sample.instance();
         for (query, value) in (0..5).flat_map(|query| SWEEP.map(|value| (query, value))) {
             let is_lost = query == 3 && value == SWEEP[2];
             sample.query("A", Some(query), Some(value), if is_lost { NoPath } else { At(1.0) });
@@ -51,11 +51,11 @@ fn along_a_sweep_the_other_alone_solves_the_trial_that_is_named() {
 }
 
 #[test]
-fn beside_a_row_that_no_draw_is_like_stands_the_draw_that_is_most_like_it() {
+fn beside_a_row_that_no_instance_is_like_stands_the_instance_that_is_most_like_it() {
     let mut sample = Sample::default();
-    for draw in 0..60 {
-        sample.draw();
-        let cost = 100.0 + f64::from(draw * 7 % 60) - if draw == 17 { 90.0 } else { 0.0 };
+    for instance in 0..60 {
+        sample.instance();
+        let cost = 100.0 + f64::from(instance * 7 % 60) - if instance == 17 { 90.0 } else { 0.0 };
         sample.query("A", Some(0), None, At(cost));
         sample.query("A", Some(1), None, At(cost + 1.0));
     }
@@ -63,7 +63,7 @@ fn beside_a_row_that_no_draw_is_like_stands_the_draw_that_is_most_like_it() {
         "[{ contender = \"A\", statistics = [\"least\", \"greatest\"], claims = [\"low\", \"high\"] }]";
     let settings =
         format!("of = {{ {OF}, metric = \"path_cost_cells\" }}\nrows = {rows}\nrefused_below = 0.05");
-    let found = shown("row_one_draw", &settings, Made::Plainly, sample);
+    let found = shown("row_one_instance", &settings, Made::Plainly, sample);
     assert_eq!(found, ("not reproduced", "drawn/map/17/0/a".to_owned()));
 }
 
@@ -71,7 +71,7 @@ fn beside_a_row_that_no_draw_is_like_stands_the_draw_that_is_most_like_it() {
 fn against_a_difference_stands_a_problem_that_should_have_given_another_number() {
     let mut sample = Sample::default();
     for group in ["map", "other"] {
-        sample.draw_on(group);
+        sample.instance_on(group);
         sample.trial("A", At(5.0));
     }
     let settings = "metric = \"path_cost_cells\"\ncontenders = \"A\"\nin = [{ study = \"drawn\", problems = [\"map\", \"other\"] }]\ndiffer = [[\"map\", \"other\"]]";

@@ -12,7 +12,7 @@ pub fn normal(stream: &mut Stream) -> f64 {
     normal_quantile(stream.random::<f64>().clamp(1e-12, 1.0 - 1e-12))
 }
 
-/// How often one end of a percentile bootstrap interval of a mean of `n` normal draws lies on the wrong side of the truth.
+/// How often one end of a percentile bootstrap interval of a mean of `n` normal instances lies on the wrong side of the truth.
 ///
 /// The bootstrap's standard error has the divisor n, so that its end lies where Student's t is z √((n − 1) / n).
 ///
@@ -23,7 +23,7 @@ pub fn one_end(n: usize) -> f64 {
     student_above(normal_multiplier(LEVEL) * ((n - 1.0) / n).sqrt(), n - 1.0)
 }
 
-/// [`one_end`], on the side of the long tail, of draws whose distribution has this skewness.
+/// [`one_end`], on the side of the long tail, of instances whose distribution has this skewness.
 ///
 /// # Source
 /// Hall, *The Bootstrap and Edgeworth Expansion* (1992), sections 2.4 and 3.4: the first-order error of the percentile
@@ -40,7 +40,7 @@ pub fn one_end_of_median(n: usize) -> f64 {
     (1.0 - LEVEL) / 2.0 + 2.0 * normal_density(z) / (n as f64).sqrt()
 }
 
-/// How often a normal draw that is `shift` standard deviations off lies where 95 % of draws lie.
+/// How often a normal instance that is `shift` standard deviations off lies where 95 % of instances lie.
 pub fn taken_for_ordinary(shift: f64) -> f64 {
     let z = normal_multiplier(LEVEL);
     normal_below(z - shift) - normal_below(-z - shift)

@@ -66,15 +66,15 @@ fn claim(criterion: &str, settings: &str) -> String {
     )
 }
 
-/// `draws` maps, on a share `share` of which A does not find the optimum that B finds but ends `wrong`; where the budget is
+/// `instances` maps, on a share `share` of which A does not find the optimum that B finds but ends `wrong`; where the budget is
 /// spent, it would have.
-fn drawn(stream: &mut Stream, draws: usize, share: f64, wrong: fn(f64) -> End, is_spent: bool) -> Sample {
+fn drawn(stream: &mut Stream, instances: usize, share: f64, wrong: fn(f64) -> End, is_spent: bool) -> Sample {
     let mut sample = Sample::default();
-    for index in 0..draws {
+    for index in 0..instances {
         let optimal = 10.0 + stream.random::<f64>();
         let is_wrong = stream.random::<f64>() < share;
         let own = if is_wrong { wrong(optimal) } else { End::At(optimal) };
-        sample.draw();
+        sample.instance();
         let is_spent = is_spent && (is_wrong || index == 0);
         for (label, end) in [("A", if is_spent { End::Spent } else { own }), ("B", End::At(optimal))] {
             sample.trial(label, end);
@@ -85,25 +85,26 @@ fn drawn(stream: &mut Stream, draws: usize, share: f64, wrong: fn(f64) -> End, i
 }
 
 fn of_every(Every { criterion, settings, says, wrong }: Every) -> Vec<Scenario> {
-    let scenario = |truth, draws, share: f64, made, bounds| {
+    let scenario = |truth, instances, share: f64, made, bounds| {
         let is_spent = truth == "censored";
         let world = move |stream: &mut Stream| {
-            World::new(drawn(stream, draws, share, wrong, is_spent).records(), share == 0.0)
+            World::new(drawn(stream, instances, share, wrong, is_spent).records(), share == 0.0)
         };
         let tail = if is_spent { ", those that would contradict it without an end" } else { "" };
-        let about = format!("{says}; {} % contradict it{tail}; {draws} maps", 100.0 * share);
-        let (claim, world) = (claim(criterion, settings), Box::new(world));
+        let about = format!("{says}; {} % contradict it{tail}; {instances} maps", 100.0 * share);
+        let claim = claim(criterion, settings);
+        let world = Box::new(world);
         Scenario { criterion, truth, about, claim, made, world, bounds }
     };
-    let plain = |(truth, draws, share): (&'static str, usize, f64)| {
+    let plain = |(truth, instances, share): (&'static str, usize, f64)| {
         // It is missed if no trial shows it.
         let bounds = Bounds {
-            false_for: Some(libm::pow(1.0 - share, draws as f64)),
+            false_for: Some(libm::pow(1.0 - share, instances as f64)),
             false_against: Some(0.0),
             right: (truth == "true" || truth == "false").then_some(1.0),
             ..Bounds::default()
         };
-        scenario(truth, draws, share, Made::Plainly, bounds)
+        scenario(truth, instances, share, Made::Plainly, bounds)
     };
     let mut all: Vec<Scenario> = KINDS.into_iter().map(plain).collect();
     all.push(scenario("fitted", MANY, 0.0, Made::Fitted, never_reproduced()));
@@ -115,12 +116,13 @@ fn of_every(Every { criterion, settings, says, wrong }: Every) -> Vec<Scenario> 
 /// Costs that are whole numbers; what is printed is one of them, lies between two, or is one that is rare.
 fn exists() -> Vec<Scenario> {
     let settings = "metric = \"path_cost_cells\"\ncontenders = \"A\"\nin = [{ study = \"drawn\", problems = \"map\" }]\n";
-    let scenario = |truth, draws, share: f64, made, bounds| {
-        let (is_spent, is_possible) = (truth == "censored", share > 0.0);
+    let scenario = |truth, instances, share: f64, made, bounds| {
+        let is_spent = truth == "censored";
+        let is_possible = share > 0.0;
         let world = move |stream: &mut Stream| {
             let mut sample = Sample::default();
-            for _ in 0..draws {
-                sample.draw();
+            for _ in 0..instances {
+                sample.instance();
                 let is_met = stream.random::<f64>() < share;
                 let other = f64::from(20 + stream.random_range(0..10));
                 let end = if is_met { End::At(12.0) } else { End::At(other) };
@@ -130,13 +132,15 @@ fn exists() -> Vec<Scenario> {
             World::new(sample.records(), is_possible).printing(printed.to_owned())
         };
         let tail = if is_spent { ", on which the budget is spent" } else { "" };
-        let about = format!("the printed number is met by {} % of inputs{tail}; {draws} maps", 100.0 * share);
-        let (claim, world) = (claim("exists", settings), Box::new(world));
+        let about =
+            format!("the printed number is met by {} % of inputs{tail}; {instances} maps", 100.0 * share);
+        let claim = claim("exists", settings);
+        let world = Box::new(world);
         Scenario { criterion: "exists", truth, about, claim, made, world, bounds }
     };
     let never = Bounds { false_for: Some(0.0), false_against: Some(0.0), ..never_reproduced() };
-    let missed = |draws: usize, share: f64| Bounds {
-        right: Some(1.0 - libm::pow(1.0 - share, draws as f64)),
+    let missed = |instances: usize, share: f64| Bounds {
+        right: Some(1.0 - libm::pow(1.0 - share, instances as f64)),
         ..never
     };
     vec![
@@ -160,7 +164,7 @@ fn prints_as() -> Vec<Scenario> {
             let cost = 100.0 * stream.random::<f64>();
             let mut sample = Sample::default();
             for index in 0..if truth == "underpowered" { 1 } else { 12 } {
-                sample.draw();
+                sample.instance();
                 sample.trial("A", if is_spent && index == 0 { End::Spent } else { End::At(cost) });
             }
             let printed = format!("{:.1}", cost + off);

@@ -126,7 +126,7 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
 ];
 
 /// Planners that have nothing to show but their path.
-pub const WITHOUT_EXHIBITS: &[&str] =
+pub const WITHOUT_TRACES: &[&str] =
     &["astar_octile", "direct", "jps", "jps_plus", "keynode_astar", "lattice26_astar", "visibility_edges"];
 
 /// An entry, one of its settings, and the value under which a property is not asked of it.

@@ -20,7 +20,7 @@ expansions = 100_000
 [[problems]]
 label = "cell"
 family = "cell_queries"
-replicates = 1
+instances = 1
 [problems.settings]
 robot = "data/robots/motoman_up6.toml"
 scene = "data/scenes/fu2018_cell.toml"
@@ -83,7 +83,8 @@ fn a_planner_from_outside_plans_for_the_arm_and_one_that_does_not_ask_is_refused
     bench.write("outside/paper.toml", PAPER.as_bytes());
     bench.write("outside/study.toml", study.as_bytes());
     bench.done(&["run", "./outside"]);
-    let (asks, blind) = (rows(&bench, "asks"), rows(&bench, "blind"));
+    let asks = rows(&bench, "asks");
+    let blind = rows(&bench, "blind");
     assert_eq!((asks.len(), blind.len()), (10, 10));
     let mut detours = 0;
     for (query, row) in &asks {

@@ -103,7 +103,7 @@ fn world(sample: &Sample, number: u64) -> World {
     let family = (entry.build)(&settings, &inputs).unwrap_or_else(|e| panic!("{}: {e}", sample.family));
     let mut draws =
         (0..50).filter_map(|draw| family.prepare(seed::derive(number, &["law", &draw.to_string()])).ok());
-    draws.next().unwrap_or_else(|| panic!("{}: no draw of 50 can be posed", sample.family)).world
+    draws.next().unwrap_or_else(|| panic!("{}: no instance of 50 can be posed", sample.family)).world
 }
 
 /// Two configurations, near enough that a motion between them may be free.
@@ -166,8 +166,9 @@ fn refusal(
     let query = Query { name: String::new(), start: from.clone(), goal: to.clone() };
     let request = Request { world, start: from, goal: to, expansions: 1, seed: 0, trace: false };
     let path = vec![from.clone(), to.clone()];
-    let (counts, exhibits) = (Counts::new(), Vec::new());
-    let plan = Plan { ending: Ending::Solved, path, cost, counts, exhibits, reason: None };
+    let counts = Counts::new();
+    let traces = Vec::new();
+    let plan = Plan { ending: Ending::Solved, path, cost, counts, traces, reason: None };
     let truth = truth(world, &query, &Guide::default());
     match verify(&request, &plan, pipeline, &truth).outcome {
         (Status::Solved, _) => None,
@@ -179,7 +180,9 @@ fn refusal(
 fn what_motion_accepts_the_verifier_accepts() {
     let mut asked = 0;
     for sample in SAMPLES {
-        let (mut accepted, mut drawn, mut refused) = (0, 0, Vec::new());
+        let mut accepted = 0;
+        let mut drawn = 0;
+        let mut refused = Vec::new();
         let pipeline = pipeline(sample.any_angle);
         for number in 0..sample.worlds {
             let world = world(sample, number);
@@ -200,8 +203,8 @@ fn what_motion_accepts_the_verifier_accepts() {
                 }
             }
         }
-        let (share, what) =
-            (f64::from(accepted) / f64::from(drawn), format!("{} {}", sample.family, sample.over));
+        let share = f64::from(accepted) / f64::from(drawn);
+        let what = format!("{} {}", sample.family, sample.over);
         assert!(
             (sample.accepts[0]..=sample.accepts[1]).contains(&share),
             "{what}: a one-sided sample, {share}"

@@ -35,7 +35,7 @@ study = "study"
 rows = ["Improved A*", "theirs"]
 cells = [
   { metric = "path_length_mm", show = "solved", label = "Solved", decimals = 0 },
-  { metric = "components", show = "prepared", label = "Parts of the roadmap", decimals = 0 },
+  { metric = "components", show = "preprocessing", label = "Parts of the roadmap", decimals = 0 },
 ]
 [[results.block]]
 title = "plane"
@@ -85,7 +85,7 @@ fn a_table_shows_what_a_roadmap_cost_those_who_search_it_and_nobody_else() {
     let bench = project();
     bench.done(&["repro", "outside"]);
     let (_, records) = reuse::stored(&bench.at("data/runs/outside"), "study").unwrap();
-    let parts = records.batch.prepared[0].values.get("components").unwrap().as_f64();
+    let parts = records.batch.preprocessing[0].values.get("components").unwrap().as_f64();
     assert!(parts >= 1.0, "{parts} parts");
     let report = fs::read_to_string(bench.at("paper_repro.md")).unwrap();
     for row in [format!("| Improved A* | 100 | {parts} |"), "| theirs | 100 | – |".to_owned()] {

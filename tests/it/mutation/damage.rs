@@ -128,7 +128,8 @@ fn strings(bytes: &[u8]) -> Vec<Range<usize>> {
 
 /// Where values stand: what is between `=` and the end of the line.
 fn values(bytes: &[u8]) -> Vec<Range<usize>> {
-    let (mut at, mut found) = (0, Vec::new());
+    let mut at = 0;
+    let mut found = Vec::new();
     for line in bytes.split_inclusive(|byte| *byte == b'\n') {
         let end = at + line.trim_ascii_end().len();
         if let Some(equals) = line.iter().position(|byte| *byte == b'=') {
@@ -141,7 +142,8 @@ fn values(bytes: &[u8]) -> Vec<Range<usize>> {
 
 /// The longest runs of bytes that are `part`, of those that are `whole`.
 fn runs(bytes: &[u8], part: impl Fn(u8) -> bool, whole: impl Fn(&[u8]) -> bool) -> Vec<Range<usize>> {
-    let (mut at, mut found) = (0, Vec::new());
+    let mut at = 0;
+    let mut found = Vec::new();
     for run in bytes.chunk_by(|a, b| part(*a) == part(*b)) {
         if part(run[0]) && whole(run) {
             found.push(at..at + run.len());

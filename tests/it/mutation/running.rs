@@ -12,7 +12,7 @@ use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-/// So many cases of reading go with one that runs.
+/// So many cases of interpretation go with one that runs.
 const READ_FOR_ONE: u64 = 100;
 
 /// A run is looked at this often.
@@ -86,7 +86,8 @@ fn a_paper_with_any_number_changed_is_refused_or_runs_to_its_end() {
         bench.done(&["new", paper, "--from", paper]);
     }
     let cases = super::cases().div_ceil(READ_FOR_ONE);
-    let (mut faults, mut ran) = (Vec::new(), 0);
+    let mut faults = Vec::new();
+    let mut ran = 0;
     for number in 0..cases {
         let mut stream = seed::stream(seed::derive(2026, &["running", &number.to_string()]));
         match case(&bench, papers[number as usize % papers.len()], &mut stream) {

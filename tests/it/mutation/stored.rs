@@ -24,7 +24,8 @@ fn used(paper: &Paper, folder: &Path) -> Result<(), String> {
     let evidence = Evidence::read(paper, default_point(paper), folder).map_err(|e| e.to_string())?;
     claims::judge(&evidence).map_err(|e| e.to_string())?;
     let verdicts = Verdicts::read(folder).map_err(|e| e.to_string())?;
-    Interpretation::new(&paper.choices, &verdicts.reading).map_err(|e| format!("verdicts.toml: {e}"))?;
+    Interpretation::new(&paper.choices, &verdicts.interpretation)
+        .map_err(|e| format!("verdicts.toml: {e}"))?;
     let outputs = output::outputs(&evidence, &verdicts, None, &AtomicBool::new(false));
     let outputs = outputs.map_err(|e| format!("verdicts.toml: {e}"))?;
     output::chapter(&folder.join("report.md"), &evidence, &verdicts, folder, &outputs.undrawn)
@@ -55,7 +56,8 @@ fn hidden(stream: &mut Stream, bytes: &[u8]) -> Vec<u8> {
 
 #[test]
 fn no_damaged_file_of_a_stored_run_panics_and_every_refusal_names_a_file() {
-    let (home, copy) = (Path::new(env!("CARGO_MANIFEST_DIR")), tempfile::tempdir().unwrap());
+    let home = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let copy = tempfile::tempdir().unwrap();
     let inputs = Inputs { roots: vec![home.to_owned()] };
     let paper = Paper::load(&home.join("experiments/movingai_sample"), &inputs).unwrap();
     let stored = fs::read_dir(home.join("data/runs/movingai_sample")).unwrap();
@@ -68,7 +70,8 @@ fn no_damaged_file_of_a_stored_run_panics_and_every_refusal_names_a_file() {
     let write = || files.iter().for_each(|(path, bytes)| fs::write(path, bytes).unwrap());
     write();
     used(&paper, copy.path()).unwrap();
-    let (mut faults, mut accepted) = (Vec::new(), 0);
+    let mut faults = Vec::new();
+    let mut accepted = 0;
     for case in 0..cases() / 5 {
         let mut stream = seed::stream(seed::derive(2025, &["stored", &case.to_string()]));
         let (path, bytes) = &files[stream.random_range(0..files.len())];

@@ -40,7 +40,8 @@ pub struct Subject {
 impl Subject {
     /// A copy of the committed papers and inputs.
     pub fn of_committed_papers() -> Self {
-        let (root, home) = (tempfile::tempdir().unwrap(), Path::new(env!("CARGO_MANIFEST_DIR")));
+        let root = tempfile::tempdir().unwrap();
+        let home = Path::new(env!("CARGO_MANIFEST_DIR"));
         for name in ["experiments", "data/robots", "data/scenes", "data/maps", "data/draws"] {
             copy(&home.join(name), &root.path().join(name));
         }
@@ -91,7 +92,7 @@ impl Subject {
             Role::Crosscheck => crosscheck::Spec::open(&paper.folder).map(|_| ()).map_err(|e| e.to_string()),
             Role::Paper => {
                 let document = Document::open(&file.path).map_err(|e| e.to_string())?;
-                let damaged = Paper::of(&paper.folder, &document, paper.studies.clone());
+                let damaged = Paper::with_studies(&paper.folder, &document, paper.studies.clone());
                 validate(&damaged.map_err(|e| e.to_string())?)
             }
             Role::Input(study) => load(study, paper).map(|_| ()),

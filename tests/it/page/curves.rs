@@ -41,11 +41,12 @@ fn success_curves_say_the_values_under_the_pointer() {
         assert_eq!(value("samples N"), f64::from(samples));
         for (row, label) in [("original", "Original A*"), ("improved", "Improved A*")] {
             let judged = verdicts.claim(&format!("t2.{row}.{samples}")).unwrap();
-            let (ours, found) = (judged.ours().unwrap().value, value(&format!("{label}: mean of 200 draws")));
+            let ours = judged.ours().unwrap().value;
+            let found = value(&format!("{label}: mean of 200 instances"));
             assert!((ours - found).abs() < 0.01, "{label}, {samples}: {found} on the page, {ours} as judged");
             let printed: f64 = judged.printed.as_ref().unwrap().parse().unwrap();
             assert_eq!(value(&format!("{label}: printed")), printed, "{label}, {samples}");
-            let band = &said[&format!("{label}: mean of 200 draws")];
+            let band = &said[&format!("{label}: mean of 200 instances")];
             assert!(band.contains(" [") && band.ends_with(']'), "{band}");
         }
     }

@@ -85,7 +85,8 @@ impl Browser {
         stream.write_all((head + &body).as_bytes()).unwrap();
         // The driver keeps the connection open, so that only its head says where the answer ends.
         let mut reader = BufReader::new(stream);
-        let (mut line, mut length) = (String::new(), 0);
+        let mut line = String::new();
+        let mut length = 0;
         while reader.read_line(&mut line).unwrap() > 2 {
             let lower = line.to_ascii_lowercase();
             length =

@@ -39,7 +39,7 @@ fn on_paper_stand_all_evidence_and_figures_without_controls() {
     assert_eq!(browser.run(hidden), json!(["none", "none", "none"]));
     let closed = "return [...document.querySelectorAll('#claimed tbody:not([hidden]) .evidence')].filter((row) => row.offsetHeight === 0).length";
     assert_eq!(browser.run(closed), json!(0));
-    assert_eq!(browser.run("return document.querySelector('#readings details').open"), json!(true));
+    assert_eq!(browser.run("return document.querySelector('#interpretations details').open"), json!(true));
 }
 
 #[test]

@@ -40,7 +40,7 @@ fn missing_stale_and_damaged_runs_are_said_in_the_first_line() {
     bench.edit("mini/paper.toml", "printed = [\"7.83\"]", "printed = [\"7.84\"]");
     bench.done(&["report", "mini", "--out", "run", "--to", "pages"]);
     assert!(first().starts_with("<p class=\"state\">Stale: "), "{}", first());
-    bench.edit("mini/draws.toml", "replicates = 24", "replicates = 25");
+    bench.edit("mini/draws.toml", "instances = 24", "instances = 25");
     assert_ne!(bench.run(&["report", "mini", "--out", "run", "--to", "pages"]).code, Some(0));
     assert!(first().contains("Nothing is shown: ") && first().contains("draws"), "{}", first());
 }
@@ -114,7 +114,8 @@ fn the_index_says_of_each_paper_what_its_first_line_says() {
 #[test]
 fn the_second_seeds_class_stands_beside_the_first() {
     let runs = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/runs");
-    let (mut seen, mut others) = (0, 0);
+    let mut seen = 0;
+    let mut others = 0;
     for name in ["zhang", "fu2018"] {
         let text = fs::read_to_string(super::page(name)).unwrap();
         for judged in Verdicts::read(&runs.join(name)).unwrap().claims {
@@ -142,7 +143,7 @@ fn the_page_is_opened_by_the_desktops_own_program() {
     fs::set_permissions(bench.at("bin/xdg-open"), fs::Permissions::from_mode(0o755)).unwrap();
     let with = |path: String| {
         let mut command = bench.command(&REPORT);
-        bench.said(&command.arg("--open").env("PATH", path).output().unwrap())
+        bench.output(&command.arg("--open").env("PATH", path).output().unwrap())
     };
     let path = std::env::var("PATH").unwrap();
     assert_eq!(with(format!("{}:{path}", bench.at("bin").display())).code, Some(0));

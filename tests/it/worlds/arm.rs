@@ -9,7 +9,7 @@ use engine::kinematics::planar_2r::{ElbowRule, Planar2r};
 use engine::planner::Plan;
 use engine::space::{ArmRules, ArmWorld, TipLattice, World};
 use rand::RngExt as _;
-use study::prepared::workspace_map::ShapeSetting;
+use study::preprocessing::workspace_map::ShapeSetting;
 use verify::arm::{Answer, Case as Query};
 
 const STEP_CM: f64 = 4.0;
@@ -22,7 +22,7 @@ pub fn arm(number: u64) -> Case {
         let names = ["arm", &number.to_string(), &attempt.to_string()];
         drawn(number, seed::stream(seed::derive(1968, &names)))
     };
-    (0..200).find_map(draw).unwrap_or_else(|| panic!("arm {number}: 200 draws gave no query of its sort"))
+    (0..200).find_map(draw).unwrap_or_else(|| panic!("arm {number}: 200 instances gave no query of its sort"))
 }
 
 /// A workspace with a query; in every fourth one, no hops lead to the goal.
@@ -57,7 +57,8 @@ fn drawn(number: u64, mut stream: seed::Stream) -> Option<Case> {
 
 /// Where `steps` lead from a cell, as the workspace answers, and how far each goes.
 fn hops(world: &ArmWorld, cell: u32, steps: &[[i32; 2]]) -> Vec<(u32, f64)> {
-    let (grid, [x, y]) = (world.grid(), world.grid().xy(cell));
+    let grid = world.grid();
+    let [x, y] = world.grid().xy(cell);
     let hop = |&[dx, dy]: &[i32; 2]| {
         let to = grid.cell(x + dx, y + dy).filter(|to| *to != cell && grid.is_free(*to))?;
         world.may_hop(cell, to).then(|| (to, STEP_CM * f64::from(dx * dx + dy * dy).sqrt()))

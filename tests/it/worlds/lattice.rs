@@ -57,7 +57,8 @@ pub fn truth(case: &Case, optimum: Option<f64>, subject: &Subject) -> Truth {
 
 /// How many nodes can be reached from the start, and how many moves leave them in all: counted cell by cell.
 fn reachable(world: &LatticeWorld, start: &[f64]) -> (u64, u64) {
-    let (grid, rule) = (world.grid(), world.corner_rule());
+    let grid = world.grid();
+    let rule = world.corner_rule();
     let mut seen = BTreeSet::new();
     let mut todo = vec![[start[0] as i32, start[1] as i32]];
     let mut moves = 0;
@@ -89,7 +90,8 @@ pub fn refusal(
     plan: &Plan,
     [in_graph, optimal]: [bool; 2],
 ) -> Option<String> {
-    let (grid, corner_rule) = (world(case).grid(), world(case).corner_rule());
+    let grid = world(case).grid();
+    let corner_rule = world(case).corner_rule();
     let query = Query { grid, corner_rule, start: &case.start, goal: &case.goal };
     let answer = Answer { path: &plan.path, cost: plan.cost, in_graph, optimal, sight_corners: None };
     query.refuse_path(&answer, optimum)

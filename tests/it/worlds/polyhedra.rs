@@ -54,7 +54,8 @@ pub fn polyhedra(number: u64) -> Case {
 /// Six plates around `at`, too thick to be stepped over.
 fn walls(at: Vec3) -> Vec<Convex> {
     let plate = |axis: usize, side: f64| {
-        let (mut center, mut size) = (at, Vec3::repeat(4.0));
+        let mut center = at;
+        let mut size = Vec3::repeat(4.0);
         center[axis] += side;
         size[axis] = 1.2;
         Convex::cuboid(center, size).unwrap()

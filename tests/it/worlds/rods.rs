@@ -76,7 +76,9 @@ pub fn rods(number: u64) -> Case {
         let names = ["rods", &number.to_string(), &attempt.to_string()];
         drawn(number, seed::stream(seed::derive(26, &names)))
     };
-    (0..200).find_map(draw).unwrap_or_else(|| panic!("rods {number}: 200 draws gave no query of its sort"))
+    (0..200)
+        .find_map(draw)
+        .unwrap_or_else(|| panic!("rods {number}: 200 instances gave no query of its sort"))
 }
 
 /// Boxes with a query that the arm can be posed at both ends of; in every fourth world its tip is caged at the start.
@@ -85,7 +87,8 @@ fn drawn(number: u64, mut stream: seed::Stream) -> Option<Case> {
     let mut within = |low: [f64; 3], high: [f64; 3]| [0, 1, 2].map(|i| stream.random_range(low[i]..high[i]));
     let mut bodies: Vec<Convex> = (0..=number % 3)
         .map(|_| {
-            let (center, size) = (within([45.0, -8.0, 20.0], [75.0, 8.0, 80.0]), within([4.0; 3], [14.0; 3]));
+            let center = within([45.0, -8.0, 20.0], [75.0, 8.0, 80.0]);
+            let size = within([4.0; 3], [14.0; 3]);
             Convex::cuboid(center.into(), size.into()).unwrap()
         })
         .collect();
@@ -148,7 +151,9 @@ impl Scene {
 
     /// To how many states steps of one joint lead from `start`, if they are few and none leads to `goal`.
     fn states(&self, [start, goal]: [Joints; 2]) -> Option<u64> {
-        let (arm, delta, taken) = (aubo(), DELTA_DEG.to_radians(), Cell::new(0));
+        let arm = aubo();
+        let delta = DELTA_DEG.to_radians();
+        let taken = Cell::new(0);
         let hops = |state: Option<[i8; 6]>| {
             let Some(state) = state.filter(|_| taken.replace(taken.get() + 1) < MOST_STATES) else {
                 return Vec::new();

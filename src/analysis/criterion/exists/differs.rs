@@ -4,8 +4,8 @@ use super::super::Criterion;
 use super::{Settings, places};
 use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
+use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::{Evidence, Run};
-use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::is_unended;
 use crate::analysis::selection_spec::Labels;
@@ -52,10 +52,11 @@ impl Differs<'_> {
 }
 
 impl Criterion for Differs<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> Found {
-        let Some(run) = evidence.run(&self.study.name) else { return Found::default() };
-        let mut found = Found { existential: true, ..Found::default() };
-        let (mut differ, mut alike) = (0, None);
+    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
+        let Some(run) = evidence.run(&self.study.name) else { return CriterionResult::default() };
+        let mut found = CriterionResult { existential: true, ..CriterionResult::default() };
+        let mut differ = 0;
+        let mut alike = None;
         for set in &self.sets {
             let values: Vec<Option<f64>> = set.iter().map(|problem| self.median(run, problem)).collect();
             let spelled = |(problem, value): (&String, &Option<f64>)| match value {

@@ -2,7 +2,8 @@ use super::*;
 
 fn compared(ends: [f64; 2]) -> Compared {
     let ratio = ends[0].midpoint(ends[1]);
-    let (name, medians) = ("a".to_owned(), [ratio, 1.0]);
+    let name = "a".to_owned();
+    let medians = [ratio, 1.0];
     Compared {
         name,
         trial: None,
@@ -18,7 +19,8 @@ fn compared(ends: [f64; 2]) -> Compared {
 
 #[test]
 fn what_lies_above_the_margin_for_certain_is_no_longer_undecided() {
-    let (half, any) = (0.5, 1.0);
+    let half = 0.5;
+    let any = 1.0;
     for (ends, limit, expected) in [
         ([0.40, 0.45], half, Outcome::Holds),
         ([0.45, 0.55], half, Outcome::Open),

@@ -6,14 +6,14 @@ use replan_audit::output;
 use replan_audit::reader::{Format, read};
 use replan_audit::report::{Class, Options, Report, audit};
 
-fn of(text: &str) -> Report {
+fn report_on(text: &str) -> Report {
     let format = if text.starts_with('|') { Format::Markdown } else { Format::Csv };
     audited(text, format, &Options { skips_power: true, ..Options::default() })
 }
 
 /// Every class that was found.
 fn classes(text: &str) -> Vec<Class> {
-    of(text).findings.iter().map(|finding| finding.class).collect()
+    report_on(text).findings.iter().map(|finding| finding.class).collect()
 }
 
 /// The first fault of a table that cannot be read.
@@ -25,7 +25,7 @@ fn fault(text: &str) -> String {
 #[test]
 fn a_statistic_that_is_not_known_is_told_with_its_row() {
     let text = "s [statistic],time\nmean,5.0\n110%,4.0\nmax,7\ncount,3\n110%,-\n";
-    let report = of(text);
+    let report = report_on(text);
     let lines = output::unseen("t", &report);
     let known = "there are mean, sd, se, min, q1, median, q3, max, total, and quantiles as 5% or q95";
     let expected = ["110%", "count"].map(|row| {
@@ -34,7 +34,7 @@ fn a_statistic_that_is_not_known_is_told_with_its_row() {
     });
     assert_eq!(lines, expected);
     assert!(report.findings.is_empty() && report.tally["order"].applied == 1, "{report:?}");
-    assert_eq!(output::unseen("t", &of("s [statistic],time\nmean,5.0\nmax,7\nn/a,-\n")), [""; 0]);
+    assert_eq!(output::unseen("t", &report_on("s [statistic],time\nmean,5.0\nmax,7\nn/a,-\n")), [""; 0]);
 }
 
 #[test]
@@ -55,7 +55,13 @@ fn a_header_with_a_statistic_that_is_not_known_is_no_mean() {
 fn words_that_may_name_methods_are_a_guess_and_no_proof() {
     let pooled = "pooling,success\nmean,85.0\nmax,80.1\nsum,84.2\n";
     assert_eq!(classes(pooled), [Class::Signal; 2]);
-    assert!(of(pooled).findings[0].premises.last().unwrap().contains("`pooling` is `statistic` was guessed"));
+    assert!(
+        report_on(pooled).findings[0]
+            .premises
+            .last()
+            .unwrap()
+            .contains("`pooling` is `statistic` was guessed")
+    );
     assert_eq!(classes(&pooled.replace("pooling", "pooling [statistic]")), [Class::Impossible; 2]);
     // Shares are printed as quantiles are called.
     assert_eq!(classes("success,length\n50%,5\n75%,4\n95%,3\n"), []);
@@ -66,7 +72,7 @@ fn a_row_that_sums_up_the_others_is_no_proof() {
     let table = |name: &str| format!("planner,success [% of 250]\nA,33.2\nB,33.5\n{name},33.35\n");
     assert_eq!(classes(&table("C")), [Class::Impossible; 2]);
     for name in ["Average", "mean", "Overall"] {
-        let report = of(&table(name));
+        let report = report_on(&table(name));
         assert_eq!(
             classes(&table(name)),
             [Class::Impossible, Class::Signal],
@@ -88,7 +94,7 @@ fn a_name_of_two_columns_or_rows_is_not_taken_for_the_first() {
     assert!(fault(counts).starts_with("1:3: column `x` names the column `n`, of which there are 2"));
     // A name that a deviation has as well names the mean.
     let spread = "p,a [sd],a [mean],b [mean],t [mean, sum=a+b]\nA,9.0,1.0,2.0,3.0\n";
-    assert_eq!((classes(spread), of(spread).tally["sum_of_means"].applied), (vec![], 1));
+    assert_eq!((classes(spread), report_on(spread).tally["sum_of_means"].applied), (vec![], 1));
     let relation = "[[table]]\nname = \"t\"\ntext = \"\"\"\n| map | planner | time [value] |\n|-|-|-|\n| M | A | 3.0 |\n| M | B | 6.0 |\n\
                     \"\"\"\n[[relation]]\ncheck = \"ratio\"\nvalue = \"2.0\"\nof = \"t/M/time\"\nover = \"3.0\"\n";
     let faults = audit(&read(relation, Format::Toml).unwrap(), &Options::default()).unwrap_err();
@@ -99,7 +105,7 @@ fn a_name_of_two_columns_or_rows_is_not_taken_for_the_first() {
 #[test]
 fn success_is_to_rise_for_one_planner_on_one_map() {
     let table = "map,planner,samples [samples],success [%, anytime]\nM,A,100,90\nM,B,200,50\nM,A,200,95\n";
-    assert_eq!((classes(table), of(table).tally["rises"].applied), (vec![], 1));
+    assert_eq!((classes(table), report_on(table).tally["rises"].applied), (vec![], 1));
     assert_eq!(classes(&table.replace("M,A,200,95", "M,A,200,60")), [Class::Impossible]);
 }
 
@@ -128,7 +134,7 @@ fn units_in_names_are_units() {
 #[test]
 fn emphasis_hides_no_number() {
     let table = "| p | success [% of 250] |\n|-|-|\n| A | *33.2* |\n| B | _33.6_ |\n| C | <u>34.0</u> |\n| D | \\underline{33.5} |\n";
-    let report = of(table);
+    let report = report_on(table);
     assert_eq!((report.tally["grim"].applied, report.tally["grim"].impossible), (4, 1));
 }
 
@@ -141,7 +147,8 @@ fn ended(value: f64, decimals: i32, is_raised: bool) -> String {
 
 #[test]
 fn what_floats_cut_short_is_no_proof() {
-    let (mut asked, mut doubted) = (0, 0);
+    let mut asked = 0;
+    let mut doubted = 0;
     for n in 1..=100_u32 {
         for k in 0..=n {
             for (decimals, is_raised) in [(0, false), (1, false), (2, false), (0, true), (1, true), (2, true)]
@@ -150,7 +157,7 @@ fn what_floats_cut_short_is_no_proof() {
                 let cells = [ended(mean * 100.0, decimals, is_raised), ended(mean, decimals + 2, is_raised)];
                 let text =
                     format!("share [% of {n}],mean [mean, integers, n={n}]\n{},{}\n", cells[0], cells[1]);
-                let report = of(&text);
+                let report = report_on(&text);
                 assert!(!report.has_impossible(), "{k} of {n}\n{text}{report:?}");
                 asked += 1;
                 doubted +=
@@ -160,7 +167,7 @@ fn what_floats_cut_short_is_no_proof() {
     }
     assert!(doubted > 50, "{doubted} of {asked} tables show nothing");
     // Two ways to compute 0.58 × 100 in floats are 57.99999999999999 and 58; nothing makes 57 of it by rounding to nearest.
-    let cut = of("share [% of 50]\n57\n").findings.remove(0);
+    let cut = report_on("share [% of 50]\n57\n").findings.remove(0);
     assert_eq!(cut.class, Class::Signal);
     let said = "no proof: a program that cuts off or rounds up 57.99999999999999, which floats make of 58, prints it";
     assert!(cut.said.ends_with(said), "{}", cut.said);

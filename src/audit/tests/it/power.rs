@@ -108,7 +108,8 @@ fn corrupted_numbers_are_caught_as_often_as_the_power_says() {
         let first = if is_sparse { first.with_zeros_left_out(6).unwrap() } else { first };
         // Each polyline is a search.
         let tries = if check == "any_angle_turns" { 100 } else { 2000 };
-        let (mut asked, mut caught) = (0, 0);
+        let mut asked = 0;
+        let mut caught = 0;
         for _ in 0..tries {
             let units = rng.random_range(power.low.units()..=power.high.units());
             let Some(print) = first.with_units(units) else { continue };
@@ -116,7 +117,8 @@ fn corrupted_numbers_are_caught_as_often_as_the_power_says() {
             let report = audited(&format!("{before}{print}{after}"), Format::Toml, &fast);
             caught += u32::from(report.findings.iter().any(|found| is_refused(found, check)));
         }
-        let (share, stated) = (f64::from(caught) / f64::from(asked), power.share());
+        let share = f64::from(caught) / f64::from(asked);
+        let stated = power.share();
         // A share that a sample shows as 1 is likely a little less.
         let likely = (power.refused as f64 + 1.0) / (power.tried as f64 + 2.0);
         // Four standard errors of a share of 2000, and of the sample that power is computed from.

@@ -176,7 +176,8 @@ const MARKDOWN: &str = "Some text.\n\n| planner | Success rate (%) | Time (s) | 
 fn no_mutated_input_panics_and_every_fault_has_its_line() {
     let printed = ["vamp", "curobo", "rdt", "zhang", "fu2018", "planar"].map(printed);
     let witness = Some(Budget { most: 2, steps: 200, seed: None });
-    let (mut read_ones, mut faulty) = (0, 0);
+    let mut read_ones = 0;
+    let mut faulty = 0;
     for seed in 0..6000 {
         let mut rng = SmallRng::seed_from_u64(seed);
         let (simulated, simulated_format) = input(seed);

@@ -64,7 +64,8 @@ impl Style {
     fn ratio(&self, above: i128, below: i128) -> String {
         self.printed(|decimals| {
             let scaled = above * 10_i128.pow(decimals);
-            let (down, rest) = (scaled.div_euclid(below), scaled.rem_euclid(below));
+            let down = scaled.div_euclid(below);
+            let rest = scaled.rem_euclid(below);
             self.units(down, rest > 0, (2 * rest).cmp(&below))
         })
     }
@@ -111,7 +112,8 @@ impl Style {
 
 /// Sum and n times the sum of squared deviations.
 fn moments(values: &[i128]) -> (i128, i128) {
-    let (n, sum) = (values.len() as i128, values.iter().sum::<i128>());
+    let n = values.len() as i128;
+    let sum = values.iter().sum::<i128>();
     (sum, n * values.iter().map(|x| x * x).sum::<i128>() - sum * sum)
 }
 
@@ -226,7 +228,8 @@ impl Walk {
 
     /// Its length as it is printed, with diagonal moves of √2.
     fn length(&self, style: &Style) -> String {
-        let (straight, diagonal) = (self.straight(), self.diagonal());
+        let straight = self.straight();
+        let diagonal = self.diagonal();
         style.printed(|decimals| {
             let scale = 10_i128.pow(decimals);
             let root = 2 * diagonal * diagonal * scale * scale;

@@ -13,7 +13,9 @@ use crate::geometry::{Nearest, Segment, Vec3, nearest_segment_segment};
 /// Also collects, one bit a face, which faces have an end of the segment in front of them.
 #[inline]
 fn entry(segment: &Segment, convex: &Convex) -> (Option<f64>, u128) {
-    let (mut enter, mut leave, mut visible) = (0.0_f64, 1.0_f64, 0_u128);
+    let mut enter = 0.0_f64;
+    let mut leave = 1.0_f64;
+    let mut visible = 0_u128;
     for (index, face) in convex.faces.iter().enumerate() {
         let (a, b) = (face.plane.height(&segment.a), face.plane.height(&segment.b));
         if a <= 0.0 && b <= 0.0 {
@@ -64,7 +66,7 @@ pub fn nearest_by_edge(
     let is_visible = |edge: &Edge| visible & (1 << edge.faces[0] | 1 << edge.faces[1]) != 0;
     let first = likely.or_else(|| convex.edges.iter().position(is_visible));
     let first = first.map(|index| (index, nearest_segment_segment(segment, &convex.side(index))));
-    let beyond = first.map(|(_, found)| Beyond::of(segment, &found));
+    let beyond = first.map(|(_, found)| Beyond::new(segment, &found));
     let (mut best, is_least) = over_face(segment, convex, visible, beyond.as_ref());
     if is_least {
         return (best, None);
@@ -124,7 +126,7 @@ struct Beyond {
 }
 
 impl Beyond {
-    fn of(segment: &Segment, Nearest { distance, on_a, on_b }: &Nearest) -> Self {
+    fn new(segment: &Segment, Nearest { distance, on_a, on_b }: &Nearest) -> Self {
         let direction = (on_a - on_b) / distance.max(f64::MIN_POSITIVE);
         let least = direction.dot(&segment.a).min(direction.dot(&segment.b));
         // More than rounding can do to what is as far away, so that of equals the first is still found.

@@ -112,9 +112,11 @@ fn face_in(vertices: &[Vec3], plane: Plane, tolerance: f64) -> Option<Face> {
     ring.sort_by(|&a, &b| angle(a).total_cmp(&angle(b)));
     let n = ring.len();
     let is_corner = |at: usize| {
-        let (before, here, after) =
-            (vertices[ring[(at + n - 1) % n]], vertices[ring[at]], vertices[ring[(at + 1) % n]]);
-        let (into, out) = (here - before, after - here);
+        let before = vertices[ring[(at + n - 1) % n]];
+        let here = vertices[ring[at]];
+        let after = vertices[ring[(at + 1) % n]];
+        let into = here - before;
+        let out = after - here;
         into.cross(&out).norm() > tolerance * into.norm().max(out.norm())
     };
     let corners: Vec<usize> = (0..n).filter(|&at| is_corner(at)).map(|at| ring[at]).collect();

@@ -19,7 +19,7 @@ use crate::geometry::{Nearest, Segment, Vec3};
 /// within the segment is never solved for again. Lines without one nearest pair (parallel ones, which the text
 /// leaves out) start from the first segment's start.
 pub fn nearest_segment_segment_printed(p: &Segment, q: &Segment) -> Nearest {
-    let Lines { b, e, f, s, t, .. } = Lines::of(p, q);
+    let Lines { b, e, f, s, t, .. } = Lines::between(p, q);
     let clamped = s.clamp(0.0, 1.0);
     let t = if clamped == s { t } else { (b * clamped + f) / e };
     Nearest::between(p.at(clamped), q.at(t.clamp(0.0, 1.0)))
@@ -36,7 +36,7 @@ struct Lines {
 }
 
 impl Lines {
-    fn of(p: &Segment, q: &Segment) -> Self {
+    fn between(p: &Segment, q: &Segment) -> Self {
         let (d1, d2, r) = (p.b - p.a, q.b - q.a, p.a - q.a);
         let (a, b, e) = (d1.dot(&d1), d1.dot(&d2), d2.dot(&d2));
         let (c, f) = (d1.dot(&r), d2.dot(&r));
@@ -58,7 +58,7 @@ impl Lines {
 /// for t < 0. An s within 0 to 1 leaves the obstacle's point at t of eq. 12, wherever that is. Lines without one nearest pair start
 /// from the rod's first end.
 pub fn nearest_segment_segment_literal(rod: &Segment, side: &Segment) -> Nearest {
-    let Lines { a, s, t, .. } = Lines::of(rod, side);
+    let Lines { a, s, t, .. } = Lines::between(rod, side);
     let is_share = |share: f64| (0.0..=1.0).contains(&share);
     if is_share(s) && is_share(t) {
         return Nearest::between(rod.at(s), side.at(t));
@@ -240,7 +240,8 @@ mod tests {
             let corners = [Vec3::zeros(), Vec3::x(), Vec3::y(), Vec3::z()];
             Convex::from_vertices(order.map(|index| corners[index]).to_vec()).unwrap()
         };
-        let (mut missing, mut present) = (0, 0);
+        let mut missing = 0;
+        let mut present = 0;
         for convex in [tetrahedron([0, 1, 2, 3]), tetrahedron([3, 1, 0, 2]), cube()] {
             let middle = convex.vertices().iter().sum::<Vec3>() / convex.vertices().len() as f64;
             let ends = |face: &Face| -> Vec<(usize, usize)> {

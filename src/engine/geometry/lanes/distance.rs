@@ -39,9 +39,9 @@ pub enum RoughSolid {
 
 impl RoughSolid {
     /// `solid` in f32; `None` if it has no lanes.
-    pub fn of(solid: &Solid) -> Option<Self> {
+    pub fn from_solid(solid: &Solid) -> Option<Self> {
         match solid {
-            Solid::Box(shape) => Some(Self::Box(RoughBox::of(shape))),
+            Solid::Box(shape) => Some(Self::Box(RoughBox::from_box(shape))),
             Solid::HalfSpace(shape) => {
                 let offset = -shape.height(&Vec3::zeros()) as f32;
                 Some(Self::HalfSpace { normal: rough(shape.normal()), offset })
@@ -78,7 +78,7 @@ pub struct RoughBox {
 
 impl RoughBox {
     /// `shape` in f32.
-    pub fn of(shape: &OrientedBox) -> Self {
+    pub fn from_box(shape: &OrientedBox) -> Self {
         let frame = shape.frame();
         Self {
             axes: [0, 1, 2].map(|axis| rough(&frame.axis(axis))),
@@ -122,7 +122,8 @@ pub fn squared_distance_segment_segment_lanes<S: Simd>(
     let (a, e) = (d1.dot(d1), d2.dot(d2));
     let normal = d1.cross(d2);
     let normal2 = normal.dot(normal);
-    let (zero, one) = (Rough::splat(simd, 0.0), Rough::splat(simd, 1.0));
+    let zero = Rough::splat(simd, 0.0);
+    let one = Rough::splat(simd, 1.0);
     let start = (r.cross(d2).dot(normal) / normal2).max(zero).min(one);
     let start = normal2.simd_gt(a * e * 1e-12).select(start, zero);
     let t = ((d1.scaled(start) - r).dot(d2) / e).max(zero).min(one);
@@ -178,15 +179,19 @@ pub fn squared_distance_segment_box_lanes<S: Simd>(
     let [x, y, z] = shape.axes;
     let (x, y, z) = (Point::splat_rough(simd, x), Point::splat_rough(simd, y), Point::splat_rough(simd, z));
     let half = Point::splat_rough(simd, shape.half);
-    let (from, along) = (p[0] - Point::splat_rough(simd, shape.origin), p[1] - p[0]);
+    let from = p[0] - Point::splat_rough(simd, shape.origin);
+    let along = p[1] - p[0];
     let within = InBox {
         a: [x.dot(from), y.dot(from), z.dot(from)],
         d: [x.dot(along), y.dot(along), z.dot(along)],
         half: [half.x, half.y, half.z],
     };
-    let (zero, one) = (Rough::splat(simd, 0.0), Rough::splat(simd, 1.0));
-    let (mut low, mut slope_low, mut high, mut slope_high) =
-        (zero, within.slope(zero), one, within.slope(one));
+    let zero = Rough::splat(simd, 0.0);
+    let one = Rough::splat(simd, 1.0);
+    let mut low = zero;
+    let mut slope_low = within.slope(zero);
+    let mut high = one;
+    let mut slope_high = within.slope(one);
     let (at_start, at_end) = (slope_low.simd_ge(0.0), slope_high.simd_le(0.0));
     for axis in 0..3 {
         let inverse = one / within.d[axis];

@@ -110,12 +110,15 @@ fn extent(points: &[Vec3], wall: &HalfSpace) -> f64 {
 
 #[test]
 fn rough_distances_are_those_of_the_scalar_code_to_half_the_roughness() {
-    let (mut stream, mut pierced, mut worst) = (seed::stream(42), 0, [0_f64; 3]);
+    let mut stream = seed::stream(42);
+    let mut pierced = 0;
+    let mut worst = [0_f64; 3];
     for index in 0..25_000 {
         let pairs: [[Segment; 2]; ROUGH_LANES] = std::array::from_fn(|_| pair(&mut stream));
         let shape = sample::oriented_box(&mut stream);
         let wall = HalfSpace::behind(&sample::point(&mut stream), &sample::direction(&mut stream)).unwrap();
-        let solids = [Solid::Box(shape), Solid::HalfSpace(wall)].map(|solid| RoughSolid::of(&solid).unwrap());
+        let solids =
+            [Solid::Box(shape), Solid::HalfSpace(wall)].map(|solid| RoughSolid::from_solid(&solid).unwrap());
         let (p, q) = (rows(&pairs.map(|pair| pair[0])), rows(&pairs.map(|pair| pair[1])));
         for level in levels() {
             let [between, to_box, height] = dispatch!(level, simd => {

@@ -108,7 +108,8 @@ fn flipped<S: Simd>(value: Rough<S>, quadrant: u32x8<S>) -> Rough<S> {
 pub fn atan2<S: Simd>(y: Lane<S>, x: Lane<S>) -> Lane<S> {
     let simd = y.token();
     let (across, along) = (y.abs(), x.abs());
-    let (small, big) = (across.min(along), across.max(along));
+    let small = across.min(along);
+    let big = across.max(along);
     let steep = small.simd_gt(big * EIGHTH);
     let t = steep.select(small - big, small) / steep.select(small + big, big);
     let z = t * t;

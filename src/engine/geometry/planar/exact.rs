@@ -33,7 +33,8 @@ fn split(a: f64) -> (f64, f64) {
 
 fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
-    let ((a_high, a_low), (b_high, b_low)) = (split(a), split(b));
+    let (a_high, a_low) = split(a);
+    let (b_high, b_low) = split(b);
     (product, a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low))
 }
 
@@ -114,7 +115,8 @@ pub(super) fn side_of_foot(a: &Vec2, b: &Vec2, c: &Vec2) -> Ordering {
 /// How the distance between two points compares with `radius`, which is not negative.
 pub(super) fn compare_distance_to_point(a: &Vec2, b: &Vec2, radius: f64) -> Ordering {
     let u = a - b;
-    let (distance2, radius2) = (u.norm_squared(), radius * radius);
+    let distance2 = u.norm_squared();
+    let radius2 = radius * radius;
     decided(distance2 - radius2, distance2 + radius2, || {
         let u = exact_difference(a, b);
         let radius = Exact(vec![radius]);
@@ -125,11 +127,13 @@ pub(super) fn compare_distance_to_point(a: &Vec2, b: &Vec2, radius: f64) -> Orde
 /// How the distance of `c` from the line through `a` and `b`, which differ, compares with `radius`.
 pub(super) fn compare_distance_to_line(c: &Vec2, a: &Vec2, b: &Vec2, radius: f64) -> Ordering {
     let (u, v) = (b - a, c - a);
-    let (cross, magnitude) = (u.x * v.y - u.y * v.x, (u.x * v.y).abs() + (u.y * v.x).abs());
+    let cross = u.x * v.y - u.y * v.x;
+    let magnitude = (u.x * v.y).abs() + (u.y * v.x).abs();
     let reach2 = radius * radius * u.norm_squared();
     decided(cross * cross - reach2, magnitude * magnitude + reach2, || {
         let (u, v) = (exact_difference(b, a), exact_difference(c, a));
-        let (cross, radius) = (exact_cross(&u, &v), Exact(vec![radius]));
+        let cross = exact_cross(&u, &v);
+        let radius = Exact(vec![radius]);
         cross.times(&cross).minus(&radius.times(&radius).times(&exact_dot(&u, &u)))
     })
 }

@@ -14,7 +14,8 @@ fn segment(ax: f64, ay: f64, bx: f64, by: f64) -> Segment2 {
 /// Contact by integers: the least numerator of the squared distance from `c` to the segment, over `d · d`.
 fn integer_contact(a: [i128; 2], b: [i128; 2], c: [i128; 2], radius: i128, touch: Touch) -> bool {
     let (d, r) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
-    let (along, length2) = (d[0] * r[0] + d[1] * r[1], d[0] * d[0] + d[1] * d[1]);
+    let along = d[0] * r[0] + d[1] * r[1];
+    let length2 = d[0] * d[0] + d[1] * d[1];
     let e = [c[0] - b[0], c[1] - b[1]];
     let (distance2, scale) = if along <= 0 {
         (r[0] * r[0] + r[1] * r[1], 1)
@@ -40,7 +41,8 @@ fn circles_are_touched_where_integers_say_so_however_large_they_are() {
         let (a, b, c) = ([draw(), draw()], [draw(), draw()], [draw(), draw()]);
         let radius = 5 * scale;
         let float = |p: [i128; 2]| at(p[0] as f64, p[1] as f64);
-        let (p, circle) = (Segment2::new(float(a), float(b)), Circle::new(float(c), radius as f64).unwrap());
+        let p = Segment2::new(float(a), float(b));
+        let circle = Circle::new(float(c), radius as f64).unwrap();
         let found = [Touch::Contact, Touch::Free].map(|t| intersects_segment_circle(&p, &circle, t));
         let truth = [Touch::Contact, Touch::Free].map(|t| integer_contact(a, b, c, radius, t));
         assert_eq!(found, truth, "seed {seed} case {index}: {p:?} {circle:?}");
@@ -99,7 +101,8 @@ fn point_polygon(point: &Vec2, polygon: &ConvexPolygon) -> f64 {
 fn distances_in_the_plane_are_those_of_a_ternary_search() {
     let seed = 512;
     let mut stream = seed::stream(seed);
-    let (mut apart, mut meeting) = (0, 0);
+    let mut apart = 0;
+    let mut meeting = 0;
     for index in 0..20_000 {
         let mut draw = || at(stream.random_range(-6..7).into(), stream.random_range(-6..7).into());
         let (p, q) = (Segment2::new(draw(), draw()), Segment2::new(draw(), draw()));

@@ -47,7 +47,8 @@ fn assert_attained(found: &Nearest, seed: u64, index: u32) {
 #[test]
 fn segments_are_as_far_apart_as_a_ternary_search_finds_them() {
     let seed = 501;
-    let (mut stream, mut sampled) = (seed::stream(seed), Sampled::default());
+    let mut stream = seed::stream(seed);
+    let mut sampled = Sampled::default();
     for index in 0..100_000 {
         let (p, q) = sample::segment_pair(&mut stream);
         let (slow, fast) = (reference::segment_segment(&p, &q), nearest_segment_segment(&p, &q));
@@ -72,7 +73,8 @@ fn segments_are_as_far_apart_as_a_ternary_search_finds_them() {
 #[test]
 fn segments_and_boxes_are_as_far_apart_as_a_quadratic_program_finds_them() {
     let seed = 502;
-    let (mut stream, mut sampled) = (seed::stream(seed), Sampled::default());
+    let mut stream = seed::stream(seed);
+    let mut sampled = Sampled::default();
     for index in 0..100_000 {
         let shape = sample::oriented_box(&mut stream);
         let p = sample::segment_beside(&mut stream, &sample::box_faces(&shape));
@@ -94,7 +96,8 @@ fn segments_and_boxes_are_as_far_apart_as_a_quadratic_program_finds_them() {
 #[test]
 fn segments_and_polyhedra_are_as_far_apart_as_a_quadratic_program_finds_them() {
     let seed = 503;
-    let (mut stream, mut sampled) = (seed::stream(seed), Sampled::default());
+    let mut stream = seed::stream(seed);
+    let mut sampled = Sampled::default();
     for index in 0..100_000 {
         let solid = sample::polyhedron(&mut stream);
         let p = sample::segment_beside(&mut stream, &sample::convex_faces(&solid));

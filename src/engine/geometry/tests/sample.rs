@@ -39,7 +39,8 @@ pub fn oriented_box(stream: &mut Stream) -> OrientedBox {
 /// of planes, loses digits that the fast distance keeps.
 pub fn polyhedron(stream: &mut Stream) -> Convex {
     loop {
-        let (frame, radii) = (frame(stream), Vec3::from_fn(|_, _| range(stream, 0.2, 1.5)));
+        let frame = frame(stream);
+        let radii = Vec3::from_fn(|_, _| range(stream, 0.2, 1.5));
         let count = stream.random_range(4..9);
         let corners = (0..count).map(|_| frame.point(&direction(stream).component_mul(&radii))).collect();
         let solid = Convex::from_vertices(corners).unwrap();
@@ -63,7 +64,8 @@ pub fn segment_pair(stream: &mut Stream) -> (Segment, Segment) {
             parallel(stream, &p, off)
         }
         4 | 5 => {
-            let (meet, along) = (p.at(range(stream, 0.0, 1.0)), direction(stream));
+            let meet = p.at(range(stream, 0.0, 1.0));
+            let along = direction(stream);
             let before = if stream.random_range(0..2) == 0 { 0.0 } else { range(stream, 0.0, 1.0) };
             Segment::new(meet - along * before, meet + along * range(stream, 0.0, 1.0))
         }

@@ -19,7 +19,8 @@ fn volume(solid: &Convex) -> f64 {
 
 #[test]
 fn named_polyhedra_have_their_faces_edges_corners_and_volumes() {
-    let (center, size) = (Vec3::new(40.0, 62.0, 45.0), Vec3::new(18.0, 16.0, 22.0));
+    let center = Vec3::new(40.0, 62.0, 45.0);
+    let size = Vec3::new(18.0, 16.0, 22.0);
     let regular = |n: f64| n * 0.5 * 100.0 * libm::sin(TAU / n);
     let cases = [
         ("box", Convex::cuboid(center, size), [6, 12, 8], 18.0 * 16.0 * 22.0),
@@ -124,7 +125,8 @@ fn planes_along_one_line_or_one_plane_only_are_unbounded() {
 
 #[test]
 fn negative_and_unreal_sizes_are_refused() {
-    let (zero, nan) = (Vec3::zeros(), Vec3::new(0.0, 0.0, f64::NAN));
+    let zero = Vec3::zeros();
+    let nan = Vec3::new(0.0, 0.0, f64::NAN);
     let refusals = [
         OrientedBox::new(Frame::IDENTITY, Vec3::new(1.0, 1.0, -1.0)).unwrap_err(),
         OrientedBox::from_corners(Vec3::x(), -Vec3::x()).unwrap_err(),

@@ -108,7 +108,8 @@ impl Numerical {
                 break;
             }
             let jacobian = self.jacobian(&state.frames);
-            let (normal, slope) = (jacobian.tr_mul(&jacobian), jacobian.tr_mul(&state.left));
+            let normal = jacobian.tr_mul(&jacobian);
+            let slope = jacobian.tr_mul(&state.left);
             let next = self.step(&normal, &slope, &state, flange, &mut damping);
             let Some(next) = next else { break };
             state = next;

@@ -70,7 +70,7 @@ fn build(chain: &Chain) -> Result<Arc<dyn Solver>, KinematicsError> {
 }
 
 /// The shoulder angle with the arm's own directions, and the wrist's center (on axis 6, `d6` behind).
-struct Ahead {
+struct ShoulderSolution {
     q1: f64,
     h: Vec3,
     k: Vec3,
@@ -78,7 +78,7 @@ struct Ahead {
 }
 
 /// The last two angles, and what is left for the two links to reach.
-struct Hand {
+struct WristSolution {
     q5: f64,
     q6: f64,
     /// The direction of axis 5, in the arm's plane.
@@ -88,16 +88,22 @@ struct Hand {
 
 impl OffsetWrist {
     #[inline]
-    fn ahead(&self, flange: &Frame, front: bool, reference: &Joints) -> Option<Ahead> {
+    fn shoulder(&self, flange: &Frame, front: bool, reference: &Joints) -> Option<ShoulderSolution> {
         let wrist = flange.origin - flange.axis(2) * self.d6;
         let heading = heading(&wrist, self.shoulder, front, self.upright.theta(0, reference))?;
         let [c, s] = heading.h;
         let (h, k) = (Vec3::new(c, s, 0.0), Vec3::new(s, -c, 0.0));
-        Some(Ahead { q1: heading.theta, h, k, wrist })
+        Some(ShoulderSolution { q1: heading.theta, h, k, wrist })
     }
 
     #[inline]
-    fn hand(&self, flange: &Frame, ahead: &Ahead, positive: bool, reference: &Joints) -> Option<Hand> {
+    fn wrist(
+        &self,
+        flange: &Frame,
+        ahead: &ShoulderSolution,
+        positive: bool,
+        reference: &Joints,
+    ) -> Option<WristSolution> {
         let [n, o, a] = [flange.axis(0), flange.axis(1), flange.axis(2)];
         let (n_k, o_k) = (n.dot(&ahead.k), o.dot(&ahead.k));
         let magnitude = (n_k * n_k + o_k * o_k).sqrt();
@@ -112,7 +118,7 @@ impl OffsetWrist {
         let e = n * s6 + o * c6;
         let x = ahead.wrist.dot(&ahead.h) - self.d5 * e.dot(&ahead.h);
         let z = ahead.wrist.z - self.d1 - self.d5 * e.z;
-        Some(Hand {
+        Some(WristSolution {
             q5: libm::atan2(sin5, a.dot(&ahead.k)),
             q6,
             e,
@@ -121,7 +127,7 @@ impl OffsetWrist {
     }
 
     #[inline]
-    fn joints(&self, ahead: &Ahead, hand: &Hand, elbow: bool) -> Joints {
+    fn joints(&self, ahead: &ShoulderSolution, hand: &WristSolution, elbow: bool) -> Joints {
         let side = if elbow { 1.0 } else { -1.0 };
         let q3 = side * hand.fold.bend;
         let q2 = hand.fold.to_point + side * hand.fold.opening;
@@ -145,8 +151,8 @@ impl Solver for OffsetWrist {
 
     fn solve(&self, flange: &Frame, branch: Branch, reference: &Joints) -> Option<Joints> {
         let flange = self.form.last_frame(flange);
-        let ahead = self.ahead(&flange, branch.shoulder(), reference)?;
-        let hand = self.hand(&flange, &ahead, branch.wrist(), reference)?;
+        let ahead = self.shoulder(&flange, branch.shoulder(), reference)?;
+        let hand = self.wrist(&flange, &ahead, branch.wrist(), reference)?;
         Some(self.joints(&ahead, &hand, branch.elbow()))
     }
 
@@ -154,9 +160,9 @@ impl Solver for OffsetWrist {
         let flange = self.form.last_frame(flange);
         let mut solutions = Solutions::none();
         for front in [true, false] {
-            let Some(ahead) = self.ahead(&flange, front, reference) else { continue };
+            let Some(ahead) = self.shoulder(&flange, front, reference) else { continue };
             for wrist in [true, false] {
-                let Some(hand) = self.hand(&flange, &ahead, wrist, reference) else { continue };
+                let Some(hand) = self.wrist(&flange, &ahead, wrist, reference) else { continue };
                 for elbow in [true, false] {
                     solutions.insert(Branch::new(front, elbow, wrist), self.joints(&ahead, &hand, elbow));
                 }

@@ -25,7 +25,8 @@ pub(super) struct Heading {
 pub(super) fn heading(wrist: &Vec3, shoulder: f64, front: bool, reference: f64) -> Option<Heading> {
     let radius2 = wrist.x * wrist.x + wrist.y * wrist.y;
     if shoulder == 0.0 {
-        let (radius, side) = (radius2.sqrt(), if front { 1.0 } else { -1.0 });
+        let radius = radius2.sqrt();
+        let side = if front { 1.0 } else { -1.0 };
         return Some(if radius > SINGULAR {
             let h = [side * wrist.x / radius, side * wrist.y / radius];
             Heading { theta: libm::atan2(h[1], h[0]), h }

@@ -189,7 +189,8 @@ impl Solver for SphericalWrist {
 
     fn solve_all(&self, flange: &Frame, reference: &Joints) -> Solutions {
         let flange = self.form.last_frame(flange);
-        let (wrist, mut solutions) = (self.wrist_center(&flange), Solutions::none());
+        let wrist = self.wrist_center(&flange);
+        let mut solutions = Solutions::none();
         for front in [true, false] {
             let Some(plane) = self.plane(&wrist, front, reference) else { continue };
             for elbow in [true, false] {

@@ -49,7 +49,10 @@ fn every_file_here_is_a_solver_registered_under_its_own_name() {
 fn every_branch_leads_to_the_pose_and_one_of_them_is_the_configuration_drawn() {
     for (seed, name) in ROBOTS {
         let robot = robot(name);
-        let (arm, mut stream, mut worst_m, mut count) = (robot.arm(), seed::stream(seed), 0.0_f64, 0);
+        let arm = robot.arm();
+        let mut stream = seed::stream(seed);
+        let mut worst_m = 0.0_f64;
+        let mut count = 0;
         for index in 0..100_000 {
             let q = draw(&mut stream, arm.chain());
             let target = arm.chain().forward(&q);
@@ -80,7 +83,9 @@ fn every_branch_leads_to_the_pose_and_one_of_them_is_the_configuration_drawn() {
 fn all_branches_and_single_branches_agree_also_where_there_is_none() {
     for (seed, name) in ROBOTS {
         let robot = robot(name);
-        let (arm, mut stream, mut unreachable) = (robot.arm(), seed::stream(seed), 0);
+        let arm = robot.arm();
+        let mut stream = seed::stream(seed);
+        let mut unreachable = 0;
         for index in 0..10_000 {
             let reference = draw(&mut stream, arm.chain());
             let mut target = arm.chain().forward(&draw(&mut stream, arm.chain()));
@@ -113,7 +118,9 @@ fn all_six_poses_of_the_up6_are_in_front_elbow_alike_and_turn_the_wrist_the_same
 fn a_singular_wrist_keeps_the_reference_of_one_axis_and_still_reaches_the_pose() {
     for ((seed, name), kept) in ROBOTS.into_iter().zip([3, 5]) {
         let robot = robot(name);
-        let (arm, mut stream, mut kept_its_reference) = (robot.arm(), seed::stream(seed), 0);
+        let arm = robot.arm();
+        let mut stream = seed::stream(seed);
+        let mut kept_its_reference = 0;
         for index in 0..2_000 {
             let mut q = draw(&mut stream, arm.chain());
             q[4] = [0.0, 1e-12, 1e-8, -1e-7][index % 4];
@@ -283,7 +290,7 @@ fn a_chain_of_another_family_is_refused_with_the_joint_and_the_number() {
 }
 
 /// What a lane says (0: an answer, 1: out of reach, 2: left to the scalar code), held to `single`.
-fn said(found: &LaneSolutions, lane: usize, single: Option<Joints>, place: &str) -> usize {
+fn lane_outcome(found: &LaneSolutions, lane: usize, single: Option<Joints>, place: &str) -> usize {
     if found.unreachable >> lane & 1 == 1 {
         assert_eq!(single, None, "{place}");
         return 1;
@@ -301,8 +308,10 @@ fn said(found: &LaneSolutions, lane: usize, single: Option<Joints>, place: &str)
 
 #[test]
 fn four_lanes_find_what_one_branch_at_a_time_finds_and_pass_on_what_is_singular() {
-    let (robot, mut stream) = (robot("motoman_up6"), seed::stream(723));
-    let (arm, mut counts) = (robot.arm(), [[0; 3]; 2]);
+    let robot = robot("motoman_up6");
+    let mut stream = seed::stream(723);
+    let arm = robot.arm();
+    let mut counts = [[0; 3]; 2];
     for index in 0..25_000 {
         let drawn: [Joints; LANES] = std::array::from_fn(|_| {
             let mut q = draw(&mut stream, arm.chain());
@@ -324,7 +333,7 @@ fn four_lanes_find_what_one_branch_at_a_time_finds_and_pass_on_what_is_singular(
             let single = arm.solver.solve(&arm.flange(target), branch, q);
             for (level, counts) in levels().into_iter().zip(&mut counts) {
                 let found = on_level(level, || arm.solve_lanes(&rows, branch)).unwrap();
-                counts[said(&found, lane, single, &format!("{place} on {level:?}"))] += 1;
+                counts[lane_outcome(&found, lane, single, &format!("{place} on {level:?}"))] += 1;
             }
         }
     }
@@ -340,7 +349,9 @@ const AUBO_BITS: &str = "b41aeac5017c533e677b0c25be8ea042c795c4a63dd1f52bf9ec6a3
 /// elbow at full stretch.
 fn fingerprint(name: &str) -> String {
     let robot = robot(name);
-    let (arm, mut stream, mut bytes) = (robot.arm(), seed::stream(725), Vec::new());
+    let arm = robot.arm();
+    let mut stream = seed::stream(725);
+    let mut bytes = Vec::new();
     for index in 0..20_000 {
         let mut q = draw(&mut stream, arm.chain());
         match index % 8 {

@@ -31,7 +31,8 @@ fn off_link_m(part: &Part, chain: &Chain) -> f64 {
     let along = |origin: Vec3, axis: Vec3| Segment::new(origin - axis * FAR_M, origin + axis * FAR_M);
     let mut lines = vec![along(Vec3::zeros(), Vec3::z())];
     if let Some(row) = part.link.checked_sub(1) {
-        let (near, (s, c)) = (Vec3::x() * -chain.joints()[row].a_m, chain.twists()[row]);
+        let near = Vec3::x() * -chain.joints()[row].a_m;
+        let (s, c) = chain.twists()[row];
         lines.extend([Segment::new(near, Vec3::zeros()), along(near, Vec3::new(0.0, s, c))]);
     }
     let distances = lines.iter().map(|line| distance_segment_segment(line, &part.capsule.segment));

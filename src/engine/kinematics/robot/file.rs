@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize, de::IgnoredAny};
 use std::{collections::BTreeSet, ops::Range, path::Path};
 
 /// What a robot file may hold.
-pub const ROBOT_FILE: Accepted = Accepted::of::<RobotFile>();
+pub const ROBOT_FILE: Accepted = Accepted::shape::<RobotFile>();
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -211,7 +211,8 @@ fn bodies(
 }
 
 fn body(source: &Source, entry: &BodyEntry, links: &Links) -> Result<Body, SettingsError> {
-    let (mut names, mut faults) = (BTreeSet::new(), Faults::default());
+    let mut names = BTreeSet::new();
+    let mut faults = Faults::default();
     for capsule in &entry.capsule {
         let name = &capsule.get_ref().name;
         if !names.insert(name) {
@@ -225,7 +226,8 @@ fn body(source: &Source, entry: &BodyEntry, links: &Links) -> Result<Body, Setti
     let parts = faults.keep_each(entry.capsule.iter().map(|capsule| part(source, capsule, links)));
     faults.done()?;
     if let Some((index, off_m)) = links.chain.and_then(|chain| attached::first_off(&parts, chain)) {
-        let (Part { name, link, .. }, off_mm) = (&parts[index], (off_m * 1e6).round() * 1e-3);
+        let Part { name, link, .. } = &parts[index];
+        let off_mm = (off_m * 1e6).round() * 1e-3;
         let message = format!(
             "capsule `{name}` is {off_mm} mm off link {link}; accepted: one that reaches an axis of the link, the line \
              between its axes, or another capsule of the link that does"
@@ -239,11 +241,13 @@ fn body(source: &Source, entry: &BodyEntry, links: &Links) -> Result<Body, Setti
 
 fn part(source: &Source, entry: &Spanned<CapsuleEntry>, links: &Links) -> Result<Part, SettingsError> {
     let CapsuleEntry { name, link, from_mm, to_mm, tool_share, self_only, radius_mm } = entry.get_ref();
-    let (name, radius_m) = (name.get_ref(), radius_mm.get_ref() * 1e-3);
+    let name = name.get_ref();
+    let radius_m = radius_mm.get_ref() * 1e-3;
     let of_radius = |error: KinematicsError| source.fault(&radius_mm.span(), error.to_string());
     match (link, from_mm, to_mm, tool_share) {
         (Some(link), Some(from_mm), Some(to_mm), None) => {
-            let (at, link) = (link.span(), *link.get_ref());
+            let at = link.span();
+            let link = *link.get_ref();
             if link > AXES {
                 let message = format!("capsule `{name}` is on link {link}; accepted: 0 (base) to {AXES}");
                 return Err(source.fault(&at, message));

@@ -240,7 +240,8 @@ impl Part {
     /// Where it is in the world.
     #[inline]
     pub fn placed(&self, frames: &[Frame; AXES + 1]) -> Capsule {
-        let (frame, Capsule { segment, radius }) = (&frames[self.link], self.capsule);
+        let frame = &frames[self.link];
+        let Capsule { segment, radius } = self.capsule;
         let [a, b] = [frame.point(&segment.a), frame.point(&segment.b)];
         Capsule { segment: Segment::new(a, b), radius }
     }

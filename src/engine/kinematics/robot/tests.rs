@@ -196,7 +196,9 @@ fn modified_up6() -> String {
 
 #[test]
 fn a_robot_by_the_modified_convention_is_the_same_robot() {
-    let (seed, up6, text) = (733, robot("motoman_up6"), modified_up6());
+    let seed = 733;
+    let up6 = robot("motoman_up6");
+    let text = modified_up6();
     let modified = Robot::parse(&text, Path::new("modified.toml")).unwrap();
     assert_eq!(modified.arm().solver().name, "spherical_wrist");
     let mut stream = seed::stream(seed);
@@ -220,7 +222,8 @@ fn a_robot_by_the_modified_convention_is_the_same_robot() {
 
 #[test]
 fn millimetres_become_metres_and_degrees_radians() {
-    let (up6, aubo) = (robot("motoman_up6"), robot("aubo_i10"));
+    let up6 = robot("motoman_up6");
+    let aubo = robot("aubo_i10");
     let joint = up6.arm().chain().joints()[0];
     assert!((joint.a_m - 0.15).abs() < 1e-15 && (joint.d_m - 0.45).abs() < 1e-15, "{joint:?}");
     assert!((joint.lower_rad + 2.967_059_728).abs() < 1e-9, "{joint:?}");
@@ -242,19 +245,23 @@ fn hits_itself(body: &Body, robot: &Robot, q: &Joints) -> bool {
 
 #[test]
 fn robots_are_clear_of_themselves_where_papers_put_them_and_not_everywhere() {
-    let (seed, up6, aubo) = (731, robot("motoman_up6"), robot("aubo_i10"));
+    let seed = 731;
+    let up6 = robot("motoman_up6");
+    let aubo = robot("aubo_i10");
     for pose in UP6_POSES {
         assert!(!hits_itself(&up6.bodies()[0], &up6, &radians(pose.degrees)), "{}", pose.name);
     }
     for body in aubo.bodies() {
         assert!(!hits_itself(body, &aubo, &[0.0; AXES]), "{}", body.name());
     }
-    let (ur5, puma) = (robot("ur5"), robot("puma560"));
+    let ur5 = robot("ur5");
+    let puma = robot("puma560");
     assert!(!hits_itself(&ur5.bodies()[0], &ur5, &radians([0.0, -90.0, 90.0, 0.0, 0.0, 0.0])), "ur5");
     assert!(!hits_itself(&puma.bodies()[0], &puma, &radians([0.0, 90.0, -90.0, 0.0, 0.0, 0.0])), "puma560");
     let rods = [(&ur5, "rods"), (&puma, "rods")];
     for (robot, body) in [(&up6, "capsules"), (&aubo, "paper"), (&aubo, "mesh")].into_iter().chain(rods) {
-        let (mut stream, body) = (seed::stream(seed), robot.body(body).unwrap());
+        let mut stream = seed::stream(seed);
+        let body = robot.body(body).unwrap();
         let drawn = (0..5_000).map(|_| draw(&mut stream, robot.arm().chain()));
         let hits = drawn.filter(|q| hits_itself(body, robot, q)).count();
         assert!((100..4_000).contains(&hits), "{}: {hits} of 5000 hit themselves", body.name());
@@ -263,14 +270,18 @@ fn robots_are_clear_of_themselves_where_papers_put_them_and_not_everywhere() {
 
 #[test]
 fn capsules_join_where_links_do() {
-    let (seed, up6, aubo) = (732, robot("motoman_up6"), robot("aubo_i10"));
+    let seed = 732;
+    let up6 = robot("motoman_up6");
+    let aubo = robot("aubo_i10");
     let neighbours =
         [(&up6, "capsules", vec![[1, 2], [2, 3], [3, 4], [4, 5], [5, 6], [6, 7]])].into_iter().chain([
             (&aubo, "paper", vec![[0, 1], [1, 2], [2, 3], [3, 4]]),
             (&aubo, "mesh", vec![[0, 1], [1, 2], [2, 3], [3, 4], [4, 5], [5, 6]]),
         ]);
     for (robot, body, pairs) in neighbours {
-        let (mut stream, body, mut placed) = (seed::stream(seed), robot.body(body).unwrap(), Vec::new());
+        let mut stream = seed::stream(seed);
+        let body = robot.body(body).unwrap();
+        let mut placed = Vec::new();
         for _ in 0..200 {
             let q = draw(&mut stream, robot.arm().chain());
             body.place(&robot.arm().chain().frames(&q), &mut placed);

@@ -111,7 +111,8 @@ fn rows(open: &OpenChain, frames: &[Frame]) -> Rows {
     let side = if first.x.abs() < 0.9 { Vec3::x() } else { Vec3::y() };
     let x = (side - first * side.dot(&first)).normalize();
     let mut at = framed(frames[1].origin, x, first);
-    let (mut joints, mut links) = ([None; AXES], [at; AXES + 1]);
+    let mut joints = [None; AXES];
+    let mut links = [at; AXES + 1];
     for i in 0..AXES {
         let next = match i + 1 {
             AXES => at,
@@ -129,7 +130,8 @@ fn framed(origin: Vec3, x: Vec3, z: Vec3) -> Frame {
 
 /// The frame on the axis through `point` along `z`, whose x leads away from the z of `at`.
 fn ahead(at: &Frame, point: Vec3, z: Vec3) -> Frame {
-    let (before, across) = (at.axis(2), at.axis(2).cross(&z));
+    let before = at.axis(2);
+    let across = at.axis(2).cross(&z);
     let apart = point - at.origin;
     if across.norm() > PARALLEL {
         let x = across.normalize();
@@ -193,7 +195,8 @@ pub fn capsule_around(solid: &Solid, into: &Frame) -> Result<Capsule, Kinematics
 fn around(points: Vec<Vec3>) -> (Vec<Vec3>, Vec3, Vec3, f64) {
     let low = points.iter().copied().reduce(|a, b| a.inf(&b)).unwrap_or_default();
     let high = points.iter().copied().reduce(|a, b| a.sup(&b)).unwrap_or_default();
-    let (middle, size) = ((low + high) * 0.5, high - low);
+    let middle = (low + high) * 0.5;
+    let size = high - low;
     let mut along = Vec3::zeros();
     along[size.imax()] = 1.0;
     let off = |point: &Vec3| (point - middle - along * (point - middle).dot(&along)).norm();

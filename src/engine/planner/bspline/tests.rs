@@ -20,7 +20,7 @@ fn smoothed(settings: &str) -> (World, Plan) {
         path,
         cost: None,
         counts: Counts::new(),
-        exhibits: Vec::new(),
+        traces: Vec::new(),
         reason: None,
     };
     let Build::Stage(build) = ENTRY.build else { panic!("it is a stage") };

@@ -35,7 +35,7 @@ pub(super) struct Around {
 }
 
 impl Around {
-    pub(super) fn of(cell: &Cell) -> Self {
+    pub(super) fn new(cell: &Cell) -> Self {
         Self { least: cell.map(|steps| (steps - 1) >> 1), places: [None; CELLS] }
     }
 
@@ -60,7 +60,7 @@ impl States {
     pub(super) fn of_start() -> Self {
         let start: Cell = [0; AXES];
         let mut states = Self { cells: Vec::new(), places: BTreeMap::new(), known: Vec::new() };
-        states.reach(start, 0.0, &mut Around::of(&start));
+        states.reach(start, 0.0, &mut Around::new(&start));
         states
     }
 
@@ -92,7 +92,8 @@ impl States {
             self.known.len() as u32 - 1
         });
         around.places[around.tile(&to)] = Some(place);
-        let (tile, slot) = (&mut self.known[place as usize], slot(&to));
+        let tile = &mut self.known[place as usize];
+        let slot = slot(&to);
         if tile.numbers[slot] == NONE {
             tile.numbers[slot] = self.cells.len() as u32;
             self.cells.push(to);
@@ -113,7 +114,7 @@ mod tests {
         let mut stream = base::seed::stream(7);
         let (mut at, mut lowered, mut kept): (Cell, _, _) = ([0; AXES], 0, 0);
         for _ in 0..20_000 {
-            let mut around = Around::of(&at);
+            let mut around = Around::new(&at);
             for _ in 0..4 {
                 let to: Cell = std::array::from_fn(|i| (at[i] + draw(&mut stream)).clamp(-2, 1));
                 let cost = f64::from(draw(&mut stream)) + 3.0;

@@ -46,7 +46,8 @@ fn each_step_of_a_path_is_a_neighbour_and_the_tip_ends_at_the_goal() {
         let plan = plan(&world, text, 20_000);
         assert_eq!(plan.ending, Ending::Solved, "{text}");
         let delta = 8.0_f64.to_radians();
-        let (last, before) = (plan.path.len() - 1, plan.path.len() - 2);
+        let last = plan.path.len() - 1;
+        let before = plan.path.len() - 2;
         for pair in plan.path[..last].windows(2) {
             let moved = (0..AXES).filter(|i| (pair[1][*i] - pair[0][*i]).abs() > 1e-9).count();
             let lengths = (0..AXES).map(|i| (pair[1][i] - pair[0][i]).abs());

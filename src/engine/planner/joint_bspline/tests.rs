@@ -38,7 +38,7 @@ fn smoothed(world: &World, guarded: bool, trail: &[Joints]) -> Plan {
         path: trail.iter().map(|q| q.to_vec()).collect(),
         cost: None,
         counts: Counts::new(),
-        exhibits: Vec::new(),
+        traces: Vec::new(),
         reason: None,
     };
     stage.refine(&request, plan)
@@ -57,7 +57,8 @@ fn is_free(world: &World, path: &[Joints]) -> bool {
 
 #[test]
 fn a_curve_keeps_the_ends_of_a_trail_and_rounds_its_corner() {
-    let (world, trail) = (world(Vec::new()), corner());
+    let world = world(Vec::new());
+    let trail = corner();
     let smooth = joints(&smoothed(&world, true, &trail));
     assert!(greatest(&smooth[0], &trail[0]) < 1e-12);
     assert!(greatest(&smooth[smooth.len() - 1], &trail[trail.len() - 1]) < 1e-12);
@@ -93,7 +94,8 @@ fn where_a_rounded_corner_touches_a_box_a_guarded_curve_returns_to_the_trail() {
 
 #[test]
 fn switched_off_or_without_a_path_nothing_changes() {
-    let (world, trail) = (world(Vec::new()), corner());
+    let world = world(Vec::new());
+    let trail = corner();
     let off = JointSpline { control: Control::Off, guarded: true, points_per_span: 4 };
     let before = smoothed(&world, true, &trail);
     let request = Request { world: &world, start: &[], goal: &[], expansions: 1, seed: 0, trace: false };

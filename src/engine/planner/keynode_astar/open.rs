@@ -5,7 +5,7 @@ use crate::geometry::{Segment, Vec3, distance_segment_convex};
 use crate::planner::Ending;
 use crate::planner::key_nodes::{GUARDED, Key, key, keys};
 use crate::planner::polyhedra::{Posed, densified, is_within, steps};
-use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, Stop, Terms, Ties, Update, sum};
+use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, SideInputs, Stop, Ties, Update, sum};
 use crate::space::PolyhedraWorld;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -39,7 +39,7 @@ pub(super) fn search(posed: &Posed<'_>, cluster: bool, max_expansions: u64) -> W
     });
     let mut graph = Keys { posed, cluster, states: &states, tally: Tally::default() };
     let h = |node: u32| (states.borrow().points[node as usize] - posed.goal).norm();
-    let terms = Terms {
+    let terms = SideInputs {
         graph: &mut graph,
         estimate: &Combined { h, combine: sum },
         observer: &mut (),
@@ -105,7 +105,8 @@ impl Keys<'_> {
     /// The key nodes seen from `x` on the obstacle in the way, and on those that stand in the way to them.
     fn seen_round(&mut self, x: &Vec3, first: usize) -> Vec<(u32, f64)> {
         let world = self.posed.world;
-        let (mut queue, mut met) = (VecDeque::from([first]), BTreeSet::from([first]));
+        let mut queue = VecDeque::from([first]);
+        let mut met = BTreeSet::from([first]);
         let mut accepted = Vec::new();
         while let Some(obstacle) = queue.pop_front() {
             let found = keys(&world.obstacles()[obstacle], x, &self.posed.goal, GUARDED);

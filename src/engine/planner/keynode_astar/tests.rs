@@ -103,7 +103,8 @@ fn the_walk_with_no_guard_is_the_printed_one_and_with_all_the_guarded_one() {
             planner("keynode_astar", settings).plan(&request).unwrap()
         };
         let same = |a: &Plan, b: &Plan| (a.ending, &a.path) == (b.ending, &b.path) && a.counts == b.counts;
-        let (printed, guarded) = (plan(LITERAL), plan(GREEDY));
+        let printed = plan(LITERAL);
+        let guarded = plan(GREEDY);
         assert!(same(&plan(&with("")), &printed), "draw {draw}: no guard");
         assert!(same(&plan(&with(&all.join(", "))), &guarded), "draw {draw}: all guards");
         // Without one of them the walk is another one somewhere.
@@ -133,7 +134,8 @@ fn a_cup_over_the_start_is_left_by_the_open_list_without_fallbacks_and_not_by_th
     let plan = keynode(FULL, &world, ends);
     assert_eq!((plan.ending, plan.counts["fell_back"]), (Ending::Solved, Value::Count(0)));
     let yardstick = solve("visibility_edges", "spacing_cm = 2.0", &world, ends);
-    let (ours, least) = (plan.cost.unwrap(), yardstick.cost.unwrap());
+    let ours = plan.cost.unwrap();
+    let least = yardstick.cost.unwrap();
     assert!(ours < 1.4 * least && least > 13.0, "{ours} against {least}");
     assert_eq!(lattice("segments", &world, ends).ending, Ending::Solved);
 }
@@ -165,7 +167,8 @@ fn five_plates_are_passed_only_by_the_lattice() {
         cuboid([12.0, 32.0, 24.5], [2.0, 30.0, 13.0]),
     ]);
     assert_eq!(keynode(CLUSTER, &world, OUT).ending, Ending::NoPath);
-    let (plan, lattice) = (keynode(FULL, &world, OUT), lattice("segments", &world, OUT));
+    let plan = keynode(FULL, &world, OUT);
+    let lattice = lattice("segments", &world, OUT);
     assert_eq!((plan.ending, plan.counts["fell_back"]), (Ending::Solved, Value::Count(1)));
     assert_eq!(plan.cost, lattice.cost);
     assert!(plan.counts["opened"].as_f64() > lattice.counts["opened"].as_f64(), "key nodes count as well");
@@ -176,7 +179,8 @@ fn a_goal_behind_walls_on_all_sides_ends_every_search_without_a_path() {
     let mut walls = Vec::new();
     for axis in 0..3 {
         for side in [-5.0, 5.0] {
-            let (mut center, mut size) = ([20.0; 3], [12.0; 3]);
+            let mut center = [20.0; 3];
+            let mut size = [12.0; 3];
             center[axis] += side;
             size[axis] = 2.0;
             walls.push(cuboid(center, size));
@@ -196,7 +200,8 @@ fn a_start_in_a_box_smaller_than_a_step_is_a_start_without_a_path() {
     let mut walls = Vec::new();
     for axis in 0..3 {
         for side in [-0.5, 0.5] {
-            let (mut center, mut size) = ([20.5; 3], [1.4; 3]);
+            let mut center = [20.5; 3];
+            let mut size = [1.4; 3];
             center[axis] += side;
             size[axis] = 0.4;
             walls.push(cuboid(center, size));
@@ -256,7 +261,8 @@ fn straightening_between_key_nodes_shortens_a_walk_and_no_more_than_over_the_who
         cuboid([22.0, 20.0, 26.0], [18.0, 14.0, 4.0]),
     ]);
     let walk = |legs: &str| keynode(&format!("{GREEDY}\nlegs = '{legs}'"), &world, ACROSS);
-    let (walked, local) = (walk("as_walked"), walk("last_joined"));
+    let walked = walk("as_walked");
+    let local = walk("last_joined");
     let at = |point: &Vec<f64>| Vec3::new(point[0], point[1], point[2]);
     let all = walked.path.iter().map(at).collect::<Vec<_>>();
     let polyhedra = world.as_polyhedra().unwrap();

@@ -98,7 +98,8 @@ impl Walk<'_> {
     /// Steps towards `target` until it is reached or the next step touches an obstacle.
     fn advance(&mut self, target: Vec3) -> Leg {
         let Posed { world, .. } = *self.posed;
-        let (from, step) = (self.here(), world.step());
+        let from = self.here();
+        let step = world.step();
         let way = Segment::new(from, target);
         let length = (target - from).norm();
         let count = steps(length, step);
@@ -123,7 +124,8 @@ impl Walk<'_> {
     /// The key node with the least cost; `None` if there is none to go to.
     fn choose(&mut self, obstacle: usize) -> Option<Key> {
         let Posed { world, goal, .. } = *self.posed;
-        let (here, guards) = (self.here(), self.guards);
+        let here = self.here();
+        let guards = self.guards;
         let found = keys(&world.obstacles()[obstacle], &here, &goal, guards.front());
         self.tally.opened += found.len() as u64;
         self.tally.generated += found.len() as u64;

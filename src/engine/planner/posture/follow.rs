@@ -177,7 +177,9 @@ impl<'a> Follower<'a> {
             // No turn: neither it nor a way back is to be kept.
             return self.store(q?, rotation);
         }
-        let (place, before, stored) = (self.here.clone(), self.rotation, self.trail.len());
+        let place = self.here.clone();
+        let before = self.rotation;
+        let stored = self.trail.len();
         let turned = self.turn(here, rotation);
         if turned.is_some() && self.trail.len() > stored && self.advance(next, rotation).is_some() {
             return Some(());
@@ -260,7 +262,8 @@ impl<'a> Follower<'a> {
         (1..=count).all(|k| {
             let share = f64::from(k) / f64::from(count);
             let between = std::array::from_fn(|i| self.here.q[i] + (q[i] - self.here.q[i]) * share);
-            let (bodies, printed) = (self.world.bodies(), self.settings.uses_printed_distance());
+            let bodies = self.world.bodies();
+            let printed = self.settings.uses_printed_distance();
             self.arm.is_clear(&between, bodies, self.settings.margin_cm, printed, &self.apart)
         })
     }

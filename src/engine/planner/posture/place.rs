@@ -64,13 +64,15 @@ mod tests {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/robots/aubo_i10.toml");
         let support = Support::on_floor(Frame::IDENTITY);
         let arm = CarriedArm::new(&Robot::load(&file).unwrap(), "mesh", &support).unwrap();
-        let (seed, mut tightest) = (79, f64::INFINITY);
+        let seed = 79;
+        let mut tightest = f64::INFINITY;
         let mut stream = seed::stream(seed);
         for way in 0..2_000 {
             let reach = [0.01, 0.1, 0.5][way % 3];
             let mut random =
                 |reach: f64| -> Joints { std::array::from_fn(|_| stream.random_range(-reach..reach)) };
-            let (from, mut turn) = (random(3.0), random(reach));
+            let from = random(3.0);
+            let mut turn = random(reach);
             if way % 10 == 9 {
                 // All the way round: the ends say nothing of what lies between.
                 turn[0] = std::f64::consts::TAU;

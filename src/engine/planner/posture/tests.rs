@@ -43,7 +43,7 @@ fn along(settings: &Posture, world: &World, start: [f64; 3], goal: [f64; 3]) -> 
         path,
         cost: None,
         counts: Counts::new(),
-        exhibits: Vec::new(),
+        traces: Vec::new(),
         reason: None,
     };
     settings.refine(&request, plan)
@@ -104,7 +104,8 @@ fn a_box_beside_the_line_is_passed_with_adjustment_only_and_never_touched() {
     let arm = world.as_polyhedra().unwrap().arm().unwrap().clone();
     let on = posture(("", "")).unwrap();
     let off = posture(("adjust = true", "adjust = false")).unwrap();
-    let (mut helped, mut hindered) = (0, 0);
+    let mut helped = 0;
+    let mut hindered = 0;
     for (x, z) in (52..62).flat_map(|x| (34..64).step_by(5).map(move |z| (f64::from(x), f64::from(z)))) {
         let ends = ([x, -15.0, z], [x, 40.0, z]);
         let [with, without] = [&on, &off].map(|settings| along(settings, &world, ends.0, ends.1));

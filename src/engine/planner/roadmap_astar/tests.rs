@@ -53,7 +53,7 @@ fn planned(world: &World, text: &str) -> Plan {
 }
 
 fn closed(plan: &Plan) -> &[f64] {
-    &plan.exhibits.iter().find(|exhibit| exhibit.name == "closed").unwrap().values
+    &plan.traces.iter().find(|trace| trace.name == "closed").unwrap().values
 }
 
 fn count(plan: &Plan, column: &str) -> u64 {
@@ -68,11 +68,14 @@ const SHOTS: &str = "goal_shot = \"before_expansion\"\npath = \"parents\"";
 
 #[test]
 fn until_a_shot_succeeds_both_algorithms_search_alike() {
-    let (mut shorter, mut only_shots) = (0, 0);
+    let mut shorter = 0;
+    let mut only_shots = 0;
     for number in 0..100 {
         let world = world(number);
-        let (never, shots) = (plan(&world, NEVER), plan(&world, SHOTS));
-        let (all, first) = (closed(&never), closed(&shots));
+        let never = plan(&world, NEVER);
+        let shots = plan(&world, SHOTS);
+        let all = closed(&never);
+        let first = closed(&shots);
         let shared = first.len().min(all.len());
         assert_eq!(first[..shared], all[..shared], "roadmap {number}");
         let is_found = |plan: &Plan| plan.ending == Ending::Solved;
@@ -89,7 +92,8 @@ fn until_a_shot_succeeds_both_algorithms_search_alike() {
 
 #[test]
 fn a_search_fails_exactly_where_start_and_goal_are_not_connected() {
-    let (mut failed, mut without_neighbours) = (0, 0);
+    let mut failed = 0;
+    let mut without_neighbours = 0;
     for number in 0..100 {
         let plan = plan(&world(number), NEVER);
         let is_found = plan.ending == Ending::Solved;
@@ -125,7 +129,8 @@ fn bits(config: &[f64]) -> Vec<u64> {
 
 #[test]
 fn a_blind_search_by_hops_takes_as_few_as_a_flood_and_a_sighted_one_does_not() {
-    let (mut found, mut more) = (0, 0);
+    let mut found = 0;
+    let mut more = 0;
     for number in 0..100 {
         let world = world(number);
         let near = neighbours(&world);
@@ -151,7 +156,8 @@ fn a_blind_search_by_hops_takes_as_few_as_a_flood_and_a_sighted_one_does_not() {
 
 #[test]
 fn legs_of_the_closed_sequence_that_are_no_edges_are_counted() {
-    let (mut whole, mut broken) = (0, 0);
+    let mut whole = 0;
+    let mut broken = 0;
     for number in 0..100 {
         let world = world(number);
         let sequence = plan(&world, "goal_shot = \"never\"\npath = \"closed_sequence\"");

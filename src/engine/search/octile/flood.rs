@@ -19,9 +19,13 @@ impl OctileAstar {
     /// If `start` is outside the grid.
     pub fn flood(&mut self, start: u32, most: u32, mut visit: impl FnMut(u32, u32)) {
         self.begin();
-        let (width, shift, base) = (self.width, self.shift, self.base);
+        let width = self.width;
+        let shift = self.shift;
+        let base = self.base;
         let root = self.padded(start);
-        let (values, masks, open) = (&mut self.values[..], &self.masks[..], &mut self.open);
+        let values = &mut self.values[..];
+        let masks = &self.masks[..];
+        let open = &mut self.open;
         values[root as usize] = base;
         open.push(0, (root, base));
         while let Some((cost, (node, value))) = open.pop() {
@@ -34,7 +38,8 @@ impl OctileAstar {
             visit(((node >> shift) - super::BELOW) * width + (node & ((1 << shift) - 1)), value - base);
             let mask = masks[node as usize];
             for (bit, (step, length)) in self.steps.into_iter().zip(super::COSTS).enumerate() {
-                let (to, reached) = (node.wrapping_add_signed(step), value + length);
+                let to = node.wrapping_add_signed(step);
+                let reached = value + length;
                 if reached < super::bound(mask, bit, values[to as usize]) {
                     values[to as usize] = reached;
                     open.push(u64::from(reached - base), (to, reached));

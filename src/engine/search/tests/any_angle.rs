@@ -93,7 +93,8 @@ fn run(case: &Case, when: When) -> Seen {
 
 #[test]
 fn both_do_what_programs_with_plain_lists_do() {
-    let (mut solved, mut bent) = (0, 0);
+    let mut solved = 0;
+    let mut bent = 0;
     for (case, when) in cases(250, 0.3).flat_map(|case| {
         let again = Case { grid: case.grid.clone(), moves: case.moves.clone(), ..case };
         [(case, When::Generated), (again, When::Taken)]

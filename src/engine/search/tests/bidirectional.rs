@@ -24,7 +24,9 @@ fn run(case: &Case, rules: BidirectionalRules) -> BidirectionalReport<Octile> {
 
 #[test]
 fn every_rule_solves_what_can_be_solved_and_the_optimal_stop_is_optimal() {
-    let (mut solved, mut longer, mut count) = (0, [0; 4], 0);
+    let mut solved = 0;
+    let mut longer = [0; 4];
+    let mut count = 0;
     for case in cases(400, 0.35) {
         let best = astar(&case.grid, &case.moves, case.ends).outcome.route().map(|route| route.cost.value());
         for (index, meeting) in MEETINGS.into_iter().enumerate() {
@@ -77,12 +79,14 @@ fn closings_name_the_side_and_what_was_opened_by_then() {
     for case in cases(120, 0.2) {
         let rules = rules(Meeting::ClosedByOther, SideChoice::Alternate);
         let towards = |target| Combined { h: euclidean_to(&case.grid, target), combine: sum };
-        let (closings, mut search) = (Closings::default(), Bidirectional::new(Heap::default()));
-        let mut observers = [0, 1].map(|side| closings.of(side));
+        let closings = Closings::default();
+        let mut search = Bidirectional::new(Heap::default());
+        let mut observers = [0, 1].map(|side| closings.one_side(side));
         let estimates = [towards(case.ends[1]), towards(case.ends[0])];
         let graph = &mut GridGraph::new(&case.moves);
         let report = search.run(graph, &estimates, &mut observers, case.ends, rules);
-        let (seed, closings) = (case.seed, closings.all());
+        let seed = case.seed;
+        let closings = closings.all();
         for (place, Closing { node, side, opened }) in closings.iter().enumerate() {
             let by_then = |side: usize| &search.opened(side)[..opened[side] as usize];
             assert_eq!(*side as usize, place % 2, "seed {seed}: sides take turns");

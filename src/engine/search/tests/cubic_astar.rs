@@ -52,7 +52,9 @@ fn lattice(seed: u64) -> (Grid3, [u32; 2]) {
 
 #[test]
 fn the_search_over_cubes_has_the_path_cost_and_counters_of_the_general_one() {
-    let (mut solved, mut none, mut spent) = (0, 0, 0);
+    let mut solved = 0;
+    let mut none = 0;
+    let mut spent = 0;
     for ties in [Ties::Fifo, Ties::Lifo] {
         // One memory for lattices of many sizes.
         let mut both = (CubicAstar::new(ties).unwrap(), Search::new(Heap::new(ties)));

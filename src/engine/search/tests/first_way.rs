@@ -5,18 +5,21 @@ use super::*;
 #[test]
 fn the_specialised_search_has_the_lengths_of_the_general_one_up_to_its_bound() {
     let never = Update { lower_open: false, reopen_closed: false };
-    let (mut solved, mut beyond, mut longer, mut count) = (0, 0, 0, 0);
+    let mut solved = 0;
+    let mut beyond = 0;
+    let mut longer = 0;
+    let mut count = 0;
     for case in cases(400, 0.35) {
         for ties in [Ties::Fifo, Ties::Lifo, Ties::LargerG] {
-            let (mut fast, mut general) =
-                (FirstWayAstar::new(&case.moves, ties), Search::new(Heap::new(ties)));
+            let mut fast = FirstWayAstar::new(&case.moves, ties);
+            let mut general = Search::new(Heap::new(ties));
             let mut stream = seed::stream(case.seed);
             // Several queries each, so that what one leaves behind could mislead the next.
             for query in 0..6 {
                 let [start, goal] = [0, 1].map(|_| stream.random_range(0..case.grid.cell_count()));
                 let [start, goal] = if query == 0 { case.ends } else { [start, goal] };
                 let estimate = Combined { h: euclidean_to(&case.grid, goal), combine: sum };
-                let terms = Terms {
+                let terms = SideInputs {
                     graph: &mut GridGraph::new(&case.moves),
                     estimate: &estimate,
                     observer: &mut (),
@@ -46,7 +49,10 @@ fn the_specialised_search_has_the_lengths_of_the_general_one_up_to_its_bound() {
 
 #[test]
 fn lengths_found_backwards_are_those_of_every_order_among_equals() {
-    let (mut settled, mut longer, mut beyond, mut count) = (0, 0, 0, 0);
+    let mut settled = 0;
+    let mut longer = 0;
+    let mut beyond = 0;
+    let mut count = 0;
     for case in cases(100, 0.25) {
         let mut flood = OctileAstar::new(&case.moves).unwrap();
         let mut back = FirstWayBack::new(&case.moves);
@@ -55,7 +61,7 @@ fn lengths_found_backwards_are_those_of_every_order_among_equals() {
         let mut shortest = Vec::new();
         back.begin(case.ends[0]);
         flood.flood(case.ends[0], 1_000_000, |cell, length| {
-            back.tell(cell, length);
+            back.set_length(cell, length);
             shortest.push((cell, length));
         });
         for (goal, least) in shortest {

@@ -110,7 +110,9 @@ fn far_fewer_nodes_are_opened_than_cells_where_rooms_are_wide() {
     let grid = rooms(&mut seed::stream(11), [200, 200], 24, 0.9).unwrap();
     let free: Vec<u32> = (0..grid.cell_count()).filter(|&cell| grid.is_free(cell)).collect();
     let mut searched = Searched::new(grid, CornerRule::ForbidAny);
-    let (mut stream, mut jumped, mut walked) = (seed::stream(12), 0, 0);
+    let mut stream = seed::stream(12);
+    let mut jumped = 0;
+    let mut walked = 0;
     for _ in 0..50 {
         let ends = [0, 1].map(|_| free[stream.random_range(0..free.len())]);
         jumped += searched.agreed(ends, "rooms").counters.opened;

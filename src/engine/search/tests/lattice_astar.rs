@@ -50,9 +50,11 @@ const HEURISTICS: [[f64; 3]; 3] =
 
 impl Query<'_> {
     fn h(&self) -> impl Fn(u32) -> f64 {
-        let (line, spacing, [longer, shorter, straight]) =
-            (euclidean_to(self.grid, self.ends[1]), self.spacing, self.weights);
-        let (width, goal) = (self.grid.width(), self.grid.xy(self.ends[1]));
+        let line = euclidean_to(self.grid, self.ends[1]);
+        let spacing = self.spacing;
+        let [longer, shorter, straight] = self.weights;
+        let width = self.grid.width();
+        let goal = self.grid.xy(self.ends[1]);
         move |cell| {
             let way = [(cell % width) as i32 - goal[0], (cell / width) as i32 - goal[1]]
                 .map(i32::abs)
@@ -68,7 +70,7 @@ impl Query<'_> {
         may_hop: impl Fn(u32, [i32; 2]) -> bool,
     ) -> (Report<f64>, ListScans) {
         let mut scans = ListScans::default();
-        let terms = Terms {
+        let terms = SideInputs {
             graph: &mut LatticeGraph::new(self.grid, self.offsets, self.spacing, may_hop),
             estimate: &Combined { h: self.h(), combine: sum },
             observer: &mut scans,
@@ -85,7 +87,8 @@ impl Query<'_> {
         columns: &Columns,
         successors: &mut impl Successors,
     ) -> (Report<f64>, ListScans) {
-        let (&Self { spacing, ends, lower_open, max_expansions, .. }, h) = (self, self.h());
+        let &Self { spacing, ends, lower_open, max_expansions, .. } = self;
+        let h = self.h();
         search.run(LatticeQuery {
             columns,
             spacing,
@@ -99,7 +102,9 @@ impl Query<'_> {
 }
 
 /// What a query ended in, with the cost to the last bit.
-fn told((report, scans): &(Report<f64>, ListScans)) -> (Option<(&[u32], u64)>, bool, Counters, ListScans) {
+fn result_bits(
+    (report, scans): &(Report<f64>, ListScans),
+) -> (Option<(&[u32], u64)>, bool, Counters, ListScans) {
     let route = report.outcome.route().map(|route| (&route.nodes[..], route.cost.to_bits()));
     (route, report.outcome == Outcome::BudgetSpent, report.counters, *scans)
 }
@@ -112,7 +117,10 @@ fn by_chance(from: u32, [dx, dy]: [i32; 2]) -> bool {
 
 #[test]
 fn the_specialised_search_has_the_path_cost_and_counters_of_the_general_one() {
-    let (mut solved, mut spent, mut lowered, mut count) = (0, 0, 0, 0);
+    let mut solved = 0;
+    let mut spent = 0;
+    let mut lowered = 0;
+    let mut count = 0;
     for offsets in neighbourhoods() {
         for ties in ORDERS {
             let mut special = LatticeAstar::new(&offsets, ties).unwrap();
@@ -123,7 +131,9 @@ fn the_specialised_search_has_the_path_cost_and_counters_of_the_general_one() {
                 let mut costs = Vec::new();
                 for (lower_open, max_expansions) in [(true, u64::MAX), (false, u64::MAX), (true, 5)] {
                     let spacing = if case.seed % 2 == 0 { 1.0 } else { 0.3 };
-                    let (grid, offsets, ends) = (&case.grid, &offsets, case.ends);
+                    let grid = &case.grid;
+                    let offsets = &offsets;
+                    let ends = case.ends;
                     let weights = HEURISTICS[(case.seed / 2 % 3) as usize];
                     let query = Query { grid, offsets, spacing, ends, lower_open, max_expansions, weights };
                     let mut hops = Hops(by_chance, [0; 2]);
@@ -134,7 +144,12 @@ fn the_specialised_search_has_the_path_cost_and_counters_of_the_general_one() {
                         let truth = query.general(&mut general, by_chance);
                         (truth, query.special(&mut special, &columns, &mut hops))
                     };
-                    assert_eq!(told(&got), told(&truth), "seed {}, {ties:?}, {offsets:?}", case.seed);
+                    assert_eq!(
+                        result_bits(&got),
+                        result_bits(&truth),
+                        "seed {}, {ties:?}, {offsets:?}",
+                        case.seed
+                    );
                     solved += u32::from(got.0.outcome.route().is_some());
                     spent += u32::from(got.0.outcome == Outcome::BudgetSpent);
                     costs.push(got.0.outcome.route().map(|route| route.cost));
@@ -172,11 +187,13 @@ const HOP_RULES: [HopRule; 3] = [HopRule::EndPoints, HopRule::Continuous, HopRul
 
 #[test]
 fn an_arm_hops_a_column_at_a_time_as_it_does_one_by_one() {
-    let (mut solved, mut refused) = (0, 0);
+    let mut solved = 0;
+    let mut refused = 0;
     for (hop, rule) in HOP_RULES.into_iter().flat_map(|hop| RULES.map(|rule| (hop, rule))) {
         // Two worlds, so that what one learns of its hops does not serve the other.
         let [world, other] = [0, 1].map(|_| workspace(hop, rule));
-        let (grid, seed) = (world.grid(), 7);
+        let grid = world.grid();
+        let seed = 7;
         let free: Vec<u32> = (0..grid.cell_count()).filter(|&cell| grid.is_free(cell)).collect();
         let mut stream = seed::stream(seed);
         for offsets in [1, 2, 3, 4].map(Offsets::square).into_iter().chain([4, 6, 7].map(Offsets::disc)) {
@@ -185,14 +202,16 @@ fn an_arm_hops_a_column_at_a_time_as_it_does_one_by_one() {
                 let mut general = Search::new(Heap::new(ties));
                 for (draw, lower_open) in [true, true, true, false].into_iter().enumerate() {
                     let ends = [0, 1].map(|_| free[stream.random_range(0..free.len())]);
-                    let (offsets, weights) = (&offsets, HEURISTICS[draw % 3]);
-                    let (spacing, max_expansions) = (1.0, u64::MAX);
+                    let offsets = &offsets;
+                    let weights = HEURISTICS[draw % 3];
+                    let spacing = 1.0;
+                    let max_expansions = u64::MAX;
                     let query = Query { grid, offsets, spacing, ends, lower_open, max_expansions, weights };
                     let truth = query.general(&mut general, |from, by| other.may_step(from, by));
                     let got = query.special(&mut special, world.columns(), &mut ArmHops(&world));
                     assert_eq!(
-                        told(&got),
-                        told(&truth),
+                        result_bits(&got),
+                        result_bits(&truth),
                         "seed {seed}, {hop:?}, {rule:?}, {ties:?}, draw {draw}, {ends:?}"
                     );
                     solved += u32::from(got.0.outcome.route().is_some());
@@ -208,7 +227,8 @@ fn an_arm_hops_a_column_at_a_time_as_it_does_one_by_one() {
 #[test]
 fn a_graph_by_columns_has_the_successors_of_one_by_steps_in_their_order() {
     for case in cases(60, 0.4) {
-        let (columns, mut any) = (Columns::new(&case.grid), ());
+        let columns = Columns::new(&case.grid);
+        let mut any = ();
         for offsets in neighbourhoods() {
             let mut by_columns = ColumnGraph::new(&columns, &offsets, 0.7, &mut any);
             let mut by_steps = LatticeGraph::new(&case.grid, &offsets, 0.7, |_, _| true);

@@ -5,7 +5,8 @@ fn grids_of(size_cells: [u32; 2], count: usize) -> Vec<Moves> {
     // Ways round many obstacles come to a cell late and cheaply, and early and at more cost.
     let like = independent_cells(&mut seed::stream(7), size_cells, 0.35, &[0]).unwrap();
     let other = |number: usize| {
-        let (mut stream, mut grid) = (seed::stream(number as u64), like.clone());
+        let mut stream = seed::stream(number as u64);
+        let mut grid = like.clone();
         for _ in 0..number % 40 {
             let cell = stream.random_range(0..grid.cell_count());
             grid.set_blocked(cell, grid.is_free(cell));
@@ -25,7 +26,8 @@ fn alone(moves: &Moves, start: u32, most: u32) -> Vec<(u32, u32)> {
 
 #[test]
 fn a_flood_of_many_grids_visits_what_floods_of_each_do() {
-    let (mut shared, mut visits) = (0, 0);
+    let mut shared = 0;
+    let mut visits = 0;
     for (width, height, count) in [(9, 7, 1), (32, 25, 3), (30, 30, 63), (40, 26, 64)] {
         let size = [width, height];
         let grids = grids_of(size, count);

@@ -20,8 +20,8 @@ use rand::RngExt as _;
 
 const RULES: [CornerRule; 3] = [CornerRule::Allow, CornerRule::ForbidBoth, CornerRule::ForbidAny];
 
-fn terms<'a, G, E>(graph: &'a mut G, estimate: &'a E, observer: &'a mut ()) -> Terms<'a, G, E, ()> {
-    Terms { graph, estimate, observer, update: Update::default() }
+fn terms<'a, G, E>(graph: &'a mut G, estimate: &'a E, observer: &'a mut ()) -> SideInputs<'a, G, E, ()> {
+    SideInputs { graph, estimate, observer, update: Update::default() }
 }
 
 /// One query of a search with the default rules.

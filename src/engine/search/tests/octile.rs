@@ -5,7 +5,8 @@ use base::grid::rectangles;
 
 #[test]
 fn the_specialised_search_costs_and_counts_what_the_general_one_does() {
-    let (mut solved, mut count) = (0, 0);
+    let mut solved = 0;
+    let mut count = 0;
     for case in cases(400, 0.35) {
         let mut fast = OctileAstar::new(&case.moves).unwrap();
         let mut general = Search::new(Buckets::default());
@@ -82,7 +83,8 @@ fn a_grid_whose_costs_could_overflow_is_refused() {
 
 #[test]
 fn a_flood_visits_what_can_be_reached_once_at_the_cost_of_a_single_query() {
-    let (mut reached, mut beyond) = (0, 0);
+    let mut reached = 0;
+    let mut beyond = 0;
     for case in cases(60, 0.35) {
         let mut search = OctileAstar::new(&case.moves).unwrap();
         let [start, _] = case.ends;

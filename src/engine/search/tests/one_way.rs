@@ -5,7 +5,9 @@ use base::grid::Offsets;
 
 #[test]
 fn astar_costs_what_relaxation_costs_under_every_rule_heuristic_and_tie_order() {
-    let (mut solved, mut longer, mut count) = (0, 0, 0);
+    let mut solved = 0;
+    let mut longer = 0;
+    let mut count = 0;
     for case in cases(300, 0.35) {
         let [start, goal] = case.ends;
         let truth = relaxed_costs(&case.grid, case.rule, start)[goal as usize];
@@ -62,7 +64,8 @@ fn wide_neighbourhoods_give_the_lengths_of_their_own_shortest_paths() {
             let mut graph = LatticeGraph::new(&case.grid, &offsets, 0.5, |_, _| true);
             let mut search = Search::new(Heap::default());
             let estimate = Combined { h: |_| 0.0, combine: sum };
-            let (start, rules) = (case.ends[0], Rules::default());
+            let start = case.ends[0];
+            let rules = Rules::default();
             search.run(terms(&mut graph, &estimate, &mut ()), start, |_| false, rules, &mut ());
             // The costs are a fixed point: every hop is priced, none improves, and each cost is attained.
             for cell in (0..case.grid.cell_count()).filter(|&cell| search.g(cell).is_some()) {
@@ -97,7 +100,8 @@ fn a_hop_that_is_refused_is_not_taken() {
 
 #[test]
 fn a_weight_of_w_costs_at_most_w_times_the_optimum() {
-    let (mut worse, mut fewer) = (0, 0);
+    let mut worse = 0;
+    let mut fewer = 0;
     for case in cases(200, 0.3) {
         let optimal = astar(&case.grid, &case.moves, case.ends);
         let estimate = Combined { h: euclidean_to(&case.grid, case.ends[1]), combine: weighted(3.0) };
@@ -105,7 +109,8 @@ fn a_weight_of_w_costs_at_most_w_times_the_optimum() {
         let report = solve(&mut Search::new(Heap::default()), graph, &estimate, case.ends);
         assert_eq!(report.outcome.route().is_some(), optimal.outcome.route().is_some(), "seed {}", case.seed);
         if let (Some(got), Some(best)) = (report.outcome.route(), optimal.outcome.route()) {
-            let (got, best) = (walked(&case, got), best.cost.value());
+            let got = walked(&case, got);
+            let best = best.cost.value();
             assert!(best - 1e-9 <= got && got <= 3.0 * best, "seed {}: {got} for {best}", case.seed);
             worse += u32::from(got > best + 1e-9);
             fewer += u32::from(report.counters.expansions < optimal.counters.expansions);

@@ -32,7 +32,7 @@ impl Graph for Written {
 
 fn run(graph: &mut Written, h: impl Fn(u32) -> f64, goal: u32, update: Update, rules: Rules) -> Report<f64> {
     let estimate = Combined { h, combine: sum };
-    let terms = Terms { graph, estimate: &estimate, observer: &mut (), update };
+    let terms = SideInputs { graph, estimate: &estimate, observer: &mut (), update };
     Search::new(Heap::default()).run(terms, 0, |node| node == goal, rules, &mut ())
 }
 
@@ -106,11 +106,12 @@ fn a_shot_ends_the_search_with_the_way_so_far_and_the_goal() {
 }
 
 /// A* that keeps OPEN and CLOSED as plain lists and counts what it compares.
-fn list_astar(case: &Case) -> (ListScans, Trace, u64) {
+fn list_astar(case: &Case) -> (ListScans, VisitOrder, u64) {
     let h = euclidean_to(&case.grid, case.ends[1]);
     let f = |node, g: Octile| quantised(g.value() + h(node));
     let (mut open, mut closed) = (vec![(case.ends[0], Octile::ZERO)], Vec::new());
-    let (mut scans, mut peak) = (ListScans::default(), 1);
+    let mut scans = ListScans::default();
+    let mut peak = 1;
     let mut opened = vec![case.ends[0]];
     while !open.is_empty() {
         // `min_by_key` gives the first of equals, and nodes stand in the order in which they were opened.
@@ -140,7 +141,7 @@ fn list_astar(case: &Case) -> (ListScans, Trace, u64) {
         }
         peak = peak.max(open.len() as u64);
     }
-    (scans, Trace { opened, closed }, peak)
+    (scans, VisitOrder { opened, closed }, peak)
 }
 
 #[test]
@@ -148,10 +149,11 @@ fn observers_and_counters_see_what_a_program_with_plain_lists_does() {
     let mut expansions = 0;
     for case in cases(150, 0.3) {
         let estimate = Combined { h: euclidean_to(&case.grid, case.ends[1]), combine: sum };
-        let mut observer = (ListScans::default(), Trace::default());
+        let mut observer = (ListScans::default(), VisitOrder::default());
         let mut search = Search::new(Heap::new(Ties::Fifo));
         let graph = &mut GridGraph::new(&case.moves);
-        let terms = Terms { graph, estimate: &estimate, observer: &mut observer, update: Update::default() };
+        let terms =
+            SideInputs { graph, estimate: &estimate, observer: &mut observer, update: Update::default() };
         let goal = case.ends[1];
         let report = search.run(terms, case.ends[0], |node| node == goal, Rules::default(), &mut ());
         let (scans, trace, peak_open) = list_astar(&case);
@@ -184,9 +186,9 @@ fn an_offer_that_was_replaced_no_longer_counts_even_if_it_comes_first() {
     let mut graph = Written::new(&[(0, 3, 5.0), (0, 1, 1.0), (0, 4, 1.0), (1, 3, 1.0)]);
     let h = |node: u32| [0.0, 0.0, 0.0, 10.0, 8.0][node as usize];
     let estimate = Combined { h, combine: |g, h| 100.0 + h - g };
-    let mut observer = Trace::default();
+    let mut observer = VisitOrder::default();
     let update = Update::default();
-    let terms = Terms { graph: &mut graph, estimate: &estimate, observer: &mut observer, update };
+    let terms = SideInputs { graph: &mut graph, estimate: &estimate, observer: &mut observer, update };
     Search::new(Heap::default()).run(terms, 0, |_| false, Rules::default(), &mut ());
     assert_eq!(observer.closed, [0, 1, 4, 3]);
 }

@@ -53,7 +53,8 @@ fn improved(grid: &Grid2, ends: [u32; 2], meeting: Meeting) -> BidirectionalRepo
         update: Update::default(),
         max_expansions: u64::MAX,
     };
-    let (mut graph, estimates) = (GridGraph::new(&moves), [side(ends[1]), side(ends[0])]);
+    let mut graph = GridGraph::new(&moves);
+    let estimates = [side(ends[1]), side(ends[0])];
     Bidirectional::new(Heap::new(Ties::Fifo)).run(&mut graph, &estimates, &mut [(), ()], ends, rules)
 }
 

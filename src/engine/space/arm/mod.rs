@@ -64,7 +64,8 @@ pub struct ArmRules {
 impl ArmRules {
     /// How near to the base the tip may come.
     pub fn nearest_cm(&self) -> f64 {
-        let ([l1, l2], [inner, _]) = (self.arm.links(), self.arm.reach());
+        let [l1, l2] = self.arm.links();
+        let [inner, _] = self.arm.reach();
         let squared = l1 * l1 + l2 * l2 + 2.0 * l1 * l2 * libm::cos(self.q2_limit_rad);
         let is_stopped = self.q2_limit_rad < std::f64::consts::PI;
         self.inner_radius_cm.max(if is_stopped { squared.max(0.0).sqrt() } else { inner })
@@ -105,7 +106,8 @@ impl ArmWorld {
     /// Analyses every lattice point.
     pub fn new(rules: ArmRules, obstacles: Vec<Obstacle>) -> Self {
         let mut grid = rules.lattice.grid();
-        let (mut zones, mut postures) = (Vec::new(), Vec::new());
+        let mut zones = Vec::new();
+        let mut postures = Vec::new();
         for cell in 0..grid.cell_count() {
             let (zone, posture) = analysed(&rules, &obstacles, &rules.lattice.point(cell));
             grid.set_blocked(cell, zone != Zone::Free);

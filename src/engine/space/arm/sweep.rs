@@ -41,7 +41,8 @@ impl Sweep<'_> {
     }
 
     fn is_part_free(&self, from: [f64; 2], by: [f64; 2], travel_cm: [f64; 2], [low, high]: [f64; 2]) -> bool {
-        let (middle, half) = (low.midpoint(high), (high - low) / 2.0);
+        let middle = low.midpoint(high);
+        let half = (high - low) / 2.0;
         let links = self.links([from[0] + middle * by[0], from[1] + middle * by[1]]);
         let distances = self.distances(&links);
         if (0..2).all(|link| distances[link] > half * travel_cm[link] + RESOLUTION_CM) {
@@ -62,7 +63,8 @@ impl Sweep<'_> {
     }
 
     pub(super) fn links(&self, posture: [f64; 2]) -> [Segment2; 2] {
-        let (elbow, tip) = (self.arm.elbow(posture), self.arm.forward(posture));
+        let elbow = self.arm.elbow(posture);
+        let tip = self.arm.forward(posture);
         [Segment2::new(Vec2::zeros(), elbow), Segment2::new(elbow, tip)]
     }
 

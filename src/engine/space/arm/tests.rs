@@ -66,7 +66,8 @@ fn height(polygon: &ConvexPolygon, at: &Vec2) -> f64 {
     let corners = polygon.vertices();
     let side = |i: usize| {
         let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
-        let (way, off) = (b - a, at - a);
+        let way = b - a;
+        let off = at - a;
         (off.x * way.y - off.y * way.x) / way.norm()
     };
     (0..corners.len()).map(side).fold(f64::NEG_INFINITY, f64::max)
@@ -74,8 +75,10 @@ fn height(polygon: &ConvexPolygon, at: &Vec2) -> f64 {
 
 /// The least `gap` of points every 0.05 cm of the links.
 fn nearest(world: &ArmWorld, cell: u32, gap: impl Fn(&Vec2) -> f64) -> f64 {
-    let (arm, posture) = (world.rules().arm, world.posture(cell));
-    let (elbow, tip) = (arm.elbow(posture), arm.forward(posture));
+    let arm = world.rules().arm;
+    let posture = world.posture(cell);
+    let elbow = arm.elbow(posture);
+    let tip = arm.forward(posture);
     assert!((tip - world.rules().lattice.point(cell)).norm() < 1e-9);
     let points = (0..=1000).map(|k| {
         let s = f64::from(k) / 20.0;
@@ -86,7 +89,8 @@ fn nearest(world: &ArmWorld, cell: u32, gap: impl Fn(&Vec2) -> f64) -> f64 {
 
 /// Free postures keep sampled points out, postures with a link in an obstacle come within `slack` of it.
 fn assert_zones(world: &ArmWorld, slack: f64, gap: impl Fn(&Vec2) -> f64) {
-    let (mut free, mut hit) = (0, 0);
+    let mut free = 0;
+    let mut hit = 0;
     for cell in 0..world.grid().cell_count() {
         match world.zones()[cell as usize] {
             Zone::Free => {
@@ -133,7 +137,8 @@ fn squares_hexagons_and_triangles_block_the_postures_whose_sampled_link_points_t
 
 /// The posture at a share of the way from one cell to another, as the hop rule moves the arm.
 fn under_way(world: &ArmWorld, [from, to]: [u32; 2], share: f64) -> [f64; 2] {
-    let (arm, lattice) = (world.rules().arm, world.rules().lattice);
+    let arm = world.rules().arm;
+    let lattice = world.rules().lattice;
     let (a, b) = (world.posture(from), world.posture(to));
     if world.rules().hop == HopRule::TipLine {
         let (from, to) = (lattice.point(from), lattice.point(to));
@@ -164,15 +169,19 @@ fn sampled_against(world: &ArmWorld, spare: f64) -> [u32; 3] {
     let free: Vec<u32> = (0..grid.cell_count()).filter(|&cell| grid.is_free(cell)).collect();
     let seed = 41;
     let mut stream = seed::stream(seed);
-    let (mut clear, mut jumped, mut undecided) = (0, 0, 0);
+    let mut clear = 0;
+    let mut jumped = 0;
+    let mut undecided = 0;
     for draw in 0..12_000 {
         let from = free[stream.random_range(0..free.len())];
         let [x, y] = grid.xy(from);
         let to = grid.cell(x + stream.random_range(-6..=6), y + stream.random_range(-6..=6));
         let Some(to) = to.filter(|&to| to != from && grid.is_free(to)) else { continue };
         let links = |share: f64| {
-            let (posture, arm) = (under_way(world, [from, to], share), world.rules().arm);
-            let (elbow, tip) = (arm.elbow(posture), arm.forward(posture));
+            let posture = under_way(world, [from, to], share);
+            let arm = world.rules().arm;
+            let elbow = arm.elbow(posture);
+            let tip = arm.forward(posture);
             [Segment2::new(Vec2::zeros(), elbow), Segment2::new(elbow, tip)]
         };
         let tips = (0..=300).map(|k| links(f64::from(k) / 300.0)[1].b.norm());
@@ -221,7 +230,8 @@ fn a_stop_of_joint_2_forbids_the_disc_that_the_text_gives_the_inner_region() {
     let stopped =
         ArmRules { inner_radius_cm: 0.0, q2_limit_rad: 138.6_f64.to_radians(), ..rules(HopRule::EndPoints) };
     let obstacles: Vec<Obstacle> = CASE_1.into_iter().map(|[x, y]| circle(x, y)).collect();
-    let (world, truth) = (ArmWorld::new(stopped, obstacles), case_1(HopRule::EndPoints));
+    let world = ArmWorld::new(stopped, obstacles);
+    let truth = case_1(HopRule::EndPoints);
     assert_eq!(world.zones(), truth.zones());
     assert!((world.rules().nearest_cm() - 20.0).abs() < 0.01);
     let free = ArmRules { q2_limit_rad: f64::INFINITY, ..stopped };
@@ -264,7 +274,8 @@ fn a_corner_rule_binds_diagonal_hops_of_one_cell_only() {
 fn eight_moves_are_the_hops_to_the_nearest_points() {
     for hop in [HopRule::EndPoints, HopRule::Continuous, HopRule::TipLine] {
         let world = case_1(hop);
-        let (moves, grid) = (world.eight_moves(), world.grid());
+        let moves = world.eight_moves();
+        let grid = world.grid();
         let plain = Moves::new(grid, CornerRule::Allow);
         let count =
             |moves: &Moves| -> u32 { (0..grid.cell_count()).map(|c| moves.mask(c).count_ones()).sum() };

@@ -13,7 +13,7 @@ pub(super) const HALF_WAY: f64 = 0.51;
 pub(super) const HALVINGS: u32 = 3;
 
 /// A path with a step that must be halved.
-pub(super) struct Doubt<'a> {
+pub(super) struct UnsettledPath<'a> {
     pub(super) lines: &'a Lines,
     pub(super) way: Option<&'a Way>,
     pub(super) branch: Branch,
@@ -24,7 +24,7 @@ pub(super) struct Doubt<'a> {
 /// A share of the path, the joints there, and the body placed.
 pub(super) type Stop<'a> = (f64, Joints, &'a [Capsule]);
 
-impl Doubt<'_> {
+impl UnsettledPath<'_> {
     /// Whether the path is free between two stops.
     pub(super) fn settle(&self, [a, b]: [Stop<'_>; 2], halvings: u32) -> Result<(), Rejection> {
         let cell = self.lines.cell();

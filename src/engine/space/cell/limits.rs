@@ -33,7 +33,8 @@ impl Lines {
     /// Whether the elbow is all but stretched or folded before or after a step, by [`EDGE_RAD`] and `slack_rad`.
     #[inline]
     pub(super) fn nears_reach(&self, last: &Joints, next: &Joints, slack_rad: f64) -> bool {
-        let (arm, edge_rad) = (self.cell().robot().arm(), EDGE_RAD + slack_rad);
+        let arm = self.cell().robot().arm();
+        let edge_rad = EDGE_RAD + slack_rad;
         let is_at_edge = |q: &&Joints| {
             let fold_rad = arm.elbow_fold_rad(q).abs();
             [0.0, PI, TAU].iter().any(|edge| (fold_rad - edge).abs() < edge_rad)

@@ -18,9 +18,9 @@
 //! # Source
 //! Fu et al., *Robotics and Autonomous Systems* 106 (2018), section 3.1.
 
-use super::doubt::{Doubt, HALF_WAY, HALVINGS, axis_way_m};
+use super::doubt::{HALF_WAY, HALVINGS, UnsettledPath, axis_way_m};
 use super::lines::{
-    EdgeEnd, Lines, Pace, Path, Pose, Rejection, SAME_RAD, between, largest_change, middle_outwards,
+    EdgeEnd, Lines, Path, Pose, Rejection, SAME_RAD, StepSchedule, between, largest_change, middle_outwards,
 };
 use super::way::Way;
 use super::{Standing, lanes};
@@ -125,11 +125,12 @@ impl Lines {
         &self,
         way: &Way,
         branch: Branch,
-        pace: &Pace,
+        pace: &StepSchedule,
         step: u32,
         last: &Joints,
     ) -> Result<Joints, Rejection> {
-        let (rules, arm) = (&self.rules, self.cell.robot().arm());
+        let rules = &self.rules;
+        let arm = self.cell.robot().arm();
         let target = way.at(pace.share(step));
         let q = arm.follow(&target, branch, last).map_err(|missed| match missed {
             Missed::Unreachable => Rejection::Unreachable,
@@ -155,10 +156,11 @@ impl Lines {
         Ok(q)
     }
 
-    pub(super) fn pace(&self, way: &Way) -> Pace {
-        let (rules, length_m) = (&self.rules, way.along.norm());
+    pub(super) fn pace(&self, way: &Way) -> StepSchedule {
+        let rules = &self.rules;
+        let length_m = way.along.norm();
         let steps = (length_m / rules.step_m).max(way.turn_rad / rules.step_rad).ceil().max(1.0);
-        Pace { steps, law_m: length_m.max(way.turn_rad / rules.step_rad * rules.step_m) }
+        StepSchedule { steps, law_m: length_m.max(way.turn_rad / rules.step_rad * rules.step_m) }
     }
 
     /// Whether another branch offers a smaller change than `q`, of `branch`, does from `last`.
@@ -226,7 +228,7 @@ impl Lines {
         for step in doubtful {
             let ends = [step - 1, step].map(|state| (share(state), states[state], at(state)));
             let ends_q = [states[0], states[states.len() - 1]];
-            Doubt { lines: self, way, branch, ends_q }.settle([ends[0], ends[1]], HALVINGS)?;
+            UnsettledPath { lines: self, way, branch, ends_q }.settle([ends[0], ends[1]], HALVINGS)?;
         }
         Ok(())
     }

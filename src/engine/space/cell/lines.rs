@@ -97,14 +97,14 @@ pub struct Pose {
 }
 
 /// How a tool path is divided into steps.
-pub(super) struct Pace {
+pub(super) struct StepSchedule {
     /// How many steps it takes.
     pub(super) steps: f64,
     /// Its length under the time law: a turn counts as the way that takes as many steps.
     pub(super) law_m: f64,
 }
 
-impl Pace {
+impl StepSchedule {
     #[inline]
     pub(super) fn share(&self, step: u32) -> f64 {
         f64::from(step) / self.steps
@@ -113,7 +113,8 @@ impl Pace {
     /// How long the step of this number takes.
     #[inline]
     pub(super) fn duration_s(&self, law: &SpeedRule, step: u32) -> f64 {
-        let (share, law_m) = (self.share(step), self.law_m);
+        let share = self.share(step);
+        let law_m = self.law_m;
         let before = (share - 1.0 / self.steps) * law_m;
         law.time_s(share * law_m, law_m) - law.time_s(before, law_m)
     }

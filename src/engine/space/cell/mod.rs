@@ -64,7 +64,8 @@ impl Cell {
         let boxes = scene.obstacles().iter().map(|obstacle| obstacle.solid.aabb()).collect();
         let exposed = (0..body.parts().len()).rev().filter(|part| !body.parts()[*part].is_self_only());
         let self_pairs = if checks_itself { body.self_pairs().to_vec() } else { Vec::new() };
-        let (exposed, broad) = (exposed.collect::<Vec<_>>(), BroadPhase::new(boxes));
+        let exposed = exposed.collect::<Vec<_>>();
+        let broad = BroadPhase::new(boxes);
         let outline = Outline::new(robot.arm().chain(), &body, &scene, &exposed, &self_pairs);
         Self { robot, body, scene, broad, exposed, self_pairs, outline }
     }
@@ -143,7 +144,8 @@ impl Cell {
     pub fn standing(&self, placed: &[Capsule], margin_m: impl Fn(usize) -> f64) -> Standing {
         let mut standing = Standing::Clear;
         for &part in &self.exposed {
-            let (capsule, margin) = (&placed[part], margin_m(part));
+            let capsule = &placed[part];
+            let margin = margin_m(part);
             let reach = Aabb::of_capsule(capsule).grown(margin);
             for index in self.broad.candidates(&reach) {
                 let gap = distance_segment_solid(&capsule.segment, &self.scene.obstacles()[index].solid);

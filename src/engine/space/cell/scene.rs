@@ -31,7 +31,7 @@ pub struct Obstacle {
 }
 
 /// What a scene file may hold.
-pub const SCENE_FILE: Accepted = Accepted::of::<SceneFile>();
+pub const SCENE_FILE: Accepted = Accepted::shape::<SceneFile>();
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -317,7 +317,8 @@ impl Scene {
             return Err(format!("there is no box `{name}`; the boxes are {known}"));
         };
         if let Solid::Box(solid) = &obstacle.solid {
-            let (mut frame, half) = (*solid.frame(), *solid.half());
+            let mut frame = *solid.frame();
+            let half = *solid.half();
             frame.origin.z += 0.5 * height_m - half.z;
             let size = Vec3::new(2.0 * half.x, 2.0 * half.y, height_m);
             obstacle.solid = Solid::Box(OrientedBox::new(frame, size).map_err(|e| e.to_string())?);

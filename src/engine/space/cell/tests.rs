@@ -81,7 +81,8 @@ fn the_six_poses_are_as_clear_as_another_program_found_them_to_three_millimetres
 #[test]
 fn eight_of_the_ten_lines_are_free_and_all_are_without_obstacles() {
     let empty = Cell::new(robot(), Scene::empty(), true);
-    let (full, empty) = (Lines::new(fu_cell(), rules()), Lines::new(empty, rules()));
+    let full = Lines::new(fu_cell(), rules());
+    let empty = Lines::new(empty, rules());
     let mut scratch = Scratch::default();
     for (index, [from, to]) in GROUPS.iter().enumerate() {
         let group = index + 1;
@@ -105,10 +106,12 @@ fn a_refusal_names_the_joint_or_both_bodies() {
 fn a_thickened_body_stands_as_its_clearance_says() {
     let cell = fu_cell();
     let mut stream = seed::stream(seed::derive(31, &["standing"]));
-    let (mut placed, mut seen) = (Vec::new(), BTreeMap::new());
+    let mut placed = Vec::new();
+    let mut seen = BTreeMap::new();
     for index in 0..20_000 {
         let q = draw(&mut stream);
-        let (gap_m, margin_m) = (cell.clearance_m(&q), stream.random_range(0.0..0.1));
+        let gap_m = cell.clearance_m(&q);
+        let margin_m = stream.random_range(0.0..0.1);
         cell.place(&q, &mut placed);
         let standing = cell.standing(&placed, |_| margin_m);
         // Two parts that are kept apart are both thickened.
@@ -171,7 +174,10 @@ fn one_branch_and_its_signature_decide_as_all_branches_do_on_100_000_pairs() {
     let arm = bare.cell().robot().arm();
     let mut stream = seed::stream(seed::derive(32, &["signature"]));
     let poses: Vec<Pose> = (0..2000).map(|_| bare.pose(&draw(&mut stream))).collect();
-    let (mut pairs, mut joined, mut other_branch, mut scratch) = (0, 0, 0, Scratch::default());
+    let mut pairs = 0;
+    let mut joined = 0;
+    let mut other_branch = 0;
+    let mut scratch = Scratch::default();
     for (i, a) in poses.iter().enumerate() {
         for b in poses[..i].iter().filter(|b| (a.tool.origin - b.tool.origin).norm() <= 0.5) {
             if pairs == 100_000 {
@@ -201,7 +207,9 @@ fn grazes(lines: &Lines, a: &Pose, b: &Pose) -> Result<u32, f64> {
     let quaternion =
         |r: &Matrix3<f64>| UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*r));
     let (from, to) = (quaternion(&a.tool.rotation), quaternion(&b.tool.rotation));
-    let (mut q, mut longest, way_m) = (a.q, 0, (b.tool.origin - a.tool.origin).norm());
+    let mut q = a.q;
+    let mut longest = 0;
+    let way_m = (b.tool.origin - a.tool.origin).norm();
     let mut grazed = 0;
     for step in 1..=400 {
         let share = f64::from(step) / 400.0;
@@ -225,7 +233,10 @@ fn grazes(lines: &Lines, a: &Pose, b: &Pose) -> Result<u32, f64> {
 fn an_accepted_line_is_free_at_a_sixteenth_of_its_steps_and_every_reason_occurs() {
     let lines = Lines::new(fu_cell(), LineRules { turn_rad: 2.8, ..rules() });
     let mut stream = seed::stream(seed::derive(33, &["lines"]));
-    let (mut scratch, mut reasons, mut free, mut grazed) = (Scratch::default(), BTreeMap::new(), 0, 0);
+    let mut scratch = Scratch::default();
+    let mut reasons = BTreeMap::new();
+    let mut free = 0;
+    let mut grazed = 0;
     for index in 0..40_000 {
         let a = draw(&mut stream);
         // Half of the ends are near, so that lines are short enough to be joined.
@@ -263,7 +274,8 @@ fn slower_tools_are_joined_more_often_and_whole_turns_end_what_their_own_angle_d
     .map(|rules| Lines::new(Cell::new(robot(), Scene::empty(), false), rules))
     .into();
     let mut stream = seed::stream(seed::derive(34, &["kinds"]));
-    let (mut counts, mut scratch) = ([0; 5], Scratch::default());
+    let mut counts = [0; 5];
+    let mut scratch = Scratch::default();
     let poses: Vec<Pose> = (0..400).map(|_| kinds[0].pose(&draw(&mut stream))).collect();
     for (i, a) in poses.iter().enumerate() {
         for b in poses[..i].iter().filter(|b| (a.tool.origin - b.tool.origin).norm() <= 0.5) {
@@ -283,7 +295,8 @@ fn slower_tools_are_joined_more_often_and_whole_turns_end_what_their_own_angle_d
 fn a_joint_line_is_free_where_the_arm_is_and_not_where_it_is_not() {
     let lines = Lines::new(fu_cell(), LineRules { path: Path::Joints, ..rules() });
     let mut stream = seed::stream(seed::derive(35, &["joint lines"]));
-    let (mut scratch, mut counts) = (Scratch::default(), [0, 0]);
+    let mut scratch = Scratch::default();
+    let mut counts = [0, 0];
     for index in 0..6000 {
         let a = draw(&mut stream);
         let b: Joints = std::array::from_fn(|i| a[i] + stream.random_range(-0.9..0.9));

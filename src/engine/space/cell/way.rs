@@ -59,7 +59,8 @@ impl Way {
 /// The axis and the angle in `[0, π]` of a rotation; of half turns one of the two axes.
 fn axis_angle(r: &Matrix3<f64>) -> (Vec3, f64) {
     let (x, y, z) = (r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]);
-    let (skew, trace) = (Vec3::new(x, y, z), r.trace());
+    let skew = Vec3::new(x, y, z);
+    let trace = r.trace();
     let angle = libm::atan2(skew.norm(), trace - 1.0);
     if skew.norm() > 1e-6 {
         return (skew / skew.norm(), angle);

@@ -27,7 +27,8 @@ struct Lines {
 impl JumpLines {
     /// The lines of `world`.
     pub fn new(world: &LatticeWorld) -> Self {
-        let (moves, pruning) = (Arc::clone(world.moves()), Pruning::under(world.corner_rule()));
+        let moves = Arc::clone(world.moves());
+        let pruning = Pruning::under(world.corner_rule());
         let (width, height) = (moves.width(), moves.cell_count() / moves.width());
         let mut lines = DIRECTIONS.map(|direction| match direction {
             [_, 0] => Lines::walls(width, height),
@@ -63,7 +64,8 @@ impl Lines {
     /// Frees cell `at` of a line.
     #[inline]
     fn free(&mut self, line: u32, at: u32, is_jump: bool) {
-        let (word, bit) = ((at + 1) as usize / 64, (at + 1) % 64);
+        let word = (at + 1) as usize / 64;
+        let bit = (at + 1) % 64;
         let [jumps, walls] = &mut self.words[line as usize * self.words_per_line + word];
         *walls &= !(1 << bit);
         *jumps |= u64::from(is_jump) << bit;
@@ -72,7 +74,8 @@ impl Lines {
     /// How many cells are free above cell `at` of a line, and whether the last of them is a jump point: the first.
     #[inline]
     fn above(&self, line: u32, at: u32) -> (u32, bool) {
-        let (words, bit) = (&self.words[line as usize * self.words_per_line..], at + 1);
+        let words = &self.words[line as usize * self.words_per_line..];
+        let bit = at + 1;
         let mut word = bit as usize / 64;
         let mut kept = (u64::MAX << (bit % 64)) << 1;
         loop {
@@ -90,7 +93,8 @@ impl Lines {
     /// The same below cell `at`.
     #[inline]
     fn below(&self, line: u32, at: u32) -> (u32, bool) {
-        let (words, bit) = (&self.words[line as usize * self.words_per_line..], at + 1);
+        let words = &self.words[line as usize * self.words_per_line..];
+        let bit = at + 1;
         let mut word = bit as usize / 64;
         let mut kept = !(u64::MAX << (bit % 64));
         loop {

@@ -120,7 +120,8 @@ impl Block {
         }
         let around = self.costs_around([-dx, -dy]);
         let is_pruned = |to: usize| {
-            let (through, around) = (cost(came) + cost(to), around[to]);
+            let through = cost(came) + cost(to);
+            let around = around[to];
             if is_diagonal(came) { around < through } else { around <= through }
         };
         (0..8).filter(|to| self.is_move([0, 0], DIRECTIONS[*to]) && !is_pruned(*to)).map(|to| 1 << to).sum()
@@ -194,7 +195,9 @@ mod tests {
     #[test]
     fn natural_and_forced_neighbours_are_those_that_the_papers_list() {
         for corners in [CornerRule::Allow, CornerRule::ForbidBoth, CornerRule::ForbidAny] {
-            let (pruning, mut seen, mut turned) = (Pruning::under(corners), 0, 0);
+            let pruning = Pruning::under(corners);
+            let mut seen = 0;
+            let mut turned = 0;
             for (free, legal) in blocks(corners) {
                 for (came, step) in DIRECTIONS.into_iter().enumerate() {
                     if legal >> (7 - came) & 1 == 0 {

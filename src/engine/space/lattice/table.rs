@@ -39,7 +39,8 @@ const PASSES: [&[Direction]; 3] = [
 impl JumpTable {
     /// The table of `world`.
     pub fn new(world: &LatticeWorld) -> Self {
-        let (moves, pruning) = (Arc::clone(world.moves()), Pruning::under(world.corner_rule()));
+        let moves = Arc::clone(world.moves());
+        let pruning = Pruning::under(world.corner_rule());
         let mut table = Self { runs: vec![[0; 8]; moves.cell_count() as usize], moves, pruning };
         let count = table.moves.cell_count();
         for (number, pass) in PASSES.into_iter().enumerate() {

@@ -58,7 +58,8 @@ impl CarriedArm {
         })?;
         let floor = support.floor_m().map(|height| HalfSpace::below(height * CM_PER_M));
         let floor = floor.transpose().map_err(|e| e.to_string())?;
-        let (arm, body) = (robot.arm().placed(support.base()), found.exposed());
+        let arm = robot.arm().placed(support.base());
+        let body = found.exposed();
         Ok(Self {
             length_cm: length_m(&arm, &body) * CM_PER_M,
             arm,

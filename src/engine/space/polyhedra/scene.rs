@@ -40,7 +40,7 @@ impl Scene {
 }
 
 /// What a scene file may hold.
-pub const SCENE_FILE: Accepted = Accepted::of::<SceneFile>();
+pub const SCENE_FILE: Accepted = Accepted::shape::<SceneFile>();
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -72,7 +72,8 @@ fn the_lattice_is_blocked_where_and_only_where_a_point_is_in_an_obstacle() {
     let domain = Aabb { min: Vec3::new(-1.0, 0.0, 0.5), max: Vec3::new(11.0, 10.0, 9.5) };
     let world = PolyhedraWorld::new(bodies, domain, 0.5, 0.4).unwrap();
     assert_eq!(world.grid().size(), [25, 21, 19]);
-    let (mut blocked, mut near) = (0, 0);
+    let mut blocked = 0;
+    let mut near = 0;
     for (x, y, z) in (0..25).flat_map(|x| (0..21).flat_map(move |y| (0..19).map(move |z| (x, y, z)))) {
         let node = world.grid().node([x, y, z]).unwrap();
         assert_eq!(world.grid().is_free(node), world.is_free(&world.point(node)), "{x} {y} {z}");
@@ -191,9 +192,12 @@ fn what_is_remembered_of_rods_and_obstacles_changes_no_answer() {
     let cuboid = |(center, side): ([f64; 3], f64)| Convex::cuboid(center.into(), Vec3::repeat(side)).unwrap();
     let bodies: Vec<Convex> = boxes.into_iter().map(cuboid).chain([pedestal]).collect();
     let arm = CarriedArm::new(&aubo(), "paper", &Support::on_floor(Frame::IDENTITY)).unwrap();
-    let (seed, apart) = (77, arm.apart(&bodies));
+    let seed = 77;
+    let apart = arm.apart(&bodies);
     let mut stream = base::seed::stream(seed);
-    let (mut q, mut clear, mut near) = ([0.4, -0.9, 1.2, 0.3, 1.5, 0.1], 0, 0);
+    let mut q = [0.4, -0.9, 1.2, 0.3, 1.5, 0.1];
+    let mut clear = 0;
+    let mut near = 0;
     for step in 0..3_000 {
         for angle in &mut q {
             *angle += stream.random_range(-0.2..0.2);

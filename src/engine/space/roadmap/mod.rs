@@ -146,7 +146,8 @@ impl Roadmap {
         let places_mm = placed.map(|(sample, node)| node.place_mm(&local, &sample.config)).collect();
         let numbers = samples.iter().zip(0..).map(|(sample, i)| (bits(&sample.config), i)).collect();
         let near = Samples::new(near, &samples, places_mm, local.turn_on());
-        let (mut tally, mut scratch) = (Tally::default(), Scratch::default());
+        let mut tally = Tally::default();
+        let mut scratch = Scratch::default();
         let mut links = vec![Vec::new(); samples.len()];
         near.each_pair(&samples, |from, to, gap_mm| {
             tally.pairs += 1;
@@ -239,7 +240,7 @@ impl Roadmap {
         let node = self.local.node(config);
         let place_mm = node.place_mm(&self.local, config);
         let mut links = Vec::new();
-        for (sample, gap_mm) in self.near.of(config, &place_mm) {
+        for (sample, gap_mm) in self.near.neighbours(config, &place_mm) {
             if self.local.join(&self.nodes[sample as usize], &node, &mut memory.scratch).is_ok() {
                 links.push((sample, gap_mm));
             }

@@ -66,7 +66,8 @@ impl Samples {
     /// `samples` with their places; `turn_on` says which coordinates are taken the shorter way round.
     pub(super) fn new(near: Near, samples: &[Sample], places_mm: Vec<[f64; 3]>, turn_on: Vec<bool>) -> Self {
         let axes = samples.first().map_or(0, |sample| sample.config.len());
-        let (mut configs, mut groups) = (Vec::new(), Vec::new());
+        let mut configs = Vec::new();
+        let mut groups = Vec::new();
         if !matches!(near, Near::Places(_)) {
             groups.resize(samples.len().div_ceil(GROUP) * axes, [f32::INFINITY; GROUP]);
             for (i, sample) in samples.iter().enumerate() {
@@ -115,7 +116,8 @@ impl Samples {
 
     /// The pairs of neighbours by configuration, the higher number in the upper half, in order.
     fn pairs(&self, samples: &[Sample]) -> Vec<u64> {
-        let (mut gaps, mut pairs) = (Gaps::default(), Vec::new());
+        let mut gaps = Gaps::default();
+        let mut pairs = Vec::new();
         for (own, sample) in (0..).zip(samples) {
             self.write_neighbours(&sample.config, Some(own), &mut gaps);
             let both = |other: u32| u64::from(own.max(other)) << 32 | u64::from(own.min(other));
@@ -127,7 +129,7 @@ impl Samples {
     }
 
     /// The neighbours of a configuration that is no sample, in order, with the distances of their places from its own.
-    pub(super) fn of(&self, config: &[f64], place_mm: &[f64; 3]) -> Vec<(u32, f64)> {
+    pub(super) fn neighbours(&self, config: &[f64], place_mm: &[f64; 3]) -> Vec<(u32, f64)> {
         let gap_mm = |sample: u32| (sample, distance_mm(&self.places_mm[sample as usize], place_mm));
         if let Near::Places(radius_mm) = self.near {
             return (0..self.count as u32).map(gap_mm).filter(|(_, gap_mm)| *gap_mm <= radius_mm).collect();

@@ -15,7 +15,9 @@ fn map() -> PlaneMap {
 
 fn samples(seed: u64, count: usize) -> Vec<Sample> {
     let mut stream = seed::stream(seed::derive(seed, &["roadmap"]));
-    let (plane, mut found, mut draws) = (map(), Vec::new(), 0);
+    let plane = map();
+    let mut found = Vec::new();
+    let mut draws = 0;
     while found.len() < count {
         let point = [stream.random_range(0.0..100.0), stream.random_range(0.0..100.0)];
         if plane.refusal(point).is_none() {
@@ -134,7 +136,8 @@ fn near_pairs(samples: &[Sample], near: Near) -> Vec<(u32, u32)> {
 
 #[test]
 fn neighbours_by_configuration_are_those_that_a_look_at_all_pairs_finds() {
-    let (mut edges, mut tried) = (0, 0);
+    let mut edges = 0;
+    let mut tried = 0;
     for seed in 0..40 {
         let count = [1, 2, 15, 16, 17, 40, 90, 300][seed as usize % 8];
         let mut all = samples(seed, count);

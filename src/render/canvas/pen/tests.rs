@@ -8,14 +8,17 @@ use plotters::style::text_anchor::Pos;
 fn page(draw: impl FnOnce(&mut Canvas)) -> Result<Figure, RenderError> {
     let mut canvas = Canvas::new(Width::Single, 100.0);
     draw(&mut canvas);
-    let (command, spec_hash, title) = (String::new(), String::new(), String::new());
+    let command = String::new();
+    let spec_hash = String::new();
+    let title = String::new();
     canvas.finish(&Provenance { command, spec_hash, title })
 }
 
 #[test]
 fn what_plotters_draws_is_what_the_canvas_draws_itself() {
     let stroke = Stroke { opacity: 0.5, ..Stroke::solid(BLUE, 0.35) }.dashed(Dash::DashDot);
-    let (solid, fill) = (Stroke { dash: Dash::Solid, ..stroke }, Fill::sheer(ORANGE, 0.25));
+    let solid = Stroke { dash: Dash::Solid, ..stroke };
+    let fill = Fill::sheer(ORANGE, 0.25);
     let by_plotters = page(|canvas| {
         let area = DrawingArea::from(Pen::new(canvas, Dash::DashDot));
         area.draw(&PathElement::new([(1234, 5678), (2000, 1), (3003, 99)], stroke)).unwrap();
@@ -47,7 +50,7 @@ fn text_of_plotters_is_outlined_and_set_as_the_canvas_sets_it() {
         (HPos::Right, Align::End, VPos::Center, Stand::Centre, FontTransform::Rotate90, 90.0),
     ];
     for (index, (h_pos, align, v_pos, stand, transform, turn_deg)) in anchors.into_iter().enumerate() {
-        let set = Type::of(TextSize::LABEL).colored(BLUE);
+        let set = Type::regular(TextSize::LABEL).colored(BLUE);
         let set = if index == 1 { set.bold() } else { set };
         let by_plotters = page(|canvas| {
             let style = text_style(&set).transform(transform).pos(Pos::new(h_pos, v_pos));

@@ -28,7 +28,7 @@ fn tick_labels_never_run_into_each_other() {
         for (low, high) in [(0.0, 1.0), (-1234.5, 8e6), (0.001, 0.0042), (99_999.0, 100_001.0)] {
             let axis = Axis::linear("x", low, high).unwrap();
             let ticks = axis.ticks(length_pt, true);
-            let half = |tick: &Tick| Type::of(TextSize::TICK).width_pt(&tick.label) / 2.0;
+            let half = |tick: &Tick| Type::regular(TextSize::TICK).width_pt(&tick.label) / 2.0;
             for pair in ticks.windows(2) {
                 let apart = (axis.share(pair[1].at) - axis.share(pair[0].at)) * length_pt;
                 let clear = apart >= half(&pair[0]) + half(&pair[1]) + 5.0;
@@ -78,8 +78,8 @@ fn ends_that_cannot_be_drawn_are_refused_with_what_would_be() {
 
 #[test]
 fn a_reversed_axis_mirrors_shares() {
-    let (axis, mirrored) =
-        (Axis::linear("x", 0.0, 4.0).unwrap(), Axis::linear("x", 0.0, 4.0).unwrap().reversed());
+    let axis = Axis::linear("x", 0.0, 4.0).unwrap();
+    let mirrored = Axis::linear("x", 0.0, 4.0).unwrap().reversed();
     assert_eq!(axis.share(1.0), 0.25);
     assert_eq!(mirrored.share(1.0), 0.75);
     assert_eq!(mirrored.ticks(100.0, true).len(), axis.ticks(100.0, true).len());

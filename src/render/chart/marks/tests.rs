@@ -45,7 +45,9 @@ fn runs_cover_every_coloured_cell_once_and_no_other() {
 fn drawn(draw: impl FnOnce(&mut Canvas)) -> String {
     let mut canvas = Canvas::new(Width::Double, 200.0);
     draw(&mut canvas);
-    let (command, spec_hash, title) = (String::new(), String::new(), String::new());
+    let command = String::new();
+    let spec_hash = String::new();
+    let title = String::new();
     canvas.finish(&Provenance { command, spec_hash, title }).unwrap().svg
 }
 
@@ -79,7 +81,8 @@ fn a_point_without_a_place_breaks_the_line() {
 
 #[test]
 fn a_band_is_one_outline_of_its_two_curves() {
-    let (edges, fill) = (vec![[0.0, 1.0, 2.0], [10.0, 3.0, 5.0]], Fill::sheer(ORANGE, 0.3));
+    let edges = vec![[0.0, 1.0, 2.0], [10.0, 3.0, 5.0]];
+    let fill = Fill::sheer(ORANGE, 0.3);
     let band = Band { edges, fill, label: String::new() };
     let outline = [[40.0, 140.0], [240.0, 120.0], [240.0, 100.0], [40.0, 130.0]];
     let by_hand = drawn(|canvas| canvas.polygon(&outline, Some(fill), None));

@@ -27,14 +27,14 @@ pub(super) struct Across {
     /// The claim printed for each panel.
     printed: Vec<String>,
     /// A printed row whose distance from the mean curve is shown in a last panel.
-    row: Option<RowOf>,
+    row: Option<PrintedRowSpec>,
     /// The studies that are compared, by name.
     studies: Vec<String>,
 }
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct RowOf {
+struct PrintedRowSpec {
     /// The sweep along the row.
     sweep: String,
     /// What the claims of its cells are called before the sweep's value.
@@ -72,7 +72,7 @@ impl Across {
     }
 }
 
-impl RowOf {
+impl PrintedRowSpec {
     /// The row's cells: the value of its sweep and the printed share.
     fn cells(
         &self,
@@ -100,19 +100,23 @@ pub(super) struct Identification {
     /// What stands along the axis.
     axis: String,
     /// What the other sweeps are at, one a panel.
-    others: Vec<Other>,
+    others: Vec<SweepSetting>,
     printed: Vec<f64>,
     /// The row's cells: the value of its sweep and the printed share.
     row: Vec<(SweepValue, f64)>,
 }
 
 /// A sweep's setting and one of its values.
-type Other = (Text, SweepValue);
+type SweepSetting = (Text, SweepValue);
 
 /// The sweeps and values that people write as `setting=value`.
-fn others(settings: &Settings, study: &Study, written: &[String]) -> Result<Vec<Other>, SettingsError> {
+fn others(
+    settings: &Settings,
+    study: &Study,
+    written: &[String],
+) -> Result<Vec<SweepSetting>, SettingsError> {
     let points = study.sweep_points();
-    let known: BTreeSet<&Other> = points.iter().flat_map(|point| point.key.values()).collect();
+    let known: BTreeSet<&SweepSetting> = points.iter().flat_map(|point| point.key.values()).collect();
     let find = |(index, text): (usize, &String)| {
         let found = known.iter().find(|other| name::sweep_value(other) == *text);
         found.map(|other| (*other).clone()).ok_or_else(|| {
@@ -129,7 +133,7 @@ fn others(settings: &Settings, study: &Study, written: &[String]) -> Result<Vec<
 type Point = [f64; 4];
 
 impl Identification {
-    fn curve(&self, scene: &Scene<'_>, run: &Run<'_>, other: &Other) -> Vec<Point> {
+    fn curve(&self, scene: &Scene<'_>, run: &Run<'_>, other: &SweepSetting) -> Vec<Point> {
         let Some(group) = run.study.groups.first() else { return Vec::new() };
         let mut points = Vec::new();
         for point in run.study.sweep_points() {
@@ -190,7 +194,7 @@ impl Identification {
 
 impl Kind for Identification {
     fn statistic(&self) -> Option<&'static str> {
-        Some("Means over draws with 95 % bootstrap intervals, unsolved queries counted as such; {n}.")
+        Some("Means over instances with 95 % bootstrap intervals, unsolved queries counted as such; {n}.")
     }
 
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {

@@ -1,4 +1,4 @@
-//! One contender's saving over another along a column of the problem: every draw, and the mean of each value.
+//! One contender's saving over another along a column of the problem: every instance, and the mean of each value.
 
 use super::super::{Kind, Scene, ask};
 use crate::analysis::metric::Metric;
@@ -22,7 +22,7 @@ const PLOT_PT: f64 = 170.0;
 pub(super) struct Saving {
     /// The problem groups, by their labels: one panel each.
     problems: Vec<String>,
-    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
+    /// The metric: a name that `replan list metrics` gives, or one that an interpretation gives a meaning.
     metric: String,
     /// The contender, by its label.
     contender: String,
@@ -43,7 +43,7 @@ impl Saving {
     }
 }
 
-/// The saving of every draw and the mean of each value.
+/// The saving of every instance and the mean of each value.
 pub(super) struct SavingOver {
     read: Saving,
     metric: &'static Metric,
@@ -52,7 +52,7 @@ pub(super) struct SavingOver {
 
 impl Kind for SavingOver {
     fn statistic(&self) -> Option<&'static str> {
-        Some("One dot a draw, a draw that one of both does not solve left out; {n}.")
+        Some("One dot an instance, an instance that one of both does not solve left out; {n}.")
     }
 
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
@@ -69,7 +69,7 @@ impl Kind for SavingOver {
             let x = Axis::over(self.about, over.iter().copied());
             let mut panel = Panel::new(format!("{group}: {}", self.read.contender), x, y);
             let means = means_along(&points);
-            let single = Points::of(points, Marker::Circle, 1.1, GREY.mixed(WHITE, 0.35));
+            let single = Points::unlabelled(points, Marker::Circle, 1.1, GREY.mixed(WHITE, 0.35));
             panel.add(single.labelled("one environment"));
             panel.add(Line::through(means, Stroke::solid(VERMILLION, 1.5)).labelled("mean"));
             sheet.add(panel);

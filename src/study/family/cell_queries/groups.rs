@@ -13,7 +13,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// What a file of groups may hold.
-pub const GROUPS_FILE: Accepted = Accepted::of::<GroupsFile>();
+pub const GROUPS_FILE: Accepted = Accepted::shape::<GroupsFile>();
 
 /// The file of poses and of groups that join two of them.
 #[derive(Deserialize, JsonSchema)]

@@ -1,8 +1,8 @@
 //! What pictures and tables of a cell need: obstacles and the robot at the queries' ends, millimetres.
 
-use super::{Query, Stance};
+use super::{ArmPlacement, Query};
 use engine::geometry::{Solid, Vec3};
-use engine::planner::Exhibit;
+use engine::planner::Trace;
 use engine::space::cell::{Cell, Lines, Scratch};
 use engine::space::roadmap::joints;
 
@@ -12,9 +12,10 @@ fn mm(point: &Vec3) -> [f64; 3] {
 
 /// Boxes by their eight corners, round obstacles by ends and radius, and the robot's capsules and pose at each query's
 /// ends, and how clear the straight line between them is.
-pub(super) fn exhibits(lines: &Lines, queries: &[Query]) -> Vec<Exhibit> {
+pub(super) fn traces(lines: &Lines, queries: &[Query]) -> Vec<Trace> {
     let cell = lines.cell();
-    let (mut boxes, mut rounds) = (Vec::new(), Vec::new());
+    let mut boxes = Vec::new();
+    let mut rounds = Vec::new();
     for obstacle in cell.scene().obstacles() {
         match &obstacle.solid {
             Solid::Box(solid) => boxes.extend(solid.corners().iter().flat_map(mm)),
@@ -35,24 +36,24 @@ pub(super) fn exhibits(lines: &Lines, queries: &[Query]) -> Vec<Exhibit> {
             }
         }
     }
-    let mut exhibits = vec![
-        Exhibit { name: "boxes".to_owned(), width: 24, values: boxes },
-        Exhibit { name: "rounds".to_owned(), width: 7, values: rounds },
+    let mut traces = vec![
+        Trace { name: "boxes".to_owned(), width: 24, values: boxes },
+        Trace { name: "rounds".to_owned(), width: 7, values: rounds },
     ];
-    exhibits.extend(floor(cell));
+    traces.extend(floor(cell));
     for query in queries {
         for (end, config) in [("start", &query.start), ("goal", &query.goal)] {
-            exhibits.push(body(cell, format!("body {}/{end}", query.name), config));
-            exhibits.push(pose(cell, format!("pose {}/{end}", query.name), config));
+            traces.push(body(cell, format!("body {}/{end}", query.name), config));
+            traces.push(pose(cell, format!("pose {}/{end}", query.name), config));
         }
     }
-    exhibits.push(straight_lines(lines, queries));
-    exhibits
+    traces.push(straight_lines(lines, queries));
+    traces
 }
 
 /// Of each query in turn: whether the local path from start to goal is free, and how clear of everything it is; no number where
 /// the joints cannot follow it.
-fn straight_lines(lines: &Lines, queries: &[Query]) -> Exhibit {
+fn straight_lines(lines: &Lines, queries: &[Query]) -> Trace {
     let mut scratch = Scratch::default();
     let mut line = |query: &Query| {
         let [start, goal] = [&query.start, &query.goal]
@@ -62,43 +63,43 @@ fn straight_lines(lines: &Lines, queries: &[Query]) -> Exhibit {
         [f64::from(u8::from(is_free)), clearance_m.map_or(f64::NAN, |m| m * 1e3)]
     };
     let values = queries.iter().flat_map(&mut line).collect();
-    Exhibit { name: "straight lines".to_owned(), width: 2, values }
+    Trace { name: "straight lines".to_owned(), width: 2, values }
 }
 
 /// Where the floor is, if it is not at 0: its height, or no number if there is none.
-fn floor(cell: &Cell) -> Option<Exhibit> {
+fn floor(cell: &Cell) -> Option<Trace> {
     let floors = cell.scene().obstacles().iter().filter_map(|obstacle| match &obstacle.solid {
         Solid::HalfSpace(half) => Some(-half.height(&Vec3::zeros()) * 1e3),
         _ => None,
     });
     let values: Vec<f64> = floors.collect();
-    (values != [0.0]).then(|| Exhibit { name: "floor".to_owned(), width: 1, values })
+    (values != [0.0]).then(|| Trace { name: "floor".to_owned(), width: 1, values })
 }
 
 /// Where the robot is at `q_rad`; `None` unless it has six angles.
-pub(super) fn stance(cell: &Cell, q_rad: &[f64]) -> Option<Stance> {
+pub(super) fn stance(cell: &Cell, q_rad: &[f64]) -> Option<ArmPlacement> {
     let q = joints(q_rad)?;
     let mut placed = Vec::new();
     cell.place(&q, &mut placed);
     let capsules_mm = placed.iter().map(|c| round(&c.segment.a, &c.segment.b, c.radius)).collect();
     let tip_mm = mm(&cell.robot().arm().chain().forward(&q).origin);
-    Some(Stance { capsules_mm, tip_mm, clearance_mm: Some(cell.clearance_m(&q) * 1e3) })
+    Some(ArmPlacement { capsules_mm, tip_mm, clearance_mm: Some(cell.clearance_m(&q) * 1e3) })
 }
 
-fn body(cell: &Cell, name: String, config: &[f64]) -> Exhibit {
+fn body(cell: &Cell, name: String, config: &[f64]) -> Trace {
     let stance = stance(cell, config).expect("a query of an arm has six angles");
-    Exhibit { name, width: 7, values: stance.capsules_mm.concat() }
+    Trace { name, width: 7, values: stance.capsules_mm.concat() }
 }
 
 /// Joint angles in degrees, flange and tip in millimetres, and the tool's direction.
-fn pose(cell: &Cell, name: String, config: &[f64]) -> Exhibit {
+fn pose(cell: &Cell, name: String, config: &[f64]) -> Trace {
     let q = joints(config).expect("a query of an arm has six angles");
     let chain = cell.robot().arm().chain();
     let tip = chain.forward(&q);
     let direction: [f64; 3] = tip.rotation.column(2).into_owned().into();
     let places = [mm(&chain.flange(&q).origin), mm(&tip.origin), direction];
     let values = q.map(f64::to_degrees).into_iter().chain(places.concat()).collect();
-    Exhibit { name, width: 15, values }
+    Trace { name, width: 15, values }
 }
 
 fn round(a: &Vec3, b: &Vec3, radius_m: f64) -> [f64; 7] {

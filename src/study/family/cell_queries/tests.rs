@@ -65,7 +65,8 @@ fn the_sixth_joint_is_drawn_over_half_a_turn_either_way_or_over_all_that_it_turn
         let posed = Posed::new(&settings(over), &inputs(None)).unwrap();
         posed.bounds_rad.map(|ends| ends.map(|end| end.to_degrees().round()))
     };
-    let (half, whole) = (degrees(""), degrees("turns = 'whole'"));
+    let half = degrees("");
+    let whole = degrees("turns = 'whole'");
     assert_eq!((half[5], whole[5]), ([-180.0, 180.0], [-360.0, 360.0]));
     assert_eq!(half[..5], whole[..5]);
 }
@@ -88,11 +89,11 @@ fn a_start_in_collision_is_an_invalid_problem_and_the_other_groups_go_on() {
                 from = 'H'\nto = 'beyond'\n[[group]]\nname = '3'\nfrom = 'H'\nto = 'P6'\n";
     std::fs::write(folder.path().join("groups.toml"), text).unwrap();
     let posed = Posed::new(&settings("queries = 'groups.toml'"), &inputs(Some(folder.path()))).unwrap();
-    let prepared = posed.prepare(1).unwrap();
+    let preprocessing = posed.prepare(1).unwrap();
     let plan = |index: usize| {
         let Query { start, goal, .. } = &posed.queries()[index];
         let request =
-            Request { world: &prepared.world, start, goal, expansions: 1000, seed: 0, trace: false };
+            Request { world: &preprocessing.world, start, goal, expansions: 1000, seed: 0, trace: false };
         planner("goal_shot = 'before_expansion'").plan(&request).map_err(|invalid| invalid.0)
     };
     assert!(plan(0).unwrap_err().starts_with("the start cannot be posed: part `"));
@@ -135,11 +136,12 @@ fn the_first_samples_of_an_arm_and_a_smaller_radius_give_the_roadmap_that_is_bui
     let whole = built(300, 500.0);
     // An end of a query leaves its trace in the memory that attempts share, and in no edge.
     whole.number("start", &posed.queries()[0].start).unwrap();
-    let (tally, reasons) =
-        (whole.tally(), whole.tally().rejected.iter().filter(|count| **count > 20).count());
+    let tally = whole.tally();
+    let reasons = whole.tally().rejected.iter().filter(|count| **count > 20).count();
     assert!(tally.edges > 1_000 && reasons >= 3, "one-sided sample: {tally:?}");
     for (count, radius_mm) in [(300, 500.0), (170, 500.0), (300, 350.0), (90, 250.0)] {
-        let (part, mut edges) = (built(count, radius_mm), 0);
+        let part = built(count, radius_mm);
+        let mut edges = 0;
         for node in 0..count as u32 {
             let links = whole.links(node);
             let kept = links.iter().filter(|(to, gap)| (*to as usize) < count && *gap <= radius_mm);
@@ -172,18 +174,19 @@ fn mutants(plan: &Plan) -> Vec<Plan> {
 #[test]
 fn what_planners_return_is_accepted_by_the_verifier_and_changed_it_is_not() {
     let posed = Posed::new(&settings("samples = 900\nregion = 'front'"), &inputs(None)).unwrap();
-    let prepared = posed.prepare(7).unwrap();
-    let (original, improved) =
-        (planner("samples = 900"), planner("samples = 900\ngoal_shot = 'before_expansion'"));
-    let (mut solved, mut refused) = ([0, 0], 0);
+    let preprocessing = posed.prepare(7).unwrap();
+    let original = planner("samples = 900");
+    let improved = planner("samples = 900\ngoal_shot = 'before_expansion'");
+    let mut solved = [0, 0];
+    let mut refused = 0;
     for query in posed.queries() {
         let verification::Truth::Roadmap(case) =
-            verification::truth(&prepared.world, query, &crate::verification::Guide::default())
+            verification::truth(&preprocessing.world, query, &crate::verification::Guide::default())
         else {
             panic!("a roadmap")
         };
         let request = Request {
-            world: &prepared.world,
+            world: &preprocessing.world,
             start: &query.start,
             goal: &query.goal,
             expansions: 10_000,
@@ -258,17 +261,24 @@ fn by_configuration(over: &str) -> Settings {
 fn a_roadmap_in_joint_space_has_paths_that_the_verifier_accepts() {
     for rule in ["nearest = 12", "radius_deg = 110"] {
         let posed = Posed::new(&by_configuration(&format!("samples = 600\n{rule}")), &inputs(None)).unwrap();
-        let prepared = posed.prepare(3).unwrap();
-        let (planner, mut solved) = (planner("samples = 600\nneighbour_mm = 3000"), 0);
+        let preprocessing = posed.prepare(3).unwrap();
+        let planner = planner("samples = 600\nneighbour_mm = 3000");
+        let mut solved = 0;
         for query in posed.queries() {
             let guide = crate::verification::Guide::default();
-            let verification::Truth::Roadmap(case) = verification::truth(&prepared.world, query, &guide)
+            let verification::Truth::Roadmap(case) = verification::truth(&preprocessing.world, query, &guide)
             else {
                 panic!("a roadmap")
             };
             let (start, goal) = (&query.start, &query.goal);
-            let request =
-                Request { world: &prepared.world, start, goal, expansions: 10_000, seed: 0, trace: false };
+            let request = Request {
+                world: &preprocessing.world,
+                start,
+                goal,
+                expansions: 10_000,
+                seed: 0,
+                trace: false,
+            };
             let plan = planner.plan(&request).unwrap();
             if plan.ending == Ending::Solved {
                 assert_eq!(case.verify(&request, &plan).outcome.1, None, "{rule}, group {}", query.name);

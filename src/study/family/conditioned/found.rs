@@ -1,6 +1,6 @@
-//! Lists of tries: which try of a draw is accepted, by the draw's seed.
+//! Lists of tries: which try of an instance is accepted, by the instance's seed.
 //!
-//! A line `for <fingerprint>` opens the draws that were found under one family's settings and revisions; below it, each
+//! A line `for <fingerprint>` opens the instances that were found under one family's settings and revisions; below it, each
 //! line holds a seed and the number of the try that was accepted. Lines that start with `#` say what the file is. Draws
 //! under another fingerprint are left alone, so that a changed setting or revision is searched anew.
 
@@ -17,7 +17,8 @@ pub fn read(file: &Path, fingerprint: &str) -> Result<BTreeMap<u64, u64>, String
 }
 
 fn parsed(text: &str, fingerprint: &str) -> Result<BTreeMap<u64, u64>, String> {
-    let (mut found, mut is_ours) = (BTreeMap::new(), false);
+    let mut found = BTreeMap::new();
+    let mut is_ours = false;
     for (number, line) in text.lines().enumerate().filter(|(_, line)| !line.starts_with('#')) {
         if let Some(of) = line.strip_prefix("for ") {
             is_ours = of == fingerprint;

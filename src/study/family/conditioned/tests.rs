@@ -24,21 +24,24 @@ fn family(given: &str) -> Result<Box<dyn Family>, String> {
     (ENTRY.build)(&Settings::composed("a test", table), &Inputs::default()).map_err(|e| e.to_string())
 }
 
-fn tries(prepared: &Prepared) -> f64 {
-    prepared.values["tries"].as_f64()
+fn tries(preprocessing: &Preprocessing) -> f64 {
+    preprocessing.values["tries"].as_f64()
 }
 
 #[test]
 fn accepted_maps_lie_in_the_band_and_rejection_leaves_the_distribution_alone() {
-    // The oracle counts how often plain draws of the mixture fall into the band by the verifier's optimum.
-    let (any, band) = (family("bends = [0, 1e9]").unwrap(), family("path_cost_cells = [11, 12]").unwrap());
-    let optimum = |prepared: &Prepared| {
+    // The oracle counts how often plain instances of the mixture fall into the band by the verifier's optimum.
+    let any = family("bends = [0, 1e9]").unwrap();
+    let band = family("path_cost_cells = [11, 12]").unwrap();
+    let optimum = |preprocessing: &Preprocessing| {
         let query = &any.queries()[0];
-        crate::verification::truth(&prepared.world, query, &crate::verification::Guide::default())
+        crate::verification::truth(&preprocessing.world, query, &crate::verification::Guide::default())
             .optimal()
             .unwrap()
     };
-    let (mut inside, mut looked_at, mut tried) = (0, 0, 0.0);
+    let mut inside = 0;
+    let mut looked_at = 0;
+    let mut tried = 0.0;
     for seed in 0..400 {
         let accepted = band.prepare(seed).unwrap();
         assert!((11.0..=12.0).contains(&optimum(&accepted)), "seed {seed}");
@@ -47,15 +50,16 @@ fn accepted_maps_lie_in_the_band_and_rejection_leaves_the_distribution_alone() {
         looked_at += tries(&plain) as usize;
         inside += usize::from((11.0..=12.0).contains(&optimum(&plain)));
     }
-    let (rate, expected) = (400.0 / tried, inside as f64 / looked_at as f64);
+    let rate = 400.0 / tried;
+    let expected = inside as f64 / looked_at as f64;
     assert!((0.1..0.9).contains(&expected), "the band is no condition: {expected}");
-    assert!((rate - expected).abs() < 0.1, "accepted {rate} of the tries, {expected} of plain draws fit");
+    assert!((rate - expected).abs() < 0.1, "accepted {rate} of the tries, {expected} of plain instances fit");
 }
 
 #[test]
 fn equal_seeds_give_equal_maps_and_a_hopeless_band_an_invalid_problem() {
     let band = family("path_cost_cells = [11, 12]").unwrap();
-    let map = |seed| format!("{:?}", band.prepare(seed).unwrap().exhibits);
+    let map = |seed| format!("{:?}", band.prepare(seed).unwrap().traces);
     assert_eq!(map(5), map(5));
     assert_ne!(map(5), map(6));
     let message = family("path_cost_cells = [1, 2]").unwrap().prepare(3).unwrap_err().to_string();
@@ -92,14 +96,14 @@ fn a_listed_draw_is_what_a_search_finds() {
     for group in &study.groups {
         let listed = group.family(&group.points[0], &point, &inputs).unwrap();
         let mut table = group.settings.table().clone();
-        assert!(table.remove("found").is_some(), "{} lists no draws", group.label);
+        assert!(table.remove("found").is_some(), "{} lists no instances", group.label);
         let searched = (ENTRY.build)(&Settings::composed("searched", table), &inputs).unwrap();
-        for replicate in 0..3_u32 {
-            let names = ["zhang", "conditioned", "problem", &group.label, &replicate.to_string()];
+        for instance in 0..3_u32 {
+            let names = ["zhang", "conditioned", "problem", &group.label, &instance.to_string()];
             let seed = seed::derive(study.seed, &names);
             let [ours, truth] = [&listed, &searched].map(|family| family.prepare(seed).unwrap());
-            assert_eq!(ours.values, truth.values, "{} {replicate}", group.label);
-            assert_eq!(ours.exhibits, truth.exhibits, "{} {replicate}", group.label);
+            assert_eq!(ours.values, truth.values, "{} {instance}", group.label);
+            assert_eq!(ours.traces, truth.traces, "{} {instance}", group.label);
             longest = longest.max(tries(&truth));
         }
     }

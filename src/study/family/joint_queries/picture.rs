@@ -1,26 +1,27 @@
 //! What pictures of a robot among solids need, millimetres, in the form of cells: boxes by their corners, all else by capsules.
 
-use super::{Query, Stance};
+use super::{ArmPlacement, Query};
 use base::robot::{Joint, Kind};
 use base::solid::{Form, Solid};
 use engine::geometry::{Capsule, Frame};
 use engine::kinematics::robot::capsule_around;
-use engine::planner::Exhibit;
+use engine::planner::Trace;
 use engine::space::JointSpace;
 
 /// Obstacles, of which the first is the floor if there is one, and the robot and its tip at each query's ends.
-pub(super) fn exhibits(space: &JointSpace, floor_m: Option<f64>, queries: &[Query]) -> Vec<Exhibit> {
-    let (mut boxes, mut rounds) = (Vec::new(), Vec::new());
+pub(super) fn traces(space: &JointSpace, floor_m: Option<f64>, queries: &[Query]) -> Vec<Trace> {
+    let mut boxes = Vec::new();
+    let mut rounds = Vec::new();
     for solid in space.obstacles().iter().skip(usize::from(floor_m.is_some())) {
         match solid.form {
             Form::Box(_) => boxes.extend(corners(solid)),
             _ => rounds.extend(capsule_around(solid, &Frame::IDENTITY).ok().as_ref().map(round)),
         }
     }
-    let mut exhibits = vec![
-        Exhibit { name: "boxes".to_owned(), width: 24, values: boxes },
-        Exhibit { name: "rounds".to_owned(), width: 7, values: rounds.concat() },
-        Exhibit {
+    let mut traces = vec![
+        Trace { name: "boxes".to_owned(), width: 24, values: boxes },
+        Trace { name: "rounds".to_owned(), width: 7, values: rounds.concat() },
+        Trace {
             name: "floor".to_owned(),
             width: 1,
             values: floor_m.map(|height| height * 1e3).into_iter().collect(),
@@ -28,11 +29,11 @@ pub(super) fn exhibits(space: &JointSpace, floor_m: Option<f64>, queries: &[Quer
     ];
     for query in queries {
         for (end, q) in [("start", &query.start), ("goal", &query.goal)] {
-            exhibits.push(body(space, format!("body {}/{end}", query.name), q));
-            exhibits.push(pose(space, format!("pose {}/{end}", query.name), q));
+            traces.push(body(space, format!("body {}/{end}", query.name), q));
+            traces.push(pose(space, format!("pose {}/{end}", query.name), q));
         }
     }
-    exhibits
+    traces
 }
 
 /// The corners of a box, x before y before z.
@@ -49,7 +50,7 @@ fn round(capsule: &Capsule) -> [f64; 7] {
 }
 
 /// Where the robot is at `q`, every part by the capsule around it; `None` for another number of angles.
-pub(super) fn stance(space: &JointSpace, q: &[f64]) -> Option<Stance> {
+pub(super) fn stance(space: &JointSpace, q: &[f64]) -> Option<ArmPlacement> {
     if q.len() != space.chain().joints().len() {
         return None;
     }
@@ -58,22 +59,25 @@ pub(super) fn stance(space: &JointSpace, q: &[f64]) -> Option<Stance> {
         space.robot().solids.iter().filter_map(|(link, solid)| capsule_around(solid, &frames[*link]).ok());
     let capsules_mm = capsules.map(|capsule| round(&capsule)).collect();
     let tip = space.chain().forward(q).origin * 1e3;
-    Some(Stance { capsules_mm, tip_mm: [tip.x, tip.y, tip.z], clearance_mm: None })
+    Some(ArmPlacement { capsules_mm, tip_mm: [tip.x, tip.y, tip.z], clearance_mm: None })
 }
 
-fn body(space: &JointSpace, name: String, q: &[f64]) -> Exhibit {
+fn body(space: &JointSpace, name: String, q: &[f64]) -> Trace {
     let stance = stance(space, q).expect("a query has as many numbers as the robot has joints");
-    Exhibit { name, width: 7, values: stance.capsules_mm.concat() }
+    Trace { name, width: 7, values: stance.capsules_mm.concat() }
 }
 
 /// Joint angles in degrees and slides in millimetres, last joint and tip in millimetres, and the tip's direction.
-fn pose(space: &JointSpace, name: String, q: &[f64]) -> Exhibit {
-    let (frames, tip) = (space.chain().frames(q), space.chain().forward(q));
-    let (last, at, direction) = (frames[frames.len() - 1].origin * 1e3, tip.origin * 1e3, tip.axis(2));
+fn pose(space: &JointSpace, name: String, q: &[f64]) -> Trace {
+    let frames = space.chain().frames(q);
+    let tip = space.chain().forward(q);
+    let last = frames[frames.len() - 1].origin * 1e3;
+    let at = tip.origin * 1e3;
+    let direction = tip.axis(2);
     let shown = |(joint, value): (&Joint, &f64)| {
         if joint.kind == Kind::Slides { value * 1e3 } else { value.to_degrees() }
     };
     let mut values: Vec<f64> = space.robot().joints.iter().zip(q).map(shown).collect();
     values.extend([last, at, direction].iter().flat_map(|v| [v.x, v.y, v.z]));
-    Exhibit { name, width: values.len(), values }
+    Trace { name, width: values.len(), values }
 }

@@ -126,7 +126,8 @@ const OUT_OF_REACH: [Joints; 2] = [
 
 #[test]
 fn a_leg_out_of_reach_between_two_steps_is_joined_by_no_planner_and_refused() {
-    let ((lines, case), mut scratch) = (case(EdgeEnd::Own), Scratch::default());
+    let (lines, case) = case(EdgeEnd::Own);
+    let mut scratch = Scratch::default();
     let [from, to] = OUT_OF_REACH;
     assert_eq!(lines.join(&lines.pose(&from), &lines.pose(&to), &mut scratch), Err(Rejection::Unreachable));
     let refusal = case.motion(&[from, to], [&from, &to]).unwrap_err();
@@ -135,7 +136,8 @@ fn a_leg_out_of_reach_between_two_steps_is_joined_by_no_planner_and_refused() {
 
 #[test]
 fn legs_beside_singularities_are_followed_both_ways() {
-    let ((lines, case), mut scratch) = (case(EdgeEnd::Own), Scratch::default());
+    let (lines, case) = case(EdgeEnd::Own);
+    let mut scratch = Scratch::default();
     for [from, to] in &BESIDE_SINGULARITIES {
         assert!(is_followed(&lines, &case, [from, to], &mut scratch), "not joined: {from:?} to {to:?}");
     }
@@ -143,7 +145,8 @@ fn legs_beside_singularities_are_followed_both_ways() {
 
 #[test]
 fn what_the_planner_joins_the_verifier_follows_both_ways() {
-    let ((lines, case), mut scratch) = (case(EdgeEnd::Own), Scratch::default());
+    let (lines, case) = case(EdgeEnd::Own);
+    let mut scratch = Scratch::default();
     let mut stream = stream(derive(1, &["legs"]));
     let mut poses: Vec<Joints> = Vec::new();
     while poses.len() < 250 {
@@ -164,7 +167,8 @@ fn what_the_planner_joins_the_verifier_follows_both_ways() {
 
 #[test]
 fn a_joint_that_turns_back_at_its_limit_within_a_step_is_followed_or_not_joined() {
-    let ((lines, case), mut scratch) = (case(EdgeEnd::Own), Scratch::default());
+    let (lines, case) = case(EdgeEnd::Own);
+    let mut scratch = Scratch::default();
     let mut stream = stream(derive(1, &["legs at the limit of the sixth joint"]));
     let upper_rad = lines.cell().robot().arm().chain().joints()[5].upper_rad;
     let mut joined = 0;
@@ -184,7 +188,8 @@ fn a_joint_that_turns_back_at_its_limit_within_a_step_is_followed_or_not_joined(
 
 #[test]
 fn whole_turns_add_up_along_a_path_until_the_sixth_joint_ends() {
-    let ((lines, case), mut scratch) = (case(EdgeEnd::WholeTurns), Scratch::default());
+    let (lines, case) = case(EdgeEnd::WholeTurns);
+    let mut scratch = Scratch::default();
     let home = |last: f64| [0.0, -90.0, 0.0, 0.0, 90.0, last].map(f64::to_radians);
     let path = [home(150.0), home(-90.0), home(30.0)];
     for leg in path.windows(2) {

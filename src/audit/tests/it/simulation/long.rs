@@ -69,7 +69,8 @@ fn rows(values: &[Exact], rule: usize, style: &Style, more: impl Fn(&str) -> Str
 }
 
 fn described(values: &[i128], style: &Style, rule: usize, divisor: i128) -> Vec<String> {
-    let (n, (sum, about)) = (values.len() as i128, moments(values));
+    let n = values.len() as i128;
+    let (sum, about) = moments(values);
     let mut rising: Vec<Exact> = values.iter().map(|value| whole(*value)).collect();
     rising.sort_unstable();
     rows(&rising, rule, style, |name| match name {

@@ -85,7 +85,8 @@ fn cells(rng: &mut SmallRng) -> String {
 
 /// Means of durations in sevenths that are cut to whole ones, the total on its own.
 fn cut_sum(rng: &mut SmallRng) -> String {
-    let (plain, n) = (Style::plain(rng), rng.random_range(1..20));
+    let plain = Style::plain(rng);
+    let n = rng.random_range(1..20);
     let count = rng.random_range(2..4);
     let problems: Vec<Vec<i128>> =
         (0..n).map(|_| (0..count).map(|_| rng.random_range(0..300)).collect()).collect();
@@ -102,10 +103,12 @@ fn cut_sum(rng: &mut SmallRng) -> String {
 }
 
 fn total(rng: &mut SmallRng) -> String {
-    let (plain, n) = (Style::plain(rng), rng.random_range(1..80));
+    let plain = Style::plain(rng);
+    let n = rng.random_range(1..80);
     let sign = if rng.random_bool(0.2) { -1 } else { 1 };
     let sum = sign * rng.random_range(1..90_000);
-    let (total, mean) = (plain.other(rng).ratio(sum, 1000), plain.other(rng).ratio(sum, n));
+    let total = plain.other(rng).ratio(sum, 1000);
+    let mean = plain.other(rng).ratio(sum, n);
     let n = if rng.random_bool(0.5) { format!("n = {n}\n") } else { String::new() };
     relation("total_over_mean", &plain, &format!("total = \"{total}\"\nmean = \"{mean}\"\nunit = 1000\n{n}"))
 }
@@ -124,9 +127,11 @@ fn parts(rng: &mut SmallRng) -> String {
 
 /// The length and the turns of moves to eight neighbours.
 fn walk(rng: &mut SmallRng) -> String {
-    let (plain, walk) = (Style::plain(rng), Walk::drawn(rng, 8));
+    let plain = Style::plain(rng);
+    let walk = Walk::drawn(rng, 8);
     let [dx, dy] = walk.end();
-    let (length, turns) = (walk.length(&plain.other(rng)), walk.turns(rng.random_bool(0.5)));
+    let length = walk.length(&plain.other(rng));
+    let turns = walk.turns(rng.random_bool(0.5));
     let turns = plain.other(rng).ratio(turns, 1);
     let ends = format!("from = \"3:4\"\nto = \"{}:{}\"", 3 + dx, 4 + dy);
     relation("turn_sum", &plain, &format!("turns = \"{turns}\"\nlength = \"{length}\"\n{ends}"))
@@ -190,8 +195,10 @@ fn p_value(rng: &mut SmallRng) -> String {
 }
 
 fn grim(rng: &mut SmallRng) -> String {
-    let (plain, n) = (Style::plain(rng), rng.random_range(1..300));
-    let (sum, k) = (rng.random_range(-900..900), rng.random_range(0..=n));
+    let plain = Style::plain(rng);
+    let n = rng.random_range(1..300);
+    let sum = rng.random_range(-900..900);
+    let k = rng.random_range(0..=n);
     let style = plain.other(rng);
     let mean = format!("value = \"{}\"\nn = {n}\ngrain = \"1/4\"", style.ratio(sum, 4 * n));
     let share = format!("value = \"{}\"\nn = {n}\nwhole = 100", style.ratio(100 * k, n));
@@ -202,10 +209,12 @@ fn grim(rng: &mut SmallRng) -> String {
 }
 
 fn grimmer(rng: &mut SmallRng) -> String {
-    let (plain, n) = (Style::plain(rng), rng.random_range(2..30));
+    let plain = Style::plain(rng);
+    let n = rng.random_range(2..30);
     let values = values(rng, n);
     let (sum, about) = moments(&values);
-    let (mean, spread) = (plain.other(rng), plain.other(rng));
+    let mean = plain.other(rng);
+    let spread = plain.other(rng);
     let (key, by) = [("sd", 1), ("se", n)][rng.random_range(0..2)];
     let (divisor, below) = [("sample", n - 1), ("population", n), ("either", n)][rng.random_range(0..3)];
     let spread = spread.root(about, n * below * by);
@@ -225,7 +234,8 @@ fn ticks(rng: &mut SmallRng) -> String {
 }
 
 fn rising(rng: &mut SmallRng) -> String {
-    let (plain, n) = (Style::plain(rng), rng.random_range(1..60));
+    let plain = Style::plain(rng);
+    let n = rng.random_range(1..60);
     let mut solved: Vec<i128> = (0..rng.random_range(2..6)).map(|_| rng.random_range(0..=n)).collect();
     solved.sort_unstable();
     let listed: Vec<String> = solved.iter().map(|k| format!("\"{}\"", plain.ratio(100 * k, n))).collect();

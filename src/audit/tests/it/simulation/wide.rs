@@ -68,7 +68,8 @@ fn statistics(rng: &mut SmallRng, sheet: &mut Sheet) {
         let style = Style::drawn(rng);
         let cell = |values: &Vec<i128>| {
             let place = (values.len() as i128 - 1) * quarters;
-            let (at, rest) = ((place / 4) as usize, place % 4);
+            let at = (place / 4) as usize;
+            let rest = place % 4;
             let next = values[(at + 1).min(values.len() - 1)];
             style.ratio(4 * values[at] + rest * (next - values[at]), 4 * grain)
         };
@@ -147,9 +148,13 @@ fn sums(rng: &mut SmallRng, sheet: &mut Sheet) {
 fn lengths(rng: &mut SmallRng, sheet: &mut Sheet) {
     let mut walk = Walk::drawn(rng, 9);
     let [dx, dy] = walk.end();
-    let (style, turned, step) = (Style::drawn(rng), Style::drawn(rng), [1, 2][rng.random_range(0..2)]);
+    let style = Style::drawn(rng);
+    let turned = Style::drawn(rng);
+    let step = [1, 2][rng.random_range(0..2)];
     let is_interior = rng.random_bool(0.5);
-    let (mut lengths, mut turns, mut short) = (Vec::new(), Vec::new(), Vec::new());
+    let mut lengths = Vec::new();
+    let mut turns = Vec::new();
+    let mut short = Vec::new();
     for _ in 0..sheet.rows {
         walk.moves.shuffle(rng);
         lengths.push(walk.length(&style));
@@ -178,7 +183,8 @@ fn counts(rng: &mut SmallRng, sheet: &mut Sheet) {
 
 /// The best is bold, by the true values, as printed ones may be alike.
 fn best(rng: &mut SmallRng, sheet: &mut Sheet) {
-    let (style, is_lower) = (Style::drawn(rng), rng.random_bool(0.5));
+    let style = Style::drawn(rng);
+    let is_lower = rng.random_bool(0.5);
     let values: Vec<i128> = (0..sheet.rows).map(|_| rng.random_range(-300..300)).collect();
     let best = if is_lower { values.iter().min() } else { values.iter().max() }.unwrap();
     let cell = |value: &i128| {
@@ -191,7 +197,8 @@ fn best(rng: &mut SmallRng, sheet: &mut Sheet) {
 
 /// What is solved with fewer samples is solved with more.
 fn rising(rng: &mut SmallRng, sheet: &mut Sheet) {
-    let (style, n) = (Style::drawn(rng), rng.random_range(1..100));
+    let style = Style::drawn(rng);
+    let n = rng.random_range(1..100);
     let mut solved: Vec<i128> = (0..sheet.rows).map(|_| rng.random_range(0..=n)).collect();
     solved.sort_unstable();
     let samples = (1..=sheet.rows).map(|row| (100 * row).to_string()).collect();

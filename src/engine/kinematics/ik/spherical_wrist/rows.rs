@@ -29,7 +29,8 @@ impl SphericalWrist {
         let h = [wrist.x * side / radius, wrist.y * side / radius];
         let u = wrist.x.mul_add(h[0], wrist.y * h[1]) - self.a1;
         let v = (wrist.z - self.d1) * self.signs[0];
-        let (a2, forearm) = (self.a2, self.forearm);
+        let a2 = self.a2;
+        let forearm = self.forearm;
         let cosine = (u.mul_add(u, v * v) - (a2 * a2 + forearm * forearm)) * (1.0 / (2.0 * a2 * forearm));
         let sine = ((-cosine + 1.0) * (cosine + 1.0)).sqrt();
         let elbow = sign(branch.elbow());
@@ -41,7 +42,8 @@ impl SphericalWrist {
         let z3 = Point { x: h[0] * s * sign3, y: h[1] * s * sign3, z: -c * (sign1 * sign3) };
         let ([theta4, theta5, theta6], sin5) =
             self.wrist_rows([x3, z3.cross(x3), z3], &flange, branch.wrist());
-        let (theta1, offsets) = (atan2(h[1], h[0]), &self.offsets);
+        let theta1 = atan2(h[1], h[0]);
+        let offsets = &self.offsets;
         let regular = radius.simd_gt(NEARLY_SINGULAR) & sin5.simd_gt(NEARLY_SINGULAR);
         let solved = regular & sine.simd_gt(NEARLY_SINGULAR);
         let unreachable = radius.simd_gt(NEARLY_SINGULAR) & cosine.abs().simd_gt(1.0 + BEYOND_REACH);

@@ -58,7 +58,8 @@ fn held(arm: &Arm, q: &Joints, reference: &Joints, place: &str) -> usize {
 fn published_arms_get_every_branch_to_a_nanometre_and_the_configuration_drawn_is_one_of_them() {
     for (seed, (name, arm, solver)) in (741..).zip(published()) {
         assert_eq!(arm.solver().name, solver, "{name}");
-        let (mut stream, mut count) = (seed::stream(seed), 0);
+        let mut stream = seed::stream(seed);
+        let mut count = 0;
         for index in 0..100_000 {
             let q = draw(&mut stream, arm.chain());
             let place = format!("{name}, seed {seed} case {index}: {q:?}");
@@ -78,11 +79,13 @@ fn published_arms_get_every_branch_to_a_nanometre_and_the_configuration_drawn_is
 fn besides_the_other_wrist_all_have_the_other_elbow_or_joint_1_half_a_turn_away() {
     let near = |a: f64, b: f64| wrapped(a - b).abs() < 1e-5;
     for (seed, (name, arm, _)) in (771..).zip(published()) {
-        let (mut stream, mut told) = (seed::stream(seed), 0);
+        let mut stream = seed::stream(seed);
+        let mut told = 0;
         for index in 0..2_000 {
             let q = draw(&mut stream, arm.chain());
             let Some(other) = arm.other_wrist(&q) else { continue };
-            let (own, place) = (arm.branch_of(&q), format!("{name}, seed {seed} case {index}: {q:?}"));
+            let own = arm.branch_of(&q);
+            let place = format!("{name}, seed {seed} case {index}: {q:?}");
             for (branch, found) in arm.inverse(&arm.chain().forward(&q), &q).iter() {
                 if branch.shoulder() != own.shoulder() {
                     assert!(near(found[0], q[0] + PI), "{place}: {found:?}");
@@ -110,7 +113,10 @@ fn drawn_table(stream: &mut Stream, is_spherical: bool) -> tables::Table {
     let mut short =
         |scale: f64| if stream.random_bool(0.3) { 0.0 } else { stream.random_range(-scale..scale) };
     let d = [0; 6].map(|_| short(150.0));
-    let (a1, a3_short, a6, alpha6) = (short(100.0), short(100.0), short(50.0), short(180.0));
+    let a1 = short(100.0);
+    let a3_short = short(100.0);
+    let a6 = short(50.0);
+    let alpha6 = short(180.0);
     let mut table = if is_spherical {
         [
             [right[0], a1, d[0], 0.0],
@@ -197,7 +203,9 @@ fn at_the_shoulder(arm: &Arm, q: &Joints) -> Joints {
 fn singular_poses_are_reached_to_a_nanometre() {
     let nearly = [0.0, 1e-14, 1e-12, 9e-11, 1.1e-10, 1e-9, 1e-8, 1e-6];
     for (seed, (name, arm, _)) in (751..).zip(published()) {
-        let (mut stream, mut refused, mut twice) = (seed::stream(seed), 0, 0);
+        let mut stream = seed::stream(seed);
+        let mut refused = 0;
+        let mut twice = 0;
         for index in 0..100_000 {
             let mut q = draw(&mut stream, arm.chain());
             let by = nearly[index / 24 % nearly.len()] * if index % 2 == 0 { 1.0 } else { -1.0 };

@@ -26,10 +26,12 @@ fn of_ten_thousand_reachable_poses_at_least_99_in_100_are_solved() {
         assert_eq!((arm.solver().name, arm.solver().is_complete), ("numerical", false), "{name}");
         let said = arm.solver().to_string();
         assert!(said.contains("may miss configurations") && said.contains(reason), "{said}");
-        let (mut stream, mut solved) = (seed::stream(seed), 0);
+        let mut stream = seed::stream(seed);
+        let mut solved = 0;
         for index in 0..10_000 {
             let [q, reference] = [draw(&mut stream, arm.chain()), draw(&mut stream, arm.chain())];
-            let (target, branch) = (arm.chain().forward(&q), arm.branch_of(&q));
+            let target = arm.chain().forward(&q);
+            let branch = arm.branch_of(&q);
             let Some(found) = arm.inverse_on(&target, branch, &reference) else { continue };
             let (off_m, turned_rad) = residual(&arm.chain().forward(&found), &target);
             let place = format!("{name}, seed {seed} case {index}: {q:?} from {reference:?}");
@@ -44,7 +46,8 @@ fn of_ten_thousand_reachable_poses_at_least_99_in_100_are_solved() {
 #[test]
 fn from_a_near_reference_the_near_configuration_is_found_and_a_step_on_stays_near() {
     for (seed, (name, arm, _)) in (771..).zip(general()) {
-        let (mut stream, mut near) = (seed::stream(seed), 0);
+        let mut stream = seed::stream(seed);
+        let mut near = 0;
         for _ in 0..1_000 {
             let q = draw(&mut stream, arm.chain());
             let reference = q.map(|angle| (angle + stream.random_range(-0.02..0.02)).clamp(-PI, PI));
@@ -58,7 +61,8 @@ fn from_a_near_reference_the_near_configuration_is_found_and_a_step_on_stays_nea
 
 #[test]
 fn distinct_configurations_are_given_once_each_and_the_same_on_every_call() {
-    let (seed, mut most) = (781, 0);
+    let seed = 781;
+    let mut most = 0;
     for (name, arm, _) in general() {
         let mut stream = seed::stream(seed);
         for _ in 0..50 {
@@ -82,7 +86,9 @@ fn the_search_finds_what_a_closed_form_finds() {
     let closed = arm(&UR5);
     let chain = Chain::new(joints(&UR5), Frame::IDENTITY, Frame::IDENTITY).unwrap();
     let search = Arm::new(chain, Some("numerical")).unwrap();
-    let (seed, mut lost, mut count) = (782, 0, 0);
+    let seed = 782;
+    let mut lost = 0;
+    let mut count = 0;
     let mut stream = seed::stream(seed);
     for _ in 0..300 {
         let q = draw(&mut stream, closed.chain());

@@ -33,8 +33,10 @@ fn is_of_the_hand(part: &Part) -> bool {
 /// Where the hull ends beyond the tip, body by body.
 fn hull_ends_m(file: &Path) -> Vec<(String, f64)> {
     if let Ok(robot) = Robot::load(file) {
-        let (chain, q) = (robot.arm().chain(), [0.3; AXES]);
-        let (frames, tip) = (chain.frames(&q), chain.forward(&q));
+        let chain = robot.arm().chain();
+        let q = [0.3; AXES];
+        let frames = chain.frames(&q);
+        let tip = chain.forward(&q);
         let end = |body: &Body| {
             let hand = body.parts.iter().filter(|part| is_of_the_hand(part));
             hand.map(|part| beyond_m(&tip, &part.placed(&frames))).fold(f64::NEG_INFINITY, f64::max)
@@ -42,8 +44,10 @@ fn hull_ends_m(file: &Path) -> Vec<(String, f64)> {
         return robot.bodies().iter().map(|body| (body.name.clone(), end(body))).collect();
     }
     let read = base::robot::read_urdf(file).unwrap();
-    let (open, zero) = (OpenChain::new(&read), vec![0.0; read.joints.len()]);
-    let (frames, tip) = (open.frames(&zero), open.forward(&zero));
+    let open = OpenChain::new(&read);
+    let zero = vec![0.0; read.joints.len()];
+    let frames = open.frames(&zero);
+    let tip = open.forward(&zero);
     let hand = read.solids.iter().filter(|(link, _)| *link == zero.len());
     let ends = hand.map(|(link, solid)| beyond_m(&tip, &capsule_around(solid, &frames[*link]).unwrap()));
     vec![("urdf".to_owned(), ends.fold(f64::NEG_INFINITY, f64::max))]

@@ -18,11 +18,15 @@ const BALL: &str = "<collision><geometry><sphere radius=\"0.01\"/></geometry></c
 /// length and twist lead to the next.
 fn urdf(chain: &Chain, solids: &str) -> String {
     let mut text = "<robot name=\"rows\"><link name=\"l0\"/>".to_owned();
-    let (mut xyz, mut roll) = ([0.0; 3], 0.0);
+    let mut xyz = [0.0; 3];
+    let mut roll = 0.0;
     for (i, joint) in chain.joints().iter().enumerate() {
         let [x, y, z] = xyz;
-        let (lower, upper, speed) = (joint.lower_rad, joint.upper_rad, joint.speed_rad_s);
-        let (next, offset) = (i + 1, joint.offset_rad);
+        let lower = joint.lower_rad;
+        let upper = joint.upper_rad;
+        let speed = joint.speed_rad_s;
+        let next = i + 1;
+        let offset = joint.offset_rad;
         let _ = write!(
             text,
             "<joint name=\"w{next}\" type=\"fixed\"><parent link=\"l{i}\"/><child link=\"w{next}\"/>\
@@ -108,12 +112,14 @@ fn skew_axes_in_frames_of_any_kind_keep_their_kinematics_and_take_the_search() {
             );
         }
         let read = parsed(text + "</robot>");
-        let (robot, open) = (urdf::robot(&read).unwrap(), OpenChain::new(&read));
+        let robot = urdf::robot(&read).unwrap();
+        let open = OpenChain::new(&read);
         assert_eq!(robot.arm().solver().name, "numerical");
         assert!(robot.notes()[0].contains("by `numerical`, which may miss configurations"));
         for _ in 0..50 {
             let q = draw(&mut stream, robot.arm().chain());
-            let (rows, frames) = (robot.arm().chain().forward(&q), open.forward(&q));
+            let rows = robot.arm().chain().forward(&q);
+            let frames = open.forward(&q);
             let off = (rows.origin - frames.origin).norm() + (rows.rotation - frames.rotation).norm();
             assert!(off < 1e-11, "case {case}: off by {off}");
         }
@@ -132,12 +138,15 @@ fn capsules_hold_the_solids_that_they_stand_for() {
             "<collision><origin xyz=\"0.01 0.02 0.03\" rpy=\"0.3 -0.2 0.1\"/><geometry>{form}</geometry></collision>"
         );
         let read = parsed(urdf(shipped("ur5").arm().chain(), &solids));
-        let (robot, open) = (urdf::robot(&read).unwrap(), OpenChain::new(&read));
+        let robot = urdf::robot(&read).unwrap();
+        let open = OpenChain::new(&read);
         assert_eq!(robot.notes().len(), usize::from(!form.contains("sphere")), "{form}: {:?}", robot.notes());
         let mut stream = seed::stream(4);
         let q = draw(&mut stream, robot.arm().chain());
-        let (frames, links) = (open.frames(&q), robot.arm().chain().frames(&q));
-        let (mut held, body) = (0, &robot.bodies()[0]);
+        let frames = open.frames(&q);
+        let links = robot.arm().chain().frames(&q);
+        let mut held = 0;
+        let body = &robot.bodies()[0];
         for (part, (link, solid)) in body.parts().iter().zip(&read.solids) {
             let capsule = part.placed(&links);
             let (points, radius) = solid.rounded();

@@ -69,7 +69,8 @@ fn the_turn_at_each_node_stays_within_its_bounds() {
     let world = beside();
     let bounds = [0.06, 0.05, 0.04];
     let settings = posture(("bounds_rad = [0.2, 0.2, 0.1]", "bounds_rad = [0.06, 0.05, 0.04]")).unwrap();
-    let (mut met, mut far) = (0, 0);
+    let mut met = 0;
+    let mut far = 0;
     for way in ways(&settings, &world) {
         for pair in way.stood.windows(2) {
             met += assert_bounded(&pair[0], &pair[1], bounds);
@@ -100,7 +101,8 @@ fn turns_in_place_are_stored_step_by_step() {
     let world = beside();
     let arm = world.as_polyhedra().unwrap().arm().unwrap().clone();
     let settings = posture(("", "")).unwrap();
-    let (mut turns, mut longest) = (0, 0);
+    let mut turns = 0;
+    let mut longest = 0;
     for way in ways(&settings, &world) {
         assert!(way.adjustments > 0 || way.trail.len() == way.stood.len());
         let mut together = 0;
@@ -135,7 +137,8 @@ fn joints_moved_by_the_jacobian_leave_the_line_and_solved_ones_do_not() {
         };
         ways(&posture(change).unwrap(), &world).iter().map(of_way).fold(0.0, f64::max)
     };
-    let (solved, moved) = (off(("", "")), off(("pose = 'inverse'", "pose = 'jacobian'")));
+    let solved = off(("", ""));
+    let moved = off(("pose = 'inverse'", "pose = 'jacobian'"));
     assert!(solved < 1e-6 && moved > 1e-3 && moved < 5.0, "{solved} cm and {moved} cm off the line");
 }
 

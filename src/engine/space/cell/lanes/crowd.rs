@@ -69,7 +69,8 @@ impl<const SIDES: usize> Waiting<SIDES> {
 
     #[inline(always)]
     fn push(&mut self, [block, lane]: [usize; 2], axes: [&Axis; SIDES], touch_m: f32) {
-        let (number, place) = (self.count / ROUGH_LANES, self.count % ROUGH_LANES);
+        let number = self.count / ROUGH_LANES;
+        let place = self.count % ROUGH_LANES;
         if number == self.groups.len() {
             self.grow();
         }
@@ -95,7 +96,7 @@ impl<const SIDES: usize> Waiting<SIDES> {
 
     /// Tells all configurations on the list what `measure` finds, and empties it.
     #[inline(always)]
-    fn tell(&mut self, known: &mut [Known], mut measure: impl FnMut(&Group<SIDES>) -> [u8; 2]) {
+    fn resolve(&mut self, known: &mut [Known], mut measure: impl FnMut(&Group<SIDES>) -> [u8; 2]) {
         for (first, group) in (0..self.count).step_by(ROUGH_LANES).zip(&self.groups) {
             let found = measure(group);
             for (place, [block, lane]) in group.states.iter().enumerate().take(self.count - first) {
@@ -109,7 +110,8 @@ impl<const SIDES: usize> Waiting<SIDES> {
 /// Which gaps are contacts, and which are in doubt.
 #[inline(always)]
 fn sorted<S: Simd>(gap: Rough<S>, band: f32) -> [u8; 2] {
-    let (free, contact) = (gap.simd_gt(band), gap.simd_lt(-band));
+    let free = gap.simd_gt(band);
+    let contact = gap.simd_lt(-band);
     [contact, !(free | contact)].map(|mask| mask.to_bitmask() as u8)
 }
 
@@ -138,7 +140,8 @@ impl<'a> Crowd<'a> {
     fn look<S: Simd>(&mut self, simd: S, states: &[Joints], is_asked: impl Fn(&Joints) -> bool) {
         self.known.clear();
         for (block, states) in states.chunks(ROUGH_LANES).enumerate() {
-            let (mut angles, mut shut) = ([[0.0; ROUGH_LANES]; AXES], ALL);
+            let mut angles = [[0.0; ROUGH_LANES]; AXES];
+            let mut shut = ALL;
             for (lane, q) in states.iter().enumerate().filter(|(_, q)| is_asked(q)) {
                 shut &= !(1 << lane);
                 for (row, angle) in angles.iter_mut().zip(q) {
@@ -154,11 +157,12 @@ impl<'a> Crowd<'a> {
             self.meet_obstacles(simd, block, open);
             self.meet_themselves(simd, block, open);
         }
-        let (outline, known) = (self.outline, &mut self.known);
-        self.pairs.tell(known, |group| own_gaps(simd, outline, group));
+        let outline = self.outline;
+        let known = &mut self.known;
+        self.pairs.resolve(known, |group| own_gaps(simd, outline, group));
         for (waiting, solid) in self.at_obstacles.iter_mut().zip(&outline.solids) {
             let Some(solid) = solid else { continue };
-            waiting.tell(known, |group| gaps(simd, solid, group, outline.band_m));
+            waiting.resolve(known, |group| gaps(simd, solid, group, outline.band_m));
         }
     }
 
@@ -201,7 +205,8 @@ impl<'a> Crowd<'a> {
                 while met != 0 {
                     let bit = met.trailing_zeros() as usize;
                     met &= met - 1;
-                    let (part, lane) = (parts[bit / ROUGH_LANES], bit % ROUGH_LANES);
+                    let part = parts[bit / ROUGH_LANES];
+                    let lane = bit % ROUGH_LANES;
                     if outline.solids[obstacle].is_none() {
                         self.known[block].unsure |= 1 << lane;
                     } else {
@@ -226,7 +231,8 @@ impl<'a> Crowd<'a> {
             while met != 0 {
                 let bit = met.trailing_zeros() as usize;
                 met &= met - 1;
-                let (pair, lane) = (&pairs[bit / ROUGH_LANES], bit % ROUGH_LANES);
+                let pair = &pairs[bit / ROUGH_LANES];
+                let lane = bit % ROUGH_LANES;
                 self.pairs.push([block, lane], pair.parts.map(|part| &self.placed[part]), pair.touch_m);
             }
         }

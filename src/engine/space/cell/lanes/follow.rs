@@ -5,7 +5,7 @@ use crate::kinematics::angle::nearest_copy;
 use crate::kinematics::ik::{Branch, LaneSolutions};
 use crate::kinematics::{AXES, Joint, Joints};
 use crate::space::cell::limits::PARTS;
-use crate::space::cell::lines::{EdgeEnd, Pace, SAME_RAD, largest_change};
+use crate::space::cell::lines::{EdgeEnd, SAME_RAD, StepSchedule, largest_change};
 use crate::space::cell::way::Way;
 use crate::space::cell::{Lines, Pose, Rejection};
 use std::f64::consts::{PI, TAU};
@@ -68,7 +68,8 @@ impl Lines {
             for step in first..=steps.min(first + LANES as u32 - 1) {
                 // The angles are written where they stay: copied, they would be waited for.
                 let (before, rest) = states.split_at_mut(step as usize);
-                let (last, next) = (&before[before.len() - 1], &mut rest[0]);
+                let last = &before[before.len() - 1];
+                let next = &mut rest[0];
                 match self.sure_step(&found, (step - first) as usize, &pace, step, last, next) {
                     Some(Err(reason)) => return Some(Err(reason)),
                     Some(Ok(())) if self.surely_keeps(way, from.branch, &pace, step, [last, next]) => {
@@ -90,7 +91,7 @@ impl Lines {
         &self,
         way: &Way,
         branch: Branch,
-        pace: &Pace,
+        pace: &StepSchedule,
         step: u32,
         (last, is_exact): (&Joints, bool),
     ) -> Result<Joints, Rejection> {
@@ -110,7 +111,7 @@ impl Lines {
         &self,
         found: &LaneSolutions,
         lane: usize,
-        pace: &Pace,
+        pace: &StepSchedule,
         step: u32,
         last: &Joints,
         next: &mut Joints,
@@ -181,7 +182,7 @@ impl Lines {
         &self,
         way: &Way,
         branch: Branch,
-        pace: &Pace,
+        pace: &StepSchedule,
         step: u32,
         [last, q]: [&Joints; 2],
     ) -> bool {
@@ -207,7 +208,7 @@ impl Lines {
 
     /// Whether a joint is faster than it can be in this step; `None` in doubt.
     #[inline]
-    fn is_too_fast(&self, pace: &Pace, step: u32, last: &Joints, q: &Joints) -> Option<bool> {
+    fn is_too_fast(&self, pace: &StepSchedule, step: u32, last: &Joints, q: &Joints) -> Option<bool> {
         let Some(law) = &self.rules.speed else { return Some(false) };
         let duration_s = pace.duration_s(law, step);
         for (joint, (a, b)) in self.cell.robot.arm().chain().joints().iter().zip(q.iter().zip(last)) {

@@ -175,7 +175,7 @@ impl Memory {
             track.collect(simd, outline);
         }
         match track.look(simd, outline) {
-            Look::Free if !track.settle(simd, arm, outline, course, &mut self.halves) => Look::Doubt,
+            Look::Free if !track.settle(simd, arm, outline, course, &mut self.halves) => Look::UnsettledPath,
             look => look,
         }
     }
@@ -195,7 +195,8 @@ impl Lines {
         memory: &mut Memory,
         checked: &mut u64,
     ) -> Option<Result<(), Rejection>> {
-        let (arm, outline) = (self.cell.robot.arm(), &self.cell.outline);
+        let arm = self.cell.robot.arm();
+        let outline = &self.cell.outline;
         if !is_rough(&from.q) || !is_rough(&to.q) {
             return None;
         }
@@ -215,7 +216,7 @@ impl Lines {
             }
         };
         match dispatch!(level(), simd => memory.judge(simd, arm, outline, &course, count)) {
-            Look::Doubt => None,
+            Look::UnsettledPath => None,
             Look::Contact(order) => {
                 *checked += order as u64 + 1;
                 Some(Err(Rejection::Contact))

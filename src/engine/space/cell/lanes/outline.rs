@@ -81,13 +81,13 @@ impl Outline {
         let rough_solid = |solid: &Solid| match solid {
             Solid::Box(_) if has_slender => None,
             Solid::Capsule(shape) if shape.radius + thinnest_m < ROUGH_LEAST * extent_m => None,
-            _ => RoughSolid::of(solid),
+            _ => RoughSolid::from_solid(solid),
         };
         let boxes: Vec<_> = solids.clone().map(corners).collect();
         let (walls, bounded) = (0..scene.obstacles().len())
             .partition(|obstacle| matches!(scene.obstacles()[*obstacle].solid, Solid::HalfSpace(_)));
         Self {
-            chain: RoughChain::of(chain),
+            chain: RoughChain::from_chain(chain),
             axes,
             on_link,
             radii_m: body.parts().iter().map(|part| part.capsule().radius as f32).collect(),

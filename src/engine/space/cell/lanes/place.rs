@@ -98,7 +98,8 @@ impl Track {
     /// By how much each of the `wanted` parts (one bit each) is thickened at every configuration, and the box that it sweeps.
     #[inline(always)]
     pub(super) fn measure<S: Simd>(&mut self, simd: S, outline: &Outline, wanted: u64) {
-        let (blocks, parts) = (self.angles.len(), outline.radii_m.len());
+        let blocks = self.angles.len();
+        let parts = outline.radii_m.len();
         let zero = Rough::splat(simd, 0.0);
         let numbers = Rough::load_array(simd, NUMBERS);
         for part in 0..parts {
@@ -107,7 +108,8 @@ impl Track {
             }
             let mut own = load(simd, &self.placed[part]);
             let (mut least, mut most) = (own[0].min(own[1]), own[0].max(own[1]));
-            let (mut before, mut widest) = (zero, zero);
+            let mut before = zero;
+            let mut widest = zero;
             for block in 0..blocks {
                 let next = if block + 1 < blocks {
                     load(simd, &self.placed[(block + 1) * parts + part])

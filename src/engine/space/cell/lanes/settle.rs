@@ -168,7 +168,8 @@ impl Place {
         let [mut low, mut high] = [0, 1].map(|next| (self.first + lane + next) as f64 / steps);
         let (mut from, mut to) = (0, PARTS);
         loop {
-            let (middle, share) = (usize::midpoint(from, to), f64::midpoint(low, high));
+            let middle = usize::midpoint(from, to);
+            let share = f64::midpoint(low, high);
             if self.part == middle {
                 return share;
             }

@@ -59,9 +59,11 @@ impl Track {
         // A place is at most half a chord, and what the curve strays from it, from the nearer end; from there a step goes as
         // far as its share of the longest chord, and of half the acceleration.
         let thickened = HALF_WAY as f32 * share;
-        let (of_way, of_bend) = ((0.5 + thickened) * ROUNDED, (0.125 + 0.5 * thickened) * ROUNDED);
+        let of_way = (0.5 + thickened) * ROUNDED;
+        let of_bend = (0.125 + 0.5 * thickened) * ROUNDED;
         let pulls = Outline::pulls(step);
-        let (blocks, parts) = (self.angles.len(), outline.radii_m.len());
+        let blocks = self.angles.len();
+        let parts = outline.radii_m.len();
         let last = Rough::load_array(simd, NUMBERS).simd_lt((ROUGH_LANES - 1) as f32);
         let zero = Rough::splat(simd, 0.0);
         for part in 0..parts {

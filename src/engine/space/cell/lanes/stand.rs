@@ -18,7 +18,7 @@ pub(super) enum Look {
     /// In contact; holds the rank of the first such configuration, counted from the middle outwards.
     Contact(usize),
     /// Undecided: a comparison fell within its error band, or a solid has no lanes.
-    Doubt,
+    UnsettledPath,
 }
 
 /// The pairs that may touch somewhere on a path.
@@ -60,7 +60,8 @@ impl Bits {
     fn judge<S: Simd>(&mut self, gap: Rough<S>, room: Rough<S>, band: f32) {
         let near = !gap.simd_gt(room);
         if near.any_true() {
-            let (free, contact) = (gap.simd_gt(band), gap.simd_lt(-band));
+            let free = gap.simd_gt(band);
+            let contact = gap.simd_lt(-band);
             self.near |= near.to_bitmask();
             self.contact |= contact.to_bitmask();
             self.unsure |= (!(free | contact)).to_bitmask();
@@ -124,7 +125,8 @@ fn among_obstacles<S: Simd>(
     bits: &mut Bits,
 ) {
     for &(part, obstacle) in &close.scene {
-        let (axis, room) = (load(simd, &placed[part]), Rough::load_array_ref(simd, &rooms[part]));
+        let axis = load(simd, &placed[part]);
+        let room = Rough::load_array_ref(simd, &rooms[part]);
         let radius = outline.radii_m[part];
         let reach = room + radius;
         let reach = Point { x: reach, y: reach, z: reach };
@@ -170,7 +172,8 @@ impl Track {
     /// which may come near something.
     #[inline(always)]
     pub(super) fn look<S: Simd>(&mut self, simd: S, outline: &Outline) -> Look {
-        let (middle, parts) = (self.count / 2, outline.radii_m.len());
+        let middle = self.count / 2;
+        let parts = outline.radii_m.len();
         let order =
             |state: usize| if state >= middle { 2 * (state - middle) } else { 2 * (middle - state) - 1 };
         let mut first = usize::MAX;
@@ -183,7 +186,7 @@ impl Track {
             let bits = stand(simd, outline, &self.close, &self.placed[rows.clone()], &self.rooms[rows]);
             let valid = (1 << states.len()) - 1;
             if bits.unsure & valid != 0 {
-                return Look::Doubt;
+                return Look::UnsettledPath;
             }
             self.near[block] = bits.near & valid;
             let touching = states.filter(|state| bits.contact >> (state - block * ROUGH_LANES) & 1 == 1);

@@ -94,7 +94,8 @@ fn near(cell: &Cell, states: &[Joints]) -> Vec<bool> {
 fn bodies_are_placed_to_a_tenth_of_the_band() {
     let cell = fu_cell();
     let mut stream = seed::stream(54);
-    let (band_m, parts) = (f64::from(cell.outline.band_m), cell.body().parts().len());
+    let band_m = f64::from(cell.outline.band_m);
+    let parts = cell.body().parts().len();
     let mut worst = 0_f64;
     for index in 0..20_000 {
         let drawn: [Joints; ROUGH_LANES] = std::array::from_fn(|_| draw(&mut stream));
@@ -120,7 +121,9 @@ fn bodies_are_placed_to_a_tenth_of_the_band() {
 
 #[test]
 fn no_end_of_a_part_bends_more_than_its_bound() {
-    let (cell, mut stream, mut worst) = (fu_cell(), seed::stream(57), 0_f64);
+    let cell = fu_cell();
+    let mut stream = seed::stream(57);
+    let mut worst = 0_f64;
     for index in 0..20_000 {
         let q = draw(&mut stream);
         let step: Joints = std::array::from_fn(|_| stream.random_range(-0.3..0.3) * f64::from(index % 3));
@@ -202,7 +205,8 @@ fn boxes_have_no_lanes_beside_a_slender_part() {
 
 #[test]
 fn lanes_and_one_configuration_at_a_time_agree_on_every_motion() {
-    let (cell, speed) = (fu_cell(), SpeedRule { speed_m_s: 0.5, acceleration_m_s2: 2.0 });
+    let cell = fu_cell();
+    let speed = SpeedRule { speed_m_s: 0.5, acceleration_m_s2: 2.0 };
     let mixed = mixed_cell(cell.robot());
     let readings = [
         (rules(), 40_000),
@@ -212,7 +216,8 @@ fn lanes_and_one_configuration_at_a_time_agree_on_every_motion() {
         (LineRules { speed: Some(speed), end: EdgeEnd::WholeTurns, ..rules() }, 20_000),
         (LineRules { end: EdgeEnd::PoseOnly, turn_rad: 1.5, ..rules() }, 10_000),
     ];
-    let (mut seen, mut doubts) = ([BTreeMap::new(), BTreeMap::new()], [0; 2]);
+    let mut seen = [BTreeMap::new(), BTreeMap::new()];
+    let mut doubts = [0; 2];
     let mut used = Default::default();
     for (number, (rules, count)) in readings.into_iter().enumerate() {
         let mut stream = seed::stream(seed::derive(51, &[&number.to_string()]));
@@ -240,8 +245,11 @@ fn lanes_and_one_configuration_at_a_time_agree_on_every_motion() {
 #[test]
 fn motions_that_stop_a_micrometre_before_or_in_contact_are_left_to_the_scalar_code() {
     let lines = Lines::new(fu_cell(), LineRules { path: Path::Joints, ..rules() });
-    let (cell, mut stream) = (lines.cell(), seed::stream(52));
-    let (mut cases, mut contacts, mut doubts) = (0, 0, [0; 2]);
+    let cell = lines.cell();
+    let mut stream = seed::stream(52);
+    let mut cases = 0;
+    let mut contacts = 0;
+    let mut doubts = [0; 2];
     let mut used = Default::default();
     while cases < 4_000 {
         let [free, other] = [0; 2].map(|_| draw(&mut stream));
@@ -273,15 +281,18 @@ fn motions_that_stop_a_micrometre_before_or_in_contact_are_left_to_the_scalar_co
 
 #[test]
 fn instructions_that_a_test_asks_for_are_those_that_lanes_run_on() {
-    let (lines, mut stream) = (Lines::new(fu_cell(), rules()), seed::stream(53));
+    let lines = Lines::new(fu_cell(), rules());
+    let mut stream = seed::stream(53);
     let [best, least] = levels();
-    let (mut whole, mut other) = (0, 0);
+    let mut whole = 0;
+    let mut other = 0;
     while whole < 50 {
         let from = draw(&mut stream);
         let to = partner(&lines, &from, &mut stream);
         let [from, to] = [&from, &to].map(|q| lines.pose(q));
         let joints = |level: Level| {
-            let (mut memory, mut checked) = (Memory::default(), 0);
+            let mut memory = Memory::default();
+            let mut checked = 0;
             let found = on_level(level, || lines.join_lanes(&from, &to, &mut memory, &mut checked));
             (found == Some(Ok(()))).then_some((memory.track.states, memory.track.placed))
         };
@@ -303,7 +314,8 @@ fn a_crowd_is_as_free_as_each_of_it_by_itself() {
     let cell = fu_cell();
     let cells = [mixed_cell(cell.robot()), cell];
     let mut stream = seed::stream(55);
-    let (mut free, mut doubts) = ([0_u32; 2], [0_u32; 2]);
+    let mut free = [0_u32; 2];
+    let mut doubts = [0_u32; 2];
     for (which, cell) in cells.iter().enumerate() {
         for round in 0..600 {
             // Groups of every size, with joints beyond their limits and angles that have no lanes among them.
@@ -336,7 +348,8 @@ fn a_crowd_is_as_free_as_each_of_it_by_itself() {
 
 #[test]
 fn states_of_a_crowd_a_micrometre_from_contact_are_left_to_the_scalar_code() {
-    let (cell, mut stream) = (fu_cell(), seed::stream(56));
+    let cell = fu_cell();
+    let mut stream = seed::stream(56);
     let mut states = Vec::new();
     while states.len() < 4_000 {
         let [free, other] = [0; 2].map(|_| draw(&mut stream));

@@ -1,4 +1,4 @@
-//! Which readings count for a claim, on the small paper of [`across`](crate::across): those that it can tell apart, and those that
+//! Which interpretations count for a claim, on the small paper of [`across`](crate::across): those that it can tell apart, and those that
 //! say something.
 
 use crate::across::{CHOICES, CITED, Toy, pair};
@@ -45,7 +45,7 @@ fn a_reading_that_the_study_of_a_witness_does_not_have_is_not_looked_at_if_it_to
     let first = toy.stored("explored.toml.gz");
     let claim = &first.claims["witness"];
     let sights: Vec<(Sight, usize)> =
-        claim.results.iter().map(|found| (found.sight, found.readings.len())).collect();
+        claim.results.iter().map(|found| (found.sight, found.interpretations.len())).collect();
     // The meeting touches no A*, so that the room's trials speak for both meetings.
     assert_eq!(sights, [(Sight::Looked, 2), (Sight::Unexplored, 2)]);
     let across = toy.claim("witness").across.unwrap();
@@ -57,10 +57,10 @@ fn a_reading_that_the_study_of_a_witness_does_not_have_is_not_looked_at_if_it_to
 #[test]
 fn what_a_study_without_readings_says_is_asked_under_the_defaults_alone() {
     let toy = choices_of_one_study("", &[]);
-    assert_eq!(toy.said("calibrated").1, "asked under the defaults alone");
-    assert_eq!(toy.said("shorter").1, "fails under 1 of 2 only, open under 1");
-    // With the readings in the room too, all of them were asked.
-    assert_eq!(Toy::new(&[]).said("calibrated").1, "no reading moves it");
+    assert_eq!(toy.class_and_across("calibrated").1, "asked under the defaults alone");
+    assert_eq!(toy.class_and_across("shorter").1, "fails under 1 of 2 only, open under 1");
+    // With the interpretations in the room too, all of them were asked.
+    assert_eq!(Toy::new(&[]).class_and_across("calibrated").1, "no choice moves it");
 }
 
 const DEPARTS: &str = r#"
@@ -76,13 +76,16 @@ const EITHER: (&str, &str) = ("contenders = \"A*\", in", "contenders = [\"A*\", 
 #[test]
 fn a_witness_by_a_contender_that_departs_counts_under_the_reading_that_it_departs_to() {
     let toy = choices_of_one_study(DEPARTS, &[EITHER]);
-    assert_eq!(toy.said("witness"), pair("attainable", "met under 1 of 2, hurry = none among them"));
+    assert_eq!(
+        toy.class_and_across("witness"),
+        pair("attainable", "met under 1 of 2, hurry = none among them")
+    );
     let judged = toy.claim("witness");
     assert_eq!(judged.alone().name(), "undecided");
     let because = judged.findings[0].because.join("; ");
     assert!(because.contains("met by none of 1 trial"), "{because}");
     assert!(
-        because.contains("met under another reading, hurry=none, where it counts: room/room/"),
+        because.contains("met under another interpretation, hurry=none, where it counts: room/room/"),
         "{because}"
     );
 }
@@ -94,8 +97,8 @@ fn what_contenders_depart_to_together_is_explored() {
     let first = toy.stored("explored.toml.gz");
     let together =
         [("hurry", "none"), ("reach", "both")].map(|(id, option)| (id.to_owned(), option.to_owned()));
-    assert!(first.place(&together.into()).is_some(), "{:?}", first.readings);
-    assert_eq!(toy.said("witness").1, "met under 1 of 2, hurry = none, reach = both among them");
+    assert!(first.place(&together.into()).is_some(), "{:?}", first.interpretations);
+    assert_eq!(toy.class_and_across("witness").1, "met under 1 of 2, hurry = none, reach = both among them");
 }
 
 #[test]
@@ -125,7 +128,7 @@ fn one_default_that_decides_reproduced_against_attainable_gives_the_weaker_and_i
     let judged = toy.claim("best");
     assert_eq!(judged.alone().name(), "reproduced");
     let said = "holds under 2 of 2; the class hangs on hurry: reproduced if three (1 of 2)";
-    assert_eq!(toy.said("best"), pair("attainable", said));
+    assert_eq!(toy.class_and_across("best"), pair("attainable", said));
     let across = judged.across.unwrap();
     let effect = &across.effects["hurry"];
     assert_eq!(
@@ -145,7 +148,7 @@ fn a_reading_under_which_too_few_draws_are_solved_has_no_power_and_is_not_looked
         first.claims["fewer"].results.iter().filter(|found| found.sight == Sight::Powerless).collect();
     assert!(!powerless.is_empty() && powerless.iter().all(|found| found.n < 10), "{powerless:?}");
     let across = toy.claim("fewer").across.unwrap();
-    assert_eq!(toy.said("fewer"), pair("reproduced", "no reading moves it"));
+    assert_eq!(toy.class_and_across("fewer"), pair("reproduced", "no choice moves it"));
     // The other weight is a probe here: three idle options by two crowds.
     assert_eq!((across.counted, across.looked, across.not_looked_at), (1, 3, 3));
 }
@@ -195,7 +198,7 @@ const NUMBERS: &str = "[[choice]]\nid = \"hurry\"\nwhy = \"the weight is not pri
 fn numbers_vote_within_their_bounds_and_bounds_that_are_not_whole_are_refused() {
     let table = CHOICES.split("\n[[choice]]\nid = \"idle\"").next().unwrap();
     let toy = Toy::new(&[(table, NUMBERS)]);
-    assert_eq!(toy.said("fewer"), pair("reproduced", "no reading moves it"));
+    assert_eq!(toy.class_and_across("fewer"), pair("reproduced", "no choice moves it"));
     assert_eq!(toy.claim("fewer").across.unwrap().probes, ["hurry = none: not reproduced"]);
     for (from, to, refused) in [
         ("least = 1.0", "least = 5.0", "least 5 is above greatest 4; rising bounds are accepted"),
@@ -227,7 +230,7 @@ fn numbers_vote_within_their_bounds_and_bounds_that_are_not_whole_are_refused() 
     }
 }
 
-/// An arm among one obstacle, of whose starts one reading has that within the obstacle.
+/// An arm among one obstacle, of whose starts one interpretation has that within the obstacle.
 const ARM: &str = r#"
 paper = "toy"
 question = "How long is the way?"
@@ -283,7 +286,7 @@ fn a_reading_under_which_the_problem_cannot_be_posed_is_not_looked_at() {
     let sights: Vec<(Sight, &str)> =
         first.claims["reach"].results.iter().map(|found| (found.sight, found.class.name())).collect();
     assert_eq!(sights, [(Sight::Looked, "reproduced"), (Sight::Powerless, "undecided")]);
-    // Under one reading it holds, and the other says nothing: it is no vote that leaves it open.
+    // Under one interpretation it holds, and the other says nothing: it is no vote that leaves it open.
     let judged = toy.claim("reach");
     assert_eq!(judged.verdict.name(), "reproduced");
     let across = judged.across.unwrap();

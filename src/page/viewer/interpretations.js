@@ -1,32 +1,32 @@
-// The readings that were explored: choose one and see each claim's class under it; open a claim and see what each option does to
+// The interpretations that were explored: choose one and see each claim's class under it; open a claim and see what each option does to
 // it. Classes, effects and what counts are as analysis stored them.
 import { unpackJson } from "./unpack.js";
 
 const EFFECTS = { turns: "turns it", opens: "opens or decides it", number: "changes results, not which way it speaks" };
-const SIGHTS = { powerless: "too few draws to say", unexplored: "its trials did not run under it" };
+const SIGHTS = { powerless: "too few instances to say", unexplored: "its trials did not run under it" };
 
-export async function readings(packed) {
-  const [form, table] = [document.getElementById("reading"), document.getElementById("claimed")];
+export async function interpretations(packed) {
+  const [form, table] = [document.getElementById("interpretation"), document.getElementById("claimed")];
   if (!form || packed.length === 0) return () => {};
   const data = await unpackJson(packed[0]);
   const fields = fill(form, data);
   const lines = [...table.tBodies];
 
-  const asked = () => Object.fromEntries(data.axes
-    .map((axis) => [axis.id, fields.get(axis.id).value])
-    .filter(([id, option]) => option !== data.axes.find((axis) => axis.id === id).default));
+  const asked = () => Object.fromEntries(data.choices
+    .map((choice) => [choice.id, fields.get(choice.id).value])
+    .filter(([id, option]) => option !== data.choices.find((choice) => choice.id === id).default));
   const put = (options) => {
-    for (const axis of data.axes) {
-      const field = fields.get(axis.id);
-      const isKnown = axis.options.some((option) => option.name === options[axis.id]);
-      field.value = isKnown ? options[axis.id] : axis.default;
-      field.classList.toggle("moved", field.value !== axis.default);
+    for (const choice of data.choices) {
+      const field = fields.get(choice.id);
+      const isKnown = choice.options.some((option) => option.name === options[choice.id]);
+      field.value = isKnown ? options[choice.id] : choice.default;
+      field.classList.toggle("moved", field.value !== choice.default);
     }
   };
   const show = () => {
     const options = asked();
     put(options);
-    const place = data.readings.findIndex((reading) => name(reading) === name(options));
+    const place = data.interpretations.findIndex((interpretation) => name(interpretation) === name(options));
     say(form, data, options, place, choose);
     table.classList.toggle("asked", place >= 0);
     document.querySelector("#filter [name=under]").parentElement.hidden = place < 0;
@@ -37,7 +37,7 @@ export async function readings(packed) {
   const choose = (options) => {
     put(options);
     const hash = Object.entries(options).map(([id, option]) => `${id}:${option}`).join(",");
-    history.replaceState(null, "", `#reading=${hash}`);
+    history.replaceState(null, "", `#interpretation=${hash}`);
     show();
   };
   form.addEventListener("input", () => choose(asked()));
@@ -47,14 +47,14 @@ export async function readings(packed) {
   lines.filter((line) => !line.querySelector(".evidence").hidden).forEach((line) => whatOptionsDo(line, data, choose));
 
   return (hash) => {
-    if (!hash.has("reading")) return;
-    put(Object.fromEntries(hash.get("reading").split(",").filter(Boolean).map((pair) => pair.split(":"))));
+    if (!hash.has("interpretation")) return;
+    put(Object.fromEntries(hash.get("interpretation").split(",").filter(Boolean).map((pair) => pair.split(":"))));
     show();
-    document.getElementById("readings").scrollIntoView();
+    document.getElementById("interpretations").scrollIntoView();
   };
 }
 
-// A reading by what departs from the defaults.
+// An interpretation by what departs from the defaults.
 function name(options) {
   return Object.entries(options).map(([id, option]) => `${id} = ${option}`).sort().join(", ");
 }
@@ -62,41 +62,41 @@ function name(options) {
 // One choice for each thing that the paper leaves open.
 function fill(form, data) {
   const fields = new Map();
-  for (const axis of data.axes) {
-    const label = form.appendChild(element("label", `${axis.id} `));
-    label.title = axis.why;
+  for (const choice of data.choices) {
+    const label = form.appendChild(element("label", `${choice.id} `));
+    label.title = choice.why;
     const field = label.appendChild(document.createElement("select"));
-    for (const option of axis.options) {
-      const marks = [option.name === axis.default && "default", !option.votes && "probe"].filter(Boolean);
-      field.append(new Option(option.name + (marks.length ? ` (${marks.join(", ")})` : ""), option.name, false, option.name === axis.default));
+    for (const option of choice.options) {
+      const marks = [option.name === choice.default && "default", !option.votes && "probe"].filter(Boolean);
+      field.append(new Option(option.name + (marks.length ? ` (${marks.join(", ")})` : ""), option.name, false, option.name === choice.default));
     }
-    fields.set(axis.id, field);
+    fields.set(choice.id, field);
   }
   form.appendChild(Object.assign(element("button", "all defaults"), { type: "button", name: "defaults" }));
   form.appendChild(document.createElement("output"));
   return fields;
 }
 
-// What is known of the reading; of one that was not explored, those next to it.
+// What is known of the interpretation; of one that was not explored, those next to it.
 function say(form, data, options, place, choose) {
   const said = form.querySelector("output");
-  const probes = data.axes.filter((axis) => options[axis.id] && !axis.options.find((option) => option.name === options[axis.id]).votes);
+  const probes = data.choices.filter((choice) => options[choice.id] && !choice.options.find((option) => option.name === options[choice.id]).votes);
   if (place >= 0) {
-    const probe = probes.length ? ` It has a probe (${probes.map((axis) => axis.id).join(", ")}): shown and never counted.` : "";
-    said.replaceChildren(`Reading ${place + 1} of ${data.readings.length}: ${name(options) || "the default"}.${probe}`);
+    const probe = probes.length ? ` It has a probe (${probes.map((choice) => choice.id).join(", ")}): shown and never counted.` : "";
+    said.replaceChildren(`Interpretation ${place + 1} of ${data.interpretations.length}: ${name(options) || "the default"}.${probe}`);
     return;
   }
-  const far = (reading) => data.axes.filter((axis) => (reading[axis.id] ?? axis.default) !== (options[axis.id] ?? axis.default)).length;
-  const near = data.readings.map((reading) => [far(reading), reading]).sort(([a], [b]) => a - b).slice(0, 4);
+  const far = (interpretation) => data.choices.filter((choice) => (interpretation[choice.id] ?? choice.default) !== (options[choice.id] ?? choice.default)).length;
+  const near = data.interpretations.map((interpretation) => [far(interpretation), interpretation]).sort(([a], [b]) => a - b).slice(0, 4);
   said.replaceChildren("This combination was not explored. Explored ones that are next to it: ");
-  for (const [, reading] of near) said.append(button(name(reading) || "the default", () => choose(reading)), " ");
+  for (const [, interpretation] of near) said.append(button(name(interpretation) || "the default", () => choose(interpretation)), " ");
 }
 
-// A claim's class under the reading at `place`.
+// A claim's class under the interpretation at `place`.
 function under(line, data, place, options) {
   const cell = line.querySelector("td.under");
   const results = data.claims[idOf(line)]?.results ?? [];
-  const [found, base] = [place, 0].map((at) => results.find((result) => result.readings.includes(at)));
+  const [found, base] = [place, 0].map((at) => results.find((result) => result.interpretations.includes(at)));
   line.dataset.under = place >= 0 && found ? found.class : "";
   line.toggleAttribute("data-differs", place >= 0 && Boolean(found) && found.class !== base?.class);
   if (place < 0) return cell.replaceChildren();
@@ -108,7 +108,7 @@ function under(line, data, place, options) {
 // Why a result does not count, or counts as something else.
 function why(found, data, place, options) {
   if (SIGHTS[found.sight]) return SIGHTS[found.sight];
-  const isProbe = data.axes.some((axis) => axis.options.some((option) => option.name === options[axis.id] && !option.votes));
+  const isProbe = data.choices.some((choice) => choice.options.some((option) => option.name === options[choice.id] && !option.votes));
   if (isProbe) return "";
   if (!found.counted.includes(place)) return "does not count: it contradicts what the study was calibrated to";
   return found.counts_as === found.class ? "" : `counts as ${found.counts_as}: the second seed does not say so too`;
@@ -122,18 +122,18 @@ function whatOptionsDo(line, data, choose) {
   const place = cell.appendChild(element("div"));
   place.className = "options";
   const order = Object.keys(EFFECTS);
-  const found = (one) => claim.results.find((result) => result.readings.includes(one.reading));
-  const base = claim.results.find((result) => result.readings.includes(0));
-  const link = (one) => button(`${one.axis} = ${one.option}`, () => choose(data.readings[one.reading]));
+  const found = (one) => claim.results.find((result) => result.interpretations.includes(one.interpretation));
+  const base = claim.results.find((result) => result.interpretations.includes(0));
+  const link = (one) => button(`${one.choice} = ${one.option}`, () => choose(data.interpretations[one.interpretation]));
   const isLoud = (one) => one.effect !== "none" && found(one).class !== base.class;
   const loud = claim.options.filter(isLoud).sort((a, b) => order.indexOf(a.effect) - order.indexOf(b.effect));
   const quiet = claim.options.filter((one) => one.effect !== "none" && !isLoud(one));
   if (loud.length) place.append(element("p", "what an option does that alone departs from the defaults:"), tableOf(loud, found, link, data));
   if (quiet.length) place.append(listOf("the class stays, the results change:", quiet, (one) => [link(one), aside(found(one))]));
-  const names = (wanted) => data.axes.filter((axis) => axis.options.every((option) => option.name === axis.default || wanted(axis.id, option.name))).map((axis) => axis.id);
-  const seen = (axis, option) => claim.options.find((one) => one.axis === axis && one.option === option);
-  const still = names((axis, option) => seen(axis, option)?.effect === "none");
-  const unseen = names((axis, option) => !seen(axis, option));
+  const names = (wanted) => data.choices.filter((choice) => choice.options.every((option) => option.name === choice.default || wanted(choice.id, option.name))).map((choice) => choice.id);
+  const seen = (choice, option) => claim.options.find((one) => one.choice === choice && one.option === option);
+  const still = names((choice, option) => seen(choice, option)?.effect === "none");
+  const unseen = names((choice, option) => !seen(choice, option));
   if (still.length) place.append(element("p", `no option changes anything: ${still.join(", ")}`));
   if (unseen.length) place.append(element("p", `its trials ran under the default alone: ${unseen.join(", ")}`));
 }
@@ -145,7 +145,7 @@ function tableOf(options, found, link, data) {
   const body = table.createTBody();
   for (const one of options) {
     const [row, result] = [body.insertRow(), found(one)];
-    const { votes } = data.axes.find((axis) => axis.id === one.axis).options.find((option) => option.name === one.option);
+    const { votes } = data.choices.find((choice) => choice.id === one.choice).options.find((option) => option.name === one.option);
     row.insertCell().append(link(one), votes ? "" : " (probe)");
     row.insertCell().append(EFFECTS[one.effect]);
     row.insertCell().append(badge(result.class), SIGHTS[result.sight] ? ` ${SIGHTS[result.sight]}` : "");

@@ -1,7 +1,7 @@
-//! Exhibits on disk, written and read group by group: whoever puts parts together holds one group of each at a time.
+//! Traces on disk, written and read group by group: whoever puts parts together holds one group of each at a time.
 
-use super::Exhibits;
-use super::read::{Draws, Stored, UNREADABLE, touched, unpanicked};
+use super::Traces;
+use super::read::{Instances, Stored, UNREADABLE, touched, unpanicked};
 use super::table;
 use crate::StudyError;
 use crate::key::{KeyColumns, Owner, SweepKey};
@@ -14,11 +14,11 @@ use std::io::{self, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// How many numbers a group holds, but for an exhibit that has more: 16 MB.
+/// How many numbers a group holds, but for a trace that has more: 16 MB.
 pub const GROUP_VALUES: usize = 1 << 21;
 
-/// A file of exhibits at work.
-pub struct ExhibitWriter<'k, W: Write> {
+/// A file of traces at work.
+pub struct TraceWriter<'k, W: Write> {
     file: FrameWriter<W>,
     keys: &'k KeyColumns,
     sweep: Option<SweepKey>,
@@ -27,23 +27,23 @@ pub struct ExhibitWriter<'k, W: Write> {
     most: usize,
 }
 
-impl<'k, W: Write> ExhibitWriter<'k, W> {
-    /// Begins a file in `out` whose groups hold at most so many numbers; `sweep` is that of any trial that has an exhibit.
+impl<'k, W: Write> TraceWriter<'k, W> {
+    /// Begins a file in `out` whose groups hold at most so many numbers; `sweep` is that of any trial that has a trace.
     ///
     /// # Errors
     /// What the system refused.
     pub fn new(out: W, keys: &'k KeyColumns, sweep: Option<SweepKey>, most: usize) -> io::Result<Self> {
-        let empty = table::exhibits(&[], keys, sweep.as_ref());
-        let file = FrameWriter::new(out, &empty, table::description(&empty, keys)).map_err(told)?;
+        let empty = table::traces(&[], keys, sweep.as_ref());
+        let file = FrameWriter::new(out, &empty, table::description(&empty, keys)).map_err(io_error)?;
         Ok(Self { file, keys, sweep, group: Vec::new(), values: 0, most })
     }
 
-    /// Adds an exhibit; they come in the order of records.
+    /// Adds a trace; they come in the order of records.
     ///
     /// # Errors
     /// As [`new`](Self::new).
     pub fn add(&mut self, kept: Kept) -> io::Result<()> {
-        let count = kept.exhibit.values.len();
+        let count = kept.trace.values.len();
         if !self.group.is_empty() && self.values + count > self.most {
             self.flush()?;
         }
@@ -58,32 +58,32 @@ impl<'k, W: Write> ExhibitWriter<'k, W> {
     /// As [`new`](Self::new).
     pub fn finish(mut self) -> io::Result<()> {
         self.flush()?;
-        self.file.finish().map_err(told)
+        self.file.finish().map_err(io_error)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        let frame = table::exhibits(&self.group, self.keys, self.sweep.as_ref());
+        let frame = table::traces(&self.group, self.keys, self.sweep.as_ref());
         (self.group, self.values) = (Vec::new(), 0);
-        self.file.write(frame).map_err(told)
+        self.file.write(frame).map_err(io_error)
     }
 }
 
-fn told(error: PolarsError) -> io::Error {
+fn io_error(error: PolarsError) -> io::Error {
     match error {
         PolarsError::IO { error, .. } => io::Error::new(error.kind(), error.to_string()),
         other => io::Error::other(other.to_string()),
     }
 }
 
-/// The sweep of the first exhibit that belongs to a trial.
+/// The sweep of the first trace that belongs to a trial.
 pub fn sweep_of(kept: &[Kept]) -> Option<SweepKey> {
     kept.iter().find_map(|kept| match &kept.of {
         Owner::Trial(key) => Some(key.sweep.clone()),
-        Owner::Draw(_) => None,
+        Owner::Instance(_) => None,
     })
 }
 
-/// How many exhibits each group of the file at `path` has.
+/// How many traces each group of the file at `path` has.
 ///
 /// # Errors
 /// [`StudyError::Touched`].
@@ -93,37 +93,39 @@ pub fn groups(path: &Path) -> Result<Vec<usize>, StudyError> {
     groups.flatten().ok_or_else(|| touched(path, UNREADABLE))
 }
 
-/// The exhibits in a group of the file at `path`.
+/// The traces in a group of the file at `path`.
 ///
 /// # Errors
 /// [`StudyError::Touched`].
-pub fn read_group(path: &Path, group: usize, draws: &mut Draws) -> Result<Vec<Kept>, StudyError> {
+pub fn read_group(path: &Path, group: usize, instances: &mut Instances) -> Result<Vec<Kept>, StudyError> {
     let file = File::open(path).map_err(StudyError::io(path, "opening the file"))?;
     let read = || FrameReader::open(file)?.group(group);
-    Stored::of(path.to_owned(), read)?.guarded(|file| file.exhibits(draws))
+    Stored::read_by(path.to_owned(), read)?.guarded(|file| file.traces(instances))
 }
 
-/// A file of exhibits that is read from its beginning, one group at a time.
-pub struct ExhibitReader {
+/// A file of traces that is read from its beginning, one group at a time.
+pub struct TraceReader {
     path: PathBuf,
     /// The groups that were not read yet.
     groups: Range<usize>,
     read: VecDeque<Kept>,
-    draws: Draws,
+    instances: Instances,
 }
 
-impl ExhibitReader {
-    /// The exhibits at `path`, a file that was found to be the one its manifest names.
+impl TraceReader {
+    /// The traces at `path`, a file that was found to be the one its manifest names.
     ///
     /// # Errors
     /// [`StudyError::Stored`].
     pub fn open(path: &Path) -> Result<Self, StudyError> {
         let groups = 0..groups(path)?.len();
-        let (path, read, draws) = (path.to_owned(), VecDeque::new(), Draws::default());
-        Ok(Self { path, groups, read, draws })
+        let path = path.to_owned();
+        let read = VecDeque::new();
+        let instances = Instances::default();
+        Ok(Self { path, groups, read, instances })
     }
 
-    /// The next exhibit, which stays the next.
+    /// The next trace, which stays the next.
     ///
     /// # Errors
     /// [`StudyError::Stored`].
@@ -131,7 +133,7 @@ impl ExhibitReader {
         while self.read.is_empty()
             && let Some(group) = self.groups.next()
         {
-            self.read = read_group(&self.path, group, &mut self.draws)?.into();
+            self.read = read_group(&self.path, group, &mut self.instances)?.into();
         }
         Ok(self.read.front())
     }
@@ -141,7 +143,7 @@ impl ExhibitReader {
         self.read.pop_front()
     }
 
-    /// Takes the next exhibit.
+    /// Takes the next trace.
     ///
     /// # Errors
     /// [`StudyError::Stored`].
@@ -154,10 +156,10 @@ impl ExhibitReader {
     ///
     /// # Errors
     /// [`StudyError::Stored`].
-    pub fn all(mut self, rows: &[Row]) -> Result<Exhibits<'static>, StudyError> {
+    pub fn all(mut self, rows: &[Row]) -> Result<Traces<'static>, StudyError> {
         let sweep = if self.has_trials()? { rows.first().map(|row| row.key.sweep.clone()) } else { None };
         let each = std::iter::from_fn(move || self.next_one().transpose());
-        Ok(Exhibits { each: Box::new(each), sweep, group_values: GROUP_VALUES })
+        Ok(Traces { each: Box::new(each), sweep, group_values: GROUP_VALUES })
     }
 
     /// What is said of what it holds.
@@ -172,6 +174,6 @@ impl ExhibitReader {
     pub fn has_trials(&self) -> Result<bool, StudyError> {
         let file = File::open(&self.path).map_err(StudyError::io(&self.path, "opening the file"))?;
         let read = || FrameReader::open(file)?.columns(|name| name == "contender");
-        Stored::of(self.path.clone(), read)?.has_some("contender")
+        Stored::read_by(self.path.clone(), read)?.has_some("contender")
     }
 }

@@ -1,25 +1,25 @@
-//! Prepared objects: what is costly to build and shared by many trials; one a file, all in [`REGISTRY`].
+//! Preprocessed objects: what is costly to build and shared by many trials; one a file, all in [`REGISTRY`].
 
 pub mod lattice;
 pub mod nested_roadmap;
 pub mod polyhedra;
 pub mod workspace_map;
 
-use engine::planner::{Counts, Exhibit};
+use engine::planner::{Counts, Trace};
 use engine::space::World;
 
-/// A prepared object.
+/// A preprocessed object.
 #[derive(Debug)]
-pub struct Prepared {
+pub struct Preprocessing {
     /// What planners plan in.
     pub world: World,
     /// What was measured while building it.
     pub values: Counts,
     /// What figures need of it.
-    pub exhibits: Vec<Exhibit>,
+    pub traces: Vec<Trace>,
 }
 
-/// A registered kind of prepared object.
+/// A registered kind of preprocessed object.
 #[derive(Debug)]
 pub struct Entry {
     /// Its name; also its file's name.

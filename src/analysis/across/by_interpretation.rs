@@ -1,8 +1,8 @@
-//! Every claim under every reading that was explored, and what each option does alone: for readers who look for themselves.
+//! Every claim under every interpretation that was explored, and what each option does alone: for readers who look for themselves.
 
 use super::super::class::Verdict;
-use super::super::verdict::{Effect, Judged, Verdicts};
-use super::count::Axes;
+use super::super::verdict::{ClaimVerdict, Effect, Verdicts};
+use super::count::VotingChoices;
 use super::effects::{self, each};
 use super::glance::Sight;
 use super::stored::{Exploration, ExploredResult};
@@ -14,18 +14,18 @@ use study::paper::Paper;
 
 /// What was explored of a paper.
 #[derive(Debug, Serialize)]
-pub struct ByReading {
+pub struct ByInterpretation {
     /// What the paper leaves open.
-    pub axes: Vec<Axis>,
-    /// The options that differ from the defaults of each reading that was explored, the default reading first.
-    pub readings: Vec<BTreeMap<String, String>>,
+    pub choices: Vec<ExploredChoice>,
+    /// The options that differ from the defaults of each choice that was explored, the default interpretation first.
+    pub interpretations: Vec<BTreeMap<String, String>>,
     /// Claims by id; those of which what is stored is stale are left out.
     pub claims: BTreeMap<String, Claim>,
 }
 
 /// Something that the paper leaves open.
 #[derive(Debug, Serialize)]
-pub struct Axis {
+pub struct ExploredChoice {
     /// Its name.
     pub id: String,
     /// What the paper leaves open, and why the default was taken.
@@ -33,12 +33,12 @@ pub struct Axis {
     /// The option taken unless asked otherwise.
     pub default: String,
     /// Its options, by name.
-    pub options: Vec<AxisOption>,
+    pub options: Vec<ExploredOption>,
 }
 
 /// One way to fill it in.
 #[derive(Debug, Serialize)]
-pub struct AxisOption {
+pub struct ExploredOption {
     /// Its name.
     pub name: String,
     /// The paper's text or the practice that it cites.
@@ -51,32 +51,32 @@ pub struct AxisOption {
     pub cannot_run: Option<String>,
 }
 
-/// A claim under the readings.
+/// A claim under the interpretations.
 #[derive(Debug, Serialize)]
 pub struct Claim {
     /// What was found, equal results once.
-    pub results: Vec<Found>,
+    pub results: Vec<SharedResult>,
     /// Every option that was explored by itself, with what it does.
     pub options: Vec<Alone>,
 }
 
-/// What was found under some readings.
+/// What was found under some interpretations.
 #[derive(Debug, Serialize)]
-pub struct Found {
+pub struct SharedResult {
     /// The class.
     pub class: &'static str,
     /// Whether that says something.
     pub sight: Sight,
-    /// What it counts as across readings, if it counts: what speaks against most and was not confirmed is open.
+    /// What it counts as across interpretations, if it counts: what speaks against most and was not confirmed is open.
     pub counts_as: Option<&'static str>,
     /// Our number.
     pub value: Option<f64>,
     /// Its interval.
     pub interval: Option<[f64; 2]>,
-    /// Of how many draws.
+    /// Of how many instances.
     pub n: usize,
-    /// The readings, by their places.
-    pub readings: Vec<usize>,
+    /// The interpretations, by their places.
+    pub interpretations: Vec<usize>,
     /// Those of them that count.
     pub counted: Vec<usize>,
 }
@@ -85,65 +85,77 @@ pub struct Found {
 #[derive(Debug, Serialize)]
 pub struct Alone {
     /// What the paper leaves open.
-    pub axis: String,
+    pub choice: String,
     /// The option.
     pub option: String,
     /// What it does to the claim.
     pub effect: Effect,
-    /// The reading, by its place.
-    pub reading: usize,
+    /// The interpretation, by its place.
+    pub interpretation: usize,
 }
 
 /// What the paper leaves open, with the options of each.
-pub fn axes(paper: &Paper) -> Vec<Axis> {
-    let option = |reading: &Choice, name: &String| {
-        let spec = &reading.options[name];
+pub fn explored_choices(paper: &Paper) -> Vec<ExploredChoice> {
+    let option = |choice: &Choice, name: &String| {
+        let spec = &choice.options[name];
         let cites = spec.paper.clone().or_else(|| spec.practice.clone());
-        let is_meant = reading.is_meant(name);
-        AxisOption { name: name.clone(), cites, is_meant, cannot_run: spec.cannot_run.clone() }
+        let is_meant = choice.is_meant(name);
+        ExploredOption { name: name.clone(), cites, is_meant, cannot_run: spec.cannot_run.clone() }
     };
-    let axis = |reading: &Choice| Axis {
-        id: reading.id.clone(),
-        why: reading.why.clone(),
-        default: reading.default.clone(),
-        options: reading.options.keys().map(|name| option(reading, name)).collect(),
+    let choice = |choice: &Choice| ExploredChoice {
+        id: choice.id.clone(),
+        why: choice.why.clone(),
+        default: choice.default.clone(),
+        options: choice.options.keys().map(|name| option(choice, name)).collect(),
     };
-    paper.choices.iter().map(axis).collect()
+    paper.choices.iter().map(choice).collect()
 }
 
 /// What is `stored` of the claims of `verdicts`; none if nothing was explored.
-pub fn by_reading(paper: &Paper, verdicts: &Verdicts, stored: &Stored) -> Option<ByReading> {
-    let (first, counting) = (stored.first.as_ref()?, Axes::of(paper));
+pub fn by_interpretation(paper: &Paper, verdicts: &Verdicts, stored: &Stored) -> Option<ByInterpretation> {
+    let first = stored.first.as_ref()?;
+    let counting = VotingChoices::new(paper);
     let classes = default_classes(verdicts);
-    let claim = |judged: &Judged| {
+    let claim = |judged: &ClaimVerdict| {
         let id = &judged.claim;
         let explored = first.claims.get(id).filter(|_| first.is_current(&counting.now, id))?;
         let second = stored.second.as_ref().filter(|second| second.is_current(&counting.now, id));
         let counted = counting.counted(paper, first, id, &classes);
         let votes = counted_as(first, second, id, &counted.groups);
         let found = |result: &ExploredResult| {
-            let group =
-                counted.groups.iter().zip(&votes).find(|(group, _)| result.readings.contains(&group.reading));
-            Found::of(result, classes.get(id).copied(), group.map(|(group, vote)| (&group.readings, *vote)))
+            let group = counted
+                .groups
+                .iter()
+                .zip(&votes)
+                .find(|(group, _)| result.interpretations.contains(&group.interpretation));
+            SharedResult::new(
+                result,
+                classes.get(id).copied(),
+                group.map(|(group, vote)| (&group.interpretations, *vote)),
+            )
         };
         let of_options = [true, false].map(|votes| each(&counting, first, id, classes[id], votes));
-        let alone = of_options.into_iter().flatten().filter_map(|one| Alone::of(first, one));
+        let alone = of_options.into_iter().flatten().filter_map(|one| Alone::new(first, one));
         Some((
             id.clone(),
             Claim { results: explored.results.iter().map(found).collect(), options: alone.collect() },
         ))
     };
-    Some(ByReading {
-        axes: axes(paper),
-        readings: first.readings.clone(),
+    Some(ByInterpretation {
+        choices: explored_choices(paper),
+        interpretations: first.interpretations.clone(),
         claims: verdicts.claims.iter().filter_map(claim).collect(),
     })
 }
 
-impl Found {
-    /// A result; `default` is the class in the default run, which has more draws, `counts` what it counts as, and where.
-    fn of(result: &ExploredResult, default: Option<Verdict>, counts: Option<(&Vec<usize>, Verdict)>) -> Self {
-        let class = default.filter(|_| result.readings.contains(&0)).unwrap_or(result.class);
+impl SharedResult {
+    /// A result; `default` is the class in the default run, which has more instances, `counts` what it counts as, and where.
+    fn new(
+        result: &ExploredResult,
+        default: Option<Verdict>,
+        counts: Option<(&Vec<usize>, Verdict)>,
+    ) -> Self {
+        let class = default.filter(|_| result.interpretations.contains(&0)).unwrap_or(result.class);
         Self {
             class: class.name(),
             sight: result.sight,
@@ -151,17 +163,17 @@ impl Found {
             value: result.value,
             interval: result.interval,
             n: result.n,
-            readings: result.readings.clone(),
-            counted: counts.map(|(readings, _)| readings.clone()).unwrap_or_default(),
+            interpretations: result.interpretations.clone(),
+            counted: counts.map(|(interpretations, _)| interpretations.clone()).unwrap_or_default(),
         }
     }
 }
 
 impl Alone {
-    fn of(first: &Exploration, (axis, option, (effect, _)): effects::Found) -> Option<Self> {
-        let reading = first.place(&BTreeMap::from([(axis.clone(), option.clone())]))?;
+    fn new(first: &Exploration, (choice, option, (effect, _)): effects::OptionEffect) -> Option<Self> {
+        let interpretation = first.place(&BTreeMap::from([(choice.clone(), option.clone())]))?;
         // The class itself stands beside it.
         let effect = if effect == Effect::Class { Effect::Number } else { effect };
-        Some(Self { axis, option, effect, reading })
+        Some(Self { choice, option, effect, interpretation })
     }
 }

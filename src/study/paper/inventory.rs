@@ -1,4 +1,4 @@
-//! The ledger: everything that a paper prints, and what answers it. It is complete by rule, both ways: each numbered figure,
+//! The inventory: everything that a paper prints, and what answers it. It is complete by rule, both ways: each numbered figure,
 //! table and equation has a row, each printed number is listed where it is printed, and each claim's number is among them.
 
 use super::{Paper, PrintedCell, PrintedTable, cells_named, printed_by};
@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 /// One thing that the paper prints and what answers it.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct LedgerRow {
+pub struct InventoryRow {
     /// `Fig. 4`, `Table 1`, `Eq. 2`, or the place of a sentence.
     pub item: Spanned<String>,
     /// What it shows or says.
@@ -50,14 +50,14 @@ pub struct NumbersRow {
 
 impl Paper {
     /// Every row is answered, by what exists, and nothing that is printed is missing.
-    pub(super) fn check_ledger(
+    pub(super) fn check_inventory(
         &self,
         claims: &BTreeSet<&str>,
         studies: &BTreeSet<&str>,
         figures: &BTreeSet<&str>,
         faults: &mut Faults,
     ) {
-        for row in &self.ledger {
+        for row in &self.inventory {
             self.check_named(&row.claims, claims, faults);
             self.known("figure or table", &row.figures, figures, faults);
             self.known("study", &row.studies, studies, faults);
@@ -68,10 +68,10 @@ impl Paper {
             }
         }
         // What is not answered or not counted may be what was not understood.
-        if self.document.is_part("ledger") {
+        if self.document.is_part("inventory") {
             return;
         }
-        for row in &self.ledger {
+        for row in &self.inventory {
             row.numbers.iter().for_each(|numbers| self.check_numbers(numbers, faults));
             self.check_row(row, faults);
         }
@@ -80,12 +80,13 @@ impl Paper {
     }
 
     /// A row has an answer or the reason why there is none; a figure's is a figure of ours.
-    fn check_row(&self, row: &LedgerRow, faults: &mut Faults) {
-        let (item, is_figure) = (row.item.get_ref(), row.item.get_ref().starts_with("Fig. "));
+    fn check_row(&self, row: &InventoryRow, faults: &mut Faults) {
+        let item = row.item.get_ref();
+        let is_figure = row.item.get_ref().starts_with("Fig. ");
         let is_answered = !(row.claims.is_empty() && row.studies.is_empty() && row.figures.is_empty());
         let message = match &row.none {
             Some(_) if !row.figures.is_empty() || is_answered && !is_figure => {
-                format!("ledger row `{item}` has an answer and `none`, the reason why there is none")
+                format!("inventory row `{item}` has an answer and `none`, the reason why there is none")
             }
             None if is_figure && row.figures.is_empty() => {
                 format!(
@@ -93,7 +94,7 @@ impl Paper {
                 )
             }
             None if !is_answered && row.numbers.is_empty() => format!(
-                "ledger row `{item}` needs claims, figures, studies or numbers that answer it, or `none` with the reason"
+                "inventory row `{item}` needs claims, figures, studies or numbers that answer it, or `none` with the reason"
             ),
             _ => return,
         };
@@ -162,7 +163,7 @@ impl Paper {
             return;
         }
         let mut listed: BTreeSet<String> = BTreeSet::new();
-        for row in &self.ledger {
+        for row in &self.inventory {
             let numbers: Vec<_> = row.numbers.iter().flat_map(|numbers| self.numbers(numbers)).collect();
             // Several claims may speak of a number that is printed once.
             let named = row.claims.iter().flat_map(|name| cells_named(name.get_ref(), &self.cells));
@@ -175,14 +176,15 @@ impl Paper {
         }
         for claim in self.claims.iter().filter(|claim| !listed.contains(&claim.id)) {
             let Some(printed) = &claim.printed else { continue };
-            let message = format!("no row of the ledger lists the number {printed} for claim `{}`", claim.id);
+            let message =
+                format!("no row of the inventory lists the number {printed} for claim `{}`", claim.id);
             faults.add(self.document.error_at(&claim.written.printed, message));
         }
     }
 
     /// Every numbered figure, table and equation has a row, and as many numbers are listed as are printed.
     fn check_counts(&self, faults: &mut Faults) {
-        let items: BTreeSet<&str> = self.ledger.iter().map(|row| row.item.get_ref().as_str()).collect();
+        let items: BTreeSet<&str> = self.inventory.iter().map(|row| row.item.get_ref().as_str()).collect();
         for (kind, key, count) in [
             ("Fig.", "figures", self.prints.figures),
             ("Table", "tables", self.prints.tables),
@@ -192,16 +194,18 @@ impl Paper {
                 let item = format!("{kind} {number}");
                 if !items.contains(item.as_str()) {
                     let message =
-                        format!("the ledger has no row for {item}; the paper has {count} of its kind");
+                        format!("the inventory has no row for {item}; the paper has {count} of its kind");
                     faults.add(self.document.error_at(&format!("prints.{key}"), message));
                 }
             }
         }
         let listed: usize =
-            self.ledger.iter().flat_map(|row| &row.numbers).map(|row| self.numbers(row).len()).sum();
+            self.inventory.iter().flat_map(|row| &row.numbers).map(|row| self.numbers(row).len()).sum();
         if listed != self.prints.numbers as usize {
-            let message =
-                format!("the ledger lists {listed} printed numbers; `numbers` says {}", self.prints.numbers);
+            let message = format!(
+                "the inventory lists {listed} printed numbers; `numbers` says {}",
+                self.prints.numbers
+            );
             faults.add(self.document.error_at("prints.numbers", message));
         }
     }

@@ -1,9 +1,9 @@
-//! What the page lets readers see of readings: the class of each claim under one, and what each option does to a claim.
+//! What the page lets readers see of interpretations: the class of each claim under one, and what each option does to a claim.
 
 use super::driver::Browser;
 use super::{SHOWN, page};
 use replan::analysis::across::stored::Exploration;
-use replan::analysis::verdict::{Effect, Judged, Verdicts};
+use replan::analysis::verdict::{ClaimVerdict, Effect, Verdicts};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -15,7 +15,7 @@ fn explored() -> Exploration {
     Exploration::read(&Exploration::first(&runs())).unwrap().unwrap()
 }
 
-/// The class of each claim under the reading that is chosen, by the claim's id.
+/// The class of each claim under the interpretation that is chosen, by the claim's id.
 const UNDER: &str = "return Object.fromEntries([...document.getElementById('claimed').tBodies]
     .map((line) => [line.id.slice('claim='.length), line.dataset.under]))";
 
@@ -25,10 +25,10 @@ fn a_reading_that_is_chosen_shows_each_claims_class_under_it() {
     let Some(browser) = Browser::open([1280, 800]) else { return };
     let file = page("zhang");
     let mut moved = 0;
-    for place in [3, explored.readings.len() / 2, explored.readings.len() - 1] {
+    for place in [3, explored.interpretations.len() / 2, explored.interpretations.len() - 1] {
         let options: Vec<String> =
-            explored.readings[place].iter().map(|(id, option)| format!("{id}:{option}")).collect();
-        browser.go(&file, &format!("reading={}", options.join(",")));
+            explored.interpretations[place].iter().map(|(id, option)| format!("{id}:{option}")).collect();
+        browser.go(&file, &format!("interpretation={}", options.join(",")));
         let shown = browser.run(UNDER);
         let shown: Vec<(&String, &str)> = shown
             .as_object()
@@ -39,8 +39,9 @@ fn a_reading_that_is_chosen_shows_each_claims_class_under_it() {
             .collect();
         assert!(shown.len() > 20, "{options:?}: {} claims", shown.len());
         for (id, class) in shown {
-            // The default run has more draws than an exploration.
-            let Some(result) = explored.result(id, place).filter(|result| !result.readings.contains(&0))
+            // The default run has more instances than an exploration.
+            let Some(result) =
+                explored.result(id, place).filter(|result| !result.interpretations.contains(&0))
             else {
                 continue;
             };
@@ -53,21 +54,21 @@ fn a_reading_that_is_chosen_shows_each_claims_class_under_it() {
         assert_eq!(browser.run(SHOWN), differing, "{options:?}");
     }
     assert!(moved > 20, "one-sided sample: {moved} results differ from the default's");
-    browser.picture("zhang-reading-1280");
+    browser.picture("zhang-interpretation-1280");
     assert_eq!(browser.console(), json!([]));
 }
 
 #[test]
 fn a_combination_that_was_not_explored_is_said_and_leads_to_those_that_were() {
     let Some(browser) = Browser::open([390, 844]) else { return };
-    browser.go(&page("zhang"), "reading=meeting:both_closed,ties:lifo,nodes:closed,end:contact");
-    let said = "return document.querySelector('#reading output').textContent";
+    browser.go(&page("zhang"), "interpretation=meeting:both_closed,ties:lifo,nodes:closed,end:contact");
+    let said = "return document.querySelector('#interpretation output').textContent";
     assert!(browser.run(said).as_str().unwrap().starts_with("This combination was not explored."));
-    browser.run("document.querySelector('#reading output button').click()");
-    assert!(browser.run(said).as_str().unwrap().starts_with("Reading "), "{}", browser.run(said));
-    browser.run("document.querySelector('#reading [name=defaults]').click()");
-    assert_eq!(browser.run("return location.hash"), json!("#reading="));
-    browser.picture("zhang-reading-390");
+    browser.run("document.querySelector('#interpretation output button').click()");
+    assert!(browser.run(said).as_str().unwrap().starts_with("Interpretation "), "{}", browser.run(said));
+    browser.run("document.querySelector('#interpretation [name=defaults]').click()");
+    assert_eq!(browser.run("return location.hash"), json!("#interpretation="));
+    browser.picture("zhang-interpretation-390");
     assert_eq!(browser.console(), json!([]));
 }
 
@@ -76,28 +77,31 @@ fn a_claim_that_is_opened_shows_what_each_option_does_and_lines_filter_by_what_t
     let verdicts = Verdicts::read(&runs()).unwrap();
     let Some(browser) = Browser::open([1280, 800]) else { return };
     let file = page("zhang");
-    let effects = |judged: &Judged| judged.across.clone().map(|across| across.effects).unwrap_or_default();
+    let effects =
+        |judged: &ClaimVerdict| judged.across.clone().map(|across| across.effects).unwrap_or_default();
     let turns =
         verdicts.claims.iter().find(|judged| effects(judged).values().any(|of| of.effect == Effect::Turns));
-    let turned = turns.expect("some reading turns some claim");
+    let turned = turns.expect("some interpretation turns some claim");
     browser.go(&file, &format!("claim={}", turned.claim));
     let options = browser.run(&format!(
         "return [...document.getElementById('claim={}').querySelectorAll('.options tbody tr')].map((row) => [...row.cells].map((cell) => cell.textContent))",
         turned.claim
     ));
-    for (axis, of) in effects(turned).iter().filter(|(_, of)| of.effect == Effect::Turns) {
-        let row = |row: &&Value| row[0] == json!(format!("{axis} = {}", of.option));
-        let row = options.as_array().unwrap().iter().find(row).unwrap_or_else(|| panic!("{axis}: {options}"));
+    for (choice, of) in effects(turned).iter().filter(|(_, of)| of.effect == Effect::Turns) {
+        let row = |row: &&Value| row[0] == json!(format!("{choice} = {}", of.option));
+        let row =
+            options.as_array().unwrap().iter().find(row).unwrap_or_else(|| panic!("{choice}: {options}"));
         assert_eq!((&row[1], &row[2]), (&json!("turns it"), &json!(of.class.name())), "{options}");
     }
-    for axis in ["meeting", "nodes"] {
-        let hangs = |judged: &&Judged| {
-            judged.part_of.is_none() && effects(judged).get(axis).is_some_and(|of| of.effect >= Effect::Opens)
+    for choice in ["meeting", "nodes"] {
+        let hangs = |judged: &&ClaimVerdict| {
+            judged.part_of.is_none()
+                && effects(judged).get(choice).is_some_and(|of| of.effect >= Effect::Opens)
         };
         let count = verdicts.claims.iter().filter(hangs).count();
-        browser.go(&file, &format!("hangs={axis}"));
-        assert_eq!(browser.run(SHOWN), json!(count), "{axis}");
-        assert!(count > 0, "no claim hangs on {axis}");
+        browser.go(&file, &format!("hangs={choice}"));
+        assert_eq!(browser.run(SHOWN), json!(count), "{choice}");
+        assert!(count > 0, "no claim hangs on {choice}");
     }
     assert_eq!(browser.console(), json!([]));
 }

@@ -5,7 +5,7 @@ use super::verdict::Estimate;
 
 /// What was found about a claim, before its class is decided.
 #[derive(Debug, Default)]
-pub struct Found {
+pub struct CriterionResult {
     /// What it amounts to; none if it is only shown, or can only refuse and does not.
     pub outcome: Option<Outcome>,
     /// Our number.
@@ -28,7 +28,7 @@ pub struct Found {
     pub powerless: bool,
     /// How many cases without a number could turn it.
     pub censored: usize,
-    /// The draws that it takes at least, where there are fewer.
+    /// The instances that it takes at least, where there are fewer.
     pub needs: Option<usize>,
 }
 
@@ -42,15 +42,16 @@ pub enum Narrows {
     AsTheNumber,
 }
 
-impl Found {
+impl CriterionResult {
     /// Undecided for this reason.
     pub fn open(because: impl Into<String>) -> Self {
         Self { outcome: Some(Outcome::Open), because: vec![because.into()], ..Self::default() }
     }
 
-    /// Undecided because the `draws` draws of all `ran` that have what is compared are fewer than `needs`.
-    pub fn too_few(draws: usize, ran: usize, needs: usize) -> Self {
-        let because = format!("{draws} of {ran} draws have what is compared; at least {needs} are needed");
+    /// Undecided because the `instances` draws of all `ran` that have what is compared are fewer than `needs`.
+    pub fn too_few(instances: usize, ran: usize, needs: usize) -> Self {
+        let because =
+            format!("{instances} of {ran} instances have what is compared; at least {needs} are needed");
         Self { needs: Some(needs), ..Self::open(because) }
     }
 

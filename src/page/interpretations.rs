@@ -1,51 +1,51 @@
 //! What the paper leaves open, and each way to fill it in; a script lets readers choose one.
 
 use super::html::escaped;
-use crate::analysis::across::by_reading::{Axis, AxisOption, axes};
+use crate::analysis::across::by_interpretation::{ExploredChoice, ExploredOption, explored_choices};
 use crate::analysis::verdict::Verdicts;
 use study::paper::Paper;
 
-/// The readings of `paper`, of which `explored` can be looked at; empty if it leaves nothing open.
+/// The interpretations of `paper`, of which `explored` can be looked at; empty if it leaves nothing open.
 pub fn section(paper: &Paper, verdicts: &Verdicts, explored: usize) -> String {
-    let axes = axes(paper);
-    if axes.is_empty() {
+    let choices = explored_choices(paper);
+    if choices.is_empty() {
         return String::new();
     }
-    let rows: String = axes.iter().map(row).collect();
+    let rows: String = choices.iter().map(row).collect();
     let stale = verdicts.explored.as_ref().map_or(0, |explored| explored.stale.len());
     let mut said = match explored {
-        0 => "No other reading than the default was explored for this paper.".to_owned(),
+        0 => "no other interpretation than the default was explored for this paper.".to_owned(),
         _ => format!(
-            "{explored} readings were explored: every option by itself, and a sample of combinations. Choose one to see each \
+            "{explored} interpretations were explored: every option by itself, and a sample of combinations. Choose one to see each \
              claim's class under it; open a claim to see what each option does to it. A probe is shown and never counted."
         ),
     };
     if stale > 0 {
         said += &format!(
-            " {stale} claims or their studies changed since; they stand under the default reading alone."
+            " {stale} claims or their studies changed since; they stand under the default interpretation alone."
         );
     }
     format!(
-        "<div id=\"readings\"><p>{}</p><form id=\"reading\" aria-label=\"a reading\"></form>\
+        "<div id=\"interpretations\"><p>{}</p><form id=\"interpretation\" aria-label=\"an interpretation\"></form>\
          <details><summary>What the paper leaves open, and why these options</summary><div class=\"wide\">\
-         <table class=\"plain\"><thead><tr><th>reading</th><th>what is left open</th><th>options</th></tr></thead>\
+         <table class=\"plain\"><thead><tr><th>choice</th><th>what is left open</th><th>options</th></tr></thead>\
          <tbody>\n{rows}</tbody></table></div></details></div>\n",
         escaped(&said)
     )
 }
 
-fn row(axis: &Axis) -> String {
-    let options: String = axis.options.iter().map(|option| said(axis, option)).collect();
+fn row(choice: &ExploredChoice) -> String {
+    let options: String = choice.options.iter().map(|option| option_marks(choice, option)).collect();
     format!(
         "<tr><th scope=\"row\"><code>{}</code></th><td>{}</td><td><ul>{options}</ul></td></tr>\n",
-        escaped(&axis.id),
-        escaped(&axis.why)
+        escaped(&choice.id),
+        escaped(&choice.why)
     )
 }
 
-fn said(axis: &Axis, option: &AxisOption) -> String {
+fn option_marks(choice: &ExploredChoice, option: &ExploredOption) -> String {
     let mut marks = Vec::new();
-    if option.name == axis.default {
+    if option.name == choice.default {
         marks.push("the default");
     }
     if !option.is_meant {

@@ -1,6 +1,6 @@
-//! Distributions of our draws, with the printed number marked: one panel a claim.
+//! Distributions of our instances, with the printed number marked: one panel a claim.
 //!
-//! What is drawn stands in each claim's check `one_draw`.
+//! What is drawn stands in each claim's check `one_instance`.
 
 use super::{Entry, Kind, Scene};
 use crate::analysis::context::Context;
@@ -19,10 +19,10 @@ use study::paper::{Claim, Paper};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
-    name: "draws",
-    about: "cumulative distributions of our draws with the printed number marked, one panel a claim",
-    statistic: "Cumulative share of the draws that have the claim's statistic, others left out, the outermost hundredth on either side cut off; {n}.",
-    settings: Accepted::of::<Draws>(),
+    name: "instances",
+    about: "cumulative distributions of our instances with the printed number marked, one panel a claim",
+    statistic: "Cumulative share of the instances that have the claim's statistic, others left out, the outermost hundredth on either side cut off; {n}.",
+    settings: Accepted::shape::<Instances>(),
     example: r#"
 columns = 4
 panels = [
@@ -37,11 +37,11 @@ panels = [
 ]
 "#,
     build: |settings, _study, paper| {
-        let read: Draws = settings.read()?;
+        let read: Instances = settings.read()?;
         for panel in &read.panels {
-            asked_claim(settings, paper, &panel.claim)?;
+            claim_of_panel(settings, paper, &panel.claim)?;
         }
-        Ok(Box::new(Asked { read, settings: settings.clone() }))
+        Ok(Box::new(InstancesFigure { read, settings: settings.clone() }))
     },
 };
 
@@ -50,7 +50,7 @@ const PLOT_PT: f64 = 118.0;
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct Draws {
+struct Instances {
     /// The panels, in their order.
     panels: Vec<PanelSpec>,
     /// How many panels stand beside each other.
@@ -69,26 +69,27 @@ struct PanelSpec {
     axis: String,
 }
 
-struct Asked {
-    read: Draws,
+struct InstancesFigure {
+    read: Instances,
     settings: Settings,
 }
 
-impl Kind for Asked {
+impl Kind for InstancesFigure {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let panels = self.read.panels.iter().map(|panel| self.panel(scene, panel));
         Sheet::new(Width::Double, self.read.columns, PLOT_PT).with(panels)
     }
 }
 
-impl Asked {
+impl InstancesFigure {
     fn panel(&self, scene: &Scene<'_>, spec: &PanelSpec) -> Result<Panel, RenderError> {
-        let (paper, point) = (scene.evidence.paper, &scene.evidence.point);
-        let claim = asked_claim(&self.settings, paper, &spec.claim)?;
+        let paper = scene.evidence.paper;
+        let point = &scene.evidence.point;
+        let claim = claim_of_panel(&self.settings, paper, &spec.claim)?;
         let context = Context { claim, settings: &self.settings, paper, point };
-        let sets = criterion::draws(&context, scene.evidence)?;
+        let sets = criterion::instances(&context, scene.evidence)?;
         let printed = context.print().ok().map(|print| print.printed.value());
-        let found: Vec<_> = sets.iter().map(|set| Distribution::of(&set.values)).collect();
+        let found: Vec<_> = sets.iter().map(|set| Distribution::new(&set.values)).collect();
         // The outermost hundredth on either side would squeeze all the rest.
         let bulk = found.iter().flat_map(|found| found.bulk.iter().copied());
         let x = Axis::over(&spec.axis, bulk.chain(printed));
@@ -106,22 +107,22 @@ impl Asked {
     }
 }
 
-/// How many draws stand behind a curve, in its ink: no cumulative curve comes near the upper left corner.
-fn how_many(corner: [f64; 2], index: usize, draws: usize) -> Note {
-    let set = Type::of(TextSize::TICK).aligned(Align::Start, Stand::Centre);
+/// How many instances stand behind a curve, in its ink: no cumulative curve comes near the upper left corner.
+fn how_many(corner: [f64; 2], index: usize, instances: usize) -> Note {
+    let set = Type::regular(TextSize::TICK).aligned(Align::Start, Stand::Centre);
     let set = Type { color: series_color(index), rim: true, ..set };
     let down_pt = (index as f64 + 1.0) * 1.25 * TextSize::TICK.pt();
-    Note { at: corner, shift_pt: [3.0, down_pt], text: format!("n = {draws}"), set }
+    Note { at: corner, shift_pt: [3.0, down_pt], text: format!("n = {instances}"), set }
 }
 
-/// The claim called `id`, whose criterion `one_draw` says what is to be shown.
-fn asked_claim<'p>(settings: &Settings, paper: &'p Paper, id: &str) -> Result<&'p Claim, SettingsError> {
+/// The claim called `id`, whose criterion `one_instance` says what is to be shown.
+fn claim_of_panel<'p>(settings: &Settings, paper: &'p Paper, id: &str) -> Result<&'p Claim, SettingsError> {
     let known = paper.claims.iter().map(|claim| claim.id.as_str());
     let missing = || settings.error_about("", &["claim"], id, none_called("claim", id, known)).about("id");
     let claim = paper.claim(id).ok_or_else(missing)?;
-    if claim.criteria().any(|(own, _)| own == "one_draw") {
+    if claim.criteria().any(|(own, _)| own == "one_instance") {
         return Ok(claim);
     }
-    let message = format!("claim `{id}` has no criterion `one_draw`, which says what is to be shown");
+    let message = format!("claim `{id}` has no criterion `one_instance`, which says what is to be shown");
     Err(settings.error_about("", &["claim"], id, message))
 }

@@ -1,7 +1,7 @@
-//! What each reading of a paper does to each of its claims when it alone departs from its default.
+//! What each choice of a paper does to each of its claims when it alone departs from its default.
 
 use super::{Entry, Kind, Scene};
-use crate::analysis::verdict::{Across, Effect, Fit, Judged, SettingFit};
+use crate::analysis::verdict::{Across, ClaimVerdict, Effect, Fit, SettingFit};
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::marks::Cells;
@@ -14,22 +14,22 @@ use std::collections::BTreeSet;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
-    name: "claims_by_axes",
-    about: "which reading moves which claim: the greatest effect of an axis's voting options, one at a time",
+    name: "claims_by_choices",
+    about: "which choice moves which claim: the greatest effect of an axis's voting options, one at a time",
     statistic: "Of options that vote, one at a time beside the defaults; of several in one cell the greatest effect; what nothing moves is \
-                left out; {readings}.",
-    settings: Accepted::of::<ClaimsByAxes>(),
+                left out; {interpretations}.",
+    settings: Accepted::shape::<ClaimsByChoices>(),
     example: r#"
 fitted = "threshold"
 "#,
-    build: |settings, _study, _paper| Ok(Box::new(settings.read::<ClaimsByAxes>()?)),
+    build: |settings, _study, _paper| Ok(Box::new(settings.read::<ClaimsByChoices>()?)),
 };
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct ClaimsByAxes {
-    /// Instead of claims: which settings of the readings agree with what the studies were fitted to, and under which options of
-    /// the fitted reading, which stands along the axis in these words.
+struct ClaimsByChoices {
+    /// Instead of claims: which settings of the choices agree with what the studies were fitted to, and under which options of
+    /// the fitted choice, which stands along the axis in these words.
     fitted: Option<String>,
 }
 
@@ -55,15 +55,15 @@ const FITS: [(Fit, &str, Rgb); 3] = [
 ];
 
 /// What a figure of settings shows of how many.
-const SETTINGS: &str = "The defaults, every other option that votes with the rest at their defaults, and a sample of the product of options that vote, drawn by a seed; {readings}. A white cell was not asked.";
+const SETTINGS: &str = "The defaults, every other option that votes with the rest at their defaults, and a sample of the product of options that vote, drawn by a seed; {interpretations}. A white cell was not asked.";
 
-/// Which settings agree with what the studies were fitted to: one a row, the options of the fitted reading side by side, with
+/// Which settings agree with what the studies were fitted to: one a row, the options of the fitted choice side by side, with
 /// `words` along the axis.
 fn settings(scene: &Scene<'_>, words: &str) -> Result<Sheet, RenderError> {
     let rows: &[SettingFit] = scene.verdicts.explored.as_ref().map_or(&[], |explored| &explored.fits);
     let choices = &scene.evidence.paper.choices;
     let Some(fitted) = choices.iter().find(|choice| choice.fitted).filter(|_| !rows.is_empty()) else {
-        return Ok(Sheet::new(Width::Double, 1, ROW_PT).titled("No reading was explored."));
+        return Ok(Sheet::new(Width::Double, 1, ROW_PT).titled("No interpretation was explored."));
     };
     let options: Vec<&str> = fitted.options.keys().map(String::as_str).collect();
     let (names, note) = named(rows);
@@ -111,10 +111,10 @@ fn keys<T: Ord>(looks: &[(T, &str, Rgb)], shown: &BTreeSet<T>) -> Vec<Key> {
     looks.iter().filter(is_shown).map(key).collect()
 }
 
-impl ClaimsByAxes {
-    /// The sentences and rows that readings can touch, from above.
-    fn rows<'s>(scene: &'s Scene<'_>) -> Vec<(&'s Judged, &'s Across)> {
-        let moved = |judged: &'s Judged| {
+impl ClaimsByChoices {
+    /// The sentences and rows that interpretations can touch, from above.
+    fn rows<'s>(scene: &'s Scene<'_>) -> Vec<(&'s ClaimVerdict, &'s Across)> {
+        let moved = |judged: &'s ClaimVerdict| {
             let across = judged.across.as_ref().filter(|across| !across.effects.is_empty())?;
             Some((judged, across))
         };
@@ -122,7 +122,7 @@ impl ClaimsByAxes {
     }
 }
 
-impl Kind for ClaimsByAxes {
+impl Kind for ClaimsByChoices {
     fn statistic(&self) -> Option<&'static str> {
         self.fitted.as_ref().map(|_| SETTINGS)
     }
@@ -136,14 +136,15 @@ impl Kind for ClaimsByAxes {
         let is_moving = |id: &&str| rows.iter().any(|(_, across)| across.effects.contains_key(*id));
         let axes: Vec<&str> = choices.iter().map(|choice| choice.id.as_str()).filter(is_moving).collect();
         if rows.is_empty() || axes.is_empty() {
-            // A quick run, or one whose readings were not explored, has nothing to show; that is no fault of the figure's.
-            return Ok(Sheet::new(Width::Double, 1, ROW_PT).titled("No explored reading moves a claim."));
+            // A quick run, or one that was not explored, has nothing to show; that is no fault of the figure's.
+            return Ok(Sheet::new(Width::Double, 1, ROW_PT).titled("No explored choice moves a claim."));
         }
         let columns = axes.iter().copied();
-        let named = |(judged, _): &(&Judged, &Across)| format!("{}: {}", judged.claim, judged.outcome());
+        let named =
+            |(judged, _): &(&ClaimVerdict, &Across)| format!("{}: {}", judged.claim, judged.outcome());
         let names: Vec<String> = rows.iter().rev().map(named).collect();
         let mut panel = Panel::new("", Axis::names("", columns), Axis::names("", names));
-        let of_row = |(_, across): &(&Judged, &Across)| {
+        let of_row = |(_, across): &(&ClaimVerdict, &Across)| {
             axes.iter().map(|axis| color(across, axis)).collect::<Vec<_>>()
         };
         let effects = rows.iter().flat_map(|(_, across)| across.effects.values());

@@ -1,9 +1,9 @@
 //! A roadmap whose first N samples are a roadmap too, with what became of every pair it tried; neighbours are near by their places
 //! or by their configurations.
 
-use super::{Entry, Prepared};
+use super::{Entry, Preprocessing};
 use base::settings::{Settings, SettingsError};
-use engine::planner::{Counts, Exhibit, Value};
+use engine::planner::{Counts, Trace, Value};
 use engine::space::World;
 use engine::space::cell::Rejection;
 use engine::space::roadmap::{Counted, Extent, Local, Near, Roadmap, Sample};
@@ -77,9 +77,16 @@ pub fn extent(samples: u32, near: Near, times: f64) -> Extent {
 }
 
 /// The roadmap of `samples`, joined with those that are `near`.
-pub fn prepare(local: Local, samples: Vec<Sample>, draws: u32, near: Near, counted: Counted) -> Prepared {
+pub fn prepare(
+    local: Local,
+    samples: Vec<Sample>,
+    draws: u32,
+    near: Near,
+    counted: Counted,
+) -> Preprocessing {
     let roadmap = Roadmap::build(local, samples, near, counted);
-    let (tally, count) = (*roadmap.tally(), roadmap.samples().len());
+    let tally = *roadmap.tally();
+    let count = roadmap.samples().len();
     let parts = roadmap.components(count as u32, roadmap.radius_mm());
     let components = parts.iter().zip(0..).filter(|(part, node)| *part == node).count();
     let mut values = Counts::from([
@@ -93,15 +100,15 @@ pub fn prepare(local: Local, samples: Vec<Sample>, draws: u32, near: Near, count
     for (reason, rejected) in Rejection::ALL.into_iter().zip(tally.rejected) {
         values.insert(column(reason), Value::Count(rejected));
     }
-    let exhibits = match roadmap.local() {
-        Local::Plane(_) => plane_exhibits(&roadmap),
+    let traces = match roadmap.local() {
+        Local::Plane(_) => plane_traces(&roadmap),
         Local::Arm(_) | Local::Joints(_) => Vec::new(),
     };
-    Prepared { world: World::Roadmap(Box::new(roadmap)), values, exhibits }
+    Preprocessing { world: World::Roadmap(Box::new(roadmap)), values, traces }
 }
 
 /// What a picture of a roadmap in the plane needs: samples and edges.
-fn plane_exhibits(roadmap: &Roadmap) -> Vec<Exhibit> {
+fn plane_traces(roadmap: &Roadmap) -> Vec<Trace> {
     let places = roadmap.samples().iter().flat_map(|sample| sample.config.clone()).collect();
     let mut edges = Vec::new();
     for node in 0..roadmap.samples().len() as u32 {
@@ -111,7 +118,7 @@ fn plane_exhibits(roadmap: &Roadmap) -> Vec<Exhibit> {
         );
     }
     vec![
-        Exhibit { name: "samples".to_owned(), width: 2, values: places },
-        Exhibit { name: "edges".to_owned(), width: 2, values: edges },
+        Trace { name: "samples".to_owned(), width: 2, values: places },
+        Trace { name: "edges".to_owned(), width: 2, values: edges },
     ]
 }

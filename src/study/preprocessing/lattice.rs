@@ -1,8 +1,8 @@
 //! A map turned into a lattice of moves, with what it is like.
 
-use super::{Entry, Prepared};
+use super::{Entry, Preprocessing};
 use base::grid::{CornerRule, Grid2, components};
-use engine::planner::{Counts, Exhibit, Invalid, Value};
+use engine::planner::{Counts, Invalid, Trace, Value};
 use engine::space::{LatticeWorld, World};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -44,9 +44,9 @@ pub fn prepare<'q>(
     grid: Grid2,
     corners: CornerSetting,
     queries: impl ExactSizeIterator<Item = [&'q [f64]; 2]>,
-) -> Result<Prepared, Invalid> {
-    let mut prepared = prepare_map(grid, corners);
-    let world = prepared.world.as_lattice().expect("it was just made of a lattice");
+) -> Result<Preprocessing, Invalid> {
+    let mut preprocessing = prepare_map(grid, corners);
+    let world = preprocessing.world.as_lattice().expect("it was just made of a lattice");
     let is_single = queries.len() == 1;
     for [start, goal] in queries {
         for (what, cell) in [("start", start), ("goal", goal)] {
@@ -55,14 +55,14 @@ pub fn prepare<'q>(
         if is_single {
             let [dx, dy] = [0, 1].map(|axis: usize| (start[axis] - goal[axis]).abs());
             let octile = (dx - dy).abs() + dx.min(dy) * std::f64::consts::SQRT_2;
-            prepared.values.insert("octile_distance_cells", Value::Real(octile));
+            preprocessing.values.insert("octile_distance_cells", Value::Real(octile));
         }
     }
-    Ok(prepared)
+    Ok(preprocessing)
 }
 
 /// The lattice of `grid`, for any number of queries.
-pub fn prepare_map(grid: Grid2, corners: CornerSetting) -> Prepared {
+pub fn prepare_map(grid: Grid2, corners: CornerSetting) -> Preprocessing {
     let world = LatticeWorld::new(grid, corners.into());
     let grid = world.grid();
     let parts = components(grid, world.moves()).sizes().len();
@@ -70,15 +70,15 @@ pub fn prepare_map(grid: Grid2, corners: CornerSetting) -> Prepared {
         ("free_cells", Value::Count(u64::from(grid.free_count()))),
         ("components", Value::Count(parts as u64)),
     ]);
-    let exhibits = vec![size(grid), blocked(grid)];
-    Prepared { world: World::Lattice(world), values, exhibits }
+    let traces = vec![size(grid), blocked(grid)];
+    Preprocessing { world: World::Lattice(world), values, traces }
 }
 
-fn size(grid: &Grid2) -> Exhibit {
+fn size(grid: &Grid2) -> Trace {
     let values = vec![f64::from(grid.width()), f64::from(grid.height())];
-    Exhibit { name: "size_cells".to_owned(), width: 2, values }
+    Trace { name: "size_cells".to_owned(), width: 2, values }
 }
 
-fn blocked(grid: &Grid2) -> Exhibit {
-    Exhibit { name: "blocked".to_owned(), width: 2, values: grid.blocked_xy() }
+fn blocked(grid: &Grid2) -> Trace {
+    Trace { name: "blocked".to_owned(), width: 2, values: grid.blocked_xy() }
 }

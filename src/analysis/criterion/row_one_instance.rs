@@ -1,13 +1,13 @@
-//! Whether a printed row, as a whole, could be that of one more of our draws.
+//! Whether a printed row, as a whole, could be that of one more of our instances.
 
 use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
+use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::found::Found;
-use crate::analysis::selection::{self, Case, Draw, Selection, solved};
+use crate::analysis::selection::{self, Case, Instance, Selection, solved};
 use crate::analysis::selection_spec::{Labels, SelectionSpec};
-use crate::analysis::statistic::OfDraw;
+use crate::analysis::statistic::InstanceStatistic;
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, Faults, SettingsError};
 use schemars::JsonSchema;
@@ -18,16 +18,16 @@ use study::contender::SweepPoint;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
-    name: "row_one_draw",
-    about: "is a printed row as near to our mean row as our own draws are, in shape and in level?",
+    name: "row_one_instance",
+    about: "is a printed row as near to our mean row as our own instances are, in shape and in level?",
     revision: 2,
-    settings: Accepted::of::<Settings>(),
+    settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", metric = "opened" }
 rows = [{ contender = "Weighted A*", against = "A*", statistics = ["mean"], claims = ["table1.weighted.saving"] }]
 refused_below = 0.05
 "#,
-    build: |context| Ok(Box::new(RowOneDraw::new(context)?)),
+    build: |context| Ok(Box::new(RowOneInstance::new(context)?)),
 };
 
 #[derive(Deserialize, JsonSchema)]
@@ -35,9 +35,9 @@ refused_below = 0.05
 struct Settings {
     /// The trials that are looked at: study, problems and metric.
     of: SelectionSpec,
-    /// One row, or several that come from one draw and are ranked as one.
+    /// One row, or several that come from one instance and are ranked as one.
     rows: Vec<RowSpec>,
-    /// The row is refused if fewer than this share of our draws are as far from the mean row, or if its mean is as far out
+    /// The row is refused if fewer than this share of our instances are as far from the mean row, or if its mean is as far out
     /// on one side: the size of either test.
     #[schemars(range(max = 1.0), extend("exclusiveMinimum" = 0))]
     refused_below: f64,
@@ -52,7 +52,7 @@ struct RowSpec {
     against: Option<String>,
     /// The statistic of each cell; without, the share of solved queries at each point of the study's sweep.
     #[serde(default)]
-    statistics: Vec<OfDraw>,
+    statistics: Vec<InstanceStatistic>,
     /// The claim that prints each cell.
     claims: Vec<String>,
 }
@@ -65,20 +65,21 @@ struct Row<'a> {
 }
 
 enum Cells {
-    Statistics(Vec<OfDraw>),
+    Statistics(Vec<InstanceStatistic>),
     Sweep(Vec<SweepPoint>),
 }
 
-struct RowOneDraw<'a> {
+struct RowOneInstance<'a> {
     rows: Vec<Row<'a>>,
     printed: Vec<f64>,
     refused_below: f64,
 }
 
-impl<'a> RowOneDraw<'a> {
+impl<'a> RowOneInstance<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
-        let (mut printed, mut faults) = (Vec::new(), Faults::default());
+        let mut printed = Vec::new();
+        let mut faults = Faults::default();
         let mut read = |(index, row): (usize, &RowSpec)| {
             let contender = Labels::One(row.contender.clone());
             let spec = SelectionSpec { contender, against: row.against.clone(), ..settings.of.clone() };
@@ -111,48 +112,52 @@ impl<'a> RowOneDraw<'a> {
     }
 }
 
-/// What was drawn once for every row: a problem group's draw, and the contender's seed.
+/// What was drawn once for every row: a problem group's instance, and the contender's seed.
 type Unit<'e> = (&'e str, u32, u32);
 
 impl Row<'_> {
-    /// The numbers of all cells of each draw that lacks none.
-    fn values<'e>(&self, draws: &[Draw<'e>], unended_solved: bool) -> BTreeMap<Unit<'e>, Vec<f64>> {
-        let of_draw = |draw: &Draw<'e>| -> Option<Vec<f64>> {
+    /// The numbers of all cells of each instance that lacks none.
+    fn values<'e>(&self, instances: &[Instance<'e>], unended_solved: bool) -> BTreeMap<Unit<'e>, Vec<f64>> {
+        let of_instance = |instance: &Instance<'e>| -> Option<Vec<f64>> {
             match &self.cells {
-                Cells::Statistics(statistics) => statistics.iter().map(|of| of.of(draw)).collect(),
+                Cells::Statistics(statistics) => statistics.iter().map(|of| of.value(instance)).collect(),
                 Cells::Sweep(points) => {
                     let is_hit =
                         |case: &Case<'_>| case.row.is_solved() || unended_solved && case.is_unended();
-                    points.iter().map(|point| draw.at(&point.key).percent(is_hit)).collect()
+                    points.iter().map(|point| instance.at(&point.key).percent(is_hit)).collect()
                 }
             }
         };
-        let unit = |draw: &Draw<'e>| {
-            let row = draw.cases.first()?.row;
-            Some((draw.group, row.draw(), row.key.repeat))
+        let unit = |instance: &Instance<'e>| {
+            let row = instance.cases.first()?.row;
+            Some((instance.group, row.instance(), row.key.repeat))
         };
-        draws.iter().filter_map(|draw| Some((unit(draw)?, of_draw(draw)?))).collect()
+        instances.iter().filter_map(|instance| Some((unit(instance)?, of_instance(instance)?))).collect()
     }
 }
 
 /// On which side the row lies, in words.
-fn level_said(level: &Level, refused_below: f64) -> String {
+fn level_sentence(level: &Level, refused_below: f64) -> String {
     let Level { short: [short, cells], difference, rank, dominating } = level;
     format!(
         "on which side: our mean is below the printed value in {short} of {cells} cells, by {difference:+.1} points on average; \
-             the row's mean is at or above that of {} of {} draws (two-sided rank {:.3}, refused below {refused_below}); \
-             {dominating} draws are at or above the printed row in every cell",
+             the row's mean is at or above that of {} of {} instances (two-sided rank {:.3}, refused below {refused_below}); \
+             {dominating} instances are at or above the printed row in every cell",
         rank.below + rank.equal,
-        rank.draws(),
+        rank.instances(),
         rank.p_two_sided()
     )
 }
 
-impl RowOneDraw<'_> {
-    /// The numbers of all cells of all rows, one list a cell, of the draws that have them all.
-    fn cells(&self, drawn: &[Vec<Draw<'_>>], unended_solved: bool) -> Vec<Vec<f64>> {
-        let rows: Vec<BTreeMap<Unit<'_>, Vec<f64>>> =
-            self.rows.iter().zip(drawn).map(|(row, draws)| row.values(draws, unended_solved)).collect();
+impl RowOneInstance<'_> {
+    /// The numbers of all cells of all rows, one list a cell, of the instances that have them all.
+    fn cells(&self, drawn: &[Vec<Instance<'_>>], unended_solved: bool) -> Vec<Vec<f64>> {
+        let rows: Vec<BTreeMap<Unit<'_>, Vec<f64>>> = self
+            .rows
+            .iter()
+            .zip(drawn)
+            .map(|(row, instances)| row.values(instances, unended_solved))
+            .collect();
         let whole = |unit: &Unit<'_>| -> Option<Vec<f64>> {
             let each: Option<Vec<_>> = rows.iter().map(|row| row.get(unit).cloned()).collect();
             each.map(|each| each.concat())
@@ -163,8 +168,8 @@ impl RowOneDraw<'_> {
     }
 
     /// How many cases without an end could turn what was found: they count as solved; what they would have given else is not known.
-    fn censored(&self, drawn: &[Vec<Draw<'_>>], (level, outcome): (&Level, Outcome)) -> usize {
-        let unended: usize = drawn.iter().map(|draws| selection::unended(draws)).sum();
+    fn censored(&self, drawn: &[Vec<Instance<'_>>], (level, outcome): (&Level, Outcome)) -> usize {
+        let unended: usize = drawn.iter().map(|instances| selection::unended(instances)).sum();
         if unended == 0 {
             return 0;
         }
@@ -177,70 +182,75 @@ impl RowOneDraw<'_> {
         if is_turned { unended } else { 0 }
     }
 
-    /// Where the printed row stands, in shape and in level, its rank of shape among our draws and itself, and what both ranks
-    /// say: each is exact, however few the draws.
+    /// Where the printed row stands, in shape and in level, its rank of shape among our instances and itself, and what both ranks
+    /// say: each is exact, however few the instances.
     fn placed(&self, cells: &[Vec<f64>]) -> Option<(Place, Level, f64, Outcome)> {
-        let place = Place::of(&self.printed, cells).filter(|_| cells.len() == self.printed.len())?;
-        let level = Level::of(&self.printed, cells)?;
-        let rank = (place.as_far + 1) as f64 / (place.draws + 1) as f64;
+        let place = Place::new(&self.printed, cells).filter(|_| cells.len() == self.printed.len())?;
+        let level = Level::new(&self.printed, cells)?;
+        let rank = (place.as_far + 1) as f64 / (place.instances + 1) as f64;
         let is_ordinary = rank.min(level.rank.p_two_sided()) >= self.refused_below;
         Some((place, level, rank, if is_ordinary { Outcome::Holds } else { Outcome::Fails }))
     }
 
-    /// The first trial of the draw whose first row is nearest to what is printed: one that is refused is far from all of ours.
-    fn shown(&self, evidence: &Evidence<'_>, draws: &[Draw<'_>]) -> Option<String> {
+    /// The first trial of the instance whose first row is nearest to what is printed: one that is refused is far from all of ours.
+    fn shown(&self, evidence: &Evidence<'_>, instances: &[Instance<'_>]) -> Option<String> {
         let row = &self.rows[0];
-        let apart = |draw: &Draw<'_>| -> Option<f64> {
-            let (_, values) = row.values(std::slice::from_ref(draw), false).pop_first()?;
+        let apart = |instance: &Instance<'_>| -> Option<f64> {
+            let (_, values) = row.values(std::slice::from_ref(instance), false).pop_first()?;
             Some(values.iter().zip(&self.printed).map(|(own, printed)| (own - printed).powi(2)).sum())
         };
-        let known = draws.iter().filter_map(|draw| Some((draw, apart(draw)?)));
+        let known = instances.iter().filter_map(|instance| Some((instance, apart(instance)?)));
         let nearest = known.min_by(|a, b| a.1.total_cmp(&b.1));
-        row.of.trial(evidence, nearest.and_then(|(draw, _)| draw.cases.first()))
+        row.of.trial(evidence, nearest.and_then(|(instance, _)| instance.cases.first()))
     }
 
-    /// Fewest draws of which either test can refuse any row: the least two-sided rank is 2 / (n + 1).
+    /// Fewest instances of which either test can refuse any row: the least two-sided rank is 2 / (n + 1).
     fn fewest(&self) -> usize {
         (2.0 / self.refused_below).floor() as usize
     }
 
     fn because(&self, place: &Place, level: &Level, rank: f64, cells: &[Vec<f64>]) -> Vec<String> {
-        let who = self.rows.iter().map(|row| row.of.said()).collect::<Vec<_>>().join(" and ");
+        let who = self.rows.iter().map(|row| row.of.description()).collect::<Vec<_>>().join(" and ");
         let below = self.refused_below;
         let mut because = vec![
             format!(
-                "{who}: the printed row is {:.2} standard deviations a cell from our mean row; {} of {} draws of ours, each against \
+                "{who}: the printed row is {:.2} standard deviations a cell from our mean row; {} of {} instances of ours, each against \
                  the others' mean, are as far (rank {rank:.3}; refused below {below}, so that an ordinary row is refused with \
                  probability {:.2} at most by both tests together)",
                 place.distance,
                 place.as_far,
-                place.draws,
+                place.instances,
                 2.0 * below
             ),
-            level_said(level, below),
+            level_sentence(level, below),
         ];
         let is_sweep = self.rows.iter().all(|row| matches!(row.cells, Cells::Sweep(_)));
         because.extend(monotone_probability(cells).filter(|_| self.rows.len() == 1 && is_sweep).map(|chance| {
             format!(
-                "if each cell came from a draw of its own, a row that never falls would have probability {chance:.1e}: the printed row \
-                 looks like one draw that grows"
+                "if each cell came from an instance of its own, a row that never falls would have probability {chance:.1e}: the printed row \
+                 looks like one instance that grows"
             )
         }));
         because
     }
 }
 
-impl Criterion for RowOneDraw<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> Found {
-        let drawn: Vec<Vec<Draw<'_>>> = self.rows.iter().map(|row| row.of.draws(evidence)).collect();
+impl Criterion for RowOneInstance<'_> {
+    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
+        let drawn: Vec<Vec<Instance<'_>>> = self.rows.iter().map(|row| row.of.instances(evidence)).collect();
         let cells = self.cells(&drawn, false);
         let Some((place, level, rank, outcome)) = self.placed(&cells) else {
             let ran = drawn.iter().map(Vec::len).max().unwrap_or(0);
-            return Found::too_few(cells.iter().map(Vec::len).min().unwrap_or(0), ran, self.fewest());
+            return CriterionResult::too_few(
+                cells.iter().map(Vec::len).min().unwrap_or(0),
+                ran,
+                self.fewest(),
+            );
         };
-        let (judged, n) = (rank.min(level.rank.p_two_sided()), place.draws);
+        let judged = rank.min(level.rank.p_two_sided());
+        let n = place.instances;
         let ours = Estimate::bare(judged, "the lesser rank, of shape or level", n);
-        Found {
+        CriterionResult {
             outcome: Some(outcome),
             censored: self.censored(&drawn, (&level, outcome)),
             ours: Some(ours.of_cases(solved(&drawn[0]))),
@@ -248,7 +258,7 @@ impl Criterion for RowOneDraw<'_> {
             because: self.because(&place, &level, rank, &cells),
             units: "draws",
             needs: Some(self.fewest()).filter(|fewest| n < *fewest),
-            ..Found::default()
+            ..CriterionResult::default()
         }
     }
 

@@ -1,8 +1,8 @@
 //! A scene of polyhedra with its rasterised lattice.
 
-use super::{Entry, Prepared};
+use super::{Entry, Preprocessing};
 use engine::geometry::Convex;
-use engine::planner::{Counts, Exhibit, Value};
+use engine::planner::{Counts, Trace, Value};
 use engine::space::{PolyhedraWorld, World};
 
 /// The registry's entry.
@@ -13,24 +13,25 @@ pub static ENTRY: Entry = Entry {
 };
 
 /// `world` with what it is like.
-pub fn prepare(world: PolyhedraWorld) -> Prepared {
+pub fn prepare(world: PolyhedraWorld) -> Preprocessing {
     let values = Counts::from([
         ("obstacles", Value::Count(world.obstacles().len() as u64)),
         ("free_nodes", Value::Count(world.grid().free_count())),
     ]);
     let [low, high] = [world.domain().min, world.domain().max];
     let domain = [low, high].iter().flat_map(|corner| corner.as_slice().to_vec()).collect();
-    let mut exhibits = vec![Exhibit { name: "domain".to_owned(), width: 3, values: domain }];
-    exhibits.extend(solids("bodies", world.bodies()));
-    exhibits.extend(floor(&world));
-    exhibits.extend(pedestal(&world));
-    Prepared { world: World::Polyhedra(Box::new(world)), values, exhibits }
+    let mut traces = vec![Trace { name: "domain".to_owned(), width: 3, values: domain }];
+    traces.extend(solids("bodies", world.bodies()));
+    traces.extend(floor(&world));
+    traces.extend(pedestal(&world));
+    Preprocessing { world: World::Polyhedra(Box::new(world)), values, traces }
 }
 
 /// The part of the floor under the bodies and the arm's base, as a rectangle in order around it.
-fn floor(world: &PolyhedraWorld) -> Option<Exhibit> {
+fn floor(world: &PolyhedraWorld) -> Option<Trace> {
     let arm = world.arm()?;
-    let (height, base) = (arm.floor_cm()?, arm.arm().chain().base().origin * 100.0);
+    let height = arm.floor_cm()?;
+    let base = arm.arm().chain().base().origin * 100.0;
     let all = world.bodies().iter().flat_map(|body| [body.aabb().min, body.aabb().max]).chain([base]);
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for corner in all {
@@ -41,21 +42,23 @@ fn floor(world: &PolyhedraWorld) -> Option<Exhibit> {
     }
     let corners = [[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]];
     let values = corners.iter().flat_map(|[x, y]| [*x, *y, height]).collect();
-    Some(Exhibit { name: "floor".to_owned(), width: 3, values })
+    Some(Trace { name: "floor".to_owned(), width: 3, values })
 }
 
 /// The number of the body that the arm's base stands on.
-fn pedestal(world: &PolyhedraWorld) -> Option<Exhibit> {
+fn pedestal(world: &PolyhedraWorld) -> Option<Trace> {
     let block = world.arm()?.has_pedestal().then(|| world.bodies().len() - 1)?;
-    Some(Exhibit { name: "pedestal".to_owned(), width: 1, values: vec![block as f64] })
+    Some(Trace { name: "pedestal".to_owned(), width: 1, values: vec![block as f64] })
 }
 
 /// How far the floor is drawn beyond what stands on it.
 const FLOOR_CM: f64 = 20.0;
 
 /// Vertices, and the numbers of the vertices of each face: (face, vertex) in order around it, counted through.
-fn solids(name: &str, solids: &[Convex]) -> [Exhibit; 2] {
-    let (mut vertices, mut faces, mut face_count) = (Vec::new(), Vec::new(), 0);
+fn solids(name: &str, solids: &[Convex]) -> [Trace; 2] {
+    let mut vertices = Vec::new();
+    let mut faces = Vec::new();
+    let mut face_count = 0;
     for solid in solids {
         let first = vertices.len() / 3;
         vertices.extend(solid.vertices().iter().flat_map(|v| v.as_slice().to_vec()));
@@ -64,6 +67,6 @@ fn solids(name: &str, solids: &[Convex]) -> [Exhibit; 2] {
             face_count += 1;
         }
     }
-    let exhibit = |suffix: &str, width, values| Exhibit { name: format!("{name}_{suffix}"), width, values };
-    [exhibit("vertices", 3, vertices), exhibit("faces", 2, faces)]
+    let trace = |suffix: &str, width, values| Trace { name: format!("{name}_{suffix}"), width, values };
+    [trace("vertices", 3, vertices), trace("faces", 2, faces)]
 }

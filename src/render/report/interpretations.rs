@@ -1,15 +1,15 @@
-//! What readings do, as details show it: which vote and by what, which claims each moves.
+//! What interpretations do, as details show it: which vote and by what, which claims each moves.
 
 use super::chapter::Page;
 use super::{item, links, paragraph};
-use crate::analysis::verdict::{Effect, Judged};
+use crate::analysis::verdict::{ClaimVerdict, Effect};
 use crate::render::prose::markdown;
 use study::Choice;
 use study::spec::OptionSpec;
 
 impl Page<'_> {
-    /// What the paper leaves open, and what each reading does.
-    pub(super) fn readings(&self, text: &mut String) {
+    /// What the paper leaves open, and what each choice does.
+    pub(super) fn interpretations(&self, text: &mut String) {
         let choices = &self.evidence.paper.choices;
         if !choices.is_empty() {
             self.explored(text);
@@ -17,32 +17,32 @@ impl Page<'_> {
         if choices.is_empty() {
             *text += "The paper leaves nothing open that was varied.\n";
         }
-        for reading in choices {
+        for choice in choices {
             let option = |name: &String| {
-                if *name == reading.default { format!("**{name}** (default)") } else { name.clone() }
+                if *name == choice.default { format!("**{name}** (default)") } else { name.clone() }
             };
-            let options: Vec<String> = reading.options.keys().map(option).collect();
-            let about = format!("`{}`: {}. {}", reading.id, options.join(", "), markdown(&reading.why));
+            let options: Vec<String> = choice.options.keys().map(option).collect();
+            let about = format!("`{}`: {}. {}", choice.id, options.join(", "), markdown(&choice.why));
             *text += &item(0, &about);
-            text.extend(votes(reading).iter().map(|line| item(1, &markdown(line))));
-            text.extend(self.moves(&reading.id).iter().map(|line| item(1, line)));
+            text.extend(votes(choice).iter().map(|line| item(1, &markdown(line))));
+            text.extend(self.moves(&choice.id).iter().map(|line| item(1, line)));
         }
     }
 
     /// What was explored, and on what it rests.
     fn explored(&self, text: &mut String) {
         let Some(explored) = &self.verdicts.explored else {
-            *text += "The readings were not explored: every class is that under the defaults.\n\n";
+            *text += "The choices were not explored: every class is that under the defaults.\n\n";
             return;
         };
         let mut about = format!(
-            "Explored: {} readings, {} trials. A class counts those that vote (by the paper's words or a practice) and are compatible \
+            "Explored: {} interpretations, {} trials. A class counts those that vote (by the paper's words or a practice) and are compatible \
              with what the studies were calibrated to, equal results once; a result against most others counts only if the second seed \
              gives it too.",
-            explored.readings, explored.trials
+            explored.interpretations, explored.trials
         );
         if explored.none_compatible {
-            about += " No voting reading agrees with all that the studies were calibrated to, so that all of them are judged.";
+            about += " No voting interpretation agrees with all that the studies were calibrated to, so that all of them are judged.";
         }
         *text += &paragraph(&about);
         for (claims, what) in
@@ -54,12 +54,12 @@ impl Page<'_> {
         }
     }
 
-    /// Which claims a reading moves alone, by how.
-    fn moves(&self, axis: &str) -> Vec<String> {
+    /// Which claims an interpretation moves alone, by how.
+    fn moves(&self, choice: &str) -> Vec<String> {
         let of = |effect: Effect| {
-            let is_it = |judged: &&Judged| {
+            let is_it = |judged: &&ClaimVerdict| {
                 let across = judged.across.as_ref();
-                across.and_then(|across| across.effects.get(axis)).is_some_and(|own| own.effect == effect)
+                across.and_then(|across| across.effects.get(choice)).is_some_and(|own| own.effect == effect)
             };
             self.verdicts.claims.iter().filter(is_it).map(|judged| judged.claim.as_str()).collect::<Vec<_>>()
         };
@@ -77,32 +77,32 @@ impl Page<'_> {
 }
 
 /// Which options vote and by what, and which are probes.
-fn votes(reading: &Choice) -> Vec<String> {
+fn votes(choice: &Choice) -> Vec<String> {
     let source = |name: &str, option: &OptionSpec| {
-        let bounds = reading.bounds.as_ref().filter(|_| option.value.is_some());
+        let bounds = choice.bounds.as_ref().filter(|_| option.value.is_some());
         let own = [option.paper.clone(), option.practice.clone(), bounds.map(|bounds| bounds.source.clone())];
         let said: Vec<String> = own.into_iter().flatten().collect();
         (!said.is_empty()).then(|| format!("{name} votes: {}", said.join("; ")))
     };
-    let voting = reading.options.iter().filter(|(name, _)| reading.votes(name));
+    let voting = choice.options.iter().filter(|(name, _)| choice.votes(name));
     let mut lines: Vec<String> = voting.filter_map(|(name, option)| source(name, option)).collect();
-    let lost = reading.not_run().map(|(name, why)| {
+    let lost = choice.not_run().map(|(name, why)| {
         format!("{name} cannot be run here: {why}; claims on studies that inherit the choice stay undecided")
     });
     lines.extend(lost);
     let probes: Vec<&str> =
-        reading.options.keys().filter(|name| !reading.is_meant(name)).map(String::as_str).collect();
+        choice.options.keys().filter(|name| !choice.is_meant(name)).map(String::as_str).collect();
     if !probes.is_empty() {
         lines.push(format!("probes, never counted: {}", probes.join(", ")));
     }
     lines
 }
 
-/// What readings do to a claim beyond the words beside its class.
-pub fn across_lines(judged: &Judged) -> impl Iterator<Item = String> {
+/// What interpretations do to a claim beyond the words beside its class.
+pub fn across_lines(judged: &ClaimVerdict) -> impl Iterator<Item = String> {
     let across = judged.across.as_ref();
     let counts = across.map(|across| {
-        let mut parts = vec![format!("{} readings give {} results", across.looked, across.counted)];
+        let mut parts = vec![format!("{} interpretations give {} results", across.looked, across.counted)];
         let more = [
             (across.not_looked_at, "do not look at it or lack power"),
             (across.incompatible, "contradict what the studies were calibrated to"),
@@ -115,7 +115,7 @@ pub fn across_lines(judged: &Judged) -> impl Iterator<Item = String> {
     });
     let moves = across.into_iter().flat_map(|across| {
         let moving = across.effects.iter().filter(|(_, of)| of.effect > Effect::Number);
-        moving.map(|(axis, of)| format!("{axis} = {} alone: {}", of.option, of.class.name()))
+        moving.map(|(choice, of)| format!("{choice} = {} alone: {}", of.option, of.class.name()))
     });
     let probes = across.filter(|across| !across.probes.is_empty());
     let probes = probes.map(|across| format!("probes, not counted: {}", across.probes.join("; ")));

@@ -1,10 +1,10 @@
 //! A planar arm's workspace, analysed point by point as the reproduced paper does before it plans.
 
-use super::{Entry, Prepared};
+use super::{Entry, Preprocessing};
 use engine::geometry::Vec2;
 use engine::geometry::planar::{Circle, ConvexPolygon, Touch};
 use engine::kinematics::planar_2r::ElbowRule;
-use engine::planner::{Counts, Exhibit, Value};
+use engine::planner::{Counts, Trace, Value};
 use engine::space::{ArmWorld, HopRule, Obstacle, World, Zone};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -106,7 +106,8 @@ impl ShapeSetting {
     /// # Errors
     /// A sentence if a number is not finite or the diameter is not above 0.
     pub fn obstacle(self, center_cm: [f64; 2], diameter_cm: f64) -> Result<Obstacle, String> {
-        let (center, radius) = (Vec2::from(center_cm), diameter_cm / 2.0);
+        let center = Vec2::from(center_cm);
+        let radius = diameter_cm / 2.0;
         // Sizes are refused in one place, by the disc around the shape.
         let circle = Circle::new(center, radius).map_err(|e| e.to_string())?;
         let regular = |sides, turn_rad| ConvexPolygon::regular(center, radius, sides, turn_rad);
@@ -127,7 +128,7 @@ impl ShapeSetting {
 }
 
 /// The analysed `world`; with `branches_at`, also both postures that reach this point.
-pub fn prepare(world: ArmWorld, branches_at: Option<[f64; 2]>) -> Prepared {
+pub fn prepare(world: ArmWorld, branches_at: Option<[f64; 2]>) -> Preprocessing {
     let counted = |zone: Zone| {
         let count = world.zones().iter().filter(|found| **found == zone).count();
         Value::Count(count as u64)
@@ -139,25 +140,26 @@ pub fn prepare(world: ArmWorld, branches_at: Option<[f64; 2]>) -> Prepared {
         ("obstacle_cells", counted(Zone::Obstacle)),
         ("link_cells", counted(Zone::Link)),
     ]);
-    let mut exhibits = vec![lattice(&world), zones(&world)];
-    exhibits.extend(world.obstacles().iter().enumerate().map(|(index, obstacle)| Exhibit {
+    let mut traces = vec![lattice(&world), zones(&world)];
+    traces.extend(world.obstacles().iter().enumerate().map(|(index, obstacle)| Trace {
         name: format!("obstacle_{}", index + 1),
         width: 2,
         values: obstacle.outline().concat(),
     }));
-    exhibits.extend(branches_at.and_then(|target| branches(&world, target)));
-    Prepared { world: World::Arm(world), values, exhibits }
+    traces.extend(branches_at.and_then(|target| branches(&world, target)));
+    Preprocessing { world: World::Arm(world), values, traces }
 }
 
 /// Lower left point, step, columns and rows.
-fn lattice(world: &ArmWorld) -> Exhibit {
+fn lattice(world: &ArmWorld) -> Trace {
     let lattice = world.rules().lattice;
-    let ([x, y], [columns, rows]) = (lattice.low_cm(), lattice.size().map(f64::from));
-    Exhibit { name: "lattice".to_owned(), width: 5, values: vec![x, y, lattice.step_cm(), columns, rows] }
+    let [x, y] = lattice.low_cm();
+    let [columns, rows] = lattice.size().map(f64::from);
+    Trace { name: "lattice".to_owned(), width: 5, values: vec![x, y, lattice.step_cm(), columns, rows] }
 }
 
 /// One number a point, row by row: 0 free, 1 out of reach, 2 too near, 3 in an obstacle, 4 a link hits one.
-fn zones(world: &ArmWorld) -> Exhibit {
+fn zones(world: &ArmWorld) -> Trace {
     let code = |zone: &Zone| match zone {
         Zone::Free => 0.0,
         Zone::OuterReach => 1.0,
@@ -165,17 +167,18 @@ fn zones(world: &ArmWorld) -> Exhibit {
         Zone::Obstacle => 3.0,
         Zone::Link => 4.0,
     };
-    Exhibit { name: "zones".to_owned(), width: 1, values: world.zones().iter().map(code).collect() }
+    Trace { name: "zones".to_owned(), width: 1, values: world.zones().iter().map(code).collect() }
 }
 
 /// Both postures at `target`, θ2 negative first: joint angles in degrees, elbow, tip.
-fn branches(world: &ArmWorld, target: [f64; 2]) -> Option<Exhibit> {
+fn branches(world: &ArmWorld, target: [f64; 2]) -> Option<Trace> {
     let arm = world.rules().arm;
     let both = arm.inverse(&target.into()).ok()?;
     let station = |posture: [f64; 2]| {
-        let (elbow, tip) = (arm.elbow(posture), arm.forward(posture));
+        let elbow = arm.elbow(posture);
+        let tip = arm.forward(posture);
         [posture[0].to_degrees(), posture[1].to_degrees(), elbow.x, elbow.y, tip.x, tip.y]
     };
     let values = [both.negative, both.positive].into_iter().flat_map(station).collect();
-    Some(Exhibit { name: "branches".to_owned(), width: 6, values })
+    Some(Trace { name: "branches".to_owned(), width: 6, values })
 }

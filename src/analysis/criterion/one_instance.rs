@@ -1,0 +1,299 @@
+//! Whether a printed number could be that of one more of our instances: a printed cell is one instance, not a mean.
+
+use super::{Criterion, Entry};
+use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
+use crate::analysis::criterion_result::CriterionResult;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::selection::{self, Instance, Selection, solved};
+use crate::analysis::selection_spec::SelectionSpec;
+use crate::analysis::statistic::{InstanceStatistic, LEVEL, plan};
+use crate::analysis::verdict::Estimate;
+use base::settings::{Accepted, SettingsError};
+use proofs::exact::Print;
+use proofs::printed::Printed;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use stats::bootstrap::{self, Resampling};
+use stats::interval::Interval;
+use stats::proportion::{Rank, predictive};
+use stats::summary::median;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "one_instance",
+    about: "does the printed number lie where one more instance of ours would, with 95 % probability?",
+    revision: 2,
+    settings: Accepted::shape::<Settings>(),
+    example: r#"
+of = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
+statistic = "mean"
+"#,
+    build: |context| Ok(Box::new(OneInstance::new(context)?)),
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    /// The trials that are looked at; with `against`, what is saved against it in per cent.
+    of: SelectionSpec,
+    /// What is taken of each instance.
+    #[serde(default)]
+    statistic: InstanceStatistic,
+    /// What these instances are, where several sets are shown beside each other.
+    label: Option<String>,
+    /// What the instances take for granted besides.
+    #[serde(default)]
+    premises: Vec<String>,
+}
+
+/// Instances of one kind.
+#[derive(Debug, Clone)]
+pub struct Instances {
+    /// What they are.
+    pub label: String,
+    /// The statistic of each; printed twins of the claim's number are set to it.
+    pub values: Vec<f64>,
+    /// Instances without a number.
+    pub unsolved: usize,
+    /// Accepted maps and maps tried, where instances were conditioned.
+    pub acceptance: Option<[u64; 2]>,
+}
+
+struct OneInstance<'a> {
+    of: Selection<'a>,
+    statistic: InstanceStatistic,
+    label: Option<String>,
+    premises: Vec<String>,
+    print: Print,
+    plan: Resampling,
+}
+
+/// The instances that the claim of `context` is held against, one set a criterion of this name that it decides or shows by.
+///
+/// # Errors
+/// A settings error of the criterion.
+pub fn instances(context: &Context<'_>, evidence: &Evidence<'_>) -> Result<Vec<Instances>, SettingsError> {
+    let asked = context.claim.criteria().filter(|(name, _)| *name == ENTRY.name);
+    asked
+        .map(|(_, settings)| {
+            let one = OneInstance::new(&Context { settings, ..*context })?;
+            Ok(one.values(evidence, &one.of.instances(evidence)))
+        })
+        .collect()
+}
+
+/// Percentages that an interval covers from which on it refuses next to nothing, and decides nothing either.
+const NO_POWER_POINTS: f64 = 80.0;
+
+impl<'a> OneInstance<'a> {
+    fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
+        let Settings { of, statistic, label, premises } = context.settings.read::<Settings>()?;
+        let of = Selection::new(context, &of)?;
+        of.contender(context)?;
+        if statistic != InstanceStatistic::SolvedPercent {
+            of.metric(context)?;
+        }
+        let plan = plan(&context.seed_names());
+        Ok(Self { of, statistic, label, premises, print: context.print()?, plan })
+    }
+
+    /// What is taken of each instance, in words.
+    fn title(&self) -> String {
+        match (self.of.metric, &self.of.against) {
+            (Some(metric), Some(_)) => {
+                format!(
+                    "{} saving in {} over an instance's queries, %",
+                    self.statistic.name(),
+                    metric.label.to_lowercase()
+                )
+            }
+            (Some(metric), None) => format!("{} {}", self.statistic.name(), metric.title().to_lowercase()),
+            (None, _) => format!("{}, %", self.statistic.name()),
+        }
+    }
+
+    /// What the interval of one more instance says, of instances whose mean lies in `mean`.
+    fn outcome(&self, interval: Interval, mean: Interval) -> Outcome {
+        let printed = self.print.printed.value();
+        match interval.contains(printed) {
+            true => Outcome::Holds,
+            // Both are savings, or both are losses.
+            false if self.of.against.is_some() && (mean.low * printed).min(mean.high * printed) > 0.0 => {
+                Outcome::SignOnly
+            }
+            false => Outcome::Fails,
+        }
+    }
+
+    /// How many cases without an end could turn what was found: instances of which one did not end are taken to lie above all
+    /// others, then below; where solved queries are counted, they are counted as solved.
+    fn censored(&self, drawn: &[Instance<'_>], found: Outcome) -> usize {
+        let number = |instance: &Instance<'_>, lost: f64| {
+            let unended = instance.cases.iter().filter(|case| case.is_unended()).count();
+            let own = self.statistic.value(instance);
+            if self.statistic == InstanceStatistic::SolvedPercent {
+                let more =
+                    if lost > 0.0 { 100.0 * unended as f64 / instance.cases.len() as f64 } else { 0.0 };
+                return own.map(|own| own + more);
+            }
+            // One more number would move a mean either way, a least one down and a greatest one up.
+            let is_moved = match self.statistic {
+                InstanceStatistic::Least => lost < 0.0,
+                InstanceStatistic::Greatest => lost > 0.0,
+                InstanceStatistic::Mean | InstanceStatistic::SolvedPercent => true,
+            };
+            if unended > 0 && (is_moved || own.is_none()) { Some(lost) } else { own }
+        };
+        let interval = |lost: f64| {
+            let filled: Vec<f64> = drawn.iter().filter_map(|instance| number(instance, lost)).collect();
+            predictive(&filled, LEVEL)
+        };
+        let [Some(below), Some(above)] = [f64::NEG_INFINITY, f64::INFINITY].map(interval) else { return 0 };
+        let printed = self.print.printed.value();
+        // It may be ordinary if it lies between the two, and must be if it lies within both.
+        let may_hold = below.low <= printed && printed <= above.high;
+        let must_hold = below.contains(printed) && above.contains(printed);
+        let turned = if found == Outcome::Holds { !must_hold } else { may_hold };
+        let unended = selection::unended(drawn);
+        if turned && unended > 0 { unended } else { 0 }
+    }
+
+    fn values(&self, evidence: &Evidence<'_>, drawn: &[Instance<'_>]) -> Instances {
+        let twin = |value: f64| {
+            if self.print.agrees(value) { self.print.printed.value() } else { value }
+        };
+        let values: Vec<f64> =
+            drawn.iter().filter_map(|instance| self.statistic.value(instance)).map(twin).collect();
+        let unsolved = drawn.len() - values.len();
+        let tried: Vec<u64> = self.of.run(evidence).map_or_else(Vec::new, |run| {
+            let preprocessing = self.of.groups.iter().flat_map(|group| run.preprocessing(group));
+            preprocessing.filter_map(|row| Some(row.values.get("tries")?.as_f64() as u64)).collect()
+        });
+        let acceptance = (!tried.is_empty()).then(|| [tried.len() as u64, tried.iter().sum()]);
+        Instances {
+            label: self.label.clone().unwrap_or_else(|| self.of.description()),
+            values,
+            unsolved,
+            acceptance,
+        }
+    }
+}
+
+/// The rank of `printed` among `instances` in words.
+fn rank_sentence(instances: &Instances, printed: Printed) -> String {
+    let rank = Rank::new(printed.value(), &instances.values);
+    let Some(share) = rank.share_at_most().zip(rank.interval_at_most(LEVEL)) else {
+        return format!("{}: no instance has a number", instances.label);
+    };
+    let middle = median(&instances.values).map_or(String::new(), |median| format!("median {median:.2}"));
+    let range = predictive(&instances.values, LEVEL).map_or(String::new(), |range| {
+        format!(", one more instance lies in [{:.2}, {:.2}] with 95 % probability", range.low, range.high)
+    });
+    let unsolved = if instances.unsolved > 0 {
+        format!(" ({} more have none)", instances.unsolved)
+    } else {
+        String::new()
+    };
+    let accepted = instances.acceptance.map_or(String::new(), |[accepted, tried]| {
+        let percent = 100.0 * accepted as f64 / tried as f64;
+        format!(", {accepted} accepted of {tried} maps tried ({percent:.3} %)")
+    });
+    let place = place(rank, share, &unsolved);
+    format!("{}: {middle}{range}; printed {printed}, {place}{accepted}", instances.label)
+}
+
+/// Where a number stands among instances, of which more are unsolved, in words; the share at or below it comes with its interval.
+fn place(rank: Rank, (share, interval): (f64, Interval), unsolved: &str) -> String {
+    let count = rank.instances();
+    let percent = 100.0 * share;
+    let [low, high] = [interval.low, interval.high].map(|end| 100.0 * end);
+    if rank.below == count {
+        let beyond = 100.0 - low;
+        return format!(
+            "above all {count} instances{unsolved}: at most {beyond:.1} % of such instances reach it"
+        );
+    }
+    if rank.above == count {
+        return format!(
+            "below all {count} instances{unsolved}: at most {high:.1} % of such instances reach it"
+        );
+    }
+    format!(
+        "with {percent:.1} % of {count} instances{unsolved} at or below it ({low:.1} to {high:.1} %), {} equal to it",
+        rank.equal
+    )
+}
+
+impl Criterion for OneInstance<'_> {
+    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
+        let drawn = self.of.instances(evidence);
+        let instances = self.values(evidence, &drawn);
+        let about = bootstrap::mean(&instances.values, self.plan);
+        let (Some(interval), Some(about)) = (predictive(&instances.values, LEVEL), about) else {
+            return CriterionResult {
+                premises: self.premises.clone(),
+                ..CriterionResult::too_few(instances.values.len(), drawn.len(), 39)
+            };
+        };
+        let outcome = self.outcome(interval, about.interval);
+        let mean = about.value;
+        let powerless = self.statistic == InstanceStatistic::SolvedPercent
+            && interval.high - interval.low >= NO_POWER_POINTS;
+        let mut because = vec![rank_sentence(&instances, self.print.printed)];
+        because.extend(powerless.then(|| {
+            format!(
+                "no power: the interval covers {NO_POWER_POINTS} points or more of the 100 there are, so hardly any printed value \
+                 could be refused; no number of instances of ours narrows it, for what is printed is one instance"
+            )
+        }));
+        let what = format!("{}: mean, 95 % predictive interval of one more instance", self.title());
+        let apart = |instance: &&Instance<'_>| {
+            self.statistic
+                .value(instance)
+                .map_or(f64::INFINITY, |own| (own - self.print.printed.value()).abs())
+        };
+        let nearest = drawn.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
+        let trial = self.of.trial(evidence, nearest.and_then(|instance| instance.cases.first()));
+        CriterionResult {
+            outcome: Some(outcome),
+            ours: Some(Estimate::new(mean, interval, what, instances.values.len()).of_cases(solved(&drawn))),
+            trial,
+            because,
+            premises: self.premises.clone(),
+            powerless,
+            censored: self.censored(&drawn, outcome),
+            units: "draws",
+            ..CriterionResult::default()
+        }
+    }
+
+    fn selections(&self) -> Vec<&Selection<'_>> {
+        vec![&self.of]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_beyond_all_instances_has_no_rank_in_per_cent() {
+        let said = |printed: f64| {
+            let rank = Rank::new(printed, &[1.0, 2.0, 3.0, 4.0]);
+            let share = rank.share_at_most().zip(rank.interval_at_most(LEVEL)).unwrap();
+            place(rank, share, " (2 more have none)")
+        };
+        // One side of the exact interval of 0 of 4: 1 - 0.025^(1/4) = 60.2 %.
+        assert_eq!(
+            said(4.5),
+            "above all 4 instances (2 more have none): at most 60.2 % of such instances reach it"
+        );
+        assert_eq!(
+            said(0.5),
+            "below all 4 instances (2 more have none): at most 60.2 % of such instances reach it"
+        );
+        assert!(said(4.0).starts_with("with 100.0 % of 4 instances"), "{}", said(4.0));
+        assert!(said(2.5).starts_with("with 50.0 % of 4 instances"), "{}", said(2.5));
+    }
+}

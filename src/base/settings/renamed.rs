@@ -1,0 +1,45 @@
+//! Words that were renamed, as data/renamed.toml lists them.
+
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+const LIST: &str = include_str!("../../../data/renamed.toml");
+
+/// The old words in `section` of the list, each with what is written now.
+///
+/// # Panics
+/// If there is no such section.
+pub fn renamed(section: &str) -> &'static BTreeMap<String, String> {
+    static READ: OnceLock<BTreeMap<String, BTreeMap<String, String>>> = OnceLock::new();
+    &READ.get_or_init(|| toml::from_str(LIST).expect("the list is words in tables"))[section]
+}
+
+/// That `key` of a spec was renamed or moved, if it was.
+pub(super) fn renamed_key(key: &str) -> Option<String> {
+    let now = renamed("keys").get(key)?;
+    let said = if now.contains(' ') { now.clone() } else { format!("it is `{now}` now") };
+    Some(format!("`{key}` is no key here: {said}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_word_is_renamed_twice_but_where_a_key_moved() {
+        for section in ["keys", "names", "command_line", "columns", "parts", "stored"] {
+            let words = renamed(section);
+            for (old, new) in words {
+                assert!(!words.contains_key(new), "{section}: {old} is {new}, which is renamed too");
+            }
+        }
+    }
+
+    #[test]
+    fn an_old_key_is_told_with_the_new_one() {
+        let expected = "`replicates` is no key here: it is `instances` now";
+        assert_eq!(renamed_key("replicates").as_deref(), Some(expected));
+        assert!(renamed_key("ledger").unwrap().ends_with("`inventory` now"));
+        assert_eq!(renamed_key("instances"), None);
+    }
+}
