@@ -39,7 +39,7 @@ def answer(asked: tuple[Path, Path, list[Metric]]) -> tuple[str, Said]:
 def report(name: str, said: Said) -> None:
     """Say what agrees, what is near and what differs."""
     agree = (
-        f"{said.estimates} estimates, {said.intervals} intervals, {said.classes} classes "
+        f"{said.estimates} estimates, {said.intervals} intervals, {said.classes} outcomes "
         f"and {said.across} combinations across interpretations agree"
     )
     print(f"{name}: {agree}; {len(said.near)} near, {len(said.differ)} differ", flush=True)

@@ -1,15 +1,26 @@
-"""The class of a claim across interpretations, from a paper's stored exploration and that on its second seed."""
+"""The verdict of a claim over all interpretations, from a paper's stored explorations."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
-from statistics_judge.classes import SPEAKS, WEIGHT
+from statistics_judge.classes import OPEN, SPEAKS, stored_outcome
+from statistics_judge.depends import Sides
 from statistics_judge.records import Paper
-from statistics_judge.shared_out import shares
+from statistics_judge.table import Results, of_meanings
 
-# Of ten results that speak or leave open, so many must speak.
-TENTHS = 9
+# Exceptions, or interpretations that were not varied, that are listed one by one.
+LISTED = 3
+
+# An exception with more options is counted and not listed.
+OPTIONS = 2
+
+# Per cents that an interval covers from which on it refuses next to nothing.
+NO_POWER = 80.0
+
+# Settings of criteria that state a size.
+SIZES = ("by_percent", "margin", "printed_ratio", "accepted")
 
 # Interpretations under which nothing was seen of a claim.
 UNSEEN = ("unexplored", "unmeant")
@@ -67,7 +78,7 @@ class Counted:
     not_looked_at: int
     incompatible: int
     none_compatible: bool
-    existential: bool
+    refused: list[int] = field(default_factory=list)
 
 
 def within(value: float, bounds: tuple[float, float]) -> bool:
@@ -101,10 +112,7 @@ class Across:
         # Whether a spec has changed since is for the hashes of replan; its word is taken for it.
         self.stale = [set(note.get(key, [])) for key in ("stale", "second_stale")]
         self.verdicts = {one["claim"]: one for one in verdicts.get("claim", [])}
-        self.default = {
-            name: one["across"]["default"] if "across" in one else one["verdict"]
-            for name, one in self.verdicts.items()
-        }
+        self.default = {name: one["outcome"] for name, one in self.verdicts.items()}
         self.calibration = {
             name for study in paper.studies.values() for name in study.spec.get("fitted_to", [])
         }
@@ -113,37 +121,82 @@ class Across:
         """What an exploration found about a claim under one of its interpretations."""
         return exploration["claims"].get(claim, {"at": {}})["at"].get(place)
 
-    def second_class(self, claim: str) -> str | None:
-        """The class under the defaults on the second seed."""
+    def second_outcome(self, claim: str) -> str | None:
+        """The outcome under the defaults on the second seed."""
         if self.second is None or claim in self.stale[1]:
             return None
         found = self.result(self.second, claim, 0)
-        return found["class"] if found and found["sight"] == "looked" else None
+        return stored_outcome(found) if found and found["sight"] == "looked" else None
 
-    def expected(self, claim: str) -> dict[str, Any] | None:
-        """What verdicts.toml should say of a claim across interpretations; none if it should say nothing."""
-        if self.first is None or claim in self.stale[0] or "theorem" in self.verdicts[claim]:
-            return None
-        counted = self.counted(claim)
-        if counted.looked < 2:
-            return None
-        self.confirm(claim, counted.results)
-        votes = [one.vote for one in counted.results]
-        found = combined(votes, counted.existential)
-        ways = [SPEAKS[vote] for vote in votes]
+    def expected(self, claim: str) -> dict[str, Any]:
+        """What verdicts.toml should say of a claim; under `across` nothing, if the default alone counts."""
+        stored = self.verdicts[claim]
+        is_seedless = stored.get("is_seedless", False)
+        counted = Counted([], 0, 0, 0, none_compatible=False)
+        if self.first is not None and claim not in self.stale[0] and "theorem" not in stored:
+            counted = self.counted(claim)
+        is_explored = counted.looked > 1
+        if not is_explored:
+            own = self.default[claim]
+            counted = Counted([Result([0], own, own)], 1, 0, 0, none_compatible=False)
+        if is_explored and not is_seedless:
+            self.confirm(claim, counted.results)
+        default, second = 0, SPEAKS[self.second_outcome(claim) or OPEN]
+        if any(0 in one.interpretations for one in counted.results):
+            default = SPEAKS[self.default[claim]]
+        # Which interpretations touch a claim, and whether a seed does, is for replan's registries: its word counts.
+        results = Results(
+            [one.vote for one in counted.results],
+            default,
+            default if is_seedless else second,
+            stored.get("chosen"),
+            self.states_size(claim),
+            bool(stored.get("not_varied")),
+        )
+        verdict, line = results.verdict()
+        beside, on = self.said(claim, counted, results, line)
+        beside = self.possible(claim) or beside
+        unvaried = None if line in ("proved", "lacking") else not_varied(stored.get("not_varied", []))
+        beside = "; ".join(one for one in (beside, unvaried) if one) or None
+        found = {"verdict": verdict, "said": beside, "depends_on": on, "across": None}
+        if is_explored:
+            found["across"] = self.across_of(counted, results)
+        return found
+
+    def across_of(self, counted: Counted, results: Results) -> dict[str, Any]:
+        """The counts across interpretations."""
+        holds, left, fails = results.counts()
         return {
-            "class": found,
-            "said": self.said(claim, counted, found),
-            "counted": len(votes),
+            "counted": len(counted.results),
             "looked": counted.looked,
-            "holds": ways.count(1),
-            "open": ways.count(0),
-            "fails": ways.count(-1),
+            "holds": holds,
+            "open": left,
+            "fails": fails,
             "unconfirmed": sum(one.vote != one.stored for one in counted.results),
             "not_looked_at": counted.not_looked_at,
             "incompatible": counted.incompatible,
             "none_compatible": counted.none_compatible,
         }
+
+    def states_size(self, claim: str) -> bool:
+        """Whether a claim, or a part of it, states a size that can be missed."""
+        whole = self.paper.claim(claim)
+        kinds = ("all_of", "any_of", "means_one_of", "cells")
+        parts = [self.paper.claim(part) for kind in kinds for part in whole.get(kind, [])]
+        for one in (whole, *parts):
+            asked = [*one.get("check", {}).values(), *one.get("rule", {}).values()]
+            asked += [settings for tables in one.get("shows", {}).values() for settings in tables]
+            if "printed" in one or any(size in settings for settings in asked for size in SIZES):
+                return True
+        return False
+
+    def possible(self, claim: str) -> str | None:
+        """What arithmetic found possible, where nothing else was found."""
+        findings = self.verdicts[claim].get("finding", [])
+        if any("outcome" in finding for finding in findings):
+            return None
+        lines = (line for finding in findings for line in finding["because"])
+        return next((line for line in lines if line.startswith("possible: ")), None)
 
     def counted(self, claim: str) -> Counted:
         """The interpretations that vote and are compatible, with equal results once."""
@@ -153,23 +206,37 @@ class Across:
         judged = self.compatible(voting, *self.calibrating(claim))
         none_compatible = bool(voting) and not judged
         judged = voting if none_compatible else judged
-        found = Counted([], 0, 0, len(voting) - len(judged), none_compatible, existential=False)
+        found = Counted([], 0, 0, len(voting) - len(judged), none_compatible)
         stored = self.first["claims"].get(claim)
         if stored is None:
-            return Counted([], 0, 0, 0, none_compatible=False, existential=False)
-        found.existential = stored.get("existential", False)
-        for one in stored["results"]:
+            return Counted([], 0, 0, 0, none_compatible=False)
+        most = self.paper.explore.get("refused_above_percent")
+        refused = [most is not None and 100 * one.get("refused", 0) > most for one in stored["results"]]
+        for one, is_refused in zip(stored["results"], refused, strict=True):
             own = [at for at in one["interpretations"] if at in judged]
+            # Where all are refused, none can be set apart.
+            if is_refused and not all(refused):
+                found.refused += own
+                continue
             # The default run stands for the default interpretation, whatever the exploration had of it.
-            kept = own if one["sight"] == "looked" else [at for at in own if at == 0]
+            is_looked = one["sight"] == "looked" and not self.is_powerless(claim, one)
+            kept = own if is_looked else [at for at in own if at == 0]
             seen = kept if one["sight"] != "unmeant" else []
             found.looked += len(seen)
             found.not_looked_at += len(own) - len(seen)
             if seen:
-                now = self.default[claim] if 0 in own else one["class"]
+                now = self.default[claim] if 0 in own else stored_outcome(one)
                 found.results.append(Result(seen, now, now))
         found.results.sort(key=lambda one: one.interpretations[0])
         return found
+
+    def is_powerless(self, claim: str, result: dict[str, Any]) -> bool:
+        """Whether a saving of one more instance, stored for a claim, could have refused next to nothing."""
+        asked = self.paper.claim(claim).get("check", {}).get("one_instance", {})
+        ends = result.get("interval")
+        is_saving = "against" in asked.get("of", {})
+        is_for = SPEAKS[stored_outcome(result)] > 0
+        return is_for and is_saving and ends is not None and ends[1] - ends[0] >= NO_POWER
 
     def calibrating(self, claim: str) -> tuple[list[str], list[str]]:
         """The claims that make an interpretation incompatible for a claim; and itself, its parts and its sentence."""
@@ -206,7 +273,7 @@ class Across:
             if found is None or found["sight"] in UNSEEN:
                 continue
             full = self.default.get(claim) if place == 0 else None
-            way = SPEAKS[full or found["class"]]
+            way = SPEAKS[full or stored_outcome(found)]
             if way < 0 or (found["sight"] == "powerless" and full is None):
                 return None
             holds += way > 0
@@ -226,51 +293,89 @@ class Across:
                 interpretation = self.first["interpretations"][one.interpretations[0]]
                 if interpretation in self.second["interpretations"]:
                     again = self.result(self.second, claim, self.second["interpretations"].index(interpretation))
-            if again is None or SPEAKS[again["class"]] != SPEAKS[one.stored]:
-                one.vote = "undecided"
+            if again is None or SPEAKS[stored_outcome(again)] != SPEAKS[one.stored]:
+                one.vote = OPEN
 
-    def said(self, claim: str, counted: Counted, found: str) -> str:
-        """What stands beside the class."""
-        votes = [SPEAKS[one.vote] for one in counted.results]
-        holds, fails, left, every = votes.count(1), votes.count(-1), votes.count(0), len(votes)
-        tail = f", open under {left}" if left else ""
-        if every == 1:
-            return "asked under the defaults alone" if self.is_of_defaults(claim) else "no choice moves it"
-        if counted.existential and holds:
-            first = counted.results[votes.index(1)]
-            tail = f", {self.name(first)} among them" if self.departs(first) else ""
-            return f"met under {holds} of {every}{tail}"
-        if holds and fails:
-            weakest = max((one.vote for one in counted.results if SPEAKS[one.vote] == 1), key=WEIGHT.index)
-            return self.hangs(claim, counted.results, weakest, SPEAKS)
-        for speaks, verb, way in ((holds, "holds", 1), (fails, "fails", -1)):
-            if speaks:
-                firm = SPEAKS[found] == way
-                tail = tail if firm else f" only, open under {left}"
-                by_class = self.by_class(claim, counted.results) if firm and way == 1 else ""
-                return f"{verb} under {speaks} of {every}{tail}{by_class}"
-        return f"open under {left} of {every}"
+    def said(
+        self, claim: str, counted: Counted, results: Results, line: str
+    ) -> tuple[str | None, str | None]:
+        """What stands beside the verdict, and on what it depends."""
+        holds, left, fails = results.counts()
+        every = len(results.outcomes)
+        counts = f"{holds}/{left}/{fails} for/open/against" if every > 1 else None
+        more: list[str | None] = []
+        on = None
+        match line:
+            case "met" if every > 1:
+                return f"met under {holds} of {every}{self.met(counted)}", None
+            case "proved" | "lacking" | "all" | "met":
+                is_same = counted.looked > 1 and not results.unvaried
+                return (f"same under all {counted.looked}" if is_same else None), None
+            case "no example" if results.chosen != "existence":
+                return f"met under none of {every}", None
+            case "no example":
+                return f"no example found{f' under {every}' if every > 1 else ''}", None
+            case "refused":
+                return "the second seed contradicts what was fitted", None
+            case "seed":
+                ways = {1: "holds", 0: "is open", -1: "contradicts"}
+                more = [
+                    f"the seed decides: the first {ways[results.default]}, the second {ways[results.second]}"
+                ]
+            case "nine" | "more":
+                way = 1 if holds > fails else -1
+                more = ["the sign alone" if way == 1 and results.sign_alone() else None]
+                more.append(self.exceptions(claim, counted, way))
+            case "both":
+                on, rule = self.rule(claim, counted)
+                more = [rule]
+        return "; ".join(one for one in (counts, *more) if one) or None, on
 
-    def is_of_defaults(self, claim: str) -> bool:
-        """Whether some interpretation changes trials, and none of the studies that the claim looks at has any."""
+    def met(self, counted: Counted) -> str:
+        """The first interpretation that meets a claim, if it is not the default."""
+        first = next(one for one in counted.results if SPEAKS[one.vote] == 1)
+        return f", {self.name(first)} among them" if self.departs(first) else ""
+
+    def sides(self, claim: str, counted: Counted, sides: list[int]) -> Sides:
+        """The results that count, on these sides."""
+        choices = {choice.id: partial(self.taken, choice) for choice in self.choices if self.moves(claim, choice)}
+        return Sides(choices, [one.interpretations for one in counted.results], sides)
+
+    def taken(self, choice: Choice, place: int) -> str:
+        """The option of a choice that the interpretation at a place takes."""
         assert self.first is not None
-        changing = (option for choice in self.choices for option in choice.options.values())
-        if not any(option.get(key) for option in changing for key in ("problem", "stage", "contender")):
-            return False
-        looked_at = set(self.first["claims"][claim]["studies"])
-        for study in self.paper.studies.values():
-            names = {study.name, self.paper.stands_for.get(study.name)}
-            if names & looked_at and study.inherited:
-                return False
-        return bool(looked_at)
+        return choice.option(self.first["interpretations"][place])
 
-    def by_class(self, claim: str, results: list[Result]) -> str:
-        """What the class hangs on where no result speaks against the claim, but not all for it alike."""
-        holding = sorted({one.vote for one in results if SPEAKS[one.vote] == 1}, key=WEIGHT.index)
-        if len(holding) < 2:
-            return ""
-        side = {vote: (vote == holding[0]) - (vote in holding[1:]) for vote in SPEAKS}
-        return f"; the class {self.hangs(claim, results, holding[0], side)}"
+    def exceptions(self, claim: str, counted: Counted, way: int) -> str | None:
+        """The results that do not speak as most do: what they share, or their names."""
+        if counted.looked < 2:
+            return None
+        sides = self.sides(claim, counted, [-1 if SPEAKS[one.vote] == way else 1 for one in counted.results])
+        apart = [one for one in counted.results if SPEAKS[one.vote] != way]
+        if not apart:
+            return None
+        rule = sides.rule(1)
+        if rule:
+            start = "the exception has" if len(apart) == 1 else f"all {len(apart)} exceptions have"
+            return f"{start} {rule.said()}"
+        assert self.first is not None
+        short = [one for one in apart if len(self.first["interpretations"][one.interpretations[0]]) <= OPTIONS]
+        names = [self.name(one) if self.departs(one) else "the defaults" for one in short[:LISTED]]
+        names += [f"{len(apart) - len(names)} more"] if len(apart) > len(names) else []
+        return f"exceptions: {' · '.join(names)}"
+
+    def rule(self, claim: str, counted: Counted) -> tuple[str, str]:
+        """On what it depends which way results speak, and in which words."""
+        sides = self.sides(claim, counted, [-SPEAKS[one.vote] for one in counted.results])
+        rule = sides.rule(1, -1)
+        if rule:
+            verb = "contradicted" if rule.side == 1 else "holds"
+            choices = " and ".join(choice for choice, _ in rule.options)
+            return choices, f"{verb} only if {rule.said()} ({rule.hits} of {rule.covered})"
+        best = sides.separating()
+        if best is None:
+            return "a combination", "no option separates them"
+        return "a combination", f"{best[0]} separates best: contradicted under {best[1]}"
 
     def departs(self, result: Result) -> bool:
         """Whether the first interpretation of a result is another than the default."""
@@ -300,50 +405,15 @@ class Across:
         for found in (self.alone(claim, choice, name) for name in voting):
             if found is None or found.get("sight") in UNSEEN:
                 return True
-            if any(found.get(key) != base.get(key) for key in ("results", "class")):
+            if found["results"] != base["results"] or stored_outcome(found) != stored_outcome(base):
                 return True
         return False
 
-    def decides(self, claim: str, choice: Choice, split: dict[str, list[int]], side: dict[str, int]) -> bool:
-        """Whether each option with results brings its side alone, as far as that was looked at."""
-        for option, (holds, fails) in split.items():
-            found = self.alone(claim, choice, option) if option != choice.default and holds + fails else None
-            if found is not None and (side[found["class"]] == 1) != (holds > 0):
-                return False
-        return True
 
-    def is_clean(self, choice: Choice, results: list[Result], side: dict[str, int]) -> bool:
-        """Whether no option has interpretations on both sides, all interpretations of each result counted."""
-        assert self.first is not None
-        sides: dict[str, set[int]] = {}
-        for one in results:
-            for place in one.interpretations if side[one.vote] else []:
-                sides.setdefault(choice.option(self.first["interpretations"][place]), set()).add(side[one.vote])
-        return all(len(found) == 1 for found in sides.values())
-
-    def hangs(self, claim: str, results: list[Result], name: str, side: dict[str, int]) -> str:
-        """The choice whose options best part results on one side (1), called `name`, from the other (-1)."""
-        assert self.first is not None
-        splits = []
-        for choice in (choice for choice in self.choices if self.moves(claim, choice)):
-            split: dict[str, list[int]] = {}
-            for one in results:
-                counts = split.setdefault(choice.option(self.first["interpretations"][one.interpretations[0]]), [0, 0])
-                if side[one.vote]:
-                    counts[side[one.vote] < 0] += 1
-            splits.append((sum(map(max, split.values())), choice, dict(sorted(split.items()))))
-        holds, fails = (sum(side[one.vote] == way for one in results) for way in (1, -1))
-        found, every = name.replace("_", " "), len(results)
-        for _, choice, split in splits:
-            if self.is_clean(choice, results, side) and self.decides(claim, choice, split, side):
-                where = " or ".join(option for option, counts in split.items() if counts[0])
-                return f"hangs on {choice.id}: {found} if {where} ({holds} of {every})"
-        # Many options part few results by chance: each costs one.
-        parting = [one for one in splits if one[0] > max(holds, fails)]
-        if not parting:
-            return f"hangs on several interpretations: {found} under {holds} of {every}"
-        _, choice, split = max(parting, key=lambda one: one[0] - len(one[2]))
-        return f"hangs on {choice.id} and others: {found} under {holds} of {every} ({shares(split)})"
+def not_varied(interpretations: list[str]) -> str | None:
+    """The interpretations that touch a claim and were not varied, in words."""
+    more = f" and {len(interpretations) - LISTED} more" if len(interpretations) > LISTED else ""
+    return f"not varied: {', '.join(interpretations[:LISTED])}{more}" if interpretations else None
 
 
 def flips(results: list[Result]) -> list[Result]:
@@ -356,42 +426,47 @@ def flips(results: list[Result]) -> list[Result]:
     return [one for one, way in zip(results, ways, strict=True) if way == -most]
 
 
-def combined(votes: list[str], existential: bool) -> str:
-    """The class of several results, one vote each."""
-    of = {way: sorted((one for one in votes if SPEAKS[one] == way), key=WEIGHT.index) for way in (1, 0, -1)}
-    if existential and of[1]:
-        return of[1][0]
-    speaks = of[1] or of[-1]
-    if of[1] and of[-1]:
-        return "undecided"
-    if not speaks:
-        return "untestable" if votes and set(votes) == {"untestable"} else "undecided"
-    if len(speaks) * 10 < TENTHS * (len(speaks) + len(of[0])):
-        return "undecided"
-    if of[1]:
-        return of[1][-1]
-    return "impossible" if set(votes) == {"impossible"} else "not_reproduced"
-
-
 def differences(paper: Paper, verdicts: dict[str, Any]) -> Iterator[str | None]:
-    """For every claim that was explored nothing, or what verdicts.toml says otherwise than is recomputed."""
+    """For every claim nothing, or what verdicts.toml says otherwise than is recomputed."""
     own = Across(paper, verdicts)
-    if own.first is None and own.second is None:
-        return
+    found = {claim: own.expected(claim) for claim in own.verdicts}
     for claim, stored in own.verdicts.items():
-        expected, said = own.expected(claim), stored.get("across")
-        where = f"{paper.id}: `{claim}` across interpretations"
-        if (expected is None) != (said is None):
+        expected = {**found[claim], **meant(paper.claim(claim), found)}
+        where = f"{paper.id}: `{claim}`"
+        wrong = [key for key in ("verdict", "said", "depends_on") if stored.get(key) != expected[key]]
+        for key in wrong:
+            yield f"{where}: `{key}` is {stored.get(key)!r}; recomputed it is {expected[key]!r}"
+        across, said = expected["across"], stored.get("across")
+        if (across is None) != (said is None):
             has = "nothing" if said is None else "something"
-            yield f"{where}: verdicts.toml says {has}; recomputed it is {expected and expected['said']}"
-        elif expected is not None and said is not None:
-            wrong = [key for key, value in expected.items() if said.get(key, False) != value]
-            for key in wrong:
-                yield f"{where}: `{key}` is {said.get(key)!r}; recomputed it is {expected[key]!r}"
-            if not wrong:
-                yield None
-        if stored.get("second") != own.second_class(claim):
-            yield (
-                f"{where}: its class on the second seed is {stored.get('second')}; "
-                f"recomputed it is {own.second_class(claim)}"
-            )
+            yield f"{where}: verdicts.toml says {has} across interpretations; recomputed it is {across}"
+        elif across is not None and said is not None:
+            several = [key for key, value in across.items() if said.get(key, False) != value]
+            for key in several:
+                yield f"{where} across: `{key}` is {said.get(key)!r}; recomputed it is {across[key]!r}"
+            wrong += several
+        second = own.second_outcome(claim)
+        if stored.get("second") != second:
+            is_said = stored.get("second")
+            yield f"{where}: its outcome on the second seed is {is_said}; recomputed it is {second}"
+        elif not wrong:
+            yield None
+
+
+def meant(claim: dict[str, Any], found: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """The verdict of a sentence that means one of its parts, with what stands beside it."""
+    ids = claim.get("means_one_of", [])
+    if not ids or "untestable" in claim or any(claim.get(key) for key in ("check", "rule", "shows")):
+        return {}
+    parts = [found[part] for part in ids]
+    verdict = of_meanings([part["verdict"] for part in parts])
+    said = [f"`{name}` {in_words(part)}" for name, part in zip(ids, parts, strict=True)]
+    weakest = next((part for part in parts if part["verdict"] == verdict), {})
+    on = (weakest.get("depends_on") or "what is meant") if verdict == "depends" else None
+    return {"verdict": verdict, "said": f"meanings: {', '.join(said)}", "depends_on": on}
+
+
+def in_words(one: dict[str, Any]) -> str:
+    """A verdict in words."""
+    words = one["verdict"].replace("_", " ")
+    return f"{words} on {one['depends_on']}" if one["depends_on"] else words

@@ -1,26 +1,32 @@
-"""The class of a finding, of several findings on one claim, and of a claim of parts."""
+"""The outcome of a finding, of several findings on one claim, and of a claim of parts."""
 
 from collections.abc import Callable, Iterable
 
 # What a criterion finds.
-HOLDS, SIGN, OPEN, FAILS = "holds", "the sign alone holds", "open", "fails"
+HOLDS, SIGN, OPEN, FAILS = "holds", "right_in_direction", "open", "contradicted"
 
 # Of findings on one claim the last in this order decides.
-WEIGHT = (
-    "reproduced",
-    "fitted",
-    "attainable",
-    "direction_only",
-    "undecided",
-    "untestable",
-    "not_reproduced",
-    "impossible",
-)
+WEIGHT = (HOLDS, "fitted", "attainable", SIGN, OPEN, "not_testable", FAILS, "impossible")
 SPEAKS = {
     **dict.fromkeys(WEIGHT[:4], 1),
-    **dict.fromkeys(("undecided", "untestable"), 0),
-    **dict.fromkeys(("not_reproduced", "impossible"), -1),
+    **dict.fromkeys((OPEN, "not_testable"), 0),
+    **dict.fromkeys((FAILS, "impossible"), -1),
 }
+
+# What explorations of older versions call outcomes.
+OLDER = {
+    "reproduced": HOLDS,
+    "direction_only": SIGN,
+    "undecided": OPEN,
+    "untestable": "not_testable",
+    "not_reproduced": FAILS,
+}
+
+
+def stored_outcome(result: dict) -> str:
+    """The outcome of a stored result."""
+    found = result.get("outcome") or result["class"]
+    return OLDER.get(found, found)
 
 
 def of_finding(
@@ -35,42 +41,43 @@ def of_finding(
     clock: bool = False,
     not_run: bool = False,
 ) -> str:
-    """The class of what a criterion found.
+    """The outcome of what a criterion found.
 
     `clock`: it rests on a clock with few or contrary sessions.
     `not_run`: the paper may mean an option that cannot be run.
     """
     if censored or few or clock or not_run:
-        return "undecided"
-    plain = {HOLDS: "reproduced", SIGN: "direction_only", OPEN: "undecided", FAILS: "not_reproduced"}[outcome]
-    if plain == "reproduced" and (searched or existential):
-        plain = "attainable"
-    elif plain == "reproduced" and fitted:
-        plain = "fitted"
-    return "undecided" if powerless and SPEAKS[plain] > 0 else plain
+        return OPEN
+    if outcome == HOLDS and (searched or existential):
+        outcome = "attainable"
+    elif outcome == HOLDS and fitted:
+        outcome = "fitted"
+    elif outcome == SIGN and (searched or fitted):
+        outcome = OPEN
+    return OPEN if powerless and SPEAKS[outcome] > 0 else outcome
 
 
-def combined(classes: Iterable[str], untestable: bool) -> str:
-    """The class of several findings on one claim."""
-    found = [*classes, *(["untestable"] if untestable else [])]
-    return max(found, key=WEIGHT.index, default="undecided")
+def combined(outcomes: Iterable[str], untestable: bool) -> str:
+    """The outcome of several findings on one claim."""
+    found = [*outcomes, *(["not_testable"] if untestable else [])]
+    return max(found, key=WEIGHT.index, default=OPEN)
 
 
 def all_of(parts: list[str]) -> str:
-    """The class of a sentence that says all of its parts: against before open before for."""
+    """The outcome of a sentence that says all of its parts: against before open before for."""
     return _extreme(parts, min(map(SPEAKS.__getitem__, parts), default=0), max)
 
 
 def any_of(parts: list[str]) -> str:
-    """The class of a sentence that says some one of its parts: for before open before against."""
+    """The outcome of a sentence that says some one of its parts: for before open before against."""
     return _extreme(parts, max(map(SPEAKS.__getitem__, parts), default=0), min)
 
 
 def means_one_of(parts: list[str]) -> str:
-    """The class of a sentence that means one of its parts: theirs if they speak one way."""
+    """The outcome of a sentence that means one of its parts: theirs if they speak one way."""
     ways = {SPEAKS[part] for part in parts}
     if len(ways) != 1:
-        return "undecided"
+        return OPEN
     # Against: the strongest of them, since it is not known which is meant.
     return any_of(parts) if ways == {-1} else all_of(parts)
 
@@ -78,7 +85,7 @@ def means_one_of(parts: list[str]) -> str:
 def _extreme(parts: list[str], way: int, pick: Callable[..., str]) -> str:
     among = [part for part in parts if SPEAKS[part] == way]
     if way == 0:
-        return "untestable" if among and set(among) == {"untestable"} else "undecided"
+        return "not_testable" if among and set(among) == {"not_testable"} else OPEN
     return pick(among, key=WEIGHT.index)
 
 

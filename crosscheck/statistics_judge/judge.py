@@ -114,6 +114,9 @@ def of_criterion(
     is_cut = any(select(paper, of, 1).cut_left_out for of in selections_of(settings))
     clock = None
     if reads_clock(paper, settings):
+        if not paper.ours:
+            # A sentence about the authors' times: our clock does not test it.
+            return Recomputed(name, frozenset(["not_testable"]), found.estimate)
         clock = lacks_sessions(min(study.sessions for study in studies), find)
     possible = frozenset(
         outcome
@@ -236,16 +239,16 @@ def compare_findings(paper: str, claim: Claim, stored: dict[str, Any], said: Sai
     extra = (["none"] if claim.untestable else []) + ([claim.parts[0]] if claim.parts else [])
     if names != claim.names + extra:
         said.differ.append(f"{paper}: `{claim.id}` has findings {names}; {claim.names + extra} are asked for")
-        return [frozenset([finding.get("verdict")]) for finding in findings[: len(claim.names)]]
+        return [frozenset([finding.get("outcome")]) for finding in findings[: len(claim.names)]]
     known = []
     for place, (own, finding) in enumerate(zip(claim.findings, findings, strict=False)):
         if own is None:
-            known.append(frozenset([finding.get("verdict")]))
+            known.append(frozenset([finding.get("outcome")]))
             continue
         where = f"{paper}: `{claim.id}`, finding {place + 1} ({own.criterion})"
         for line in differences(own.estimate, finding.get("ours"), said):
             said.differ.append(f"{where}: {line}")
-        compare_class(where, finding.get("verdict"), own.classes, said)
+        compare_class(where, finding.get("outcome"), own.classes, said)
         known.append(own.classes)
     return known
 
@@ -265,28 +268,21 @@ def compare_claim(
         if claim.meant:
             of_parts = each(classes.PARTS[kind], [alone[part] for part in labels(ids)])
         finding = stored["finding"][-1] if stored.get("finding") else {}
-        compare_class(f"{paper}: `{claim.id}` ({kind})", finding.get("verdict"), of_parts, said)
+        compare_class(f"{paper}: `{claim.id}` ({kind})", finding.get("outcome"), of_parts, said)
         possible = [*possible, of_parts]
-    # Findings are those under the default interpretation; across interpretations is another question.
-    several = stored.get("across")
-    default = several["default"] if several else stored["verdict"]
-    compare_class(f"{paper}: `{claim.id}`", default, whole(claim, possible), said)
-    if several and several["class"] != stored["verdict"]:
-        said.differ.append(
-            f"{paper}: `{claim.id}`: its class is {stored['verdict']}; "
-            f"across interpretations it is {several['class']}"
-        )
+    # Findings are those under the default interpretation; the verdict over all interpretations is another question.
+    compare_class(f"{paper}: `{claim.id}`", stored["outcome"], whole(claim, possible), said)
 
 
 def compare_class(where: str, stored: str | None, possible: Classes, said: Said) -> None:
     """One class."""
     named = " or ".join(sorted(str(one or "none") for one in possible))
     if stored not in possible:
-        said.differ.append(f"{where}: its class is {stored or 'none'}; recomputed it is {named}")
+        said.differ.append(f"{where}: its outcome is {stored or 'none'}; recomputed it is {named}")
         return
     said.classes += 1
     if len(possible) > 1:
-        said.near.append(f"{where}: Monte-Carlo error decides whether its class is {named}")
+        said.near.append(f"{where}: Monte-Carlo error decides whether its outcome is {named}")
 
 
 def differences(own: Estimate | None, stored: dict[str, Any] | None, said: Said) -> Iterator[str]:

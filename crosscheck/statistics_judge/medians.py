@@ -26,8 +26,10 @@ def least_of(asked: Asked) -> Found:
     """Some contenders' medians over seeds, failures infinite, are below those of others on every problem."""
     settings, of = asked.settings, asked.settings["of"]
     study = asked.paper.studies[of["study"]]
-    groups = groups_of(study, of["problems"])
+    # Problems of which none could be posed say nothing.
+    every = groups_of(study, of["problems"])
     pairs = list(itertools.product(labels(settings["lower"]), labels(settings["higher"])))
+    groups = [group for group in every if could_be_posed(study, group, pairs)] or every
     compared = compare(asked, groups, pairs, (np.inf, np.inf))
     estimate = None
     if compared:
@@ -61,6 +63,12 @@ def least_of(asked: Asked) -> Found:
     ends = [said(compare(asked, groups, pairs, way))[1] for way in ways]
     few = any(has_few_seeds(asked, group, label) for group in groups for pair in pairs for label in pair)
     return Found(main, possible, estimate, censored=hangs(main, possible, ends), few=few)
+
+
+def could_be_posed(study: Study, group: str, pairs: list[tuple[str, str]]) -> bool:
+    """Whether a problem could be posed to some contender, or nothing ran on it."""
+    rows = np.concatenate([study.rows(group, label) for pair in pairs for label in pair])
+    return len(rows) == 0 or bool((study.status[rows] != "invalid_problem").any())
 
 
 def has_few_seeds(asked: Asked, group: str, contender: str) -> bool:

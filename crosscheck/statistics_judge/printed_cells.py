@@ -64,7 +64,8 @@ def one_instance(asked: Asked) -> Found:
         outcome, possible = HOLDS, frozenset([HOLDS])
     else:
         outcome, possible = of_mean(*(end.at for end in about)), outcomes(of_mean, about)
-    powerless = statistic == "solved_percent" and high - low >= NO_POWER
+    is_percent = statistic == "solved_percent" or cases.against is not None
+    powerless = is_percent and high - low >= NO_POWER
     found = replace(certain(outcome, estimate, powerless=powerless), possible=possible)
     return replace(found, censored=frozenset([hangs_on_unended(cases, statistic, cell.value, outcome)]))
 

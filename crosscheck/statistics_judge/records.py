@@ -301,7 +301,10 @@ class Paper:
         spec = toml(folder / "paper.toml")
         self.claims: list[dict[str, Any]] = claims_of(spec)
         self.choices: list[dict[str, Any]] = spec.get("choice", [])
-        self.stands_for: dict[str, str] = spec.get("explore", {}).get("stands_for", {})
+        self.explore: dict[str, Any] = spec.get("explore", {})
+        self.stands_for: dict[str, str] = self.explore.get("stands_for", {})
+        # Questions of our own, whose times our clock decides.
+        self.ours: bool = spec["source"].get("ours", False)
         self.studies = {study.name: study for study in studies(folder, runs)}
         self.metrics = {metric.name: metric for metric in metrics}
         self.runs = runs

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
+from statistics_judge.classes import FAILS, HOLDS, OPEN
 from statistics_judge.found import FEWEST_INSTANCES, Asked, Estimate, Found, certain, hangs, outcomes
 from statistics_judge.intervals import agreed, clopper_pearson, hull, sums_by_unit, weighted_share
 from statistics_judge.records import Flags, Reals
@@ -66,8 +66,7 @@ def equals(asked: Asked) -> Found:
     estimate = with_cases(counted(cases, known, same, asked.seed), (int(same[known].sum()), int(known.sum())))
     if not known.any():
         return certain(OPEN, estimate)
-    cut = cases.unended if "truth" in asked.settings else cases.censored
-    cut &= ~(known & np.isfinite(own))
+    cut = cases.unended & ~(known & np.isfinite(own))
     found = certain(HOLDS if same[known].all() else FAILS, estimate)
     # That something is wrong hangs on what did not end only if nothing else is.
     is_wrong = bool((~same & known & ~cut).any())
@@ -76,9 +75,9 @@ def equals(asked: Asked) -> Found:
 
 
 def on_every(asked: Asked) -> Found:
-    """It holds on every case: one counterexample ends it, and an equality leaves the sign alone.
+    """It holds on every case: one counterexample ends it, and some equalities leave it open.
 
-    A case without a number might be the counterexample; paths that are refused have one where it is to be at
+    A case without an end might be the counterexample; paths that are refused have one where it is to be at
     most so much.
     """
     cases, that = asked.cases(), asked.settings["that"]
@@ -90,18 +89,16 @@ def on_every(asked: Asked) -> Found:
     if broken > 0:
         # One counterexample is enough.
         return certain(FAILS, estimate)
-    outcome = FAILS if kept == 0 else SIGN if equal else HOLDS
+    outcome = FAILS if kept == 0 else OPEN if equal else HOLDS
     cut = bool(counterexamples(cases, that).any())
-    few = outcome != FAILS and needs_draws(cases, labels(asked.settings["of"]["problems"]))
+    few = outcome == HOLDS and needs_draws(cases, labels(asked.settings["of"]["problems"]))
     return replace(certain(outcome, estimate), censored=frozenset([cut]), few=few)
 
 
 def counterexamples(cases: Cases, that: str) -> Flags:
     """Cases that might be counterexamples and are not known to be none."""
-    if that == "at_most":
-        return cases.unended
     if that != "solved":
-        return cases.censored
+        return cases.unended
     own, base = cases.cut()
     return (own & (base | cases.base_solved)) | (base & ~cases.own_solved)
 
@@ -174,7 +171,7 @@ def unknown(asked: Asked, cases: Cases) -> Flags:
     kind = asked.settings["hits"]
     if kind in ("marked", "events"):
         return cases.unended & (hits_of(asked, cases)[1] == 0)
-    return cases.unended if kind in ("solved", "rejected") else cases.censored
+    return cases.unended
 
 
 def by_unit(asked: Asked, cases: Cases, given: bool | None = None) -> tuple[Reals, Reals]:

@@ -127,6 +127,12 @@ def lower(asked: Asked) -> Found:
     def outcome(low: float, high: float) -> str:
         return of_change(low, high, by, is_higher)
 
+    if not by and np.all(np.abs(cases.values - cases.bases)[cases.paired] <= EQUAL):
+        # A strict comparison that ties on every case is contradicted.
+        def outcome(low: float, high: float) -> str:
+            del low, high
+            return FAILS
+
     interval = change(found[1])
     estimate = Estimate(100 * (found[0] - 1), found[2], interval, cases.solved_of_all())
     main = Found(outcome(*(end.at for end in interval)), outcomes(outcome, interval), estimate)

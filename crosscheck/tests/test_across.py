@@ -1,4 +1,4 @@
-"""The second judge of classes across interpretations: what is stored agrees, and wrong combinations are noticed."""
+"""The second judge of verdicts: what is stored agrees, and wrong combinations are noticed."""
 
 from __future__ import annotations
 
@@ -11,10 +11,11 @@ from typing import Any
 
 import pytest
 
-from statistics_judge.across import Across, Choice, Counted, Result, choices, combined, differences, flips
+from statistics_judge.across import Across, Choice, Counted, Result, choices, differences, flips
 from statistics_judge.medians import departs
 from statistics_judge.records import Paper, Study
 from statistics_judge.shared_out import shares
+from statistics_judge.table import Results, of_meanings
 
 ROOT = Path(__file__).parents[2]
 EXPLORED = [path.parent.name for path in sorted(ROOT.glob("data/runs/*/explored.toml.gz"))]
@@ -44,18 +45,17 @@ def test_some_paper_is_explored() -> None:
     assert EXPLORED
 
 
-def another(value: bool | int | str) -> bool | int | str:
+def another(value: bool | int | str | None) -> bool | int | str:
     """A value other than this."""
     if isinstance(value, bool):
         return not value
     if isinstance(value, int):
         return value + 1
-    return "undecided" if value != "undecided" else "reproduced"
+    return "inconclusive" if value != "inconclusive" else "reproduced"
 
 
+OWN = ["verdict", "said", "depends_on"]
 KEYS = [
-    "class",
-    "said",
     "counted",
     "looked",
     "holds",
@@ -68,13 +68,14 @@ KEYS = [
 
 
 @pytest.mark.parametrize("name", EXPLORED)
-@pytest.mark.parametrize("key", KEYS)
+@pytest.mark.parametrize("key", [*OWN, *KEYS])
 def test_a_combination_made_wrong_is_noticed_wherever_it_stands(name: str, key: str) -> None:
     of = paper(name)
     verdicts = stored(of)
-    explored = [claim for claim in verdicts["claim"] if "across" in claim]
+    explored = [claim for claim in verdicts["claim"] if key in OWN or "across" in claim]
     for claim in explored:
-        claim["across"][key] = another(claim["across"][key])
+        place = claim if key in OWN else claim["across"]
+        place[key] = another(place.get(key))
     lines = said(of, verdicts)
     for claim in explored:
         assert any(f"`{claim['claim']}`" in line and f"`{key}`" in line for line in lines), claim["claim"]
@@ -82,23 +83,22 @@ def test_a_combination_made_wrong_is_noticed_wherever_it_stands(name: str, key: 
 
 
 @pytest.mark.parametrize("name", EXPLORED)
-def test_a_combination_that_is_missing_and_a_second_class_made_wrong_are_noticed(name: str) -> None:
+def test_a_combination_that_is_missing_and_a_second_outcome_made_wrong_are_noticed(name: str) -> None:
     of = paper(name)
     verdicts = stored(of)
     wrong = copy.deepcopy(verdicts)
     claim = next(claim for claim in wrong["claim"] if "across" in claim)
-    # What the default run says stays where it is.
-    claim["verdict"] = claim.pop("across")["default"]
+    del claim["across"]
     assert any("verdicts.toml says nothing" in line for line in said(of, wrong))
     wrong = copy.deepcopy(verdicts)
     claim = next(claim for claim in wrong["claim"] if "second" in claim)
-    claim["second"] = another(claim["second"])
+    claim["second"] = "holds" if claim["second"] != "holds" else "open"
     assert any("on the second seed" in line for line in said(of, wrong))
 
 
 @pytest.mark.parametrize("name", EXPLORED)
 def test_an_exploration_that_was_changed_no_longer_agrees(name: str, tmp_path: Path) -> None:
-    """A class is turned in what was explored, where all results of a claim say the same."""
+    """An outcome is turned in what was explored, where all results of a claim say the same."""
     runs = tmp_path / name
     runs.mkdir()
     stored_run = ROOT / "data/runs" / name
@@ -106,7 +106,10 @@ def test_an_exploration_that_was_changed_no_longer_agrees(name: str, tmp_path: P
         for file in stored_run.glob(pattern):
             shutil.copy(file, runs / file.name)
     text = gzip.decompress((runs / "explored.toml.gz").read_bytes()).decode()
-    turned = text.replace('class = "reproduced"', 'class = "not_reproduced"')
+    turned = text
+    for before, after in (("reproduced", "not_reproduced"), ("holds", "contradicted")):
+        for key in ("class", "outcome"):
+            turned = turned.replace(f'{key} = "{before}"', f'{key} = "{after}"')
     assert turned != text
     (runs / "explored.toml.gz").write_bytes(gzip.compress(turned.encode()))
     of = paper(name, runs)
@@ -129,34 +132,65 @@ def test_a_vote_made_a_probe_changes_what_is_counted() -> None:
 
 
 GOOD, FITTED, NO, BAD, NEVER, LACKING = (
-    "reproduced",
+    "holds",
     "fitted",
-    "undecided",
-    "not_reproduced",
+    "open",
+    "contradicted",
     "impossible",
-    "untestable",
+    "not_testable",
 )
 
 
-def test_classes_combine_as_the_rules_say() -> None:
-    for votes, existential, expected in [
-        ([GOOD] * 3, False, GOOD),
-        ([GOOD, FITTED], False, FITTED),
-        ([GOOD, FITTED], True, GOOD),
-        ([GOOD] * 9 + [NO], False, GOOD),
-        ([GOOD] * 8 + [NO], False, NO),
-        ([BAD] * 9 + [LACKING], False, BAD),
-        ([BAD] * 8 + [NO], False, NO),
-        ([NEVER] * 2, False, NEVER),
-        ([NEVER, BAD], False, BAD),
-        ([NEVER] * 9 + [NO], False, BAD),
-        ([GOOD] * 40 + [BAD], False, NO),
-        ([NO] * 43 + [GOOD], True, GOOD),
-        ([LACKING] * 2, False, LACKING),
-        ([LACKING, NO], False, NO),
-        ([], False, NO),
+@pytest.mark.parametrize(
+    ("outcomes", "second", "chosen", "verdict"),
+    [
+        ([GOOD] * 3, 0, None, "reproduced"),
+        ([GOOD, FITTED], 0, None, "fitted"),
+        ([GOOD, FITTED], -1, None, "inconclusive"),
+        ([GOOD] * 9 + [NO], 1, None, "reproduced"),
+        ([GOOD] * 9 + [BAD], 1, None, "reproduced"),
+        ([GOOD] * 9 + [NO], 0, None, "supported"),
+        ([GOOD] * 8 + [NO] * 2, 1, None, "supported"),
+        ([GOOD] * 3, -1, None, "inconclusive"),
+        ([BAD] * 8 + [NO] * 2, -1, None, "not_supported"),
+        ([BAD] * 9 + [GOOD], -1, None, "not_reproduced"),
+        ([GOOD] * 5 + [BAD] * 2, 1, None, "depends"),
+        ([GOOD] + [NO] * 2, 1, None, "inconclusive"),
+        ([NEVER] * 2, 0, None, "impossible"),
+        ([NEVER, BAD], 0, None, "not_reproduced"),
+        ([LACKING] * 2, 0, None, "not_testable"),
+        ([LACKING, NO], 0, None, "inconclusive"),
+        ([GOOD] + [NO] * 43, 0, "existence", "attainable"),
+        ([BAD] * 4, 0, "searched", "not_reproduced"),
+        ([BAD] * 4 + [NO], 0, "searched", "inconclusive"),
+        ([], 0, None, "inconclusive"),
+    ],
+)
+def test_results_make_the_verdict_that_the_table_says(
+    outcomes: list[str], second: int, chosen: str | None, verdict: str
+) -> None:
+    default = {GOOD: 1, FITTED: 1, BAD: -1, NEVER: -1}.get(outcomes[0], 0) if outcomes else 0
+    assert Results(outcomes, default, second, chosen).verdict()[0] == verdict
+
+
+def test_a_missed_size_and_a_choice_that_was_not_varied_weaken_a_verdict() -> None:
+    sign = [GOOD, "right_in_direction"]
+    assert Results(sign, 1, 1, states_size=True).verdict()[0] == "right_in_direction"
+    assert Results(sign, 1, 1).verdict()[0] == "reproduced"
+    assert Results([GOOD] * 2, 1, 1, unvaried=True).verdict()[0] == "supported"
+    assert Results([BAD] * 2, -1, -1, unvaried=True).verdict()[0] == "not_supported"
+
+
+def test_meanings_depend_where_they_speak_both_ways_and_else_are_the_weakest() -> None:
+    for meanings, verdict in [
+        (["reproduced", "not_reproduced"], "depends"),
+        (["attainable", "not_supported"], "depends"),
+        (["reproduced", "supported"], "supported"),
+        (["not_reproduced", "inconclusive"], "inconclusive"),
+        (["not_testable", "reproduced"], "inconclusive"),
+        (["not_testable"] * 2, "not_testable"),
     ]:
-        assert combined(votes, existential) == expected, votes
+        assert of_meanings(meanings) == verdict, meanings
 
 
 def test_what_speaks_against_most_is_a_flip_and_of_as_many_what_speaks_against_the_default() -> None:
@@ -170,45 +204,53 @@ def test_what_speaks_against_most_is_a_flip_and_of_as_many_what_speaks_against_t
     assert of(GOOD, NO) == []
 
 
-def test_a_class_that_a_default_raises_hangs_on_it_though_the_claim_holds_either_way() -> None:
-    across = Across.__new__(Across)
-    across.choices = [Choice(name, "a", fitted=False, bounds=None, options={}) for name in ("idle", "hurry")]
-    interpretations = [{}, {"hurry": "b"}, {"idle": "b"}]
-
-    def said(*votes: str) -> str:
-        results = [{"interpretations": [at], "class": vote} for at, vote in enumerate(votes)]
-        at = dict(enumerate(results))
-        across.first = {"interpretations": interpretations, "claims": {"best": {"results": results, "at": at}}}
-        found = [Result([at], vote, vote) for at, vote in enumerate(votes)]
-        counted = Counted(found, len(found), 0, 0, none_compatible=False, existential=False)
-        return across.said("best", counted, combined(list(votes), existential=False))
-
-    assert said(GOOD, GOOD, GOOD) == "holds under 3 of 3"
-    assert said(GOOD, FITTED, GOOD) == (
-        "holds under 3 of 3; the class hangs on hurry: reproduced if a (2 of 3)"
-    )
-    assert said(GOOD, BAD, GOOD) == "hangs on hurry: reproduced if a (2 of 3)"
-    assert said(FITTED, GOOD, FITTED) == (
-        "holds under 3 of 3; the class hangs on hurry: reproduced if b (1 of 3)"
-    )
-
-
-def test_an_axis_of_many_options_does_not_win_by_parting_few_results_each() -> None:
+def said_of(options: list[str], votes: list[str]) -> tuple[str | None, str | None]:
+    """What stands beside the verdict of results under these options of two choices, `a` by default."""
     across = Across.__new__(Across)
     across.choices = [Choice(name, "a", fitted=False, bounds=None, options={}) for name in ("order", "side")]
-    # The last is looked at alone, and not counted.
-    options = ["aa", "ba", "ca", "db", "eb", "fb", "fa"]
-    votes = [GOOD, GOOD, GOOD, BAD, BAD, GOOD, BAD]
     interpretations = [
         {choice: one for choice, one in zip(("order", "side"), both, strict=True) if one != "a"}
         for both in options
     ]
     at = {place: {"interpretations": [place], "class": vote} for place, vote in enumerate(votes)}
     across.first = {"interpretations": interpretations, "claims": {"fewer": {"results": list(at.values()), "at": at}}}
-    found = [Result([place], vote, vote) for place, vote in enumerate(votes[:6])]
-    counted = Counted(found, 6, 0, 0, none_compatible=False, existential=False)
-    said = across.said("fewer", counted, NO)
-    assert said == "hangs on side and others: reproduced under 4 of 6 (a 3 of 3, b 1 of 3)"
+    counted = Counted(
+        [Result([place], vote, vote) for place, vote in enumerate(votes)],
+        len(votes),
+        0,
+        0,
+        none_compatible=False,
+    )
+    way = {GOOD: 1, BAD: -1}.get(votes[0], 0)
+    results = Results(votes, way, way)
+    return across.said("fewer", counted, results, results.verdict()[1])
+
+
+ALL = [one + two for one in "abc" for two in "abc"]
+
+
+def test_a_planted_rule_is_named_with_one_option_or_with_two() -> None:
+    one = said_of(ALL, [BAD if both[0] == "b" else GOOD for both in ALL])
+    assert one == ("6/0/3 for/open/against; contradicted only if order = b (3 of 3)", "order")
+    held = said_of(ALL, [GOOD if both[1] == "a" else BAD for both in ALL])
+    assert held == ("3/0/6 for/open/against; holds only if side = a (3 of 3)", "side")
+    two = said_of(ALL, [BAD if both == "bc" else GOOD for both in ALL])
+    expected = "8/0/1 for/open/against; contradicted only if order = b and side = c (1 of 1)"
+    assert two == (expected, "order and side")
+
+
+def test_a_combination_names_the_axis_that_separates_best() -> None:
+    found = said_of(ALL, [BAD if (both[0] == "b") == (both[1] == "b") else GOOD for both in ALL])
+    expected = "4/0/5 for/open/against; order separates best: contradicted under a 2 of 3, b 1 of 3, c 2 of 3"
+    assert found == (expected, "a combination")
+
+
+def test_exceptions_are_named_by_what_they_share_or_one_by_one() -> None:
+    shared = said_of(ALL, [NO if both[0] == "c" and both[1] != "a" else GOOD for both in ALL])
+    assert shared[0] == "7/2/0 for/open/against; all 2 exceptions have order = c"
+    apart = said_of(ALL, [NO if both in ("bb", "cc") else GOOD for both in ALL])
+    names = "order = b, side = b · order = c, side = c"
+    assert apart[0] == f"7/2/0 for/open/against; exceptions: {names}"
 
 
 def test_a_contender_departs_where_an_option_of_its_own_is_not_the_default() -> None:

@@ -81,12 +81,12 @@ def test_what_chance_decides_hangs_both_ways() -> None:
 
 @pytest.mark.parametrize("hits", ["lower", "lower_throughout"])
 @pytest.mark.parametrize("lost", [(SPENT, 5.0), (REFUSED, 5.0), (NONE, 5.0), (5.0, NONE)])
-def test_a_share_hangs_on_cases_of_which_one_side_alone_has_a_number(
+def test_a_share_of_what_both_solve_hangs_on_what_did_not_end_alone(
     hits: str, lost: tuple[float | str, float | str]
 ) -> None:
     settings = {"hits": hits, "accepted": [0.9, 1.0]}
     lower: Ends = [(4.0, 5.0)] * 40
-    for more, is_firm in (([], True), ([(NONE, NONE)] * 9, True), ([lost] * 9, False)):
+    for more, is_firm in (([], True), ([(NONE, NONE)] * 9, True), ([lost] * 9, SPENT not in lost)):
         found = shares.share_within(asked(lower + more, settings))
         assert (found.outcome, firm(found)) == (HOLDS, is_firm), more
 
@@ -99,13 +99,13 @@ def test_a_share_of_solved_trials_hangs_on_what_did_not_end_alone() -> None:
     assert not firm(shares.share_within(asked(ends + [(SPENT, 5.0)] * 40, settings)))
 
 
-def test_every_case_and_an_equality_hang_on_one_side_that_failed() -> None:
+def test_every_case_that_both_solve_hangs_on_what_did_not_end_alone() -> None:
     for criterion, settings, case in [
         (shares.on_every, {"that": "lower"}, (4.0, 5.0)),
         (shares.on_every, {"that": "at_most_times", "bound": 2.0}, (4.0, 5.0)),
         (shares.equals, {}, (5.0, 5.0)),
     ]:
-        for lost, is_firm in (((REFUSED, 5.0), False), ((5.0, NONE), False), ((NONE, NONE), True)):
+        for lost, is_firm in (((REFUSED, 5.0), True), ((5.0, NONE), True), ((SPENT, 5.0), False)):
             found = criterion(asked([case] * 9 + [lost], settings))
             assert (found.outcome, firm(found)) == (HOLDS, is_firm), (settings, lost)
 

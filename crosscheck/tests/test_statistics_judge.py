@@ -89,22 +89,23 @@ def test_rounding_alone_is_no_change_meets_a_margin_and_lies_on_a_bound() -> Non
     assert on_bounds(one + 1e-6, 0.0, other) == one + 1e-6
 
 
-def test_what_lowers_a_class_raises_none() -> None:
+def test_what_lowers_an_outcome_raises_none() -> None:
     holds = classes.of_finding
-    assert holds(classes.HOLDS) == "reproduced"
+    assert holds(classes.HOLDS) == "holds"
     assert holds(classes.HOLDS, fitted=True) == "fitted"
     assert holds(classes.HOLDS, fitted=True, searched=True) == "attainable"
-    assert holds(classes.SIGN, existential=True) == "direction_only"
-    assert holds(classes.FAILS, powerless=True) == "not_reproduced"
+    assert holds(classes.SIGN, existential=True) == classes.SIGN
+    assert holds(classes.SIGN, fitted=True) == holds(classes.SIGN, searched=True) == classes.OPEN
+    assert holds(classes.FAILS, powerless=True) == classes.FAILS
     for cap in ("powerless", "censored", "clock", "not_run"):
-        assert holds(classes.HOLDS, **{cap: True}) == "undecided"
+        assert holds(classes.HOLDS, **{cap: True}) == classes.OPEN
     for cap in ("censored", "clock", "not_run"):
-        assert holds(classes.FAILS, **{cap: True}) == "undecided"
+        assert holds(classes.FAILS, **{cap: True}) == classes.OPEN
 
 
 def test_parts_combine_by_the_way_they_speak() -> None:
     good, fitted, bad, never, no, lacking = (
-        "reproduced", "fitted", "not_reproduced", "impossible", "undecided", "untestable"
+        "holds", "fitted", "contradicted", "impossible", "open", "not_testable"
     )  # fmt: skip
     for parts, together, any_one, meant in [
         ([good, fitted], fitted, good, fitted),
@@ -164,8 +165,8 @@ def wrong_interval(finding: dict) -> None:
     finding["ours"]["interval"] = [value + 2 * (low - value) - 1e-6, value + 2 * (high - value) + 1e-6]
 
 
-def wrong_class(finding: dict) -> None:
-    finding["verdict"] = "fitted" if finding["verdict"] != "fitted" else "reproduced"
+def wrong_outcome(finding: dict) -> None:
+    finding["outcome"] = "fitted" if finding["outcome"] != "fitted" else "holds"
 
 
 WRONG: dict[str, tuple[Callable[[dict], None], Callable[[dict], bool], str]] = {
@@ -173,7 +174,7 @@ WRONG: dict[str, tuple[Callable[[dict], None], Callable[[dict], bool], str]] = {
     "n": (wrong_n, lambda finding: "ours" in finding, "it rests on n"),
     "solved": (wrong_solved, lambda finding: "solved" in finding.get("ours", {}), "solved are"),
     "interval": (wrong_interval, lambda finding: "interval" in finding.get("ours", {}), "its interval is"),
-    "class": (wrong_class, lambda finding: finding.get("verdict") is not None, "its class is"),
+    "outcome": (wrong_outcome, lambda finding: finding.get("outcome") is not None, "its outcome is"),
 }
 
 # What some criteria do not give.
@@ -223,9 +224,9 @@ def test_a_claim_of_parts_and_a_claim_made_wrong_are_noticed(judged: Judged) -> 
     for paper, claims, verdicts in judged:
         wrong, wrong_parts = copy.deepcopy(verdicts), copy.deepcopy(verdicts)
         for claim, stored, parts in zip(claims, wrong["claim"], wrong_parts["claim"], strict=True):
-            wrong_class(stored)
+            wrong_outcome(stored)
             if claim.parts:
-                wrong_class(parts["finding"][-1])
+                wrong_outcome(parts["finding"][-1])
         said = compare(paper, claims, wrong).differ
         said_of_parts = compare(paper, claims, wrong_parts).differ
         for claim in claims:

@@ -1,7 +1,10 @@
-//! Cases without a number: what the instances would be if they had given the least or the most that can be against what was found.
+//! Cases without a number: what the instances would be if they had given the least or the most that can be against what was found,
+//! how many have paths that the verifier refuses, and how many are outside of a claim about what is solved.
 
+use super::evidence::Evidence;
 use super::metric::Better;
 use super::selection::{Case, Instance, Selection, by_instance, cases, censored};
+use study::record::{Row, Status};
 
 /// The pairs of every instance with its censored cases filled in by a difference that outweighs all that were seen: against the
 /// contender where it alone failed, for it where the other did (no number is below 0), and where that is not known once one
@@ -43,4 +46,34 @@ pub fn ended<'e>(instances: &[Instance<'e>], given: impl Fn(&Instance<'e>) -> f6
         Instance { group: instance.group, cases: instance.cases.iter().map(ended).collect() }
     };
     instances.iter().map(of_instance).collect()
+}
+
+/// Cases that have no number although they might, because the verifier refuses a path.
+pub fn refused(instances: &[Instance<'_>]) -> usize {
+    let is_refused = |row: &Row| row.status == Status::Rejected;
+    let refused =
+        |case: &&Case<'_>| case.is_censored() && (is_refused(case.row) || case.base.is_some_and(is_refused));
+    cases(instances).filter(refused).count()
+}
+
+/// How many cases are outside of a claim about what everyone who is compared solves, in words; `None` if none is.
+pub fn outside(instances: &[Instance<'_>]) -> Option<String> {
+    let count = cases(instances).filter(|case| !case.is_solved() && !case.is_unended()).count();
+    let both = if cases(instances).any(|case| case.base.is_some()) { "solved by both" } else { "solved" };
+    (count > 0).then(|| format!("{count} more cases are outside of the claim: not {both}"))
+}
+
+/// The share of the paths that come back, of all that is selected, which the verifier refuses.
+pub fn refused_share(selections: &[&Selection<'_>], evidence: &Evidence<'_>) -> f64 {
+    let [mut refused, mut returned] = [0_usize; 2];
+    for of in selections {
+        let Some(run) = of.run(evidence) else { continue };
+        let contenders = of.contenders.iter().chain(&of.against);
+        let cases = contenders.flat_map(|contender| of.groups.iter().map(move |group| (group, contender)));
+        for row in cases.flat_map(|(group, contender)| of.rows(run, group, contender)) {
+            returned += usize::from(row.is_returned());
+            refused += usize::from(row.status == Status::Rejected);
+        }
+    }
+    if returned == 0 { 0.0 } else { refused as f64 / returned as f64 }
 }

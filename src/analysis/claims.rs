@@ -1,22 +1,25 @@
 //! Judges every claim of a paper, and which claims hold together.
 
-use super::class::{self, Caps, Sessions, Verdict};
+use super::censored::refused_share;
 use super::context::{self, Context};
 use super::criterion::{self, Criterion};
 use super::criterion_result::CriterionResult;
 use super::evidence::{Evidence, Run, default_point};
 use super::meaning;
 use super::metric;
+use super::outcome::{self, Caps, Outcome, Sessions};
 use super::rule;
 use super::settle::{nothing_decides, parts_settle, settles};
 use super::tabulated;
 use super::together::together;
 use super::verdict::{ClaimVerdict, CriterionFinding, Estimate, Verdicts};
+use super::verdict_rule::{Chosen, Verdict};
 use base::hash::sha256;
-use base::settings::{Faults, SettingsError, none_called};
+use base::settings::{Faults, Settings, SettingsError, none_called};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use study::paper::{Claim, Paper, Parts, PrintedTable, TestRole, names_of};
+use toml::Table;
 
 /// Builds every criterion and rule of every claim, so that `replan check` finds what is wrong before anything runs.
 ///
@@ -90,12 +93,19 @@ pub fn claim_hash(paper: &Paper, claim: &Claim) -> String {
 
 /// The criteria and rules of a claim that do not find what they found at first, each with its revision.
 fn revisions(claim: &Claim) -> String {
-    let found = |(_, name, _): (TestRole, &str, &_)| criterion::find(name).or_else(|| rule::find(name));
-    let revised = claim.tests().filter_map(found).filter(|entry| entry.revision > 1);
-    revised.map(|entry| format!("{} {}\n", entry.name, entry.revision)).collect::<Vec<_>>().concat()
+    let found = |(asked, name, settings): (TestRole, &'_ str, &Settings)| {
+        let entry = criterion::find(name).or_else(|| rule::find(name))?;
+        // What is shown moves no outcome, however its settings are looked at since.
+        let none = Table::new();
+        let own = if asked == TestRole::Shown { &none } else { settings.table() };
+        Some((entry.name, (entry.revision)(own)))
+    };
+    let revised = claim.tests().filter_map(found).filter(|(_, revision)| *revision > 1);
+    revised.map(|(name, revision)| format!("{name} {revision}\n")).collect::<Vec<_>>().concat()
 }
 
-/// Judges every claim under the evidence's interpretation.
+/// Judges every claim under the evidence's interpretation alone: its outcome there. What verdict that amounts to says
+/// [`across`](super::across).
 ///
 /// # Errors
 /// Those of [`validate`].
@@ -109,9 +119,8 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
     }
     let mut together = together(evidence)?;
     // A number that no data can give is not met by a trial that prints alike.
-    let is_impossible = |id: &String| {
-        claims.iter().any(|judged| judged.claim == *id && judged.verdict == Verdict::Impossible)
-    };
+    let is_impossible =
+        |id: &String| claims.iter().any(|judged| judged.claim == *id && judged.outcome == Outcome::Proved);
     for set in &mut together {
         let (out, hold) = std::mem::take(&mut set.hold).into_iter().partition(is_impossible);
         set.hold = hold;
@@ -166,8 +175,10 @@ fn built<'a>(
 pub struct CappedFinding {
     /// The finding.
     pub finding: CriterionFinding,
-    /// What lowers its class.
+    /// What lowers its outcome.
     pub caps: Caps,
+    /// The share of the paths that come back which the verifier refuses.
+    pub refused: f64,
     /// Whether trials of all studies that it looks at ran under the interpretation.
     pub is_covered: bool,
     /// Every problem group that it looks at could be posed.
@@ -197,7 +208,7 @@ pub fn capped_findings(
             one.results = sha256(criterion.results(evidence).as_bytes()).chars().take(16).collect();
         }
         if asked == TestRole::Shown {
-            (one.finding.verdict, one.finding.settles) = (None, None);
+            (one.finding.outcome, one.finding.settles) = (None, None);
         }
         all.push(one);
     }
@@ -206,24 +217,36 @@ pub fn capped_findings(
 
 /// One claim by its own criteria and rules.
 fn judge_alone(evidence: &Evidence<'_>, claim: &Claim) -> Result<ClaimVerdict, SettingsError> {
-    let findings: Vec<CriterionFinding> =
-        capped_findings(evidence, claim, false)?.into_iter().map(|one| one.finding).collect();
-    let verdicts = findings.iter().filter_map(|finding| finding.verdict);
-    let verdict = class::combined(verdicts, claim.untestable.is_some());
-    Ok(judged(evidence, claim, verdict, findings))
+    let weighed = capped_findings(evidence, claim, false)?;
+    let chosen = chosen(&weighed);
+    let findings: Vec<CriterionFinding> = weighed.into_iter().map(|one| one.finding).collect();
+    let outcomes = findings.iter().filter_map(|finding| finding.outcome);
+    let outcome = outcome::combined(outcomes, claim.untestable.is_some());
+    Ok(ClaimVerdict { chosen, ..judged(evidence, claim, outcome, findings) })
+}
+
+/// How the inputs of a claim were chosen, by what decides.
+fn chosen(weighed: &[CappedFinding]) -> Option<Chosen> {
+    let caps: Vec<Caps> =
+        weighed.iter().filter(|one| one.finding.outcome.is_some()).map(|one| one.caps).collect();
+    if !caps.is_empty() && caps.iter().all(|caps| caps.existential) {
+        return Some(Chosen::Existence);
+    }
+    let has = |of: fn(&Caps) -> bool, chosen: Chosen| caps.iter().any(of).then_some(chosen);
+    has(|caps| caps.searched, Chosen::Searched).or(has(|caps| caps.fitted, Chosen::Fitted))
 }
 
 fn judged(
     evidence: &Evidence<'_>,
     claim: &Claim,
-    verdict: Verdict,
+    outcome: Outcome,
     mut findings: Vec<CriterionFinding>,
 ) -> ClaimVerdict {
     if let Some(reason) = &claim.untestable {
         let because = vec![reason.clone()];
         let criterion = "none".to_owned();
-        let verdict = Some(Verdict::Untestable);
-        findings.push(CriterionFinding { criterion, verdict, because, ..CriterionFinding::default() });
+        let outcome = Some(Outcome::Lacking);
+        findings.push(CriterionFinding { criterion, outcome, because, ..CriterionFinding::default() });
     }
     ClaimVerdict {
         claim: claim.id.clone(),
@@ -232,12 +255,18 @@ fn judged(
         quote: claim.quote.clone(),
         printed: claim.printed.clone(),
         unit: claim.unit.clone(),
-        verdict,
+        verdict: Verdict::Inconclusive,
+        said: None,
+        depends_on: None,
+        outcome,
+        chosen: None,
+        not_varied: Vec::new(),
         theorem: claim.theorem.clone(),
         part_of: evidence.paper.whole_of(&claim.id).map(|whole| whole.id.clone()),
         changed_after_run: claim.changed_after_run.clone(),
         changes: Vec::new(),
         second: None,
+        is_seedless: false,
         across: None,
         interpretation: evidence.point.name().to_owned(),
         findings,
@@ -245,18 +274,24 @@ fn judged(
 }
 
 fn finding(criterion: &str, found: CriterionResult, caps: Caps, not_run: &[String]) -> CriterionFinding {
-    let verdict = found.outcome.and_then(|outcome| class::of_finding(outcome, caps));
-    let settles = (verdict == Some(Verdict::Undecided)).then(|| match not_run {
+    let outcome = found.outcome.and_then(|outcome| outcome::of_finding(outcome, caps));
+    let settles = (outcome == Some(Outcome::Open)).then(|| match not_run {
         [] => settles(&found, caps),
         options => format!("trials under what cannot be run here: {}", options.join("; ")),
     });
+    let mut because = found.because;
+    if caps.clock == Some(Sessions::OfAnother) {
+        because.push("a time of the authors' on their machine: our clock does not test it; what is counted is a claim of its own".to_owned());
+    }
+    let is_met = matches!(outcome, Some(Outcome::Holds | Outcome::Fitted | Outcome::Attainable));
+    because.extend(found.power.filter(|_| is_met));
     CriterionFinding {
         criterion: criterion.to_owned(),
-        verdict,
+        outcome,
         ours: found.ours,
         trial: found.trial,
         settles,
-        because: found.because,
+        because,
         premises: found.premises,
     }
 }
@@ -265,10 +300,10 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
     let mut found = of.find(evidence);
     found.censored += of.selections().iter().map(|of| of.unended_left_out(evidence)).sum::<usize>();
     let studies = of.studies();
-    let clock = of.is_clock().then(|| sessions(of, evidence));
-    let clock = clock.map(|(said, because)| {
+    let clock = of.is_clock().then(|| {
+        let (said, because) = sessions(of, evidence);
         found.because.extend(because);
-        said
+        if evidence.paper.source.ours { said } else { Sessions::OfAnother }
     });
     let is_fitted = |id: &str| studies.iter().any(|study| study.fitted_to.iter().any(|other| other == id));
     // A cell of a row that something was chosen to meet was met with it, and so was a sentence that repeats such a number.
@@ -291,7 +326,8 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
     let is_posed = of.is_posed(evidence);
     found.premises.extend(premises(claim));
     let finding = finding(name, found, caps, &not_run);
-    CappedFinding { finding, caps, is_covered, is_posed, results: String::new(), studies }
+    let refused = refused_share(&of.selections(), evidence);
+    CappedFinding { finding, caps, refused, is_covered, is_posed, results: String::new(), studies }
 }
 
 /// Where alone a claim is meant, an interpretation each.
@@ -302,10 +338,11 @@ fn premises(claim: &Claim) -> impl Iterator<Item = String> {
 
 /// What would settle a claim of which nothing that was found decides: it is not meant under this interpretation, or is shown alone.
 fn set_what_settles(claim: &Claim, judged: &mut ClaimVerdict) {
-    if judged.verdict == Verdict::Undecided && judged.findings.iter().all(|found| found.settles.is_none()) {
+    if judged.outcome == Outcome::Open && judged.findings.iter().all(|found| found.settles.is_none()) {
         let premises: Vec<String> = premises(claim).collect();
+        let is_possible = judged.possible().is_some();
         if let Some(last) = judged.findings.last_mut() {
-            last.settles = Some(nothing_decides(&premises));
+            last.settles = Some(nothing_decides(&premises, is_possible));
         }
     }
 }
@@ -316,7 +353,7 @@ fn sessions(of: &dyn Criterion, evidence: &Evidence<'_>) -> (Sessions, Option<St
     let found: Vec<CriterionResult> =
         (1..=stored.unwrap_or(0)).map(|session| of.find(&evidence.in_session(session as u32))).collect();
     let first = found.first().map(|found| found.outcome);
-    let said = if found.len() < class::SESSIONS {
+    let said = if found.len() < outcome::SESSIONS {
         Sessions::TooFew
     } else if found.iter().all(|found| Some(found.outcome) == first) {
         Sessions::Agree
@@ -334,47 +371,49 @@ fn sessions(of: &dyn Criterion, evidence: &Evidence<'_>) -> (Sessions, Option<St
     (said, because)
 }
 
-/// How the classes of a claim's parts make its own.
-pub type OfParts = fn(&[Verdict]) -> Verdict;
+/// How the outcomes of a claim's parts make its own.
+pub type OfParts = fn(&[Outcome]) -> Outcome;
 
-/// What the way is called in which a claim takes its class from its parts, that way, and their ids; none if it does not.
+/// What the way is called in which a claim takes its outcome from its parts, that way, and their ids; `None` if it does not.
 pub fn of_parts(claim: &Claim) -> Option<(&'static str, OfParts, &[String])> {
     Some(match &claim.parts {
         Parts::None => return None,
         // A row with criteria of its own is judged by them; its cells are shown.
         Parts::Cells(_) if claim.tests().next().is_some() => return None,
-        Parts::AllOf(ids) => ("all_of", class::all_of, ids),
-        Parts::Cells(ids) => ("cells", class::all_of, ids),
-        Parts::AnyOf(ids) => ("any_of", class::any_of, ids),
-        Parts::MeansOneOf(ids) => ("means_one_of", class::one_meant, ids),
+        Parts::AllOf(ids) => ("all_of", outcome::all_of, ids),
+        Parts::Cells(ids) => ("cells", outcome::all_of, ids),
+        Parts::AnyOf(ids) => ("any_of", outcome::any_of, ids),
+        Parts::MeansOneOf(ids) => ("means_one_of", outcome::one_meant, ids),
     })
 }
 
-/// Sentences of parts and rows of cells take their class from theirs.
+/// Sentences of parts and rows of cells take their outcome from theirs.
 fn with_parts(evidence: &Evidence<'_>, mut judged: Vec<ClaimVerdict>) -> Vec<ClaimVerdict> {
-    let alone: BTreeMap<String, Verdict> =
-        judged.iter().map(|one| (one.claim.clone(), one.verdict)).collect();
+    let alone: BTreeMap<String, (Outcome, Option<Chosen>)> =
+        judged.iter().map(|one| (one.claim.clone(), (one.outcome, one.chosen))).collect();
     for (claim, judged) in evidence.paper.claims.iter().zip(&mut judged) {
         let Some((name, of, ids)) = of_parts(claim) else { continue };
-        let verdicts: Vec<Verdict> = ids.iter().map(|id| alone[id]).collect();
-        let listed = |verdict: Verdict| {
-            let with = ids.iter().zip(&verdicts).filter(|(_, found)| **found == verdict);
+        let outcomes: Vec<Outcome> = ids.iter().map(|id| alone[id].0).collect();
+        let listed = |outcome: Outcome| {
+            let with = ids.iter().zip(&outcomes).filter(|(_, found)| **found == outcome);
             let ids: Vec<String> = with.map(|(id, _)| format!("`{id}`")).collect();
-            (!ids.is_empty()).then(|| format!("{}: {}", verdict.name(), ids.join(", ")))
+            (!ids.is_empty()).then(|| format!("{}: {}", outcome.name(), ids.join(", ")))
         };
-        let because = Verdict::ALL.into_iter().filter_map(listed).collect();
-        let verdict = Some(of(&verdicts)).filter(|_| claim.is_meant(&evidence.point));
+        let because = Outcome::ALL.into_iter().filter_map(listed).collect();
+        let outcome = Some(of(&outcomes)).filter(|_| claim.is_meant(&evidence.point));
         judged.findings.push(CriterionFinding {
             criterion: name.to_owned(),
-            verdict,
+            outcome,
             because,
             premises: premises(claim).collect(),
-            settles: (verdict == Some(Verdict::Undecided)).then(|| parts_settle(&claim.parts, &verdicts)),
+            settles: (outcome == Some(Outcome::Open)).then(|| parts_settle(&claim.parts, &outcomes)),
             ..CriterionFinding::default()
         });
         let found = judged.findings.iter().filter(|finding| finding.criterion != "none");
-        judged.verdict =
-            class::combined(found.filter_map(|finding| finding.verdict), claim.untestable.is_some());
+        judged.outcome =
+            outcome::combined(found.filter_map(|finding| finding.outcome), claim.untestable.is_some());
+        let of_parts: Option<Vec<Chosen>> = ids.iter().map(|id| alone[id].1).collect();
+        judged.chosen = of_parts.and_then(|all| all.into_iter().max());
     }
     judged
 }

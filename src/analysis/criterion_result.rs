@@ -1,9 +1,10 @@
-//! What a criterion or a rule finds, before its class is decided.
+//! What a criterion or a rule finds, before anything is said of how its trials came about.
 
-use super::class::Outcome;
+use super::outcome::Outcome;
 use super::verdict::Estimate;
+use stats::interval::Interval;
 
-/// What was found about a claim, before its class is decided.
+/// What was found about a claim, before anything is said of how its trials came about.
 #[derive(Debug, Default)]
 pub struct CriterionResult {
     /// What it amounts to; none if it is only shown, or can only refuse and does not.
@@ -28,6 +29,12 @@ pub struct CriterionResult {
     pub powerless: bool,
     /// How many cases without a number could turn it.
     pub censored: usize,
+    /// How many of these have a path that the verifier refuses.
+    pub refused: usize,
+    /// How many cases tie, where that keeps it open.
+    pub ties: usize,
+    /// What printed value would have been refused.
+    pub power: Option<String>,
     /// The instances that it takes at least, where there are fewer.
     pub needs: Option<usize>,
 }
@@ -42,13 +49,21 @@ pub enum Narrows {
     AsTheNumber,
 }
 
+/// Which printed values would have been refused: those outside of an interval.
+pub fn refused_beyond(accepted: Interval) -> String {
+    format!(
+        "power: a printed value below {:.2} or above {:.2} would have been refused",
+        accepted.low, accepted.high
+    )
+}
+
 impl CriterionResult {
-    /// Undecided for this reason.
+    /// Open for this reason.
     pub fn open(because: impl Into<String>) -> Self {
         Self { outcome: Some(Outcome::Open), because: vec![because.into()], ..Self::default() }
     }
 
-    /// Undecided because the `instances` draws of all `ran` that have what is compared are fewer than `needs`.
+    /// Open because the `instances` draws of all `ran` that have what is compared are fewer than `needs`.
     pub fn too_few(instances: usize, ran: usize, needs: usize) -> Self {
         let because =
             format!("{instances} of {ran} instances have what is compared; at least {needs} are needed");

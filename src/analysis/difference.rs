@@ -73,7 +73,7 @@ fn of_claim(stored: &ClaimVerdict, now: &ClaimVerdict) -> Option<String> {
 fn of_finding(stored: &CriterionFinding, now: &CriterionFinding) -> Option<String> {
     let check = &now.criterion;
     unlike("criterion", &stored.criterion, check)
-        .or_else(|| unlike(&format!("class of `{check}`"), &stored.verdict, &now.verdict))
+        .or_else(|| unlike(&format!("outcome of `{check}`"), &stored.outcome, &now.outcome))
         .or_else(|| unlike(&format!("number of `{check}`"), &number(stored), &number(now)))
         .or_else(|| (stored != now).then(|| format!("the reasons of `{check}` read otherwise")))
 }

@@ -2,13 +2,13 @@
 //!
 //! Nothing here starts a trial. [`Evidence`](evidence::Evidence) is the stored runs of a paper. A [`selection`] of trials and a
 //! [`statistic`] of each instance go into a [`criterion`], which holds them against what the paper says; a [`rule`] is
-//! arithmetic on what it prints. What either finds becomes a [`class`] in one place, for one claim after the other
-//! ([`judge`](claims::judge)).
+//! arithmetic on what it prints. What either finds under one interpretation becomes an [`outcome`], for one
+//! claim after the other ([`judge`](claims::judge)); what is said of a claim over all interpretations is its verdict, by one
+//! [table](verdict_rule).
 
 pub mod across;
 mod censored;
 pub mod claims;
-pub mod class;
 pub mod compare;
 pub mod context;
 pub mod criterion;
@@ -19,6 +19,7 @@ pub mod history;
 pub mod inclusion;
 pub mod meaning;
 pub mod metric;
+pub mod outcome;
 mod polylines;
 pub mod rule;
 pub mod selection;
@@ -27,7 +28,9 @@ pub mod settle;
 pub mod shown;
 pub mod statistic;
 pub mod tabulated;
+pub mod tally;
 pub mod together;
 pub mod verdict;
 mod verdict_file;
+pub mod verdict_rule;
 pub mod witness;

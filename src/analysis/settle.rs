@@ -1,11 +1,15 @@
-//! What would settle a claim that is undecided: more instances, more sessions of the clock, or what the paper leaves out.
+//! What would settle a claim that is inconclusive: more instances where they would, and otherwise what stands in their way.
 
-use super::class::{Caps, Polarity, SESSIONS, Sessions, Verdict};
 use super::criterion_result::{CriterionResult, Narrows};
+use super::outcome::{Caps, Outcome, Polarity, SESSIONS, Sessions};
 use super::statistic::LEVEL;
-use super::verdict::Across;
+use super::verdict::{Across, ClaimVerdict};
+use super::verdict_rule::{Line, Verdict};
 use stats::proportion::{agreeing_for_width, units_for_margin};
 use study::paper::Parts;
+
+/// What a sentence depends on whose parts speak both ways.
+pub const MEANT: &str = "what is meant";
 
 /// A hundred times as many instances tell apart what differs by a tenth of what now can be told; a larger number is an estimate of
 /// noise.
@@ -22,10 +26,19 @@ pub fn settles(found: &CriterionResult, caps: Caps) -> String {
         Some(Sessions::Disagree) => {
             return "a clock whose sessions agree: those that are stored do not".to_owned();
         }
-        Some(Sessions::Agree) | None => {}
+        Some(Sessions::Agree | Sessions::OfAnother) | None => {}
+    }
+    if caps.censored && found.refused > 0 {
+        return format!(
+            "paths that the verifier accepts: of the {} cases without a number, which could turn it, it refuses {}",
+            found.censored, found.refused
+        );
     }
     if caps.censored {
         return format!("results of the {} cases without a number, which could turn it", found.censored);
+    }
+    if found.ties > 0 {
+        return format!("no more instances: {} tie, and the claim is strict", found.ties);
     }
     if caps.powerless {
         return "a paper that prints more than one instance: no number of ours narrows what one instance may be"
@@ -44,42 +57,83 @@ pub fn settles(found: &CriterionResult, caps: Caps) -> String {
         .unwrap_or_else(|| "the paper's own inputs: what is measured here stands neither way".to_owned())
 }
 
-/// What would settle a claim that nothing decides, with where alone it is meant.
-pub fn nothing_decides(premises: &[String]) -> String {
-    if premises.is_empty() {
+/// What would settle a claim that nothing decides, with where alone it is meant and whether arithmetic found it possible.
+pub fn nothing_decides(premises: &[String], is_possible: bool) -> String {
+    if !premises.is_empty() {
+        format!("an interpretation under which it is meant: {}", premises.join(", and "))
+    } else if is_possible {
+        "the paper's own input: arithmetic alone can only refuse, and did not".to_owned()
+    } else {
         "a bound, or a number that the paper prints: what is measured is shown and held against nothing"
             .to_owned()
-    } else {
-        format!("an interpretation under which it is meant: {}", premises.join(", and "))
     }
 }
 
 /// What would settle a sentence whose parts leave it open.
-pub fn parts_settle(parts: &Parts, verdicts: &[Verdict]) -> String {
-    let speaks = |wanted| verdicts.iter().any(|verdict| verdict.polarity() == wanted);
+pub fn parts_settle(parts: &Parts, outcomes: &[Outcome]) -> String {
+    let speaks = |wanted| outcomes.iter().any(|outcome| outcome.polarity() == wanted);
     if matches!(parts, Parts::MeansOneOf(_)) && speaks(Polarity::For) && speaks(Polarity::Against) {
         return "which of its parts is meant: the paper does not say, and they speak both ways".to_owned();
     }
-    "what settles its parts".to_owned()
+    let is_open = |(_, outcome): &(&String, &Outcome)| outcome.polarity() == Polarity::Open;
+    let open: Vec<_> = parts.ids().iter().zip(outcomes).filter(is_open).collect();
+    let named = |wanted: Outcome| -> Option<String> {
+        let ids: Vec<String> =
+            open.iter().filter(|(_, own)| **own == wanted).map(|(id, _)| format!("`{id}`")).collect();
+        (!ids.is_empty()).then(|| ids.join(", "))
+    };
+    let lacking = named(Outcome::Lacking).map(|ids| format!("what the paper leaves out for {ids}"));
+    let measured = named(Outcome::Open).map(|ids| format!("what settles {ids}"));
+    measured.into_iter().chain(lacking).collect::<Vec<_>>().join(", and ")
 }
 
-/// What would settle a claim that the interpretations leave open; none if they do not.
-pub fn interpretations_settle(across: &Across) -> Option<String> {
-    if across.class != Verdict::Undecided {
-        return None;
+/// What would settle a claim on which interpretations leave something to be said; `None` if they do not.
+pub fn across_settles(across: &Across, judged: &ClaimVerdict, line: Line) -> Option<String> {
+    match judged.verdict {
+        Verdict::Depends => return Some(depends_settles(judged.depends_on.as_deref())),
+        Verdict::Inconclusive => {}
+        _ => return None,
     }
-    if across.holds > 0 && across.fails > 0 {
-        return Some(format!("which interpretation the paper means: it {}", across.said));
+    match line {
+        Line::SeedDecides => return Some("more instances: two seeds speak opposite ways".to_owned()),
+        Line::Refused => {
+            return Some("more instances: the second seed contradicts what was fitted".to_owned());
+        }
+        Line::NoExample => return Some("the paper's own input, on which one trial would do".to_owned()),
+        _ => {}
     }
     let measured = across.open - across.unconfirmed.min(across.open);
+    // What stands in the way under the defaults is known better than what does elsewhere.
+    let own = judged.findings.iter().find_map(|finding| finding.settles.clone());
+    let own = own.filter(|_| judged.outcome == Outcome::Open).map(|own| format!("under the defaults {own}"));
     let instances = (measured > 0).then(|| {
-        format!("more instances under the {measured} of {} results that stand neither way", across.counted)
+        let under = format!("the {measured} of {} results that stand neither way", across.counted);
+        own.map_or_else(|| format!("more instances under {under}"), |own| format!("{own}; {under} likewise"))
     });
     let seeds = (across.unconfirmed > 0).then(|| {
         format!("a second seed that says the same under the {} that it did not confirm", across.unconfirmed)
     });
     let ways: Vec<String> = instances.into_iter().chain(seeds).collect();
     Some(format!("{}, or the paper's own interpretation if it is none of these", ways.join(", ")))
+}
+
+/// What would settle a sentence of which one part is meant; `None` if that is settled.
+pub fn meanings_settle(verdict: Verdict, depends_on: Option<&str>) -> Option<String> {
+    match verdict {
+        Verdict::Depends => Some(depends_settles(depends_on)),
+        Verdict::Inconclusive => Some("what settles the meanings that are inconclusive".to_owned()),
+        _ => None,
+    }
+}
+
+/// What would settle a claim that depends on a choice, or on which of its parts is meant.
+fn depends_settles(on: Option<&str>) -> String {
+    match on {
+        Some(MEANT) => {
+            "which of its parts is meant: the paper does not say, and they speak both ways".to_owned()
+        }
+        on => format!("what the paper means by {}", on.unwrap_or("the combination")),
+    }
 }
 
 /// How many units would tell our number from the limit that its interval holds; none if no number would.
@@ -179,6 +233,25 @@ mod tests {
         // Between the ends a limit is told by the part of the interval on its side.
         let ends = |share: f64| [share - share * (1.0 - low), share, share + (1.0 - share) * (1.0 - low)];
         assert_eq!(said([0.675, 1.0], ends(0.75)), "36 instances, not 20, if all agree as ours do");
+    }
+
+    #[test]
+    fn refused_paths_and_ties_are_named_and_more_instances_are_not() {
+        let refused = CriterionResult { censored: 7, refused: 5, ..found([0.25, 0.375, 0.75]) };
+        let said = settles(&refused, Caps { censored: true, ..Caps::default() });
+        assert!(
+            said.starts_with("paths that the verifier accepts") && said.ends_with("it refuses 5"),
+            "{said}"
+        );
+        let tied = CriterionResult { ties: 9, ..found([0.25, 0.375, 0.75]) };
+        assert_eq!(settles(&tied, Caps::default()), "no more instances: 9 tie, and the claim is strict");
+    }
+
+    #[test]
+    fn parts_that_lack_facts_are_named_beside_those_that_were_measured() {
+        let parts = Parts::AllOf(["a", "b", "c"].map(str::to_owned).to_vec());
+        let said = parts_settle(&parts, &[Outcome::Holds, Outcome::Lacking, Outcome::Open]);
+        assert_eq!(said, "what settles `c`, and what the paper leaves out for `b`");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Verdicts: what was found about each claim.
 
-use super::class::{Polarity, Verdict};
+use super::outcome::{Outcome, Polarity};
+use super::verdict_rule::{Chosen, Verdict};
 use serde::{Deserialize, Serialize};
 use stats::interval::Interval;
 use std::collections::BTreeMap;
@@ -45,19 +46,19 @@ impl Estimate {
     }
 }
 
-/// What one criterion found, with its class.
+/// What one criterion found.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CriterionFinding {
     /// The criterion; of arithmetic on printed numbers the rule.
     pub criterion: String,
-    /// Its class; absent if it only shows something, or can only refuse and did not.
-    pub verdict: Option<Verdict>,
+    /// Its outcome; absent if it only shows something, or can only refuse and did not.
+    pub outcome: Option<Outcome>,
     /// Our number.
     pub ours: Option<Estimate>,
     /// The trial that shows it, as `--trial` takes it.
     pub trial: Option<String>,
-    /// What would settle it, where it is undecided.
+    /// What would settle it, where it is open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub settles: Option<String>,
     /// The computation, step by step, and what was found.
@@ -75,8 +76,8 @@ pub enum Effect {
     None,
     /// It moves our number, not what is said of the claim.
     Number,
-    /// It changes the class, not which way it speaks.
-    Class,
+    /// It changes the outcome, not which way it speaks.
+    Outcome,
     /// It leaves open what was decided, or decides what was open.
     Opens,
     /// It turns it.
@@ -91,20 +92,14 @@ pub struct EffectOfOption {
     pub effect: Effect,
     /// The option.
     pub option: String,
-    /// The class under it.
-    pub class: Verdict,
+    /// The outcome under it.
+    pub outcome: Outcome,
 }
 
 /// What the interpretations make of a claim.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Across {
-    /// Its class across interpretations.
-    pub class: Verdict,
-    /// Its class under the default interpretation.
-    pub default: Verdict,
-    /// `holds under 44 of 44`, or what it hangs on.
-    pub said: String,
     /// What would settle it, if the interpretations leave it open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub settles: Option<String>,
@@ -127,6 +122,9 @@ pub struct Across {
     /// Every voting interpretation does, so that all are judged.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub none_compatible: bool,
+    /// Interpretations that are set apart: the verifier refuses their paths, which the paper calls free.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub refused: Vec<String>,
     /// The least and the greatest of our numbers over them, where the paper's chapter asks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub range: Option<[f64; 2]>,
@@ -158,6 +156,9 @@ pub struct Explored {
     /// Claims of which what is stored of the second seed is stale.
     #[serde(default)]
     pub second_stale: Vec<String>,
+    /// Options that vote under which the verifier refuses many paths, with the share.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub refused: Vec<String>,
     /// How each setting of the choices agrees with what a study was fitted to; none if no interpretation is fitted.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub fits: Vec<SettingFit>,
@@ -203,6 +204,20 @@ pub struct ClaimVerdict {
     pub unit: Option<String>,
     /// The verdict.
     pub verdict: Verdict,
+    /// What stands beside it: over how many interpretations it is the same, its exceptions, or on what it depends.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub said: Option<String>,
+    /// On what it depends.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depends_on: Option<String>,
+    /// Its outcome under the default interpretation.
+    pub outcome: Outcome,
+    /// How its inputs were chosen, where that bears on it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chosen: Option<Chosen>,
+    /// Interpretations that touch it and were not varied.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub not_varied: Vec<String>,
     /// Why it must hold, if it is asserted and not found out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub theorem: Option<String>,
@@ -215,9 +230,12 @@ pub struct ClaimVerdict {
     /// What it meant was changed after its data had been seen: each time, as `history.toml` has it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub changes: Vec<String>,
-    /// Its class under the default interpretation on the second seed.
+    /// Its outcome under the default interpretation on the second seed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub second: Option<Verdict>,
+    pub second: Option<Outcome>,
+    /// Nothing that it looks at is drawn, so that no second seed says more.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_seedless: bool,
     /// What the interpretations make of it, if they were explored; its findings are those under the default interpretation.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub across: Option<Across>,
@@ -234,46 +252,61 @@ impl ClaimVerdict {
         self.part_of.is_none() && self.theorem.is_none()
     }
 
-    /// What tables say of it: its verdict or, of what must hold, that it was asserted.
-    pub fn outcome(&self) -> &'static str {
-        match (&self.theorem, self.verdict) {
-            (Some(_), Verdict::Reproduced) => "asserted, holds",
-            (Some(_), verdict) if verdict.polarity() == Polarity::Against => "asserted, violated",
+    /// What arithmetic found possible, where nothing else was found: it counts for nothing.
+    pub fn possible(&self) -> Option<&str> {
+        if self.findings.iter().any(|finding| finding.outcome.is_some()) {
+            return None;
+        }
+        let mut because = self.findings.iter().flat_map(|finding| &finding.because);
+        because.find(|said| said.starts_with(POSSIBLE)).map(String::as_str)
+    }
+
+    /// Its verdict in a word or, of what must hold, that it was asserted.
+    pub fn word(&self) -> &'static str {
+        match self.theorem {
+            Some(_) if self.outcome == Outcome::Holds => "asserted, holds",
+            Some(_) if self.outcome.polarity() == Polarity::Against => "asserted, violated",
             _ => self.verdict.name(),
         }
     }
 
-    /// What the interpretations make of it, in a few words that stand behind its class; none if no interpretation was asked.
-    pub fn across_interpretations(&self) -> Option<String> {
-        self.across.as_ref().map(|across| across.said.clone())
+    /// What tables say of it: the same, with what it depends on.
+    pub fn verdict_said(&self) -> String {
+        match &self.depends_on {
+            Some(on) if self.verdict == Verdict::Depends => format!("{} on {on}", self.word()),
+            _ => self.word().to_owned(),
+        }
     }
 
-    /// [`across_interpretations`](Self::across_interpretations) with its class on the second seed, where that was run.
+    /// What stands beside its verdict, with its outcome on the second seed where that was run.
     pub fn beside(&self) -> Option<String> {
-        let second = self.second.map(|second| format!("second seed: {}", second.name()));
-        let said: Vec<String> = self.across_interpretations().into_iter().chain(second).collect();
+        let second = self.second.map(|second| {
+            if self.is_seedless {
+                "the seed moves nothing".to_owned()
+            } else {
+                format!("second seed: {}", second.name())
+            }
+        });
+        let said: Vec<String> = self.said.iter().cloned().chain(second).collect();
         (!said.is_empty()).then(|| said.join("; "))
     }
 
-    /// As [`beside`](Self::beside), with the second seed's class where it is another one.
+    /// As [`beside`](Self::beside), with the second seed's outcome where it is another one.
     pub fn beside_if_other(&self) -> Option<String> {
-        if self.second == Some(self.verdict) { self.across_interpretations() } else { self.beside() }
-    }
-
-    /// Its class under the interpretation that its findings are of.
-    pub fn alone(&self) -> Verdict {
-        self.across.as_ref().map_or(self.verdict, |across| across.default)
+        if self.second == Some(self.outcome) && !self.is_seedless { self.said.clone() } else { self.beside() }
     }
 
     /// The number of ours that stands beside the printed one.
     pub fn ours(&self) -> Option<&Estimate> {
-        let alone = self.alone();
-        let deciding = self.findings.iter().find(|finding| finding.verdict == Some(alone));
+        let deciding = self.findings.iter().find(|finding| finding.outcome == Some(self.outcome));
         deciding
             .and_then(|finding| finding.ours.as_ref())
             .or_else(|| self.findings.iter().find_map(|finding| finding.ours.as_ref()))
     }
 }
+
+/// How a line begins that says what a rule found possible.
+pub const POSSIBLE: &str = "possible: ";
 
 /// Claims that hold together under one interpretation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -330,52 +363,12 @@ pub struct Verdicts {
     pub together: Vec<Together>,
 }
 
-/// How many sentences and table rows there are of each class, in words: the same on the terminal and in the report. What
-/// is a part of a sentence or a cell of a row counts with it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Counts {
-    /// How many there are, and of each class.
-    pub classes: String,
-    /// How many parts and cells they have.
-    pub parts: Option<String>,
-    /// How many must hold by a theorem, if any.
-    pub asserted: Option<String>,
-}
-
 impl Verdicts {
-    /// How many sentences and table rows there are that do not hold by a theorem, and how many of each class.
-    pub fn tally(&self) -> Vec<usize> {
-        let whole = self.claims.iter().filter(|judged| judged.is_counted());
-        let whole: Vec<Verdict> = whole.map(|judged| judged.verdict).collect();
-        let of = |verdict: &Verdict| whole.iter().filter(|own| *own == verdict).count();
-        std::iter::once(whole.len()).chain(Verdict::ALL.iter().map(of)).collect()
-    }
-
-    /// How many sentences and table rows there are of each class.
-    pub fn counts(&self) -> Counts {
-        let (parts, whole): (Vec<&ClaimVerdict>, Vec<&ClaimVerdict>) =
-            self.claims.iter().partition(|judged| judged.part_of.is_some());
-        let asserted = whole.iter().filter(|judged| judged.theorem.is_some()).count();
-        let tally = self.tally();
-        let found = tally[1..].iter().zip(Verdict::ALL).filter(|(count, _)| **count > 0);
-        let found: Vec<String> =
-            found.map(|(count, verdict)| format!("{count} {}", verdict.name())).collect();
-        let what = if tally[0] == 1 { "sentence or row" } else { "sentences and rows" };
-        let classes = format!("{} {what}: {}", tally[0], found.join(", "));
-        let parts = (!parts.is_empty()).then(|| {
-            format!("{} parts and cells have classes of their own and count with these", parts.len())
-        });
-        let asserted = (asserted > 0).then(|| {
-            format!("{asserted} more must hold whatever was drawn; they are asserted and count for nothing")
-        });
-        Counts { classes, parts, asserted }
-    }
-
     /// The claims that must hold whatever was drawn and do not: the program is wrong, or the theorem.
     pub fn violated(&self) -> Vec<&str> {
         let is_broken =
-            |verdict: Verdict| verdict.polarity() == Polarity::Against || verdict == Verdict::DirectionOnly;
-        let is_violated = |judged: &&ClaimVerdict| judged.theorem.is_some() && is_broken(judged.verdict);
+            |outcome: Outcome| outcome.polarity() == Polarity::Against || outcome == Outcome::SignOnly;
+        let is_violated = |judged: &&ClaimVerdict| judged.theorem.is_some() && is_broken(judged.outcome);
         self.claims.iter().filter(is_violated).map(|judged| judged.claim.as_str()).collect()
     }
 

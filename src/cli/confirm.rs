@@ -20,7 +20,7 @@ use study::paper::Paper;
 use study::shard;
 
 /// Runs a paper's studies once more on the second seed that each spec writes down, and with it every interpretation that turns a
-/// claim, with more instances: a class that turns counts only if it turns twice.
+/// claim, with more instances: an outcome that turns counts only if it turns twice.
 ///
 /// The interpretations are taken in order while the paper's budget of trials lasts; one that is left out stays unconfirmed.
 ///

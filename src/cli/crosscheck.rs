@@ -24,9 +24,9 @@ use study::store::write_whole;
 /// the network once. Exit code 3: something differs, or an error made on purpose was not noticed. Exit code 4:
 /// Python or the network is missing; nothing else depends on them.
 ///
-/// With --statistics every estimate, interval and class of verdicts.toml that rests on trials is computed again from
+/// With --statistics every estimate, interval and outcome of verdicts.toml that rests on trials is computed again from
 /// the Parquet files, by code of its own. A bootstrap interval agrees if both ends lie where Monte-Carlo error can put
-/// them; a class that this error decides is listed as near. Example: replan crosscheck --statistics zhang
+/// them; an outcome that this error decides is listed as near. Example: replan crosscheck --statistics zhang
 #[derive(Args)]
 pub struct Crosscheck {
     /// A paper's name or folder; every paper with a crosscheck.toml, or with --statistics every paper, if none is given

@@ -25,7 +25,7 @@ pub fn paper(paper: &Paper) -> String {
     lines.push("\nExamples".to_owned());
     for (command, about) in [
         ("repro", "run what has changed, judge the claims, draw the figures"),
-        ("show", "every claim with its class"),
+        ("show", "every claim with its verdict"),
         ("report", "the report as a page"),
     ] {
         lines.push(wrapped(&format!("  replan {command} {}   ", paper.id), about, 6));

@@ -183,8 +183,8 @@ impl<'p> Explorer<'p> {
         Ok(built.units().iter().map(|unit| built.trials(unit).len() as u64).sum())
     }
 
-    /// Runs and judges `points`; what runs where interpretations are compatible, under those; and once more with more instances where a
-    /// class is near a flip.
+    /// Runs and judges `points`; what runs where interpretations are compatible, under those; and once more with more instances where an
+    /// outcome is near a flip.
     pub fn explore(
         &self,
         points: &[Interpretation],
@@ -360,7 +360,7 @@ fn first_instances(study: &Study) -> u32 {
     study.explore.as_ref().map_or(0, |explore| explore.instances)
 }
 
-/// The instances that it ends with, where a class is near a flip or turned.
+/// The instances that it ends with, where an outcome is near a flip or turned.
 pub fn most_instances(study: &Study) -> u32 {
     study.explore.as_ref().map_or(0, |explore| explore.more_instances.unwrap_or(explore.instances))
 }

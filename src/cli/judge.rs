@@ -149,16 +149,12 @@ pub fn judge(paper: &Paper, point: Interpretation, places: &Places) -> Result<Ve
 /// The verdicts by `evidence` with the history of their claims; across interpretations if it is a full run under the defaults and
 /// interpretations were explored.
 fn judged(evidence: &Evidence<'_>, places: &Places, history: &History) -> Result<Verdicts, Failure> {
-    let is_default = evidence.point == default_point(evidence.paper);
-    let is_explored = is_default && !evidence.runs().any(|run| run.manifest.quick);
-    let (verdicts, stored) = rayon::join(
-        || claims::judge(evidence),
-        || if is_explored { Stored::read(&places.runs).map(Some) } else { Ok(None) },
-    );
+    let is_other =
+        evidence.point != default_point(evidence.paper) || evidence.runs().any(|run| run.manifest.quick);
+    let stored = || if is_other { Ok(Stored::default()) } else { Stored::read(&places.runs) };
+    let (verdicts, stored) = rayon::join(|| claims::judge(evidence), stored);
     let mut verdicts = verdicts?;
-    if let Some(stored) = stored? {
-        across::apply(evidence.paper, &mut verdicts, &stored);
-    }
+    across::apply(evidence.paper, &mut verdicts, &stored?);
     history.apply(&mut verdicts);
     Ok(verdicts)
 }

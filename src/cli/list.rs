@@ -6,6 +6,7 @@ use super::places::{experiments, home, papers};
 use super::progress::doing;
 use super::{Failure, all, described};
 use crate::analysis::metric;
+use crate::analysis::verdict_rule::Verdict;
 use base::robot::read_urdf;
 use base::settings::none_called;
 use clap::{Args, ValueEnum};
@@ -42,6 +43,7 @@ enum What {
     Criteria,
     Rules,
     Metrics,
+    Verdicts,
     Figures,
     Files,
 }
@@ -117,6 +119,7 @@ fn singular(what: What) -> &'static str {
         What::Criteria => "criterion",
         What::Rules => "rule",
         What::Metrics => "metric",
+        What::Verdicts => "verdict",
         What::Figures => "kind of figure",
         What::Files => "kind of file",
     }
@@ -158,7 +161,9 @@ fn items(what: What) -> Option<Vec<Item>> {
         What::Rules => catalogue::rules(),
         What::Figures => catalogue::figures(),
         What::Files => catalogue::files(),
-        What::Papers | What::Studies | What::Choices | What::Robots | What::Metrics => return None,
+        What::Papers | What::Studies | What::Choices | What::Robots | What::Metrics | What::Verdicts => {
+            return None;
+        }
     })
 }
 
@@ -187,6 +192,7 @@ fn rows(what: What, LoadedFiles { papers, robots }: &LoadedFiles) -> Vec<(String
             })
             .collect(),
         What::Robots => robots.clone(),
+        What::Verdicts => Verdict::ALL.iter().map(|verdict| row(verdict.name(), verdict.about())).collect(),
         _ => {
             metric::METRICS.iter().map(|m| row(m.name, &format!("{}: {}", m.title(), m.meaning()))).collect()
         }

@@ -128,7 +128,7 @@ enum Command {
     Compare(compare::Compare),
     /// Write stored trials and their statistics for other programs
     Export(export::Export),
-    /// Show one claim with its evidence, or list every claim with its class
+    /// Show one claim with its evidence, or list every claim with its verdict
     Show(show::Show),
     /// Search maps on which a set of claims holds together
     Witness(witness::Witness),

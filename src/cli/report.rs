@@ -97,7 +97,7 @@ fn write(places: &Places, folder: &Path) -> Result<[String; 3], (Option<[String;
 
 /// What is said of a page that was written.
 struct Made {
-    /// What its first line says, if anything, and how many claims are of each class.
+    /// What its first line says, if anything, and how many claims have each verdict.
     said: String,
     /// How large it is, and what lies beside it.
     sizes: String,
@@ -124,7 +124,7 @@ fn made(paper: &Paper, places: &Places, folder: &Path) -> Result<Made, Failure> 
     }
     let beside = beside.map_or_else(String::new, |size| format!(", and {size:.2} MB of replays in {rest}"));
     let said: Vec<String> =
-        state(&evidence, &verdicts).into_iter().chain([verdicts.counts().classes]).collect();
+        state(&evidence, &verdicts).into_iter().chain([verdicts.counts().verdicts]).collect();
     Ok(Made { said: said.join(" "), sizes: format!("{size:.2} MB{beside}") })
 }
 

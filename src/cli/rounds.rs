@@ -19,7 +19,7 @@ pub enum Round {
     First,
     /// What runs where interpretations are compatible.
     Compatible,
-    /// Everything that is explored, with more instances, where a class is near a flip.
+    /// Everything that is explored, with more instances, where an outcome is near a flip.
     Again,
     /// Every study on its second seed, under the defaults.
     Default,

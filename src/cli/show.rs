@@ -46,7 +46,7 @@ impl Show {
 
 /// Everything that is known of a claim.
 fn shown(judged: &ClaimVerdict) -> String {
-    let mut text = wrapped("", &format!("{}: {}", judged.claim, judged.outcome()), 2, COLUMNS) + "\n";
+    let mut text = wrapped("", &format!("{}: {}", judged.claim, judged.verdict_said()), 2, COLUMNS) + "\n";
     let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
     let printed = judged.printed.as_ref().map(|printed| format!("{printed}{unit}"));
     for (what, said) in [
@@ -54,8 +54,9 @@ fn shown(judged: &ClaimVerdict) -> String {
         ("says", judged.says.clone()),
         ("quote", judged.quote.as_ref().map(|quote| format!("“{quote}”"))),
         ("printed", printed),
-        ("interpretations", judged.across_interpretations()),
-        ("second seed", judged.second.map(|class| class.name().to_owned())),
+        ("interpretations", judged.said.clone()),
+        ("under the defaults", Some(judged.outcome.name().to_owned())),
+        ("second seed", judged.second.map(|outcome| outcome.name().to_owned())),
         ("part of", judged.part_of.clone()),
         ("must hold", judged.theorem.clone()),
         ("changed after a run", judged.changed()),
@@ -68,8 +69,8 @@ fn shown(judged: &ClaimVerdict) -> String {
 }
 
 fn found(finding: &CriterionFinding) -> String {
-    let class = finding.verdict.map_or_else(String::new, |verdict| format!(": {}", verdict.name()));
-    let mut lines = vec![format!("{}{class}", finding.criterion)];
+    let outcome = finding.outcome.map_or_else(String::new, |outcome| format!(": {}", outcome.name()));
+    let mut lines = vec![format!("{}{outcome}", finding.criterion)];
     if let Some(ours) = &finding.ours {
         let solved =
             ours.solved.map_or_else(String::new, |[solved, all]| format!(", {solved} of {all} solved"));

@@ -1,7 +1,8 @@
 //! The verdict table on the terminal.
 
-use crate::analysis::class::Verdict;
-use crate::analysis::verdict::{ClaimVerdict, Counts, Verdicts};
+use crate::analysis::tally::Counts;
+use crate::analysis::verdict::{ClaimVerdict, Verdicts};
+use crate::analysis::verdict_rule::{Column, Verdict};
 use crate::render::prose::wrapped;
 use crate::render::tables::short;
 use std::io::IsTerminal as _;
@@ -17,7 +18,7 @@ pub fn print(verdicts: &Verdicts) {
 
 /// The table as text, within [`COLUMNS`].
 fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
-    let head = ["claim", "printed", "ours", "solved", "class"].map(str::to_owned);
+    let head = ["claim", "printed", "ours", "solved", "verdict"].map(str::to_owned);
     let rows: Vec<[String; 5]> = verdicts.claims.iter().map(cells).collect();
     let width = |at: usize, most: usize| {
         let widths = rows.iter().chain([&head]).map(|row| row[at].chars().count());
@@ -36,11 +37,11 @@ fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
             text += &(wrapped("   ", &what.join("; "), 4, COLUMNS) + "\n");
         }
     }
-    let Counts { classes, parts, asserted } = verdicts.counts();
+    let Counts { verdicts: of_each, parts, asserted } = verdicts.counts();
     let quick = verdicts
         .quick
         .then(|| "a quick run: few instances, so these verdicts are not the study's".to_owned());
-    for said in [Some(classes), parts, asserted, quick].into_iter().flatten() {
+    for said in [Some(of_each), parts, asserted, quick].into_iter().flatten() {
         text += &(wrapped("", &said, 2, COLUMNS) + "\n");
     }
     for said in explored(verdicts).into_iter().chain(verdicts.changed()) {
@@ -67,10 +68,17 @@ fn explored(verdicts: &Verdicts) -> Vec<String> {
     let interpretations = stale(&explored.stale, "judged under the default interpretation alone", &explore);
     let confirm = format!("replan confirm {paper}");
     let second = stale(&explored.second_stale, "without a second seed", &confirm);
-    [compatible, interpretations, second].into_iter().flatten().collect()
+    let refused = (!explored.refused.is_empty()).then(|| {
+        format!(
+            "the verifier refuses many paths under {}: where the paper calls its paths free, `refused_above_percent` in [explore] sets \
+             such interpretations apart",
+            explored.refused.join(", ")
+        )
+    });
+    [compatible, interpretations, second, refused].into_iter().flatten().collect()
 }
 
-/// A row: the claim, what is printed and ours, how many cases were solved of all, and the class.
+/// A row: the claim, what is printed and ours, how many cases were solved of all, and the verdict.
 fn cells(judged: &ClaimVerdict) -> [String; 5] {
     let dash = || "–".to_owned();
     let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
@@ -78,7 +86,7 @@ fn cells(judged: &ClaimVerdict) -> [String; 5] {
     let ours = judged.ours();
     let solved =
         ours.and_then(|ours| ours.solved).map_or_else(dash, |[solved, all]| format!("{solved}/{all}"));
-    [judged.claim.clone(), printed, ours.map_or_else(dash, short), solved, judged.outcome().to_owned()]
+    [judged.claim.clone(), printed, ours.map_or_else(dash, short), solved, judged.word().to_owned()]
 }
 
 /// The cells below one another; those after one that is too wide for its column stand on a line of their own.
@@ -99,11 +107,11 @@ fn line(cells: &[String; 5], widths: [usize; 4]) -> String {
 }
 
 fn colour(verdict: Verdict) -> u8 {
-    match verdict {
-        Verdict::Reproduced => 32,
-        Verdict::Fitted | Verdict::Attainable => 36,
-        Verdict::DirectionOnly | Verdict::Undecided => 33,
-        Verdict::NotReproduced | Verdict::Impossible => 31,
-        Verdict::Untestable => 90,
+    match verdict.column() {
+        Column::For => 32,
+        Column::Chosen => 36,
+        Column::Depends | Column::Inconclusive => 33,
+        Column::Against => 31,
+        Column::NotTestable => 90,
     }
 }

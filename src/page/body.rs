@@ -3,10 +3,11 @@
 
 use super::html::{escaped, prose as inline};
 use super::interpretations;
-use crate::analysis::class::Verdict;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::outcome::Outcome;
 use crate::analysis::tabulated::{grid, table_caption};
 use crate::analysis::verdict::{ClaimVerdict, CriterionFinding, Effect, Verdicts};
+use crate::analysis::verdict_rule::Verdict;
 use crate::render::RenderError;
 use crate::render::figure::caption;
 use crate::render::prose::prose;
@@ -25,9 +26,9 @@ pub struct Body<'a> {
     pub explored: usize,
 }
 
-/// A class as a word on its colour.
-fn badge(class: Verdict, word: &str) -> String {
-    format!("<span class=\"class {}\">{}</span>", class.name().replace(' ', "-"), escaped(word))
+/// A verdict or an outcome, by its name, as a word on its colour.
+fn badge(name: &str, word: &str) -> String {
+    format!("<span class=\"class {}\">{}</span>", name.replace(' ', "-"), escaped(word))
 }
 
 impl Body<'_> {
@@ -84,7 +85,7 @@ impl Body<'_> {
         }
         let more = counts.parts.into_iter().chain(counts.asserted);
         let counts: Vec<String> =
-            std::iter::once(counts.classes).chain(more).map(|said| format!("{}.", escaped(&said))).collect();
+            std::iter::once(counts.verdicts).chain(more).map(|said| format!("{}.", escaped(&said))).collect();
         text + &format!("<p>{}</p></header>\n", counts.join(" "))
     }
 
@@ -103,14 +104,15 @@ impl Body<'_> {
     }
 
     fn claims(&self) -> String {
-        let classes: String = Verdict::ALL.iter().map(|class| option(class.name())).collect();
+        let verdicts: String = Verdict::ALL.iter().map(|verdict| option(verdict.name())).collect();
+        let outcomes: String = Outcome::ALL.iter().map(|outcome| option(outcome.name())).collect();
         let mut text = format!(
             "<section id=\"claims\"><h2>Claims</h2>\n<form class=\"filter\" id=\"filter\" role=\"search\">\
              <label>words <input type=\"search\" name=\"words\"></label>\
-             <label>class <select name=\"class\"><option value=\"\">any</option>{classes}</select></label>\
+             <label>verdict <select name=\"class\"><option value=\"\">any</option>{verdicts}</select></label>\
              <label>hangs on <select name=\"hangs\"><option value=\"\">anything</option></select></label>\
              <label hidden>under this interpretation <select name=\"under\"><option value=\"\">any</option>\
-             <option value=\"differs\">not as under the default</option>{classes}</select></label>\
+             <option value=\"differs\">not as under the default</option>{outcomes}</select></label>\
              <label><input type=\"checkbox\" name=\"parts\"> with parts and cells</label>\
              <output></output></form>\n"
         );
@@ -120,7 +122,7 @@ impl Body<'_> {
             ("claim", "claim"),
             ("paper", "the paper"),
             ("ours", "ours"),
-            ("class", "class"),
+            ("class", "verdict"),
             ("interpretations", "interpretations"),
             ("under", "under this interpretation"),
         ] {
@@ -144,11 +146,11 @@ impl Body<'_> {
             || "–".to_owned(),
             |ours| format!("{} ({}; n = {})", short(ours), ours.what, ours.n),
         );
-        let interpretations = judged.across_interpretations().unwrap_or_default();
-        let second = judged.second.map_or_else(String::new, |class| {
-            format!("<div class=\"second\">second seed: {}</div>", badge(class, class.name()))
+        let interpretations = judged.said.clone().unwrap_or_default();
+        let second = judged.second.map_or_else(String::new, |outcome| {
+            format!("<div class=\"second\">second seed: {}</div>", badge(outcome.name(), outcome.name()))
         });
-        let rank = Verdict::ALL.iter().position(|class| *class == judged.verdict).unwrap_or(0);
+        let rank = Verdict::ALL.iter().position(|verdict| *verdict == judged.verdict).unwrap_or(0);
         let part = if judged.part_of.is_some() { " data-part" } else { "" };
         format!(
             "<tbody id=\"claim={id}\" data-class=\"{}\" data-rank=\"{rank}\" \
@@ -163,7 +165,7 @@ impl Body<'_> {
             escaped(&judged.at),
             escaped(&says),
             escaped(&ours),
-            badge(judged.verdict, judged.outcome()),
+            badge(judged.verdict.name(), &judged.verdict_said()),
             escaped(&interpretations),
             self.evidence_of(judged)
         )
@@ -185,9 +187,12 @@ impl Body<'_> {
     }
 
     fn finding(&self, finding: &CriterionFinding) -> String {
-        let class = finding.verdict.map_or_else(String::new, |class| badge(class, class.name()));
-        let mut text =
-            format!("<div class=\"finding\"><p><code>{}</code> {class}</p><ul>", escaped(&finding.criterion));
+        let outcome =
+            finding.outcome.map_or_else(String::new, |outcome| badge(outcome.name(), outcome.name()));
+        let mut text = format!(
+            "<div class=\"finding\"><p><code>{}</code> {outcome}</p><ul>",
+            escaped(&finding.criterion)
+        );
         let mut add = |said: &str| text += &format!("<li>{}</li>", inline(said, |id| self.is_claim(id)));
         if let Some(ours) = &finding.ours {
             let solved =
@@ -258,7 +263,7 @@ impl Body<'_> {
         Ok(text + "</section>\n")
     }
 
-    /// One of the paper's tables: in each cell what it printed, ours, and the class as a word on its colour.
+    /// One of the paper's tables: in each cell what it printed, ours, and the verdict as a word on its colour.
     fn table(&self, table: &PrintedTable) -> Result<String, RenderError> {
         let columns = cells("th", &table.columns);
         let mut text = format!(
@@ -268,8 +273,8 @@ impl Body<'_> {
         for row in &table.rows {
             let shown: String = match beside(self.evidence, table, row, self.verdicts)? {
                 None => cells("td", &row.cells.iter().map(|cell| cell.printed.clone()).collect::<Vec<_>>()),
-                Some(Beside { printed, ours, classes }) => {
-                    let both = printed.iter().zip(&ours).zip(&classes);
+                Some(Beside { printed, ours, claims }) => {
+                    let both = printed.iter().zip(&ours).zip(&claims);
                     both.map(|((printed, ours), judged)| cell(printed, ours, *judged)).collect()
                 }
             };
@@ -326,6 +331,6 @@ fn cell(printed: &str, ours: &str, judged: Option<&ClaimVerdict>) -> String {
         escaped(printed),
         escaped(ours),
         escaped(&judged.claim),
-        badge(judged.verdict, judged.outcome())
+        badge(judged.verdict.name(), &judged.verdict_said())
     )
 }

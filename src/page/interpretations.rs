@@ -17,7 +17,7 @@ pub fn section(paper: &Paper, verdicts: &Verdicts, explored: usize) -> String {
         0 => "no other interpretation than the default was explored for this paper.".to_owned(),
         _ => format!(
             "{explored} interpretations were explored: every option by itself, and a sample of combinations. Choose one to see each \
-             claim's class under it; open a claim to see what each option does to it. A probe is shown and never counted."
+             claim's outcome under it; open a claim to see what each option does to it. A probe is shown and never counted."
         ),
     };
     if stale > 0 {

@@ -1,6 +1,6 @@
 //! Text: a paper's own words with our numbers put in, Markdown that shows text as it is, and lines of limited length.
 
-use crate::analysis::verdict::Verdicts;
+use crate::analysis::verdict::{ClaimVerdict, Verdicts};
 use study::paper::{OVER_INTERPRETATIONS, filled};
 
 /// Paragraphs and lists are broken into lines of so many characters.
@@ -13,7 +13,7 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
         let judged = verdicts.claim(claim);
         let ours = judged.and_then(|judged| judged.ours());
         let found = match form {
-            "verdict" => judged.map(|judged| judged.outcome().to_owned()),
+            "verdict" => judged.map(ClaimVerdict::verdict_said),
             "n" => ours.map(|ours| ours.n.to_string()),
             "tenths" => ours.map(|ours| format!("{:.1}", ours.value)),
             "percent" => ours.map(|ours| format!("{:.0} %", 100.0 * ours.value)),

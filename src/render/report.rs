@@ -9,8 +9,8 @@ pub use chapter::{Chapter, Page, unread};
 pub use interpretations::across_lines;
 
 use super::prose::{COLUMNS, markdown, wrapped};
-use crate::analysis::class::Verdict;
 use crate::analysis::verdict::{ClaimVerdict, Verdicts};
+use crate::analysis::verdict_rule::Column;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -40,7 +40,7 @@ const SECTIONS: [(&str, &str); 7] = [
 const OPENING: &str = "# What the papers claim and what we found
 
 `replan repro PAPER` writes a paper's chapter and its line in the table, `replan render PAPER --check` says whether both are
-current; what stands between markers is not edited by hand. The project's README says what the classes mean.
+current; what stands between markers is not edited by hand. The project's README says what the verdicts mean.
 ";
 
 /// The name of the overview among the chapters: it sorts before the name of any paper.
@@ -110,11 +110,11 @@ fn overview(before: &str, name: &str, line: &str) -> String {
     let former = before.lines().filter(is_line).filter(|former| !former.starts_with(&begin));
     let mut lines: Vec<&str> = former.chain([line]).collect();
     lines.sort_unstable();
-    let classes: Vec<&str> = Verdict::ALL.iter().map(|verdict| verdict.name()).collect();
-    let rule = "---:|".repeat(classes.len() + 1);
+    let columns = Column::ALL.map(Column::name);
+    let rule = "---:|".repeat(columns.len() + 1);
     format!(
         "| paper | sentences and rows | {} | found |\n|---|{rule}---|\n{}",
-        classes.join(" | "),
+        columns.join(" | "),
         lines.join("\n")
     )
 }

@@ -3,20 +3,21 @@
 use super::latex::{Cell, Column, Numbers, Table};
 use super::prose::{markdown as safe, number};
 use super::{RenderError, marks};
-use crate::analysis::class::Verdict;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::outcome::Outcome;
 use crate::analysis::tabulated;
 use crate::analysis::verdict::{ClaimVerdict, Estimate, Verdicts};
+use crate::analysis::verdict_rule::Verdict;
 use study::paper::{Claim, Paper, PrintedRow, PrintedTable};
 
-/// What a row of one of the paper's tables shows: in each column what it printed, ours, and the class with its claim.
+/// What a row of one of the paper's tables shows: in each column what it printed, ours, and the claim with its verdict.
 pub struct Beside<'a> {
     /// What the paper printed, a cell a column.
     pub printed: Vec<String>,
     /// Ours.
     pub ours: Vec<String>,
-    /// The claim of the cell, with its class.
-    pub classes: Vec<Option<&'a ClaimVerdict>>,
+    /// The claim of the cell.
+    pub claims: Vec<Option<&'a ClaimVerdict>>,
 }
 
 /// The row of the table; none if it holds no claims.
@@ -32,7 +33,7 @@ pub fn beside<'a>(
     if row.cells.iter().all(|cell| cell.claim.is_none()) {
         return Ok(None);
     }
-    let mut found = Beside { printed: Vec::new(), ours: Vec::new(), classes: Vec::new() };
+    let mut found = Beside { printed: Vec::new(), ours: Vec::new(), claims: Vec::new() };
     for cell in &row.cells {
         let judged = cell.claim.as_ref().and_then(|claim| verdicts.claim(claim));
         let ours = match (&cell.claim, &cell.beside) {
@@ -46,7 +47,7 @@ pub fn beside<'a>(
         };
         found.printed.push(cell.printed.clone());
         found.ours.push(ours.unwrap_or_else(dash));
-        found.classes.push(judged);
+        found.claims.push(judged);
     }
     Ok(Some(found))
 }
@@ -80,17 +81,15 @@ pub fn table(
         };
         latex.row(line(&row.label, "printed", &beside.printed));
         latex.row(line("", "ours", &beside.ours));
-        let outcome =
-            |judged: Option<&ClaimVerdict>| judged.map_or_else(dash, |judged| judged.outcome().to_owned());
-        let mut classes =
-            line("", "verdict", &beside.classes.iter().copied().map(outcome).collect::<Vec<_>>());
-        for (cell, judged) in classes.iter_mut().skip(2).zip(&beside.classes) {
+        let verdict = |judged: Option<&ClaimVerdict>| judged.map_or_else(dash, ClaimVerdict::verdict_said);
+        let mut claims = line("", "verdict", &beside.claims.iter().copied().map(verdict).collect::<Vec<_>>());
+        for (cell, judged) in claims.iter_mut().skip(2).zip(&beside.claims) {
             let said = granted(paper, *judged, verdicts);
             if !said.is_empty() {
                 latex.footnote(cell, said.join(" "));
             }
         }
-        latex.row(classes);
+        latex.row(claims);
     }
     for note in table.notes.iter().chain(&marks(paper, verdicts)) {
         latex.note(note);
@@ -103,7 +102,7 @@ fn printed(row: &PrintedRow) -> Vec<String> {
     row.cells.iter().map(|cell| cell.printed.clone()).collect()
 }
 
-/// What the proofs of a cell's class take for granted, those of claims that are no cells and speak of its number among them.
+/// What the proofs of a cell's verdict take for granted, those of claims that are no cells and speak of its number among them.
 fn granted(paper: &Paper, judged: Option<&ClaimVerdict>, verdicts: &Verdicts) -> Vec<String> {
     let Some(judged) = judged else { return Vec::new() };
     let speaks = |claim: &&Claim| {
@@ -113,8 +112,8 @@ fn granted(paper: &Paper, judged: Option<&ClaimVerdict>, verdicts: &Verdicts) ->
     std::iter::once(judged).chain(beside).filter_map(premises).collect()
 }
 
-/// `table` in Markdown. Up to two columns stand side by side, each as printed, ours and class; more stand one line above
-/// another. `link` is what a claim's class leads to.
+/// `table` in Markdown. Up to two columns stand side by side, each as printed, ours and verdict; more stand one line above
+/// another. `link` is what a claim's verdict leads to.
 ///
 /// # Errors
 /// As [`table`].
@@ -127,7 +126,7 @@ pub fn markdown(
     let mut lines: Vec<Vec<String>> = Vec::new();
     let is_wide = table.columns.len() > 2
         || !table.rows.iter().all(|row| row.cells.iter().any(|cell| cell.claim.is_some()));
-    let class = |judged: Option<&ClaimVerdict>| judged.map_or_else(dash, &link);
+    let verdict = |judged: Option<&ClaimVerdict>| judged.map_or_else(dash, &link);
     let escaped = |cells: &[String]| cells.iter().map(|cell| safe(cell)).collect::<Vec<_>>();
     let line = |first: &str, second: &str, cells: Vec<String>| {
         [first, second].map(str::to_owned).into_iter().chain(cells).collect::<Vec<_>>()
@@ -136,15 +135,15 @@ pub fn markdown(
         let label = safe(&row.label);
         match beside(evidence, table, row, verdicts)? {
             None => lines.push(line(&label, "", escaped(&printed(row)))),
-            Some(Beside { printed, ours, classes }) if is_wide => {
+            Some(Beside { printed, ours, claims }) if is_wide => {
                 lines.push(line(&label, "printed", escaped(&printed)));
                 lines.push(line("", "ours", escaped(&ours)));
-                lines.push(line("", "class", classes.iter().copied().map(class).collect()));
+                lines.push(line("", "verdict", claims.iter().copied().map(verdict).collect()));
             }
-            Some(Beside { printed, ours, classes }) => {
-                let cells = printed.iter().zip(&ours).zip(&classes);
+            Some(Beside { printed, ours, claims }) => {
+                let cells = printed.iter().zip(&ours).zip(&claims);
                 let cells =
-                    cells.flat_map(|((printed, ours), judged)| [safe(printed), safe(ours), class(*judged)]);
+                    cells.flat_map(|((printed, ours), judged)| [safe(printed), safe(ours), verdict(*judged)]);
                 lines.push(std::iter::once(label).chain(cells).collect());
             }
         }
@@ -156,11 +155,11 @@ pub fn markdown(
     Ok(lines.map(|cells| format!("| {} |\n", cells.join(" | "))).collect::<Vec<_>>().concat())
 }
 
-/// The head of a table that has printed, ours and class side by side.
+/// The head of a table that has printed, ours and verdict side by side.
 fn side_by_side(columns: Vec<String>) -> Vec<String> {
     let named = columns
         .into_iter()
-        .flat_map(|name| [format!("{name}: printed"), "ours".to_owned(), "class".to_owned()]);
+        .flat_map(|name| [format!("{name}: printed"), "ours".to_owned(), "verdict".to_owned()]);
     std::iter::once(String::new()).chain(named).collect()
 }
 
@@ -169,7 +168,7 @@ fn premises(judged: &ClaimVerdict) -> Option<String> {
     if judged.verdict != Verdict::Impossible {
         return None;
     }
-    let proof = judged.findings.iter().find(|finding| finding.verdict == Some(judged.verdict))?;
+    let proof = judged.findings.iter().find(|finding| finding.outcome == Some(Outcome::Proved))?;
     let what = match (&judged.printed, &judged.says) {
         (Some(printed), _) => format!("{printed} is"),
         (None, Some(says)) => format!("That {says} is"),
@@ -206,7 +205,7 @@ pub fn numbers(evidence: &Evidence<'_>, verdicts: &Verdicts) -> Result<String, R
             }
             add("n", &ours.n.to_string(), "independent instances behind it")?;
         }
-        add("verdict", judged.outcome(), "our verdict")?;
+        add("verdict", &judged.verdict_said(), "our verdict")?;
     }
     let made = made(paper, "numbers", verdicts);
     let notes = paper.source.stand_ins.as_ref().map_or(made.clone(), |note| format!("{made}\n{note}"));

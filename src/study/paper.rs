@@ -131,6 +131,10 @@ pub struct Source {
     pub notes: Vec<String>,
     /// What stands below every figure and table of results, if their inputs are not the paper's own.
     pub stand_ins: Option<String>,
+    /// The claims are questions of our own: our clock decides those about times. A sentence about the authors' times is not testable
+    /// by it.
+    #[serde(default)]
+    pub ours: bool,
 }
 
 /// How many numbered things the paper has.

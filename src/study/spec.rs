@@ -195,7 +195,7 @@ pub struct OptionSpec {
     /// The options of other choices, by the choice's name, with one of which alone it is explored; with all, if none are named.
     #[serde(default)]
     pub only_with: BTreeMap<String, Vec<String>>,
-    /// Why it cannot be run: claims on studies that inherit the choice then stay undecided.
+    /// Why it cannot be run: claims on studies that inherit the choice then stay open.
     pub cannot_run: Option<String>,
     /// Settings laid over those of every problem whose family has all of them.
     #[serde(default)]
@@ -264,6 +264,10 @@ pub struct ExploreSpec {
     /// run under all say.
     #[serde(default)]
     pub where_compatible: Vec<String>,
+    /// Where the paper calls its paths free: results are set apart, and named, if the verifier refuses more than so many per cent of
+    /// the paths that a claim looks at.
+    #[schemars(range(max = 100))]
+    pub refused_above_percent: Option<u32>,
 }
 
 /// A number of instances or of seeds.

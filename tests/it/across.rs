@@ -5,7 +5,7 @@ use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
 use replan::analysis::across::stored::Exploration;
-use replan::analysis::class::Verdict;
+use replan::analysis::outcome::Outcome;
 use replan::analysis::verdict::{ClaimVerdict, Verdicts};
 use std::fs;
 use std::io::{Read as _, Write as _};
@@ -166,16 +166,19 @@ impl Toy {
         self.verdicts().claim(id).unwrap().clone()
     }
 
-    /// The class of a claim and what stands beside it.
+    /// The verdict of a claim and what stands beside it.
     pub fn class_and_across(&self, id: &str) -> (String, String) {
         let judged = self.claim(id);
-        (judged.verdict.name().to_owned(), judged.across_interpretations().unwrap_or_default())
+        (judged.verdict_said(), judged.said.unwrap_or_default())
     }
 }
 
-pub fn pair(class: &str, said: &str) -> (String, String) {
-    (class.to_owned(), said.to_owned())
+pub fn pair(verdict: &str, said: &str) -> (String, String) {
+    (verdict.to_owned(), said.to_owned())
 }
+
+/// What stands beside a claim that the weight turns.
+pub const ON_HURRY: &str = "1/0/1 for/open/against; contradicted only if hurry = none (1 of 1)";
 
 /// A source for the option without a weight.
 pub const CITED: (&str, &str) = ("[choice.option.none]", "[choice.option.none]\npractice = \"textbooks\"");
@@ -183,26 +186,22 @@ pub const CITED: (&str, &str) = ("[choice.option.none]", "[choice.option.none]\n
 #[test]
 fn a_silly_reading_does_not_veto_and_is_printed() {
     let toy = Toy::new(&[]);
-    assert_eq!(toy.class_and_across("fewer"), pair("reproduced", "no choice moves it"));
+    assert_eq!(toy.class_and_across("fewer"), pair("reproduced", "same under all 3"));
     let across = toy.claim("fewer").across.unwrap();
-    assert_eq!(across.probes, ["hurry = none: not reproduced"]);
+    assert_eq!(across.probes, ["hurry = none: contradicted"]);
     assert!(across.effects.is_empty(), "{:?}", across.effects);
 }
 
 #[test]
-fn a_default_that_decides_leaves_it_undecided_and_says_on_what_once_a_second_seed_agrees() {
+fn a_claim_depends_on_a_default_once_a_second_seed_agrees_and_is_inconclusive_before() {
     let toy = Toy::new(&[CITED]);
     // What turns it has not turned twice: it is open, and more than a tenth of what counts.
-    assert_eq!(toy.class_and_across("fewer"), pair("undecided", "holds under 1 of 2 only, open under 1"));
+    assert_eq!(toy.class_and_across("fewer"), pair("inconclusive", "1/1/0 for/open/against"));
     assert_eq!(toy.claim("fewer").across.unwrap().unconfirmed, 1);
     toy.0.done(&["confirm", "./toy"]);
-    assert_eq!(
-        toy.class_and_across("fewer"),
-        pair("undecided", "hangs on hurry: reproduced if three (1 of 2)")
-    );
+    assert_eq!(toy.class_and_across("fewer"), pair("depends on hurry", ON_HURRY));
     let judged = toy.claim("fewer");
-    assert_eq!(judged.second.map(Verdict::name), Some("reproduced"));
-    assert_eq!(judged.across.unwrap().default.name(), "reproduced");
+    assert_eq!((judged.second, judged.outcome), (Some(Outcome::Holds), Outcome::Holds));
     // What is stored is what judging gives, and a report says so.
     toy.0.done(&["judge", "./toy", "--check"]);
 }
@@ -214,7 +213,7 @@ fn an_axis_that_cannot_touch_a_claim_does_not_inflate_its_count() {
     // Two weights by three idle options: six interpretations, two results.
     assert_eq!((across.looked, across.counted), (6, 2));
     assert_eq!(across.effects.keys().collect::<Vec<_>>(), ["hurry"]);
-    assert_eq!(with.class_and_across("shorter").1, "no choice moves it");
+    assert_eq!(with.class_and_across("shorter").1, "same under all 6");
 }
 
 #[test]
@@ -224,24 +223,21 @@ fn a_witness_under_one_reading_makes_a_claim_attainable_and_names_the_reading() 
         toy.class_and_across("witness"),
         pair("attainable", "met under 1 of 2, hurry = none among them")
     );
-    assert_eq!(toy.claim("witness").alone().name(), "undecided");
+    assert_eq!(toy.claim("witness").outcome, Outcome::Open);
     // Without a source for that interpretation nothing attains it.
-    assert_eq!(Toy::new(&[]).class_and_across("witness"), pair("undecided", "no choice moves it"));
+    assert_eq!(Toy::new(&[]).class_and_across("witness"), pair("inconclusive", "no example found"));
 }
 
-const FITTED: (&str, &str) = ("fitted_to = []", "fitted_to = [\"calibrated\"]");
+pub const FITTED: (&str, &str) = ("fitted_to = []", "fitted_to = [\"calibrated\"]");
 
 #[test]
 fn a_reading_that_contradicts_what_the_study_was_calibrated_to_is_not_counted() {
     let toy = Toy::new(&[CITED, FITTED]);
-    assert_eq!(toy.class_and_across("fewer"), pair("reproduced", "no choice moves it"));
+    assert_eq!(toy.class_and_across("fewer"), pair("reproduced", "same under all 3"));
     assert_eq!(toy.claim("fewer").across.unwrap().incompatible, 3);
     // A claim never filters itself.
     toy.0.done(&["confirm", "./toy"]);
-    assert_eq!(
-        toy.class_and_across("calibrated"),
-        pair("undecided", "hangs on hurry: fitted if three (1 of 2)")
-    );
+    assert_eq!(toy.class_and_across("calibrated"), pair("fitted", "met under 1 of 2"));
 }
 
 #[test]
@@ -262,7 +258,7 @@ fn a_sentence_that_repeats_a_number_which_the_study_was_fitted_to_is_fitted() {
 fn where_nothing_is_compatible_all_voting_readings_are_judged_and_it_is_said() {
     let toy = Toy::new(&[CITED, FITTED, ("printed = \"4\"", "printed = \"7\"")]);
     toy.0.done(&["confirm", "./toy"]);
-    assert_eq!(toy.class_and_across("fewer").1, "hangs on hurry: reproduced if three (1 of 2)");
+    assert_eq!(toy.class_and_across("fewer").1, ON_HURRY);
     let across = toy.claim("fewer").across.unwrap();
     assert!(across.none_compatible && across.incompatible == 0, "{across:?}");
     assert!(toy.verdicts().explored.unwrap().none_compatible);
@@ -285,7 +281,8 @@ fn a_fitted_reading_is_fitted_again_for_each_setting_of_the_others() {
     let toy = Toy::new(&[CITED, fitted, ("fitted_to = []", "fitted_to = [\"witness\"]")]);
     // Only without a weight is the witness met: that option is what the paper means, whatever the default.
     let across = toy.claim("fewer").across.unwrap();
-    assert_eq!((across.class.name(), across.looked, across.incompatible), ("not reproduced", 3, 3));
+    assert_eq!((across.looked, across.incompatible), (3, 3));
+    assert_eq!(toy.class_and_across("fewer").0, "not reproduced");
 }
 
 /// A second number that was calibrated to, which any weight gives.
@@ -302,17 +299,14 @@ fn a_calibration_claim_takes_the_best_fit_of_all_and_does_not_vote_where_the_oth
     let fitted = ("default = \"three\"", "default = \"three\"\nfitted = true");
     let toy = Toy::new(&[CITED, SECOND, both, fitted]);
     for claim in ["calibrated", "any_weight"] {
-        assert_eq!(toy.class_and_across(claim), pair("fitted", "no choice moves it"), "{claim}");
+        assert_eq!(toy.class_and_across(claim), pair("fitted", "same under all 3"), "{claim}");
         let across = toy.claim(claim).across.unwrap();
         assert_eq!((across.looked, across.incompatible), (3, 3), "{claim}");
     }
     // Where the weight is not fitted, the same two weights are two interpretations of the paper.
     let toy = Toy::new(&[CITED, SECOND, both]);
     toy.0.done(&["confirm", "./toy"]);
-    assert_eq!(
-        toy.class_and_across("calibrated"),
-        pair("undecided", "hangs on hurry: fitted if three (1 of 2)")
-    );
+    assert_eq!(toy.class_and_across("calibrated"), pair("fitted", "met under 1 of 2"));
 }
 
 #[test]
@@ -337,7 +331,7 @@ fn an_exploration_that_was_edited_is_refused_until_it_is_made_again() {
     let whole = fs::read(&path).unwrap();
     let mut text = String::new();
     GzDecoder::new(&whole[..]).read_to_string(&mut text).unwrap();
-    let edited = text.replacen("class = \"not_reproduced\"", "class = \"reproduced\"", 1);
+    let edited = text.replacen("outcome = \"contradicted\"", "outcome = \"holds\"", 1);
     assert_ne!(edited, text);
     let unsealed = text.split_once('\n').unwrap().1.to_owned();
     for wrong in [edited, unsealed] {

@@ -4,6 +4,7 @@
 //! other. The rates stand in `docs/OPERATING_CHARACTERISTICS.md`; `REPLAN_WRITE=1` writes them, `REPLAN_PAPERS` draws more.
 
 mod censored;
+mod named;
 mod numbers;
 mod page;
 mod scenario;
@@ -12,6 +13,7 @@ mod synthetic;
 mod telling;
 mod theory;
 mod universal;
+mod verdicts;
 
 use rayon::prelude::*;
 use scenario::{Counts, Scenario};

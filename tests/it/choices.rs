@@ -159,7 +159,7 @@ const LOST: (&str, &str) = (
 fn an_option_that_cannot_be_run_leaves_open_what_it_touches_and_is_shown() {
     let toy = Toy::new(&[LOST]);
     for claim in ["fewer", "shorter", "witness", "calibrated"] {
-        assert_eq!(toy.claim(claim).verdict.name(), "undecided", "{claim}");
+        assert_eq!(toy.claim(claim).verdict.name(), "inconclusive", "{claim}");
         let finding = &toy.claim(claim).findings[0];
         let settles = finding.settles.as_deref().unwrap_or_default();
         assert!(settles.contains("hurry = none: that work is lost"), "{claim}: {settles}");
@@ -183,7 +183,7 @@ fn an_option_that_cannot_be_run_leaves_open_what_it_touches_and_is_shown() {
     let toy = Toy::new(&[LOST, when]);
     assert_eq!(
         [toy.claim("fewer"), toy.claim("shorter")].map(|one| one.verdict.name()),
-        ["reproduced", "undecided"]
+        ["reproduced", "inconclusive"]
     );
 }
 

@@ -1,8 +1,9 @@
 //! What is committed beside the code: stored runs, plots and the report.
 
-use replan::analysis::class::Verdict;
 use replan::analysis::criterion;
+use replan::analysis::outcome::Outcome;
 use replan::analysis::verdict::Verdicts;
+use replan::analysis::verdict_rule::Verdict;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -110,15 +111,16 @@ fn what_speaks_against_a_claim_names_a_trial_and_what_leaves_it_open_says_what_w
         for judged in Verdicts::read(&folder).unwrap().claims {
             let is_said = judged.across.as_ref().is_some_and(|across| across.settles.is_some())
                 || judged.findings.iter().any(|finding| finding.settles.is_some());
-            assert!(judged.verdict != Verdict::Undecided || is_said, "{}", judged.claim);
+            let is_open = [Verdict::Inconclusive, Verdict::Depends].contains(&judged.verdict);
+            assert!(!is_open || is_said, "{}", judged.claim);
             for finding in &judged.findings {
                 let is_measured = criterion::find(&finding.criterion).is_some();
-                match finding.verdict {
-                    Some(Verdict::NotReproduced | Verdict::DirectionOnly) if is_measured => {
+                match finding.outcome {
+                    Some(Outcome::Fails | Outcome::SignOnly) if is_measured => {
                         assert!(finding.trial.is_some(), "{}: {}", judged.claim, finding.criterion);
                         against += 1;
                     }
-                    Some(Verdict::Undecided) => {
+                    Some(Outcome::Open) => {
                         assert!(finding.settles.is_some(), "{}: {}", judged.claim, finding.criterion);
                     }
                     _ => {}

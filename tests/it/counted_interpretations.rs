@@ -1,8 +1,9 @@
 //! Which interpretations count for a claim, on the small paper of [`across`](crate::across): those that it can tell apart, and those that
 //! say something.
 
-use crate::across::{CHOICES, CITED, Toy, pair};
+use crate::across::{CHOICES, CITED, FITTED, Toy, pair};
 use replan::analysis::across::glance::Sight;
+use replan::analysis::outcome::Outcome;
 use replan::analysis::verdict::Effect;
 
 /// Choices of which the first touches A* and the other the search from two sides.
@@ -50,17 +51,17 @@ fn a_reading_that_the_study_of_a_witness_does_not_have_is_not_looked_at_if_it_to
     assert_eq!(sights, [(Sight::Looked, 2), (Sight::Unexplored, 2)]);
     let across = toy.claim("witness").across.unwrap();
     assert_eq!((across.counted, across.looked, across.not_looked_at), (1, 2, 2));
-    assert_eq!(across.said, "asked under the defaults alone");
+    // The weight touches A*, and the room was not run without one.
+    assert_eq!(toy.claim("witness").not_varied, ["hurry"]);
     assert!(across.effects.is_empty(), "{:?}", across.effects);
 }
 
 #[test]
-fn what_a_study_without_readings_says_is_asked_under_the_defaults_alone() {
+fn a_reading_that_touches_a_claim_and_was_not_varied_caps_it_at_supported() {
     let toy = choices_of_one_study("", &[]);
-    assert_eq!(toy.class_and_across("calibrated").1, "asked under the defaults alone");
-    assert_eq!(toy.class_and_across("shorter").1, "fails under 1 of 2 only, open under 1");
-    // With the interpretations in the room too, all of them were asked.
-    assert_eq!(Toy::new(&[]).class_and_across("calibrated").1, "no choice moves it");
+    assert_eq!(toy.class_and_across("calibrated"), pair("supported", "not varied: hurry"));
+    // With the interpretation in the room too, its other option was asked.
+    assert_eq!(Toy::new(&[CITED, FITTED]).class_and_across("calibrated"), pair("fitted", "met under 1 of 2"));
 }
 
 const DEPARTS: &str = r#"
@@ -81,7 +82,7 @@ fn a_witness_by_a_contender_that_departs_counts_under_the_reading_that_it_depart
         pair("attainable", "met under 1 of 2, hurry = none among them")
     );
     let judged = toy.claim("witness");
-    assert_eq!(judged.alone().name(), "undecided");
+    assert_eq!(judged.outcome, Outcome::Open);
     let because = judged.findings[0].because.join("; ");
     assert!(because.contains("met by none of 1 trial"), "{because}");
     assert!(
@@ -123,17 +124,16 @@ const BEST: (&str, &str) = (
 );
 
 #[test]
-fn one_default_that_decides_reproduced_against_attainable_gives_the_weaker_and_is_named() {
+fn a_sentence_that_holds_by_a_searched_input_under_one_reading_is_attainable() {
     let toy = Toy::new(&[CITED, BEST]);
     let judged = toy.claim("best");
-    assert_eq!(judged.alone().name(), "reproduced");
-    let said = "holds under 2 of 2; the class hangs on hurry: reproduced if three (1 of 2)";
-    assert_eq!(toy.class_and_across("best"), pair("attainable", said));
+    assert_eq!(judged.outcome, Outcome::Holds);
+    assert_eq!(toy.class_and_across("best"), pair("attainable", "met under 2 of 2"));
     let across = judged.across.unwrap();
     let effect = &across.effects["hurry"];
     assert_eq!(
-        (effect.effect, effect.option.as_str(), effect.class.name()),
-        (Effect::Class, "none", "attainable")
+        (effect.effect, effect.option.as_str(), effect.outcome),
+        (Effect::Outcome, "none", Outcome::Attainable)
     );
 }
 
@@ -148,7 +148,7 @@ fn a_reading_under_which_too_few_draws_are_solved_has_no_power_and_is_not_looked
         first.claims["fewer"].results.iter().filter(|found| found.sight == Sight::Powerless).collect();
     assert!(!powerless.is_empty() && powerless.iter().all(|found| found.n < 10), "{powerless:?}");
     let across = toy.claim("fewer").across.unwrap();
-    assert_eq!(toy.class_and_across("fewer"), pair("reproduced", "no choice moves it"));
+    assert_eq!(toy.class_and_across("fewer"), pair("reproduced", "same under all 3"));
     // The other weight is a probe here: three idle options by two crowds.
     assert_eq!((across.counted, across.looked, across.not_looked_at), (1, 3, 3));
 }
@@ -159,9 +159,10 @@ const FEWER: &str = "says = \"A* expands fewer nodes than the search from two si
 fn a_claim_is_judged_only_under_the_readings_under_which_it_is_meant() {
     let when = |option: &str| format!("{FEWER}holds_when = {{ hurry = [\"{option}\"] }}\n");
     let toy = Toy::new(&[CITED, (FEWER, &when("three"))]);
-    // Without a weight it fails, and would leave the claim undecided.
+    // Without a weight it is contradicted, and the claim would depend on it.
     let across = toy.claim("fewer").across.unwrap();
-    assert_eq!((across.counted, across.fails, across.class.name()), (1, 0, "reproduced"));
+    assert_eq!((across.counted, across.fails), (1, 0));
+    assert_eq!(toy.class_and_across("fewer").0, "reproduced");
     assert_eq!(toy.claim("fewer").findings[0].premises, ["hurry is three"]);
     let path = toy.0.at("toy/paper.toml");
     let text = std::fs::read_to_string(&path).unwrap();
@@ -184,9 +185,9 @@ fn what_a_claim_would_fail_under_a_reading_under_which_it_is_not_meant_is_not_he
     let held = ["", "holds_when = { hurry = [\"none\"] }\n"].map(|when| {
         let toy = Toy::unexplored(&[(FEWER, &format!("{more}{when}"))]);
         toy.0.done(&["judge", "./toy"]);
-        toy.claim("fewer").verdict.name()
+        toy.claim("fewer").outcome
     });
-    assert_eq!(held, ["not reproduced", "undecided"]);
+    assert_eq!(held, [Outcome::Fails, Outcome::Open]);
 }
 
 /// A choice whose options are numbers.
@@ -198,8 +199,8 @@ const NUMBERS: &str = "[[choice]]\nid = \"hurry\"\nwhy = \"the weight is not pri
 fn numbers_vote_within_their_bounds_and_bounds_that_are_not_whole_are_refused() {
     let table = CHOICES.split("\n[[choice]]\nid = \"idle\"").next().unwrap();
     let toy = Toy::new(&[(table, NUMBERS)]);
-    assert_eq!(toy.class_and_across("fewer"), pair("reproduced", "no choice moves it"));
-    assert_eq!(toy.claim("fewer").across.unwrap().probes, ["hurry = none: not reproduced"]);
+    assert_eq!(toy.class_and_across("fewer"), pair("reproduced", "same under all 3"));
+    assert_eq!(toy.claim("fewer").across.unwrap().probes, ["hurry = none: contradicted"]);
     for (from, to, refused) in [
         ("least = 1.0", "least = 5.0", "least 5 is above greatest 4; rising bounds are accepted"),
         ("value = 0\n", "", "option `none` needs `value`: the number held against the bounds, 1 to 4"),
@@ -283,12 +284,42 @@ fn a_reading_under_which_the_problem_cannot_be_posed_is_not_looked_at() {
     toy.0.done(&["run", "./toy"]);
     toy.0.done(&["explore", "./toy"]);
     let first = toy.stored("explored.toml.gz");
-    let sights: Vec<(Sight, &str)> =
-        first.claims["reach"].results.iter().map(|found| (found.sight, found.class.name())).collect();
-    assert_eq!(sights, [(Sight::Looked, "reproduced"), (Sight::Powerless, "undecided")]);
+    let sights: Vec<(Sight, Outcome)> =
+        first.claims["reach"].results.iter().map(|found| (found.sight, found.outcome)).collect();
+    assert_eq!(sights, [(Sight::Looked, Outcome::Holds), (Sight::Powerless, Outcome::Open)]);
     // Under one interpretation it holds, and the other says nothing: it is no vote that leaves it open.
     let judged = toy.claim("reach");
     assert_eq!(judged.verdict.name(), "reproduced");
     let across = judged.across.unwrap();
     assert_eq!((across.counted, across.holds, across.looked, across.not_looked_at), (1, 1, 3, 3));
+}
+
+/// A line of sight that cuts through blocked cells, as one of two options.
+const SIGHT: &str = "[[choice]]\nid = \"sight\"\nwhy = \"the line of sight is not printed\"\ndefault = \"exact\"\n\
+     paper = \"section 4\"\n[choice.option]\n\
+     exact = { stage.lazy_theta_star = { line_of_sight = \"exact_interior\" } }\n\
+     cutting = { stage.lazy_theta_star = { line_of_sight = \"bresenham\" } }\n";
+
+#[test]
+fn a_reading_whose_paths_the_verifier_refuses_is_set_apart_where_the_paper_calls_its_paths_free() {
+    let both = format!("{CHOICES}{SIGHT}");
+    let sight = (CHOICES, both.as_str());
+    let free = ("sample = 20", "sample = 20\nrefused_above_percent = 5");
+    let toy = Toy::new(&[sight]);
+    let free = Toy::new(&[sight, free]);
+    let refused = |toy: &Toy| toy.claim("shorter").across.map(|across| across.refused).unwrap_or_default();
+    let first = toy.stored("explored.toml.gz");
+    let shares: Vec<f64> = first.claims["shorter"].results.iter().map(|found| found.refused).collect();
+    assert!(shares.contains(&0.0) && shares.iter().any(|share| *share > 0.05), "one-sided: {shares:?}");
+    assert_eq!(refused(&toy), [""; 0]);
+    let apart = refused(&free);
+    assert!(!apart.is_empty() && apart.iter().all(|name| name.contains("sight = cutting")), "{apart:?}");
+    let looked = |toy: &Toy| toy.claim("shorter").across.map_or(0, |across| across.looked);
+    assert_eq!((looked(&free), apart.len()), (3, 3));
+    // Claims that look at no such path are judged under both.
+    assert!(free.claim("fewer").across.unwrap().refused.is_empty());
+    for toy in [&toy, &free] {
+        let said = toy.0.done(&["judge", "./toy"]);
+        assert!(said.contains("the verifier refuses many paths under sight = cutting"), "{said}");
+    }
 }

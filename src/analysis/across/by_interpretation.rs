@@ -1,12 +1,12 @@
 //! Every claim under every interpretation that was explored, and what each option does alone: for readers who look for themselves.
 
-use super::super::class::Verdict;
+use super::super::outcome::Outcome;
 use super::super::verdict::{ClaimVerdict, Effect, Verdicts};
 use super::count::VotingChoices;
 use super::effects::{self, each};
 use super::glance::Sight;
 use super::stored::{Exploration, ExploredResult};
-use super::{Stored, counted_as, default_classes};
+use super::{Stored, counted_as, default_outcomes};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use study::Choice;
@@ -63,8 +63,9 @@ pub struct Claim {
 /// What was found under some interpretations.
 #[derive(Debug, Serialize)]
 pub struct SharedResult {
-    /// The class.
-    pub class: &'static str,
+    /// The outcome.
+    #[serde(rename = "class")]
+    pub outcome: &'static str,
     /// Whether that says something.
     pub sight: Sight,
     /// What it counts as across interpretations, if it counts: what speaks against most and was not confirmed is open.
@@ -115,13 +116,13 @@ pub fn explored_choices(paper: &Paper) -> Vec<ExploredChoice> {
 pub fn by_interpretation(paper: &Paper, verdicts: &Verdicts, stored: &Stored) -> Option<ByInterpretation> {
     let first = stored.first.as_ref()?;
     let counting = VotingChoices::new(paper);
-    let classes = default_classes(verdicts);
+    let outcomes = default_outcomes(verdicts);
     let claim = |judged: &ClaimVerdict| {
         let id = &judged.claim;
         let explored = first.claims.get(id).filter(|_| first.is_current(&counting.now, id))?;
         let second = stored.second.as_ref().filter(|second| second.is_current(&counting.now, id));
-        let counted = counting.counted(paper, first, id, &classes);
-        let votes = counted_as(first, second, id, &counted.groups);
+        let counted = counting.counted(paper, first, id, &outcomes);
+        let votes = counted_as(first, second, judged, &counted.groups);
         let found = |result: &ExploredResult| {
             let group = counted
                 .groups
@@ -130,11 +131,11 @@ pub fn by_interpretation(paper: &Paper, verdicts: &Verdicts, stored: &Stored) ->
                 .find(|(group, _)| result.interpretations.contains(&group.interpretation));
             SharedResult::new(
                 result,
-                classes.get(id).copied(),
+                outcomes.get(id).copied(),
                 group.map(|(group, vote)| (&group.interpretations, *vote)),
             )
         };
-        let of_options = [true, false].map(|votes| each(&counting, first, id, classes[id], votes));
+        let of_options = [true, false].map(|votes| each(&counting, first, id, outcomes[id], votes));
         let alone = of_options.into_iter().flatten().filter_map(|one| Alone::new(first, one));
         Some((
             id.clone(),
@@ -149,15 +150,15 @@ pub fn by_interpretation(paper: &Paper, verdicts: &Verdicts, stored: &Stored) ->
 }
 
 impl SharedResult {
-    /// A result; `default` is the class in the default run, which has more instances, `counts` what it counts as, and where.
+    /// A result; `default` is the outcome in the default run, which has more instances, `counts` what it counts as, and where.
     fn new(
         result: &ExploredResult,
-        default: Option<Verdict>,
-        counts: Option<(&Vec<usize>, Verdict)>,
+        default: Option<Outcome>,
+        counts: Option<(&Vec<usize>, Outcome)>,
     ) -> Self {
-        let class = default.filter(|_| result.interpretations.contains(&0)).unwrap_or(result.class);
+        let outcome = default.filter(|_| result.interpretations.contains(&0)).unwrap_or(result.outcome);
         Self {
-            class: class.name(),
+            outcome: outcome.name(),
             sight: result.sight,
             counts_as: counts.map(|(_, vote)| vote.name()),
             value: result.value,
@@ -172,8 +173,8 @@ impl SharedResult {
 impl Alone {
     fn new(first: &Exploration, (choice, option, (effect, _)): effects::OptionEffect) -> Option<Self> {
         let interpretation = first.place(&BTreeMap::from([(choice.clone(), option.clone())]))?;
-        // The class itself stands beside it.
-        let effect = if effect == Effect::Class { Effect::Number } else { effect };
+        // The outcome itself stands beside it.
+        let effect = if effect == Effect::Outcome { Effect::Number } else { effect };
         Some(Self { choice, option, effect, interpretation })
     }
 }

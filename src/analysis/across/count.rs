@@ -1,13 +1,14 @@
 //! Which interpretations count for a claim: those that vote and are compatible with what the study was calibrated to; equal results
 //! count once.
 
-use super::super::class::{Polarity, Verdict};
+use super::super::criterion::is_powerless;
+use super::super::outcome::{Outcome, Polarity};
 use super::super::verdict::{Fit, SettingFit};
 use super::glance::Sight;
-use super::stored::{Exploration, ExploredClaim, ExploredResult, Now};
+use super::stored::{Exploration, ExploredResult, Now};
 use std::collections::{BTreeMap, BTreeSet};
+use study::Choice;
 use study::paper::Paper;
-use study::{Choice, Study};
 
 /// The interpretations of a paper.
 pub struct VotingChoices {
@@ -26,8 +27,8 @@ pub struct Group {
     pub interpretation: usize,
     /// All of them that count.
     pub interpretations: Vec<usize>,
-    /// The class.
-    pub class: Verdict,
+    /// The outcome.
+    pub outcome: Outcome,
 }
 
 /// The interpretations that count for a claim.
@@ -43,30 +44,40 @@ pub struct Counted {
     pub incompatible: usize,
     /// No voting interpretation is compatible, so that all of them are judged.
     pub none_compatible: bool,
-    /// One witness would do.
-    pub is_existential: bool,
-    /// Its studies have no choices, so that it is asked under the defaults alone though other interpretations change trials.
-    pub is_of_defaults: bool,
+    /// The interpretations, by their places, that are set apart: the verifier refuses their paths, which the paper calls free.
+    pub refused: Vec<usize>,
 }
 
 impl Counted {
-    /// Counts a result of the claim for those of its interpretations that are `judged`; `default` is the class in the default run.
-    fn take(&mut self, result: &ExploredResult, judged: &[usize], default: Option<&Verdict>) {
+    /// Counts a result of the claim for those of its interpretations that are `judged`; `default` is the outcome in the default run.
+    /// `is_hollow` says whether its number has no power by the rules of now.
+    fn take(
+        &mut self,
+        result: &ExploredResult,
+        judged: &[usize],
+        default: Option<&Outcome>,
+        is_refused: bool,
+        is_hollow: bool,
+    ) {
         let own: Vec<usize> =
             result.interpretations.iter().copied().filter(|place| judged.contains(place)).collect();
         let Some(interpretation) = own.first().copied() else { return };
+        if is_refused {
+            self.refused.extend(own);
+            return;
+        }
         // The default run has more instances than an exploration.
         let is_default = own.contains(&0);
-        let class = default.copied().filter(|_| is_default).unwrap_or(result.class);
+        let outcome = default.copied().filter(|_| is_default).unwrap_or(result.outcome);
         let seen = match result.sight {
-            Sight::Looked => own.clone(),
+            Sight::Looked if !is_hollow => own.clone(),
             Sight::Unmeant => Vec::new(),
-            Sight::Unexplored | Sight::Powerless => own[..usize::from(is_default)].to_vec(),
+            Sight::Looked | Sight::Unexplored | Sight::Powerless => own[..usize::from(is_default)].to_vec(),
         };
         self.not_looked_at += own.len() - seen.len();
         self.looked += seen.len();
         if !seen.is_empty() {
-            self.groups.push(Group { interpretation, interpretations: seen, class });
+            self.groups.push(Group { interpretation, interpretations: seen, outcome });
         }
     }
 }
@@ -88,13 +99,13 @@ impl VotingChoices {
         self.choices.iter().all(|choice| choice.votes(Self::option(choice, interpretation)))
     }
 
-    /// The interpretations of `first` that count for the claim called `id`; `default` are the claims' classes in the default run.
+    /// The interpretations of `first` that count for the claim called `id`; `default` are the claims' outcomes in the default run.
     pub fn counted(
         &self,
         paper: &Paper,
         first: &Exploration,
         id: &str,
-        default: &BTreeMap<String, Verdict>,
+        default: &BTreeMap<String, Outcome>,
     ) -> Counted {
         let Some(claim) = first.claims.get(id) else { return Counted::default() };
         let voting: Vec<usize> = (0..first.interpretations.len())
@@ -104,36 +115,27 @@ impl VotingChoices {
         let compatible = self.compatible(first, &voting, &calibration, default);
         let none_compatible = compatible.is_empty() && !voting.is_empty();
         let judged = if none_compatible { voting.clone() } else { compatible };
-        let mut counted = Counted {
-            incompatible: voting.len() - judged.len(),
-            none_compatible,
-            is_existential: claim.existential,
-            is_of_defaults: self.is_of_defaults(paper, claim),
-            ..Counted::default()
-        };
+        let mut counted =
+            Counted { incompatible: voting.len() - judged.len(), none_compatible, ..Counted::default() };
+        let most = paper.explore.as_ref().and_then(|explore| explore.refused_above_percent);
+        let is_refused =
+            |result: &ExploredResult| most.is_some_and(|most| 100.0 * result.refused > f64::from(most));
+        // Where all are refused, none can be set apart from the others.
+        let some_stand = claim.results.iter().any(|result| !is_refused(result));
         for result in &claim.results {
-            counted.take(result, &judged, default.get(id));
+            let hollow = result.outcome.polarity() == Polarity::For
+                && paper
+                    .claim(id)
+                    .zip(result.interval)
+                    .is_some_and(|(claim, ends)| is_powerless(claim, ends));
+            counted.take(result, &judged, default.get(id), some_stand && is_refused(result), hollow);
         }
         counted.groups.sort_by_key(|group| group.interpretation);
         counted
     }
 
-    /// Whether choices touch trials, but none of those of the studies, or of what stands for them, that `claim` looks at.
-    fn is_of_defaults(&self, paper: &Paper, claim: &ExploredClaim) -> bool {
-        let stands_for =
-            |study: &Study| study.explore.as_ref().and_then(|explore| explore.stands_for.clone());
-        let is_asked = |study: &&Study| {
-            claim.studies.contains(&study.name)
-                || stands_for(study).is_some_and(|other| claim.studies.contains(&other))
-        };
-        let mut asked = paper.studies.iter().filter(is_asked).peekable();
-        self.choices.iter().any(|choice| choice.touches_trials)
-            && asked.peek().is_some()
-            && asked.all(|study| study.choices.iter().all(|choice| !choice.touches_trials))
-    }
-
     /// The interpretations of `first` that vote and are compatible with every calibration claim; all that vote if none is.
-    pub fn fitting(&self, first: &Exploration, default: &BTreeMap<String, Verdict>) -> Vec<usize> {
+    pub fn fitting(&self, first: &Exploration, default: &BTreeMap<String, Outcome>) -> Vec<usize> {
         let voting: Vec<usize> = (0..first.interpretations.len())
             .filter(|place| self.votes(&first.interpretations[*place]))
             .collect();
@@ -146,7 +148,7 @@ impl VotingChoices {
 
     /// How each setting of the choices that are not fitted agrees with the calibration claims under each option of the one
     /// that is; none if no interpretation is fitted.
-    pub fn fits(&self, first: &Exploration, default: &BTreeMap<String, Verdict>) -> Vec<SettingFit> {
+    pub fn fits(&self, first: &Exploration, default: &BTreeMap<String, Outcome>) -> Vec<SettingFit> {
         let Some(fitted) = self.choices.iter().find(|choice| choice.fitted) else { return Vec::new() };
         let voting =
             (0..first.interpretations.len()).filter(|place| self.votes(&first.interpretations[*place]));
@@ -190,7 +192,7 @@ impl VotingChoices {
         first: &Exploration,
         voting: &[usize],
         calibration: &Calibration<'_>,
-        default: &BTreeMap<String, Verdict>,
+        default: &BTreeMap<String, Outcome>,
     ) -> Vec<usize> {
         let fits: BTreeMap<usize, Goodness> = voting
             .iter()
@@ -238,7 +240,7 @@ impl Calibration<'_> {
         &self,
         first: &Exploration,
         place: usize,
-        default: &BTreeMap<String, Verdict>,
+        default: &BTreeMap<String, Outcome>,
     ) -> Option<Goodness> {
         let others = held(first, place, &self.others, default)?;
         let own = held(first, place, &self.own, default);
@@ -251,7 +253,7 @@ fn held(
     first: &Exploration,
     place: usize,
     calibration: &[&str],
-    default: &BTreeMap<String, Verdict>,
+    default: &BTreeMap<String, Outcome>,
 ) -> Option<usize> {
     let mut holds = 0;
     for id in calibration {
@@ -261,7 +263,7 @@ fn held(
             continue;
         }
         let full = default.get(*id).filter(|_| place == 0);
-        let polarity = full.unwrap_or(&result.class).polarity();
+        let polarity = full.unwrap_or(&result.outcome).polarity();
         if polarity == Polarity::Against || (result.sight == Sight::Powerless && full.is_none()) {
             return None;
         }

@@ -1,6 +1,6 @@
 //! What each choice does to a claim when it alone departs from its default.
 
-use super::super::class::{Polarity, Verdict};
+use super::super::outcome::{Outcome, Polarity};
 use super::super::verdict::{Effect, EffectOfOption};
 use super::count::VotingChoices;
 use super::glance::Sight;
@@ -12,34 +12,34 @@ pub fn effects(
     choices: &VotingChoices,
     first: &Exploration,
     id: &str,
-    default: Verdict,
+    default: Outcome,
 ) -> BTreeMap<String, EffectOfOption> {
     let mut all: BTreeMap<String, EffectOfOption> = BTreeMap::new();
     for (choice, option, effect) in each(choices, first, id, default, true) {
         let better = all.get(&choice).is_none_or(|known| effect.0 > known.effect);
         if effect.0 > Effect::None && better {
-            all.insert(choice, EffectOfOption { effect: effect.0, option, class: effect.1 });
+            all.insert(choice, EffectOfOption { effect: effect.0, option, outcome: effect.1 });
         }
     }
     all
 }
 
-/// What probes do, each in a few words; those that change no class are left out.
-pub fn probes(choices: &VotingChoices, first: &Exploration, id: &str, default: Verdict) -> Vec<String> {
+/// What probes do, each in a few words; those that change no outcome are left out.
+pub fn probes(choices: &VotingChoices, first: &Exploration, id: &str, default: Outcome) -> Vec<String> {
     let all = each(choices, first, id, default, false).into_iter();
     let moving = all.filter(|(_, _, effect)| effect.0 > Effect::Number);
     moving.map(|(choice, option, effect)| format!("{choice} = {option}: {}", effect.1.name())).collect()
 }
 
-/// A choice, an option of it, and what that does, with the class under it.
-pub(super) type OptionEffect = (String, String, (Effect, Verdict));
+/// A choice, an option of it, and what that does, with the outcome under it.
+pub(super) type OptionEffect = (String, String, (Effect, Outcome));
 
 /// Every option, voting or not, that departs alone from the defaults, with what it does.
 pub(super) fn each(
     choices: &VotingChoices,
     first: &Exploration,
     id: &str,
-    default: Verdict,
+    default: Outcome,
     voting: bool,
 ) -> Vec<OptionEffect> {
     let Some(base) = first.result(id, 0) else { return Vec::new() };
@@ -53,14 +53,14 @@ pub(super) fn each(
             if choice.votes(option) != voting || result.sight <= Sight::Unexplored {
                 continue;
             }
-            let effect = match (default.polarity(), result.class.polarity()) {
+            let effect = match (default.polarity(), result.outcome.polarity()) {
                 _ if result.results == base.results => Effect::None,
-                _ if result.sight == Sight::Powerless || result.class == default => Effect::Number,
-                (own, other) if own == other => Effect::Class,
+                _ if result.sight == Sight::Powerless || result.outcome == default => Effect::Number,
+                (own, other) if own == other => Effect::Outcome,
                 (_, Polarity::Open) | (Polarity::Open, _) => Effect::Opens,
                 _ => Effect::Turns,
             };
-            all.push((choice.id.clone(), option.clone(), (effect, result.class)));
+            all.push((choice.id.clone(), option.clone(), (effect, result.outcome)));
         }
     }
     all

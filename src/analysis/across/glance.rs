@@ -1,8 +1,8 @@
 //! What is found about every claim under one interpretation, in the few numbers that are stored.
 
 use super::super::claims::{self, CappedFinding};
-use super::super::class::{self, Caps, Polarity, Verdict};
 use super::super::evidence::Evidence;
+use super::super::outcome::{self, Caps, Outcome, Polarity};
 use base::hash::sha256;
 use base::settings::SettingsError;
 use rayon::prelude::*;
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use study::paper::Claim;
 
-/// Whether a class says something of a claim under an interpretation, the least first.
+/// Whether an outcome says something of a claim under an interpretation, the least first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Sight {
@@ -27,14 +27,16 @@ pub enum Sight {
 /// A claim under one interpretation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Glance {
-    /// Its class there.
-    pub class: Verdict,
+    /// Its outcome there.
+    pub outcome: Outcome,
     /// Whether that says something.
     pub sight: Sight,
     /// One witness would do.
     pub existential: bool,
     /// Our number with its interval, and of how many instances.
     pub ours: Option<(f64, Option<[f64; 2]>, usize)>,
+    /// The share of the paths that come back which the verifier refuses.
+    pub refused: f64,
     /// A hash of the results that it rests on.
     pub results: String,
     /// The studies that it looks at.
@@ -61,25 +63,26 @@ fn meant(evidence: &Evidence<'_>, claim: &Claim, glance: Glance) -> Glance {
     if claim.is_meant(&evidence.point) {
         return glance;
     }
-    let class = class::combined([], claim.untestable.is_some());
-    Glance { class, sight: Sight::Unmeant, ours: None, results: String::new(), ..glance }
+    let outcome = outcome::combined([], claim.untestable.is_some());
+    Glance { outcome, sight: Sight::Unmeant, ours: None, results: String::new(), ..glance }
 }
 
 fn alone(claim: &Claim, weighed: &[CappedFinding]) -> Glance {
-    let decides = |one: &&CappedFinding| one.finding.verdict.is_some();
-    let verdicts = weighed.iter().filter_map(|one| one.finding.verdict);
-    let class = class::combined(verdicts, claim.untestable.is_some());
+    let decides = |one: &&CappedFinding| one.finding.outcome.is_some();
+    let outcomes = weighed.iter().filter_map(|one| one.finding.outcome);
+    let outcome = outcome::combined(outcomes, claim.untestable.is_some());
     let deciding: Vec<&CappedFinding> =
-        weighed.iter().filter(|one| one.finding.verdict == Some(class)).collect();
-    let sight = deciding.iter().map(|one| sight(one, class)).max().unwrap_or(Sight::Looked);
+        weighed.iter().filter(|one| one.finding.outcome == Some(outcome)).collect();
+    let sight = deciding.iter().map(|one| sight(one, outcome)).max().unwrap_or(Sight::Looked);
     let ours = deciding.iter().find_map(|one| one.finding.ours.as_ref());
     let existential = weighed.iter().any(|one| decides(&one))
         && weighed.iter().filter(decides).all(|one| one.caps.existential);
     Glance {
-        class,
+        outcome,
         sight,
         existential,
         ours: ours.map(|ours| (ours.value, ours.interval, ours.n)),
+        refused: weighed.iter().filter(decides).map(|one| one.refused).fold(0.0, f64::max),
         results: digest(weighed),
         studies: weighed.iter().filter(decides).flat_map(|one| one.studies.iter().cloned()).collect(),
     }
@@ -87,19 +90,19 @@ fn alone(claim: &Claim, weighed: &[CappedFinding]) -> Glance {
 
 /// What the findings that decide rest on, and what they say: interpretations that only change what a name means move these.
 fn digest(weighed: &[CappedFinding]) -> String {
-    let decides = weighed.iter().filter(|one| one.finding.verdict.is_some());
+    let decides = weighed.iter().filter(|one| one.finding.outcome.is_some());
     let said = |one: &CappedFinding| {
         let ours = one.finding.ours.as_ref().map(|ours| (ours.value.to_bits(), ours.n));
-        format!("{} {:?} {ours:?} {}\n", one.finding.criterion, one.finding.verdict, one.results)
+        format!("{} {:?} {ours:?} {}\n", one.finding.criterion, one.finding.outcome, one.results)
     };
     sha256(decides.map(said).collect::<String>().as_bytes())[..12].to_owned()
 }
 
-fn sight(one: &CappedFinding, class: Verdict) -> Sight {
+fn sight(one: &CappedFinding, outcome: Outcome) -> Sight {
     let Caps { powerless, few, clock, .. } = one.caps;
     if !one.is_covered || clock.is_some() {
         Sight::Unexplored
-    } else if class == Verdict::Undecided && (powerless || few || !one.is_posed) {
+    } else if outcome == Outcome::Open && (powerless || few || !one.is_posed) {
         Sight::Powerless
     } else {
         Sight::Looked
@@ -112,24 +115,25 @@ fn with_parts(evidence: &Evidence<'_>, mut glances: BTreeMap<String, Glance>) ->
     for claim in &evidence.paper.claims {
         let Some((_, of, ids)) = claims::of_parts(claim) else { continue };
         let parts: Vec<&Glance> = ids.iter().map(|id| &alone[id]).collect();
-        let of_parts = of(&parts.iter().map(|part| part.class).collect::<Vec<_>>());
+        let of_parts = of(&parts.iter().map(|part| part.outcome).collect::<Vec<_>>());
         let own = &alone[&claim.id];
-        let found = claim.tests().next().map(|_| own.class).into_iter().chain([of_parts]);
-        let class = class::combined(found, claim.untestable.is_some());
-        let alike = |part: &&&Glance| part.class.polarity() == class.polarity();
+        let found = claim.tests().next().map(|_| own.outcome).into_iter().chain([of_parts]);
+        let outcome = outcome::combined(found, claim.untestable.is_some());
+        let alike = |part: &&&Glance| part.outcome.polarity() == outcome.polarity();
         let mut speaks: Vec<&&Glance> = parts.iter().filter(alike).collect();
         if speaks.is_empty() {
             speaks = parts.iter().collect();
         }
         // A sentence that all parts must meet is looked at only where all of them are.
         let sights = speaks.iter().map(|part| part.sight);
-        let sight = if class.polarity() == Polarity::For { sights.min() } else { sights.max() };
+        let sight = if outcome.polarity() == Polarity::For { sights.min() } else { sights.max() };
         let results: String = parts.iter().map(|part| part.results.as_str()).chain([&*own.results]).collect();
         let whole = Glance {
-            class,
+            outcome,
             sight: sight.unwrap_or(Sight::Looked),
             existential: parts.iter().all(|part| part.existential),
             ours: None,
+            refused: parts.iter().map(|part| part.refused).fold(0.0, f64::max),
             results: sha256(results.as_bytes())[..12].to_owned(),
             studies: parts.iter().flat_map(|part| part.studies.iter().cloned()).collect(),
         };

@@ -1,28 +1,34 @@
-//! The class of a claim across interpretations: whether it survives what the paper leaves open, or what it hangs on.
+//! The verdict of a claim over all interpretations: whether it survives what the paper leaves open, or on what it depends.
 //!
 //! Under each interpretation that was explored every claim was judged by itself ([`glance`]); what came out is stored ([`stored`]).
-//! Interpretations that vote and are compatible with what the study was calibrated to are counted, equal results once ([`count`]),
-//! and their classes are combined in one place ([`combine`](mod@combine)), with the words that stand beside the class
-//! ([`hangs`]) and what each interpretation moves ([`effects`]).
+//! Interpretations that vote and are compatible with what the study was calibrated to are counted, equal results once ([`count`]);
+//! those of a minority need a second seed ([`combine`](mod@combine)). The [table of verdicts](super::verdict_rule) says what
+//! they amount to, [`said`] what stands beside it, [`depends`] on which options it depends, [`touched`] which interpretations were
+//! not varied, and [`effects`] what each interpretation moves.
 
 pub mod by_interpretation;
 pub mod combine;
 pub mod count;
+pub mod depends;
 pub mod effects;
 pub mod glance;
-pub mod hangs;
+pub mod said;
 pub mod stored;
+pub mod touched;
 
-use super::class::{Polarity, Verdict};
-use super::settle::interpretations_settle;
+use super::outcome::{Outcome, Polarity};
+use super::settle::{MEANT, across_settles, meanings_settle};
 use super::together::greatest;
 use super::verdict::{Across, ClaimVerdict, Explored, Verdicts};
+use super::verdict_rule::{Line, Results, Verdict, of_meanings};
 use count::{Counted, Group, VotingChoices};
+use said::{Said, View};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use stored::Exploration;
-use study::StudyError;
-use study::paper::Paper;
+use study::paper::{Claim, Paper, Parts};
+use study::{Choice, StudyError};
+use touched::Touched;
 
 /// What is stored of a paper besides its default run.
 #[derive(Debug, Default)]
@@ -44,38 +50,19 @@ impl Stored {
     }
 }
 
-/// Gives every claim of `verdicts`, which were judged under the default interpretation, its class across interpretations.
+/// Gives every claim of `verdicts`, whose outcomes are those under the default interpretation, its verdict over all interpretations.
 pub fn apply(paper: &Paper, verdicts: &mut Verdicts, stored: &Stored) {
-    let classes = default_classes(verdicts);
+    let outcomes = default_outcomes(verdicts);
     let choices = VotingChoices::new(paper);
-    let mut note = Explored::default();
-    if let Some(first) = &stored.first {
-        note.interpretations = first.interpretations.len();
-        note.trials = first.trials;
-        note.stale = first.stale(&choices.now);
-        if note.stale.is_empty() {
-            note.fits = choices.fits(first, &classes);
-        }
-    }
-    if let Some(second) = &stored.second {
-        note.second_seed = true;
-        note.second_stale = second.stale(&choices.now);
-    }
+    let mut note = note(&choices, stored, &outcomes);
     for judged in &mut verdicts.claims {
-        let second = stored.second.as_ref().filter(|second| second.is_current(&choices.now, &judged.claim));
-        let own = second.and_then(|second| second.result(&judged.claim, 0));
-        judged.second = own.filter(|own| own.sight == glance::Sight::Looked).map(|own| own.class);
-        let first = stored.first.as_ref().filter(|first| first.is_current(&choices.now, &judged.claim));
-        let Some(first) = first else { continue };
-        let counted = choices.counted(paper, first, &judged.claim, &classes);
-        note.none_compatible |= counted.none_compatible;
-        if let Some(mut across) = across(&choices, first, second, judged, &counted) {
-            let is_asked = paper.asks_over_interpretations(&judged.claim);
-            across.range = is_asked.then(|| range(first, judged, &counted)).flatten();
-            judged.verdict = across.class;
-            judged.across = Some(across);
-        }
+        let Some(claim) = paper.claim(&judged.claim) else { continue };
+        let second = stored.second.as_ref().filter(|second| second.is_current(&choices.now, &claim.id));
+        let first = stored.first.as_ref().filter(|first| first.is_current(&choices.now, &claim.id));
+        let of_claim = OfClaim { paper, choices: &choices, claim, first, second };
+        note.none_compatible |= of_claim.judge(judged, &outcomes);
     }
+    apply_meanings(paper, verdicts);
     if let Some(first) = stored.first.as_ref().filter(|_| note.stale.is_empty()) {
         let sets = [&verdicts.together[..], &first.together[..]].concat();
         verdicts.together = greatest(sets);
@@ -85,46 +72,204 @@ pub fn apply(paper: &Paper, verdicts: &mut Verdicts, stored: &Stored) {
     }
 }
 
-/// What the interpretations make of one claim; none if it was looked at under none but the default.
-fn across(
-    choices: &VotingChoices,
-    first: &Exploration,
-    second: Option<&Exploration>,
-    judged: &ClaimVerdict,
-    counted: &Counted,
-) -> Option<Across> {
-    if judged.theorem.is_some() || counted.looked < 2 {
+/// What of the interpretations was explored.
+fn note(choices: &VotingChoices, stored: &Stored, outcomes: &BTreeMap<String, Outcome>) -> Explored {
+    let mut note = Explored::default();
+    if let Some(first) = &stored.first {
+        note.interpretations = first.interpretations.len();
+        note.trials = first.trials;
+        note.stale = first.stale(&choices.now);
+        note.refused = refused(choices, first);
+        if note.stale.is_empty() {
+            note.fits = choices.fits(first, outcomes);
+        }
+    }
+    if let Some(second) = &stored.second {
+        note.second_seed = true;
+        note.second_stale = second.stale(&choices.now);
+    }
+    note
+}
+
+/// Gives sentences that mean one of their parts the verdict that these make.
+fn apply_meanings(paper: &Paper, verdicts: &mut Verdicts) {
+    let meant: Vec<_> = paper.claims.iter().filter_map(|claim| meaning(claim, verdicts)).collect();
+    for (id, verdict, said) in meant {
+        let Some(judged) = verdicts.claims.iter_mut().find(|judged| judged.claim == id) else { continue };
+        judged.verdict = verdict;
+        (judged.said, judged.depends_on) = (said.beside, said.depends_on);
+        let settles = meanings_settle(judged.verdict, judged.depends_on.as_deref());
+        match &mut judged.across {
+            Some(across) => across.settles = settles,
+            None => judged.findings.iter_mut().for_each(|finding| finding.settles.clone_from(&settles)),
+        }
+    }
+}
+
+/// A claim with what is stored of it.
+struct OfClaim<'a> {
+    paper: &'a Paper,
+    choices: &'a VotingChoices,
+    claim: &'a Claim,
+    /// Its interpretations, explored, if that is not stale.
+    first: Option<&'a Exploration>,
+    /// The same on the second seed.
+    second: Option<&'a Exploration>,
+}
+
+impl OfClaim<'_> {
+    /// Gives `judged` its verdict; says whether no voting interpretation is compatible.
+    fn judge(&self, judged: &mut ClaimVerdict, outcomes: &BTreeMap<String, Outcome>) -> bool {
+        let touched = Touched::of(self.paper, self.claim);
+        self.look_at_seeds(judged, &touched);
+        if judged.theorem.is_none() {
+            judged.not_varied = self.not_varied(&touched);
+        }
+        let explored = self.first.filter(|_| judged.theorem.is_none());
+        let counted = explored.map(|first| self.choices.counted(self.paper, first, &self.claim.id, outcomes));
+        let none_compatible = counted.as_ref().is_some_and(|counted| counted.none_compatible);
+        let both = explored.zip(counted.filter(|counted| counted.looked > 1));
+        let (explored, counted) =
+            both.map_or_else(|| (None, alone(judged)), |(first, counted)| (Some(first), counted));
+        let votes = explored.map_or_else(
+            || vec![judged.outcome],
+            |first| counted_as(first, self.second, judged, &counted.groups),
+        );
+        let is_counted = counted.groups.iter().any(|group| group.interpretations.contains(&0));
+        let default = if is_counted { judged.outcome.polarity() } else { Polarity::Open };
+        let again = judged.second.map_or(Polarity::Open, Outcome::polarity);
+        let results = Results {
+            outcomes: &votes,
+            default,
+            second: if judged.is_seedless { default } else { again },
+            chosen: judged.chosen,
+            states_size: touched.states_size(),
+            is_unvaried: !judged.not_varied.is_empty(),
+        };
+        let id = &self.claim.id;
+        let view = View { choices: self.choices, first: explored, id, counted: &counted, results: &results };
+        self.say(judged, &view);
+        none_compatible
+    }
+
+    /// Gives `judged` its outcome on the second seed, and whether a seed moves anything.
+    fn look_at_seeds(&self, judged: &mut ClaimVerdict, touched: &Touched<'_>) {
+        let own = self.second.and_then(|second| second.result(&self.claim.id, 0));
+        judged.second = own.filter(|own| own.sight == glance::Sight::Looked).map(|own| own.outcome);
+        let is_moved = judged.second.is_some_and(|second| second != judged.outcome);
+        judged.is_seedless = !is_moved && touched.instances_nothing(self.paper);
+    }
+
+    /// Gives `judged` the verdict of its results, with what stands beside it.
+    fn say(&self, judged: &mut ClaimVerdict, view: &View<'_>) {
+        let (verdict, line) = view.results.verdict();
+        let Said { beside, depends_on } = view.said(line);
+        let is_bearing = !matches!(line, Line::Proved | Line::Lacking);
+        let unvaried = said::not_varied(&judged.not_varied).filter(|_| is_bearing);
+        let beside = judged.possible().map(str::to_owned).or(beside);
+        judged.said = beside.into_iter().chain(unvaried).reduce(|one, two| format!("{one}; {two}"));
+        (judged.verdict, judged.depends_on) = (verdict, depends_on);
+        judged.across = view.first.map(|first| self.across(first, judged, view, line));
+    }
+
+    /// The interpretations that touch the claim, of which no other option than the default was looked at.
+    fn not_varied(&self, touched: &Touched<'_>) -> Vec<String> {
+        let is_varied = |choice: &Choice| {
+            self.first.is_some_and(|first| {
+                let is_other = |place: &usize| {
+                    let option = VotingChoices::option(choice, &first.interpretations[*place]);
+                    option != choice.default && choice.votes(option)
+                };
+                let is_seen = |place: &usize| {
+                    let result = first.result(&self.claim.id, *place);
+                    result.is_some_and(|result| result.sight != glance::Sight::Unexplored)
+                };
+                (0..first.interpretations.len()).filter(is_other).any(|place| is_seen(&place))
+            })
+        };
+        let choices = self.choices.choices.iter().filter(|choice| touched.is_touched_by(choice));
+        let is_missed = |choice: &&Choice| touched.is_without(self.paper, choice) || !is_varied(choice);
+        choices.filter(is_missed).map(|choice| choice.id.clone()).collect()
+    }
+
+    /// What the interpretations make of the claim.
+    fn across(&self, first: &Exploration, judged: &ClaimVerdict, view: &View<'_>, line: Line) -> Across {
+        let counted = view.counted;
+        let votes = view.results.outcomes;
+        let [holds, open, fails] = view.results.counts();
+        let is_other = |(vote, group): &(&Outcome, &Group)| **vote != group.outcome;
+        let named = |place: &usize| {
+            let options = first.interpretations[*place].iter().map(|(id, option)| format!("{id} = {option}"));
+            options.collect::<Vec<_>>().join(", ")
+        };
+        let is_asked = self.paper.asks_over_interpretations(&judged.claim);
+        let mut across = Across {
+            settles: None,
+            counted: votes.len(),
+            looked: counted.looked,
+            holds,
+            open,
+            fails,
+            unconfirmed: votes.iter().zip(&counted.groups).filter(is_other).count(),
+            not_looked_at: counted.not_looked_at,
+            incompatible: counted.incompatible,
+            none_compatible: counted.none_compatible,
+            refused: counted.refused.iter().map(named).collect(),
+            range: is_asked.then(|| range(first, judged, counted)).flatten(),
+            effects: effects::effects(self.choices, first, &judged.claim, judged.outcome),
+            probes: effects::probes(self.choices, first, &judged.claim, judged.outcome),
+        };
+        across.settles = across_settles(&across, judged, line);
+        across
+    }
+}
+
+/// The default alone, as the one result that counts.
+fn alone(judged: &ClaimVerdict) -> Counted {
+    let only = Group { interpretation: 0, interpretations: vec![0], outcome: judged.outcome };
+    Counted { groups: vec![only], looked: 1, ..Counted::default() }
+}
+
+/// The verdict of a sentence that means one of its parts, from theirs, with what stands beside it; `None` of any other claim.
+fn meaning(claim: &Claim, verdicts: &Verdicts) -> Option<(String, Verdict, Said)> {
+    let Parts::MeansOneOf(ids) = &claim.parts else { return None };
+    if claim.untestable.is_some() || claim.tests().next().is_some() {
         return None;
     }
-    let votes = counted_as(first, second, &judged.claim, &counted.groups);
-    let class = combine::combined(&votes, counted.is_existential);
-    let count = |wanted| votes.iter().filter(|vote| vote.polarity() == wanted).count();
-    let said = if counted.is_of_defaults && votes.len() == 1 {
-        "asked under the defaults alone".to_owned()
-    } else {
-        hangs::summary(choices, first, &judged.claim, &counted.groups, &votes, class, counted.is_existential)
+    let parts: Vec<&ClaimVerdict> = ids.iter().filter_map(|id| verdicts.claim(id)).collect();
+    let verdict = of_meanings(&parts.iter().map(|part| part.verdict).collect::<Vec<_>>());
+    let said: Vec<String> =
+        parts.iter().map(|part| format!("`{}` {}", part.claim, part.verdict_said())).collect();
+    let weakest = parts.iter().find(|part| part.verdict == verdict);
+    let on = weakest.and_then(|part| part.depends_on.clone()).unwrap_or_else(|| MEANT.to_owned());
+    let depends_on = (verdict == Verdict::Depends).then_some(on);
+    Some((
+        claim.id.clone(),
+        verdict,
+        Said { beside: Some(format!("meanings: {}", said.join(", "))), depends_on },
+    ))
+}
+
+/// The share of refused paths from which on it is said of an option.
+const REFUSED: f64 = 0.05;
+
+/// The options by themselves under which the verifier refuses many of the paths that some claim looks at, with the greatest share.
+fn refused(choices: &VotingChoices, first: &Exploration) -> Vec<String> {
+    let share = |place: usize| {
+        let results = first.claims.keys().filter_map(|id| first.result(id, place));
+        results.map(|result| result.refused).fold(0.0, f64::max)
     };
-    let unconfirmed = votes.iter().zip(&counted.groups).filter(|(vote, group)| **vote != group.class).count();
-    let mut across = Across {
-        class,
-        default: judged.verdict,
-        said,
-        settles: None,
-        counted: votes.len(),
-        looked: counted.looked,
-        holds: count(Polarity::For),
-        open: count(Polarity::Open),
-        fails: count(Polarity::Against),
-        unconfirmed,
-        not_looked_at: counted.not_looked_at,
-        incompatible: counted.incompatible,
-        none_compatible: counted.none_compatible,
-        range: None,
-        effects: effects::effects(choices, first, &judged.claim, judged.verdict),
-        probes: effects::probes(choices, first, &judged.claim, judged.verdict),
+    let of_option = |(choice, option): (&Choice, &String)| {
+        let place = first.place(&BTreeMap::from([(choice.id.clone(), option.clone())]))?;
+        // What the defaults refuse as well is no matter of the option.
+        let own = share(place);
+        let default = share(0);
+        (own > REFUSED && own > 2.0 * default && choice.votes(option))
+            .then(|| format!("{} = {option} ({:.0} %)", choice.id, 100.0 * own))
     };
-    across.settles = interpretations_settle(&across);
-    Some(across)
+    let options =
+        choices.choices.iter().flat_map(|choice| choice.options.keys().map(move |option| (choice, option)));
+    options.filter_map(of_option).collect()
 }
 
 /// The least and the greatest of our numbers beside a claim over the interpretations that count; the default run's stands for its own.
@@ -139,22 +284,30 @@ fn range(first: &Exploration, judged: &ClaimVerdict, counted: &Counted) -> Optio
     Some([end(f64::min)?, end(f64::max)?])
 }
 
-/// What each result counts as for the claim called `id`: a class that speaks against most of them is open unless the second
-/// seed says so too.
-fn counted_as(first: &Exploration, second: Option<&Exploration>, id: &str, groups: &[Group]) -> Vec<Verdict> {
+/// What each result of a claim counts as: an outcome that speaks against most of them is open unless the second seed says so too,
+/// where a seed moves anything.
+fn counted_as(
+    first: &Exploration,
+    second: Option<&Exploration>,
+    judged: &ClaimVerdict,
+    groups: &[Group],
+) -> Vec<Outcome> {
     combine::confirmed(groups, |group| {
+        if judged.is_seedless {
+            return Some(group.outcome);
+        }
         let second = second?;
         let interpretation = second.place(&first.interpretations[group.interpretation])?;
-        second.result(id, interpretation).map(|result| result.class)
+        second.result(&judged.claim, interpretation).map(|result| result.outcome)
     })
 }
 
-/// The class of every claim under the default interpretation, by id.
-fn default_classes(verdicts: &Verdicts) -> BTreeMap<String, Verdict> {
-    verdicts.claims.iter().map(|judged| (judged.claim.clone(), judged.alone())).collect()
+/// The outcome of every claim under the default interpretation, by id.
+fn default_outcomes(verdicts: &Verdicts) -> BTreeMap<String, Outcome> {
+    verdicts.claims.iter().map(|judged| (judged.claim.clone(), judged.outcome)).collect()
 }
 
-/// The interpretations, by their places in `first`, whose classes a second seed must confirm: those that speak against what most
+/// The interpretations, by their places in `first`, whose outcomes a second seed must confirm: those that speak against what most
 /// interpretations say of some claim.
 pub fn to_confirm(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> BTreeSet<usize> {
     turned(paper, verdicts, first, |groups| combine::flips(groups).into_iter().collect())
@@ -164,8 +317,8 @@ pub fn to_confirm(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> BT
 /// do not, and those that turn one.
 pub fn near_a_flip(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> BTreeSet<usize> {
     turned(paper, verdicts, first, |groups| {
-        let speaks = groups.iter().any(|group| group.class.polarity() != Polarity::Open);
-        let open = groups.iter().filter(|group| speaks && group.class.polarity() == Polarity::Open);
+        let speaks = groups.iter().any(|group| group.outcome.polarity() != Polarity::Open);
+        let open = groups.iter().filter(|group| speaks && group.outcome.polarity() == Polarity::Open);
         open.chain(combine::flips(groups)).collect()
     })
 }
@@ -173,7 +326,7 @@ pub fn near_a_flip(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> B
 /// The interpretations, by their places in `first`, that vote and are compatible with what the studies were fitted to; all that vote
 /// if none is, and the defaults.
 pub fn compatible(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> BTreeSet<usize> {
-    VotingChoices::new(paper).fitting(first, &default_classes(verdicts)).into_iter().chain([0]).collect()
+    VotingChoices::new(paper).fitting(first, &default_outcomes(verdicts)).into_iter().chain([0]).collect()
 }
 
 fn turned(
@@ -183,10 +336,10 @@ fn turned(
     which: impl Fn(&[Group]) -> Vec<&Group>,
 ) -> BTreeSet<usize> {
     let choices = VotingChoices::new(paper);
-    let classes = default_classes(verdicts);
+    let outcomes = default_outcomes(verdicts);
     let whole = verdicts.claims.iter().filter(|judged| judged.theorem.is_none());
     let of_claim = |judged: &ClaimVerdict| {
-        let counted = choices.counted(paper, first, &judged.claim, &classes);
+        let counted = choices.counted(paper, first, &judged.claim, &outcomes);
         which(&counted.groups).into_iter().map(|group| group.interpretation).collect::<Vec<_>>()
     };
     whole.flat_map(of_claim).collect()

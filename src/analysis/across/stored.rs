@@ -1,7 +1,7 @@
 //! What exploring a paper's choices found: a row for every claim and result, under the interpretations that give it.
 
 use super::super::claims::claim_hash;
-use super::super::class::Verdict;
+use super::super::outcome::Outcome;
 use super::super::verdict::Together;
 use super::glance::{Glance, Sight};
 use base::hash::sha256;
@@ -62,8 +62,9 @@ pub struct ExploredClaim {
 pub struct ExploredResult {
     /// The interpretations, by their places.
     pub interpretations: Vec<usize>,
-    /// The class.
-    pub class: Verdict,
+    /// The outcome.
+    #[serde(alias = "class")]
+    pub outcome: Outcome,
     /// Whether that says something.
     pub sight: Sight,
     /// Our number.
@@ -75,8 +76,16 @@ pub struct ExploredResult {
     /// Of how many instances.
     #[serde(default)]
     pub n: usize,
+    /// The share of paths that the verifier refuses.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub refused: f64,
     /// A hash of the trials' results.
     pub results: String,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks with a reference")]
+fn is_zero(share: &f64) -> bool {
+    *share == 0.0
 }
 
 /// What stands before the hash of all that follows, in a file's first line.
@@ -243,11 +252,12 @@ impl ExploredResult {
     fn new(glance: &Glance) -> Self {
         let mut result = Self {
             interpretations: Vec::new(),
-            class: glance.class,
+            outcome: glance.outcome,
             sight: glance.sight,
             value: None,
             interval: None,
             n: 0,
+            refused: 0.0,
             results: glance.results.clone(),
         };
         result.set(glance);
@@ -255,7 +265,8 @@ impl ExploredResult {
     }
 
     fn set(&mut self, glance: &Glance) {
-        (self.class, self.sight) = (glance.class, glance.sight);
+        (self.outcome, self.sight) = (glance.outcome, glance.sight);
+        self.refused = shown(glance.refused);
         self.value = glance.ours.map(|(value, ..)| shown(value)).filter(|value| value.is_finite());
         let interval = glance.ours.and_then(|(_, interval, _)| interval);
         self.interval =

@@ -1,103 +1,62 @@
-use super::super::class::Polarity;
-use super::super::class::Verdict::{
-    self, Attainable, Impossible, NotReproduced, Reproduced, Undecided, Untestable,
-};
-use super::combine::{combined, confirmed, flips};
-use super::count::{Group, VotingChoices};
+use super::super::outcome::Outcome::{self, Fails, Holds, Open};
+use super::super::verdict_rule::{Results, Verdict};
+use super::combine::{confirmed, flips};
+use super::count::{Counted, Group, VotingChoices};
 use super::glance::{Glance, Sight};
-use super::hangs::summary;
+use super::said::View;
 use super::stored::{Exploration, ExploredClaim, ExploredResult, Now, results};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use study::Choice;
 use study::spec::OptionSpec;
 
-fn groups(classes: &[Verdict]) -> Vec<Group> {
-    let group = |(interpretation, class): (usize, &Verdict)| Group {
+fn groups(outcomes: &[Outcome]) -> Vec<Group> {
+    let group = |(interpretation, outcome): (usize, &Outcome)| Group {
         interpretation,
         interpretations: vec![interpretation],
-        class: *class,
+        outcome: *outcome,
     };
-    classes.iter().enumerate().map(group).collect()
+    outcomes.iter().enumerate().map(group).collect()
 }
 
-/// So many of each class.
-fn many(classes: &[(usize, Verdict)]) -> Vec<Verdict> {
-    classes.iter().flat_map(|(count, class)| std::iter::repeat_n(*class, *count)).collect()
+/// So many of each outcome.
+fn many(outcomes: &[(usize, Outcome)]) -> Vec<Outcome> {
+    outcomes.iter().flat_map(|(count, outcome)| std::iter::repeat_n(*outcome, *count)).collect()
 }
 
-/// Every pair of classes.
-fn pairs() -> impl Iterator<Item = [Verdict; 2]> {
-    Verdict::ALL.into_iter().flat_map(|one| Verdict::ALL.into_iter().map(move |two| [one, two]))
-}
-
-#[test]
-fn two_results_decide_only_where_both_speak_one_way() {
-    for pair in pairs() {
-        let all = combined(&pair, false);
-        assert_eq!(all, combined(&[pair[1], pair[0]], false), "{pair:?}: the order does not count");
-        let expected = match pair.map(Verdict::polarity) {
-            [Polarity::For, Polarity::For] => pair[0].max(pair[1]),
-            [Polarity::Against, Polarity::Against] if pair == [Impossible; 2] => Impossible,
-            [Polarity::Against, Polarity::Against] => NotReproduced,
-            _ if pair == [Untestable; 2] => Untestable,
-            _ => Undecided,
-        };
-        assert_eq!(all, expected, "{pair:?}");
-    }
-    assert_eq!(combined(&[], false), Undecided);
+/// The verdict of these results, each confirmed on the second seed by `second`.
+fn verdict(found: &[Group], second: Option<Outcome>) -> Verdict {
+    let outcomes = confirmed(found, |_| second);
+    let default = found[0].outcome.polarity();
+    let chosen = None;
+    let states_size = false;
+    let is_unvaried = false;
+    let second = default;
+    Results { outcomes: &outcomes, default, second, chosen, states_size, is_unvaried }.verdict().0
 }
 
 #[test]
-fn nine_tenths_decide_against_what_is_open_and_nothing_does_against_what_speaks_the_other_way() {
-    for [most, rest] in pairs().filter(|[most, rest]| most.polarity() != rest.polarity()) {
-        let of = |count| combined(&many(&[(count, most), (1, rest)]), false);
-        let is_open = most.polarity() == Polarity::Open || rest.polarity() != Polarity::Open;
-        let expected = if is_open { Polarity::Open } else { most.polarity() };
-        assert_eq!(of(9).polarity(), expected, "nine {most:?}, one {rest:?}");
-        assert_eq!(of(8), Undecided, "eight {most:?}, one {rest:?}");
-        assert!(of(9) != Impossible, "{rest:?} is no proof");
-    }
-}
-
-#[test]
-fn of_two_results_the_stronger_witness_makes_an_existential_claim() {
-    for pair in pairs() {
-        let witnesses = pair.into_iter().filter(|class| class.polarity() == Polarity::For);
-        let expected = witnesses.min().unwrap_or_else(|| combined(&pair, false));
-        assert_eq!(combined(&pair, true), expected, "{pair:?}");
-    }
-}
-
-#[test]
-fn one_witness_makes_an_existential_claim_and_none_leaves_it_open() {
-    assert_eq!(combined(&many(&[(43, Undecided), (1, Attainable)]), true), Attainable);
-    assert_eq!(combined(&many(&[(43, Undecided), (1, Attainable)]), false), Undecided);
-    assert_eq!(combined(&many(&[(44, Undecided)]), true), Undecided);
-}
-
-#[test]
-fn noise_among_a_hundred_readings_does_not_flip_a_class() {
-    let found = groups(&many(&[(60, Reproduced), (3, NotReproduced), (37, Reproduced)]));
+fn noise_among_a_hundred_readings_does_not_turn_a_verdict() {
+    let found = groups(&many(&[(60, Holds), (3, Fails), (37, Holds)]));
     assert_eq!(flips(&found).iter().map(|flip| flip.interpretation).collect::<Vec<_>>(), [60, 61, 62]);
-    let by_second = |second: Option<Verdict>| combined(&confirmed(&found, |_| second), false);
-    assert_eq!(by_second(Some(Reproduced)), Reproduced);
-    assert_eq!(by_second(Some(Undecided)), Reproduced);
-    assert_eq!(by_second(None), Reproduced);
-    // What turns twice is no noise.
-    assert_eq!(by_second(Some(NotReproduced)), Undecided);
-    // Nor is noise what many interpretations show: unconfirmed they leave it open.
-    let found = groups(&many(&[(30, Reproduced), (20, NotReproduced)]));
-    assert_eq!(combined(&confirmed(&found, |_| None), false), Undecided);
+    for second in [Some(Holds), Some(Open), None] {
+        assert_eq!(confirmed(&found, |_| second).iter().filter(|one| **one == Open).count(), 3, "{second:?}");
+        assert_eq!(verdict(&found, second), Verdict::Reproduced, "{second:?}");
+    }
+    assert_eq!(confirmed(&found, |_| Some(Fails)).iter().filter(|one| **one == Fails).count(), 3);
+    // What turns twice is no noise, and neither is what many interpretations show.
+    let found = groups(&many(&[(30, Holds), (20, Fails)]));
+    assert_eq!(verdict(&found, Some(Fails)), Verdict::Depends);
+    assert_eq!(verdict(&found, None), Verdict::Supported);
 }
 
 #[test]
 fn what_stands_alone_against_most_must_be_confirmed_whichever_way_it_speaks() {
-    let found = groups(&many(&[(1, Reproduced), (19, NotReproduced)]));
+    let found = groups(&many(&[(1, Holds), (8, Fails)]));
     assert_eq!(flips(&found).iter().map(|flip| flip.interpretation).collect::<Vec<_>>(), [0]);
-    assert_eq!(combined(&confirmed(&found, |_| None), false), NotReproduced);
-    assert_eq!(combined(&confirmed(&found, |_| Some(Reproduced)), false), Undecided);
-    assert!(flips(&groups(&many(&[(9, NotReproduced), (3, Undecided)]))).is_empty());
+    assert_eq!(confirmed(&found, |_| None)[0], Open);
+    assert_eq!(confirmed(&found, |_| Some(Holds))[0], Holds);
+    assert!(flips(&groups(&many(&[(9, Fails), (3, Open)]))).is_empty());
 }
 
 /// Choices with these defaults.
@@ -116,154 +75,172 @@ fn choices(defaults: &[(&str, &str)]) -> VotingChoices {
     VotingChoices { choices, calibration: BTreeSet::new(), now: Now::default() }
 }
 
-/// A class under the interpretation at `place`.
-fn result((place, class): (usize, &Verdict)) -> ExploredResult {
+/// An outcome under the interpretation at `place`.
+fn result((place, outcome): (usize, &Outcome)) -> ExploredResult {
     ExploredResult {
         interpretations: vec![place],
-        class: *class,
+        outcome: *outcome,
         sight: Sight::Looked,
         value: None,
         interval: None,
         n: 1,
+        refused: 0.0,
         results: place.to_string(),
     }
 }
 
-/// What a claim hangs on that holds with two options together and fails under the default and one of them alone; `alone` is
-/// its class under the other alone, which does not count.
-fn hangs_on(alone: Verdict) -> String {
-    let choices = choices(&[("corners", "allow"), ("ties", "fifo")]);
-    let interpretation = |options: &[(&str, &str)]| {
-        options.iter().map(|(id, option)| ((*id).to_owned(), (*option).to_owned())).collect()
-    };
-    let forbid = ("corners", "forbid");
-    let lifo = ("ties", "lifo");
-    let classes = [NotReproduced, alone, NotReproduced, Reproduced];
-    let results = classes.iter().enumerate().map(result).collect();
-    let claim = ExploredClaim { results, ..ExploredClaim::default() };
-    let first = Exploration {
-        interpretations: vec![
-            interpretation(&[]),
-            interpretation(&[forbid]),
-            interpretation(&[lifo]),
-            interpretation(&[forbid, lifo]),
-        ],
-        claims: BTreeMap::from([("fewer".to_owned(), claim)]),
-        ..Exploration::default()
-    };
-    let counted: Vec<Group> =
-        groups(&classes).into_iter().filter(|group| group.interpretation != 1).collect();
-    let votes: Vec<Verdict> = counted.iter().map(|group| group.class).collect();
-    summary(&choices, &first, "fewer", &counted, &votes, Undecided, false)
+/// What an exploration found of `fewer` under interpretations that take these options of `choices`, each with its outcome; every option is
+/// cited.
+struct Planted {
+    choices: VotingChoices,
+    first: Exploration,
+    groups: Vec<Group>,
 }
 
-#[test]
-fn a_claim_hangs_on_an_axis_alone_only_if_its_option_alone_decides() {
-    assert_eq!(hangs_on(Reproduced), "hangs on corners: reproduced if forbid (1 of 3)");
-    for alone in [NotReproduced, Undecided] {
-        assert_eq!(
-            hangs_on(alone),
-            "hangs on corners and others: reproduced under 1 of 3 (allow 0 of 2, forbid 1 of 1)"
-        );
-    }
-}
-
-#[test]
-fn a_claim_does_not_hang_on_an_axis_whose_options_bring_the_same_alone() {
-    let of = |options: &[(&str, &str)]| -> BTreeMap<String, String> {
-        options.iter().map(|(id, option)| ((*id).to_owned(), (*option).to_owned())).collect()
-    };
-    let rim = ("sets", "rim");
-    let never = ("update", "never");
-    // The sets part what counts as well as the update does; by themselves they change nothing.
-    let interpretations = vec![of(&[]), of(&[rim]), of(&[never]), of(&[rim, never])];
-    let said_of = |sets_alone: &str| {
-        let mut results: Vec<ExploredResult> =
-            [Reproduced, Reproduced, NotReproduced, NotReproduced].iter().enumerate().map(result).collect();
-        results[1].results = sets_alone.to_owned();
-        let claim = ExploredClaim { results, ..ExploredClaim::default() };
-        let first = Exploration {
-            interpretations: interpretations.clone(),
-            claims: BTreeMap::from([("fewer".to_owned(), claim)]),
-            ..Exploration::default()
-        };
-        let mut choices = choices(&[("sets", "all"), ("update", "lowered")]);
-        for (choice, other) in choices.choices.iter_mut().zip(["rim", "never"]) {
-            let cited = OptionSpec { practice: Some("a handbook".to_owned()), ..OptionSpec::default() };
-            let names = [choice.default.clone(), other.to_owned()];
-            choice.options = names.map(|name| (name, Arc::new(cited.clone()))).into();
+impl Planted {
+    fn new(defaults: &[(&str, &str)], found: &[(&[&str], Outcome)]) -> Self {
+        let mut choices = choices(defaults);
+        let mut interpretations = Vec::new();
+        for (options, _) in found {
+            let mut interpretation = BTreeMap::new();
+            for (choice, option) in choices.choices.iter_mut().zip(*options) {
+                let cited = OptionSpec { practice: Some("a handbook".to_owned()), ..OptionSpec::default() };
+                choice.options.insert((*option).to_owned(), Arc::new(cited));
+                if *option != choice.default {
+                    interpretation.insert(choice.id.clone(), (*option).to_owned());
+                }
+            }
+            interpretations.push(interpretation);
         }
-        let counted = [(0, Reproduced), (3, NotReproduced)];
-        let counted = counted.map(|(interpretation, class)| Group {
-            interpretation,
-            interpretations: vec![interpretation],
-            class,
-        });
-        summary(&choices, &first, "fewer", &counted, &[Reproduced, NotReproduced], Undecided, false)
-    };
-    // They move no result, or move it and not its class.
-    for sets_alone in ["0", "1"] {
-        assert_eq!(said_of(sets_alone), "hangs on update: reproduced if lowered (1 of 2)", "{sets_alone}");
+        let outcomes: Vec<Outcome> = found.iter().map(|(_, outcome)| *outcome).collect();
+        let results = outcomes.iter().enumerate().map(result).collect();
+        let claim = ExploredClaim { results, ..ExploredClaim::default() };
+        let claims = BTreeMap::from([("fewer".to_owned(), claim)]);
+        let first = Exploration { interpretations, claims, ..Exploration::default() };
+        Self { choices, first, groups: groups(&outcomes) }
+    }
+
+    /// What stands beside the verdict, and on what it depends.
+    fn said(&self) -> (String, Option<String>) {
+        let outcomes: Vec<Outcome> = self.groups.iter().map(|group| group.outcome).collect();
+        let looked = self.groups.iter().map(|group| group.interpretations.len()).sum();
+        let counted = Counted { groups: self.groups.clone(), looked, ..Counted::default() };
+        let default = outcomes[0].polarity();
+        let chosen = None;
+        let states_size = false;
+        let is_unvaried = false;
+        let results =
+            Results { outcomes: &outcomes, default, second: default, chosen, states_size, is_unvaried };
+        let (_, line) = results.verdict();
+        let view = View {
+            choices: &self.choices,
+            first: Some(&self.first),
+            id: "fewer",
+            counted: &counted,
+            results: &results,
+        };
+        let said = view.said(line);
+        (said.beside.unwrap_or_default(), said.depends_on)
     }
 }
 
-#[test]
-fn a_claim_does_not_hang_on_one_axis_where_another_brings_the_same_result() {
-    let of = |id: &str, option: &str| BTreeMap::from([(id.to_owned(), option.to_owned())]);
-    let classes = [NotReproduced, Reproduced, Reproduced];
-    let claim = ExploredClaim {
-        results: classes.iter().enumerate().map(result).collect(),
-        ..ExploredClaim::default()
-    };
-    let first = Exploration {
-        interpretations: vec![BTreeMap::new(), of("shape", "triangle"), of("hops", "swept")],
-        claims: BTreeMap::from([("free".to_owned(), claim)]),
-        ..Exploration::default()
-    };
-    let choices = choices(&[("shape", "circle"), ("hops", "ends")]);
-    let said_of =
-        |interpretations: Vec<usize>| {
-            let counted =
-                [(vec![0], NotReproduced), (interpretations, Reproduced)].map(|(interpretations, class)| {
-                    Group { interpretation: interpretations[0], interpretations, class }
-                });
-            summary(&choices, &first, "free", &counted, &[NotReproduced, Reproduced], Undecided, false)
-        };
-    assert_eq!(said_of(vec![1]), "hangs on shape: reproduced if triangle (1 of 2)");
-    let of_both = said_of(vec![1, 2]);
-    assert!(of_both.contains(" and others: reproduced under 1 of 2"), "{of_both}");
+/// Two choices whose outcomes `of` says for every combination of their three options.
+fn product(of: impl Fn(&str, &str) -> Outcome) -> Planted {
+    let names = ["a", "b", "c"];
+    let both: Vec<[&str; 2]> = names.iter().flat_map(|one| names.map(|two| [*one, two])).collect();
+    let found: Vec<(&[&str], Outcome)> = both.iter().map(|pair| (&pair[..], of(pair[0], pair[1]))).collect();
+    Planted::new(&[("corners", "a"), ("ties", "a")], &found)
 }
 
 #[test]
-fn an_axis_of_many_options_does_not_win_by_parting_few_results_each() {
-    // Six results: each under an order of its own, two sides, and one exception to what the side says.
-    let of = |(order, side): (&str, &str)| -> BTreeMap<String, String> {
-        let own = [("order", order), ("side", side)].into_iter().filter(|(_, option)| *option != "a");
-        own.map(|(id, option)| (id.to_owned(), option.to_owned())).collect()
+fn a_planted_rule_of_one_option_is_named_from_either_side() {
+    let against = product(|corners, _| if corners == "b" { Fails } else { Holds });
+    let expected = "6/0/3 for/open/against; contradicted only if corners = b (3 of 3)";
+    assert_eq!(against.said(), (expected.to_owned(), Some("corners".to_owned())));
+    let held = product(|_, ties| if ties == "a" { Holds } else { Fails });
+    let expected = "3/0/6 for/open/against; holds only if ties = a (3 of 3)";
+    assert_eq!(held.said(), (expected.to_owned(), Some("ties".to_owned())));
+}
+
+#[test]
+fn a_planted_rule_of_two_options_is_named_where_neither_alone_is_exact() {
+    let both = product(|corners, ties| if corners == "b" && ties == "c" { Fails } else { Holds });
+    // One of nine results is not a tenth: nine tenths would be reproduced with an exception.
+    let expected = "8/0/1 for/open/against; contradicted only if corners = b and ties = c (1 of 1)";
+    assert_eq!(both.said(), (expected.to_owned(), Some("corners and ties".to_owned())));
+}
+
+#[test]
+fn an_option_that_all_contradicting_results_share_is_named_with_how_many_others_have_it() {
+    // The three that contradict share corners; with a third choice no pair of options is exact.
+    let found: [(&[&str], Outcome); 7] = [
+        (&["a", "a", "a"], Holds),
+        (&["b", "a", "a"], Holds),
+        (&["b", "b", "a"], Fails),
+        (&["b", "a", "b"], Fails),
+        (&["b", "b", "b"], Holds),
+        (&["a", "b", "a"], Holds),
+        (&["a", "a", "b"], Holds),
+    ];
+    let planted = Planted::new(&[("corners", "a"), ("ties", "a"), ("side", "a")], &found);
+    let expected = "5/0/2 for/open/against; contradicted only if corners = b (2 of 4)";
+    assert_eq!(planted.said(), (expected.to_owned(), Some("corners".to_owned())));
+}
+
+#[test]
+fn where_the_sides_share_no_option_a_combination_decides_and_the_best_axis_is_named() {
+    let either = product(|corners, ties| if (corners == "b") == (ties == "b") { Fails } else { Holds });
+    let (said, on) = either.said();
+    assert_eq!(on.as_deref(), Some("a combination"), "{said}");
+    assert!(
+        said.contains("corners separates best: contradicted under a 2 of 3, b 1 of 3, c 2 of 3"),
+        "{said}"
+    );
+}
+
+#[test]
+fn nothing_depends_on_an_axis_that_moves_nothing_alone() {
+    let mut idle = product(|_, ties| if ties == "b" { Fails } else { Holds });
+    // The corners give the same result alone; those that count happen to part by them as well.
+    for place in [3, 6] {
+        idle.first.claims.get_mut("fewer").unwrap().results[place].results = "0".to_owned();
+    }
+    idle.groups.retain(|group| [0, 4].contains(&group.interpretation));
+    assert_eq!(idle.said().1.as_deref(), Some("ties"));
+}
+
+#[test]
+fn a_result_stands_under_all_of_its_readings_and_not_under_the_first_alone() {
+    let mut planted = product(|corners, ties| if corners == "a" && ties == "a" { Fails } else { Holds });
+    let group = |interpretations: Vec<usize>, outcome| Group {
+        interpretation: interpretations[0],
+        interpretations,
+        outcome,
     };
-    let orders = [("a", "a"), ("b", "a"), ("c", "a"), ("d", "b"), ("e", "b"), ("f", "b"), ("f", "a")];
-    let classes = [Reproduced, Reproduced, Reproduced, NotReproduced, NotReproduced, Reproduced];
-    // Alone, the order of the exception does not bring it.
-    let all = [&classes[..], &[NotReproduced]].concat();
-    let results = all.iter().enumerate().map(result).collect();
-    let claim = ExploredClaim { results, ..ExploredClaim::default() };
-    let first = Exploration {
-        interpretations: orders.into_iter().map(of).collect(),
-        claims: BTreeMap::from([("fewer".to_owned(), claim)]),
-        ..Exploration::default()
-    };
-    let choices = choices(&[("order", "a"), ("side", "a")]);
-    let said = summary(&choices, &first, "fewer", &groups(&classes), &classes, Undecided, false);
-    assert_eq!(said, "hangs on side and others: reproduced under 4 of 6 (a 3 of 3, b 1 of 3)");
+    // The other corners bring it alone, and so do other ties.
+    planted.groups = vec![group(vec![0], Fails), group(vec![1, 3], Holds)];
+    assert_eq!(planted.said().1.as_deref(), Some("corners and ties"));
+    planted.groups = vec![group(vec![0], Fails), group(vec![3], Holds)];
+    assert_eq!(planted.said().1.as_deref(), Some("corners"));
+}
+
+#[test]
+fn exceptions_are_named_by_what_they_share_or_one_by_one() {
+    let open = product(|corners, ties| if corners == "c" && ties != "a" { Open } else { Holds });
+    assert_eq!(open.said().0, "7/2/0 for/open/against; all 2 exceptions have corners = c");
+    let apart = product(|corners, ties| if corners == ties && corners != "a" { Open } else { Holds });
+    let expected = "7/2/0 for/open/against; exceptions: corners = b, ties = b · corners = c, ties = c";
+    assert_eq!(apart.said().0, expected);
 }
 
 /// Of so many instances, whose trials these are.
-fn glance(class: Verdict, n: usize, results: &str) -> Glance {
+fn glance(outcome: Outcome, n: usize, results: &str) -> Glance {
     Glance {
-        class,
+        outcome,
         sight: Sight::Looked,
         existential: false,
         ours: Some((0.0, None, n)),
+        refused: 0.0,
         results: results.to_owned(),
         studies: BTreeSet::new(),
     }
@@ -271,10 +248,10 @@ fn glance(class: Verdict, n: usize, results: &str) -> Glance {
 
 #[test]
 fn readings_that_only_more_instances_tell_apart_are_two_results() {
-    let few = glance(NotReproduced, 30, "few");
-    let other = glance(NotReproduced, 30, "other");
-    let shorter = glance(Reproduced, 500, "shorter");
-    let equal = glance(NotReproduced, 500, "equal");
+    let few = glance(Fails, 30, "few");
+    let other = glance(Fails, 30, "other");
+    let shorter = glance(Holds, 500, "shorter");
+    let equal = glance(Fails, 500, "equal");
     let seen = [
         (0, &few, Some(&shorter)),
         (1, &few, Some(&equal)),
@@ -284,10 +261,9 @@ fn readings_that_only_more_instances_tell_apart_are_two_results() {
         (5, &few, Some(&shorter)),
     ];
     let found: Vec<_> =
-        results(&seen).into_iter().map(|one| (one.interpretations, one.class, one.n)).collect();
+        results(&seen).into_iter().map(|one| (one.interpretations, one.outcome, one.n)).collect();
     // What more instances did not look at stays with the first that few instances do not tell from it.
-    let expected =
-        [(vec![0, 2, 5], Reproduced, 500), (vec![1, 4], NotReproduced, 500), (vec![3], NotReproduced, 30)];
+    let expected = [(vec![0, 2, 5], Holds, 500), (vec![1, 4], Fails, 500), (vec![3], Fails, 30)];
     assert_eq!(found, expected);
     let names: BTreeSet<String> = results(&seen).into_iter().map(|one| one.results).collect();
     assert_eq!(names.len(), 3, "two results have one name: {names:?}");

@@ -1,11 +1,12 @@
 //! Whether a number is, on every trial, what an oracle says, or what another contender finds.
 
 use super::{Criterion, Entry};
-use crate::analysis::class::Outcome;
+use crate::analysis::censored;
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric::Metric;
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Case, Instance, Selection, cases, most_cases};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_INSTANCES, Share, plan};
@@ -19,7 +20,7 @@ use study::record::{Row, Status};
 pub static ENTRY: Entry = Entry {
     name: "equals",
     about: "is a metric, on every trial, what another metric or another contender says that it is?",
-    revision: 4,
+    revision: |_| 4,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
@@ -81,8 +82,7 @@ struct Tally<'e> {
     sums: [f64; 2],
     /// The first trial that is not the same.
     wrong: Option<&'e Row>,
-    /// Trials without a number that could be either: without an end or, held against another contender's, of which one side
-    /// alone has none.
+    /// Trials without an end, which could be either.
     unknown: usize,
     /// Trials that are not the same, of others.
     broken: usize,
@@ -104,8 +104,7 @@ impl Equals<'_> {
             for case in &instance.cases {
                 let pair = self.pair(run, case);
                 let is_known = pair.is_some_and(|(_, own)| own.is_finite());
-                let is_cut =
-                    !is_known && if self.truth.is_some() { case.is_unended() } else { case.is_censored() };
+                let is_cut = !is_known && case.is_unended();
                 all.unknown += usize::from(is_cut);
                 let Some((truth, own)) = pair else { continue };
                 let apart = (own - truth).abs();
@@ -153,6 +152,7 @@ impl Criterion for Equals<'_> {
             vec![format!("{}: {metric} is {truth} on {same} of {all} trials{apart}", self.of.description())];
         let refused = cases(&instances).filter(|case| case.row.status == Status::Rejected).count();
         because.extend((refused > 0).then(|| format!("{refused} of these paths the verifier refuses")));
+        because.extend(censored::outside(&instances).filter(|_| self.truth.is_none()));
         let ours = Share::new(&counts, most_cases(&instances), self.plan).map(|share| {
             let what = format!("trials on which {metric} is {truth}");
             share.estimate(&what).of_cases([same as usize, all as usize])

@@ -7,11 +7,11 @@ mod differs;
 mod ran_under;
 
 use super::{Criterion, Entry};
-use crate::analysis::class::Outcome;
 use crate::analysis::context::{CONTENDER_KEYS, Context};
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::{Evidence, Pair, Run, default_point};
 use crate::analysis::metric::Metric;
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection_spec::Labels;
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, Faults, SettingsError, none_called};
@@ -29,7 +29,7 @@ use study::{Interpretation, Study};
 pub static ENTRY: Entry = Entry {
     name: "exists",
     about: "does any stored trial meet the printed number exactly, where other named claims are met too?",
-    revision: 1,
+    revision: |_| 1,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 metric = "path_cost_cells"

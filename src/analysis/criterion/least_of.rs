@@ -4,12 +4,12 @@
 //! follows from one contender's steps including another's is stated and held against the runs, not estimated from them.
 
 use super::{Criterion, Entry};
-use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::inclusion::Inclusion;
 use crate::analysis::metric::Metric;
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Selection, is_unended};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{or_infinite, plan};
@@ -21,13 +21,13 @@ use stats::bootstrap::{self, Resampling};
 use stats::paired::EQUAL;
 use stats::summary::median;
 use std::collections::{BTreeMap, BTreeSet};
-use study::record::Row;
+use study::record::{Row, Status};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "least_of",
     about: "is a contender's median over seeds, failures infinite, below that of each other one on every problem?",
-    revision: 2,
+    revision: |_| 2,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = ["maps"], metric = "expansions" }
@@ -188,9 +188,20 @@ impl<'a> LeastOf<'a> {
         all
     }
 
-    /// What the comparisons say, if they are all that are asked for.
-    fn outcome(&self, all: &[Compared]) -> Outcome {
-        let is_complete = all.len() == self.pairs.len() * self.of.groups.len();
+    /// The problems that could be posed, or of which nothing ran; if none could, all of them.
+    fn posed(&self, run: &Run<'_>) -> Vec<&String> {
+        let labels = || self.pairs.iter().flat_map(|(low, high)| [low, high]);
+        let is_posed = |group: &&String| {
+            let mut rows = labels().flat_map(|label| run.rows(group, label)).peekable();
+            rows.peek().is_none() || rows.any(|row| row.status != Status::InvalidProblem)
+        };
+        let posed: Vec<&String> = self.of.groups.iter().filter(is_posed).collect();
+        if posed.is_empty() { self.of.groups.iter().collect() } else { posed }
+    }
+
+    /// What the comparisons say, if they are all that are asked for of what could be posed.
+    fn outcome(&self, run: &Run<'_>, all: &[Compared]) -> Outcome {
+        let is_complete = !all.is_empty() && all.len() == self.pairs.len() * self.posed(run).len();
         if is_complete { outcome(all, self.limit()) } else { Outcome::Open }
     }
 
@@ -202,7 +213,7 @@ impl<'a> LeastOf<'a> {
         let rows = cases.flat_map(|(group, label)| self.of.rows(run, group, label));
         let unended = rows.filter(|row| is_unended(row)).count();
         let mut ends = [[0.0, f64::INFINITY], [f64::INFINITY, 0.0]].into_iter();
-        let is_turned = unended > 0 && ends.any(|ends| self.outcome(&self.compared(run, ends)) != found);
+        let is_turned = unended > 0 && ends.any(|ends| self.outcome(run, &self.compared(run, ends)) != found);
         if is_turned { unended } else { 0 }
     }
 
@@ -232,7 +243,7 @@ impl<'a> LeastOf<'a> {
         })
     }
 
-    fn because(&self, all: &[Compared]) -> Vec<String> {
+    fn because(&self, run: &Run<'_>, all: &[Compared]) -> Vec<String> {
         let label = self.metric.label.to_lowercase();
         let met = all.iter().filter(|one| one.ratio < self.limit()).count();
         let by = if self.by_percent > 0.0 {
@@ -240,8 +251,14 @@ impl<'a> LeastOf<'a> {
         } else {
             String::new()
         };
-        let all_of = self.pairs.len() * self.of.groups.len();
+        let posed = self.posed(run);
+        let all_of = self.pairs.len() * posed.len();
+        let left: Vec<&str> =
+            self.of.groups.iter().filter(|group| !posed.contains(group)).map(String::as_str).collect();
+        let left =
+            (!left.is_empty()).then(|| format!("left out, for it cannot be posed: {}", left.join(", ")));
         let mut because = vec![format!("in {met} of {all_of} comparisons the median {label} is less{by}")];
+        because.extend(left);
         because.extend(theorem(all));
         because.extend(all.iter().map(|one| {
             let [low, high] = one.medians;
@@ -298,7 +315,7 @@ impl Criterion for LeastOf<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
         let Some(run) = self.of.run(evidence) else { return CriterionResult::default() };
         let all = self.compared(run, [f64::INFINITY; 2]);
-        let outcome = self.outcome(&all);
+        let outcome = self.outcome(run, &all);
         let largest = all.iter().max_by(|a, b| a.ratio.total_cmp(&b.ratio));
         let ours = largest.map(|one| {
             let what = format!(
@@ -317,7 +334,7 @@ impl Criterion for LeastOf<'_> {
             ours,
             trial: shown.and_then(|one| one.trial.clone()),
             censored: self.censored(run, outcome),
-            because: self.because(&all),
+            because: self.because(run, &all),
             limits: vec![100.0 * self.limit()],
             units: "seeds",
             needs: Some(FEWEST_SEEDS).filter(|fewest| all.iter().any(|one| one.is_few(*fewest))),

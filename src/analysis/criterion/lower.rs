@@ -1,14 +1,16 @@
 //! Whether one contender is lower (or higher) than another: sign and size over instances, or all along a sweep at once.
 
 use super::{Criterion, Entry};
-use crate::analysis::censored::filled;
-use crate::analysis::class::Outcome;
+use crate::analysis::censored::{self, filled};
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Case, Instance, Selection, is_unended, solved};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{FEWEST_INSTANCES, OverallStatistic, how, narrows, needs, plan, turned};
+use crate::analysis::statistic::{
+    FEWEST_INSTANCES, LEVEL, OverallStatistic, how, narrows, needs, plan, turned,
+};
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
@@ -17,6 +19,7 @@ use stats::bands::{Band, sup_t_between};
 use stats::bootstrap::{Estimate as Estimated, Resampling};
 use stats::interval::Interval;
 use stats::paired::{self, snapped};
+use stats::proportion::clopper_pearson;
 use study::contender::SweepPoint;
 use study::name;
 use study::record::Row;
@@ -26,7 +29,7 @@ use study::sweeps_of;
 pub static ENTRY: Entry = Entry {
     name: "lower",
     about: "is a contender lower than another on average over instances, or solves it more all along a sweep?",
-    revision: 3,
+    revision: |_| 3,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", metric = "opened", contender = "Weighted A*", against = "A*" }
@@ -87,6 +90,14 @@ impl<'a> Lower<'a> {
         OverallStatistic::ReductionPercent.of_pairs(pairs, self.plan).map(turned)
     }
 
+    /// What pairs by instance say: a strict comparison that ties on every case is contradicted.
+    fn found(&self, change: &Estimated, pairs: &[Vec<(f64, f64)>]) -> Outcome {
+        if self.by_percent == 0.0 && is_tied(pairs) {
+            return Outcome::Fails;
+        }
+        outcome(self.way, self.by_percent, change.interval)
+    }
+
     /// The change over instances in a sentence, with how many of all cases go which way.
     fn sentence(&self, metric: &str, change: &Estimated, pairs: &[Vec<(f64, f64)>]) -> String {
         let Estimated { value, interval, units, .. } = change;
@@ -114,10 +125,9 @@ impl<'a> Lower<'a> {
             return CriterionResult::too_few(pairs.len(), instances.len(), FEWEST_INSTANCES);
         };
         let Estimated { value, interval, units, .. } = change;
-        let found = outcome(self.way, self.by_percent, interval);
+        let found = self.found(&change, &pairs);
         let is_other = |pairs: Vec<Vec<(f64, f64)>>| {
-            self.change(&pairs)
-                .is_some_and(|filled| outcome(self.way, self.by_percent, filled.interval) != found)
+            self.change(&pairs).is_some_and(|filled| self.found(&filled, &pairs) != found)
         };
         let is_turned = filled(&self.of, &instances).into_iter().any(is_other);
         let what = format!("change of {metric} in %, {} 95 % over instances", how(&change));
@@ -126,12 +136,13 @@ impl<'a> Lower<'a> {
             outcome: Some(found),
             ours: Some(Estimate::new(value, interval, what, units).of_cases(solved(&instances))),
             trial: selection::nearest(&self.of, evidence, &instances, of_case, value),
-            because: vec![self.sentence(metric, &change, &pairs)],
+            because: std::iter::once(self.sentence(metric, &change, &pairs)).chain(tied(&pairs)).collect(),
             limits: vec![0.0, if self.way == Way::Higher { self.by_percent } else { 0.0 - self.by_percent }],
             units: "draws",
             needs: needs(units),
             narrows: narrows(change.is_agreed),
             censored: if is_turned { selection::censored(&instances) } else { 0 },
+            refused: censored::refused(&instances),
             ..CriterionResult::default()
         }
     }
@@ -205,6 +216,18 @@ impl<'a> Lower<'a> {
             ..CriterionResult::default()
         }
     }
+}
+
+/// Whether both numbers of every case are equal.
+fn is_tied(pairs: &[Vec<(f64, f64)>]) -> bool {
+    let signs = paired::signs(&pairs.concat());
+    signs.equal > 0 && signs.lower + signs.higher == 0
+}
+
+/// What is said of cases that all tie: the most instances on which they might not.
+fn tied(pairs: &[Vec<(f64, f64)>]) -> Option<String> {
+    let bound = clopper_pearson(0, pairs.len(), LEVEL).filter(|_| is_tied(pairs))?;
+    Some(format!("every case ties: at most {:.1} % of instances could differ (95 %)", 100.0 * bound.high))
 }
 
 /// By how many a case is solved more than by the other: 1, 0 or -1.

@@ -1,7 +1,7 @@
 //! Criteria: how statistics of stored trials are held against what a paper says; one a file, all in [`REGISTRY`].
 //!
-//! A criterion selects trials, takes a statistic of each instance, and says what it finds; its class is decided in
-//! [`class`](super::class). Arithmetic on printed numbers alone is a [`rule`](super::rule).
+//! A criterion selects trials, takes a statistic of each instance, and says what it finds; what lowers that is decided in
+//! [`outcome`](super::outcome). Arithmetic on printed numbers alone is a [`rule`](super::rule).
 
 mod equals;
 mod exists;
@@ -16,7 +16,7 @@ mod trend;
 mod within;
 
 pub use exists::{Attained, ENTRY as EXISTS, Seen};
-pub use one_instance::{Instances, instances};
+pub use one_instance::{Instances, instances, is_powerless};
 
 use super::context::Context;
 use super::criterion_result::CriterionResult;
@@ -24,6 +24,7 @@ use super::evidence::{Evidence, Run};
 use super::selection::Selection;
 use base::settings::{Accepted, SettingsError};
 use study::Study;
+use toml::Table;
 
 /// A criterion with its settings, every name looked up.
 pub trait Criterion {
@@ -103,8 +104,9 @@ pub struct Entry {
     pub name: &'static str,
     /// One line for `replan list`.
     pub about: &'static str,
-    /// Raised whenever a change moves what it finds in the same trials: what was found under interpretations is then asked again.
-    pub revision: u32,
+    /// Raised whenever a change moves what it finds in the same trials, of the settings that it moves: what was found under interpretations
+    /// is then asked again.
+    pub revision: fn(&Table) -> u32,
     /// The shape of its settings, which documents them.
     pub settings: Accepted,
     /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.

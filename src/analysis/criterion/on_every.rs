@@ -1,10 +1,11 @@
 //! Whether something holds on every case: one counterexample ends it.
 
 use super::{Criterion, Entry};
-use crate::analysis::class::Outcome;
+use crate::analysis::censored;
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::{Evidence, Run};
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Case, Instance, Selection, cases, most_cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_INSTANCES, Share, plan};
@@ -20,7 +21,7 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "on_every",
     about: "does it hold on every case that a contender is lower, within a bound, or solves what another solves?",
-    revision: 4,
+    revision: |_| 4,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", contender = "Weighted A*", against = "A*", metric = "opened" }
@@ -141,9 +142,10 @@ impl<'a> OnEvery<'a> {
                 };
                 cases(instances).filter(might_part).count()
             }
-            // Paths that the verifier refuses are looked at too.
-            Condition::AtMost => selection::unended(instances),
-            Condition::Lower | Condition::AtMostTimes | Condition::Above => selection::censored(instances),
+            // What ended without a number is outside of a claim about what is solved, or what comes back.
+            Condition::Lower | Condition::AtMostTimes | Condition::Above | Condition::AtMost => {
+                selection::unended(instances)
+            }
         }
     }
 
@@ -185,7 +187,8 @@ impl Criterion for OnEvery<'_> {
             (0, 0, 0) => Outcome::Open,
             (_, 0, 0) => Outcome::Holds,
             // Never the other way round, but not always so either.
-            (1.., _, 0) => Outcome::SignOnly,
+            (1.., _, 0) => Outcome::Open,
+            // One counterexample ends it, and so does a strict comparison that ties on every case.
             _ => Outcome::Fails,
         };
         let counterexample = all().find(|(says, _)| *says == CaseOutcome::Against);
@@ -200,17 +203,19 @@ impl Criterion for OnEvery<'_> {
         // One counterexample is enough; that cases are equal is not.
         let unknown = if broken > 0 { 0 } else { self.unknown(&instances) };
         let left = (unknown > 0).then(|| format!("{unknown} more cases have no number to compare"));
+        let outside = censored::outside(&instances).filter(|_| self.that != Condition::Solved);
         CriterionResult {
             outcome: Some(outcome),
+            ties: if outcome == Outcome::Open { equal } else { 0 },
             ours: self.share(&said, most_cases(&instances)).map(|ours| ours.of_cases(solved(&instances))),
             trial: shown.map(|(_, row)| run.trial(row)),
-            because: std::iter::once(because).chain(left).collect(),
+            because: std::iter::once(because).chain(left).chain(outside).collect(),
             units: "cases",
             censored: unknown,
             needs: self
                 .of
                 .needs_instances(&instances, FEWEST_INSTANCES)
-                .filter(|_| matches!(outcome, Outcome::Holds | Outcome::SignOnly)),
+                .filter(|_| outcome == Outcome::Holds),
             ..CriterionResult::default()
         }
     }

@@ -1,15 +1,15 @@
 //! Whether a printed number could be that of one more of our instances: a printed cell is one instance, not a mean.
 
 use super::{Criterion, Entry};
-use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
-use crate::analysis::criterion_result::CriterionResult;
+use crate::analysis::criterion_result::{CriterionResult, refused_beyond};
 use crate::analysis::evidence::Evidence;
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Instance, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{InstanceStatistic, LEVEL, plan};
 use crate::analysis::verdict::Estimate;
-use base::settings::{Accepted, SettingsError};
+use base::settings::{self, Accepted, SettingsError};
 use proofs::exact::Print;
 use proofs::printed::Printed;
 use schemars::JsonSchema;
@@ -18,12 +18,14 @@ use stats::bootstrap::{self, Resampling};
 use stats::interval::Interval;
 use stats::proportion::{Rank, predictive};
 use stats::summary::median;
+use study::paper::Claim;
+use toml::Value;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "one_instance",
     about: "does the printed number lie where one more instance of ours would, with 95 % probability?",
-    revision: 2,
+    revision: |_| 2,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
@@ -85,6 +87,20 @@ pub fn instances(context: &Context<'_>, evidence: &Evidence<'_>) -> Result<Vec<I
 
 /// Percentages that an interval covers from which on it refuses next to nothing, and decides nothing either.
 const NO_POWER_POINTS: f64 = 80.0;
+
+/// Whether an interval of per cents is so wide that it refuses next to nothing.
+fn is_wide(interval: Interval) -> bool {
+    interval.high - interval.low >= NO_POWER_POINTS
+}
+
+/// Whether a number of ours with this interval, which some interpretation gave, has no power for a claim that is judged by this criterion.
+pub fn is_powerless(claim: &Claim, [low, high]: [f64; 2]) -> bool {
+    let is_saving = |settings: &settings::Settings| {
+        let of = settings.table().get("of").and_then(Value::as_table);
+        of.is_some_and(|of| of.contains_key("against"))
+    };
+    claim.check(ENTRY.name).is_some_and(is_saving) && is_wide(Interval::new(low, high))
+}
 
 impl<'a> OneInstance<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
@@ -238,13 +254,12 @@ impl Criterion for OneInstance<'_> {
         };
         let outcome = self.outcome(interval, about.interval);
         let mean = about.value;
-        let powerless = self.statistic == InstanceStatistic::SolvedPercent
-            && interval.high - interval.low >= NO_POWER_POINTS;
+        let is_percent = self.statistic == InstanceStatistic::SolvedPercent || self.of.against.is_some();
+        let powerless = is_percent && is_wide(interval);
         let mut because = vec![rank_sentence(&instances, self.print.printed)];
         because.extend(powerless.then(|| {
             format!(
-                "no power: the interval covers {NO_POWER_POINTS} points or more of the 100 there are, so hardly any printed value \
-                 could be refused; no number of instances of ours narrows it, for what is printed is one instance"
+                "no power: the interval covers {NO_POWER_POINTS} points or more, so hardly any printed value could be refused; no number of instances of ours narrows it, for what is printed is one instance"
             )
         }));
         let what = format!("{}: mean, 95 % predictive interval of one more instance", self.title());
@@ -262,6 +277,7 @@ impl Criterion for OneInstance<'_> {
             because,
             premises: self.premises.clone(),
             powerless,
+            power: Some(refused_beyond(interval)),
             censored: self.censored(&drawn, outcome),
             units: "draws",
             ..CriterionResult::default()

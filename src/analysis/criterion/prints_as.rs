@@ -1,11 +1,11 @@
 //! Whether a number that was measured prints as the paper's.
 
 use super::{Criterion, Entry};
-use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Selection, cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::FEWEST_INSTANCES;
@@ -20,7 +20,7 @@ use stats::interval::Interval;
 pub static ENTRY: Entry = Entry {
     name: "prints_as",
     about: "does a number that is the same in every trial print as the paper's?",
-    revision: 3,
+    revision: |_| 3,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
@@ -79,6 +79,7 @@ impl Criterion for PrintsAs<'_> {
             // One that would print so leaves open what is not the same in every trial.
             censored: if outcome == Outcome::Open { 0 } else { selection::unended(&instances) },
             because: vec![format!("{who}: {metric} {number}, which {verb} {}", self.print.printed)],
+            power: Some("power: any other printed number would have been refused".to_owned()),
             needs: self
                 .of
                 .needs_instances(&instances, FEWEST_INSTANCES)

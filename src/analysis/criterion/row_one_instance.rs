@@ -1,10 +1,10 @@
 //! Whether a printed row, as a whole, could be that of one more of our instances.
 
 use super::{Criterion, Entry};
-use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Case, Instance, Selection, solved};
 use crate::analysis::selection_spec::{Labels, SelectionSpec};
 use crate::analysis::statistic::InstanceStatistic;
@@ -20,7 +20,7 @@ use study::contender::SweepPoint;
 pub static ENTRY: Entry = Entry {
     name: "row_one_instance",
     about: "is a printed row as near to our mean row as our own instances are, in shape and in level?",
-    revision: 2,
+    revision: |_| 2,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", metric = "opened" }

@@ -1,10 +1,11 @@
 //! A share with its interval: of trials solved or with a mark, of events, of instances on which something holds throughout.
 
 use super::{Criterion, Entry};
-use crate::analysis::class::Outcome;
+use crate::analysis::censored::outside;
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Case, Instance, Selection, cases, most_cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{Share, narrows, needs, plan};
@@ -18,12 +19,13 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use study::column;
 use study::record::Row;
+use toml::{Table, Value};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "share",
     about: "does a share lie within bounds: of trials solved or with a mark, of events, of instances?",
-    revision: 3,
+    revision: |settings| if is_of_solved(settings) { 4 } else { 3 },
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = ["maps"], contender = "A*" }
@@ -70,6 +72,12 @@ enum Hits {
     Higher,
     /// Instances with the metric below the other contender's on every case that both solve.
     LowerThroughout,
+}
+
+/// Whether a claim with these settings is about what is solved by everyone who is compared.
+fn is_of_solved(settings: &Table) -> bool {
+    let hits = settings.get("hits").and_then(Value::as_str).unwrap_or_default();
+    ["above", "lower", "higher", "lower_throughout"].contains(&hits)
 }
 
 impl Hits {
@@ -158,15 +166,26 @@ impl<'a> Counted<'a> {
         }
     }
 
-    /// Whether a case might be a hit and is not known to be: where numbers are compared one that lacks a number, and where
-    /// statuses are counted one without an end.
+    /// Whether a case might be a hit and is not known to be: one without an end. One that ended unsolved is outside of a claim about
+    /// what is solved.
     fn is_unknown(&self, case: &Case<'_>) -> bool {
         match self.settings.hits {
             // What ended without a path, or with a refused one, has no marks; what did not end might have had some.
             Hits::Marked | Hits::Events => case.is_unended() && self.counts(case).is_none(),
-            Hits::Solved | Hits::Rejected => case.is_unended(),
-            Hits::Above | Hits::Lower | Hits::Higher | Hits::LowerThroughout => case.is_censored(),
+            Hits::Solved
+            | Hits::Rejected
+            | Hits::Above
+            | Hits::Lower
+            | Hits::Higher
+            | Hits::LowerThroughout => case.is_unended(),
         }
+    }
+
+    /// How many cases are outside of a claim about what is solved, in words.
+    fn outside(&self, instances: &[Instance<'_>]) -> Option<String> {
+        let is_of_solved =
+            matches!(self.settings.hits, Hits::Above | Hits::Lower | Hits::Higher | Hits::LowerThroughout);
+        outside(instances).filter(|_| is_of_solved)
     }
 
     /// Hits and chances of one instance; its cases of which nothing is known left out, or all as hits or as misses.
@@ -312,7 +331,10 @@ impl Criterion for Counted<'_> {
             outcome,
             ours: Some(share.estimate(&self.description()).of_cases(solved(&instances))),
             trial: self.shown(evidence, &instances, share.value),
-            because: std::iter::once(self.because(&share, total)).chain(self.refusals(&instances)).collect(),
+            because: std::iter::once(self.because(&share, total))
+                .chain(self.outside(&instances))
+                .chain(self.refusals(&instances))
+                .collect(),
             limits: self.settings.accepted.map_or_else(Vec::new, |accepted| accepted.to_vec()),
             units: "draws",
             censored: self.censored(&instances, outcome),

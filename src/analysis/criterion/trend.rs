@@ -1,11 +1,11 @@
 //! Whether a metric, or a saving, grows along a column.
 
 use super::{Criterion, Entry};
-use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Case, Instance, Selection, by_instance, cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_INSTANCES, needs, plan};
@@ -22,7 +22,7 @@ use study::column;
 pub static ENTRY: Entry = Entry {
     name: "trend",
     about: "does a metric, or what a contender saves, grow along a column? the slope over instances, with medians",
-    revision: 3,
+    revision: |_| 3,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", contender = "A*", metric = "opened" }

@@ -1,11 +1,12 @@
 //! Whether the interval of a statistic lies within a margin about the printed number, or within accepted bounds.
 
 use super::{Criterion, Entry};
-use crate::analysis::class::Outcome;
+use crate::analysis::censored;
 use crate::analysis::context::Context;
-use crate::analysis::criterion_result::CriterionResult;
+use crate::analysis::criterion_result::{CriterionResult, refused_beyond};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Instance, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_INSTANCES, OverallStatistic, how, narrows, needs, plan};
@@ -21,7 +22,7 @@ use stats::paired::{self, snapped};
 pub static ENTRY: Entry = Entry {
     name: "within",
     about: "does the interval of a mean, median, deviation, ratio or reduction lie within a margin or within bounds?",
-    revision: 4,
+    revision: |_| 4,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", contender = "Weighted A*", against = "A*", metric = "opened" }
@@ -137,6 +138,12 @@ impl<'a> Within<'a> {
         self.of.groups.iter().filter(|group| !is_enough(group)).find_map(|group| needs(of_group(group)))
     }
 
+    /// The printed values that an interval of ours would not refuse.
+    fn printed_within(&self, found: Interval) -> Interval {
+        let margin = (self.accepted.high - self.accepted.low) / 2.0;
+        Interval::new(found.low - margin, found.high + margin)
+    }
+
     fn estimated(&self, instances: &[Instance<'_>]) -> Option<Estimated> {
         self.statistic.estimate(instances, self.plan)
     }
@@ -197,7 +204,9 @@ impl Criterion for Within<'_> {
             limits: vec![self.accepted.low, self.accepted.high],
             units: "draws",
             censored: self.censored(&instances, found.interval, outcome),
+            refused: censored::refused(&instances),
             needs: self.needs(&instances, found.units),
+            power: self.printed.map(|_| refused_beyond(self.printed_within(found.interval))),
             narrows: narrows(found.is_agreed),
             ..CriterionResult::default()
         }

@@ -12,7 +12,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "clock_ticks",
     about: "is a printed time a whole number of ticks of a clock, and how likely is that by chance?",
-    revision: 1,
+    revision: |_| 1,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 tick_s = [1, 100]

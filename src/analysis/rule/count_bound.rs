@@ -12,7 +12,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "count_bound",
     about: "is a printed count at most what A* with the Euclidean heuristic can open or close on any map?",
-    revision: 1,
+    revision: |_| 1,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 size = [40, 40]

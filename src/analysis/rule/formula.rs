@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 pub static ENTRY: Entry = Entry {
     name: "formula",
     about: "does a formula of the paper, evaluated as printed, give what the text says of it?",
-    revision: 1,
+    revision: |_| 1,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 name = "forbidden_disc"

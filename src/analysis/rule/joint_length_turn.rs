@@ -11,7 +11,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "joint_length_turn",
     about: "has any polyline through cell centres both a printed length and a printed turn sum?",
-    revision: 1,
+    revision: |_| 1,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 size = [40, 40]

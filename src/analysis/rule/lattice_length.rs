@@ -1,7 +1,10 @@
 //! Whether a printed length is that of any 8-connected path between the two cells.
 
-use super::{Entry, refused, rule};
+use super::{Entry, refused_or, rule};
 use base::settings::Accepted;
+use proofs::exact::Print;
+use proofs::lattice::{Step, lengths_printing};
+use proofs::printed::Digits;
 use proofs::proof;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -10,7 +13,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "lattice_length",
     about: "is a printed length a + b√2 for any 8-connected path between the cells, rounded or truncated?",
-    revision: 1,
+    revision: |_| 1,
     settings: Accepted::shape::<Settings>(),
     example: "start = [2, 2]\ngoal = [36, 30]",
     build: |context| {
@@ -22,9 +25,22 @@ pub static ENTRY: Entry = Entry {
         }
         let print = context.print()?;
         let ends = start.zip(goal).map(|(start, goal)| [start, goal]);
-        Ok(rule(move |_| refused(proof::lattice_length(print, ends, size))))
+        Ok(rule(move |_| refused_or(proof::lattice_length(print, ends, size), &possible(print, ends))))
     },
 };
+
+/// The lengths that print so, each as straight moves and diagonals, with how its digits then end.
+fn possible(print: Print, ends: Option<[[i32; 2]; 2]>) -> String {
+    let trip = ends.map(|[start, goal]| [goal[0] - start[0], goal[1] - start[1]]);
+    let lengths = |digits| lengths_printing(print.printed, digits, Step::ONE, trip);
+    let allowed = lengths(print.digits);
+    let spelled = |(how, digits): (&str, Digits)| {
+        let own = lengths(digits).into_iter().filter(|length| allowed.contains(length));
+        own.map(|own| format!("{} + {}√2, {how}", own.straight, own.diagonal)).collect::<Vec<_>>()
+    };
+    let said = [("rounded", Digits::Rounded), ("cut off", Digits::Truncated)].map(spelled).concat();
+    said.join(" or ")
+}
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -14,11 +14,12 @@ mod point_distance;
 mod straight_line;
 mod turn_needs_length;
 
-use super::class::Outcome;
 use super::context::Context;
 use super::criterion::{Criterion, Entry};
 use super::criterion_result::CriterionResult;
 use super::evidence::Evidence;
+use super::outcome::Outcome;
+use super::verdict::POSSIBLE;
 use base::settings::SettingsError;
 use proofs::proof::Proof;
 
@@ -38,19 +39,26 @@ fn rule<'a>(find: impl Fn(&Evidence<'_>) -> CriterionResult + 'a) -> Box<dyn Cri
 
 /// What a proof finds that can only refuse: that something is possible does not make it so.
 fn refused(proof: Proof) -> CriterionResult {
+    refused_or(proof, "arithmetic does not refuse it")
+}
+
+/// The same, with what is possible in words.
+fn refused_or(proof: Proof, possible: &str) -> CriterionResult {
     let outcome = (!proof.is_possible).then_some(Outcome::Proved);
-    CriterionResult {
-        outcome,
-        because: proof.because,
-        premises: proof.premises,
-        ..CriterionResult::default()
-    }
+    let said = proof.is_possible.then(|| format!("{POSSIBLE}{possible}"));
+    let because = proof.because.into_iter().chain(said).collect();
+    CriterionResult { outcome, because, premises: proof.premises, ..CriterionResult::default() }
 }
 
 /// What a proof finds that decides either way.
 fn decided(proof: Proof) -> CriterionResult {
     let outcome = if proof.is_possible { Outcome::Holds } else { Outcome::Proved };
-    CriterionResult { outcome: Some(outcome), ..refused(proof) }
+    CriterionResult {
+        outcome: Some(outcome),
+        because: proof.because,
+        premises: proof.premises,
+        ..CriterionResult::default()
+    }
 }
 
 /// Refuses a grid or a length that a search for polylines would not come to the end of.

@@ -10,7 +10,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "percentage",
     about: "is a printed reduction what the printed cells give?",
-    revision: 1,
+    revision: |_| 1,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 before = "table1.astar.length"

@@ -12,7 +12,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "point_distance",
     about: "is a printed distance that between two printed points?",
-    revision: 1,
+    revision: |_| 1,
     settings: Accepted::shape::<Settings>(),
     example: "
 from = [2.5, 2.5]

@@ -12,7 +12,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "straight_line",
     about: "is a printed length at least the straight line between start and goal?",
-    revision: 1,
+    revision: |_| 1,
     settings: Accepted::shape::<Settings>(),
     example: "
 start = [2.0, 2.0]

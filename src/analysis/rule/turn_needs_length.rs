@@ -11,7 +11,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "turn_needs_length",
     about: "how long is a polyline through cell centres with a printed turn sum at least, and is that below a printed length?",
-    revision: 1,
+    revision: |_| 1,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 size = [40, 40]

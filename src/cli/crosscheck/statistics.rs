@@ -1,4 +1,4 @@
-//! `replan crosscheck --statistics`: estimates, intervals and classes before a judge in Python.
+//! `replan crosscheck --statistics`: estimates, intervals, outcomes and verdicts before a judge in Python.
 //!
 //! The judge is told what metrics mean and where papers lie, and nothing else of what is computed here.
 

@@ -1,4 +1,4 @@
-// The table of claims: words, classes and interpretations to filter by, heads to sort by, lines that open.
+// The table of claims: words, verdicts and interpretations to filter by, heads to sort by, lines that open.
 export function claims() {
   const table = document.getElementById("claimed");
   if (!table) return;
@@ -66,7 +66,7 @@ export function claims() {
   follow();
 }
 
-// The interpretations that a claim's class hangs on.
+// The interpretations that turn a claim's outcome or open it.
 function choices(line) {
   return line.dataset.hangs ? line.dataset.hangs.split(" ") : [];
 }

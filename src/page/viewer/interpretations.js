@@ -1,4 +1,4 @@
-// The interpretations that were explored: choose one and see each claim's class under it; open a claim and see what each option does to
+// The interpretations that were explored: choose one and see each claim's outcome under it; open a claim and see what each option does to
 // it. Classes, effects and what counts are as analysis stored them.
 import { unpackJson } from "./unpack.js";
 
@@ -92,7 +92,7 @@ function say(form, data, options, place, choose) {
   for (const [, interpretation] of near) said.append(button(name(interpretation) || "the default", () => choose(interpretation)), " ");
 }
 
-// A claim's class under the interpretation at `place`.
+// A claim's outcome under the interpretation at `place`.
 function under(line, data, place, options) {
   const cell = line.querySelector("td.under");
   const results = data.claims[idOf(line)]?.results ?? [];
@@ -129,7 +129,7 @@ function whatOptionsDo(line, data, choose) {
   const loud = claim.options.filter(isLoud).sort((a, b) => order.indexOf(a.effect) - order.indexOf(b.effect));
   const quiet = claim.options.filter((one) => one.effect !== "none" && !isLoud(one));
   if (loud.length) place.append(element("p", "what an option does that alone departs from the defaults:"), tableOf(loud, found, link, data));
-  if (quiet.length) place.append(listOf("the class stays, the results change:", quiet, (one) => [link(one), aside(found(one))]));
+  if (quiet.length) place.append(listOf("the outcome stays, the results change:", quiet, (one) => [link(one), aside(found(one))]));
   const names = (wanted) => data.choices.filter((choice) => choice.options.every((option) => option.name === choice.default || wanted(choice.id, option.name))).map((choice) => choice.id);
   const seen = (choice, option) => claim.options.find((one) => one.choice === choice && one.option === option);
   const still = names((choice, option) => seen(choice, option)?.effect === "none");
@@ -141,7 +141,7 @@ function whatOptionsDo(line, data, choose) {
 function tableOf(options, found, link, data) {
   const table = element("table");
   table.className = "plain";
-  table.createTHead().insertRow().append(...["option", "what it does", "class", "ours"].map((text) => element("th", text)));
+  table.createTHead().insertRow().append(...["option", "what it does", "outcome", "ours"].map((text) => element("th", text)));
   const body = table.createTBody();
   for (const one of options) {
     const [row, result] = [body.insertRow(), found(one)];

@@ -42,7 +42,7 @@ const NAME: usize = 40;
 /// What an effect is called and drawn as, the least first.
 const LOOKS: [(Effect, &str, Rgb); 4] = [
     (Effect::Number, "moves the number", GRID),
-    (Effect::Class, "changes the class, not the direction", YELLOW),
+    (Effect::Outcome, "changes the outcome, not the direction", YELLOW),
     (Effect::Opens, "opens or decides it", BLUE),
     (Effect::Turns, "turns it", VERMILLION),
 ];
@@ -141,7 +141,7 @@ impl Kind for ClaimsByChoices {
         }
         let columns = axes.iter().copied();
         let named =
-            |(judged, _): &(&ClaimVerdict, &Across)| format!("{}: {}", judged.claim, judged.outcome());
+            |(judged, _): &(&ClaimVerdict, &Across)| format!("{}: {}", judged.claim, judged.verdict_said());
         let names: Vec<String> = rows.iter().rev().map(named).collect();
         let mut panel = Panel::new("", Axis::names("", columns), Axis::names("", names));
         let of_row = |(_, across): &(&ClaimVerdict, &Across)| {

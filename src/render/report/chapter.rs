@@ -1,9 +1,9 @@
 //! A paper's chapter: what was found, its tables beside ours, figures, and claims that lead to their evidence.
 
 use super::{SECTIONS, Undrawn, begin_of_line, item, link, linked, paper_statement, paragraph, place};
-use crate::analysis::class::Verdict;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::{ClaimVerdict, Verdicts};
+use crate::analysis::verdict_rule::Column;
 use crate::render::figure::caption;
 use crate::render::prose::{COLUMNS, markdown, prose, wrapped};
 use crate::render::tables::{self, short};
@@ -40,7 +40,7 @@ pub fn unread(paper: &Paper, why: &str) -> Chapter {
     let why = format!("**Nothing is shown: {}.**", markdown(why));
     let mut text = heading(paper);
     text.insert_str(text.find('\n').unwrap_or(0) + 1, &format!("\n{why}\n"));
-    let blank = " – |".repeat(Verdict::ALL.len() + 1);
+    let blank = " – |".repeat(Column::ALL.len() + 1);
     Chapter { text, line: format!("{}{blank} {why} |", begin_of_line(&paper.id)) }
 }
 
@@ -93,10 +93,10 @@ impl Page<'_> {
     fn tables(&self, text: &mut String) -> Result<(), RenderError> {
         let paper = self.evidence.paper;
         let details = self.details_file();
-        let class = |judged: &ClaimVerdict| link(judged, judged.outcome(), &details);
+        let verdict = |judged: &ClaimVerdict| link(judged, &judged.verdict_said(), &details);
         for table in paper.tables.iter().filter(|table| table.has_claims()) {
             *text += &paragraph(&table.caption);
-            *text += &tables::markdown(self.evidence, table, self.verdicts, class)?;
+            *text += &tables::markdown(self.evidence, table, self.verdicts, verdict)?;
             *text += "\n";
             if !table.notes.is_empty() {
                 *text += &paragraph(&table.notes.join(" "));
@@ -160,7 +160,7 @@ impl Page<'_> {
         if shown.is_empty() {
             shown.extend(verdicts.claims.iter().filter(|judged| judged.is_counted()).take(CLAIMS));
         }
-        *text += "| claim | in the paper | ours | class |\n|---|---|---|---|\n";
+        *text += "| claim | in the paper | ours | verdict |\n|---|---|---|---|\n";
         let details = self.details_file();
         for judged in &shown {
             let ours = judged.ours().map_or_else(
@@ -172,8 +172,8 @@ impl Page<'_> {
                 interpretations.map_or_else(String::new, |words| format!(" ({})", markdown(&words)));
             let claim = link(judged, &format!("`{}`", judged.claim), &details);
             let said = markdown(&format!("{}: {}", judged.at, paper_statement(judged)));
-            let class = judged.outcome();
-            *text += &format!("| {claim} | {said} | {ours} | {class}{interpretations} |\n");
+            let verdict = judged.verdict_said();
+            *text += &format!("| {claim} | {said} | {ours} | {verdict}{interpretations} |\n");
         }
         let all = verdicts.claims.len();
         let mut more = format!("{} More: [evidence of all {all} claims]({details})", self.counts());
@@ -189,7 +189,7 @@ impl Page<'_> {
     fn counts(&self) -> String {
         let counts = self.verdicts.counts();
         let more = counts.parts.into_iter().chain(counts.asserted);
-        std::iter::once(counts.classes)
+        std::iter::once(counts.verdicts)
             .chain(more)
             .map(|said| format!("{said}."))
             .collect::<Vec<_>>()

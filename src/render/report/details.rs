@@ -248,7 +248,7 @@ fn evidence<'a>(
 ) -> String {
     let mut text = format!("{}\n", place(&judged.claim));
     let interpretations = judged.beside().map_or_else(String::new, |words| format!(", {}", markdown(&words)));
-    let mut about = format!("**`{}`: {}{interpretations}**. ", judged.claim, judged.outcome());
+    let mut about = format!("**`{}`: {}{interpretations}**. ", judged.claim, judged.verdict_said());
     about += &markdown(&format!("{}: {}", judged.at, paper_statement(judged)));
     if let Some(whole) = &judged.part_of {
         about += &format!(". A part of {}", links(&[whole]));
@@ -274,8 +274,8 @@ fn finding_lines<'a>(
     claim: &'a str,
 ) -> Vec<(usize, String)> {
     let mut head = format!("`{}`", finding.criterion);
-    if let Some(verdict) = finding.verdict {
-        head += &format!(": *{}*", verdict.name());
+    if let Some(outcome) = finding.outcome {
+        head += &format!(": *{}*", outcome.name());
     }
     if let Some(ours) = &finding.ours {
         let solved =

@@ -32,11 +32,11 @@ impl Page<'_> {
     /// What was explored, and on what it rests.
     fn explored(&self, text: &mut String) {
         let Some(explored) = &self.verdicts.explored else {
-            *text += "The choices were not explored: every class is that under the defaults.\n\n";
+            *text += "The choices were not explored: every verdict is by the defaults alone.\n\n";
             return;
         };
         let mut about = format!(
-            "Explored: {} interpretations, {} trials. A class counts those that vote (by the paper's words or a practice) and are compatible \
+            "Explored: {} interpretations, {} trials. A verdict counts those that vote (by the paper's words or a practice) and are compatible \
              with what the studies were calibrated to, equal results once; a result against most others counts only if the second seed \
              gives it too.",
             explored.interpretations, explored.trials
@@ -66,7 +66,7 @@ impl Page<'_> {
         let kinds = [
             (Effect::Turns, "turns"),
             (Effect::Opens, "opens or decides"),
-            (Effect::Class, "changes the class, not the direction, of"),
+            (Effect::Outcome, "changes the outcome, not the direction, of"),
         ];
         let said = |(effect, what)| {
             let claims = of(effect);
@@ -87,7 +87,9 @@ fn votes(choice: &Choice) -> Vec<String> {
     let voting = choice.options.iter().filter(|(name, _)| choice.votes(name));
     let mut lines: Vec<String> = voting.filter_map(|(name, option)| source(name, option)).collect();
     let lost = choice.not_run().map(|(name, why)| {
-        format!("{name} cannot be run here: {why}; claims on studies that inherit the choice stay undecided")
+        format!(
+            "{name} cannot be run here: {why}; claims on studies that inherit the choice stay inconclusive"
+        )
     });
     lines.extend(lost);
     let probes: Vec<&str> =
@@ -98,7 +100,7 @@ fn votes(choice: &Choice) -> Vec<String> {
     lines
 }
 
-/// What interpretations do to a claim beyond the words beside its class.
+/// What interpretations do to a claim beyond the words beside its verdict.
 pub fn across_lines(judged: &ClaimVerdict) -> impl Iterator<Item = String> {
     let across = judged.across.as_ref();
     let counts = across.map(|across| {
@@ -108,14 +110,20 @@ pub fn across_lines(judged: &ClaimVerdict) -> impl Iterator<Item = String> {
             (across.incompatible, "contradict what the studies were calibrated to"),
             (across.unconfirmed, "results against most others that no second seed confirms count as open"),
         ];
+        if !across.refused.is_empty() {
+            parts.push(format!(
+                "set apart, as the verifier refuses their paths: {}",
+                across.refused.join(" · ")
+            ));
+        }
         parts.extend(
             more.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")),
         );
-        format!("under the defaults {}; {}", across.default.name(), parts.join(", "))
+        format!("under the defaults {}; {}", judged.outcome.name(), parts.join(", "))
     });
     let moves = across.into_iter().flat_map(|across| {
         let moving = across.effects.iter().filter(|(_, of)| of.effect > Effect::Number);
-        moving.map(|(choice, of)| format!("{choice} = {} alone: {}", of.option, of.class.name()))
+        moving.map(|(choice, of)| format!("{choice} = {} alone: {}", of.option, of.outcome.name()))
     });
     let probes = across.filter(|across| !across.probes.is_empty());
     let probes = probes.map(|across| format!("probes, not counted: {}", across.probes.join("; ")));

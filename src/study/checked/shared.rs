@@ -4,7 +4,7 @@ use super::super::choice::Choice;
 use super::super::name::slug;
 use super::super::planner;
 use super::super::spec::{BudgetSpec, ChoiceSpec, ExploreSpec, OptionSpec};
-use super::{Contender, Study, columns_of, labels_of};
+use super::{Contender, Group, Study, columns_of, labels_of};
 use base::settings::{Document, Faults, Spanned, none_called};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -99,37 +99,40 @@ impl Sets<'_> {
     }
 }
 
-impl Study {
-    /// What `option` sets of what the study runs.
-    pub fn what_sets<'o>(&self, option: &'o OptionSpec) -> Sets<'o> {
-        self.what_sets_of(option, &self.contenders)
-    }
-
-    /// What `option` sets of the problems, and of some of the contenders.
-    fn what_sets_of<'o>(&self, option: &'o OptionSpec, contenders: &[Contender]) -> Sets<'o> {
+impl OptionSpec {
+    /// What it sets of these problems and of these contenders.
+    fn sets(&self, groups: &[&Group], contenders: &[&Contender]) -> Sets<'_> {
         let uses = |own: &Contender, entry: &str| own.stages.iter().any(|stage| stage.entry.name == entry);
-        let stage = option.stage.iter().filter(|(entry, _)| contenders.iter().any(|own| uses(own, entry)));
-        let of_one = option.contender.iter().flat_map(|(label, own)| {
+        let stage = self.stage.iter().filter(|(entry, _)| contenders.iter().any(|own| uses(own, entry)));
+        let of_one = self.contender.iter().flat_map(|(label, own)| {
             own.iter().map(move |(entry, table)| ((label.as_str(), entry.as_str()), table))
         });
         let is_used = |((label, entry), _): &((&str, &str), &Table)| {
             contenders.iter().any(|own| own.label == **label && uses(own, entry))
         };
-        let is_posed = self.groups.iter().any(|group| group.accepts(&option.problem));
+        let is_posed = groups.iter().any(|group| group.accepts(&self.problem));
         Sets {
-            problem: is_posed.then_some(&option.problem),
+            problem: is_posed.then_some(&self.problem),
             stage: stage.map(|(entry, table)| (entry.as_str(), table)).collect(),
             contender: of_one.filter(is_used).collect(),
         }
     }
+}
 
-    /// Whether the option called `name` of `choice` sets otherwise than the default what `contender` runs on or with.
-    pub fn is_moved_by(&self, choice: &Choice, name: &str, contender: &Contender) -> bool {
-        let sets = |name: &str| {
-            let option = choice.options.get(name)?;
-            Some(self.what_sets_of(option, std::slice::from_ref(contender)))
-        };
-        sets(name) != sets(&choice.default)
+impl Choice {
+    /// Whether the option called `name` sets otherwise than the default these problems, or what these contenders run with.
+    pub fn moves(&self, name: &str, groups: &[&Group], contenders: &[&Contender]) -> bool {
+        let sets = |name: &str| Some(self.options.get(name)?.sets(groups, contenders));
+        sets(name) != sets(&self.default)
+    }
+}
+
+impl Study {
+    /// What `option` sets of what the study runs.
+    pub fn what_sets<'o>(&self, option: &'o OptionSpec) -> Sets<'o> {
+        let (groups, contenders): (Vec<_>, Vec<_>) =
+            (self.groups.iter().collect(), self.contenders.iter().collect());
+        option.sets(&groups, &contenders)
     }
 
     /// Whether `choice` sets something that the study runs.

@@ -1,15 +1,18 @@
-//! The table of rates in `docs/OPERATING_CHARACTERISTICS.md`, held current.
+//! The tables of rates in `docs/OPERATING_CHARACTERISTICS.md`, held current.
 
 use super::scenario::{Counts, Scenario};
-use super::{PAPERS, outcomes, papers};
-use replan::analysis::class::Verdict;
+use super::{PAPERS, outcomes, papers, verdicts};
+use replan::analysis::outcome::Outcome;
 use std::fs;
 use std::path::Path;
 
-const BEGIN: &str = "<!-- rates: written by the test of operating characteristics -->\n";
-const END: &str = "<!-- end of rates -->\n";
+/// The marks around each table.
+const RATES: [&str; 2] =
+    ["<!-- rates: written by the test of operating characteristics -->\n", "<!-- end of rates -->\n"];
+const VERDICTS: [&str; 2] =
+    ["<!-- verdicts: written by the test of operating characteristics -->\n", "<!-- end of verdicts -->\n"];
 
-const HEAD: &str = "| criterion | truth | what is drawn | for it | direction only | open | against it | false for | false against |\n\
+const HEAD: &str = "| criterion | truth | what is drawn | for it | right in direction | open | against it | false for | false against |\n\
                     |---|---|---|---|---|---|---|---|---|\n";
 
 fn table() -> String {
@@ -22,8 +25,8 @@ fn percent(count: usize, of: usize) -> String {
 }
 
 fn row(one: &Scenario, counts: &Counts) -> String {
-    let count = |verdicts: &[Verdict]| {
-        percent(verdicts.iter().map(|verdict| counts.count(*verdict)).sum(), counts.papers)
+    let count = |outcomes: &[Outcome]| {
+        percent(outcomes.iter().map(|outcome| counts.count(*outcome)).sum(), counts.papers)
     };
     let with = |count: usize, bound: Option<f64>| {
         bound.map_or(String::new(), |bound| {
@@ -31,14 +34,21 @@ fn row(one: &Scenario, counts: &Counts) -> String {
         })
     };
     let said = [
-        count(&[Verdict::Reproduced, Verdict::Fitted, Verdict::Attainable]),
-        count(&[Verdict::DirectionOnly]),
-        count(&[Verdict::Undecided, Verdict::Untestable]),
-        count(&[Verdict::NotReproduced, Verdict::Impossible]),
+        count(&[Outcome::Holds, Outcome::Fitted, Outcome::Attainable]),
+        count(&[Outcome::SignOnly]),
+        count(&[Outcome::Open, Outcome::Lacking]),
+        count(&[Outcome::Fails, Outcome::Proved]),
         with(counts.false_for, one.bounds.false_for),
         with(counts.false_against, one.bounds.false_against),
     ];
     format!("| `{}` | {} | {} | {} |\n", one.criterion, one.truth, one.about, said.join(" | "))
+}
+
+/// The page with a table between its marks.
+fn with(text: &str, [begin, end]: [&str; 2], table: &str) -> String {
+    let (before, rest) = text.split_once(begin).expect("the page has a place for the table");
+    let (_, after) = rest.split_once(end).expect("the table ends somewhere");
+    [before, begin, table, end, after].concat()
 }
 
 #[test]
@@ -48,9 +58,7 @@ fn the_rates_that_are_printed_are_those_found() {
     }
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/OPERATING_CHARACTERISTICS.md");
     let text = fs::read_to_string(&path).unwrap();
-    let (before, rest) = text.split_once(BEGIN).expect("the page has a place for the rates");
-    let (_, after) = rest.split_once(END).expect("the rates end somewhere");
-    let page = [before, BEGIN, &table(), END, after].concat();
+    let page = with(&with(&text, VERDICTS, &verdicts::table()), RATES, &table());
     if std::env::var_os("REPLAN_WRITE").is_some() {
         fs::write(&path, &page).unwrap();
     }

@@ -2,7 +2,7 @@
 
 use super::synthetic::{Made, Synthetic};
 use base::seed::{self, Stream};
-use replan::analysis::class::Verdict;
+use replan::analysis::outcome::Outcome;
 use stats::proportion::clopper_pearson;
 use study::store::Records;
 
@@ -41,7 +41,7 @@ pub struct Bounds {
     pub false_for: Option<f64>,
     /// Against a claim that is true.
     pub false_against: Option<f64>,
-    /// "reproduced", whatever is true.
+    /// "holds", whatever is true.
     pub reproduced: Option<f64>,
     /// Anything for or against it, whatever is true.
     pub firm: Option<f64>,
@@ -67,24 +67,24 @@ pub struct Scenario {
 #[derive(Default)]
 pub struct Counts {
     pub papers: usize,
-    pub verdicts: [usize; 8],
+    pub outcomes: [usize; 8],
     pub false_for: usize,
     pub false_against: usize,
     pub right: usize,
 }
 
 impl Counts {
-    pub fn count(&self, verdict: Verdict) -> usize {
-        self.verdicts[Verdict::ALL.iter().position(|own| *own == verdict).unwrap()]
+    pub fn count(&self, outcome: Outcome) -> usize {
+        self.outcomes[Outcome::ALL.iter().position(|own| *own == outcome).unwrap()]
     }
 
-    fn add(&mut self, verdict: Verdict, world: (bool, bool)) {
+    fn add(&mut self, outcome: Outcome, world: (bool, bool)) {
         let (holds, sign) = world;
-        let says_all = matches!(verdict, Verdict::Reproduced | Verdict::Fitted | Verdict::Attainable);
-        let says_sign = verdict == Verdict::DirectionOnly;
-        let says_no = matches!(verdict, Verdict::NotReproduced | Verdict::Impossible);
+        let says_all = matches!(outcome, Outcome::Holds | Outcome::Fitted | Outcome::Attainable);
+        let says_sign = outcome == Outcome::SignOnly;
+        let says_no = matches!(outcome, Outcome::Fails | Outcome::Proved);
         self.papers += 1;
-        self.verdicts[Verdict::ALL.iter().position(|own| *own == verdict).unwrap()] += 1;
+        self.outcomes[Outcome::ALL.iter().position(|own| *own == outcome).unwrap()] += 1;
         self.false_for += usize::from(!holds && says_all || !sign && says_sign);
         self.false_against += usize::from(holds && (says_no || says_sign));
         self.right += usize::from(holds && says_all || !holds && (says_no || sign && says_sign));
@@ -115,7 +115,7 @@ impl Scenario {
 
     /// What is said more or less often than its bounds allow, beyond what so few papers can tell.
     pub fn broken(&self, counts: &Counts) -> Vec<String> {
-        let firm = counts.papers - counts.count(Verdict::Undecided) - counts.count(Verdict::Untestable);
+        let firm = counts.papers - counts.count(Outcome::Open) - counts.count(Outcome::Lacking);
         let Bounds { false_for, false_against, reproduced, firm: most_firm, right } = self.bounds;
         let said = |what: &str, count: usize, bound: f64| {
             format!("{}: {what} {count} of {} papers, bound {bound:.4}", self.name(), counts.papers)
@@ -124,7 +124,7 @@ impl Scenario {
         let most = [
             ("for a false claim", counts.false_for, false_for),
             ("against a true claim", counts.false_against, false_against),
-            ("reproduced", counts.count(Verdict::Reproduced), reproduced),
+            ("holds", counts.count(Outcome::Holds), reproduced),
             ("firm", firm, most_firm),
         ];
         let above = most.into_iter().filter_map(|(what, count, bound)| {

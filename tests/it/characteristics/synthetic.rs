@@ -1,9 +1,10 @@
 //! Papers that nobody wrote: a claim, a study, and records drawn from a distribution that is known.
 
 use engine::planner::Value;
+use replan::analysis::across::{self, Stored};
 use replan::analysis::claims::judge;
-use replan::analysis::class::Verdict;
 use replan::analysis::evidence::{Evidence, default_point};
+use replan::analysis::outcome::Outcome;
 use replan::analysis::verdict::ClaimVerdict;
 use std::collections::BTreeMap;
 use std::fs;
@@ -54,7 +55,7 @@ impl Synthetic {
         let folder = tempfile::tempdir().unwrap();
         let place = folder.path().join("synthetic");
         fs::create_dir_all(&place).unwrap();
-        let paper = format!("[source]\ntitle = \"A synthetic paper\"\n{claims}");
+        let paper = format!("[source]\ntitle = \"A synthetic paper\"\nours = true\n{claims}");
         fs::write(place.join("paper.toml"), paper).unwrap();
         fs::write(place.join("drawn.toml"), study(made)).unwrap();
         let inputs = Inputs { roots: vec![Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()] };
@@ -62,9 +63,14 @@ impl Synthetic {
         Self { _folder: folder, paper }
     }
 
-    /// The class of the claim that is asked, after `records`, where the paper prints these numbers, by claim.
-    pub fn judged(&mut self, records: Records, printed: &[(&str, String)]) -> Verdict {
-        self.judgement(records, printed).verdict
+    /// The outcome of the claim that is asked, after `records`, where the paper prints these numbers, by claim.
+    pub fn judged(&mut self, records: Records, printed: &[(&str, String)]) -> Outcome {
+        self.judgement(records, printed).outcome
+    }
+
+    /// Makes its claims those of other authors.
+    pub fn of_others(&mut self) {
+        self.paper.source.ours = false;
     }
 
     /// All that is found of it.
@@ -75,7 +81,9 @@ impl Synthetic {
         }
         let stored = BTreeMap::from([("drawn".to_owned(), (manifest(), records))]);
         let evidence = Evidence::held(&self.paper, default_point(&self.paper), stored);
-        judge(&evidence).unwrap().claim(ASKED).unwrap().clone()
+        let mut verdicts = judge(&evidence).unwrap();
+        across::apply(&self.paper, &mut verdicts, &Stored::default());
+        verdicts.claim(ASKED).unwrap().clone()
     }
 }
 
@@ -147,6 +155,8 @@ pub enum End {
     Rejected,
     /// When the budget was spent.
     Spent,
+    /// Not at all: the problem cannot be posed.
+    Unposed,
 }
 
 impl End {
@@ -207,6 +217,7 @@ impl Sample {
             End::NoPath => (Status::NoPath, None),
             End::Rejected => (Status::Rejected, None),
             End::Spent => (Status::BudgetSpent, None),
+            End::Unposed => (Status::InvalidProblem, None),
         };
         let values = value.into_iter().map(|value| ("path_cost_cells", Value::Real(value))).collect();
         self.records.batch.rows.push(Row { key, seed: 1, status, reason: None, values });

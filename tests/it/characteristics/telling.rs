@@ -3,7 +3,7 @@
 use super::synthetic::End::{At, NoPath};
 use super::synthetic::{Made, SWEEP, Sample, Synthetic};
 
-/// The class of a claim by `criterion` after `records`, and the trial that is named.
+/// The outcome of a claim by `criterion` after `records`, and the trial that is named.
 fn shown(criterion: &str, settings: &str, made: Made, records: Sample) -> (&'static str, String) {
     let cells = ["low", "high"]
         .map(|id| format!("[[claim]]\nid = \"{id}\"\nat = \"here\"\nprinted = \"0\"\nuntestable = \"it\"\n"));
@@ -13,7 +13,7 @@ fn shown(criterion: &str, settings: &str, made: Made, records: Sample) -> (&'sta
     );
     let printed = [("low", "7".to_owned()), ("high", "7".to_owned())];
     let judged = Synthetic::new(&claim, made).judgement(records.records(), &printed);
-    (judged.verdict.name(), judged.findings[0].trial.clone().unwrap())
+    (judged.outcome.name(), judged.findings[0].trial.clone().unwrap())
 }
 
 const OF: &str = "study = \"drawn\", problems = \"map\"";
@@ -31,7 +31,7 @@ fn against_a_trend_stands_the_trial_that_does_most_against_it() {
         "of = {{ {OF}, contender = \"A\", metric = \"path_cost_cells\" }}\nover = \"optimal_cost_cells\"\nrising = true"
     );
     let found = shown("trend", &settings, Made::Plainly, sample);
-    assert_eq!(found, ("not reproduced", "drawn/map/11/a".to_owned()));
+    assert_eq!(found, ("contradicted", "drawn/map/11/a".to_owned()));
 }
 
 #[test]
@@ -47,7 +47,7 @@ fn along_a_sweep_the_other_alone_solves_the_trial_that_is_named() {
     }
     let settings = format!("is = \"higher\"\nof = {{ {OF}, contender = \"A\", against = \"B\" }}");
     let found = shown("lower", &settings, Made::Swept, sample);
-    assert_eq!(found, ("not reproduced", "drawn/map/0/3/a/weight=3".to_owned()));
+    assert_eq!(found, ("contradicted", "drawn/map/0/3/a/weight=3".to_owned()));
 }
 
 #[test]
@@ -64,7 +64,7 @@ fn beside_a_row_that_no_instance_is_like_stands_the_instance_that_is_most_like_i
     let settings =
         format!("of = {{ {OF}, metric = \"path_cost_cells\" }}\nrows = {rows}\nrefused_below = 0.05");
     let found = shown("row_one_instance", &settings, Made::Plainly, sample);
-    assert_eq!(found, ("not reproduced", "drawn/map/17/0/a".to_owned()));
+    assert_eq!(found, ("contradicted", "drawn/map/17/0/a".to_owned()));
 }
 
 #[test]
@@ -76,5 +76,5 @@ fn against_a_difference_stands_a_problem_that_should_have_given_another_number()
     }
     let settings = "metric = \"path_cost_cells\"\ncontenders = \"A\"\nin = [{ study = \"drawn\", problems = [\"map\", \"other\"] }]\ndiffer = [[\"map\", \"other\"]]";
     let found = shown("exists", settings, Made::Plainly, sample);
-    assert_eq!(found, ("not reproduced", "drawn/other/1/a".to_owned()));
+    assert_eq!(found, ("contradicted", "drawn/other/1/a".to_owned()));
 }

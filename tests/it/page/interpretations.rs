@@ -45,7 +45,7 @@ fn a_reading_that_is_chosen_shows_each_claims_class_under_it() {
             else {
                 continue;
             };
-            assert_eq!(class, result.class.name(), "{id} under {options:?}");
+            assert_eq!(class, result.outcome.name(), "{id} under {options:?}");
             moved += 1;
         }
         browser.run("const f = document.getElementById('filter'); f.elements.under.value = 'differs'; f.dispatchEvent(new Event('input'))");
@@ -91,7 +91,7 @@ fn a_claim_that_is_opened_shows_what_each_option_does_and_lines_filter_by_what_t
         let row = |row: &&Value| row[0] == json!(format!("{choice} = {}", of.option));
         let row =
             options.as_array().unwrap().iter().find(row).unwrap_or_else(|| panic!("{choice}: {options}"));
-        assert_eq!((&row[1], &row[2]), (&json!("turns it"), &json!(of.class.name())), "{options}");
+        assert_eq!((&row[1], &row[2]), (&json!("turns it"), &json!(of.outcome.name())), "{options}");
     }
     for choice in ["meeting", "nodes"] {
         let hangs = |judged: &&ClaimVerdict| {

@@ -112,7 +112,7 @@ fn the_index_says_of_each_paper_what_its_first_line_says() {
 }
 
 #[test]
-fn the_second_seeds_class_stands_beside_the_first() {
+fn the_second_seeds_outcome_stands_beside_the_verdict() {
     let runs = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/runs");
     let mut seen = 0;
     let mut others = 0;
@@ -128,10 +128,10 @@ fn the_second_seeds_class_stands_beside_the_first() {
             let class = second.name().replace(' ', "-");
             let said = format!("second seed: <span class=\"class {class}\">{}</span>", second.name());
             assert!(line.contains(&said), "{}: {line}", judged.claim);
-            (seen, others) = (seen + 1, others + usize::from(second != judged.verdict));
+            (seen, others) = (seen + 1, others + usize::from(second != judged.outcome));
         }
     }
-    assert!(seen > 20 && others > 0, "{seen} claims, {others} of another class");
+    assert!(seen > 20 && others > 0, "{seen} claims, {others} of another outcome");
 }
 
 #[cfg(unix)]

@@ -2,11 +2,11 @@
 
 use super::super::Criterion;
 use super::{Settings, places};
-use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric::Metric;
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::is_unended;
 use crate::analysis::selection_spec::Labels;
 use crate::analysis::statistic::or_infinite;

@@ -1,8 +1,8 @@
 use super::*;
 
-/// Every pair of verdicts.
-fn pairs() -> impl Iterator<Item = [Verdict; 2]> {
-    Verdict::ALL.into_iter().flat_map(|one| Verdict::ALL.into_iter().map(move |two| [one, two]))
+/// Every pair of outcomes.
+fn pairs() -> impl Iterator<Item = [Outcome; 2]> {
+    Outcome::ALL.into_iter().flat_map(|one| Outcome::ALL.into_iter().map(move |two| [one, two]))
 }
 
 #[test]
@@ -11,10 +11,10 @@ fn of_any_two_findings_a_proof_wins_then_what_is_against_then_what_is_open_then_
         let all = combined(pair, false);
         assert_eq!(all, combined([pair[1], pair[0]], false), "{pair:?}: the order does not count");
         assert!(pair.contains(&all), "{pair:?}: nothing is made up");
-        let least = pair.into_iter().map(Verdict::polarity).min().unwrap();
+        let least = pair.into_iter().map(Outcome::polarity).min().unwrap();
         assert_eq!(all.polarity(), least, "{pair:?}");
-        if pair.contains(&Verdict::Impossible) {
-            assert_eq!(all, Verdict::Impossible, "{pair:?}");
+        if pair.contains(&Outcome::Proved) {
+            assert_eq!(all, Outcome::Proved, "{pair:?}");
         }
         if least == Polarity::For {
             assert_eq!(all, pair[0].max(pair[1]), "{pair:?}: the weaker of two for it");
@@ -24,64 +24,70 @@ fn of_any_two_findings_a_proof_wins_then_what_is_against_then_what_is_open_then_
 
 #[test]
 fn what_the_paper_leaves_out_yields_to_what_speaks_against_it_and_to_nothing_else() {
-    for verdict in Verdict::ALL {
-        let expected = if verdict.polarity() == Polarity::Against { verdict } else { Verdict::Untestable };
-        assert_eq!(combined([verdict], true), expected, "{verdict:?}");
+    for outcome in Outcome::ALL {
+        let expected = if outcome.polarity() == Polarity::Against { outcome } else { Outcome::Lacking };
+        assert_eq!(combined([outcome], true), expected, "{outcome:?}");
     }
-    assert_eq!(combined([], true), Verdict::Untestable);
-    assert_eq!(combined([], false), Verdict::Undecided, "what was only checked for possibility");
+    assert_eq!(combined([], true), Outcome::Lacking);
+    assert_eq!(combined([], false), Outcome::Open, "what was only checked for possibility");
 }
 
 #[test]
 fn a_sentence_of_two_parts_takes_the_least_or_the_greatest_of_them() {
     for pair in pairs() {
-        let polarities = pair.map(Verdict::polarity);
+        let polarities = pair.map(Outcome::polarity);
         let all = all_of(&pair);
         let any = any_of(&pair);
         assert_eq!(all.polarity(), polarities[0].min(polarities[1]), "all of {pair:?}");
         assert_eq!(any.polarity(), polarities[0].max(polarities[1]), "any of {pair:?}");
-        for (whole, takes) in [(all, Verdict::max as fn(_, _) -> _), (any, Verdict::min)] {
+        for (whole, takes) in [(all, Outcome::max as fn(_, _) -> _), (any, Outcome::min)] {
             if polarities == [Polarity::For; 2] {
                 assert_eq!(whole, takes(pair[0], pair[1]), "{pair:?}");
             }
         }
-        let lacking = pair == [Verdict::Untestable; 2];
+        let lacking = pair == [Outcome::Lacking; 2];
         assert_eq!(
-            all == Verdict::Untestable,
+            all == Outcome::Lacking,
             lacking
                 || (
                     all.polarity(),
                     polarities.contains(&Polarity::For),
-                    pair.contains(&Verdict::Untestable),
-                    pair.contains(&Verdict::Undecided)
+                    pair.contains(&Outcome::Lacking),
+                    pair.contains(&Outcome::Open)
                 ) == (Polarity::Open, true, true, false),
             "{pair:?}"
         );
     }
-    assert_eq!([all_of(&[]), any_of(&[])], [Verdict::Undecided; 2]);
+    assert_eq!([all_of(&[]), any_of(&[])], [Outcome::Open; 2]);
 }
 
 #[test]
 fn parts_of_which_one_is_meant_decide_nothing_unless_they_speak_one_way() {
     for pair in pairs() {
-        let [one, two] = pair.map(Verdict::polarity);
+        let [one, two] = pair.map(Outcome::polarity);
         let meant = one_meant(&pair);
         let expected = if one == two { one } else { Polarity::Open };
         assert_eq!(meant.polarity(), expected, "{pair:?}");
         if one == two && one == Polarity::For {
             assert_eq!(meant, pair[0].max(pair[1]), "the weaker of two for it: {pair:?}");
         }
-        let is_proved = pair == [Verdict::Impossible; 2];
-        assert_eq!(meant == Verdict::Impossible, is_proved, "impossible only if each is: {pair:?}");
+        let is_proved = pair == [Outcome::Proved; 2];
+        assert_eq!(meant == Outcome::Proved, is_proved, "impossible only if each is: {pair:?}");
     }
 }
 
 const OUTCOMES: [Outcome; 5] =
     [Outcome::Holds, Outcome::SignOnly, Outcome::Open, Outcome::Fails, Outcome::Proved];
 
-/// Every combination of what lowers a class.
+/// Every combination of what lowers an outcome.
 fn caps() -> impl Iterator<Item = Caps> {
-    let clocks = [None, Some(Sessions::TooFew), Some(Sessions::Disagree), Some(Sessions::Agree)];
+    let clocks = [
+        None,
+        Some(Sessions::TooFew),
+        Some(Sessions::Disagree),
+        Some(Sessions::Agree),
+        Some(Sessions::OfAnother),
+    ];
     (0..=255_u8).flat_map(move |bits| {
         let has = move |bit: u8| bits >> bit & 1 == 1;
         clocks.into_iter().map(move |clock| Caps {
@@ -99,7 +105,7 @@ fn caps() -> impl Iterator<Item = Caps> {
 }
 
 #[test]
-fn nothing_raises_a_class_and_nothing_turns_its_sign() {
+fn nothing_raises_an_outcome_and_nothing_turns_its_sign() {
     for outcome in OUTCOMES {
         let bare = of_finding(outcome, Caps::default()).unwrap();
         for caps in caps() {
@@ -116,8 +122,8 @@ fn nothing_raises_a_class_and_nothing_turns_its_sign() {
 }
 
 /// What a cap makes of what holds, of what holds in sign alone, and of what fails.
-const CAPPED: [(Caps, [Verdict; 3]); 12] = {
-    use Verdict::{Attainable, DirectionOnly, Fitted, NotReproduced, Reproduced, Undecided};
+const CAPPED: [(Caps, [Outcome; 3]); 13] = {
+    use Outcome::{Attainable, Fails, Fitted, Holds, Lacking, Open, SignOnly};
     const NONE: Caps = Caps {
         searched: false,
         fitted: false,
@@ -129,20 +135,21 @@ const CAPPED: [(Caps, [Verdict; 3]); 12] = {
         without_premises: false,
         not_run: false,
     };
-    const OPEN: [Verdict; 3] = [Undecided; 3];
+    const OPEN: [Outcome; 3] = [Open; 3];
     [
-        (NONE, [Reproduced, DirectionOnly, NotReproduced]),
-        (Caps { searched: true, ..NONE }, [Attainable, DirectionOnly, NotReproduced]),
-        (Caps { existential: true, ..NONE }, [Attainable, DirectionOnly, NotReproduced]),
-        (Caps { fitted: true, ..NONE }, [Fitted, DirectionOnly, NotReproduced]),
-        (Caps { fitted: true, searched: true, ..NONE }, [Attainable, DirectionOnly, NotReproduced]),
-        (Caps { powerless: true, ..NONE }, [Undecided, Undecided, NotReproduced]),
+        (NONE, [Holds, SignOnly, Fails]),
+        (Caps { searched: true, ..NONE }, [Attainable, Open, Fails]),
+        (Caps { existential: true, ..NONE }, [Attainable, SignOnly, Fails]),
+        (Caps { fitted: true, ..NONE }, [Fitted, Open, Fails]),
+        (Caps { fitted: true, searched: true, ..NONE }, [Attainable, Open, Fails]),
+        (Caps { powerless: true, ..NONE }, [Open, Open, Fails]),
         (Caps { censored: true, ..NONE }, OPEN),
         (Caps { few: true, ..NONE }, OPEN),
         (Caps { not_run: true, ..NONE }, OPEN),
         (Caps { clock: Some(Sessions::TooFew), ..NONE }, OPEN),
         (Caps { clock: Some(Sessions::Disagree), ..NONE }, OPEN),
-        (Caps { clock: Some(Sessions::Agree), ..NONE }, [Reproduced, DirectionOnly, NotReproduced]),
+        (Caps { clock: Some(Sessions::Agree), ..NONE }, [Holds, SignOnly, Fails]),
+        (Caps { clock: Some(Sessions::OfAnother), ..NONE }, [Lacking; 3]),
     ]
 };
 
@@ -152,8 +159,10 @@ fn each_cap_does_what_it_says() {
         let found = |outcome| of_finding(outcome, caps).unwrap();
         let measured = [Outcome::Holds, Outcome::SignOnly, Outcome::Fails].map(found);
         assert_eq!(measured, expected, "{caps:?}");
-        assert_eq!(found(Outcome::Open), Verdict::Undecided, "{caps:?}");
-        assert_eq!(found(Outcome::Proved), Verdict::Impossible, "no measurement lowers a proof: {caps:?}");
+        let is_of_another = caps.clock == Some(Sessions::OfAnother);
+        let open = if is_of_another { Outcome::Lacking } else { Outcome::Open };
+        assert_eq!(found(Outcome::Open), open, "{caps:?}");
+        assert_eq!(found(Outcome::Proved), Outcome::Proved, "no measurement lowers a proof: {caps:?}");
     }
     let elsewhere = Caps { without_premises: true, ..Caps::default() };
     for outcome in OUTCOMES {

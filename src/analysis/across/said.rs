@@ -1,0 +1,167 @@
+//! What stands beside a verdict: over how many interpretations it is the same, its exceptions, or on what it depends.
+
+use super::super::outcome::{Outcome, Polarity};
+use super::super::verdict_rule::{Chosen, Line, Results};
+use super::count::{Counted, Group, VotingChoices};
+use super::depends::Sides;
+use super::stored::Exploration;
+
+/// How many exceptions, or interpretations that were not varied, are listed one by one.
+const LISTED: usize = 3;
+
+/// An exception with more options than these is counted and not listed.
+const OPTIONS: usize = 2;
+
+/// The interpretations that touch a claim and were not varied, in words.
+pub fn not_varied(interpretations: &[String]) -> Option<String> {
+    let listed = interpretations.iter().take(LISTED).cloned().collect::<Vec<_>>().join(", ");
+    let more = interpretations.len().saturating_sub(LISTED);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    (!interpretations.is_empty()).then(|| format!("not varied: {listed}{more}"))
+}
+
+/// The results of a claim that count, and where they come from.
+pub struct View<'a> {
+    /// The interpretations of the paper.
+    pub choices: &'a VotingChoices,
+    /// What was explored; `None` if the default alone was judged.
+    pub first: Option<&'a Exploration>,
+    /// The claim.
+    pub id: &'a str,
+    /// The interpretations that count.
+    pub counted: &'a Counted,
+    /// What each result counts as.
+    pub results: &'a Results<'a>,
+}
+
+/// What is said, and on what the verdict depends.
+pub struct Said {
+    /// What stands beside the verdict; `None` if there is nothing to say.
+    pub beside: Option<String>,
+    /// On what it depends.
+    pub depends_on: Option<String>,
+}
+
+impl View<'_> {
+    /// What is said of a verdict by this line of the table.
+    pub fn said(&self, line: Line) -> Said {
+        let [holds, _, fails] = self.results.counts();
+        let all = self.results.outcomes.len();
+        let mut depends_on = None;
+        let is_witness = self.results.chosen == Some(Chosen::Existence);
+        let beside = match line {
+            Line::Met if all > 1 => Some(format!("met under {holds} of {all}{}", self.met())),
+            Line::Proved | Line::Lacking | Line::All | Line::Met => {
+                let is_same = self.counted.looked > 1 && !self.results.is_unvaried;
+                is_same.then(|| format!("same under all {}", self.counted.looked))
+            }
+            Line::NoExample if !is_witness => Some(format!("met under none of {all}")),
+            Line::NoExample if all > 1 => Some(format!("no example found under {all}")),
+            Line::NoExample => Some("no example found".to_owned()),
+            Line::Refused => Some("the second seed contradicts what was fitted".to_owned()),
+            Line::SeedDecides => {
+                let [one, two] = [self.results.default, self.results.second].map(way);
+                self.with_counts([Some(format!("the seed decides: the first {one}, the second {two}")), None])
+            }
+            Line::Nine | Line::More => {
+                let speaks = if holds > fails { Polarity::For } else { Polarity::Against };
+                let is_sign = speaks == Polarity::For && self.results.is_sign_alone();
+                let sign = is_sign.then(|| "the sign alone".to_owned());
+                self.with_counts([sign, self.exceptions(speaks)])
+            }
+            Line::Both => {
+                let (on, rule) = self.rule();
+                depends_on = Some(on);
+                self.with_counts([Some(rule), None])
+            }
+            Line::Short => self.with_counts([None, None]),
+        };
+        Said { beside, depends_on }
+    }
+
+    /// The counts of several results, and more.
+    fn with_counts(&self, more: [Option<String>; 2]) -> Option<String> {
+        let [holds, open, fails] = self.results.counts();
+        let is_counted = self.results.outcomes.len() > 1;
+        let counts = is_counted.then(|| format!("{holds}/{open}/{fails} for/open/against"));
+        counts.into_iter().chain(more.into_iter().flatten()).reduce(|one, two| format!("{one}; {two}"))
+    }
+
+    /// The first interpretation that meets the claim, if it is not the default.
+    fn met(&self) -> String {
+        let both = self.counted.groups.iter().zip(self.results.outcomes);
+        let first = both.into_iter().find(|(_, outcome)| outcome.polarity() == Polarity::For);
+        let named = first.and_then(|(group, _)| self.named(group));
+        named.map_or_else(String::new, |name| format!(", {name} among them"))
+    }
+
+    /// A result by what its first interpretation has that the defaults have not; `None` of the defaults.
+    fn named(&self, group: &Group) -> Option<String> {
+        let departs = self.first?.interpretations[group.interpretation].iter();
+        let said: Vec<String> = departs.map(|(id, option)| format!("{id} = {option}")).collect();
+        (!said.is_empty()).then(|| said.join(", "))
+    }
+
+    /// The sides of the results as `of` parts them.
+    fn sides<'s>(&'s self, first: &'s Exploration, of: impl Fn(Polarity) -> Option<bool>) -> Sides<'s> {
+        let sides = self.results.outcomes.iter().map(|outcome: &Outcome| of(outcome.polarity())).collect();
+        Sides { choices: self.choices, first, id: self.id, groups: &self.counted.groups, sides }
+    }
+
+    /// The results that do not speak as most do: what they share, or their names.
+    fn exceptions(&self, speaks: Polarity) -> Option<String> {
+        let sides = self.sides(self.first?, |way| Some(way != speaks));
+        let apart: Vec<&Group> = sides
+            .groups
+            .iter()
+            .zip(&sides.sides)
+            .filter(|(_, side)| **side == Some(true))
+            .map(|(group, _)| group)
+            .collect();
+        let all = match apart.len() {
+            0 => return None,
+            1 => "the exception has".to_owned(),
+            count => format!("all {count} exceptions have"),
+        };
+        if let Some(rule) = sides.rule(false) {
+            return Some(format!("{all} {}", rule.said()));
+        }
+        let departs =
+            |group: &&&Group| self.first.map_or(0, |first| first.interpretations[group.interpretation].len());
+        let name = |group: &&Group| self.named(group).unwrap_or_else(|| "the defaults".to_owned());
+        let short = apart.iter().filter(|group| departs(group) <= OPTIONS);
+        let mut names: Vec<String> = short.take(LISTED).map(name).collect();
+        let more = apart.len() - names.len();
+        names.extend((more > 0).then(|| format!("{more} more")));
+        Some(format!("exceptions: {}", names.join(" · ")))
+    }
+
+    /// On what it depends which way the results speak, in few words and with its counts.
+    fn rule(&self) -> (String, String) {
+        const COMBINATION: &str = "a combination";
+        let Some(first) = self.first else { return (COMBINATION.to_owned(), String::new()) };
+        let sides = self.sides(first, |way| match way {
+            Polarity::Against => Some(true),
+            Polarity::Open => None,
+            Polarity::For => Some(false),
+        });
+        if let Some(rule) = sides.rule(true) {
+            let verb = if rule.is_first_side { "contradicted" } else { "holds" };
+            let said = format!("{verb} only if {} ({} of {})", rule.said(), rule.hits, rule.covered);
+            return (rule.choices(), said);
+        }
+        let said = sides.separating().map_or_else(
+            || "no option separates them".to_owned(),
+            |(choice, shares)| format!("{choice} separates best: contradicted under {shares}"),
+        );
+        (COMBINATION.to_owned(), said)
+    }
+}
+
+fn way(way: Polarity) -> &'static str {
+    match way {
+        Polarity::For => "holds",
+        Polarity::Open => "is open",
+        Polarity::Against => "contradicts",
+    }
+}

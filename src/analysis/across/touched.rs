@@ -1,0 +1,146 @@
+//! What a claim looks at, and which interpretations touch that: by the spec alone, so that an interpretation nobody explored is known too.
+
+use super::super::criterion::EXISTS;
+use super::super::evidence::default_point;
+use std::collections::BTreeSet;
+use study::paper::{Asked, Claim, Paper};
+use study::{Choice, Contender, Study};
+use toml::Value;
+
+/// What the criteria of a claim, or of its parts, name.
+#[derive(Default)]
+pub struct Touched<'p> {
+    /// The claim and its parts.
+    claims: Vec<&'p Claim>,
+    /// The studies.
+    studies: Vec<&'p Study>,
+    /// Every word of their settings: contenders, problem groups and metrics are among them.
+    words: BTreeSet<&'p str>,
+}
+
+impl<'p> Touched<'p> {
+    /// What `claim` looks at.
+    pub fn of(paper: &'p Paper, claim: &'p Claim) -> Self {
+        let parts = claim.parts.ids().iter().filter_map(|id| paper.claim(id));
+        let claims: Vec<&Claim> = std::iter::once(claim).chain(parts).collect();
+        let mut names = BTreeSet::new();
+        let mut words = BTreeSet::new();
+        let decides = |claim: &&'p Claim| claim.tests().filter(|(asked, ..)| *asked != Asked::Shown);
+        for (_, _, settings) in claims.iter().flat_map(decides) {
+            settings.table().iter().for_each(|(key, value)| gather(key, value, &mut names, &mut words));
+        }
+        let studies = paper.studies.iter().filter(|study| names.contains(study.name.as_str())).collect();
+        Self { claims, studies, words }
+    }
+
+    /// Whether it states a size that can be missed: a printed number, or a margin.
+    pub fn states_size(&self) -> bool {
+        const SIZES: [&str; 4] = ["by_percent", "margin", "printed_ratio", "accepted"];
+        self.claims.iter().any(|claim| {
+            let has_size =
+                |key: &&str| claim.tests().any(|(.., settings)| settings.table().contains_key(*key));
+            claim.printed.is_some() || SIZES.iter().any(has_size)
+        })
+    }
+
+    /// Whether no seed decides anything of it: neither what is posed nor what a contender does.
+    pub fn instances_nothing(&self, paper: &Paper) -> bool {
+        self.studies.iter().all(|study| {
+            let groups = self.named(&study.groups, |group| &group.label);
+            let contenders = self.contenders(study);
+            // A study without contenders draws whatever its task draws.
+            !contenders.is_empty()
+                && !groups.iter().any(|group| group.is_drawn || group.instances > 1)
+                && !contenders.iter().any(|own| instances(paper, study, own))
+        })
+    }
+
+    /// Whether some option of `choice` that votes, other than its default, does otherwise to what the claim looks at.
+    pub fn is_touched_by(&self, choice: &Choice) -> bool {
+        others(choice).any(|option| self.is_meant_otherwise(choice, option))
+            || self.studies.iter().any(|study| self.changes(choice, study))
+    }
+
+    /// Whether `choice` would change trials of a study that does not have it, nor has what is explored in its place. A witness is asked
+    /// under the interpretations that its contender ran under, whatever its study has.
+    pub fn is_without(&self, paper: &Paper, choice: &Choice) -> bool {
+        let has = |study: &Study| study.choices.iter().any(|own| own.id == choice.id);
+        let stands_for = |other: &&Study, study: &Study| {
+            let explored = other.explore.as_ref().and_then(|explore| explore.stands_for.as_ref());
+            explored == Some(&study.name)
+        };
+        let is_had = |study: &Study| {
+            has(study) || paper.studies.iter().any(|other| stands_for(&other, study) && has(other))
+        };
+        let is_witness = |claim: &&Claim| {
+            claim.tests().all(|(asked, name, _)| asked != Asked::Decides || name == EXISTS.name)
+        };
+        !self.claims.iter().all(is_witness)
+            && self.studies.iter().any(|study| !is_had(study) && self.changes(choice, study))
+    }
+
+    /// Whether some option of `choice` that votes changes trials of `study`.
+    fn changes(&self, choice: &Choice, study: &'p Study) -> bool {
+        others(choice).any(|option| self.runs_otherwise(choice, option, study))
+    }
+
+    /// Whether an option means another metric by a name of the claim's, or reads its printed digits otherwise.
+    fn is_meant_otherwise(&self, choice: &Choice, option: &str) -> bool {
+        let [own, default] = [option, &choice.default].map(|name| &choice.options[name]);
+        let reads = |claim: &&Claim| claim.printed.is_some() && claim.digits.is_none();
+        self.words.iter().any(|word| own.metric.get(*word) != default.metric.get(*word))
+            || own.digits != default.digits && self.claims.iter().any(reads)
+    }
+
+    /// Whether an option changes trials of `study`, or would if it had not left the choice out.
+    fn runs_otherwise(&self, choice: &Choice, option: &str, study: &'p Study) -> bool {
+        // What a study measures without contenders, the choices alone touch that it has.
+        if study.contenders.is_empty() && study.leaves_out.contains(&choice.id) {
+            return false;
+        }
+        let mut contenders = self.contenders(study);
+        contenders.retain(|contender| !contender.departs.contains_key(&choice.id));
+        choice.moves(option, &self.named(&study.groups, |group| &group.label), &contenders)
+    }
+
+    fn contenders(&self, study: &'p Study) -> Vec<&'p Contender> {
+        self.named(&study.contenders, |contender| &contender.label)
+    }
+
+    /// Those of `all` whose label is named, or begins as a label that ends in `*`; all of them if none is.
+    fn named<T>(&self, all: &'p [T], label: fn(&T) -> &String) -> Vec<&'p T> {
+        let is_named = |one: &&T| {
+            let begins =
+                |word: &&str| word.strip_suffix('*').is_some_and(|begin| label(one).starts_with(begin));
+            self.words.contains(label(one).as_str()) || self.words.iter().any(begins)
+        };
+        let found: Vec<&T> = all.iter().filter(is_named).collect();
+        if found.is_empty() { all.iter().collect() } else { found }
+    }
+}
+
+/// The options of `choice` that vote, but for its default.
+fn others(choice: &Choice) -> impl Iterator<Item = &String> {
+    choice.options.keys().filter(|option| **option != choice.default && choice.votes(option))
+}
+
+/// Whether a contender draws at random; one that cannot be built is taken to.
+fn instances(paper: &Paper, study: &Study, contender: &Contender) -> bool {
+    let point = default_point(paper).for_trials(&study.choices);
+    let sweep = study.sweep_points().swap_remove(0);
+    contender.pipeline(&point, &sweep).map_or(true, |pipeline| pipeline.planner.draws())
+}
+
+fn gather<'v>(key: &str, value: &'v Value, names: &mut BTreeSet<&'v str>, words: &mut BTreeSet<&'v str>) {
+    match value {
+        Value::String(text) => {
+            words.insert(text);
+            if key == "study" {
+                names.insert(text);
+            }
+        }
+        Value::Array(values) => values.iter().for_each(|value| gather(key, value, names, words)),
+        Value::Table(table) => table.iter().for_each(|(key, value)| gather(key, value, names, words)),
+        _ => {}
+    }
+}

@@ -1,0 +1,50 @@
+//! How many sentences and table rows there are of each verdict.
+
+use super::verdict::{ClaimVerdict, Verdicts};
+use super::verdict_rule::{Column, Verdict};
+
+/// How many sentences and table rows there are of each verdict, in words: the same on the terminal and in the report. What
+/// is a part of a sentence or a cell of a row counts with it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Counts {
+    /// How many there are, and of each verdict.
+    pub verdicts: String,
+    /// How many parts and cells they have.
+    pub parts: Option<String>,
+    /// How many must hold by a theorem, if any.
+    pub asserted: Option<String>,
+}
+
+impl Verdicts {
+    /// The verdicts of sentences and table rows that do not hold by a theorem.
+    fn whole(&self) -> impl Iterator<Item = Verdict> {
+        self.claims.iter().filter(|judged| judged.is_counted()).map(|judged| judged.verdict)
+    }
+
+    /// How many sentences and table rows there are that do not hold by a theorem, and how many in each column of the overview.
+    pub fn tally(&self) -> Vec<usize> {
+        let of = |column: Column| self.whole().filter(|own| own.column() == column).count();
+        std::iter::once(self.whole().count()).chain(Column::ALL.map(of)).collect()
+    }
+
+    /// How many sentences and table rows there are of each verdict.
+    pub fn counts(&self) -> Counts {
+        let (parts, whole): (Vec<&ClaimVerdict>, Vec<&ClaimVerdict>) =
+            self.claims.iter().partition(|judged| judged.part_of.is_some());
+        let asserted = whole.iter().filter(|judged| judged.theorem.is_some()).count();
+        let of = |verdict: Verdict| (self.whole().filter(|own| *own == verdict).count(), verdict);
+        let found = Verdict::ALL.map(of).into_iter().filter(|(count, _)| *count > 0);
+        let found: Vec<String> =
+            found.map(|(count, verdict)| format!("{count} {}", verdict.name())).collect();
+        let all = self.whole().count();
+        let what = if all == 1 { "sentence or row" } else { "sentences and rows" };
+        let verdicts = format!("{all} {what}: {}", found.join(", "));
+        let parts = (!parts.is_empty()).then(|| {
+            format!("{} parts and cells have verdicts of their own and count with these", parts.len())
+        });
+        let asserted = (asserted > 0).then(|| {
+            format!("{asserted} more must hold whatever was drawn; they are asserted and count for nothing")
+        });
+        Counts { verdicts, parts, asserted }
+    }
+}
