@@ -3,7 +3,7 @@
 use super::super::criterion::EXISTS;
 use super::super::evidence::default_point;
 use std::collections::BTreeSet;
-use study::paper::{Asked, Claim, Paper};
+use study::paper::{Claim, Paper, TestRole};
 use study::{Choice, Contender, Study};
 use toml::Value;
 
@@ -25,7 +25,7 @@ impl<'p> Touched<'p> {
         let claims: Vec<&Claim> = std::iter::once(claim).chain(parts).collect();
         let mut names = BTreeSet::new();
         let mut words = BTreeSet::new();
-        let decides = |claim: &&'p Claim| claim.tests().filter(|(asked, ..)| *asked != Asked::Shown);
+        let decides = |claim: &&'p Claim| claim.tests().filter(|(role, ..)| *role != TestRole::Shown);
         for (_, _, settings) in claims.iter().flat_map(decides) {
             settings.table().iter().for_each(|(key, value)| gather(key, value, &mut names, &mut words));
         }
@@ -73,7 +73,7 @@ impl<'p> Touched<'p> {
             has(study) || paper.studies.iter().any(|other| stands_for(&other, study) && has(other))
         };
         let is_witness = |claim: &&Claim| {
-            claim.tests().all(|(asked, name, _)| asked != Asked::Decides || name == EXISTS.name)
+            claim.tests().all(|(role, name, _)| role != TestRole::Decides || name == EXISTS.name)
         };
         !self.claims.iter().all(is_witness)
             && self.studies.iter().any(|study| !is_had(study) && self.changes(choice, study))
