@@ -31,7 +31,7 @@ const PAPER: &str = "[source]\ntitle = \"A large run\"\n";
 fn study() -> String {
     format!(
         "paper = \"large\"\nquestion = \"None.\"\nseed = 1\n[budget]\nexpansions = 1_000\n[[problems]]\nlabel = \"map\"\nfamily = \
-         \"random_cells\"\nreplicates = {INSTANCES}\nsettings = {{ size_cells = [9, 9], start = [0, 0], goal = [8, 8], blocked_share = \
+         \"random_cells\"\ninstances = {INSTANCES}\nsettings = {{ size_cells = [9, 9], start = [0, 0], goal = [8, 8], blocked_share = \
          0.2, corner_rule = \"allow\" }}\n[[contender]]\nlabel = \"A\"\nplanner = \"astar\"\nsettings = {{ weight = 1, ties = \
          \"fifo\" }}\n[[contender]]\nlabel = \"B\"\nplanner = \"astar\"\nsettings = {{ weight = 1, ties = \"lifo\" }}\n"
     )

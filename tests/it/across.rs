@@ -20,7 +20,7 @@ title = "A toy"
 [explore]
 sample = 20
 trials = 100_000
-instances = { instances = 20, room = 1 }
+instances = { draws = 20, room = 1 }
 
 [[claim]]
 id = "fewer"

@@ -88,7 +88,7 @@ const BROKEN: [(&str, &str, &[Mistake]); 10] = [
                 "compare.toml",
                 "instances = 60",
                 "instances = \"60\"",
-                "compare.toml:17:14: `instances` is \"60\"",
+                "compare.toml:17:13: `instances` is \"60\"",
             ),
             ("compare.toml", "goal = [36, 30]", "goal = [36, -30]", "compare.toml:21:13: `goal[1]` is -30"),
             (

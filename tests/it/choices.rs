@@ -238,8 +238,8 @@ const REFUSED: [(&str, &str, &str, &str); 18] = [
     (
         "paper",
         "room = 1 }",
-        "room = 1 }\nmore_draws = { instances = 19 }",
-        "`more_instances` of `draws` is 19, below its `draws`, 20; 20 or more are accepted",
+        "room = 1 }\nmore_instances = { draws = 19 }",
+        "`more_instances` of `draws` is 19, below its `instances`, 20; 20 or more are accepted",
     ),
     ("draws", "[budget]\nexpansions = 10_000\n", "", "missing key `budget`"),
     (
@@ -308,7 +308,7 @@ fn words_of_the_command_line_that_were_renamed_are_answered_with_the_new_ones() 
     for (words, new) in [
         (&["repro", "./mini", "--readings", "all"][..], "`--readings` is now `--with`"),
         (&["repro", "./mini", "--readings=all"], "`--readings` is now `--with`"),
-        (&["list", "interpretations"], "`list interpretations` is now `list choices`"),
+        (&["list", "readings"], "`list readings` is now `list choices`"),
     ] {
         let said = bench.run(words);
         assert_eq!(said.code, Some(2), "{}", said.err);

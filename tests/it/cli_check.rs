@@ -116,7 +116,7 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
                 ("ties = \"fifo\" }\n\n", "ties = \"fifo\" }\nrepeats = 100_000\n\n"),
             ][..],
             &[
-                "draws.toml:18:14: the study has 1.0e11 trials: 1000000 problems by 2 contenders, up to 100000 seeds each",
+                "draws.toml:18:13: the study has 1.0e11 trials: 1000000 problems by 2 contenders, up to 100000 seeds each",
                 "draws.toml:25:11: `repeats` is 100000, and contender `A*` draws nothing at random; 1 is accepted",
             ][..],
         ),
@@ -124,7 +124,7 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
             "draws",
             &[("instances = 24", "instances = 1_000_000"), ("[12, 12]", "[4096, 4096]")],
             &[
-                "draws.toml:18:14: 1000000 instances of 16777216 cells or samples each are 1.7e13; at most 1e12 are accepted",
+                "draws.toml:18:13: 1000000 instances of 16777216 cells or samples each are 1.7e13; at most 1e12 are accepted",
             ],
         ),
         (
@@ -135,7 +135,7 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
                 ("blocked_share = 0.3", "count = 1_000_000, side_cells = [1, 8192]"),
             ],
             &[
-                "draws.toml:18:14: 24 instances of 16777232777216 cells or samples each are 4.0e14; at most 1e12 are",
+                "draws.toml:18:13: 24 instances of 16777232777216 cells or samples each are 4.0e14; at most 1e12 are",
             ],
         ),
         (

@@ -37,9 +37,9 @@ fn a_toy_needs_no_inventory_no_counts_no_quick_and_no_ties() {
     let paper = fs::read_to_string(bench.at("mini/paper.toml")).unwrap();
     let claims = &paper[paper.find("[[table]]").unwrap()..];
     bench.write("mini/paper.toml", format!("[source]\ntitle = \"A toy\"\n{claims}").as_bytes());
-    bench.edit("mini/draws.toml", "[quick]\nreplicates = 3\n", "");
+    bench.edit("mini/draws.toml", "[quick]\ninstances = 3\n", "");
     bench.edit("mini/draws.toml", "settings = { weight = 1, ties = \"fifo\" }\n", "");
-    bench.edit("mini/room.toml", "[quick]\nreplicates = 1\n", "");
+    bench.edit("mini/room.toml", "[quick]\ninstances = 1\n", "");
     assert_eq!(
         bench.done(&["check", "./mini"]),
         "mini: 2 studies, 2 claims, 0 inventory rows are in order\n"

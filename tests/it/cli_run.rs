@@ -136,7 +136,7 @@ fn trials_that_ended_in_an_unexpected_way_are_counted_with_the_first_reason() {
     let whole = bench.done(&["run", "./mini"]);
     assert!(whole.starts_with("draws: 48 trials\nroom: 1 trial\n"), "{whole}");
     bench.edit("mini/draws.toml", "expansions = 10_000", "expansions = 3");
-    let study = "paper = \"mini\"\nquestion = \"q\"\nseed = 9\n[budget]\nexpansions = 9\n[quick]\nreplicates = 1\n\
+    let study = "paper = \"mini\"\nquestion = \"q\"\nseed = 9\n[budget]\nexpansions = 9\n[quick]\ninstances = 1\n\
                  [[problems]]\nlabel = \"lake\"\nfamily = \"movingai\"\n\
                  settings = { map = \"m.map\", scenarios = \"m.scen\" }\n\
                  [[contender]]\nlabel = \"A*\"\nplanner = \"astar\"\nsettings = { weight = 1, ties = \"fifo\" }\n";
@@ -170,7 +170,7 @@ fn a_figure_or_keep_added_later_gets_its_traces_and_another_timing_its_readings(
     bench.edit(
         "mini/draws.toml",
         CONTENDERS_END,
-        &format!("{CONTENDERS_END}\n[[keep]]\nproblems = \"drawn\"\nreplicates = 2\n"),
+        &format!("{CONTENDERS_END}\n[[keep]]\nproblems = \"drawn\"\ninstances = 2\n"),
     );
     bench.done(&["run", "./mini"]);
     let kept = bench.tree(RUNS);

@@ -15,13 +15,13 @@ fn bench() -> Bench {
     bench.edit("mini/draws.toml", "instances = 24", "instances = 50");
     bench.edit("mini/draws.toml", "[12, 12]", "[40, 40]");
     bench.edit("mini/draws.toml", "[11, 9]", "[39, 30]");
-    let group = "[[problems]]\nlabel = \"small\"\nfamily = \"random_cells\"\nreplicates = 20\nsettings = { size_cells = \
+    let group = "[[problems]]\nlabel = \"small\"\nfamily = \"random_cells\"\ninstances = 20\nsettings = { size_cells = \
                  [6, 6], start = [0, 0], goal = [5, 5], blocked_share = 0.2, corner_rule = \"allow\" }\n\n[[contender]]";
     bench.edit("mini/draws.toml", "[[contender]]", group);
     bench.edit(
         "mini/draws.toml",
         CONTENDERS_END,
-        &format!("{CONTENDERS_END}\n[[keep]]\nproblems = \"drawn\"\nreplicates = 9\n"),
+        &format!("{CONTENDERS_END}\n[[keep]]\nproblems = \"drawn\"\ninstances = 9\n"),
     );
     bench.done(&["run", "./mini", "--with", "all", "--out", "whole"]);
     bench
@@ -158,7 +158,7 @@ fn half_written_parts_a_full_disk_and_a_second_merge_lose_nothing() {
     bench.edit(
         "mini/draws.toml",
         CONTENDERS_END,
-        &format!("{CONTENDERS_END}\n[[keep]]\nproblems = \"drawn\"\nreplicates = 24\n"),
+        &format!("{CONTENDERS_END}\n[[keep]]\nproblems = \"drawn\"\ninstances = 24\n"),
     );
     for shard in ["1/2", "2/2"] {
         bench.done(&["run", "./mini", "--shard", shard, "--out", "parts"]);

@@ -19,7 +19,7 @@ fn slow() -> Bench {
     bench.edit(
         "mini/draws.toml",
         CONTENDERS_END,
-        &format!("{CONTENDERS_END}\n[[keep]]\nproblems = \"drawn\"\nreplicates = 40\n"),
+        &format!("{CONTENDERS_END}\n[[keep]]\nproblems = \"drawn\"\ninstances = 40\n"),
     );
     bench
 }

@@ -183,7 +183,7 @@ fn ends_that_cannot_be_drawn_are_refused_at_their_key_or_make_an_invalid_instanc
     ] {
         let family = build(name, over).unwrap();
         let Err(Invalid(reason)) = family.prepare(1) else { panic!("{name}: {over} was posed") };
-        assert_eq!(reason, format!("no free {end} was found in 100000 instances"));
+        assert_eq!(reason, format!("no free {end} was found in 100000 draws"));
         assert_eq!(family.queries_for(1).len(), family.queries().len(), "its trials are rows all the same");
     }
 }

@@ -12,8 +12,8 @@ use std::thread::sleep;
 use std::time::Duration;
 
 pub const MORE: (&str, &str) = (
-    "instances = { instances = 20, room = 1 }",
-    "instances = { instances = 12, room = 1 }\nmore_draws = { instances = 30 }",
+    "instances = { draws = 20, room = 1 }",
+    "instances = { draws = 12, room = 1 }\nmore_instances = { draws = 30 }",
 );
 /// What the default interpretation gives, so that no claim is open under it.
 pub const MET: (&str, &str) = ("printed = \"24\"", "printed = \"4\"");
@@ -183,7 +183,7 @@ fn noisy() -> Toy {
     let edits = [
         ("[[claim]]\nid = \"fewer\"", &*format!("{world}{claim}")),
         ("goal = [11, 9]", "goal = [9, 9]"),
-        ("instances = 20, room", "instances = 10, room"),
+        ("draws = 20, room", "draws = 10, room"),
         ("size_cells = [12, 12]", "size_cells = [10, 12]"),
     ];
     Toy::unexplored(&edits)

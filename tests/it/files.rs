@@ -99,7 +99,7 @@ const ARMS: &[Arm] = &[
 
 fn joint_group(name: &str) -> String {
     format!(
-        "\n[[problems]]\nlabel = \"{name}\"\nfamily = \"joint_queries\"\nreplicates = 1\n[problems.settings]\nrobot = \"{name}.urdf\"\n\
+        "\n[[problems]]\nlabel = \"{name}\"\nfamily = \"joint_queries\"\ninstances = 1\n[problems.settings]\nrobot = \"{name}.urdf\"\n\
          problem = \"{name}.json\"\nself_collision = true\nsamples = 30\nradius_deg = 170\nstep_deg = 4\n\
          support = {{ under = \"nothing\", why = \"a test\", base_mm = [0, 0, 0], yaw_deg = 0 }}\n"
     )

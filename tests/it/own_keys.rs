@@ -103,7 +103,7 @@ fn a_value_out_of_range_hides_no_fault_of_another_table() {
         ("paper.toml", "bound = 1.1", "bound = inf"),
     ];
     let wanted = [
-        "compare.toml:18:14: `instances` is 4000000000",
+        "compare.toml:18:13: `instances` is 4000000000",
         "compare.toml:22:8: goal is [46, 30]",
         "compare.toml:31:23: weight is -1",
         "compare.toml:36:23: `weight` is 1e308",

@@ -30,7 +30,7 @@ fn registries() -> Vec<Registry> {
         registry!("engine/planner", planner),
         registry!("study/family", family),
         registry!("study/planner", outside),
-        registry!("study/prepared", preprocessing),
+        registry!("study/preprocessing", preprocessing),
         registry!("study/task", task),
         registry!("analysis/criterion", criterion),
         registry!("analysis/rule", rule),

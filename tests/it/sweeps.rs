@@ -179,7 +179,7 @@ fn copied_groups_whose_instances_share_a_name_give_the_rows_of_a_sweep() {
     let (head, _) = STUDY.split_once("[[problems]]").unwrap();
     let group = |share: &str| {
         format!(
-            "[[problems]]\nlabel = \"maps {share}\"\nfamily = \"random_cells\"\nreplicates = 6\nshared_instances = \"shared\"\n\
+            "[[problems]]\nlabel = \"maps {share}\"\nfamily = \"random_cells\"\ninstances = 6\nshared_instances = \"shared\"\n\
              settings = {{ size_cells = 14, start = \"drawn\", goal = {{ x = 13 }}, queries = 2, corner_rule = \
              \"forbid_any\", blocked_share = {share} }}\n"
         )

@@ -91,7 +91,7 @@ pub const WRONG: &[Wrong] = &[
         "draws",
         "instances = 24",
         "instances = 0",
-        "mini/draws.toml:18:14: `instances` is 0; a whole number from 1 to 1000000 is",
+        "mini/draws.toml:18:13: `instances` is 0; a whole number from 1 to 1000000 is",
     ),
     wrong(
         "paper",
@@ -170,7 +170,7 @@ pub const WRONG: &[Wrong] = &[
         "draws",
         "instances = 24",
         "instances = 4000000000",
-        "mini/draws.toml:18:14: `instances` is 4000000000; a whole number from 1 to 1000000 is accepted",
+        "mini/draws.toml:18:13: `instances` is 4000000000; a whole number from 1 to 1000000 is accepted",
     ),
     wrong(
         "room",

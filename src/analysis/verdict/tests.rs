@@ -3,7 +3,8 @@ use crate::analysis::verdict_rule::Column;
 
 /// A claim of this verdict, a part of a sentence or a theorem if so wanted.
 fn judged(verdict: Verdict, is_part: bool, is_theorem: bool) -> ClaimVerdict {
-    let text = "claim = 'a'\nat = 'here'\nverdict = 'reproduced'\noutcome = 'holds'\nreading = 'default'";
+    let text =
+        "claim = 'a'\nat = 'here'\nverdict = 'reproduced'\noutcome = 'holds'\ninterpretation = 'default'";
     let one: ClaimVerdict = toml::from_str(text).unwrap();
     let said = |is: bool| is.then(|| "so".to_owned());
     ClaimVerdict { verdict, part_of: said(is_part), theorem: said(is_theorem), ..one }
@@ -11,7 +12,7 @@ fn judged(verdict: Verdict, is_part: bool, is_theorem: bool) -> ClaimVerdict {
 
 /// Claims as they stand in a file.
 fn verdicts(claims: Vec<ClaimVerdict>) -> Verdicts {
-    let text = "paper = 'a'\ncommand = ''\nquick = false\nreading = {}\nmeanings = ''";
+    let text = "paper = 'a'\ncommand = ''\nquick = false\ninterpretation = {}\nmeanings = ''";
     Verdicts { claims, ..toml::from_str(text).unwrap() }
 }
 

@@ -198,7 +198,7 @@ impl Paper {
         for (name, more) in &explore.more_instances {
             if let Some(few) = explore.instances.get(name).filter(|few| *few > more) {
                 let message = format!(
-                    "`more_instances` of `{name}` is {}, below its `draws`, {}; {1} or more are accepted",
+                    "`more_instances` of `{name}` is {}, below its `instances`, {}; {1} or more are accepted",
                     more.0, few.0
                 );
                 wrong(&["more_instances", name], message, name);

@@ -240,7 +240,7 @@ fn instances_are_kept_by_their_numbers_too_and_no_others() {
 #[test]
 fn of_a_trial_only_the_traces_that_are_named_are_kept() {
     let house = House::new();
-    let named = STUDY.replace("instances = 2", "instances = 2\nexhibits = ['path']");
+    let named = STUDY.replace("instances = 2", "instances = 2\ntraces = ['path']");
     let names = |out: &str| -> BTreeSet<String> {
         let kept = house.records(out).batch.kept.into_iter();
         let of_trials = kept.filter(|kept| matches!(kept.of, Owner::Trial(_)));

@@ -102,7 +102,7 @@ fn study(made: Made) -> String {
     };
     let group = |label: &str| {
         format!(
-            "[[problems]]\nlabel = \"{label}\"\nfamily = \"random_cells\"\nreplicates = 1_000\nsettings = {{ size_cells = [9, 9], \
+            "[[problems]]\nlabel = \"{label}\"\nfamily = \"random_cells\"\ninstances = 1_000\nsettings = {{ size_cells = [9, 9], \
              start = [0, 0], goal = [8, 8], blocked_share = 0.2, corner_rule = \"allow\" }}\n"
         )
     };
