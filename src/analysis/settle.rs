@@ -214,7 +214,7 @@ mod tests {
         let said = |limits: [f64; 2], [low, value, high]: [f64; 3]| {
             let ours = Some(Estimate::new(value, Interval::new(low, high), "a share", 20));
             let limits = limits.to_vec();
-            let units = "draws";
+            let units = "instances";
             settles(
                 &CriterionResult {
                     ours,

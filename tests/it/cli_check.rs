@@ -21,7 +21,7 @@ fn fourteen_faults_of_as_many_kinds_are_told_in_one_round_and_once_each() {
         ("room", "searched = true", "searched = true\nfitted_to = [\"toll\"]"),
         ("room", "start = [0, 0]", "start = [3, 0]"),
         ("room", "goal = [6, 3]", "goal = [3, 1]"),
-        ("room", "instances = 1 }]", "replicas = 1 }]"),
+        ("room", "instances = 1 }]", "instancs = 1 }]"),
         ("draws", "\"delete_inflections\"", "\"delete_reflections\""),
         ("draws", "weight = 1,", "weight = -1,"),
         ("paper", "default = \"opened\"", "default = \"open\""),
@@ -50,7 +50,7 @@ fn fourteen_faults_of_as_many_kinds_are_told_in_one_round_and_once_each() {
         "mini/room.toml:5:14: fitted_to: there is no claim `toll`",
         "mini/room.toml:17:44: the start [3.0, 0.0] is blocked",
         "mini/room.toml:17:59: the goal [3.0, 1.0] is blocked",
-        "mini/room.toml:28:31: unknown key `replicas` (did you mean `instances`?); accepted: ",
+        "mini/room.toml:28:31: unknown key `instancs` (did you mean `instances`?); accepted: ",
     ];
     assert_faults(&said.err, &expected);
 }
@@ -147,7 +147,7 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
             "room",
             &[("instances = 1 }]", "instances = 2, contender = \"A*\", repeats = 3 }]")],
             &[
-                "room.toml:27:44: `instances` is 2; there are 1, and no more is accepted",
+                "room.toml:27:43: `instances` is 2; there are 1, and no more is accepted",
                 "room.toml:27:75: `repeats` is 3; there are 1, and no more is accepted",
             ],
         ),

@@ -80,7 +80,7 @@ fn note(choices: &VotingChoices, stored: &Stored, outcomes: &BTreeMap<String, Ou
         note.trials = first.trials;
         note.stale = first.stale(&choices.now);
         note.refused = refused(choices, first);
-        if note.stale.is_empty() {
+        if !choices.calibration.iter().any(|id| note.stale.contains(id)) {
             note.fits = choices.fits(first, outcomes);
         }
     }
