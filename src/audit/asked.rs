@@ -1,6 +1,6 @@
 //! What a relation asks: the check that it names, and the test that this check makes of it.
 
-use super::checks::{Entry, REGISTRY, Test, find};
+use super::checks::{Entry, FromRelation, REGISTRY, Test, find};
 use super::input::{Input, Relation};
 use super::meaning::{rounding, roundings};
 use super::table::{Fault, Place};
@@ -22,6 +22,19 @@ pub fn read(mut keys: BTreeMap<String, Value>, digits: Digits, place: Place) -> 
     let check = text("check")?;
     let name = text("name")?;
     let read = text("rounding")?;
+    if check.is_empty() {
+        let known: Vec<&str> =
+            REGISTRY.iter().flat_map(|entry| &entry.relation).flat_map(FromRelation::names).collect();
+        let unknown: Vec<String> =
+            keys.keys().filter(|key| !known.contains(&key.as_str())).map(|key| format!("`{key}`")).collect();
+        let which = match unknown.as_slice() {
+            [] => String::new(),
+            keys => format!("; no relation has {}", keys.join(", ")),
+        };
+        return Err(fault(format!(
+            "`check` is missing{which}; the name of a check is accepted, as check = \"ratio\""
+        )));
+    }
     let known = || {
         let forms = REGISTRY.iter().filter(|entry| entry.relation.is_some()).map(|entry| entry.name);
         forms.collect::<Vec<_>>().join(", ")

@@ -58,13 +58,15 @@ pub fn octile_distance(displacement: Cell) -> Octile {
 /// Whether an 8-connected walk with exactly these moves covers `displacement`.
 ///
 /// Diagonal moves choose their signs along x and y independently, so each axis decides for itself: some
-/// `horizontal` of the straight moves must leave both axes enough moves, of the right parity.
+/// `horizontal` of the straight moves must leave both axes enough moves, of the right parity. That bounds
+/// `horizontal` from both sides and says whether it is even, alike for both axes only if the sum of all is.
 pub fn joins(moves: Octile, displacement: Cell) -> bool {
-    let [dx, dy] = displacement.map(i32::unsigned_abs);
-    let reaches = |moves: u32, d: u32| moves >= d && (moves - d).is_multiple_of(2);
-    (0..=moves.straight).any(|horizontal| {
-        reaches(horizontal + moves.diagonal, dx) && reaches(moves.straight - horizontal + moves.diagonal, dy)
-    })
+    let [dx, dy] = displacement.map(|d| i64::from(d.unsigned_abs()));
+    let [straight, diagonal] = [moves.straight, moves.diagonal].map(i64::from);
+    let least = (dx - diagonal).max(0);
+    let most = straight.min(straight + diagonal - dy);
+    let first = least + (least + dx + diagonal) % 2;
+    (straight + dx + dy) % 2 == 0 && first <= most
 }
 
 /// Every pair of move counts whose length at `step` prints as `printed`, by rising count of diagonal moves.

@@ -12,9 +12,10 @@ mod toml;
 mod units;
 
 pub use cells::{Number, number, unit};
+pub use guess::are_multiples;
 
 use super::input::Input;
-use super::meaning::{Kind, Meaning, contradiction};
+use super::meaning::{Count, Kind, Meaning, contradiction};
 use super::sample::groups;
 use super::statistic::Statistic;
 use super::table::{Cell, Column, Fault, Place, Table, named_by};
@@ -230,7 +231,7 @@ fn check_references(columns: &[Column], line: usize, faults: &mut Vec<Fault>) {
 /// Reads a cell by what its column is.
 fn cell(text: &str, column: &Column, place: Place) -> Result<Cell, String> {
     let (plain, is_bold) = cells::plain(text);
-    let mut cell = Cell { place, text: plain, is_bold, value: None, spread: None };
+    let mut cell = Cell { place, text: plain, is_bold, value: None, spread: None, k_of_n: None };
     if matches!(column.meaning.kind, Kind::Skip | Kind::Statistics) {
         return Ok(cell);
     }
@@ -240,8 +241,35 @@ fn cell(text: &str, column: &Column, place: Place) -> Result<Cell, String> {
             let widened = |value| widened(value, column.meaning.significant);
             (cell.value, cell.spread) = (Some(widened(value)?), spread.map(widened).transpose()?);
         }
+        Number::Fraction { k_of_n, percent } => {
+            cell.value =
+                of_fraction(k_of_n, percent, column).map_err(|why| format!("`{}` {why}", cell.text))?;
+            cell.k_of_n = Some(k_of_n);
+        }
     }
     Ok(cell)
+}
+
+/// The number that a fraction prints in its column: the count where counts are printed, else the percentage beside it.
+fn of_fraction(
+    k_of_n: [u64; 2],
+    percent: Option<Printed>,
+    column: &Column,
+) -> Result<Option<Printed>, String> {
+    let [k, n] = k_of_n;
+    match (&column.meaning.n, &column.meaning.kind) {
+        (_, Kind::Share { whole: 0 }) if percent.is_some() => {
+            Err(format!("is a count and a percentage; say `% of {n}` in the header"))
+        }
+        (Some(Count::Number(said)), Kind::Share { .. }) if *said != n => {
+            Err(format!("is of {n}, and the header says of {said}; one of both is accepted"))
+        }
+        (_, Kind::Share { whole: 0 }) => Ok(k.to_string().parse().ok()),
+        (_, Kind::Share { .. }) => Ok(percent),
+        _ => Err(format!(
+            "is {k} of {n}; say `count of {n}` in the header, or `% of {n}` where a percentage stands beside it"
+        )),
+    }
 }
 
 /// The number with the zeros at its end that `digits=D` says were left out.

@@ -1,0 +1,417 @@
+//! Whether a row or a column called `Average` or `Total` is the mean or the sum of those that it sums up.
+//!
+//! Which numbers it sums up is not printed, so every usual choice counts: the rows of its block, all rows above, the summaries
+//! above; and of columns those right before it. Only what no choice gives is refused.
+
+use super::arguments::{count, digits, shown_span, spans};
+use super::{Entry, FromRelation, Test};
+use crate::input::{Input, Relation};
+use crate::meaning::{Count, Kind, Meaning};
+use crate::reader::unit;
+use crate::sample::groups;
+use crate::statistic::Statistic;
+use crate::table::{Column, Fault, Quoted, Table, named_by, quoted};
+use proofs::exact::{Exact, Print, Span, add, div, whole};
+use std::cell::Cell;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "summary",
+    about: "is a row or a column called Average or Total the mean or the sum of those that it sums up?",
+    example: "Average 52.0 below 50.0 and 60.0",
+    premises: "it sums up the rows above it, or the columns before it; a signal, since other rows may be meant",
+    source: "interval arithmetic",
+    tests,
+    relation: Some(FromRelation {
+        keys: &[
+            ("value", "The mean or the sum, in quotes: the printed number, or the name of a cell."),
+            ("parts", "What it sums up, each in quotes or the name of a cell."),
+            ("is", "What it is of them: `mean`, which holds if absent, or `sum`."),
+        ],
+        build,
+    }),
+};
+
+/// What a name says that a row or a column is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Word {
+    Mean,
+    Sum,
+    /// `Overall`: a mean, weighted or not, or a sum.
+    Either,
+}
+
+/// How a number may follow from others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Mean,
+    /// The mean weighted by how many trials are behind each.
+    Pooled,
+    /// A mean of some weights, or a quotient of sums.
+    Between,
+    Sum,
+    Least,
+    Greatest,
+}
+
+impl Form {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Mean => "the mean",
+            Self::Pooled => "the mean by number of trials",
+            Self::Between => "between the least and the greatest",
+            Self::Sum => "the sum",
+            Self::Least => "the least",
+            Self::Greatest => "the greatest",
+        }
+    }
+}
+
+struct Summary {
+    /// The number that sums up, then the others.
+    numbers: Vec<Quoted>,
+    /// What it may sum up, by places in `numbers`.
+    choices: Vec<Vec<usize>>,
+    forms: Vec<Form>,
+    /// How many trials are behind each number; empty if that is not printed.
+    weights: Vec<Exact>,
+    premise: &'static str,
+    steps: Cell<u64>,
+}
+
+/// The most numbers that one is held against.
+const MOST: usize = 1000;
+
+/// What a name says: `Average`, `Avg.`, `Mean (all maps)`, `Total:`, `Overall`.
+fn word(name: &str) -> Option<Word> {
+    let name = name.to_lowercase();
+    let alone = name.split(['(', '[', ':']).next().unwrap_or_default().trim().trim_end_matches('.');
+    let start =
+        ["of", "over", "across"].iter().find_map(|word| Some(alone.split_once(&format!(" {word} "))?.0));
+    match start.unwrap_or(alone).trim() {
+        "average" | "averaged" | "averages" | "avg" | "mean" | "means" => Some(Word::Mean),
+        "sum" | "total" | "totals" | "grand total" => Some(Word::Sum),
+        "overall" => Some(Word::Either),
+        _ => None,
+    }
+}
+
+/// The cell of a row that says that it sums up others.
+pub fn label(table: &Table, row: usize) -> Option<usize> {
+    let is_said = |at: &usize| {
+        let cell = &table.rows[row][*at];
+        cell.value.is_none() && word(&cell.text).is_some()
+    };
+    (0..table.rows[row].len()).find(is_said).filter(|_| table.statistics().is_none())
+}
+
+fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
+    for (index, table) in input.tables.iter().enumerate().filter(|(_, table)| table.statistics().is_none()) {
+        let labels: Vec<Option<usize>> = (0..table.rows.len()).map(|row| label(table, row)).collect();
+        for row in 0..table.rows.len() {
+            for column in 0..table.columns.len() {
+                let both =
+                    [of_row(index, table, &labels, [row, column]), of_column(index, table, row, column)];
+                both.into_iter().flatten().for_each(|test| give(Box::new(test)));
+            }
+        }
+    }
+}
+
+/// Whether a cell stands in a row or column of a summary, and is what it says it is.
+pub fn is_true(input: &Input, [index, row, column]: [usize; 3]) -> bool {
+    let table = &input.tables[index];
+    let of_row = || {
+        label(table, row)?;
+        let labels: Vec<Option<usize>> = (0..=row).map(|row| label(table, row)).collect();
+        of_row(index, table, &labels, [row, column])
+    };
+    let holds = |test: Summary| {
+        let prints: Vec<Print> = test.numbers.iter().map(|number| number.print).collect();
+        test.is_possible(&prints) == Some(true)
+    };
+    table.statistics().is_none()
+        && (of_row().is_some_and(holds) || of_column(index, table, row, column).is_some_and(holds))
+}
+
+/// The test of a cell in a row that sums up those above; none if it sums up nothing that is known.
+fn of_row(
+    index: usize,
+    table: &Table,
+    labels: &[Option<usize>],
+    [row, column]: [usize; 2],
+) -> Option<Summary> {
+    let own = labels[row]?;
+    table.print(row, column)?;
+    let word = word(&table.rows[row][own].text)?;
+    let mut forms = forms(table, column, word)?;
+    // A row `Average` of one planner sums up the rows of that planner, if there are any.
+    let others = |at: &usize| {
+        let cell = &table.rows[row][*at];
+        *at != own && table.columns[*at].meaning.kind == Kind::Skip && !cell.text.is_empty()
+    };
+    let same: Vec<usize> = (0..table.columns.len()).filter(others).collect();
+    let is_alike =
+        |other: usize| same.iter().all(|at| table.rows[other][*at].text == table.rows[row][*at].text);
+    // A row that divides blocks holds its name alone; where a dash stands, something is not printed.
+    let is_empty = |other: usize| {
+        let cells = table.rows[other].iter().zip(&table.columns);
+        cells.filter(|(_, column)| column.meaning.kind != Kind::Skip).all(|(cell, _)| cell.text.is_empty())
+    };
+    let [mut block, mut all, mut before] = [Vec::new(), Vec::new(), Vec::new()];
+    let mut is_in_block = true;
+    for above in (0..row).rev() {
+        if is_empty(above) || labels[above].is_some() {
+            is_in_block &= block.is_empty();
+            if labels[above].is_some() && is_alike(above) && table.print(above, column).is_some() {
+                before.push(above);
+            }
+            continue;
+        }
+        if !is_alike(above) {
+            continue;
+        }
+        // Where one is not printed, what the others give is not known.
+        table.print(above, column)?;
+        if all.len() == MOST {
+            return None;
+        }
+        all.push(above);
+        if is_in_block {
+            block.push(above);
+        }
+    }
+    if all.len() < 2 {
+        return None;
+    }
+    let rows: Vec<usize> = all.iter().chain(&before).copied().collect();
+    let at = |rows_of: &[usize]| {
+        rows_of.iter().filter_map(|of| rows.iter().position(|row| row == of)).map(|at| at + 1).collect()
+    };
+    let choices = [&block, &all, &before]
+        .map(|rows| at(rows))
+        .into_iter()
+        .filter(|choice: &Vec<usize>| !choice.is_empty());
+    let weights = weights(table, column, &rows);
+    if weights.is_empty() && forms.contains(&Form::Pooled) && word != Word::Mean {
+        forms.push(Form::Between);
+    }
+    let numbers = std::iter::once(&row).chain(&rows).map(|row| quoted(index, table, *row, column));
+    Some(Summary {
+        numbers: numbers.collect::<Option<_>>()?,
+        choices: choices.collect(),
+        forms,
+        weights,
+        premise: "the row sums up rows above it",
+        steps: Cell::new(0),
+    })
+}
+
+/// The number of trials behind the numbers in `rows`, 0 for the summary itself; empty if one is not known.
+fn weights(table: &Table, column: usize, rows: &[usize]) -> Vec<Exact> {
+    let n = |row: usize| match &table.columns[column].meaning.n {
+        Some(Count::Number(_)) => Some(whole(1)),
+        Some(Count::Column(name)) => Some(table.print(row, named_by(&table.columns, column, name)?)?.value()),
+        None => table.rows[row][column].k_of_n.map(|[_, n]| count(n)),
+    };
+    let all = rows.iter().map(|row| n(*row)).collect::<Option<Vec<Exact>>>();
+    all.map_or_else(Vec::new, |all| std::iter::once(whole(0)).chain(all).collect())
+}
+
+/// How numbers of a column may follow from others of it; none where no mean or sum does.
+fn forms(table: &Table, at: usize, word: Word) -> Option<Vec<Form>> {
+    let Column { name, meaning, .. } = &table.columns[at];
+    let is_n = table.columns.iter().any(|column| column.meaning.n == Some(Count::Column(name.clone())));
+    if is_n {
+        return Some(vec![Form::Mean, Form::Sum]);
+    }
+    if is_quotient(table, at) {
+        return (word != Word::Sum).then(|| vec![Form::Mean, Form::Between]);
+    }
+    let forms: &[Form] = match (&meaning.kind, word) {
+        (Kind::Share { whole: 0 } | Kind::Of(Statistic::Total | Statistic::Quantile(_)), Word::Mean) => {
+            &[Form::Mean]
+        }
+        (Kind::Share { whole: 0 } | Kind::Of(Statistic::Total) | Kind::Value, Word::Sum) => &[Form::Sum],
+        (Kind::Share { whole: 0 } | Kind::Of(Statistic::Total), Word::Either) => &[Form::Mean, Form::Sum],
+        (Kind::Of(Statistic::Min), Word::Mean | Word::Either) => &[Form::Mean, Form::Least],
+        (Kind::Of(Statistic::Max), Word::Mean | Word::Either) => &[Form::Mean, Form::Greatest],
+        (Kind::Share { .. } | Kind::Of(Statistic::Mean) | Kind::Value, Word::Mean) => {
+            &[Form::Mean, Form::Pooled]
+        }
+        (Kind::Share { .. } | Kind::Of(Statistic::Mean) | Kind::Value, _) => {
+            &[Form::Mean, Form::Sum, Form::Pooled]
+        }
+        _ => return None,
+    };
+    Some(forms.to_vec())
+}
+
+/// Whether a column holds quotients, of which the mean may be geometric, or a quotient of means.
+fn is_quotient(table: &Table, at: usize) -> bool {
+    let Column { name, meaning, .. } = &table.columns[at];
+    let name = name.to_lowercase();
+    let words = [
+        "speed", "ratio", "factor", "relative", "improve", "reduc", "saving", "gain", "gap", "increase", "/",
+        "per ",
+    ];
+    let is_named =
+        words.iter().any(|word| name.contains(word)) || meaning.kind == Kind::Value && name.contains('%');
+    let cell = table.rows.iter().filter_map(|row| row.get(at)).find(|cell| cell.value.is_some());
+    let has_unit = |cell: &crate::table::Cell| ["x", "×"].contains(&unit(&cell.text).1);
+    is_named || meaning.ratio.is_some() || cell.is_some_and(has_unit)
+}
+
+/// The test of a cell in a column that sums up those before it; none if it sums up nothing that is known.
+fn of_column(index: usize, table: &Table, row: usize, at: usize) -> Option<Summary> {
+    let Column { name, meaning, .. } = &table.columns[at];
+    let word = word(name)?;
+    table.print(row, at)?;
+    // A column `mean` beside `sd` or `max` is a statistic of what is not printed.
+    let is_statistic = groups(&table.columns)
+        .iter()
+        .any(|group| group.columns.len() > 1 && group.columns.iter().any(|(column, _)| *column == at));
+    if is_statistic || !meaning.sum.is_empty() || meaning.spread.is_some() {
+        return None;
+    }
+    let alike = |a: &Meaning, b: &Meaning| {
+        (&a.kind, &a.unit, a.grain, a.better) == (&b.kind, &b.unit, b.grain, b.better)
+    };
+    let is_number =
+        |column: &usize| !matches!(table.columns[*column].meaning.kind, Kind::Skip | Kind::Samples);
+    let mut columns: Vec<usize> = (0..at).rev().take_while(is_number).collect();
+    columns.drain(
+        ..columns.iter().take_while(|column| self::word(&table.columns[**column].name).is_some()).count(),
+    );
+    let last = &table.columns[*columns.first()?].meaning;
+    let run = columns.iter().take_while(|column| {
+        let Column { name, meaning, .. } = &table.columns[**column];
+        alike(meaning, last) && self::word(name).is_none()
+    });
+    columns.truncate(run.count());
+    let is_same = meaning.kind == last.kind
+        || table.columns[at].written.is_none() && matches!(meaning.kind, Kind::Of(_) | Kind::Value);
+    if columns.len() < 2 || !is_same || meaning.unit.is_some() && meaning.unit != last.unit {
+        return None;
+    }
+    let mut forms = forms(table, columns[0], word)?;
+    forms.retain(|form| *form != Form::Pooled);
+    if word == Word::Either {
+        forms.push(Form::Between);
+    }
+    let numbers = std::iter::once(&at).chain(&columns).map(|column| quoted(index, table, row, *column));
+    Some(Summary {
+        numbers: numbers.collect::<Option<_>>()?,
+        choices: (2..=columns.len()).map(|most| (1..=most).collect()).collect(),
+        forms,
+        weights: Vec::new(),
+        premise: "the column sums up columns right before it",
+        steps: Cell::new(0),
+    })
+}
+
+fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
+    let form = if relation.word("is", &["mean", "sum"])? == "sum" { Form::Sum } else { Form::Mean };
+    let mut numbers = vec![relation.number("value", input)?];
+    numbers.extend(relation.numbers("parts", input)?);
+    let choices = vec![(1..numbers.len()).collect()];
+    let premise = "these are all that it sums up";
+    Ok(Box::new(Summary {
+        numbers,
+        choices,
+        forms: vec![form],
+        weights: Vec::new(),
+        premise,
+        steps: Cell::new(0),
+    }))
+}
+
+impl Summary {
+    /// What one choice allows by one form; none without weights, or if 128 bits do not suffice.
+    fn allowed(&self, spans: &[Span], choice: &[usize], form: Form) -> Option<Span> {
+        let chosen = || choice.iter().map(|at| spans[*at]);
+        let sum = || chosen().try_fold(Span::point(whole(0)), |sum, span| sum.plus(&span));
+        let weighted = |all: Span, at: &usize| all.plus(&spans[*at].times(self.weights[*at])?);
+        let extreme = |pick: fn(Span, Span) -> Span| chosen().reduce(pick);
+        let least = |a: Span, b: Span| Span::closed(a.low.min(b.low), a.high.min(b.high));
+        let greatest = |a: Span, b: Span| Span::closed(a.low.max(b.low), a.high.max(b.high));
+        match form {
+            Form::Sum => sum(),
+            Form::Mean => sum()?.times(whole(choice.len() as i128).recip()),
+            Form::Least => extreme(least),
+            Form::Greatest => extreme(greatest),
+            Form::Between => {
+                let [low, high] = [extreme(least)?.low, extreme(greatest)?.high];
+                Some(Span::closed(low, high))
+            }
+            Form::Pooled if self.weights.is_empty() => None,
+            Form::Pooled => {
+                let all = choice.iter().try_fold(whole(0), |all, at| add(all, self.weights[*at]))?;
+                let share = Some(all).filter(|all| *all > whole(0)).and_then(|all| div(whole(1), all))?;
+                choice.iter().try_fold(Span::point(whole(0)), weighted)?.times(share)
+            }
+        }
+    }
+
+    /// Every form of every choice with what it allows.
+    fn all(&self, prints: &[Print]) -> impl Iterator<Item = (Form, usize, Option<Span>)> {
+        let spans = spans(prints);
+        self.steps.set(self.steps.get() + prints.len() as u64);
+        let pairs = self.choices.iter().flat_map(|choice| self.forms.iter().map(move |form| (choice, *form)));
+        let needs = pairs.filter(|(_, form)| *form != Form::Pooled || !self.weights.is_empty());
+        needs.map(move |(choice, form)| (form, choice.len(), self.allowed(&spans, choice, form)))
+    }
+}
+
+impl Test for Summary {
+    fn numbers(&self) -> &[Quoted] {
+        &self.numbers
+    }
+
+    fn is_possible(&self, prints: &[Print]) -> Option<bool> {
+        let printed = prints[0].span();
+        let mut is_open = false;
+        for (_, _, span) in self.all(prints) {
+            match span {
+                Some(span) if span.meets(&printed) => return Some(true),
+                Some(_) => {}
+                None => is_open = true,
+            }
+        }
+        (!is_open).then_some(false)
+    }
+
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
+        let own = prints[0].span();
+        let mut ways: Vec<String> = Vec::new();
+        for (form, many, span) in self.all(prints) {
+            let Some(span) = span else { continue };
+            if span.meets(&own) != is_possible {
+                continue;
+            }
+            let way = format!("{} of {many} is {}", form.name(), shown_span(&span, 4));
+            if !ways.contains(&way) {
+                ways.push(way);
+            }
+        }
+        ways.truncate(3);
+        let verb = if is_possible { "sums up" } else { "does not sum up" };
+        format!("{} {verb} the others: {}", prints[0].printed, ways.join("; "))
+    }
+
+    fn premises(&self) -> Vec<String> {
+        vec![self.premise.to_owned(), digits(&self.numbers)]
+    }
+
+    fn is_about_digits(&self) -> bool {
+        false
+    }
+
+    fn is_about_summaries(&self) -> bool {
+        true
+    }
+
+    fn steps_taken(&self) -> Option<u64> {
+        Some(self.steps.get())
+    }
+}
