@@ -25,7 +25,7 @@ pub fn line(source: &str, finding: &Finding) -> String {
                 if changes { "the ranking changes with it" } else { "the ranking stays" }.to_owned()
             }));
         }
-        None if finding.class == Class::Impossible && finding.power.is_some() => {
+        None if finding.class == Class::Impossible && !finding.is_cut_short => {
             notes.push("no small change of one number mends it".to_owned());
         }
         None => {}

@@ -71,6 +71,8 @@ pub struct Finding {
     pub power: Option<Power>,
     /// What would mend it.
     pub mend: Option<Mend>,
+    /// Whether the budget did not allow to look for power and a mend.
+    pub is_cut_short: bool,
     /// Other findings with the same cause, which that change mends too.
     pub follows: Vec<String>,
     /// The proof, as a certificate.
@@ -252,7 +254,7 @@ impl Run<'_> {
         let first = &test.numbers()[0];
         let mut said = match answer {
             Some(is_possible) => test.sentence(prints, is_possible),
-            None if self.effort.is_spent(test) => format!("not decided: {}", effort::SPENT),
+            None if self.effort.is_spent(test) => format!("not decided: {}", effort::spent()),
             None => format!("not decided: {}", test.undecided(prints)),
         };
         if answer == Some(false) {
@@ -271,7 +273,8 @@ impl Run<'_> {
         let certificate = written.map(|proof| super::certificate::certificate(check, test, prints, &proof));
         let is_mended = answer == Some(false) && !self.options.skips_power;
         let mend = is_mended.then(|| mend::least(self.input, test, prints, &self.effort)).flatten();
-        self.report.cut_short += usize::from(is_mended && self.effort.is_used_up());
+        let is_cut_short = is_mended && mend.is_none() && self.effort.is_used_up();
+        self.report.cut_short += usize::from(is_cut_short);
         let mut premises = test.premises();
         premises.extend(doubts(self.input, test));
         self.report.findings.push(Finding {
@@ -284,6 +287,7 @@ impl Run<'_> {
             readings,
             power,
             mend,
+            is_cut_short,
             follows: Vec::new(),
             certificate,
             witness,

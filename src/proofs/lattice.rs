@@ -82,10 +82,13 @@ pub fn lengths_printing(
     let reach = printed.interval(digits);
     let in_steps = |length: f64| (length / step.value()).max(0.0);
     let most_diagonal = (in_steps(reach.high) / std::f64::consts::SQRT_2) as u32 + 1;
+    // Floats propose; they are off by much less.
+    let slack = 1e-6 + 1e-9 * in_steps(reach.high);
     let candidates = (0..=most_diagonal).flat_map(|diagonal| {
-        let rest = |length: f64| (in_steps(length) - f64::from(diagonal) * std::f64::consts::SQRT_2).max(0.0);
-        let (first, last) = ((rest(reach.low) as u32).saturating_sub(1), rest(reach.high) as u32 + 1);
-        (first..=last).map(move |straight| Octile { straight, diagonal })
+        let left = |length: f64| in_steps(length) - f64::from(diagonal) * std::f64::consts::SQRT_2;
+        let first = (left(reach.low) - slack).ceil().max(0.0) as u32;
+        let end = (left(reach.high) + slack).floor().max(-1.0) + 1.0;
+        (first..end as u32).map(move |straight| Octile { straight, diagonal })
     });
     candidates
         .filter(|&moves| prints_as(moves, step, printed, digits))

@@ -95,14 +95,11 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
     Ok(Box::new(Length { numbers, lattice, displacement, steps: std::cell::Cell::default() }))
 }
 
-/// How many pairs of moves are looked through for a length, about.
+/// How many numbers of diagonal moves are looked through for a length, at most.
 fn cases(print: Print, lattice: Lattice, displacement: Option<Cell>) -> u64 {
     let steps = print.span().not_negative().times(lattice.step.recip());
-    let long = steps.filter(|steps| {
-        displacement.is_none_or(|displacement| !is_short(steps, lattice.diagonal, displacement))
-    });
-    let most = long.map_or(0, |steps| floor(steps.high)).clamp(0, MOVES);
-    3 * most as u64
+    let is_long = |steps: &Span| displacement.is_none_or(|ends| !is_short(steps, lattice.diagonal, ends));
+    steps.filter(is_long).map_or(0, |steps| floor(steps.high).clamp(0, MOVES) as u64)
 }
 
 /// The moves that print a length; none if there are too many to look through.

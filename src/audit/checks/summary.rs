@@ -105,9 +105,13 @@ pub fn label(table: &Table, row: usize) -> Option<usize> {
     (0..table.rows[row].len()).find(is_said).filter(|_| table.statistics().is_none())
 }
 
+fn labels(table: &Table) -> Vec<Option<usize>> {
+    (0..table.rows.len()).map(|row| label(table, row)).collect()
+}
+
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
     for (index, table) in input.tables.iter().enumerate().filter(|(_, table)| table.statistics().is_none()) {
-        let labels: Vec<Option<usize>> = (0..table.rows.len()).map(|row| label(table, row)).collect();
+        let labels = labels(table);
         for row in 0..table.rows.len() {
             for column in 0..table.columns.len() {
                 let both =
@@ -123,8 +127,7 @@ pub fn is_true(input: &Input, [index, row, column]: [usize; 3]) -> bool {
     let table = &input.tables[index];
     let of_row = || {
         label(table, row)?;
-        let labels: Vec<Option<usize>> = (0..=row).map(|row| label(table, row)).collect();
-        of_row(index, table, &labels, [row, column])
+        of_row(index, table, &labels(table), [row, column])
     };
     let holds = |test: Summary| {
         let prints: Vec<Print> = test.numbers.iter().map(|number| number.print).collect();
@@ -160,25 +163,25 @@ fn of_row(
     };
     let [mut block, mut all, mut before] = [Vec::new(), Vec::new(), Vec::new()];
     let mut is_in_block = true;
-    for above in (0..row).rev() {
-        if is_empty(above) || labels[above].is_some() {
+    for other in neighbours(table, labels, row) {
+        if is_empty(other) || labels[other].is_some() || is_statistic(table, other) {
             is_in_block &= block.is_empty();
-            if labels[above].is_some() && is_alike(above) && table.print(above, column).is_some() {
-                before.push(above);
+            if labels[other].is_some() && is_alike(other) && table.print(other, column).is_some() {
+                before.push(other);
             }
             continue;
         }
-        if !is_alike(above) {
+        if !is_alike(other) {
             continue;
         }
         // Where one is not printed, what the others give is not known.
-        table.print(above, column)?;
+        table.print(other, column)?;
         if all.len() == MOST {
             return None;
         }
-        all.push(above);
+        all.push(other);
         if is_in_block {
-            block.push(above);
+            block.push(other);
         }
     }
     if all.len() < 2 {
@@ -205,6 +208,26 @@ fn of_row(
         premise: "the row sums up rows above it",
         steps: Cell::new(0),
     })
+}
+
+/// The rows that a summary may be of, the nearest first: those above, or below if there are none above.
+fn neighbours(table: &Table, labels: &[Option<usize>], row: usize) -> Vec<usize> {
+    let is_first = labels[..row].iter().all(Option::is_some);
+    if is_first { (row + 1..table.rows.len()).collect() } else { (0..row).rev().collect() }
+}
+
+/// Whether a row holds another statistic of the rows: `Std`, `Median`. Queries may be called `q1`, `q2`.
+fn is_statistic(table: &Table, row: usize) -> bool {
+    let of_rows = |text: &str| {
+        let statistic =
+            Statistic::named(text.trim_end_matches('.')).filter(|_| !text.starts_with(['q', 'Q']));
+        let is_other = ["std. dev", "std dev", "standard deviation", "variance", "range"]
+            .contains(&text.to_lowercase().trim_end_matches('.'));
+        is_other
+            || statistic
+                .is_some_and(|statistic| !matches!(statistic, Statistic::Quantile(share) if share != 5000))
+    };
+    table.rows[row].iter().any(|cell| cell.value.is_none() && of_rows(&cell.text))
 }
 
 /// The number of trials behind the numbers in `rows`, 0 for the summary itself; empty if one is not known.

@@ -9,9 +9,10 @@ const CASES: u64 = 100_000_000;
 /// Decisions and cases that power and least changes may take in all.
 const CHANGES: u64 = 10_000_000;
 
-/// What is said of a decision for which nothing is left.
-pub(super) const SPENT: &str =
-    "the table's budget of 100000000 cases is used up; audit its rows in several files";
+/// Why a decision stays open for which nothing is left.
+pub(super) fn spent() -> String {
+    format!("the table's budget of {CASES} cases is used up; audit its rows in several files")
+}
 
 /// What is left.
 pub(super) struct Effort {

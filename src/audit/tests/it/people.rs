@@ -307,6 +307,18 @@ fn an_average_may_be_of_its_block_of_its_planner_or_weighted_by_trials() {
         assert_eq!(found(&pooled(rate)), [], "{rate}");
     }
     assert_eq!(found(&pooled("75.0")), [("summary", Class::Signal)]);
+    let spread = |last: &str| {
+        table(
+            "map | time [value]",
+            &["a | 1.0", "b | 4.0", "c | 2.5", "Std. | 2.1", "Median | 2.5", &format!("Mean | {last}")],
+        )
+    };
+    assert_eq!(found(&spread("2.5")), []);
+    assert_eq!(found(&spread("2.2")), [("summary", Class::Signal)], "a deviation is no row to sum up");
+    let first =
+        |first: &str| table("map | time [value]", &[&format!("Average | {first}"), "a | 1.0", "b | 4.0"]);
+    assert_eq!(found(&first("2.5")), []);
+    assert_eq!(found(&first("3.5")), [("summary", Class::Signal)]);
     let gaps = table("map | time [value]", &["a | 1.0", "b | -", "c | 2.0", "Average | 40.0"]);
     assert_eq!(found(&gaps), [], "a failure may count as anything");
     let speeds = table("map | speed-up [value]", &["a | 1.0", "b | 4.0", "Average | 2.0"]);
