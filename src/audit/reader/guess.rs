@@ -1,7 +1,7 @@
 //! What a column without annotation probably is.
 
 use super::cells::{Number, is_unit, number, plain};
-use crate::meaning::{Kind, Meaning, natural};
+use crate::meaning::{Better, Kind, Meaning, natural};
 use crate::statistic::Statistic;
 use crate::table::Column;
 use proofs::printed::Printed;
@@ -212,17 +212,28 @@ fn kind(name: &str, texts: &[&str]) -> String {
     "value".to_owned()
 }
 
+/// Which way is better by the arrow in a name, if there is one.
+pub fn better_by_arrow(name: &str) -> Option<Better> {
+    let has = |arrows: [&str; 2]| arrows.iter().any(|arrow| name.contains(arrow));
+    if has(["↑", "\\uparrow"]) {
+        return Some(Better::Higher);
+    }
+    has(["↓", "\\downarrow"]).then_some(Better::Lower)
+}
+
 fn better(name: &str) -> Option<&'static str> {
+    match better_by_arrow(name) {
+        Some(Better::Higher) => return Some("higher is better"),
+        Some(Better::Lower) => return Some("lower is better"),
+        None => {}
+    }
     if words(name).find_map(Statistic::named).is_some_and(|statistic| statistic != Statistic::Mean) {
         return None;
     }
-    if has(name, &["success", "solved", "accuracy", "clearance"])
-        || name.contains(['↑'])
-        || name.contains("\\uparrow")
-    {
+    if has(name, &["success", "solved", "accuracy", "clearance"]) {
         return Some("higher is better");
     }
     let lower =
         ["time", "duration", "latency", "runtime", "cost", "length", "error", "node", "expan", "collision"];
-    (has(name, &lower) || name.contains('↓') || name.contains("\\downarrow")).then_some("lower is better")
+    has(name, &lower).then_some("lower is better")
 }

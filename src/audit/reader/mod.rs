@@ -142,28 +142,43 @@ fn table(raw: Raw, faults: &mut Vec<Fault>) -> Option<Table> {
     Some(Table { name: raw.name, line: raw.line, mark: raw.mark, columns, rows })
 }
 
-/// The column that a header cell describes; guessed if it has no annotation. A unit in brackets is none.
+/// The column that a header cell describes; guessed if it has no annotation. A unit in brackets is none. An arrow may stand
+/// behind both.
 fn column(raw: &Raw, index: usize, header: &str) -> Result<Column, String> {
     let plain = cells::plain(header).0;
-    let mut name = plain.trim();
+    let (text, arrow) = without_arrow(plain.trim());
+    let named = |name: &str| format!("{} {arrow}", name.trim()).trim().to_owned();
+    let mut name = named(text);
     let mut unit = "";
-    if let Some((before, annotation)) = plain.strip_suffix(']').and_then(|text| text.rsplit_once('[')) {
+    if let Some((before, annotation)) = text.strip_suffix(']').and_then(|text| text.rsplit_once('[')) {
         let annotation = annotation.trim();
         match Meaning::parse(annotation) {
             Ok(mut meaning) => {
-                let name = before.trim().to_owned();
                 let annotation = annotation.to_owned();
-                meaning.unit = meaning.unit.or_else(|| unit_of(&name));
-                return Ok(Column { name, meaning, written: Some(annotation.clone()), annotation });
+                meaning.unit = meaning.unit.or_else(|| unit_of(before.trim()));
+                meaning.better = meaning.better.or_else(|| guess::better_by_arrow(arrow));
+                return Ok(Column {
+                    name: named(before),
+                    meaning,
+                    written: Some(annotation.clone()),
+                    annotation,
+                });
             }
-            Err(_) if cells::is_unit(annotation) => (name, unit) = (before.trim(), annotation),
+            Err(_) if cells::is_unit(annotation) => (name, unit) = (named(before), annotation),
             Err(message) => return Err(message),
         }
     }
     let texts = raw.rows.iter().filter_map(|(_, texts)| texts.get(index).map(String::as_str));
-    let annotation = guess::annotation(name, unit, &texts.take(1000).collect::<Vec<_>>());
+    let annotation = guess::annotation(&name, unit, &texts.take(1000).collect::<Vec<_>>());
     let meaning = Meaning::parse(&annotation).unwrap_or_default();
-    Ok(Column { name: name.to_owned(), meaning, written: None, annotation })
+    Ok(Column { name, meaning, written: None, annotation })
+}
+
+/// A header without the arrow that says which way is better, and the arrow.
+fn without_arrow(header: &str) -> (&str, &str) {
+    let arrows = ["$\\downarrow$", "$\\uparrow$", "\\downarrow", "\\uparrow", "↓", "↑"];
+    let found = arrows.into_iter().find_map(|arrow| Some((header.strip_suffix(arrow)?.trim_end(), arrow)));
+    found.filter(|(name, _)| !name.is_empty()).unwrap_or((header, ""))
 }
 
 /// The unit that a name ends in: `time (ms)`. The word `min` may be the least value.

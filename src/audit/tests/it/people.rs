@@ -155,6 +155,12 @@ fn a_multiple_of_the_best_in_brackets_is_not_guessed_to_be_a_deviation() {
     assert!(!line.contains("±sd"), "{line}");
     let unread = output::unread_spreads("t", &input);
     assert!(unread[0].starts_with("t:3:2: column `time mean`: what stands behind 22.7 (1.0) is not looked at; 1.0 is among them, as in multiples of the best"), "{unread:?}");
+    assert!(
+        unread[1].contains(
+            "`time max`: what stands behind 64.9 (1.10) is not looked at; it stands beside no mean"
+        ),
+        "{unread:?}"
+    );
     let spread = read(&text.replace("(1.0)", "(0.9)"), Format::Markdown).unwrap();
     assert!(stub_line(&spread.tables[0]).contains("±sd"));
     let annotated = "Name [label],Min [min, n=23, of=v],Max [max, n=23, of=v],Mean [mean, n=23, of=v],SD [sd, n=23, of=v]\n\
@@ -193,9 +199,18 @@ fn a_header_in_latex_keeps_its_name() {
     let input = read(&text, Format::Markdown).unwrap();
     assert_eq!(
         stub_line(&input.tables[0]),
-        r"| Planner [label] | Success $\uparrow$ (\% of 30) [% of 30, higher is better] | $t$ [ms] $\downarrow$ [value, lower is better] | n [value] |"
+        r"| Planner [label] | Success $\uparrow$ (\% of 30) [% of 30, higher is better] | $t$ $\downarrow$ [value, lower is better, unit=ms] | n [value] |"
     );
     assert_eq!(found(&text), [("grim", Class::Signal)]);
+    let arrow = table(
+        r"Planner | Success [% of 30] $\uparrow$ | cost [value] ↓",
+        &["A | 93.3 | **5**", "B | **90.0** | 4"],
+    );
+    assert_eq!(
+        found(&arrow),
+        [("bold", Class::Signal), ("bold", Class::Signal)],
+        "arrows say which way is better"
+    );
 }
 
 #[test]
