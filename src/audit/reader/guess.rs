@@ -81,15 +81,28 @@ pub fn join(columns: &mut [Column]) {
 }
 
 /// Takes the column that probably holds n for the n of guessed columns; rows without n are not looked at.
-pub fn propose_n(columns: &mut [Column]) {
-    let is_n = |column: &&Column| {
+pub fn take_n(columns: &mut [Column], rows: &[(usize, Vec<String>)]) {
+    let is_n = |column: &Column| {
         ["n", "runs", "trials", "episodes", "problems"].contains(&column.name.to_lowercase().as_str())
             && !matches!(column.meaning.kind, Kind::Skip | Kind::Statistics)
     };
-    let Some(name) = columns.iter().find(is_n).map(|column| column.name.clone()) else { return };
+    let Some(of) = columns.iter().position(is_n) else { return };
+    let name = columns[of].name.clone();
     let is_alone = columns.iter().filter(|column| column.name == name).count() == 1;
-    for column in columns.iter_mut().filter(|column| column.written.is_none() && column.name != name) {
-        column.annotation = column.annotation.replace('?', &name);
+    for (at, column) in columns.iter_mut().enumerate() {
+        if column.written.is_some() || column.name == name || !column.annotation.contains('?') {
+            continue;
+        }
+        // Whole numbers up to n are counts more often than percentages.
+        let text = |row: &[String], at: usize| row.get(at).map_or_else(String::new, |text| plain(text).0);
+        let is_up_to_n = |(_, row): &(usize, Vec<String>)| {
+            let k = text(row, at);
+            let pair = k.parse::<u64>().ok().zip(natural(&text(row, of)));
+            number(&k) == Ok(Number::Missing) || pair.is_some_and(|(k, n)| k <= n)
+        };
+        let is_count = !column.name.contains('%') && rows.iter().all(is_up_to_n);
+        let share = if is_count { "count of ?" } else { "% of ?" };
+        column.annotation = column.annotation.replace("% of ?", share).replace('?', &name);
         if is_alone {
             column.meaning = Meaning::parse(&column.annotation).unwrap_or_default();
         }

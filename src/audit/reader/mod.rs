@@ -116,7 +116,7 @@ fn table(raw: Raw, faults: &mut Vec<Fault>) -> Option<Table> {
         return None;
     }
     guess::join(&mut columns);
-    guess::propose_n(&mut columns);
+    guess::take_n(&mut columns, &raw.rows);
     check_references(&columns, raw.line, faults);
     check_groups(&columns, raw.line, faults);
     let mut rows = Vec::with_capacity(raw.rows.len());

@@ -233,6 +233,9 @@ fn a_guessed_column_of_n_is_used_and_gives_a_signal() {
             && signal.premises.iter().any(|premise| premise.contains("was guessed")),
         "{signal:?}"
     );
+    let counts = table("planner | problems | solved", &["A | 40 | 37", "B | 40 | 40", "C | 30 | 7"]);
+    assert_eq!(found(&counts), [], "37 of 40, and no 37 %");
+    assert_eq!(found(&counts.replace("| 7 |", "| 71 |")), [("grim", Class::Signal)], "71 % of 30");
     let header = stub_line(&read(&text, Format::Markdown).unwrap().tables[0]);
     let written = text.replace("| planner | n | success |", &header).replace("| C | - | 12.1 |\n", "");
     assert_eq!(
@@ -265,6 +268,10 @@ fn a_wrong_average_or_total_is_a_signal_and_a_right_one_is_none() {
     }
     assert_eq!(found(&rows("Overall", "72.0 | 500")), [("summary", Class::Signal); 2]);
     assert_eq!(found(&rows("Mean shift", "49.6 | 999")), [], "a method of its own");
+    let asked = "[[table]]\nname = \"t\"\ntext = \"\"\"\n| p | x [% of 250] |\n|-|-|\n| A | 33.2 |\n| B | 33.6 |\n| Mean | 33.4 |\n\"\"\"\n\
+        [[relation]]\ncheck = \"grim\"\nvalue = \"t/Mean/x\"\nn = 250\nwhole = 100\n";
+    let asked = audited(asked, Format::Toml, &Options::default());
+    assert_eq!(asked.findings.len(), 1, "what a relation asks is answered, of a summary as well");
     let said = report(&rows("Average", "49.2 | 150.3"))
         .findings
         .into_iter()
