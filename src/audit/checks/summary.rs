@@ -50,8 +50,6 @@ enum Form {
     /// A mean of some weights, or a quotient of sums.
     Between,
     Sum,
-    Least,
-    Greatest,
 }
 
 impl Form {
@@ -61,8 +59,6 @@ impl Form {
             Self::Pooled => "the mean by number of trials",
             Self::Between => "between the least and the greatest",
             Self::Sum => "the sum",
-            Self::Least => "the least",
-            Self::Greatest => "the greatest",
         }
     }
 }
@@ -206,7 +202,7 @@ fn of_row(
         forms,
         weights,
         premise: "the row sums up rows above it",
-        steps: Cell::new(0),
+        steps: Cell::default(),
     })
 }
 
@@ -237,7 +233,7 @@ fn weights(table: &Table, column: usize, rows: &[usize]) -> Vec<Exact> {
         Some(Count::Column(name)) => Some(table.print(row, named_by(&table.columns, column, name)?)?.value()),
         None => table.rows[row][column].k_of_n.map(|[_, n]| count(n)),
     };
-    let all = rows.iter().map(|row| n(*row)).collect::<Option<Vec<Exact>>>();
+    let all = rows.iter().map(|row| n(*row).filter(|n| *n > whole(0))).collect::<Option<Vec<Exact>>>();
     all.map_or_else(Vec::new, |all| std::iter::once(whole(0)).chain(all).collect())
 }
 
@@ -249,7 +245,7 @@ fn forms(table: &Table, at: usize, word: Word) -> Option<Vec<Form>> {
         return Some(vec![Form::Mean, Form::Sum]);
     }
     if is_quotient(table, at) {
-        return (word != Word::Sum).then(|| vec![Form::Mean, Form::Between]);
+        return (word != Word::Sum).then(|| vec![Form::Between]);
     }
     let forms: &[Form] = match (&meaning.kind, word) {
         (Kind::Share { whole: 0 } | Kind::Of(Statistic::Total | Statistic::Quantile(_)), Word::Mean) => {
@@ -257,8 +253,7 @@ fn forms(table: &Table, at: usize, word: Word) -> Option<Vec<Form>> {
         }
         (Kind::Share { whole: 0 } | Kind::Of(Statistic::Total) | Kind::Value, Word::Sum) => &[Form::Sum],
         (Kind::Share { whole: 0 } | Kind::Of(Statistic::Total), Word::Either) => &[Form::Mean, Form::Sum],
-        (Kind::Of(Statistic::Min), Word::Mean | Word::Either) => &[Form::Mean, Form::Least],
-        (Kind::Of(Statistic::Max), Word::Mean | Word::Either) => &[Form::Mean, Form::Greatest],
+        (Kind::Of(Statistic::Min | Statistic::Max), Word::Mean | Word::Either) => &[Form::Between],
         (Kind::Share { .. } | Kind::Of(Statistic::Mean) | Kind::Value, Word::Mean) => {
             &[Form::Mean, Form::Pooled]
         }
@@ -329,7 +324,7 @@ fn of_column(index: usize, table: &Table, row: usize, at: usize) -> Option<Summa
         forms,
         weights: Vec::new(),
         premise: "the column sums up columns right before it",
-        steps: Cell::new(0),
+        steps: Cell::default(),
     })
 }
 
@@ -339,41 +334,22 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
     numbers.extend(relation.numbers("parts", input)?);
     let choices = vec![(1..numbers.len()).collect()];
     let premise = "these are all that it sums up";
-    Ok(Box::new(Summary {
-        numbers,
-        choices,
-        forms: vec![form],
-        weights: Vec::new(),
-        premise,
-        steps: Cell::new(0),
-    }))
+    let (forms, weights, steps) = (vec![form], Vec::new(), Cell::default());
+    Ok(Box::new(Summary { numbers, choices, forms, weights, premise, steps }))
 }
 
 impl Summary {
-    /// What one choice allows by one form; none without weights, or if 128 bits do not suffice.
+    /// What one choice allows by one form; none if 128 bits do not suffice.
     fn allowed(&self, spans: &[Span], choice: &[usize], form: Form) -> Option<Span> {
-        let chosen = || choice.iter().map(|at| spans[*at]);
-        let sum = || chosen().try_fold(Span::point(whole(0)), |sum, span| sum.plus(&span));
-        let weighted = |all: Span, at: &usize| all.plus(&spans[*at].times(self.weights[*at])?);
-        let extreme = |pick: fn(Span, Span) -> Span| chosen().reduce(pick);
-        let least = |a: Span, b: Span| Span::closed(a.low.min(b.low), a.high.min(b.high));
-        let greatest = |a: Span, b: Span| Span::closed(a.low.max(b.low), a.high.max(b.high));
-        match form {
-            Form::Sum => sum(),
-            Form::Mean => sum()?.times(whole(choice.len() as i128).recip()),
-            Form::Least => extreme(least),
-            Form::Greatest => extreme(greatest),
-            Form::Between => {
-                let [low, high] = [extreme(least)?.low, extreme(greatest)?.high];
-                Some(Span::closed(low, high))
-            }
-            Form::Pooled if self.weights.is_empty() => None,
-            Form::Pooled => {
-                let all = choice.iter().try_fold(whole(0), |all, at| add(all, self.weights[*at]))?;
-                let share = Some(all).filter(|all| *all > whole(0)).and_then(|all| div(whole(1), all))?;
-                choice.iter().try_fold(Span::point(whole(0)), weighted)?.times(share)
-            }
+        if form == Form::Between {
+            let low = choice.iter().map(|at| spans[*at].low).min()?;
+            return Some(Span::closed(low, choice.iter().map(|at| spans[*at].high).max()?));
         }
+        let weight = |at: usize| if form == Form::Pooled { self.weights[at] } else { whole(1) };
+        let all = choice.iter().try_fold(whole(0), |all, at| add(all, weight(*at)))?;
+        let add_weighted = |sum: Span, at: &usize| sum.plus(&spans[*at].times(weight(*at))?);
+        let sum = choice.iter().try_fold(Span::point(whole(0)), add_weighted)?;
+        if form == Form::Sum { Some(sum) } else { sum.times(div(whole(1), all)?) }
     }
 
     /// Every form of every choice with what it allows.
