@@ -25,7 +25,7 @@ struct Document {
     #[serde(default)]
     sample: Vec<Spanned<BTreeMap<String, Value>>>,
     #[serde(default)]
-    relation: Vec<Spanned<BTreeMap<String, Value>>>,
+    relation: Vec<Spanned<BTreeMap<String, Spanned<Value>>>>,
 }
 
 #[derive(Deserialize)]
@@ -71,7 +71,11 @@ pub fn read(text: &str, faults: &mut Vec<Fault>) -> Option<Input> {
     }
     for relation in document.relation {
         let place = line(relation.span().start);
-        match asked::read(relation.into_inner(), digits, place) {
+        let placed = |(key, value): (String, Spanned<Value>)| {
+            let at = line(value.span().start);
+            (key, (value.into_inner(), at))
+        };
+        match asked::read(relation.into_inner().into_iter().map(placed).collect(), digits, place) {
             Ok(relation) => input.relations.push(relation),
             Err(fault) => faults.push(fault),
         }
