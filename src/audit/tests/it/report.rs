@@ -258,7 +258,7 @@ const WRONG: [(&str, Format, &str); 23] = [
     (
         "[[sample]]\nname = \"x\"\nmean = \"1.2 s\"\nsd = \"70 ms\"\n",
         Format::Toml,
-        "1: sample `x`: `1.2 s` has a unit",
+        "3: sample `x`: `1.2 s` has a unit",
     ),
     ("", Format::Csv, "1: there is no table here"),
     ("words\n", Format::Markdown, "1: there is no table here"),
@@ -272,7 +272,7 @@ const WRONG: [(&str, Format, &str); 23] = [
         Format::Toml,
         "4: check `grim` has no key `m`",
     ),
-    ("[[sample]]\nname = \"x\"\nmean = 1.2\n", Format::Toml, "1: `1.2` is no text in quotes"),
+    ("[[sample]]\nname = \"x\"\nmean = 1.2\n", Format::Toml, "3: `1.2` is no text in quotes"),
     ("x = 1\n", Format::Toml, "1: unknown field `x`"),
 ];
 
