@@ -94,11 +94,11 @@ fn word(name: &str) -> Option<Word> {
 
 /// The cell of a row that says that it sums up others.
 pub fn label(table: &Table, row: usize) -> Option<usize> {
-    let is_said = |at: &usize| {
+    let is_summary = |at: &usize| {
         let cell = &table.rows[row][*at];
         cell.value.is_none() && word(&cell.text).is_some()
     };
-    (0..table.rows[row].len()).find(is_said).filter(|_| table.statistics().is_none())
+    (0..table.rows[row].len()).find(is_summary).filter(|_| table.statistics().is_none())
 }
 
 fn labels(table: &Table) -> Vec<Option<usize>> {
@@ -108,12 +108,16 @@ fn labels(table: &Table) -> Vec<Option<usize>> {
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
     for (index, table) in input.tables.iter().enumerate().filter(|(_, table)| table.statistics().is_none()) {
         let labels = labels(table);
-        for row in 0..table.rows.len() {
-            for column in 0..table.columns.len() {
-                let both =
-                    [of_row(index, table, &labels, [row, column]), of_column(index, table, row, column)];
-                both.into_iter().flatten().for_each(|test| give(Box::new(test)));
-            }
+        let columns = 0..table.columns.len();
+        let rows = || 0..table.rows.len();
+        for row in rows().filter(|row| labels[*row].is_some()) {
+            let of_rows = columns.clone().filter_map(|column| of_row(index, table, &labels, [row, column]));
+            of_rows.for_each(|test| give(Box::new(test)));
+        }
+        for column in columns.filter(|column| word(&table.columns[*column].name).is_some()) {
+            rows()
+                .filter_map(|row| of_column(index, table, row, column))
+                .for_each(|test| give(Box::new(test)));
         }
     }
 }

@@ -26,8 +26,8 @@ impl Default for Effort {
     }
 }
 
-/// Asks `test`, and gives the answer with the cases that it took.
-fn asked(test: &dyn Test, prints: &[Print]) -> (Option<bool>, u64) {
+/// What `test` answers, with the cases that it took.
+fn decided(test: &dyn Test, prints: &[Print]) -> (Option<bool>, u64) {
     let before = test.steps_taken().unwrap_or(0);
     let answer = test.is_possible(prints);
     (answer, test.steps_taken().unwrap_or(0) - before)
@@ -39,14 +39,14 @@ impl Effort {
         if self.is_spent(test) {
             return None;
         }
-        let (answer, cases) = asked(test, prints);
+        let (answer, cases) = decided(test, prints);
         self.cases.set(self.cases.get().saturating_sub(cases));
         answer
     }
 
     /// The same of a changed print, for power and least changes; ask [`is_used_up`](Self::is_used_up) before.
     pub(super) fn decide_change(&self, test: &dyn Test, prints: &[Print]) -> Option<bool> {
-        let (answer, cases) = asked(test, prints);
+        let (answer, cases) = decided(test, prints);
         self.changes.set(self.changes.get().saturating_sub(1 + cases));
         answer
     }
