@@ -378,3 +378,17 @@ fn a_table_of_long_lattice_paths_ends_within_its_budget() {
     let lines = output::unseen("t", &open);
     assert!(lines.iter().any(|line| line.starts_with("t: the budget is used up: ")), "{lines:?}");
 }
+
+#[test]
+fn decisions_stay_open_when_the_cases_of_a_table_are_used_up() {
+    let row = |text: String, row: u32| text + &format!("r{row},29{:02}.1234567\n", row % 100);
+    let rows = (0..7000).fold(String::new(), row);
+    let options = Options { skips_power: true, skips_certificates: true, ..Options::default() };
+    let report = audited(&format!("p,length [a+b√2]\n{rows}"), Format::Csv, &options);
+    let [first, .., last] = report.findings.as_slice() else { panic!("{:?}", report.tally) };
+    assert_eq!((first.class, last.class), (Class::Impossible, Class::Unchecked));
+    assert_eq!(
+        last.said,
+        "not decided: the table's budget of 100000000 cases is used up; audit its rows in several files"
+    );
+}
