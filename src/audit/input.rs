@@ -33,8 +33,8 @@ pub struct Relation {
     pub place: Place,
     /// How digits end.
     pub digits: Digits,
-    /// Its other keys.
-    pub(super) keys: BTreeMap<String, Value>,
+    /// Its other keys, each with its value and where that stands.
+    pub(super) keys: BTreeMap<String, (Value, Place)>,
 }
 
 impl Input {

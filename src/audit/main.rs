@@ -245,6 +245,7 @@ fn read(path: &Path) -> Result<String, Failure> {
     }
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
-        wrong(format!("byte {at} is not UTF-8; UTF-8 text is expected"))
+        let line = error.as_bytes()[..at].split(|byte| *byte == b'\n').count();
+        Failure(2, format!("{}:{line}: byte {at} is not UTF-8; UTF-8 text is expected", path.display()))
     })
 }

@@ -221,6 +221,9 @@ impl Meaning {
         if self.take_word(item) || self.take_share(item)? {
             return Ok(());
         }
+        if let Some(count) = item.strip_prefix("of ") {
+            return Err(wrong(item, &format!("`% of {count}`, `share of {count}` or `count of {count}`")));
+        }
         if let Some((key, value)) = item.split_once('=') {
             return self.take_setting(key.trim(), value.trim());
         }

@@ -25,7 +25,7 @@ pub fn line(source: &str, finding: &Finding) -> String {
                 if changes { "the ranking changes with it" } else { "the ranking stays" }.to_owned()
             }));
         }
-        None if finding.class == Class::Impossible => {
+        None if finding.class == Class::Impossible && !finding.is_cut_short => {
             notes.push("no small change of one number mends it".to_owned());
         }
         None => {}
@@ -64,8 +64,12 @@ fn unread_spread(table: &Table, at: usize) -> Option<String> {
     let has_mean = matches!(meaning.kind, Kind::Share { .. } | Kind::Of(Statistic::Mean));
     let what = if table.statistics().is_some() {
         "rows are statistics, so that a deviation has a row of its own"
+    } else if matches!(meaning.kind, Kind::Of(_)) && !has_mean {
+        "it stands beside no mean, so that no check knows it; leave it out, or give it a column of its own"
     } else if !has_mean {
         "say `mean, n=N` and `±sd` or `±se`, if it is a mean with its deviation or standard error"
+    } else if meaning.spread.is_none() && is_multiple(table, at) {
+        "1.0 is among them, as in multiples of the best; say `±sd` if it is the deviation or `±se` if it is the standard error"
     } else if meaning.spread.is_none() {
         "say `±sd` if it is the deviation or `±se` if it is the standard error"
     } else {
@@ -77,6 +81,12 @@ fn unread_spread(table: &Table, at: usize) -> Option<String> {
     ))
 }
 
+/// Whether what stands in brackets may be multiples of the best.
+fn is_multiple(table: &Table, at: usize) -> bool {
+    let brackets = table.rows.iter().filter_map(|row| Some(row.get(at)?.spread?.value()));
+    reader::are_multiples(&brackets.collect::<Vec<_>>())
+}
+
 /// Columns and samples that no check looked at, with what to write so that one does; and, if no check was asked at all, that.
 pub fn unseen(source: &str, report: &Report) -> Vec<String> {
     let line = |unseen: &Unseen| {
@@ -85,7 +95,13 @@ pub fn unseen(source: &str, report: &Report) -> Vec<String> {
     let nothing = report.tally.is_empty().then(|| {
         format!("{source}: nothing was looked at, which is no pass: no column says enough for any check")
     });
-    report.unseen.iter().map(line).chain(nothing).collect()
+    let cut_short = (report.cut_short > 0).then(|| {
+        format!(
+            "{source}: the budget is used up: {} findings have no power or least change; audit the rows in several files",
+            report.cut_short
+        )
+    });
+    report.unseen.iter().map(line).chain(nothing).chain(cut_short).collect()
 }
 
 /// What each check did, a line a check.

@@ -2,6 +2,7 @@
 //! which power, what would mend it, and whether the table's ranking hangs on it.
 
 mod doubt;
+mod effort;
 mod mend;
 mod strength;
 mod unseen;
@@ -15,7 +16,8 @@ use super::checks::{Entry, Proof, REGISTRY, Test};
 use super::input::Input;
 use super::table::{Fault, Place};
 use super::witness::{Budget, Witness};
-use doubt::doubts;
+use doubt::{doubts, is_of_true_summary};
+use effort::Effort;
 use mend::Refusal;
 use proofs::exact::Print;
 use proofs::printed::Digits;
@@ -69,6 +71,8 @@ pub struct Finding {
     pub power: Option<Power>,
     /// What would mend it.
     pub mend: Option<Mend>,
+    /// Whether the budget did not allow to look for power and a mend.
+    pub is_cut_short: bool,
     /// Other findings with the same cause, which that change mends too.
     pub follows: Vec<String>,
     /// The proof, as a certificate.
@@ -118,6 +122,8 @@ pub struct Report {
     pub tally: BTreeMap<&'static str, Tally>,
     /// Columns and samples that no check looked at.
     pub unseen: Vec<Unseen>,
+    /// Findings whose power or least change the budget did not allow.
+    pub cut_short: usize,
 }
 
 impl Report {
@@ -133,6 +139,7 @@ const PRINTS: i128 = 1000;
 const PRINTS_EACH: i128 = 200;
 /// Applications of a check whose power is computed if nothing is wrong with them.
 const POWERS: usize = 100;
+
 /// Runs every check on `input`.
 ///
 /// # Errors
@@ -145,6 +152,7 @@ pub fn audit(input: &Input, options: &Options) -> Result<Report, Vec<Fault>> {
         powers: BTreeMap::new(),
         seen: Seen::default(),
         refusals: Vec::new(),
+        effort: Effort::default(),
     };
     for entry in REGISTRY {
         (entry.tests)(input, &mut |test| run.take(entry, test, false));
@@ -179,6 +187,7 @@ struct Run<'a> {
     powers: BTreeMap<String, Option<Power>>,
     seen: Seen,
     refusals: Vec<Refusal>,
+    effort: Effort,
 }
 
 /// What is known of a test when its finding is written.
@@ -197,8 +206,15 @@ impl Run<'_> {
         let test = boxed.as_ref();
         self.seen.take(test);
         let prints: Vec<Print> = test.numbers().iter().map(|number| number.print).collect();
-        let answer = test.is_possible(&prints);
-        let readings = if test.is_about_digits() { allowing(test, &prints) } else { Vec::new() };
+        let answer = self.effort.decide(test, &prints);
+        if answer == Some(false) && !is_asked && is_of_true_summary(self.input, test) {
+            return;
+        }
+        let readings = if test.is_about_digits() && answer.is_some() {
+            self.allowing(test, &prints)
+        } else {
+            Vec::new()
+        };
         let is_free = prints.iter().all(|print| print.digits == Digits::Any);
         let is_odd =
             is_free && answer == Some(true) && test.is_about_digits() && !readings.contains(&"nearest");
@@ -238,6 +254,7 @@ impl Run<'_> {
         let first = &test.numbers()[0];
         let mut said = match answer {
             Some(is_possible) => test.sentence(prints, is_possible),
+            None if self.effort.is_spent(test) => format!("not decided: {}", effort::spent()),
             None => format!("not decided: {}", test.undecided(prints)),
         };
         if answer == Some(false) {
@@ -255,7 +272,9 @@ impl Run<'_> {
         let written = proof.filter(|_| !self.options.skips_certificates);
         let certificate = written.map(|proof| super::certificate::certificate(check, test, prints, &proof));
         let is_mended = answer == Some(false) && !self.options.skips_power;
-        let mend = is_mended.then(|| mend::least(self.input, test, prints)).flatten();
+        let mend = is_mended.then(|| mend::least(self.input, test, prints, &self.effort)).flatten();
+        let is_cut_short = is_mended && mend.is_none() && self.effort.is_used_up();
+        self.report.cut_short += usize::from(is_cut_short);
         let mut premises = test.premises();
         premises.extend(doubts(self.input, test));
         self.report.findings.push(Finding {
@@ -268,6 +287,7 @@ impl Run<'_> {
             readings,
             power,
             mend,
+            is_cut_short,
             follows: Vec::new(),
             certificate,
             witness,
@@ -288,22 +308,23 @@ impl Run<'_> {
 
     fn power(&mut self, entry: &Entry, test: &dyn Test, prints: &[Print]) -> Option<Power> {
         let Some(key) = test.power_key() else {
-            return power(test, prints, test.power_prints().unwrap_or(PRINTS_EACH));
+            return power(test, prints, test.power_prints().unwrap_or(PRINTS_EACH), &self.effort);
         };
         let first = prints[0];
         let key = format!("{} {key} {} {:?}", entry.name, first.printed.decimals(), first.digits);
-        *self.powers.entry(key).or_insert_with(|| power(test, prints, PRINTS))
+        *self.powers.entry(key).or_insert_with(|| power(test, prints, PRINTS, &self.effort))
     }
-}
 
-/// The readings of the digits, one for all numbers, that allow `prints`.
-fn allowing(test: &dyn Test, prints: &[Print]) -> Vec<&'static str> {
-    let uniform = Digits::NAMED.iter().filter(|(_, digits)| !matches!(digits, Digits::Any | Digits::Unknown));
-    let allows = uniform.filter(|(_, digits)| {
-        let read: Vec<Print> = prints.iter().map(|print| Print { digits: *digits, ..*print }).collect();
-        test.is_possible(&read) == Some(true)
-    });
-    allows.map(|(name, _)| *name).collect()
+    /// The readings of the digits, one for all numbers, that allow `prints`.
+    fn allowing(&self, test: &dyn Test, prints: &[Print]) -> Vec<&'static str> {
+        let uniform =
+            Digits::NAMED.iter().filter(|(_, digits)| !matches!(digits, Digits::Any | Digits::Unknown));
+        let allows = uniform.filter(|(_, digits)| {
+            let read: Vec<Print> = prints.iter().map(|print| Print { digits: *digits, ..*print }).collect();
+            self.effort.decide(test, &read) == Some(true)
+        });
+        allows.map(|(name, _)| *name).collect()
+    }
 }
 
 /// Whether what is impossible with the zeros that were left out is so as typed, in words; nothing if no zeros were.

@@ -25,6 +25,8 @@ pub struct Sample {
     pub most: Option<Exact>,
     /// Whether the mean is printed as a count: the sum of the values.
     pub is_count: bool,
+    /// How many are the whole, where `29/30` is printed beside the share.
+    pub successes: Option<u64>,
     /// Seeds, if the values are shares of `trials` each.
     pub trials: Option<u64>,
     /// How deviations divide.
@@ -94,6 +96,7 @@ pub fn of_meaning(
         least: meaning.least,
         most: meaning.most,
         is_count: false,
+        successes: None,
         trials: None,
         divisor: meaning.divisor,
         is_linear: meaning.is_linear,
@@ -226,8 +229,12 @@ fn in_row(
             numbers.extend(table.columns[*at].meaning.spread.zip(spread));
         }
         if !numbers.is_empty() {
-            let n = count(table, row, group.columns[0].0, meaning);
-            give(&of_meaning(&format!("{} of {}", group.name, table.row_name(row)), meaning, n, numbers));
+            let fraction = group.columns.iter().find_map(|(at, _)| table.rows[row][*at].k_of_n);
+            let n = count(table, row, group.columns[0].0, meaning).or(fraction.map(|[_, n]| n));
+            let name = format!("{} of {}", group.name, table.row_name(row));
+            let mut sample = of_meaning(&name, meaning, n, numbers);
+            sample.successes = fraction.filter(|[_, of]| n == Some(*of) && !sample.is_count).map(|[k, _]| k);
+            give(&sample);
         }
     }
 }

@@ -55,6 +55,8 @@ pub struct Cell {
     pub value: Option<Printed>,
     /// The number after `±` or in brackets.
     pub spread: Option<Printed>,
+    /// The k of n that it is printed as: `29/30`.
+    pub k_of_n: Option<[u64; 2]>,
 }
 
 /// A column with what it is said, or guessed, to be.

@@ -58,13 +58,15 @@ pub fn octile_distance(displacement: Cell) -> Octile {
 /// Whether an 8-connected walk with exactly these moves covers `displacement`.
 ///
 /// Diagonal moves choose their signs along x and y independently, so each axis decides for itself: some
-/// `horizontal` of the straight moves must leave both axes enough moves, of the right parity.
+/// `horizontal` of the straight moves must leave both axes enough moves, of the right parity. That bounds
+/// `horizontal` from both sides and says whether it is even, alike for both axes only if the sum of all is.
 pub fn joins(moves: Octile, displacement: Cell) -> bool {
-    let [dx, dy] = displacement.map(i32::unsigned_abs);
-    let reaches = |moves: u32, d: u32| moves >= d && (moves - d).is_multiple_of(2);
-    (0..=moves.straight).any(|horizontal| {
-        reaches(horizontal + moves.diagonal, dx) && reaches(moves.straight - horizontal + moves.diagonal, dy)
-    })
+    let [dx, dy] = displacement.map(|d| i64::from(d.unsigned_abs()));
+    let [straight, diagonal] = [moves.straight, moves.diagonal].map(i64::from);
+    let least = (dx - diagonal).max(0);
+    let most = straight.min(straight + diagonal - dy);
+    let first = least + (least + dx + diagonal) % 2;
+    (straight + dx + dy) % 2 == 0 && first <= most
 }
 
 /// Every pair of move counts whose length at `step` prints as `printed`, by rising count of diagonal moves.
@@ -80,10 +82,13 @@ pub fn lengths_printing(
     let reach = printed.interval(digits);
     let in_steps = |length: f64| (length / step.value()).max(0.0);
     let most_diagonal = (in_steps(reach.high) / std::f64::consts::SQRT_2) as u32 + 1;
+    // Floats propose; they are off by much less.
+    let slack = 1e-6 + 1e-9 * in_steps(reach.high);
     let candidates = (0..=most_diagonal).flat_map(|diagonal| {
-        let rest = |length: f64| (in_steps(length) - f64::from(diagonal) * std::f64::consts::SQRT_2).max(0.0);
-        let (first, last) = ((rest(reach.low) as u32).saturating_sub(1), rest(reach.high) as u32 + 1);
-        (first..=last).map(move |straight| Octile { straight, diagonal })
+        let left = |length: f64| in_steps(length) - f64::from(diagonal) * std::f64::consts::SQRT_2;
+        let first = (left(reach.low) - slack).ceil().max(0.0) as u32;
+        let end = (left(reach.high) + slack).floor().max(-1.0) + 1.0;
+        (first..end as u32).map(move |straight| Octile { straight, diagonal })
     });
     candidates
         .filter(|&moves| prints_as(moves, step, printed, digits))

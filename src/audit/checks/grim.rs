@@ -50,6 +50,8 @@ struct Grim {
     value_ends: [Option<Exact>; 2],
     /// What is printed lies between these.
     ends: [Option<Exact>; 2],
+    /// The only count that there can be, where `29/30` stands beside the number.
+    successes: Option<u64>,
     values: String,
 }
 
@@ -66,8 +68,9 @@ fn of_sample(sample: &Sample) -> Option<Grim> {
     let ends = value_ends.map(|end| end.and_then(|end| mul(end, factor)));
     let numbers = [number];
     let is_count = sample.is_count;
+    let successes = sample.successes;
     let values = sample.values();
-    Some(Grim { numbers, step, n, grain, is_count, value_ends, ends, values })
+    Some(Grim { numbers, step, n, grain, is_count, value_ends, ends, successes, values })
 }
 
 fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
@@ -87,7 +90,17 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
     let ends = whole_is.map_or_else(|| relation.ends(), |end| Ok([Some(whole(0)), Some(end)]))?;
     let values = format!("{n} values, each a multiple of {grain}");
     let numbers = [relation.number("value", input)?];
-    Ok(Box::new(Grim { numbers, step, n, grain, is_count: false, value_ends: ends, ends, values }))
+    Ok(Box::new(Grim {
+        numbers,
+        step,
+        n,
+        grain,
+        is_count: false,
+        value_ends: ends,
+        ends,
+        successes: None,
+        values,
+    }))
 }
 
 impl Grim {
@@ -131,7 +144,7 @@ impl Test for Grim {
 
     fn is_possible(&self, prints: &[Print]) -> Option<bool> {
         let (first, last) = self.counts(prints[0])?;
-        Some(first <= last)
+        Some(self.successes.map_or(first <= last, |k| (first..=last).contains(&i128::from(k))))
     }
 
     fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
@@ -139,6 +152,14 @@ impl Test for Grim {
         let (first, last) = self.counts(prints[0]).unwrap_or((1, 0));
         let places = printed.decimals() as usize + 2;
         let at = |k: i128| format!("{k} × {} = {}", shown(self.step, 6), multiple(self.step, k, places));
+        if let Some(k) = self.successes {
+            let verb = if is_possible { "is" } else { "is not" };
+            return format!(
+                "{printed} {verb} {k} of {}, which is {}",
+                self.n,
+                multiple(self.step, i128::from(k), places)
+            );
+        }
         if is_possible {
             let more = if last > first { format!(" to {last}") } else { String::new() };
             return format!("{printed} is printed by {}{more}", at(first));
@@ -164,7 +185,7 @@ impl Test for Grim {
     }
 
     fn power_key(&self) -> Option<String> {
-        self.window().map(|window| format!("{} {window:?}", self.step))
+        self.window().map(|window| format!("{} {:?} {window:?}", self.step, self.successes))
     }
 
     fn float_slip(&self, prints: &[Print]) -> Option<String> {
@@ -181,7 +202,8 @@ impl Test for Grim {
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
-        let span = self.span(prints[0]);
+        // That the fraction is of the same trials is no printed number.
+        let span = Some(self.span(prints[0])).filter(|_| self.successes.is_none())?;
         let end = |end: Option<Exact>| end.map(spelled);
         let given = json!({
             "n": self.n.to_string(),

@@ -12,6 +12,7 @@ use crate::witness::{Budget, Moments, Witness, counted};
 use proofs::exact::{Exact, Print, Span, ceil, div, float, floor, mul, spelled, whole};
 use proofs::reach::{SumQuery, extremes, is_met};
 use serde_json::{Value, json};
+use std::cell::Cell;
 use std::collections::BTreeSet;
 
 /// The registry's entry.
@@ -39,6 +40,7 @@ pub(super) struct Moment {
     /// Whether the deviation is the mean's standard error.
     is_error: bool,
     values: String,
+    steps: Cell<u64>,
 }
 
 /// Sums of values that are looked through one by one.
@@ -75,6 +77,7 @@ pub(super) fn of_sample(sample: &Sample) -> Option<Moment> {
         divisor: sample.divisor,
         is_error,
         values: sample.values(),
+        steps: Cell::default(),
     })
 }
 
@@ -95,7 +98,17 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
     let values = format!("{n} values, each a multiple of {grain}");
     let numbers = vec![spread, relation.number("mean", input)?];
     let printed_ends = [None; 2];
-    Ok(Box::new(Moment { numbers, n, grain, ends, printed_ends, divisor, is_error, values }))
+    Ok(Box::new(Moment {
+        numbers,
+        n,
+        grain,
+        ends,
+        printed_ends,
+        divisor,
+        is_error,
+        values,
+        steps: Cell::default(),
+    }))
 }
 
 /// The least and the greatest value, in grains, where there are such.
@@ -228,6 +241,7 @@ impl Test for Moment {
         let all = self.squares(prints)?;
         let mut steps = STEPS;
         let met: Vec<Option<bool>> = all.iter().map(|squares| squares.is_met(&mut steps)).collect();
+        self.steps.set(self.steps.get() + all.len() as u64 + STEPS - steps);
         if met.contains(&Some(true)) { Some(true) } else { (!met.contains(&None)).then_some(false) }
     }
 
@@ -295,6 +309,10 @@ impl Test for Moment {
         });
         let steps = all.iter().map(Self::step).collect::<Option<Vec<_>>>()?;
         Some(Proof { given, steps: Value::Array(steps) })
+    }
+
+    fn steps_taken(&self) -> Option<u64> {
+        Some(self.steps.get())
     }
 
     fn witness(&self, prints: &[Print], budget: &mut Budget) -> Option<Witness> {

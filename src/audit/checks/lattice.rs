@@ -36,6 +36,7 @@ struct Length {
     numbers: [Quoted; 1],
     lattice: Lattice,
     displacement: Option<Cell>,
+    steps: std::cell::Cell<u64>,
 }
 
 /// Moves of lengths that are looked through.
@@ -46,7 +47,12 @@ fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
     super::arguments::each_number(input, is_meant, &mut |_, column, _, number| {
         if let Some(lattice) = column.meaning.lattice {
             let displacement = displacement(&column.meaning);
-            give(Box::new(Length { numbers: [number], lattice, displacement }));
+            give(Box::new(Length {
+                numbers: [number],
+                lattice,
+                displacement,
+                steps: std::cell::Cell::default(),
+            }));
         }
     });
 }
@@ -85,7 +91,15 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
         [None, None] => None,
         _ => return Err(relation.fault("`from` and `to` are given together or not at all")),
     };
-    Ok(Box::new(Length { numbers: [relation.number("value", input)?], lattice, displacement }))
+    let numbers = [relation.number("value", input)?];
+    Ok(Box::new(Length { numbers, lattice, displacement, steps: std::cell::Cell::default() }))
+}
+
+/// How many numbers of diagonal moves are looked through for a length, at most.
+fn cases(print: Print, lattice: Lattice, displacement: Option<Cell>) -> u64 {
+    let steps = print.span().not_negative().times(lattice.step.recip());
+    let is_long = |steps: &Span| displacement.is_none_or(|ends| !is_short(steps, lattice.diagonal, ends));
+    steps.filter(is_long).map_or(0, |steps| floor(steps.high).clamp(0, MOVES) as u64)
 }
 
 /// The moves that print a length; none if there are too many to look through.
@@ -95,6 +109,9 @@ pub(super) fn moves(print: Print, lattice: Lattice, displacement: Option<Cell>) 
         return Some(Vec::new());
     }
     let steps = span.times(lattice.step.recip())?;
+    if displacement.is_some_and(|displacement| is_short(&steps, lattice.diagonal, displacement)) {
+        return Some(Vec::new());
+    }
     if floor(steps.high) > MOVES {
         return None;
     }
@@ -108,6 +125,14 @@ pub(super) fn moves(print: Print, lattice: Lattice, displacement: Option<Cell>) 
         }
         Some(diagonal) => rational(steps, diagonal, displacement),
     }
+}
+
+/// Whether every length in a span, in steps, is below that of the fewest moves between the ends: nothing is to be looked through.
+fn is_short(steps: &Span, diagonal: Option<Exact>, displacement: Cell) -> bool {
+    let [dx, dy] = displacement.map(|d| i128::from(d.unsigned_abs()));
+    // There are as many moves as the longer axis has cells at least, and each has this many steps at least.
+    let least = diagonal.unwrap_or(whole(1)).min(whole(1));
+    mul(least, whole(dx.max(dy))).is_some_and(|least| steps.high < least)
 }
 
 /// The same where a diagonal counts a rational number of steps.
@@ -143,6 +168,7 @@ impl Test for Length {
     }
 
     fn is_possible(&self, prints: &[Print]) -> Option<bool> {
+        self.steps.set(self.steps.get() + cases(prints[0], self.lattice, self.displacement));
         Some(!moves(prints[0], self.lattice, self.displacement)?.is_empty())
     }
 
@@ -178,6 +204,10 @@ impl Test for Length {
         let shortest = self.lattice.diagonal.unwrap_or(whole(1)).min(whole(1));
         let most = floor(add(div(steps.high.max(whole(0)), shortest)?, whole(1))?);
         Some(Proof { given, steps: json!([{ "moves_at_most": most.to_string() }]) })
+    }
+
+    fn steps_taken(&self) -> Option<u64> {
+        Some(self.steps.get())
     }
 
     fn witness(&self, prints: &[Print], budget: &mut Budget) -> Option<Witness> {

@@ -34,6 +34,7 @@ mod seed_spread;
 mod shares_sum;
 mod speedup;
 mod sum_of_means;
+pub mod summary;
 mod total_over_mean;
 mod turn_sum;
 
@@ -100,6 +101,16 @@ pub trait Test {
     /// Whether another reading of the digits could matter.
     fn is_about_digits(&self) -> bool {
         true
+    }
+
+    /// Whether it asks of a summary whether it is one; other tests take summaries for rows like the others.
+    fn is_about_summaries(&self) -> bool {
+        false
+    }
+
+    /// The cases that were looked through so far; none where a decision takes no search.
+    fn steps_taken(&self) -> Option<u64> {
+        None
     }
 }
 
@@ -169,6 +180,7 @@ pub static REGISTRY: &[&Entry] = &[
     &shares_sum::ENTRY,
     &speedup::ENTRY,
     &sum_of_means::ENTRY,
+    &summary::ENTRY,
     &total_over_mean::ENTRY,
     &turn_sum::ENTRY,
 ];

@@ -33,6 +33,7 @@ struct TurnSum {
     displacement: Cell,
     /// The sums in multiples of 45° by length, since they are asked for again and again.
     sums: RefCell<BTreeMap<String, Option<BTreeSet<u32>>>>,
+    steps: std::cell::Cell<u64>,
 }
 
 /// Moves of paths whose turns are enumerated.
@@ -47,7 +48,7 @@ fn of_cell(index: usize, table: &Table, row: usize, length: usize) -> Option<Tur
     let turns = named_by(&table.columns, length, meaning.turns.as_deref()?)?;
     let displacement = super::lattice::displacement(meaning).filter(|_| meaning.kind == Kind::Value)?;
     let numbers = [quoted(index, table, row, turns)?, quoted(index, table, row, length)?];
-    Some(TurnSum { numbers, displacement, sums: RefCell::default() })
+    Some(TurnSum { numbers, displacement, sums: RefCell::default(), steps: std::cell::Cell::default() })
 }
 
 fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
@@ -57,7 +58,12 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
         relation.fault("`from` and `to` are needed, points \"X:Y\" a whole number of cells apart")
     })?;
     let numbers = [relation.number("turns", input)?, relation.number("length", input)?];
-    Ok(Box::new(TurnSum { numbers, displacement, sums: RefCell::default() }))
+    Ok(Box::new(TurnSum {
+        numbers,
+        displacement,
+        sums: RefCell::default(),
+        steps: std::cell::Cell::default(),
+    }))
 }
 
 impl TurnSum {
@@ -73,6 +79,8 @@ impl TurnSum {
             return known.clone();
         }
         let found = self.moves(length).map(|all| {
+            let count = |moves: &Octile| u64::from(moves.straight + moves.diagonal);
+            self.steps.set(self.steps.get() + all.iter().map(|moves| count(moves).pow(4)).sum::<u64>());
             let sums = all.iter().flat_map(|moves| {
                 [Convention::Exterior, Convention::Interior]
                     .into_iter()
@@ -128,6 +136,10 @@ impl Test for TurnSum {
             self.moves(self.numbers[1].print)?.iter().map(|moves| moves.straight + moves.diagonal).max()?;
         let ends = [whole(0), whole(180 * i128::from(most.max(2) - 1))];
         Some(Window { ends, why: "up to half a turn at each bend" })
+    }
+
+    fn steps_taken(&self) -> Option<u64> {
+        Some(self.steps.get())
     }
 
     fn undecided(&self, prints: &[Print]) -> String {

@@ -14,6 +14,13 @@ pub enum Number {
         /// What stands after `±` or in brackets.
         spread: Option<Printed>,
     },
+    /// `29/30`, alone or with its percentage.
+    Fraction {
+        /// k of n.
+        k_of_n: [u64; 2],
+        /// The percentage beside it.
+        percent: Option<Printed>,
+    },
 }
 
 /// Units that may stand behind a number in its cell.
@@ -56,14 +63,27 @@ pub fn plain(text: &str) -> (String, bool) {
             ("\\underline{", "}", false),
         ]
         .into_iter()
-        .find_map(|(open, close, bold)| Some((text.strip_prefix(open)?.strip_suffix(close)?, bold)));
+        .find_map(|(open, close, bold)| {
+            let inner = text.strip_prefix(open)?.strip_suffix(close)?;
+            is_pair(inner, close).then_some((inner, bold))
+        });
         let Some((inner, bold)) = inner else { return (text.replace("\\|", "|"), is_bold) };
         text = inner.trim();
         is_bold |= bold;
     }
 }
 
-/// Reads a number, `1.2 ± 0.07`, `1.2 (0.07)`, with or without `%` or a unit.
+/// Whether the marks around `inner` are of each other: those around `$t$ [ms] $x$` are of two formulas.
+fn is_pair(inner: &str, close: &str) -> bool {
+    let mut depth = 0_i32;
+    let mut is_inside = |c: char| {
+        depth += i32::from(c == '{') - i32::from(c == '}');
+        depth >= 0
+    };
+    if close == "}" { inner.chars().all(&mut is_inside) } else { !inner.contains(close) }
+}
+
+/// Reads a number, `1.2 ± 0.07`, `1.2 (0.07)`, with or without `%` or a unit, or a fraction `29/30`, `29/30 (96.7%)`.
 ///
 /// # Errors
 /// What is wrong and what is accepted, in words.
@@ -72,21 +92,47 @@ pub fn number(text: &str) -> Result<Number, String> {
     if MISSING.contains(&text.to_lowercase().as_str()) {
         return Ok(Number::Missing);
     }
-    let (text, behind) = unit(text);
-    let bracketed = || text.strip_suffix(')').and_then(|text| text.split_once('('));
-    let pair = ["±", "+/-", "+-", "\\pm"].iter().find_map(|mark| text.split_once(mark)).or_else(bracketed);
+    if let Some(fraction) = fraction(text)? {
+        return Ok(fraction);
+    }
+    let (alone, behind) = unit(text);
+    let pair = ["±", "+/-", "+-", "\\pm"].iter().find_map(|mark| alone.split_once(mark)).or(bracketed(alone));
     match pair {
         Some((value, spread)) => {
             let (value, before) = unit(value);
             if !before.is_empty() && before != behind {
-                return Err(format!(
-                    "`{text} {behind}` has two units; accepted: one for both, best in the header"
-                ));
+                return Err(format!("`{text}` has two units; accepted: one for both, best in the header"));
             }
             Ok(Number::Plain { value: one(value, text)?, spread: Some(one(spread, text)?) })
         }
-        None => Ok(Number::Plain { value: one(text, text)?, spread: None }),
+        None => Ok(Number::Plain { value: one(alone, text)?, spread: None }),
     }
+}
+
+/// What stands before and in the bracket that a text ends in.
+fn bracketed(text: &str) -> Option<(&str, &str)> {
+    text.strip_suffix(')')?.split_once('(')
+}
+
+/// The fraction that a text is, with a percentage before or behind it; none if it is no fraction.
+fn fraction(text: &str) -> Result<Option<Number>, String> {
+    let parts = |text: &str| {
+        let (k, n) = text.trim().split_once('/')?;
+        Some([k.trim().parse().ok()?, n.trim().parse().ok().filter(|n| *n > 0)?])
+    };
+    let pair = bracketed(text).or(text.split_once('='));
+    let (found, percent) = match (parts(text), pair) {
+        (Some(k_of_n), _) => (Some(k_of_n), None),
+        (None, Some((first, second))) => match (parts(first), parts(second)) {
+            (Some(k_of_n), None) => (Some(k_of_n), Some(second)),
+            (None, Some(k_of_n)) => (Some(k_of_n), Some(first)),
+            _ => (None, None),
+        },
+        (None, None) => (None, None),
+    };
+    let Some(k_of_n) = found else { return Ok(None) };
+    let percent = percent.map(|percent| one(percent, text)).transpose()?;
+    Ok(Some(Number::Fraction { k_of_n, percent }))
 }
 
 /// One number; `cell` is the whole text, for the message.
@@ -94,22 +140,45 @@ fn one(text: &str, cell: &str) -> Result<Printed, String> {
     let text = text.trim();
     let text = text.strip_suffix("\\%").or_else(|| text.strip_suffix('%')).unwrap_or(text).trim();
     let text = text.strip_prefix('+').unwrap_or(text);
-    text.parse().map_err(|_| {
+    // The 0 before a point may be left out: `.042`.
+    let digits = text.trim_start_matches(['-', '−']);
+    let with_0 = digits.starts_with('.').then(|| format!("{}0{digits}", &text[..text.len() - digits.len()]));
+    with_0.as_deref().unwrap_or(text).parse().map_err(|_| {
         let shown: String = cell.chars().take(40).collect();
-        format!(
-            "`{shown}` {}; accepted: 14.65, -0.5, 1.2 ± 0.07, 1.2 (0.07), or - for nothing",
-            complaint(text)
-        )
+        // Where the text was taken for a number and its unit, what is wrong may be of both.
+        let whole = if cell.starts_with(text) && bracketed(cell).is_none() { cell } else { text };
+        let why = several_units(whole).unwrap_or_else(|| complaint(text));
+        format!("`{shown}` {why}; accepted: 14.65, -0.5, 1.2 ± 0.07, 1.2 (0.07), or - for nothing")
     })
 }
 
-/// What is wrong with a text that is no number.
-fn complaint(text: &str) -> &'static str {
-    let is_number =
+/// What is wrong with a time that is written in minutes and seconds: `1:23`, `2m 5s`.
+fn several_units(text: &str) -> Option<String> {
+    let is_count =
         |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
+    let is_clock = text.contains(':') && text.split(':').all(is_count);
+    let numbers = text.split(|c: char| !c.is_ascii_digit() && c != '.').filter(|part| is_count(part)).count();
+    let words =
+        text.split(|c: char| c.is_ascii_digit() || c == '.').map(str::trim).filter(|word| !word.is_empty());
+    let is_time = |word: &str| ["d", "h", "hr", "m", "min", "s", "sec", "ms"].contains(&word);
+    let is_in_units =
+        numbers > 1 && text.starts_with(|c: char| c.is_ascii_digit()) && words.clone().all(is_time);
+    (is_clock || is_in_units && words.count() > 1)
+        .then(|| "is a time in minutes and seconds, or in hours; write it in one unit, as 83 s".to_owned())
+}
+
+/// What may stand between thousands.
+const SPACES: [char; 7] = [' ', '\u{a0}', '\u{2009}', '\u{202f}', '\'', '’', '_'];
+
+/// What is wrong with a text that is no number.
+fn complaint(text: &str) -> String {
+    let is_number = |text: &str| {
+        text.contains(|c: char| c.is_ascii_digit())
+            && text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.')
+    };
     let without = |marks: &[char]| text.trim_start_matches(['-', '−']).replace(marks, "");
     if text.bytes().filter(u8::is_ascii_digit).count() > 15 && is_number(&without(&[])) {
-        return "has more than 15 digits";
+        return "has more than 15 digits".to_owned();
     }
     let commas = text.matches(',').count();
     if commas > 0 && is_number(&without(&[','])) {
@@ -118,24 +187,53 @@ fn complaint(text: &str) -> &'static str {
             (1, false, 3) => "may have a thousands separator or a decimal comma; write 1234 or 1.234",
             (1, false, _) => "has a decimal comma; write a point",
             _ => "has thousands separators; write the number without",
-        };
+        }
+        .to_owned();
     }
-    if is_number(&without(&[' ', '\u{a0}', '\u{2009}', '\u{202f}', '\'', '’', '_'])) {
-        return "has thousands separators; write the number without";
+    if text.contains(SPACES) && is_number(&without(&SPACES)) {
+        return "has thousands separators; write the number without".to_owned();
+    }
+    if is_number(&without(&[])) {
+        return match text.matches('.').count() {
+            1 => "ends in a point without digits behind it; write 1 or 1.0, whichever is printed",
+            _ => "has several points; write one, and thousands without",
+        }
+        .to_owned();
     }
     if text.parse::<f64>().is_ok_and(f64::is_finite) && text.contains(['e', 'E']) {
-        return "has an exponent, which hides digits; write the number out";
+        return "has an exponent, which hides digits; write the number out".to_owned();
     }
     if text.starts_with(['<', '>', '≤', '≥']) {
-        return "is a bound and no printed value; write - for it, or ask about a p-value by a relation `p_value`";
+        return "is a bound and no printed value; write - for it, or ask about a p-value by a relation `p_value`".to_owned();
     }
-    let shortened = text.strip_suffix(['k', 'K', 'M', 'G', 'B']).is_some_and(|text| is_number(text.trim()));
-    if shortened {
-        return "leaves digits out; write the number out";
+    if text.starts_with("~~") || text.starts_with("<s>") || text.starts_with("<del>") {
+        return "is struck out; write the number alone, or - for nothing".to_owned();
     }
-    let digits = text.trim_end_matches(|c: char| !c.is_ascii_digit());
-    if digits.len() < text.len() && is_number(digits.trim_start_matches(['-', '−'])) {
-        return "has a unit that is not known; write it in the header, as in `time [mean s]`";
+    behind(text).unwrap_or_else(|| "is no number".to_owned())
+}
+
+/// What is wrong with the text behind a number; none if there is no number before it.
+fn behind(text: &str) -> Option<String> {
+    let body = text.trim_start_matches(['-', '−']);
+    let end = body.find(|c: char| !c.is_ascii_digit() && c != '.').filter(|end| *end > 0)?;
+    let tail = body[end..].trim();
+    if ["k", "K", "M", "G", "B"].contains(&tail) {
+        return Some("leaves digits out; write the number out".to_owned());
     }
-    "is no number"
+    if tail.starts_with('/') {
+        return Some("is no k/n; whole numbers with n above 0 are accepted, as 29/30".to_owned());
+    }
+    let shown: String = tail.chars().take(20).collect();
+    let is_raised = |c: char| "*†‡§¶#^[¹²³⁴⁵⁶⁷⁸⁹⁰ᵃᵇᶜᵈ".contains(c);
+    let is_mark = tail.starts_with(is_raised)
+        || ["<sup>", "$^", "\\textsuperscript", "\\dagger", "\\ddagger", "\\ast", "\\footnote"]
+            .iter()
+            .any(|mark| tail.starts_with(mark));
+    Some(if is_mark {
+        format!("has the mark `{shown}` behind it, as of a footnote; write the number alone")
+    } else {
+        format!(
+            "has `{shown}` behind it, a unit that is not known; write it in the header, as in `time [mean s]`"
+        )
+    })
 }

@@ -7,7 +7,10 @@ use crate::table::{Cell, Column, Fault, named_by};
 /// Refuses rows in which a number is printed and its n is missing, 0, negative or not whole.
 pub(super) fn check(columns: &[Column], rows: &[Vec<Cell>], faults: &mut Vec<Fault>) {
     for (at, column) in columns.iter().enumerate() {
-        let Some(Count::Column(name)) = &column.meaning.n else { continue };
+        // A row without n is no fault of a guess.
+        let Some(Count::Column(name)) = column.meaning.n.as_ref().filter(|_| column.written.is_some()) else {
+            continue;
+        };
         let Some(of) = named_by(columns, at, name) else { continue };
         for row in rows {
             let (Some(number), Some(n)) = (row.get(at), row.get(of)) else { continue };

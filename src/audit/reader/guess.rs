@@ -1,9 +1,10 @@
 //! What a column without annotation probably is.
 
 use super::cells::{Number, is_unit, number, plain};
-use crate::meaning::{Kind, Meaning, natural};
+use crate::meaning::{Better, Kind, Meaning, natural};
 use crate::statistic::Statistic;
 use crate::table::Column;
+use proofs::printed::Printed;
 
 /// An annotation for the column `name`, whose header names `unit` or nothing, with these texts; `label` if they are no numbers.
 pub fn annotation(name: &str, unit: &str, texts: &[&str]) -> String {
@@ -12,26 +13,54 @@ pub fn annotation(name: &str, unit: &str, texts: &[&str]) -> String {
     }
     let read: Vec<_> = texts.iter().map(|text| number(&plain(text).0)).collect();
     let filled = read.iter().filter(|number| !matches!(number, Ok(Number::Missing))).count();
-    // Decimal commas and marks of thousands are of numbers too, so that they are told.
+    let lower = name.to_lowercase();
+    let names_numbers = kind(&lower, texts) != "value";
+    // Decimal commas, marks of thousands, footnotes and minutes are of numbers too: the reader names them.
     let is_number = |number: &&Result<Number, String>| match number {
-        Ok(number) => matches!(number, Number::Plain { .. }),
-        Err(message) => message.contains("decimal comma") || message.contains("thousands separator"),
+        Ok(number) => *number != Number::Missing,
+        Err(message) => {
+            let has = |words: &[&str]| words.iter().any(|word| message.contains(word));
+            has(&["decimal comma", "thousands separator"])
+                || names_numbers && has(&["has the mark", "is a time in", "is struck out", "ends in a point"])
+        }
     };
     let numbers = read.iter().filter(is_number).count();
     // A column with a few faulty numbers is one of numbers, so that they are told.
     if numbers == 0 || 2 * numbers < filled {
         return "label".to_owned();
     }
-    let has_spread = read.iter().any(|number| matches!(number, Ok(Number::Plain { spread: Some(_), .. })));
-    let mut items = vec![kind(&name.to_lowercase(), texts)];
-    if has_spread {
+    let spread = |number: &Result<Number, String>| match number {
+        Ok(Number::Plain { spread, .. }) => *spread,
+        _ => None,
+    };
+    let spreads: Vec<f64> = read.iter().filter_map(spread).map(Printed::value).collect();
+    let mut items = vec![fractions(&read).unwrap_or_else(|| kind(&lower, texts))];
+    if !spreads.is_empty() && !are_multiples(&spreads) {
         items.push("±sd".to_owned());
     }
-    items.extend(better(&name.to_lowercase()).map(str::to_owned));
+    items.extend(better(&lower).map(str::to_owned));
     if !unit.is_empty() {
         items.push(format!("unit={unit}"));
     }
     items.join(", ")
+}
+
+/// Whether what stands in brackets may be multiples of the best, as pytest-benchmark prints them: 1.0 and more, and one is 1.0.
+pub fn are_multiples(brackets: &[f64]) -> bool {
+    brackets.contains(&1.0) && brackets.iter().all(|multiple| *multiple >= 1.0)
+}
+
+/// What a column of fractions holds: counts, or percentages that have fractions beside them; none if it holds no fraction.
+fn fractions(read: &[Result<Number, String>]) -> Option<String> {
+    let found = read.iter().filter_map(|number| match number {
+        Ok(Number::Fraction { k_of_n: [_, n], percent }) => Some((*n, percent.is_some())),
+        _ => None,
+    });
+    let all: Vec<(u64, bool)> = found.collect();
+    let (n, _) = all.first()?;
+    let n = if all.iter().all(|(other, _)| other == n) { n.to_string() } else { "?".to_owned() };
+    let word = if all.iter().any(|(_, has_percent)| *has_percent) { "%" } else { "count" };
+    Some(format!("{word} of {n}"))
 }
 
 /// Lets guessed columns belong together whose names differ by the statistic alone: `mean` and `sd`, `time mean` and `time max`.
@@ -51,15 +80,32 @@ pub fn join(columns: &mut [Column]) {
     }
 }
 
-/// Proposes the column that probably holds n, for the stub alone: a row without n is no fault of a guess.
-pub fn propose_n(columns: &mut [Column]) {
-    let is_n = |column: &&Column| {
+/// Takes the column that probably holds n for the n of guessed columns; rows without n are not looked at.
+pub fn take_n(columns: &mut [Column], rows: &[(usize, Vec<String>)]) {
+    let is_n = |column: &Column| {
         ["n", "runs", "trials", "episodes", "problems"].contains(&column.name.to_lowercase().as_str())
             && !matches!(column.meaning.kind, Kind::Skip | Kind::Statistics)
     };
-    let Some(name) = columns.iter().find(is_n).map(|column| column.name.clone()) else { return };
-    for column in columns.iter_mut().filter(|column| column.written.is_none() && column.name != name) {
-        column.annotation = column.annotation.replace('?', &name);
+    let Some(of) = columns.iter().position(is_n) else { return };
+    let name = columns[of].name.clone();
+    let is_alone = columns.iter().filter(|column| column.name == name).count() == 1;
+    for (at, column) in columns.iter_mut().enumerate() {
+        if column.written.is_some() || column.name == name || !column.annotation.contains('?') {
+            continue;
+        }
+        // Whole numbers up to n are counts more often than percentages.
+        let text = |row: &[String], at: usize| row.get(at).map_or_else(String::new, |text| plain(text).0);
+        let is_up_to_n = |(_, row): &(usize, Vec<String>)| {
+            let k = text(row, at);
+            let pair = k.parse::<u64>().ok().zip(natural(&text(row, of)));
+            number(&k) == Ok(Number::Missing) || pair.is_some_and(|(k, n)| k <= n)
+        };
+        let is_count = !column.name.contains('%') && rows.iter().all(is_up_to_n);
+        let share = if is_count { "count of ?" } else { "% of ?" };
+        column.annotation = column.annotation.replace("% of ?", share).replace('?', &name);
+        if is_alone {
+            column.meaning = Meaning::parse(&column.annotation).unwrap_or_default();
+        }
     }
 }
 
@@ -179,7 +225,21 @@ fn kind(name: &str, texts: &[&str]) -> String {
     "value".to_owned()
 }
 
+/// Which way is better by the arrow in a name, if there is one.
+pub fn better_by_arrow(name: &str) -> Option<Better> {
+    let has = |arrows: [&str; 2]| arrows.iter().any(|arrow| name.contains(arrow));
+    if has(["↑", "\\uparrow"]) {
+        return Some(Better::Higher);
+    }
+    has(["↓", "\\downarrow"]).then_some(Better::Lower)
+}
+
 fn better(name: &str) -> Option<&'static str> {
+    match better_by_arrow(name) {
+        Some(Better::Higher) => return Some("higher is better"),
+        Some(Better::Lower) => return Some("lower is better"),
+        None => {}
+    }
     if words(name).find_map(Statistic::named).is_some_and(|statistic| statistic != Statistic::Mean) {
         return None;
     }

@@ -12,9 +12,10 @@ mod toml;
 mod units;
 
 pub use cells::{Number, number, unit};
+pub use guess::are_multiples;
 
 use super::input::Input;
-use super::meaning::{Kind, Meaning, contradiction};
+use super::meaning::{Count, Kind, Meaning, contradiction};
 use super::sample::groups;
 use super::statistic::Statistic;
 use super::table::{Cell, Column, Fault, Place, Table, named_by};
@@ -115,7 +116,7 @@ fn table(raw: Raw, faults: &mut Vec<Fault>) -> Option<Table> {
         return None;
     }
     guess::join(&mut columns);
-    guess::propose_n(&mut columns);
+    guess::take_n(&mut columns, &raw.rows);
     check_references(&columns, raw.line, faults);
     check_groups(&columns, raw.line, faults);
     let mut rows = Vec::with_capacity(raw.rows.len());
@@ -141,28 +142,43 @@ fn table(raw: Raw, faults: &mut Vec<Fault>) -> Option<Table> {
     Some(Table { name: raw.name, line: raw.line, mark: raw.mark, columns, rows })
 }
 
-/// The column that a header cell describes; guessed if it has no annotation. A unit in brackets is none.
+/// The column that a header cell describes; guessed if it has no annotation. A unit in brackets is none. An arrow may stand
+/// behind both.
 fn column(raw: &Raw, index: usize, header: &str) -> Result<Column, String> {
     let plain = cells::plain(header).0;
-    let mut name = plain.trim();
+    let (text, arrow) = without_arrow(plain.trim());
+    let named = |name: &str| format!("{} {arrow}", name.trim()).trim().to_owned();
+    let mut name = named(text);
     let mut unit = "";
-    if let Some((before, annotation)) = plain.strip_suffix(']').and_then(|text| text.rsplit_once('[')) {
+    if let Some((before, annotation)) = text.strip_suffix(']').and_then(|text| text.rsplit_once('[')) {
         let annotation = annotation.trim();
         match Meaning::parse(annotation) {
             Ok(mut meaning) => {
-                let name = before.trim().to_owned();
                 let annotation = annotation.to_owned();
-                meaning.unit = meaning.unit.or_else(|| unit_of(&name));
-                return Ok(Column { name, meaning, written: Some(annotation.clone()), annotation });
+                meaning.unit = meaning.unit.or_else(|| unit_of(before.trim()));
+                meaning.better = meaning.better.or_else(|| guess::better_by_arrow(arrow));
+                return Ok(Column {
+                    name: named(before),
+                    meaning,
+                    written: Some(annotation.clone()),
+                    annotation,
+                });
             }
-            Err(_) if cells::is_unit(annotation) => (name, unit) = (before.trim(), annotation),
+            Err(_) if cells::is_unit(annotation) => (name, unit) = (named(before), annotation),
             Err(message) => return Err(message),
         }
     }
     let texts = raw.rows.iter().filter_map(|(_, texts)| texts.get(index).map(String::as_str));
-    let annotation = guess::annotation(name, unit, &texts.take(1000).collect::<Vec<_>>());
+    let annotation = guess::annotation(&name, unit, &texts.take(1000).collect::<Vec<_>>());
     let meaning = Meaning::parse(&annotation).unwrap_or_default();
-    Ok(Column { name: name.to_owned(), meaning, written: None, annotation })
+    Ok(Column { name, meaning, written: None, annotation })
+}
+
+/// A header without the arrow that says which way is better, and the arrow.
+fn without_arrow(header: &str) -> (&str, &str) {
+    let arrows = ["$\\downarrow$", "$\\uparrow$", "\\downarrow", "\\uparrow", "↓", "↑"];
+    let found = arrows.into_iter().find_map(|arrow| Some((header.strip_suffix(arrow)?.trim_end(), arrow)));
+    found.filter(|(name, _)| !name.is_empty()).unwrap_or((header, ""))
 }
 
 /// The unit that a name ends in: `time (ms)`. The word `min` may be the least value.
@@ -230,7 +246,7 @@ fn check_references(columns: &[Column], line: usize, faults: &mut Vec<Fault>) {
 /// Reads a cell by what its column is.
 fn cell(text: &str, column: &Column, place: Place) -> Result<Cell, String> {
     let (plain, is_bold) = cells::plain(text);
-    let mut cell = Cell { place, text: plain, is_bold, value: None, spread: None };
+    let mut cell = Cell { place, text: plain, is_bold, value: None, spread: None, k_of_n: None };
     if matches!(column.meaning.kind, Kind::Skip | Kind::Statistics) {
         return Ok(cell);
     }
@@ -240,8 +256,35 @@ fn cell(text: &str, column: &Column, place: Place) -> Result<Cell, String> {
             let widened = |value| widened(value, column.meaning.significant);
             (cell.value, cell.spread) = (Some(widened(value)?), spread.map(widened).transpose()?);
         }
+        Number::Fraction { k_of_n, percent } => {
+            cell.value =
+                of_fraction(k_of_n, percent, column).map_err(|why| format!("`{}` {why}", cell.text))?;
+            cell.k_of_n = Some(k_of_n);
+        }
     }
     Ok(cell)
+}
+
+/// The number that a fraction prints in its column: the count where counts are printed, else the percentage beside it.
+fn of_fraction(
+    k_of_n: [u64; 2],
+    percent: Option<Printed>,
+    column: &Column,
+) -> Result<Option<Printed>, String> {
+    let [k, n] = k_of_n;
+    match (&column.meaning.n, &column.meaning.kind) {
+        (_, Kind::Share { whole: 0 }) if percent.is_some() => {
+            Err(format!("is a count and a percentage; say `% of {n}` in the header"))
+        }
+        (Some(Count::Number(said)), Kind::Share { .. }) if *said != n => {
+            Err(format!("is of {n}, and the header says of {said}; one of both is accepted"))
+        }
+        (_, Kind::Share { whole: 0 }) => Ok(k.to_string().parse().ok()),
+        (_, Kind::Share { .. }) => Ok(percent),
+        _ => Err(format!(
+            "is {k} of {n}; say `count of {n}` in the header, or `% of {n}` where a percentage stands beside it"
+        )),
+    }
 }
 
 /// The number with the zeros at its end that `digits=D` says were left out.

@@ -23,10 +23,13 @@ struct Document {
     #[serde(default)]
     table: Vec<TableText>,
     #[serde(default)]
-    sample: Vec<Spanned<BTreeMap<String, Value>>>,
+    sample: Vec<Spanned<Keys>>,
     #[serde(default)]
-    relation: Vec<Spanned<BTreeMap<String, Value>>>,
+    relation: Vec<Spanned<Keys>>,
 }
+
+/// The keys of a table, each with where its value stands.
+type Keys = BTreeMap<String, Spanned<Value>>;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -63,15 +66,22 @@ pub fn read(text: &str, faults: &mut Vec<Fault>) -> Option<Input> {
             Err(message) => faults.push(Fault::new(place, format!("cell `{name}`: {message}"))),
         }
     }
+    let placed = |keys: Keys| -> BTreeMap<String, (Value, Place)> {
+        let one = |(key, value): (String, Spanned<Value>)| {
+            let place = line(value.span().start);
+            (key, (value.into_inner(), place))
+        };
+        keys.into_iter().map(one).collect()
+    };
     for sample in document.sample {
         let place = line(sample.span().start);
-        if let Err(message) = take_sample(&mut input, sample.into_inner(), digits, place) {
-            faults.push(Fault::new(place, message));
+        if let Err(fault) = take_sample(&mut input, placed(sample.into_inner()), digits, place) {
+            faults.push(fault);
         }
     }
     for relation in document.relation {
         let place = line(relation.span().start);
-        match asked::read(relation.into_inner(), digits, place) {
+        match asked::read(placed(relation.into_inner()), digits, place) {
             Ok(relation) => input.relations.push(relation),
             Err(fault) => faults.push(fault),
         }
@@ -120,38 +130,41 @@ fn digits_of(
 /// Takes a sample: its name, what it is, and its statistics.
 fn take_sample(
     input: &mut Input,
-    mut keys: BTreeMap<String, Value>,
+    mut keys: BTreeMap<String, (Value, Place)>,
     digits: Digits,
     place: Place,
-) -> Result<(), String> {
-    let text = |value: Option<Value>| match value {
-        None => Ok(String::new()),
-        Some(Value::String(text)) => Ok(text),
-        Some(other) => Err(format!("`{other}` is no text in quotes")),
+) -> Result<(), Fault> {
+    let text = |value: Option<(Value, Place)>| match value {
+        None => Ok((String::new(), place)),
+        Some((Value::String(text), at)) => Ok((text, at)),
+        Some((other, at)) => Err(Fault::new(at, format!("`{other}` is no text in quotes"))),
     };
-    let name = text(keys.remove("name"))?;
-    let mut meaning = Meaning::parse(&text(keys.remove("is"))?)?;
+    let (name, _) = text(keys.remove("name"))?;
+    let (is, at) = text(keys.remove("is"))?;
+    let mut meaning = Meaning::parse(&is).map_err(|message| Fault::new(at, message))?;
     if meaning.digits == Digits::Any {
         meaning.digits = digits;
     }
     let mut statistics = Vec::new();
     for (key, value) in keys {
+        let fault = |message: String| Fault::new(value.1, message);
         let statistic = Statistic::named(&key).ok_or_else(|| {
-            format!("sample `{name}` has the key `{key}`; accepted: name, is, mean, sd, se, min, q25, median, q75, max, total")
+            fault(format!("sample `{name}` has the key `{key}`; accepted: name, is, mean, sd, se, min, q25, median, q75, max, total"))
         })?;
-        let text = text(Some(value))?;
+        let (text, _) = text(Some(value.clone()))?;
         if !super::unit(&text).1.is_empty() {
-            return Err(format!("sample `{name}`: `{text}` has a unit; {WITHOUT}"));
+            return Err(fault(format!("sample `{name}`: `{text}` has a unit; {WITHOUT}")));
         }
-        match super::cells::number(&text)? {
+        match super::cells::number(&text).map_err(fault)? {
             super::Number::Plain { value, spread: None } => {
-                statistics.push((statistic, super::widened(value, meaning.significant)?));
+                statistics.push((statistic, super::widened(value, meaning.significant).map_err(fault)?));
             }
-            _ => return Err(format!("sample `{name}`: `{key}` must be one number in quotes")),
+            _ => return Err(fault(format!("sample `{name}`: `{key}` must be one number in quotes"))),
         }
     }
     if statistics.is_empty() {
-        return Err(format!("sample `{name}` has no statistic; a mean, sd, min, … is needed"));
+        let message = format!("sample `{name}` has no statistic; a mean, sd, min, … is needed");
+        return Err(Fault::new(place, message));
     }
     input.take_sample(&name, &meaning, &statistics, place);
     Ok(())

@@ -4,6 +4,7 @@ use super::FAULTS;
 use super::cells;
 use crate::meaning::Kind;
 use crate::table::{Cell, Column, Fault, named_by};
+use proofs::printed::Printed;
 
 /// Refuses columns of which cells have other units than their header or each other, and sums of columns in different units:
 /// such numbers do not compare.
@@ -36,6 +37,31 @@ pub(super) fn check(columns: &[Column], rows: &[Vec<Cell>], faults: &mut Vec<Fau
             }
         }
         in_cells(at, column, rows, faults);
+        percents(at, column, rows, faults);
+    }
+}
+
+/// Refuses shares of which some are in per cent and others of 1: `4.2%` above `0.042`.
+fn percents(at: usize, column: &Column, rows: &[Vec<Cell>], faults: &mut Vec<Fault>) {
+    let Kind::Share { whole } = column.meaning.kind else { return };
+    let cells = || rows.iter().filter_map(|row| row.get(at).filter(|cell| cell.value.is_some()));
+    let is_percent = |cell: &&Cell| cell.text.contains('%');
+    let Some(percent) = cells().find(is_percent) else { return };
+    let is_part = |cell: &&Cell| {
+        let value = cell.value.map_or(0.0, Printed::value);
+        !is_percent(cell) && value > 0.0 && value < 1.0
+    };
+    let wrong = if whole == 100 { cells().find(is_part) } else { Some(percent) };
+    if let Some(cell) = wrong.filter(|_| faults.len() < FAULTS) {
+        let why = match whole {
+            100 => format!(
+                "has no % and is below 1, where `{}` is in per cent; write all in per cent",
+                percent.text
+            ),
+            1 => "is in per cent, and the header says shares of 1; say `% of N`".to_owned(),
+            _ => "is in per cent, and the header says counts; say `% of N`".to_owned(),
+        };
+        faults.push(Fault::new(cell.place, format!("column `{}`: `{}` {why}", column.name, cell.text)));
     }
 }
 

@@ -1,16 +1,20 @@
 //! Why a refusal is no proof although the mathematics holds: it rests on a guess, or on a row that may sum up others.
 
-use crate::checks::Test;
+use crate::checks::{Test, summary};
 use crate::input::Input;
 use crate::meaning::Kind;
 use crate::table::{Quoted, Table};
 
-/// What rows are called that sum up the others; what holds of one trial's row may not hold of them.
-const SUMMARIES: [&str; 9] = ["all", "average", "averaged", "avg", "avg.", "mean", "overall", "sum", "total"];
-
 /// Why what `test` refuses may be possible all the same, a sentence a reason.
 pub(super) fn doubts(input: &Input, test: &dyn Test) -> Vec<String> {
-    [guess(input, test), summary(input, test)].into_iter().flatten().collect()
+    let of_summary = if test.is_about_summaries() { None } else { in_summary(input, test) };
+    [guess(input, test), of_summary].into_iter().flatten().collect()
+}
+
+/// Whether a test is about the summary of others, which is what it should be: then what holds of one row need not hold of it.
+pub(super) fn is_of_true_summary(input: &Input, test: &dyn Test) -> bool {
+    let mut cells = test.numbers().iter().filter_map(|number| number.cell);
+    !test.is_about_summaries() && cells.any(|cell| summary::is_true(input, cell))
 }
 
 /// That a test rests on what was guessed of a column.
@@ -37,14 +41,15 @@ fn is_plain(table: &Table, column: usize) -> bool {
 }
 
 /// That a number stands in a row that may be the average or the total of others.
-fn summary(input: &Input, test: &dyn Test) -> Option<String> {
+fn in_summary(input: &Input, test: &dyn Test) -> Option<String> {
     let label = |number: &Quoted| {
         let [table, row, _] = number.cell?;
         let table = &input.tables[table];
-        let is_summary = |name: &&str| SUMMARIES.contains(&name.to_lowercase().as_str());
-        let labels =
-            table.rows[row].iter().filter(|cell| cell.value.is_none()).map(|cell| cell.text.as_str());
-        labels.filter(|_| table.statistics().is_none()).find(is_summary)
+        let is_all = |at: &usize| {
+            table.rows[row][*at].text.eq_ignore_ascii_case("all") && table.statistics().is_none()
+        };
+        let at = summary::label(table, row).or_else(|| (0..table.columns.len()).find(is_all))?;
+        Some(&table.rows[row][at].text)
     };
     let name = test.numbers().iter().find_map(label)?;
     Some(format!("the row `{name}` is one like the others; it may sum them up, so that this is no proof"))

@@ -3,6 +3,7 @@
 //! A mean that no n values have makes its deviation impossible too, and its place among quantiles. A reader wants the cause
 //! once: a finding that a smaller one's mend mends as well follows from it, and is told with it.
 
+use super::effort::Effort;
 use super::{Class, Finding};
 use crate::checks::Test;
 use crate::input::Input;
@@ -29,8 +30,9 @@ pub struct Mend {
 /// How many changed prints are tried for a mend.
 const MENDS: i64 = 2000;
 
-/// The least change, in units of the last place, of one number of a test that refuses `prints`.
-pub(super) fn least(input: &Input, test: &dyn Test, prints: &[Print]) -> Option<Mend> {
+/// The least change, in units of the last place, of one number of a test that refuses `prints`; none if the effort does not
+/// suffice.
+pub(super) fn least(input: &Input, test: &dyn Test, prints: &[Print], effort: &Effort) -> Option<Mend> {
     let tries = MENDS / (2 * prints.len().max(1) as i64);
     let (index, to) = (1..=tries).find_map(|by| {
         (0..prints.len()).find_map(|index| {
@@ -39,7 +41,8 @@ pub(super) fn least(input: &Input, test: &dyn Test, prints: &[Print]) -> Option<
                 let changed = printed.with_units(printed.units().checked_add(by)?)?;
                 let mut all = prints.to_vec();
                 all[index].printed = changed;
-                (test.is_possible(&all) == Some(true)).then_some((index, changed))
+                let is_possible = !effort.is_used_up() && effort.decide_change(test, &all) == Some(true);
+                is_possible.then_some((index, changed))
             })
         })
     })?;

@@ -1,5 +1,6 @@
 //! How much of what could be printed a test refuses: its power.
 
+use super::effort::Effort;
 use crate::checks::{Test, Window};
 use proofs::exact::{Exact, Print, ceil, floor, mul, whole};
 use proofs::printed::Printed;
@@ -54,8 +55,8 @@ impl fmt::Display for Power {
     }
 }
 
-/// How much of what could be printed instead of the first number the test refuses.
-pub fn power(test: &dyn Test, prints: &[Print], most: i128) -> Option<Power> {
+/// How much of what could be printed instead of the first number the test refuses; none if the effort does not suffice.
+pub(super) fn power(test: &dyn Test, prints: &[Print], most: i128, effort: &Effort) -> Option<Power> {
     let first = prints[0].printed;
     let (low, high, why) = window(test, first)?;
     let count = i128::from(high - low) + 1;
@@ -68,9 +69,12 @@ pub fn power(test: &dyn Test, prints: &[Print], most: i128) -> Option<Power> {
         let share = (index as f64 * 0.618_033_988_749_894_9).fract();
         let at = if is_sampled { (share * count as f64) as i64 } else { index as i64 };
         let Some(printed) = first.with_units(low + at) else { continue };
+        if effort.is_used_up() {
+            return None;
+        }
         all[0].printed = printed;
         tried += 1;
-        refused += usize::from(test.is_possible(&all) == Some(false));
+        refused += usize::from(effort.decide_change(test, &all) == Some(false));
     }
     let end = |units| Printed::from_units(units, first.decimals());
     Some(Power { low: end(low), high: end(high), tried, refused, why, is_beyond: false })

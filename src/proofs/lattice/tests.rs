@@ -117,3 +117,25 @@ fn a_scaled_lattice_is_the_unit_lattice_of_scaled_digits() {
     }
     assert!(hits > 400, "only {hits} hits");
 }
+
+#[test]
+fn the_lengths_that_print_a_number_are_those_of_all_pairs_of_moves() {
+    let third = Step { numerator: 1, denominator: 3 };
+    let mut found = 0;
+    for (text, step) in
+        [("0", Step::ONE), ("7", Step::ONE), ("41.4", Step::ONE), ("12.07", third), ("49.497", Step::ONE)]
+    {
+        for units in printed(text).units()..printed(text).units() + 40 {
+            let number = Printed::from_units(units, printed(text).decimals());
+            for (_, digits) in Digits::NAMED {
+                let pairs =
+                    (0..70).flat_map(|diagonal| (0..100).map(move |straight| octile(straight, diagonal)));
+                let all: Vec<Octile> =
+                    pairs.filter(|moves| prints_as(*moves, step, number, digits)).collect();
+                assert_eq!(lengths_printing(number, digits, step, None), all, "{number} by {digits:?}");
+                found += all.len();
+            }
+        }
+    }
+    assert!(found > 1000, "{found} lengths");
+}

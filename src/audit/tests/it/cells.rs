@@ -8,6 +8,9 @@ fn read(text: &str) -> String {
         Ok(Number::Plain { value, spread }) => {
             spread.map_or_else(|| value.to_string(), |spread| format!("{value} ± {spread}"))
         }
+        Ok(Number::Fraction { k_of_n: [k, n], percent }) => {
+            percent.map_or_else(|| format!("{k} of {n}"), |percent| format!("{k} of {n}, {percent} %"))
+        }
         Err(message) => message,
     }
 }
@@ -28,12 +31,21 @@ fn numbers_keep_their_trailing_zeros_and_spreads() {
         ("1.20\\,m/s", "1.20"),
         ("2.0×", "2.0"),
         ("−90°", "-90"),
+        (".042", "0.042"),
+        ("-.5 %", "-0.5"),
+        ("29/30", "29 of 30"),
+        ("29 / 30 (96.7\\%)", "29 of 30, 96.7 %"),
+        ("96.7% (29/30)", "29 of 30, 96.7 %"),
+        ("29/30 = 96.7%", "29 of 30, 96.7 %"),
         ("—", "missing"),
         ("N/A", "missing"),
     ] {
         assert_eq!(read(text), said, "{text}");
     }
     assert_eq!(plain(" **$1.2$** "), ("1.2".to_owned(), true));
+    for formulas in ["$t$ [ms] $\\downarrow$", "*a* and *b*", "\\textbf{a} \\textbf{b}"] {
+        assert_eq!(plain(formulas), (formulas.to_owned(), false));
+    }
     assert_eq!(plain("\\textbf{3}"), ("3".to_owned(), true));
 }
 
@@ -50,7 +62,11 @@ fn what_is_no_number_says_why() {
         ("1234567890123456", "more than 15 digits"),
         ("12k", "leaves digits out"),
         ("1.20 s ± 70 ms", "has two units"),
-        ("3 apples", "has a unit that is not known"),
+        ("3 apples", "has `apples` behind it, a unit that is not known"),
+        ("1.", "ends in a point"),
+        ("1.2.3", "has several points"),
+        (".", "is no number"),
+        ("29/0", "is no k/n"),
         ("fast", "is no number"),
         ("1.2 ± ", "is no number"),
         ("(", "is no number"),

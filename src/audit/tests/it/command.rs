@@ -1,5 +1,6 @@
 //! The program as people call it: lines, exit codes, standard input, files that it writes.
 
+use rand::{RngExt, SeedableRng, rngs::SmallRng};
 use std::fs;
 use std::io::Write as _;
 use std::os::unix::fs::PermissionsExt as _;
@@ -159,7 +160,7 @@ fn a_device_without_end_and_bytes_that_are_no_text_are_wrong_input() {
     bench.write("t.md", b"| a |\n|-|\n| \xff |\n");
     for (file, told) in [
         ("/dev/zero", "/dev/zero: it holds more than 512 MiB; at most 512 MiB are accepted"),
-        ("t.md", "t.md: byte 12 is not UTF-8; UTF-8 text is expected"),
+        ("t.md", "t.md:3: byte 12 is not UTF-8; UTF-8 text is expected"),
         ("gone.md", "gone.md: No such file or directory"),
     ] {
         let said = bench.run(&[file]);
@@ -232,4 +233,46 @@ fn macros_of_which_nobody_can_tell_whether_they_are_stale_do_not_pass() {
     let mut gone = bench.command(&["--coverage", "paper.tex", "--macros", "numbers.tex"]);
     let said = said(&gone.env("REPLAN", Path::new("no/such/replan")).output().unwrap());
     assert!(said.out.contains("`no/such/replan`, which checks them, cannot be run: No such"), "{}", said.out);
+}
+
+/// `bytes` with one to three places flipped, cut out, repeated, overwritten, or cut off.
+fn damaged(bytes: &[u8], rng: &mut SmallRng) -> Vec<u8> {
+    let mut bytes = bytes.to_vec();
+    for _ in 0..rng.random_range(1..=3) {
+        let at = rng.random_range(0..=bytes.len());
+        let to = bytes.len().min(at + rng.random_range(1..30));
+        match rng.random_range(0..6) {
+            0 if at < bytes.len() => bytes[at] ^= 1 << rng.random_range(0..8),
+            1 => drop(bytes.drain(at..to)),
+            2 => drop(bytes.splice(at..at, bytes[at..to].to_vec())),
+            3 => bytes.insert(at, rng.random()),
+            4 => bytes[at..to].reverse(),
+            _ => bytes.truncate(at.max(40)),
+        }
+    }
+    bytes
+}
+
+#[test]
+fn damaged_files_end_with_findings_or_a_refusal_that_says_where() {
+    const TOML: &str = "rounding = \"nearest\"\n\n[cells]\na = \"12.50\"\n\n[[table]]\nname = \"t\"\ntext = \"\"\"\n\
+        | p | x [% of 20] |\n|-|-|\n| A | 33.3 |\n\"\"\"\n\n[[sample]]\nname = \"s\"\nis = \"integers, n=10\"\nmean = \"2.35\"\n\
+        sd = \"1.1\"\n\n[[relation]]\ncheck = \"ratio\"\nvalue = \"2.50\"\nof = \"a\"\nover = \"t/A/x\"\n";
+    const CSV: &str = "planner,\"nodes, all [mean, integers, n=10]\",time (s),n\nA,3.45,1.2 ± 0.1,10\nB,2.0,\"1.3\",8\nAverage,2.7,1.25,9\n";
+    let bench = Bench::new();
+    let mut codes = [0; 4];
+    for seed in 0..500 {
+        let mut rng = SmallRng::seed_from_u64(seed);
+        let (name, whole) = [("t.md", TABLE), ("t.csv", CSV), ("t.toml", TOML)][seed as usize % 3];
+        let bytes = damaged(whole.as_bytes(), &mut rng);
+        bench.write(name, &bytes);
+        let said = bench.run(&[name]);
+        let code = said.code.filter(|code| [0, 2, 3].contains(code));
+        let code = code.unwrap_or_else(|| panic!("seed {seed}: {:?}\n{}", said.code, said.err)) as usize;
+        codes[code] += 1;
+        let rest = said.err.strip_prefix(&format!("replan: {name}:")).unwrap_or_default();
+        let is_located = code != 2 || rest.starts_with(|c: char| c.is_ascii_digit());
+        assert!(is_located, "seed {seed}: {}\n{:?}", said.err, String::from_utf8_lossy(&bytes));
+    }
+    assert!(codes[0] > 20 && codes[2] > 100 && codes[3] > 50, "one-sided sample: {codes:?}");
 }

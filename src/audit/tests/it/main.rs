@@ -9,6 +9,7 @@ mod false_alarms;
 mod octile_turns;
 mod package;
 mod pages;
+mod people;
 mod power;
 mod report;
 mod said;

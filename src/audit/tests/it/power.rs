@@ -9,7 +9,7 @@ use replan_audit::report::{Class, Finding, Options};
 use std::collections::BTreeSet;
 
 /// Inputs that data can print, with the place of the number that is to be corrupted. Each belongs to one check.
-const WHOLE: [(&str, &str); 29] = [
+const WHOLE: [(&str, &str); 30] = [
     ("grim", "[[sample]]\nname = \"x\"\nis = \"% of 250\"\nmean = \"{33.2}\"\n"),
     ("grim", "[[sample]]\nname = \"x\"\nis = \"integers, n=20\"\nmean = \"{3.45}\"\n"),
     ("grimmer", "[[sample]]\nname = \"x\"\nis = \"integers, n=5\"\nmean = \"2.40\"\nsd = \"{1.14}\"\n"),
@@ -20,6 +20,7 @@ const WHOLE: [(&str, &str); 29] = [
         "reduction",
         "[[relation]]\ncheck = \"reduction\"\npercent = \"{7.1}\"\nfrom = \"17.65\"\nto = \"16.40\"\n",
     ),
+    ("summary", "[[relation]]\ncheck = \"summary\"\nvalue = \"{55.0}\"\nparts = [\"50.0\", \"60.0\"]\n"),
     (
         "sum_of_means",
         "[[relation]]\ncheck = \"sum_of_means\"\ntotal = \"{9.0}\"\nparts = [\"4.0\", \"5.0\"]\n",

@@ -253,26 +253,26 @@ const WRONG: [(&str, Format, &str); 23] = [
     (
         "[[relation]]\ncheck = \"ratio\"\nvalue = \"2\"\nof = \"950 ms\"\nover = \"1.2 s\"\n",
         Format::Toml,
-        "1: relation `ratio`: `of` is `950 ms`; numbers that are held against each other are written without units",
+        "4: relation `ratio`: `of` is `950 ms`; numbers that are held against each other are written without units",
     ),
     (
         "[[sample]]\nname = \"x\"\nmean = \"1.2 s\"\nsd = \"70 ms\"\n",
         Format::Toml,
-        "1: sample `x`: `1.2 s` has a unit",
+        "3: sample `x`: `1.2 s` has a unit",
     ),
     ("", Format::Csv, "1: there is no table here"),
     ("words\n", Format::Markdown, "1: there is no table here"),
     (
         "[[relation]]\ncheck = \"magic\"\n",
         Format::Toml,
-        "1: check `magic` is no relation; accepted: any_angle_turns, clock",
+        "2: check `magic` is no relation; accepted: any_angle_turns, clock",
     ),
     (
         "[[relation]]\ncheck = \"grim\"\nvalue = \"1.2\"\nm = 3\n",
         Format::Toml,
-        "1: check `grim` has no key `m`",
+        "4: check `grim` has no key `m`",
     ),
-    ("[[sample]]\nname = \"x\"\nmean = 1.2\n", Format::Toml, "1: `1.2` is no text in quotes"),
+    ("[[sample]]\nname = \"x\"\nmean = 1.2\n", Format::Toml, "3: `1.2` is no text in quotes"),
     ("x = 1\n", Format::Toml, "1: unknown field `x`"),
 ];
 
@@ -287,7 +287,7 @@ fn bad_input_is_told_with_its_line_and_cell() {
     let faults = audit(&read(relation, Format::Toml).unwrap(), &Options::default()).unwrap_err();
     assert_eq!(
         faults[0].to_string(),
-        "2: relation `grim`: `value` is `t/A/b`, which is neither a number nor the name of a cell"
+        "4: relation `grim`: `value` is `t/A/b`, which is neither a number nor the name of a cell"
     );
 }
 

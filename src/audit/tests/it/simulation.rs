@@ -3,6 +3,7 @@
 
 mod long;
 mod relations;
+mod summaries;
 mod wide;
 
 use proofs::exact::{Exact, whole};
@@ -17,6 +18,7 @@ pub const ROUNDINGS: [&str; 5] = ["half up", "half even", "floor", "ceiling", "t
 pub fn input(seed: u64) -> (String, Format) {
     let mut rng = SmallRng::seed_from_u64(seed);
     match seed % 4 {
+        0 | 1 if rng.random_bool(0.2) => (summaries::table(&mut rng), Format::Markdown),
         0 | 1 => (wide::table(&mut rng), Format::Markdown),
         2 => (long::table(&mut rng), Format::Markdown),
         _ => (relations::document(&mut rng), Format::Toml),

@@ -1,0 +1,420 @@
+//! Whether a row or a column called `Average` or `Total` is the mean or the sum of those that it sums up.
+//!
+//! Which numbers it sums up is not printed, so every usual choice counts: the rows of its block, all rows above, the summaries
+//! above; and of columns those right before it. Only what no choice gives is refused.
+
+use super::arguments::{count, digits, shown_span, spans};
+use super::{Entry, FromRelation, Test};
+use crate::input::{Input, Relation};
+use crate::meaning::{Count, Kind, Meaning};
+use crate::reader::unit;
+use crate::sample::groups;
+use crate::statistic::Statistic;
+use crate::table::{Column, Fault, Quoted, Table, named_by, quoted};
+use proofs::exact::{Exact, Print, Span, add, div, whole};
+use std::cell::Cell;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "summary",
+    about: "is a row or a column called Average or Total the mean or the sum of those that it sums up?",
+    example: "Average 52.0 below 50.0 and 60.0",
+    premises: "it sums up the rows above it, or the columns before it; a signal, since other rows may be meant",
+    source: "interval arithmetic",
+    tests,
+    relation: Some(FromRelation {
+        keys: &[
+            ("value", "The mean or the sum, in quotes: the printed number, or the name of a cell."),
+            ("parts", "What it sums up, each in quotes or the name of a cell."),
+            ("is", "What it is of them: `mean`, which holds if absent, or `sum`."),
+        ],
+        build,
+    }),
+};
+
+/// What a name says that a row or a column is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Word {
+    Mean,
+    Sum,
+    /// `Overall`: a mean, weighted or not, or a sum.
+    Either,
+}
+
+/// How a number may follow from others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Mean,
+    /// The mean weighted by how many trials are behind each.
+    Pooled,
+    /// A mean of some weights, or a quotient of sums.
+    Between,
+    Sum,
+}
+
+impl Form {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Mean => "the mean",
+            Self::Pooled => "the mean by number of trials",
+            Self::Between => "between the least and the greatest",
+            Self::Sum => "the sum",
+        }
+    }
+}
+
+struct Summary {
+    /// The number that sums up, then the others.
+    numbers: Vec<Quoted>,
+    /// What it may sum up, by places in `numbers`.
+    choices: Vec<Vec<usize>>,
+    forms: Vec<Form>,
+    /// How many trials are behind each number; empty if that is not printed.
+    weights: Vec<Exact>,
+    premise: &'static str,
+    steps: Cell<u64>,
+}
+
+/// The most numbers that one is held against.
+const MOST: usize = 1000;
+
+/// What a name says: `Average`, `Avg.`, `Mean (all maps)`, `Total:`, `Overall`.
+fn word(name: &str) -> Option<Word> {
+    let name = name.to_lowercase();
+    let alone = name.split(['(', '[', ':']).next().unwrap_or_default().trim().trim_end_matches('.');
+    let start =
+        ["of", "over", "across"].iter().find_map(|word| Some(alone.split_once(&format!(" {word} "))?.0));
+    match start.unwrap_or(alone).trim() {
+        "average" | "averaged" | "averages" | "avg" | "mean" | "means" => Some(Word::Mean),
+        "sum" | "total" | "totals" | "grand total" => Some(Word::Sum),
+        "overall" => Some(Word::Either),
+        _ => None,
+    }
+}
+
+/// The cell of a row that says that it sums up others.
+pub fn label(table: &Table, row: usize) -> Option<usize> {
+    let is_summary = |at: &usize| {
+        let cell = &table.rows[row][*at];
+        cell.value.is_none() && word(&cell.text).is_some()
+    };
+    (0..table.rows[row].len()).find(is_summary).filter(|_| table.statistics().is_none())
+}
+
+fn labels(table: &Table) -> Vec<Option<usize>> {
+    (0..table.rows.len()).map(|row| label(table, row)).collect()
+}
+
+fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
+    for (index, table) in input.tables.iter().enumerate().filter(|(_, table)| table.statistics().is_none()) {
+        let labels = labels(table);
+        let columns = 0..table.columns.len();
+        let rows = || 0..table.rows.len();
+        for row in rows().filter(|row| labels[*row].is_some()) {
+            let of_rows = columns.clone().filter_map(|column| of_row(index, table, &labels, [row, column]));
+            of_rows.for_each(|test| give(Box::new(test)));
+        }
+        for column in columns.filter(|column| word(&table.columns[*column].name).is_some()) {
+            rows()
+                .filter_map(|row| of_column(index, table, row, column))
+                .for_each(|test| give(Box::new(test)));
+        }
+    }
+}
+
+/// Whether a cell stands in a row or column of a summary, and is what it says it is.
+pub fn is_true(input: &Input, [index, row, column]: [usize; 3]) -> bool {
+    let table = &input.tables[index];
+    let of_row = || {
+        label(table, row)?;
+        of_row(index, table, &labels(table), [row, column])
+    };
+    let holds = |test: Summary| {
+        let prints: Vec<Print> = test.numbers.iter().map(|number| number.print).collect();
+        test.is_possible(&prints) == Some(true)
+    };
+    table.statistics().is_none()
+        && (of_row().is_some_and(holds) || of_column(index, table, row, column).is_some_and(holds))
+}
+
+/// The test of a cell in a row that sums up those above; none if it sums up nothing that is known.
+fn of_row(
+    index: usize,
+    table: &Table,
+    labels: &[Option<usize>],
+    [row, column]: [usize; 2],
+) -> Option<Summary> {
+    let own = labels[row]?;
+    table.print(row, column)?;
+    let word = word(&table.rows[row][own].text)?;
+    let mut forms = forms(table, column, word)?;
+    // A row `Average` of one planner sums up the rows of that planner, if there are any.
+    let others = |at: &usize| {
+        let cell = &table.rows[row][*at];
+        *at != own && table.columns[*at].meaning.kind == Kind::Skip && !cell.text.is_empty()
+    };
+    let same: Vec<usize> = (0..table.columns.len()).filter(others).collect();
+    let is_alike =
+        |other: usize| same.iter().all(|at| table.rows[other][*at].text == table.rows[row][*at].text);
+    // A row that divides blocks holds its name alone; where a dash stands, something is not printed.
+    let is_empty = |other: usize| {
+        let cells = table.rows[other].iter().zip(&table.columns);
+        cells.filter(|(_, column)| column.meaning.kind != Kind::Skip).all(|(cell, _)| cell.text.is_empty())
+    };
+    let [mut block, mut all, mut before] = [Vec::new(), Vec::new(), Vec::new()];
+    let mut is_in_block = true;
+    for other in neighbours(table, labels, row) {
+        if is_empty(other) || labels[other].is_some() || is_statistic(table, other) {
+            is_in_block &= block.is_empty();
+            if labels[other].is_some() && is_alike(other) && table.print(other, column).is_some() {
+                before.push(other);
+            }
+            continue;
+        }
+        if !is_alike(other) {
+            continue;
+        }
+        // Where one is not printed, what the others give is not known.
+        table.print(other, column)?;
+        if all.len() == MOST {
+            return None;
+        }
+        all.push(other);
+        if is_in_block {
+            block.push(other);
+        }
+    }
+    if all.len() < 2 {
+        return None;
+    }
+    let rows: Vec<usize> = all.iter().chain(&before).copied().collect();
+    let at = |rows_of: &[usize]| {
+        rows_of.iter().filter_map(|of| rows.iter().position(|row| row == of)).map(|at| at + 1).collect()
+    };
+    let choices = [&block, &all, &before]
+        .map(|rows| at(rows))
+        .into_iter()
+        .filter(|choice: &Vec<usize>| !choice.is_empty());
+    let weights = weights(table, column, &rows);
+    if weights.is_empty() && forms.contains(&Form::Pooled) && word != Word::Mean {
+        forms.push(Form::Between);
+    }
+    let numbers = std::iter::once(&row).chain(&rows).map(|row| quoted(index, table, *row, column));
+    Some(Summary {
+        numbers: numbers.collect::<Option<_>>()?,
+        choices: choices.collect(),
+        forms,
+        weights,
+        premise: "the row sums up rows above it",
+        steps: Cell::default(),
+    })
+}
+
+/// The rows that a summary may be of, the nearest first: those above, or below if there are none above.
+fn neighbours(table: &Table, labels: &[Option<usize>], row: usize) -> Vec<usize> {
+    let is_first = labels[..row].iter().all(Option::is_some);
+    if is_first { (row + 1..table.rows.len()).collect() } else { (0..row).rev().collect() }
+}
+
+/// Whether a row holds another statistic of the rows: `Std`, `Median`. Queries may be called `q1`, `q2`.
+fn is_statistic(table: &Table, row: usize) -> bool {
+    let of_rows = |text: &str| {
+        let statistic =
+            Statistic::named(text.trim_end_matches('.')).filter(|_| !text.starts_with(['q', 'Q']));
+        let is_other = ["std. dev", "std dev", "standard deviation", "variance", "range"]
+            .contains(&text.to_lowercase().trim_end_matches('.'));
+        is_other
+            || statistic
+                .is_some_and(|statistic| !matches!(statistic, Statistic::Quantile(share) if share != 5000))
+    };
+    table.rows[row].iter().any(|cell| cell.value.is_none() && of_rows(&cell.text))
+}
+
+/// The number of trials behind the numbers in `rows`, 0 for the summary itself; empty if one is not known.
+fn weights(table: &Table, column: usize, rows: &[usize]) -> Vec<Exact> {
+    let n = |row: usize| match &table.columns[column].meaning.n {
+        Some(Count::Number(_)) => Some(whole(1)),
+        Some(Count::Column(name)) => Some(table.print(row, named_by(&table.columns, column, name)?)?.value()),
+        None => table.rows[row][column].k_of_n.map(|[_, n]| count(n)),
+    };
+    let all = rows.iter().map(|row| n(*row).filter(|n| *n > whole(0))).collect::<Option<Vec<Exact>>>();
+    all.map_or_else(Vec::new, |all| std::iter::once(whole(0)).chain(all).collect())
+}
+
+/// How numbers of a column may follow from others of it; none where no mean or sum does.
+fn forms(table: &Table, at: usize, word: Word) -> Option<Vec<Form>> {
+    let Column { name, meaning, .. } = &table.columns[at];
+    let is_n = table.columns.iter().any(|column| column.meaning.n == Some(Count::Column(name.clone())));
+    if is_n {
+        return Some(vec![Form::Mean, Form::Sum]);
+    }
+    if is_quotient(table, at) {
+        return (word != Word::Sum).then(|| vec![Form::Between]);
+    }
+    let forms: &[Form] = match (&meaning.kind, word) {
+        (Kind::Share { whole: 0 } | Kind::Of(Statistic::Total | Statistic::Quantile(_)), Word::Mean) => {
+            &[Form::Mean]
+        }
+        (Kind::Share { whole: 0 } | Kind::Of(Statistic::Total) | Kind::Value, Word::Sum) => &[Form::Sum],
+        (Kind::Share { whole: 0 } | Kind::Of(Statistic::Total), Word::Either) => &[Form::Mean, Form::Sum],
+        (Kind::Of(Statistic::Min | Statistic::Max), Word::Mean | Word::Either) => &[Form::Between],
+        (Kind::Share { .. } | Kind::Of(Statistic::Mean) | Kind::Value, Word::Mean) => {
+            &[Form::Mean, Form::Pooled]
+        }
+        (Kind::Share { .. } | Kind::Of(Statistic::Mean) | Kind::Value, _) => {
+            &[Form::Mean, Form::Sum, Form::Pooled]
+        }
+        _ => return None,
+    };
+    Some(forms.to_vec())
+}
+
+/// Whether a column holds quotients, of which the mean may be geometric, or a quotient of means.
+fn is_quotient(table: &Table, at: usize) -> bool {
+    let Column { name, meaning, .. } = &table.columns[at];
+    let name = name.to_lowercase();
+    let words = [
+        "speed", "ratio", "factor", "relative", "improve", "reduc", "saving", "gain", "gap", "increase", "/",
+        "per ",
+    ];
+    let is_named =
+        words.iter().any(|word| name.contains(word)) || meaning.kind == Kind::Value && name.contains('%');
+    let cell = table.rows.iter().filter_map(|row| row.get(at)).find(|cell| cell.value.is_some());
+    let has_unit = |cell: &crate::table::Cell| ["x", "×"].contains(&unit(&cell.text).1);
+    is_named || meaning.ratio.is_some() || cell.is_some_and(has_unit)
+}
+
+/// The test of a cell in a column that sums up those before it; none if it sums up nothing that is known.
+fn of_column(index: usize, table: &Table, row: usize, at: usize) -> Option<Summary> {
+    let Column { name, meaning, .. } = &table.columns[at];
+    let word = word(name)?;
+    table.print(row, at)?;
+    // A column `mean` beside `sd` or `max` is a statistic of what is not printed.
+    let is_statistic = groups(&table.columns)
+        .iter()
+        .any(|group| group.columns.len() > 1 && group.columns.iter().any(|(column, _)| *column == at));
+    if is_statistic || !meaning.sum.is_empty() || meaning.spread.is_some() {
+        return None;
+    }
+    let alike = |a: &Meaning, b: &Meaning| {
+        (&a.kind, &a.unit, a.grain, a.better) == (&b.kind, &b.unit, b.grain, b.better)
+    };
+    let is_number =
+        |column: &usize| !matches!(table.columns[*column].meaning.kind, Kind::Skip | Kind::Samples);
+    let mut columns: Vec<usize> = (0..at).rev().take_while(is_number).collect();
+    columns.drain(
+        ..columns.iter().take_while(|column| self::word(&table.columns[**column].name).is_some()).count(),
+    );
+    let last = &table.columns[*columns.first()?].meaning;
+    let run = columns.iter().take_while(|column| {
+        let Column { name, meaning, .. } = &table.columns[**column];
+        alike(meaning, last) && self::word(name).is_none()
+    });
+    columns.truncate(run.count());
+    let is_same = meaning.kind == last.kind
+        || table.columns[at].written.is_none() && matches!(meaning.kind, Kind::Of(_) | Kind::Value);
+    if columns.len() < 2 || !is_same || meaning.unit.is_some() && meaning.unit != last.unit {
+        return None;
+    }
+    let mut forms = forms(table, columns[0], word)?;
+    forms.retain(|form| *form != Form::Pooled);
+    if word == Word::Either {
+        forms.push(Form::Between);
+    }
+    let numbers = std::iter::once(&at).chain(&columns).map(|column| quoted(index, table, row, *column));
+    Some(Summary {
+        numbers: numbers.collect::<Option<_>>()?,
+        choices: (2..=columns.len()).map(|most| (1..=most).collect()).collect(),
+        forms,
+        weights: Vec::new(),
+        premise: "the column sums up columns right before it",
+        steps: Cell::default(),
+    })
+}
+
+fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
+    let form = if relation.word("is", &["mean", "sum"])? == "sum" { Form::Sum } else { Form::Mean };
+    let mut numbers = vec![relation.number("value", input)?];
+    numbers.extend(relation.numbers("parts", input)?);
+    let choices = vec![(1..numbers.len()).collect()];
+    let premise = "these are all that it sums up";
+    let (forms, weights, steps) = (vec![form], Vec::new(), Cell::default());
+    Ok(Box::new(Summary { numbers, choices, forms, weights, premise, steps }))
+}
+
+impl Summary {
+    /// What one choice allows by one form; none if 128 bits do not suffice.
+    fn allowed(&self, spans: &[Span], choice: &[usize], form: Form) -> Option<Span> {
+        if form == Form::Between {
+            let low = choice.iter().map(|at| spans[*at].low).min()?;
+            return Some(Span::closed(low, choice.iter().map(|at| spans[*at].high).max()?));
+        }
+        let weight = |at: usize| if form == Form::Pooled { self.weights[at] } else { whole(1) };
+        let all = choice.iter().try_fold(whole(0), |all, at| add(all, weight(*at)))?;
+        let add_weighted = |sum: Span, at: &usize| sum.plus(&spans[*at].times(weight(*at))?);
+        let sum = choice.iter().try_fold(Span::point(whole(0)), add_weighted)?;
+        if form == Form::Sum { Some(sum) } else { sum.times(div(whole(1), all)?) }
+    }
+
+    /// Every form of every choice with what it allows.
+    fn all(&self, prints: &[Print]) -> impl Iterator<Item = (Form, usize, Option<Span>)> {
+        let spans = spans(prints);
+        self.steps.set(self.steps.get() + prints.len() as u64);
+        let pairs = self.choices.iter().flat_map(|choice| self.forms.iter().map(move |form| (choice, *form)));
+        let needs = pairs.filter(|(_, form)| *form != Form::Pooled || !self.weights.is_empty());
+        needs.map(move |(choice, form)| (form, choice.len(), self.allowed(&spans, choice, form)))
+    }
+}
+
+impl Test for Summary {
+    fn numbers(&self) -> &[Quoted] {
+        &self.numbers
+    }
+
+    fn is_possible(&self, prints: &[Print]) -> Option<bool> {
+        let printed = prints[0].span();
+        let mut is_open = false;
+        for (_, _, span) in self.all(prints) {
+            match span {
+                Some(span) if span.meets(&printed) => return Some(true),
+                Some(_) => {}
+                None => is_open = true,
+            }
+        }
+        (!is_open).then_some(false)
+    }
+
+    fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
+        let own = prints[0].span();
+        let mut ways: Vec<String> = Vec::new();
+        for (form, many, span) in self.all(prints) {
+            let Some(span) = span else { continue };
+            if span.meets(&own) != is_possible {
+                continue;
+            }
+            let way = format!("{} of {many} is {}", form.name(), shown_span(&span, 4));
+            if !ways.contains(&way) {
+                ways.push(way);
+            }
+        }
+        ways.truncate(3);
+        let verb = if is_possible { "sums up" } else { "does not sum up" };
+        format!("{} {verb} the others: {}", prints[0].printed, ways.join("; "))
+    }
+
+    fn premises(&self) -> Vec<String> {
+        vec![self.premise.to_owned(), digits(&self.numbers)]
+    }
+
+    fn is_about_digits(&self) -> bool {
+        false
+    }
+
+    fn is_about_summaries(&self) -> bool {
+        true
+    }
+
+    fn steps_taken(&self) -> Option<u64> {
+        Some(self.steps.get())
+    }
+}
