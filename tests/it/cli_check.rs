@@ -148,7 +148,7 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
             &[("instances = 1 }]", "instances = 2, contender = \"A*\", repeats = 3 }]")],
             &[
                 "room.toml:27:43: `instances` is 2; there are 1, and no more is accepted",
-                "room.toml:27:75: `repeats` is 3; there are 1, and no more is accepted",
+                "room.toml:27:74: `repeats` is 3; there are 1, and no more is accepted",
             ],
         ),
     ] {
