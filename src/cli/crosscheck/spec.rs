@@ -3,7 +3,7 @@
 //! Python reads the file by itself. It is read here too, so that `replan check` finds what is wrong with it without Python, and
 //! so that replan knows the robots and scenes about which it must answer.
 
-use super::subject::{PlanarArm, SerialArm, Subject};
+use super::subject::{PlanarArm, SceneFormat, SerialArm, Subject};
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned, none_called};
 use engine::kinematics::{KinematicsError, Robot, robot::Body};
 use engine::space::World;
@@ -121,16 +121,6 @@ struct SceneEntry {
     file: String,
     /// How the scene file is written.
     format: SceneFormat,
-}
-
-/// How a scene file is written.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum SceneFormat {
-    /// A robot's cell, in millimetres.
-    Cell,
-    /// Convex solids, in centimetres.
-    Polyhedra,
 }
 
 /// Paths of one robot in one scene.

@@ -1,6 +1,5 @@
 //! Who answers for us: the engine's kinematics, distances and the checks that planners use, by name of pair, frame and joint.
 
-use super::spec::SceneFormat;
 use base::settings::{Document, SettingsError};
 use engine::geometry::planar::{Segment2, Touch, distance_point_segment};
 use engine::geometry::{
@@ -12,10 +11,22 @@ use engine::kinematics::{AXES, Chain, Joints, Robot};
 use engine::space::cell::{Cell, Scene, Standing};
 use engine::space::polyhedra::{CarriedArm, read_scene};
 use engine::space::{ArmWorld, Obstacle};
+use schemars::JsonSchema;
+use serde::Deserialize;
 use std::path::Path;
 
 /// Metres in a centimetre.
 const M: f64 = 1e-2;
+
+/// How a scene file is written.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SceneFormat {
+    /// A robot's cell, in millimetres.
+    Cell,
+    /// Convex solids, in centimetres.
+    Polyhedra,
+}
 
 /// What the check that planners use finds.
 #[derive(Debug, Clone, Copy)]
