@@ -58,6 +58,8 @@ def test_questions_are_what_their_kind_means(measured: Gaps) -> None:
     nearest = np.take_along_axis(least, np.abs(least).argmin(axis=0)[None], axis=0)[0]
     assert ((np.abs(nearest) > NEAREST_M / 2) & (np.abs(nearest) < NEAR_M * 1.001)).all()
     assert (nearest < 0).sum() >= 10 <= (nearest > 0).sum()
+    free = [measured.is_free(q_rad) for q_rad in asked[NEAR]]
+    assert free == (gaps.min(axis=1) > 0).tolist()
     assert len(asked[SINGULAR]) == 20
     assert (np.abs(determinant(model, asked[SINGULAR])) < 1e-9).all()
     assert (np.abs(determinant(model, asked[RANDOM])) > 1e-3).sum() > 100
