@@ -8,8 +8,6 @@
 
 pub mod analysis;
 
-pub mod crosscheck;
-
 pub mod render;
 
 pub mod page;

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -71,7 +72,7 @@ def contact_columns(judged: Judged) -> npt.NDArray[np.int64]:
     for column, pair in enumerate(judged.pairs):
         one, other = pair.geoms
         columns[one, other] = columns[other, one] = column
-    return columns
+    return np.asarray(columns)
 
 
 def touching(data: mujoco.MjData, column_of: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
@@ -83,7 +84,7 @@ def touching(data: mujoco.MjData, column_of: npt.NDArray[np.int64]) -> npt.NDArr
     if (columns < 0).any():
         message = f"MuJoCo reports contact of a pair that is not among those that may touch: {geoms.tolist()}"
         raise ValueError(message)
-    return columns
+    return np.asarray(columns)
 
 
 def frame_numbers(judged: Judged) -> Numbers:
@@ -95,9 +96,7 @@ def frame_numbers(judged: Judged) -> Numbers:
 def gap_numbers(judged: Judged) -> Numbers:
     """MuJoCo's distance of every pair now; what it says of pairs in contact means little."""
     ends = np.zeros(6)
-    distances = [
-        mujoco.mj_geomDistance(judged.model, judged.data, *pair.geoms, FAR_M, ends) for pair in judged.pairs
-    ]
+    distances = [mujoco.mj_geomDistance(judged.model, judged.data, *pair.geoms, FAR_M, ends) for pair in judged.pairs]
     return np.array(distances)
 
 
@@ -110,12 +109,12 @@ def beyond_limits(judged: Judged) -> Truths:
     return beyond
 
 
-def stacked(rows: list[npt.NDArray], width: int, kind: type) -> npt.NDArray:
+def stacked(rows: list[npt.NDArray[Any]], width: int, kind: type) -> npt.NDArray[Any]:
     """The rows as one array, also if there is none."""
     return np.array(rows, dtype=kind) if rows else np.empty((0, width), dtype=kind)
 
 
-def by_column(names: list[str], cells: npt.NDArray) -> dict[str, npt.NDArray]:
+def by_column(names: list[str], cells: npt.NDArray[Any]) -> dict[str, npt.NDArray[Any]]:
     """The columns of an array by their names."""
     return {name: np.ascontiguousarray(cells[:, column]) for column, name in enumerate(names)}
 

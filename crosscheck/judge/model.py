@@ -10,7 +10,7 @@ PART, STILL = "part:", "still:"
 
 
 @dataclass(frozen=True)
-class Pair:
+class Geoms:
     """Two geoms that may touch."""
 
     name: str
@@ -23,14 +23,18 @@ class Judged:
 
     model: mujoco.MjModel
     data: mujoco.MjData
-    pairs: tuple[Pair, ...]
+    pairs: tuple[Geoms, ...]
     frames: tuple[str, ...]
     joints: tuple[str, ...]
 
 
 def load(path: Path) -> Judged:
     """Compile the model at `path`."""
-    model = mujoco.MjModel.from_xml_path(str(path))
+    return compiled(mujoco.MjModel.from_xml_path(str(path)))
+
+
+def compiled(model: mujoco.MjModel) -> Judged:
+    """A compiled model with its names."""
     joints = tuple(model.joint(index).name for index in range(model.njnt))
     bodies = (model.body(index).name for index in range(model.nbody))
     frames = tuple(name for name in bodies if name == "tool" or is_moving_link(name))
@@ -42,11 +46,11 @@ def is_moving_link(name: str) -> bool:
     return name.startswith("link_") and name != "link_0"
 
 
-def pairs(model: mujoco.MjModel) -> tuple[Pair, ...]:
+def pairs(model: mujoco.MjModel) -> tuple[Geoms, ...]:
     """Every pair that MuJoCo tests: by masks between bodies that are not welded, and explicit ones."""
     found = [masked for one in range(model.ngeom) for masked in partners(model, one)]
     found += [(int(model.pair_geom1[index]), int(model.pair_geom2[index])) for index in range(model.npair)]
-    return tuple(Pair(pair_name(model, geoms), geoms) for geoms in found)
+    return tuple(Geoms(pair_name(model, geoms), geoms) for geoms in found)
 
 
 def partners(model: mujoco.MjModel, one: int) -> list[tuple[int, int]]:

@@ -1,5 +1,11 @@
-"""A picture of a model, rendered without a screen (MUJOCO_GL=osmesa or egl)."""
+"""A picture of a model, rendered without a screen (MUJOCO_GL=osmesa or egl).
 
+Renderers differ in a few pixels. A picture therefore holds a hash of the scene that it shows, and one whose scene is
+unchanged stays as it is.
+"""
+
+import hashlib
+import re
 import struct
 import zlib
 from dataclasses import dataclass
@@ -10,6 +16,9 @@ import numpy as np
 import numpy.typing as npt
 
 WIDTH, HEIGHT = 1200, 900
+# The key of the text in a PNG file that has the hash.
+SCENE = b"replan scene"
+DIGITS = 9
 # What a letter of a label takes in the picture, and how far labels stand above each other, in pixels.
 LETTER, LINE = 10.0, 24.0
 # What an arm stands on is no obstacle to it.
@@ -25,8 +34,26 @@ class View:
     zoom: float
 
 
-def draw(model_path: Path, to: Path, key: str, view: View) -> None:
-    """Draw the model at `model_path` in the configuration of a keyframe."""
+def scene_hash(model_path: Path, q_rad: list[float], view: View) -> str:
+    """The hash of what a picture shows: the model without keyframes, the configuration and the camera.
+
+    Numbers count to nine decimal places, since the last ones change with the processor.
+    """
+    lines = (line for line in model_path.read_text(encoding="utf-8").splitlines() if "<key " not in line)
+    text = "\n".join([*lines, repr(q_rad), repr(view)])
+    rounded = re.sub(r"-?\d+\.\d+(e-?\d+)?", lambda found: f"{float(found[0]) + 0.0:.{DIGITS}f}", text)
+    return hashlib.sha256(rounded.replace(f"-{0:.{DIGITS}f}", f"{0:.{DIGITS}f}").encode()).hexdigest()
+
+
+def shown_scene(picture: Path) -> str | None:
+    """The hash of the scene that a picture shows; `None` if there is no picture or it holds none."""
+    data = picture.read_bytes() if picture.is_file() else b""
+    _, found, rest = data.partition(b"tEXt" + SCENE + b"\0")
+    return rest[:64].decode("ascii", "replace") if found else None
+
+
+def draw(model_path: Path, to: Path, key: str, view: View, scene: str) -> None:
+    """Draw the model at `model_path` in the configuration of a keyframe; the picture holds the hash `scene`."""
     model = mujoco.MjModel.from_xml_path(str(model_path))
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, model.key(key).id)
@@ -43,7 +70,7 @@ def draw(model_path: Path, to: Path, key: str, view: View) -> None:
     with mujoco.Renderer(model, HEIGHT, WIDTH) as renderer:
         renderer.update_scene(data, camera)
         name_obstacles(model, data, renderer.scene)
-        to.write_bytes(png(renderer.render()))
+        to.write_bytes(png(renderer.render(), scene))
 
 
 def name_obstacles(model: mujoco.MjModel, data: mujoco.MjData, scene: mujoco.MjvScene) -> None:
@@ -88,12 +115,13 @@ def ball_around(model: mujoco.MjModel, data: mujoco.MjData) -> tuple[npt.NDArray
     return (low + high) / 2, float(np.linalg.norm(high - low) / 2)
 
 
-def png(pixels: npt.NDArray[np.uint8]) -> bytes:
-    """Pixels (rows, columns, red green blue) as a PNG file: the same for the same pixels."""
+def png(pixels: npt.NDArray[np.uint8], scene: str) -> bytes:
+    """Pixels (rows, columns, red green blue) as a PNG file with a hash: the same for the same pixels."""
     height, width, _ = pixels.shape
     rows = b"".join(b"\0" + row.tobytes() for row in pixels)
     header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    parts = ((b"IHDR", header), (b"IDAT", zlib.compress(rows, 9)), (b"IEND", b""))
+    text = SCENE + b"\0" + scene.encode()
+    parts = ((b"IHDR", header), (b"tEXt", text), (b"IDAT", zlib.compress(rows, 9)), (b"IEND", b""))
     return b"\x89PNG\r\n\x1a\n" + b"".join(chunk(kind, body) for kind, body in parts)
 
 

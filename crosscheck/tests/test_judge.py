@@ -78,16 +78,6 @@ def test_answers_are_written_beside_the_model(tmp_path: Path) -> None:
     assert heights == {"touch": 4, "gaps": 2, "limits": 3}
 
 
-def test_the_command_line_answers_a_folder_and_names_each_model(tmp_path: Path) -> None:
-    folder = tmp_path / "case"
-    folder.mkdir()
-    for name in ("mini.xml", "mini.questions.parquet"):
-        shutil.copy(FIXTURES / name, folder / name)
-    words = [sys.executable, "-m", "judge", "answer", str(tmp_path), "--jobs", "1"]
-    said = subprocess.run(words, capture_output=True, text=True, check=True, cwd=FIXTURES.parents[1])
-    assert said.stdout == "case/mini\n"
-
-
 def test_a_capsule_that_pierces_a_mesh_of_eight_vertices_is_in_contact_wherever_it_pierces() -> None:
     judged = load(MINI)
     rows = np.array([[angle, 0.0] for angle in np.linspace(np.pi / 2 - 0.15, np.pi / 2 + 0.15, 301)])
@@ -124,8 +114,8 @@ def test_every_obstacle_says_its_name_and_no_name_covers_another() -> None:
 
 def test_a_png_has_its_size_and_no_clock() -> None:
     pixels = np.zeros((2, 3, 3), dtype=np.uint8)
-    assert png(pixels) == png(pixels)
-    assert png(pixels)[16:24] == (3).to_bytes(4, "big") + (2).to_bytes(4, "big")
+    assert png(pixels, "a") == png(pixels, "a") != png(pixels, "b")
+    assert png(pixels, "a")[16:24] == (3).to_bytes(4, "big") + (2).to_bytes(4, "big")
 
 
 def test_a_renderer_that_fails_leaves_an_older_picture_alone(
@@ -138,7 +128,7 @@ def test_a_renderer_that_fails_leaves_an_older_picture_alone(
     picture = tmp_path / "scene.png"
     picture.write_bytes(b"older")
     with pytest.raises(RuntimeError, match="no display"):
-        draw(MINI, picture, "zero", View(135.0, -25.0, 1.0))
+        draw(MINI, picture, "zero", View(135.0, -25.0, 1.0), "0" * 64)
     assert picture.read_bytes() == b"older"
 
 

@@ -183,7 +183,7 @@ pub fn files() -> Vec<Item> {
         FileKind {
             name: "crosscheck",
             about: "what an independent judge is asked: crosscheck.toml in a paper's folder",
-            accepted: crate::crosscheck::FILE,
+            accepted: super::crosscheck::FILE,
             example: "experiments/gallery/crosscheck.toml",
         },
         FileKind {

@@ -1,5 +1,6 @@
 //! `replan check`: everything that can be wrong with a paper, without running it.
 
+use super::crosscheck::Spec;
 use super::load::gather;
 use super::places::{Places, papers};
 use super::progress::doing;
@@ -7,7 +8,6 @@ use super::{Failure, Which, all, counted};
 use crate::analysis::compare::stored_studies;
 use crate::analysis::evidence::default_point;
 use crate::analysis::history::History;
-use crate::crosscheck::Spec;
 use base::settings::Faults;
 use clap::Args;
 use std::collections::BTreeSet;

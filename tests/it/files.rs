@@ -249,7 +249,6 @@ const NO_MESSAGES: &[&str] = &[
     "audit/",
     "proofs/",
     "base/text.rs",
-    "crosscheck/mjcf.rs",
     // Compiled for tests alone.
     "engine/planner/mirrors.rs",
     "verify/arm/depth.rs",

@@ -2,10 +2,11 @@
 
 use super::super::Failure;
 use base::hash::sha256;
+use std::ffi::OsString;
 use std::fs;
 use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, ExitStatus, Output, Stdio};
 
 /// The exit code that says that Python or the network is missing.
 const MISSING: u8 = 4;
@@ -18,28 +19,12 @@ const REQUIREMENTS: &str = "crosscheck/requirements.txt";
 const LEAST: (u32, u32) = (3, 11);
 /// What it is usually called.
 const PROGRAMS: [&str; 2] = ["python3", "python3.11"];
-/// Renderers that work without a screen, the one that needs no GPU first.
-const RENDERERS: [&str; 2] = ["osmesa", "egl"];
 /// The most lines of a program's complaint that are passed on.
 const COMPLAINT_LINES: usize = 5;
 
 /// A Python that can answer.
 pub struct Judge {
     python: PathBuf,
-}
-
-/// A picture of one model.
-pub struct Snapshot {
-    /// The model's file.
-    pub model: PathBuf,
-    /// The keyframe.
-    pub key: String,
-    /// Azimuth and elevation of the camera.
-    pub camera_deg: [f64; 2],
-    /// How much larger things are than if everything just fits.
-    pub zoom: f64,
-    /// Where the picture goes.
-    pub to: PathBuf,
 }
 
 fn missing(message: String) -> Failure {
@@ -90,22 +75,28 @@ impl Judge {
         command
     }
 
-    /// Has every model below `folder` answered on two processes; `step` is called after each.
+    /// Has the questions of a cross-check posed and answered on two processes; `step` is called after each case.
     ///
     /// # Errors
-    /// What the judge complained of.
-    pub fn answer(&self, folder: &Path, step: impl Fn()) -> Result<(), Failure> {
+    /// Code 2 or 3 for what the judge refused.
+    pub fn pose(&self, places: &[OsString], step: impl Fn()) -> Result<(), Failure> {
         let mut command = self.module("judge");
-        command.arg("answer").arg(folder).args(["--jobs", "2"]);
+        command.arg("pose").args(places).args(["--jobs", "2"]);
         let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn()?;
         let lines = BufReader::new(child.stdout.take().expect("its output is a pipe")).lines();
         lines.map_while(Result::ok).for_each(|_| step());
-        let status = child.wait()?;
-        if status.success() {
-            return Ok(());
-        }
-        let message = format!("the judge ended with {status}; what it said stands above");
-        Err(Failure::new(1, message))
+        ended(child.wait()?)
+    }
+
+    /// Has the answers of a cross-check compared, and the chapter and the picture written.
+    ///
+    /// # Errors
+    /// Code 3 if something differs, and what the judge refused.
+    pub fn report(&self, places: &[OsString], plots: &Path, is_check: bool) -> Result<(), Failure> {
+        let mut command = self.module("judge");
+        command.arg("report").args(places).arg("--plots").arg(plots);
+        command.args(is_check.then_some("--check"));
+        ended(command.stdin(Stdio::null()).status()?)
     }
 
     /// Has the statistics that the file `request` names computed again, on two processes; says whether all agree.
@@ -124,42 +115,18 @@ impl Judge {
             }
         }
     }
-
-    /// Draws a picture into a folder that is there.
-    ///
-    /// # Errors
-    /// What each renderer complained of, in a sentence.
-    pub fn draw(&self, shown: &Snapshot) -> Result<(), String> {
-        let mut whys = Vec::new();
-        for renderer in RENDERERS {
-            let mut command = self.module("judge");
-            command.arg("draw").arg(&shown.model).arg(&shown.to).args(["--key", &shown.key]);
-            let [azimuth, elevation] = shown.camera_deg.map(|angle| angle.to_string());
-            command.args([format!("--azimuth={azimuth}"), format!("--elevation={elevation}")]);
-            command.arg(format!("--zoom={}", shown.zoom));
-            match run(command.env("MUJOCO_GL", renderer)) {
-                Ok(_) => return Ok(()),
-                Err(why) => whys.push(format!("{renderer}: {}", why.lines().last().unwrap_or("no word"))),
-            }
-        }
-        Err(format!(
-            "no renderer works here without a screen ({}); on Debian or Ubuntu run: apt install libosmesa6",
-            whys.join("; ")
-        ))
-    }
 }
 
-/// How many models below `folder` have questions.
-///
-/// # Errors
-/// What the system said.
-pub fn models(folder: &Path) -> Result<usize, Failure> {
-    let mut count = 0;
-    for case in fs::read_dir(folder)? {
-        let files = fs::read_dir(case?.path())?.flatten();
-        count += files.filter(|file| file.file_name().to_string_lossy().ends_with(".xml")).count();
+/// What a judge that ended so means; what it complained of is on standard error.
+fn ended(status: ExitStatus) -> Result<(), Failure> {
+    match status.code() {
+        Some(0) => Ok(()),
+        Some(2) => Err(Failure::input("the cross-check cannot be posed; the reason stands above")),
+        Some(DIFFERS) => Err(Failure::stale(
+            "answers differ, controls went unnoticed or files are not current; they stand above",
+        )),
+        _ => Err(Failure::new(1, format!("the judge ended with {status}; the reason stands above"))),
     }
-    Ok(count)
 }
 
 /// The program that was named, else the first of the usual names that is recent enough.

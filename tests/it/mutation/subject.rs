@@ -2,7 +2,7 @@
 
 use base::settings::Document;
 use replan::analysis::claims;
-use replan::crosscheck;
+use replan::cli::crosscheck;
 use replan::render::{figure, results};
 use std::cell::RefCell;
 use std::collections::BTreeMap;

@@ -1,0 +1,114 @@
+"""`crosscheck.toml` in a paper's folder: which robots, scenes and stored paths are judged."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from judge.located import Fault, Key, Written
+from judge.robots import Model, read_robot
+from judge.scenes import read_cell, read_polyhedra
+from judge.stored import Stored, read_paths, read_workspace, slug
+
+SPEC = "crosscheck.toml"
+SCHEMA = Path(__file__).parents[2] / "docs/schema/crosscheck.schema.json"
+PROMISES = ("nothing", "scene", "contact")
+"""What a path may be free of, the least promise first."""
+READERS = {"cell": read_cell, "polyhedra": read_polyhedra}
+
+
+@dataclass(frozen=True)
+class Case:
+    """A robot in a scene, what goes straight between the stops of its paths, and the stored ones if there are any."""
+
+    name: str
+    model: Model
+    straight: str
+    paths: list[Stored]
+    free_of: str
+
+
+@dataclass(frozen=True)
+class Places:
+    """The paper's folder, the folder that shared inputs start from, and the paper's records."""
+
+    folder: Path
+    home: Path
+    runs: Path
+
+
+class Spec:
+    """A cross-check as its paper poses it."""
+
+    def __init__(self, places: Places) -> None:
+        """Read and check the spec."""
+        self.places = places
+        self.written = Written(places.folder / SPEC)
+        self.written.check(SCHEMA)
+        self.table: dict[str, Any] = self.written.table
+
+    def names(self) -> list[str]:
+        """The names of the cases: every robot in every scene, and every workspace."""
+        scenes = [
+            slug(f"{robot['label']} in {scene['label']}")
+            for robot in self.table.get("robot", [])
+            for scene in self.table.get("scene", [])
+        ]
+        names = scenes + [slug(entry["label"]) for entry in self.table.get("workspace", [])]
+        for index, name in enumerate(names):
+            if name in names[:index]:
+                raise self.fault((), f"two cases are called `{name}`; accepted: labels that tell them apart")
+        return names
+
+    def fault(self, key: Key, message: str) -> Fault:
+        """A fault at a key of the spec."""
+        return self.written.fault(key, message)
+
+    def located(self, name: str, key: Key) -> Path:
+        """An input file, from the paper's folder or the home of shared inputs."""
+        tried = [self.places.folder / name, self.places.home / name]
+        for path in tried:
+            if path.is_file():
+                return path
+        looked = ", ".join(map(str, tried))
+        raise self.fault(key, f"input file `{name}` does not exist; looked for {looked}")
+
+    def case(self, name: str) -> Case:
+        """The case called `name`."""
+        number, scenes = self.names().index(name), self.table.get("scene", [])
+        robots = len(self.table.get("robot", []))
+        if number >= robots * len(scenes):
+            return self.workspace_case(name, number - robots * len(scenes))
+        return self.scene_case(name, *divmod(number, len(scenes)))
+
+    def scene_case(self, name: str, robot_index: int, scene_index: int) -> Case:
+        """A robot in a scene."""
+        robot, scene = self.table["robot"][robot_index], self.table["scene"][scene_index]
+        file = self.located(scene["file"], ("scene", scene_index, "file"))
+        base, stills = READERS[scene["format"]](file)
+        file = self.located(robot["file"], ("robot", robot_index, "file"))
+        model = read_robot(file, robot["body"], name, base, stills)
+        entries = [
+            entry["paths"]
+            for entry in self.table.get("stored", [])
+            if (entry["robot"], entry["scene"]) == (robot["label"], scene["label"])
+        ]
+        return self.with_paths(model, robot["straight"], entries)
+
+    def workspace_case(self, name: str, index: int) -> Case:
+        """A planar arm as a study poses it."""
+        paths = self.table["workspace"][index]["paths"]
+        model, straight = read_workspace(self.places.folder, paths, name)
+        return self.with_paths(model, straight, [paths])
+
+    def with_paths(self, model: Model, straight: str, entries: list[dict[str, Any]]) -> Case:
+        """The case with its stored paths; of several promises the least counts."""
+        joints = len(model.rows)
+        paths = [path for entry in entries for path in read_paths(entry, self.places.runs, joints)]
+        promises = [PROMISES.index(entry["free_of"]) for entry in entries]
+        return Case(model.name, model, straight, paths, PROMISES[min(promises, default=2)])
+
+    def seed(self, name: str) -> np.random.SeedSequence:
+        """The seed of a case, from the spec's and the case's name."""
+        return np.random.SeedSequence([self.table["seed"], *name.encode()])
