@@ -29,22 +29,21 @@ use study::store::write_whole;
 /// them; a class that this error decides is listed as near. Example: replan crosscheck --statistics zhang
 #[derive(Args)]
 pub struct Crosscheck {
-    /// A paper's name or folder; every paper with a crosscheck.toml, or with --statistics every paper, if none is given
+    /// A paper's name or folder; if absent all papers (without --statistics, those with a crosscheck.toml)
     paper: Option<String>,
-    /// Compute the statistics of stored runs again, with numpy and scipy alone, and list what differs
+    /// Compute the statistics of stored runs again with numpy and scipy, and list differences
     #[arg(long, conflicts_with = "answered")]
     statistics: bool,
     /// Write below this folder instead of the committed places; with --statistics read the runs below it
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// The Python that the environment is made with; python3 or python3.11 if none is given
+    /// The Python for the environment; python3 or python3.11 if absent
     #[arg(long, value_name = "PROGRAM")]
     python: Option<String>,
-    /// Judge the answers that are already there; ask nothing
+    /// Judge stored answers of MuJoCo; compute no new ones
     #[arg(long)]
     answered: bool,
-    /// Leave report and picture as they are; say whether the report's chapter is what would be written. --statistics
-    /// writes neither
+    /// Write nothing; compare the report's chapter with what would be written
     #[arg(long)]
     check: bool,
 }

@@ -22,7 +22,7 @@ const ROBOTS: &str = "data/robots";
 pub struct List {
     /// What to list; everything if absent
     what: Option<What>,
-    /// One of them: what it is, what it can be told, and an example
+    /// One entry, with its settings and an example
     name: Option<String>,
 }
 
