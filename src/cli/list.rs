@@ -20,7 +20,7 @@ const ROBOTS: &str = "data/robots";
 /// Lists what there is.
 #[derive(Args)]
 pub struct List {
-    /// What to list; everything if absent
+    /// The kind to list; everything if absent
     what: Option<What>,
     /// One entry, with its settings and an example
     name: Option<String>,

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 pub struct New {
     /// The new folder; its name becomes the name of the paper
     folder: PathBuf,
-    /// What the paper is about
+    /// The subject of the paper
     #[arg(long)]
     from: Template,
 }

@@ -25,7 +25,7 @@ pub struct Shard {
     /// Split `replan confirm` instead, round by round
     #[arg(long, conflicts_with_all = ["quick", "seed", "interpretations"])]
     confirm: bool,
-    /// What runs the shards
+    /// The program that runs the shards
     #[arg(long)]
     engine: Engine,
     /// Number of shards
