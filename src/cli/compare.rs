@@ -117,7 +117,7 @@ impl Compare {
         let said =
             found.gates.iter().filter(|gate| gate.outcome != Outcome::NotWorse).map(comparison::gate_line);
         Err(Failure::stale(format!(
-            "{worse} of {} lines are worse than their gates allow, of {open} that cannot be told:\n  {}",
+            "{worse} of {} lines are worse than their gates allow, of {open} that are undetermined:\n  {}",
             found.gates.len(),
             said.collect::<Vec<_>>().join("\n  ")
         )))

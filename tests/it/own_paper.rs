@@ -120,7 +120,7 @@ fn a_folder_of_maps_is_one_group_each_and_a_pattern_without_a_file_is_told() {
     }
     bench.edit(
         "maps/compare.toml",
-        "family = \"random_rectangles\"\nreplicates = 60",
+        "family = \"random_rectangles\"\ninstances = 60",
         "family = \"grid_map\"\neach = \"rooms/*.txt\"",
     );
     let text = fs::read_to_string(bench.at("maps/compare.toml")).unwrap();

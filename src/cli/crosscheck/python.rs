@@ -104,7 +104,7 @@ impl Judge {
         if status.success() {
             return Ok(());
         }
-        let message = format!("the judge ended with {status}; what it said stands above");
+        let message = format!("the judge ended with {status}; its output stands above");
         Err(Failure::new(1, message))
     }
 
@@ -119,7 +119,7 @@ impl Judge {
             Some(0) => Ok(true),
             Some(DIFFERS) => Ok(false),
             _ => {
-                let message = format!("the judge ended with {status}; what it said stands above");
+                let message = format!("the judge ended with {status}; its output stands above");
                 Err(Failure::new(1, message))
             }
         }
