@@ -118,7 +118,7 @@ pub fn summary(report: &Report) -> Vec<String> {
             counts.push(format!("{} signals", tally.signals));
         }
         if tally.follows > 0 {
-            counts.push(format!("{} told with another finding", tally.follows));
+            counts.push(format!("{} listed with another finding", tally.follows));
         }
         if tally.unchecked > 0 {
             counts.push(format!("{} not decided", tally.unchecked));

@@ -1,8 +1,8 @@
-//! What files of others may say that is passed over, and why; everything else that is not read is refused or told by name.
+//! Keys that replan ignores in files of other programs, with the reason. Every other unknown key is refused or named.
 //!
 //! `docs/FILES.md` shows this table.
 
-/// A key that is passed over.
+/// A key that is ignored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Ignored {
     /// The format.
@@ -17,24 +17,24 @@ const fn row(format: &'static str, key: &'static str, why: &'static str) -> Igno
     Ignored { format, key, why }
 }
 
-const SEEN: &str = "it is only seen";
-const WEIGHED: &str = "no forces are planned with";
-const CONTROLLER: &str = "a controller holds it, a planner holds `limit`";
+const SEEN: &str = "it only changes the look";
+const WEIGHED: &str = "replan plans without forces";
+const CONTROLLER: &str = "it is for controllers; planners use `limit`";
 const BESIDE: &str = "it is about simulation or control, not about geometry";
-const NAME: &str = "names of solids are those of their links";
+const NAME: &str = "solids have the names of their links";
 
-/// Every key that is passed over.
+/// Every ignored key.
 pub const IGNORED: &[Ignored] = &[
-    row("problem", "collision_buffer_ik", "goals are given in joints; inverse kinematics is not asked for"),
-    row("problem", "goal_pose", "goals are given in joints; inverse kinematics is not asked for"),
-    row("problem", "world_frame", "everything is placed from the robot's base"),
-    row("problem", "index", "problems are counted by their place in the set"),
+    row("problem", "collision_buffer_ik", "goals are given in joints; inverse kinematics is not needed"),
+    row("problem", "goal_pose", "goals are given in joints; inverse kinematics is not needed"),
+    row("problem", "world_frame", "poses are relative to the robot's base"),
+    row("problem", "index", "problems are numbered by their place in the set"),
     row("problem", "note", "a note is for people"),
-    row("problem", "problem", "it is the set's name again"),
+    row("problem", "problem", "it repeats the set's name"),
     row("problem", "orientation_quat_xyzw", "where `orientation_euler_xyz` says the same, which is checked"),
-    row("ROS map", "resolution", "cells are cells; it must be a length all the same"),
+    row("ROS map", "resolution", "lengths are counted in cells; it must still be a length"),
     row("ROS map", "origin", "cells are counted from the lower left pixel; a yaw is refused"),
-    row("URDF", "robot/@version", "there is one version"),
+    row("URDF", "robot/@version", "only one version exists"),
     row("URDF", "robot/material", SEEN),
     row("URDF", "robot/gazebo", BESIDE),
     row("URDF", "robot/transmission", BESIDE),
@@ -44,7 +44,7 @@ pub const IGNORED: &[Ignored] = &[
     row("URDF", "link/visual", SEEN),
     row("URDF", "link/inertial", WEIGHED),
     row("URDF", "link/contact", BESIDE),
-    row("URDF", "link/@type", "it means nothing in the format"),
+    row("URDF", "link/@type", "the format gives it no meaning"),
     row("URDF", "collision/@name", NAME),
     row("URDF", "collision/@group", NAME),
     row("URDF", "collision/material", SEEN),
@@ -52,20 +52,20 @@ pub const IGNORED: &[Ignored] = &[
     row("URDF", "joint/safety_controller", CONTROLLER),
     row("URDF", "joint/calibration", CONTROLLER),
     row("URDF", "limit/@effort", WEIGHED),
-    row("URDF", "limit/@lower", "of `continuous` joints, which have none"),
-    row("URDF", "limit/@upper", "of `continuous` joints, which have none"),
-    row("SRDF", "robot/group", "the chain is the whole of the URDF file's"),
+    row("URDF", "limit/@lower", "`continuous` joints have no limit"),
+    row("URDF", "limit/@upper", "`continuous` joints have no limit"),
+    row("SRDF", "robot/group", "the chain is the whole chain of the URDF file"),
     row("SRDF", "robot/group_state", "starts and goals are those of the problem"),
-    row("SRDF", "robot/end_effector", "the chain is the whole of the URDF file's"),
-    row("SRDF", "robot/virtual_joint", "everything is placed from the robot's base"),
-    row("SRDF", "robot/passive_joint", "a joint that moves is refused or planned for by the URDF file"),
+    row("SRDF", "robot/end_effector", "the chain is the whole chain of the URDF file"),
+    row("SRDF", "robot/virtual_joint", "poses are relative to the robot's base"),
+    row("SRDF", "robot/passive_joint", "the URDF file decides which joints move"),
     row("SRDF", "robot/joint_property", CONTROLLER),
     row("SRDF", "robot/link_sphere_approximation", "the solids are those of the URDF file"),
-    row("SRDF", "disable_collisions/@reason", "a pair that may touch may touch for any reason"),
-    row("scenario", "bucket", "queries are named by their line; a bucket must be a number all the same"),
+    row("SRDF", "disable_collisions/@reason", "the reason does not matter"),
+    row("scenario", "bucket", "queries are named by their line; it must still be a number"),
 ];
 
-/// Whether `key` of a file of the format is passed over.
+/// Whether `key` of a file of the format is ignored.
 pub(crate) fn is_ignored(format: &str, key: &str) -> bool {
     IGNORED.iter().any(|row| row.format == format && row.key == key)
 }

@@ -88,7 +88,7 @@ pub fn parse_problem(
     };
     let problems = reader.yaml.list(chosen)?;
     let Some(problem) = problems.get(index) else {
-        let message = format!("problem {index} is asked for; the set has {}, counted from 0", problems.len());
+        let message = format!("problem {index} is requested; the set has {}, counted from 0", problems.len());
         return Err(reader.fault(chosen, message));
     };
     let problem = reader.problem(problem, order.as_deref())?;

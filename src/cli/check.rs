@@ -17,10 +17,10 @@ use study::rerun;
 /// Checks papers and specs.
 #[derive(Args)]
 pub struct Check {
-    /// Papers or folders to check; every paper if none is given
+    /// Papers or folders to check; all papers if absent
     #[arg(value_name = "PAPER")]
     specs: Vec<String>,
-    /// Also run this many stored trials of each study again, drawn by seed, and compare their rows
+    /// Also run this many stored trials of each study again, chosen by seed, and compare their rows
     #[arg(long, value_name = "N", default_value_t = 0)]
     rerun: usize,
     /// Threads for the trials that are run again

@@ -16,9 +16,9 @@ use study::store::write_whole;
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Compare {
-    /// A stored run: a paper's name, what `--out` was given, or a folder of records
+    /// A stored run: a paper's name, the folder of an earlier `--out`, or a folder of records
     first: String,
-    /// The run to set beside it
+    /// The run to compare with
     #[arg(required_unless_present = "contenders", conflicts_with = "contenders")]
     second: Option<String>,
     /// Two contenders of the first run instead of two runs
@@ -33,10 +33,10 @@ pub struct Compare {
     /// End with exit code 3 if the mean of a metric is worse by more than this
     #[arg(long = "gate", value_name = "METRIC ±N%")]
     gates: Vec<String>,
-    /// End with exit code 3 also if a gate cannot tell
+    /// End with exit code 3 also if a gate is undetermined
     #[arg(long, requires = "gates")]
     strict: bool,
-    /// Print the changes as comma-separated values, with all of their digits
+    /// Print the changes as comma-separated values with all digits
     #[arg(long, group = "format")]
     csv: bool,
     /// Print everything as JSON
@@ -45,7 +45,7 @@ pub struct Compare {
     /// Print tables of Markdown
     #[arg(long, group = "format")]
     markdown: bool,
-    /// Draw the changes with their intervals into this SVG
+    /// Draw the changes with their intervals as an SVG file
     #[arg(long, value_name = "FILE")]
     figure: Option<PathBuf>,
 }
@@ -117,7 +117,7 @@ impl Compare {
         let said =
             found.gates.iter().filter(|gate| gate.outcome != Outcome::NotWorse).map(comparison::gate_line);
         Err(Failure::stale(format!(
-            "{worse} of {} lines are worse than their gates allow, of {open} that cannot be told:\n  {}",
+            "{worse} of {} lines are worse than their gates allow, of {open} that are undetermined:\n  {}",
             found.gates.len(),
             said.collect::<Vec<_>>().join("\n  ")
         )))

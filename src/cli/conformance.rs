@@ -17,10 +17,10 @@ use study::{Inputs, clock, contender::Pipeline, planner};
 /// Tries a planner from outside on small worlds of the kinds that it names.
 #[derive(Args)]
 pub struct Conformance {
-    /// What a query may take, in seconds
+    /// Time limit of a query in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 2.0)]
     time_s: f64,
-    /// Address space of each of its processes
+    /// Address space of each process
     #[arg(long, value_name = "MB", default_value_t = 4096)]
     memory_mb: u64,
     /// The program and its arguments

@@ -25,13 +25,13 @@ use study::shard;
 pub struct Explore {
     #[command(flatten)]
     which: Which,
-    /// Threads for the trials; the machine's number if absent
+    /// Threads for the trials; all cores if absent
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: Option<u32>,
-    /// Say what would run, and run nothing
+    /// Print what would run, and run nothing
     #[arg(long, conflicts_with = "shard")]
     plan: bool,
-    /// Run this shard of N of the round that is at work alone and keep it below --out, as a part for `replan merge`
+    /// Run only this shard of N of the current round and keep it below --out for `replan merge`
     #[arg(long, value_name = "K/N", value_parser = shard::parse, requires = "out")]
     shard: Option<(usize, usize)>,
 }

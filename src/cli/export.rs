@@ -13,7 +13,7 @@ use study::store::{Staged, check_records, csv};
 /// Exports a stored run.
 #[derive(Args)]
 pub struct Export {
-    /// A stored run: a paper's name, what `--out` was given, or a folder of records
+    /// A stored run: a paper's name, the folder of an earlier `--out`, or a folder of records
     paper: String,
     /// As comma-separated values: trials, preprocessed objects and times of each study, and statistics.csv
     #[arg(long, required = true)]

@@ -27,7 +27,7 @@ pub struct Judge {
     /// Judge under these options, which must have been run: `corner_cutting=forbid_any,ties=lifo`
     #[arg(long, value_name = "OPTIONS")]
     with: Option<String>,
-    /// Write nothing; say whether the stored verdicts are those that the stored run gives
+    /// Write nothing; compare the stored verdicts with those of the stored run
     #[arg(long)]
     check: bool,
 }

@@ -21,9 +21,9 @@ const ROBOTS: &str = "data/robots";
 /// Lists what there is.
 #[derive(Args)]
 pub struct List {
-    /// What to list; everything if absent
+    /// The kind to list; everything if absent
     what: Option<What>,
-    /// One of them: what it is, what it can be told, and an example
+    /// One entry, with its settings and an example
     name: Option<String>,
 }
 

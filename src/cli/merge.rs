@@ -16,10 +16,9 @@ use study::plan::Plan;
 /// Puts parts together; those of an exploration or a confirmation are judged as well, and the next round is planned.
 #[derive(Args)]
 pub struct Merge {
-    /// The folder that the shards were run into
+    /// The folder that holds the shards
     parts: PathBuf,
-    /// Write below this folder, as `replan run --out` would; what is explored or confirmed has its default run there, and
-    /// without --out in the committed places
+    /// Write below this folder; for an exploration or confirmation the folder of its default run
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }

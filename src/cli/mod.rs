@@ -34,7 +34,7 @@ mod check;
 mod compare;
 mod confirm;
 mod conformance;
-pub mod crosscheck;
+mod crosscheck;
 mod described;
 mod drawn;
 mod example;
@@ -94,29 +94,29 @@ const EXAMPLES: &str = "Examples:
   replan repro zhang --trial witness/w1/a-star
   replan report zhang --open         the paper's report as a page, with replays
   replan show zhang t1.improved.cost one claim with its evidence
-  replan render zhang --check        are the committed plots and tables what the stored run gives?
+  replan render zhang --check        do the committed plots and tables match the stored run?
   replan list planners               what contenders can name
-  replan list criteria one_instance      what one criterion can be told, with an example";
+  replan list criteria one_instance      the settings of one criterion, with an example";
 
 #[derive(Subcommand)]
 enum Command {
-    /// Write a small paper that runs, to be changed into your own
+    /// Write a small paper that runs, as a start for your own
     New(new::New),
     /// Run every study of a paper, judge its claims, draw its figures and write its report
     Repro(repro::Repro),
     /// Check papers and specs without running anything
     Check(check::Check),
-    /// Run the studies of a paper; stored trials are reused where nothing they depend on has changed
+    /// Run the studies of a paper that are stale; reuse other stored trials
     Run(run::Run),
-    /// Put the parts of a run, an exploration or a confirmation that was cut into shards together
+    /// Merge the shards of a run, an exploration or a confirmation
     Merge(merge::Merge),
-    /// Say what of a run or a round that was cut into shards is done, at work, stopped and left
+    /// Show the progress of a sharded run: done, running, stopped, left
     Status(status::Status),
-    /// Cut a run into shards and write the script that runs them: for Slurm, GNU parallel or Python
+    /// Split a run into jobs for a cluster: Slurm, GNU parallel or HyperQueue
     Shard(shard::Shard),
-    /// Judge a paper's claims under every reading of what it leaves open
+    /// Judge a paper's claims under every interpretation that has a source
     Explore(explore::Explore),
-    /// Judge a paper's claims on a second seed, and readings that turn one
+    /// Judge a paper's claims on a second seed
     Confirm(confirm::Confirm),
     /// Judge a paper's claims again from its stored run
     Judge(judge::Judge),
@@ -124,23 +124,23 @@ enum Command {
     Render(render::Render),
     /// Write a paper's report as one HTML page: claims, evidence, figures, replays
     Report(report::Report),
-    /// Compare two stored runs, or two contenders of one: changes with intervals, and gates on them
+    /// Compare two stored runs, or two contenders of one, with intervals and gates
     Compare(compare::Compare),
     /// Write stored trials and their statistics for other programs
     Export(export::Export),
-    /// Show one claim with its evidence, or list every claim with its verdict
+    /// Show one claim with its evidence, or list all claims
     Show(show::Show),
-    /// Search maps on which a set of claims holds together
+    /// Search for a map on which several claims hold together
     Witness(witness::Witness),
-    /// Try a planner from outside on small worlds, and say what of the protocol it breaks
+    /// Test whether an external planner follows the protocol
     Conformance(conformance::Conformance),
-    /// Have MuJoCo judge robots, scenes and stored paths independently; needs Python
+    /// Let MuJoCo check robots, scenes and stored paths; needs Python
     Crosscheck(crosscheck::Crosscheck),
-    /// Ask of a printed table, by arithmetic alone, whether any data could have given it
+    /// Check by arithmetic whether a printed table is possible
     Audit(audit::Audit),
     /// Write a JSON Schema of every kind of TOML file, for editors
     Schema(schema::Schema),
-    /// List papers, studies, planners, tasks, criteria, rules, metrics, figure kinds, choices and more
+    /// List papers, studies, planners, criteria, metrics, figures, choices and more
     List(list::List),
 }
 
@@ -157,16 +157,16 @@ struct Which {
 /// How to run.
 #[derive(Args, Clone)]
 struct How {
-    /// Few instances; every output says so
+    /// Few instances; every output is marked as quick
     #[arg(long)]
     quick: bool,
-    /// The root of every seed, instead of the studies' own
+    /// Root of all seeds; the seeds of the studies if absent
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
     seed: Option<u64>,
-    /// Options of choices: `corner_cutting=forbid_any,ties=lifo`, or `all`: every other option in turn
+    /// Options of choices, as in `corner_cutting=forbid_any,ties=lifo`; `all` runs every other option in turn
     #[arg(long, value_name = "OPTIONS")]
     with: Option<String>,
-    /// Threads for the trials; the machine's number if absent
+    /// Threads for the trials; all cores if absent
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: Option<u32>,
 }
@@ -181,10 +181,10 @@ impl How {
 /// What of the stored trials runs again although nothing it depends on has changed.
 #[derive(Args, Clone, Copy)]
 struct Again {
-    /// Run every trial again that can be repeated, also those that are stored and unchanged
+    /// Run all trials again, except those of external planners
     #[arg(long)]
     fresh: bool,
-    /// Run the trials of planners from outside again, which are recorded and not repeated
+    /// Run the trials of external planners again, which `--fresh` keeps
     #[arg(long)]
     record: bool,
 }

@@ -11,9 +11,9 @@ use std::path::{Path, PathBuf};
 /// Writes a new paper.
 #[derive(Args)]
 pub struct New {
-    /// The folder to be made; its name is the paper's
+    /// The new folder; its name becomes the name of the paper
     folder: PathBuf,
-    /// What the paper is about
+    /// The subject of the paper
     #[arg(long)]
     from: Template,
 }

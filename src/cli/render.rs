@@ -19,7 +19,7 @@ use study::paper::Paper;
 pub struct Render {
     #[command(flatten)]
     which: Which,
-    /// Write nothing; say whether what is there is what would be written
+    /// Write nothing; compare the stored files with what would be written
     #[arg(long)]
     check: bool,
     /// Only the figure or table with this name (fig5, table2, numbers)

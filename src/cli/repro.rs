@@ -25,7 +25,7 @@ pub struct Repro {
     how: How,
     #[command(flatten)]
     again: Again,
-    /// Run one trial alone, print it, and say whether it equals the stored row
+    /// Run one trial, print it, and compare it with its stored row
     #[arg(long, value_name = "STUDY/TRIAL")]
     trial: Option<String>,
 }

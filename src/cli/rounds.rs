@@ -100,7 +100,7 @@ pub struct Rounds {
     pub parts: PathBuf,
     /// The paper, as the command line named it.
     pub paper: String,
-    /// How many shards.
+    /// Number of shards.
     pub shards: usize,
 }
 

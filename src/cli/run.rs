@@ -27,13 +27,13 @@ pub struct Run {
     how: How,
     #[command(flatten)]
     again: Again,
-    /// Run nothing, but read the clock of every stored study that is timed once more, as a session of its own
+    /// Time every stored study with `[timing]` once more, as a session of its own; run nothing else
     #[arg(long, conflicts_with_all = ["fresh", "shard"])]
     clock: bool,
-    /// Say why stored trials were or were not reused
+    /// Explain why stored trials were or were not reused
     #[arg(long)]
     why: bool,
-    /// Run this shard of N alone and keep it below --out, as a part for `replan merge`
+    /// Run only this shard of N and keep it below --out for `replan merge`
     #[arg(long, value_name = "K/N", value_parser = shard::parse, requires = "out")]
     shard: Option<(usize, usize)>,
 }

@@ -10,10 +10,10 @@ use std::path::PathBuf;
 /// Writes JSON Schemas.
 #[derive(Args)]
 pub struct Schema {
-    /// Where they are written, one `<kind>.schema.json` each
+    /// The folder for the schemas, one `<kind>.schema.json` each
     #[arg(default_value = "docs/schema")]
     folder: PathBuf,
-    /// Write nothing; say which of them are not current
+    /// Write nothing; list schemas that are out of date
     #[arg(long)]
     check: bool,
 }

@@ -19,25 +19,25 @@ pub struct Shard {
     paper: String,
     #[command(flatten)]
     how: How,
-    /// Cut what `replan explore` runs, round by round
+    /// Split `replan explore` instead, round by round
     #[arg(long, conflicts_with_all = ["quick", "seed", "interpretations", "confirm"])]
     explore: bool,
-    /// Cut what `replan confirm` runs, round by round
+    /// Split `replan confirm` instead, round by round
     #[arg(long, conflicts_with_all = ["quick", "seed", "interpretations"])]
     confirm: bool,
-    /// What runs the shards
+    /// The program that runs the shards
     #[arg(long)]
     engine: Engine,
-    /// How many shards
+    /// Number of shards
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     shards: u32,
-    /// The folder that the shards are run into, where the plan and the script are left
+    /// The folder for the shards, the plan and the script
     #[arg(long, value_name = "PARTS")]
     out: PathBuf,
-    /// Where the script puts the parts together; what is explored or confirmed needs none, for it is kept beside the default run
+    /// Where the script merges the parts; not for `--explore` and `--confirm`, which merge beside the default run
     #[arg(long, value_name = "DIR", required_unless_present_any = ["explore", "confirm"])]
     merge: Option<PathBuf>,
-    /// The most tasks of a Slurm array; each then runs several shards
+    /// Most tasks of a Slurm array; each runs several shards
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
     tasks: u32,
 }

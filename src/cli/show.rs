@@ -19,9 +19,9 @@ use std::path::PathBuf;
 pub struct Show {
     /// A paper's name, or a folder that holds a paper.toml
     paper: String,
-    /// The claim; every claim is listed if none is given
+    /// The claim; lists all claims if absent
     claim: Option<String>,
-    /// Read what was written below this folder instead of the committed places
+    /// Read from this folder instead of the committed places
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }

@@ -10,7 +10,7 @@ use study::plan::{Plan, Progressed, State};
 /// Says how far the shards are.
 #[derive(Args)]
 pub struct Status {
-    /// The folder that the shards are run into
+    /// The folder that holds the shards
     parts: PathBuf,
     /// Print it as JSON
     #[arg(long)]

@@ -27,22 +27,22 @@ use study::store::write_whole;
 pub struct Witness {
     /// A paper's name, or a folder that holds a paper.toml
     paper: String,
-    /// Claims that must hold together, separated by commas; each asks for a number that a trial may meet
+    /// Claims that must hold together, separated by commas; each about a number of one trial
     #[arg(long, value_name = "IDS", value_delimiter = ',', required = true)]
     claims: Vec<String>,
-    /// A number besides those of claims: `A*:path_cost_cells=17.65`
+    /// Another number to meet, as in `A*:path_cost_cells=17.65`
     #[arg(long, value_name = "CONTENDER:METRIC=NUMBER")]
     also: Vec<String>,
     /// The interpretation to search under: `meeting=both_closed,ties=lifo`, or `any`; the defaults if absent
     #[arg(long, value_name = "OPTIONS")]
     with: Option<String>,
-    /// The root of every search's seed
+    /// Root of the seeds of all searches
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
     seed: u64,
     /// Most searches
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..))]
     searches: u32,
-    /// Most maps that one search looks at
+    /// Most maps of one search
     #[arg(long, value_name = "N", default_value_t = 6000, value_parser = clap::value_parser!(u32).range(1..))]
     maps: u32,
     /// Write below this folder

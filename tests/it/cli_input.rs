@@ -299,19 +299,19 @@ fn a_contender_that_asks_for_more_of_a_roadmap_than_there_is_is_refused_before_a
         (
             "samples = 30, n",
             "samples = 31, n".to_owned(),
-            "mini/plane.toml:16:12: contender `Improved A*` on problems `plane`: 31 samples are asked for; the roadmap \
+            "mini/plane.toml:16:12: contender `Improved A*` on problems `plane`: 31 samples are requested; the roadmap \
              was built with 30",
         ),
         (
             "neighbour_mm = 40",
             "neighbour_mm = 40.5".to_owned(),
-            "contender `Improved A*` on problems `plane`: neighbours up to 40.5 mm are asked for; the roadmap was built \
+            "contender `Improved A*` on problems `plane`: neighbours up to 40.5 mm are requested; the roadmap was built \
              up to 40 mm",
         ),
         (
             "[budget]",
             sweep("20, 31"),
-            "contender `Improved A*` at samples=31 on problems `plane`: 31 samples are asked for",
+            "contender `Improved A*` at samples=31 on problems `plane`: 31 samples are requested",
         ),
     ] {
         bench.edit("mini/plane.toml", from, &to);

@@ -26,6 +26,7 @@ mod counted_interpretations;
 mod crosscheck;
 mod documented;
 mod drawn_ends;
+mod english;
 mod exit_codes;
 mod exploring;
 mod external;

@@ -93,7 +93,7 @@ fn every_command_and_file_of_the_page_on_papers_of_ones_own_does_what_the_page_s
                     commands += 1;
                 }
             }
-            ("toml", file) if !file.is_empty() => bench.write(file, text.as_bytes()),
+            ("toml" | "python", file) if !file.is_empty() => bench.write(file, text.as_bytes()),
             ("text", "") => {
                 let said: Vec<String> = last.out.lines().map(letters).collect();
                 for line in text.lines().map(letters) {
@@ -105,10 +105,10 @@ fn every_command_and_file_of_the_page_on_papers_of_ones_own_does_what_the_page_s
                     shown += 1;
                 }
             }
-            _ => panic!("a block of `{info}`: sh, text or a toml file is accepted"),
+            _ => panic!("a block of `{info}`: sh, text or a file in toml or python is accepted"),
         }
     }
-    assert!(commands >= 8 && shown >= 6, "{commands} commands, {shown} lines of output");
+    assert!(commands >= 12 && shown >= 8, "{commands} commands, {shown} lines of output");
 }
 
 #[test]

@@ -14,7 +14,7 @@ pub static ENTRY: Entry = Entry {
     name: "interval",
     about: "is a printed interval that of k of n: Clopper-Pearson, Wilson, Wald or Agresti-Coull?",
     example: "low 90.0, high 99.0 for 97 of 100",
-    premises: "trials are independent; a proof only where the interval is said to be Clopper and Pearson's, else a signal",
+    premises: "trials are independent; a proof only where the header names Clopper and Pearson's, else a signal",
     source: "Clopper & Pearson, Biometrika 26 (1934); Wilson, JASA 22 (1927); Agresti & Coull, The American Statistician 52 (1998)",
     tests: none,
     relation: Some(FromRelation {

@@ -17,7 +17,7 @@ pub static ENTRY: Entry = Entry {
     name: "lattice",
     about: "is a printed length a + b√2 for whole a and b (or a + 1.4141 b), between the ends if they are known?",
     example: "length [a+b√2] = 13.40",
-    premises: "the path is of moves to one of eight neighbours, which cost the step and √2 (or what is said) steps",
+    premises: "the path is of moves to one of eight neighbours, which cost the step and √2 (or what the header states) steps",
     source: "the norm of a + b√2; decided in integers",
     tests,
     relation: Some(FromRelation {

@@ -14,7 +14,7 @@ pub static ENTRY: Entry = Entry {
     name: "quantile",
     about: "can a quantile of n whole numbers be what is printed?",
     example: "median of 11 whole numbers = 3.5",
-    premises: "values are multiples of the grain; the quantile is one of the nine usual ones, or linear if that is said",
+    premises: "values are multiples of the grain; the quantile is one of the nine usual ones, or linear if the header states it",
     source: "Hyndman & Fan, The American Statistician 50 (1996) 361-365",
     tests,
     relation: None,

@@ -191,7 +191,7 @@ impl Test for RatioLabel {
             _ => String::new(),
         };
         format!(
-            "{r} is not {a} over {b}: by {of_r} and {of_a}, at least {} of {} problems have {b} at most {}, but by {of_b} at most {} do{inverse}",
+            "{r} is not {a} over {b}; by {of_r} and {of_a}, at least {} of {} problems have {b} at most {}; by {of_b} at most {} do{inverse}",
             shown(found.at_least, 2),
             self.n,
             shown(found.bound, 2),

@@ -102,7 +102,7 @@ impl Test for TotalOverMean {
 
     fn premises(&self) -> Vec<String> {
         vec![
-            "the total is the sum of the values that the mean is of, in the units said".to_owned(),
+            "the total is the sum of the values that the mean is of, in the stated units".to_owned(),
             digits(&self.numbers),
         ]
     }

@@ -139,7 +139,7 @@ fn what_is_wrong_with_a_problem_is_told_at_its_place() {
     }
     for (set, index, said) in [
         (Some("shelf"), 0, "p.json:1:1: there is no `shelf`; found are `shelf_panda`"),
-        (None, 2, "p.json:2:3: problem 2 is asked for; the set has 2, counted from 0"),
+        (None, 2, "p.json:2:3: problem 2 is requested; the set has 2, counted from 0"),
     ] {
         let error = read(ROBOMETRICS, set, index).unwrap_err();
         assert!(error.contains(said), "should say {said}\nsays {error}");

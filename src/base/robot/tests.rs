@@ -122,7 +122,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     (
         "velocity=\"3\"",
         "velocity=\"-3\"",
-        "/two.urdf:8:44: the velocity of joint `turn` is -3; 0 (not told) or more is accepted",
+        "/two.urdf:8:44: the velocity of joint `turn` is -3; 0 (unknown) or more is accepted",
     ),
     (
         "type=\"continuous\"",

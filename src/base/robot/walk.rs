@@ -206,7 +206,7 @@ fn speed(xml: Elements<'_>, name: &str, limit: Node<'_, '_>) -> Result<Option<f6
     if speed >= 0.0 {
         return Ok(Some(speed).filter(|speed| *speed > 0.0));
     }
-    let message = format!("the velocity of joint `{name}` is {speed}; 0 (not told) or more is accepted");
+    let message = format!("the velocity of joint `{name}` is {speed}; 0 (unknown) or more is accepted");
     Err(xml.fault(&place(limit, "velocity"), message))
 }
 

@@ -52,7 +52,7 @@ impl Page<'_> {
     fn together(&self, text: &mut String) {
         let sets = &self.verdicts.together;
         if sets.is_empty() {
-            *text += "No claims were asked for together.\n";
+            *text += "No group of claims was searched for.\n";
             return;
         }
         *text += &paragraph(&format!(

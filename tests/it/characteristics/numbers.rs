@@ -341,7 +341,7 @@ fn grows(truth: &'static str, instances: usize, slope: f64, made: Made, bounds: 
     };
     let settings = "of = { study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }\nover = \
                     \"optimal_cost_cells\"\nrising = true\n";
-    let tail = if is_censored { ", of which those beyond 7 spend their budget" } else { "" };
+    let tail = if is_censored { "; those beyond 7 spend their budget" } else { "" };
     let about =
         format!("a cost that grows by {slope} a cell over 10 cells, noise 10; {instances} maps{tail}");
     let claim = claim("trend", settings);

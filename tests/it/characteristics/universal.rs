@@ -170,7 +170,7 @@ fn prints_as() -> Vec<Scenario> {
             let printed = format!("{:.1}", cost + off);
             World::new(sample.records(), off == 0.0 && !is_spent).printing(printed)
         };
-        let tail = if is_spent { ", on one of which the budget is spent" } else { "" };
+        let tail = if is_spent { "; on one map the budget is spent" } else { "" };
         let about = format!("the same cost on every map{tail}, printed {off} too high");
         let claim = claim("prints_as", settings).replacen("printed", "digits = \"rounded\"\nprinted", 1);
         Scenario { criterion: "prints_as", truth, about, claim, made, world: Box::new(world), bounds }

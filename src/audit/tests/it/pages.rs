@@ -9,9 +9,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 const PREAMBLE: &str = "# What the audit finds in public tables\n\n\
-    Made by the tests of the package `audit` from the files in [docs/audit](audit); do not edit. What a finding means, and that it is a \
-    signal with premises and no accusation: [AUDIT.md](AUDIT.md). Whoever knows that a premise does not hold knows why the finding is \
-    none.\n\n";
+    The tests of the package `audit` write this page from the files in [docs/audit](audit). Do not edit it. A finding is a signal with \
+    premises, not an accusation ([AUDIT.md](AUDIT.md)). If a premise does not hold, the finding falls with it. Possible numbers are only \
+    counted; `replan audit --json` lists them.\n\n";
 
 /// A file of the repository.
 pub fn repository(path: &str) -> PathBuf {
@@ -93,35 +93,25 @@ fn the_page_on_checks_has_every_check_with_its_example_premises_mathematics_and_
     }
 }
 
-/// Checks of which what is possible is worth a line on the page of public tables.
-const POSSIBLE: [&str; 6] = ["clock", "grim", "lattice", "ratio_label", "reduction", "total_over_mean"];
-
-/// What is impossible or a signal, and what each check did, as a section of Markdown under `title`.
+/// What is impossible, a signal or not checked, and what each check did, as a section of Markdown under `title`.
 fn section(title: &str, about: &str, report: &Report) -> String {
     let mut text = format!("## {title}\n\n{}\n\n", about.trim());
-    let found = report.findings.iter().filter(|finding| finding.class < Class::Possible);
-    for finding in found {
-        text += &format!(
-            "- **{}** ({}): {}: {}",
-            finding.class.name(),
-            finding.check,
-            finding.name,
-            finding.said
+    for finding in report.findings.iter().filter(|finding| finding.class < Class::Possible) {
+        text += &format!("- **{}** (`{}`): {}\n", finding.class.name(), finding.check, finding.name);
+        let mut lines: Vec<String> = finding.said.split("; ").map(str::to_owned).collect();
+        lines.extend(finding.power.as_ref().map(|power| format!("the check {power}")));
+        let mend = finding.mend.as_ref();
+        lines.extend(
+            mend.map(|mend| format!("least change: {} from {} to {}", mend.name, mend.from, mend.to)),
         );
-        if let Some(power) = finding.power {
-            text += &format!(". The check {power}");
-        }
-        if let Some(mend) = &finding.mend {
-            text += &format!("; the least change is {} from {} to {}", mend.name, mend.from, mend.to);
-        }
         if !finding.follows.is_empty() {
-            text += &format!("; with it these are possible too: {}", finding.follows.join(", "));
+            lines.push(format!("with it these are possible too: {}", finding.follows.join(", ")));
         }
-        text += &format!(". Premises: {}.\n", finding.premises.join("; "));
-    }
-    let possible = report.findings.iter().filter(|finding| finding.class == Class::Possible);
-    for finding in possible.filter(|finding| POSSIBLE.contains(&finding.check)) {
-        text += &format!("- possible ({}): {}: {}.\n", finding.check, finding.name, finding.said);
+        let premises = finding.premises.iter().flat_map(|premise| premise.split("; "));
+        lines.extend(premises.map(|premise| format!("premise: {premise}")));
+        for line in lines {
+            text += &format!("  - {line}\n");
+        }
     }
     text += "\nIn all:\n\n";
     for line in output::summary(report) {

@@ -59,12 +59,12 @@ impl Extent {
         let samples = self.samples;
         if wanted.samples > samples {
             let asked = wanted.samples;
-            return Some(format!("{asked} samples are asked for; the roadmap was built with {samples}"));
+            return Some(format!("{asked} samples are requested; the roadmap was built with {samples}"));
         }
         let lacks = |wanted: Option<f64>, built: Option<f64>, unit: &str| {
             let (asked, built) = wanted.zip(built).filter(|(asked, built)| asked > built)?;
             Some(format!(
-                "neighbours up to {asked} {unit} are asked for; the roadmap was built up to {built} {unit}"
+                "neighbours up to {asked} {unit} are requested; the roadmap was built up to {built} {unit}"
             ))
         };
         let in_mm = lacks(wanted.radius_mm, self.radius_mm, "mm");
@@ -216,7 +216,7 @@ impl Roadmap {
     pub fn prefix(&self, count: u32) -> Result<u32, String> {
         match self.counted {
             Counted::Accepted if count as usize > self.samples.len() => Err(format!(
-                "{count} samples are asked for; the roadmap was built with {}",
+                "{count} samples are requested; the roadmap was built with {}",
                 self.samples.len()
             )),
             Counted::Accepted => Ok(count),

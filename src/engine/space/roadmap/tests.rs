@@ -85,7 +85,7 @@ fn draws_count_less_than_samples_that_were_accepted() {
     assert!(all[kept as usize].drawn_after >= 25);
     let accepted = built(&all, 20.0, Counted::Accepted);
     assert_eq!(accepted.prefix(30), Ok(30));
-    assert_eq!(accepted.prefix(31).unwrap_err(), "31 samples are asked for; the roadmap was built with 30");
+    assert_eq!(accepted.prefix(31).unwrap_err(), "31 samples are requested; the roadmap was built with 30");
 }
 
 #[test]

@@ -1,0 +1,254 @@
+//! Plain English: the pages and every `--help` keep to short sentences and to the field's words.
+//!
+//! Code blocks, headings and inline code are no prose. A sentence ends at a full stop, never at a semicolon. A text without a full stop,
+//! as in a table or a list of names, counts against the limit of one sentence and not toward a page's mean.
+
+use crate::paper::Bench;
+use std::fs;
+use std::path::Path;
+
+/// Words of one sentence at most.
+const LONGEST: usize = 35;
+
+/// Words of a sentence of a page on average, at most.
+const MEAN: f64 = 18.0;
+
+/// Phrases with a plainer way to say them.
+const DROPPED: [&str; 9] =
+    ["told", "said", "asked", "of which", "by what", "ledger", "exhibit", "untestable", "undecided"];
+
+/// Stops that end no sentence.
+const ABBREVIATIONS: [&str; 8] = ["al.", "Fig.", "No.", "Sec.", "cf.", "e.g.", "i.e.", "vs."];
+
+/// A run of words, and whether it ends in a full stop and so counts toward the mean.
+#[derive(Debug, PartialEq, Eq)]
+struct Sentence {
+    words: Vec<String>,
+    is_whole: bool,
+}
+
+impl Sentence {
+    fn count(&self) -> usize {
+        self.words.iter().filter(|word| word.contains(char::is_alphanumeric)).count()
+    }
+
+    fn text(&self) -> String {
+        self.words.join(" ")
+    }
+
+    /// The dropped phrases in it.
+    fn dropped(&self) -> Vec<&'static str> {
+        let lower = self.text().to_lowercase();
+        let words: Vec<&str> =
+            lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
+        let spaced = format!(" {} ", words.join(" "));
+        let mut found: Vec<&str> =
+            DROPPED.into_iter().filter(|phrase| spaced.contains(&format!(" {phrase} "))).collect();
+        if self.is_whole && self.words[0] == "What" && !self.text().ends_with('?') {
+            found.push("What … is");
+        }
+        let purpose = spaced.split_once(" so that ").map(|(_, rest)| rest);
+        if purpose.is_some_and(|rest| rest.contains(" alone ")) {
+            found.push("so that … alone");
+        }
+        found
+    }
+}
+
+/// The text with one word for each stretch of inline code, and links and emphasis as they are read.
+fn read_aloud(text: &str) -> String {
+    let mut prose = String::new();
+    for (index, part) in text.split('`').enumerate() {
+        prose += if index % 2 == 0 { part } else { "code" };
+    }
+    while let Some((before, rest)) = prose.split_once("](") {
+        let (_, after) = rest.split_once(')').unwrap_or((rest, ""));
+        prose = format!("{before}{after}");
+    }
+    prose.replace(['*', '['], "")
+}
+
+/// Whether a sentence ends between two words.
+fn ends(word: &str, next: Option<&String>) -> bool {
+    let bare = word.trim_end_matches(['"', '”', ')']);
+    let is_initial = bare.len() == 2 && bare.starts_with(|c: char| c.is_ascii_uppercase());
+    bare.ends_with(['.', '?', '!'])
+        && !is_initial
+        && !ABBREVIATIONS.contains(&bare)
+        && next.is_none_or(|next| {
+            let bare = next.trim_start_matches(['"', '“', '(']);
+            bare.starts_with(|c: char| c.is_uppercase() || c.is_ascii_digit()) || bare.starts_with("code")
+        })
+}
+
+/// The sentences of a paragraph; in a table none is whole.
+fn sentences(paragraph: &str, is_table: bool) -> Vec<Sentence> {
+    let words: Vec<String> = read_aloud(paragraph).split_whitespace().map(str::to_owned).collect();
+    let mut found = Vec::new();
+    let mut begun = 0;
+    for (index, word) in words.iter().enumerate() {
+        let is_whole = ends(word, words.get(index + 1));
+        if is_whole || index + 1 == words.len() {
+            found.push(Sentence { words: words[begun..=index].to_vec(), is_whole: is_whole && !is_table });
+            begun = index + 1;
+        }
+    }
+    found
+}
+
+/// The sentences of a page in Markdown.
+fn of_page(page: &str) -> Vec<Sentence> {
+    let mut found = Vec::new();
+    let mut paragraph = String::new();
+    let mut is_code = false;
+    for line in page.lines().chain([""]) {
+        let text = line.trim();
+        let is_fence = text.starts_with("```");
+        is_code ^= is_fence;
+        let is_item = text.starts_with("- ")
+            || text.split_once(". ").is_some_and(|(number, _)| number.parse::<u32>().is_ok());
+        let is_prose = !(is_code || is_fence || text.is_empty() || text.starts_with(['#', '<', '|', '!']));
+        if !is_prose || is_item {
+            found.extend(sentences(&paragraph, false));
+            paragraph.clear();
+        }
+        if text.starts_with('|') && !is_code {
+            found.extend(text.split('|').flat_map(|cell| sentences(cell, true)));
+        }
+        let is_indented_code = line.starts_with("    ") && paragraph.is_empty();
+        if is_prose && !is_indented_code {
+            paragraph = format!("{paragraph} {}", text.trim_start_matches("- "));
+        }
+    }
+    found
+}
+
+/// The sentences of a help text, whose entries end without a full stop.
+fn of_help(help: &str) -> Vec<Sentence> {
+    let mut found = Vec::new();
+    let mut paragraph = String::new();
+    for line in help.lines().take_while(|line| line.trim() != "Examples:").chain([""]) {
+        let text = line.trim();
+        let is_name = text.starts_with(['-', '<', '[']) || line.find("  ").is_some_and(|at| at == 0);
+        let (name, about) = text.split_once("  ").unwrap_or((text, ""));
+        let begins = text.is_empty() || text.starts_with("Usage:") || text.ends_with(':');
+        let is_entry = is_name && (!about.is_empty() || text.starts_with(['-', '<', '[']));
+        if begins || is_entry {
+            found.extend(sentences(&paragraph, false));
+            paragraph.clear();
+        }
+        if is_entry {
+            about.trim().clone_into(&mut paragraph);
+        } else if !begins {
+            paragraph = format!("{paragraph} {name} {}", about.trim());
+        }
+    }
+    for sentence in &mut found {
+        sentence.is_whole = true;
+    }
+    found
+}
+
+/// What keeps the sentences of `page` from being plain.
+fn faults(page: &str, sentences: &[Sentence]) -> Vec<String> {
+    let mut found = Vec::new();
+    for sentence in sentences {
+        if sentence.count() > LONGEST {
+            found.push(format!("{page}: {} words: {}", sentence.count(), sentence.text()));
+        }
+        found.extend(
+            sentence.dropped().iter().map(|phrase| format!("{page}: “{phrase}”: {}", sentence.text())),
+        );
+    }
+    let whole: Vec<usize> =
+        sentences.iter().filter(|sentence| sentence.is_whole).map(Sentence::count).collect();
+    let mean = whole.iter().sum::<usize>() as f64 / whole.len().max(1) as f64;
+    if mean > MEAN {
+        found.push(format!("{page}: sentences have {mean:.1} words on average"));
+    }
+    found
+}
+
+#[test]
+fn every_page_is_written_in_short_plain_sentences() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut pages = vec![root.join("README.md")];
+    pages.extend(fs::read_dir(root.join("docs")).unwrap().map(|entry| entry.unwrap().path()));
+    pages.retain(|path| path.extension().is_some_and(|ending| ending == "md"));
+    let mut found = Vec::new();
+    let mut count = 0;
+    for path in &pages {
+        let sentences = of_page(&fs::read_to_string(path).unwrap());
+        count += sentences.len();
+        found.extend(faults(&path.strip_prefix(root).unwrap().display().to_string(), &sentences));
+    }
+    assert!(pages.len() > 10 && count > 500, "{} pages, {count} sentences", pages.len());
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn every_help_is_written_in_short_plain_sentences() {
+    let bench = Bench::empty();
+    let mut open = vec![Vec::<String>::new()];
+    let mut found = Vec::new();
+    let mut seen = 0;
+    while let Some(command) = open.pop() {
+        let mut arguments: Vec<&str> = command.iter().map(String::as_str).collect();
+        arguments.push("--help");
+        let help = bench.done(&arguments);
+        let sentences = of_help(&help);
+        assert!(!sentences.is_empty(), "{help}");
+        found.extend(faults(&format!("replan {}", arguments.join(" ")), &sentences));
+        let listed = help.split("\nCommands:\n").nth(1).into_iter().flat_map(str::lines);
+        let names = listed
+            .take_while(|line| line.starts_with("  "))
+            .filter_map(|line| line.strip_prefix("  ")?.split(' ').next())
+            // `audit` is a program of its own.
+            .filter(|name| !["", "help", "audit"].contains(name));
+        open.extend(names.map(|name| [command.clone(), vec![name.to_owned()]].concat()));
+        seen += 1;
+    }
+    assert!(seen > 15, "{seen} commands");
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn every_caption_has_at_most_sixty_words() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("experiments");
+    let papers = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut captions = 0;
+    let mut long = Vec::new();
+    for file in papers.flat_map(|paper| fs::read_dir(paper).unwrap()).map(|entry| entry.unwrap().path()) {
+        if file.extension().is_none_or(|ending| ending != "toml") {
+            continue;
+        }
+        let spec: toml::Table = fs::read_to_string(&file).unwrap().parse().unwrap();
+        let drawn = ["figure", "table"].into_iter().filter_map(|key| spec.get(key)?.as_array()).flatten();
+        for caption in drawn.filter_map(|drawn| drawn.get("caption")?.as_str()) {
+            let words = caption.split_whitespace().count();
+            captions += 1;
+            if words > 60 {
+                long.push(format!("{}: {words} words: {caption}", file.display()));
+            }
+        }
+    }
+    assert!(captions > 30, "{captions} captions");
+    assert!(long.is_empty(), "{}", long.join("\n"));
+}
+
+#[test]
+fn sentences_end_at_full_stops_and_dropped_words_are_found() {
+    let page = "# A head\n\nOne `a.b` by Hart et al. is [short](x.md). It was told; then asked.\n\n    code said\n\n- a name\n";
+    let found = of_page(page);
+    let counts: Vec<(usize, bool)> = found.iter().map(|one| (one.count(), one.is_whole)).collect();
+    assert_eq!(counts, [(8, true), (5, true), (2, false)], "{found:?}");
+    assert_eq!(found[1].dropped(), ["told", "asked"]);
+    let purpose = of_page("What is kept is a row. It waits so that the clock is alone.");
+    assert_eq!([purpose[0].dropped(), purpose[1].dropped()], [["What … is"], ["so that … alone"]]);
+    assert_eq!(faults("a", &of_page(&"word ".repeat(36))).len(), 1);
+    assert_eq!(faults("a", &of_page(&format!("{}.", "word ".repeat(19).trim()))).len(), 1);
+    let help = of_help(
+        "Says it\n\nUsage: a\n\nOptions:\n      --quick\n          Few instances\n  -h, --help   Print help\n",
+    );
+    assert_eq!(help.iter().map(Sentence::count).collect::<Vec<_>>(), [2, 2, 2], "{help:?}");
+}
