@@ -172,16 +172,16 @@ fn records_of_another_spec_truncated_or_missing_are_not_judged() {
     refused("draws.trials.parquet: is not the file that the manifest names (sha256 ");
     bench
         .write(trials, &fs::read(bench.at("target/replan/mini/data/runs/mini/room.trials.parquet")).unwrap());
-    refused("truncated, edited, or from another spec; run the study again");
+    refused("truncated, edited, or from another spec; put back the file");
     fs::remove_file(bench.at(trials)).unwrap();
     refused("draws.trials.parquet: cannot be read (");
-    bench.done(&["repro", "./mini"]);
+    bench.done(&["repro", "./mini", "--replace-damaged"]);
     assert!(fs::read(bench.at(trials)).unwrap() == whole, "the repaired run differs");
     bench.edit("mini/draws.toml", "seed = 7", "seed = 9");
     refused("draws.manifest.toml: the stored run was made by another spec; run study `draws` again");
     bench.write("target/replan/mini/data/runs/mini/draws.manifest.toml", b"study = 3");
     refused(
-        "draws.manifest.toml:1:9: is not what replan wrote: truncated, edited, or of another version; run",
+        "draws.manifest.toml:1:9: is not what replan wrote: truncated, edited, or of another version; put back",
     );
 }
 
