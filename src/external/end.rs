@@ -4,17 +4,13 @@
 //! its environment bears. One that cleared its environment, left the group and outlived its parents became a child of replan, and
 //! is ended with the last planner at work. All are stopped before any is killed: who is stopped does not fork.
 
-use super::interrupt::planners;
-use super::process::is_guard;
+use super::interrupt::{MARK, is_guard, planners};
 use rustix::process::{Pid, Signal, WaitOptions, getpgrp, getpid, kill_process, kill_process_group, waitpid};
 use std::collections::BTreeSet;
 use std::fs;
 use std::process::Child;
 use std::thread::sleep;
 use std::time::Duration;
-
-/// The variable of the environment that marks a planner's processes.
-pub(super) const MARK: &str = "REPLAN_PLANNER";
 
 /// How long processes may take to end by themselves after SIGTERM.
 const TERM_ROUNDS: u32 = 30;
@@ -49,6 +45,11 @@ pub(super) fn end_all(child: &mut Child, mark: &str) -> Vec<i32> {
     let left = kill_all(root, mark);
     let _ = child.try_wait();
     left
+}
+
+/// Kills every planner at work with all that it started; the processes that survive.
+pub fn end_planners() -> Vec<i32> {
+    planners().iter().flat_map(|(mark, root)| kill_all(*root, mark)).collect()
 }
 
 /// Kills the planner `root` and all its descendants; those that survive.

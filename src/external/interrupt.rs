@@ -1,9 +1,14 @@
 //! Planners at work, so that whoever interrupts replan can end them all.
 
-use super::end::kill_all;
+use super::linux::{GUARD, adopt_orphans};
 use std::collections::BTreeMap;
-use std::sync::Mutex;
+use std::os::unix::process::CommandExt as _;
+use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, OnceLock};
+
+/// The variable of the environment that marks a planner's processes.
+pub(super) const MARK: &str = "REPLAN_PLANNER";
 
 static IS_INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
@@ -20,10 +25,23 @@ pub fn is_interrupted() -> bool {
     IS_INTERRUPTED.load(Ordering::Relaxed)
 }
 
-/// Kills every planner at work with all that it started; the processes that survive.
-pub fn end_planners() -> Vec<i32> {
-    let planners: Vec<(String, i32)> = planners().into_iter().collect();
-    planners.iter().flat_map(|(mark, root)| kill_all(*root, mark)).collect()
+/// A process that outlives this one for a moment and kills planners that do, too.
+static WATCH: OnceLock<Option<Child>> = OnceLock::new();
+
+/// Starts the guard, once; without a shell there is none.
+pub(super) fn guard() {
+    WATCH.get_or_init(|| {
+        adopt_orphans();
+        let marks = format!("{MARK}={}[.]", std::process::id());
+        let mut command = Command::new("sh");
+        command.args(["-c", GUARD, "replan-guard", &marks]).process_group(0);
+        command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok()
+    });
+}
+
+/// Whether `pid` is the guard.
+pub(super) fn is_guard(pid: i32) -> bool {
+    WATCH.get().and_then(Option::as_ref).is_some_and(|guard| guard.id() as i32 == pid)
 }
 
 pub(super) fn note(mark: &str, root: i32) {

@@ -1,8 +1,8 @@
 //! A running planner: its program, its pipes, and the limits that hold for it.
 
-use super::end::{MARK, end_all};
-use super::interrupt;
-use super::linux::{GUARD, adopt_orphans, limit_memory};
+use super::end::end_all;
+use super::interrupt::{self, MARK, guard};
+use super::linux::limit_memory;
 use super::message::{FromPlanner, Hello, Limits, ToPlanner};
 use base::text::{around, one_line};
 use std::collections::VecDeque;
@@ -11,7 +11,7 @@ use std::os::unix::process::CommandExt as _;
 use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, Stdio};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, SyncSender, channel, sync_channel};
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
@@ -47,25 +47,6 @@ pub const PASSED: [&str; 14] = [
 
 /// How long a line is waited for that was written before there was a query.
 const EARLY: Duration = Duration::from_millis(1);
-
-/// A process that outlives this one for a moment and kills planners that do, too.
-static WATCH: OnceLock<Option<Child>> = OnceLock::new();
-
-/// Starts the guard, once; without a shell there is none.
-fn guard() {
-    WATCH.get_or_init(|| {
-        adopt_orphans();
-        let marks = format!("{MARK}={}[.]", std::process::id());
-        let mut command = Command::new("sh");
-        command.args(["-c", GUARD, "replan-guard", &marks]).process_group(0);
-        command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok()
-    });
-}
-
-/// Whether `pid` is the guard.
-pub(super) fn is_guard(pid: i32) -> bool {
-    WATCH.get().and_then(Option::as_ref).is_some_and(|guard| guard.id() as i32 == pid)
-}
 
 /// A program that plans.
 #[derive(Debug, Clone, PartialEq)]

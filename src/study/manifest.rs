@@ -8,7 +8,7 @@ pub use hashes::Hashes;
 use super::checked::Study;
 use super::choice::Interpretation;
 use super::defaults::defaults;
-use super::error::StudyError;
+use super::error::{REMEDY, StudyError};
 use super::key::{InstanceKey, InterpretationKey, Text};
 use super::name;
 use super::runner::{BuiltStudy, SESSION};
@@ -295,9 +295,6 @@ impl Session {
 
 /// How the first line of a manifest begins, which bears the SHA-256 of all lines below it.
 const SEAL: &str = "# seal: ";
-
-/// What helps where a stored file is not the one that was written.
-pub const REMEDY: &str = "put back the file that was written, or `run` with --replace-damaged, which sets it aside and keeps what is sound";
 
 /// Refuses a manifest whose lines are not those that were sealed. One without a seal is of an older form.
 fn check_seal(path: &Path) -> Result<(), StudyError> {

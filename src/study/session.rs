@@ -161,14 +161,16 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let folder = options.lock.folder();
     let mut manifest = options.manifest(study, &built)?;
     let only = options.portion.map(|portion| manifest.cut_to(portion));
-    finish_put(folder, &study.name);
+    finish_put(folder, &study.name, &Manifest::path(folder, &study.name), |path| {
+        Some(Manifest::read_left(path)?.files)
+    });
     remove_temporaries(folder, &study.name);
     let Before { stored, kept, why, damage } = Before::read(folder, &manifest, options.replaces_damaged)?;
     let (journal, mut done) = Journal::open(&Journal::path(folder, &study.name), &manifest.depends)?;
     let resumed = done.len();
     let units = only.map_or_else(|| built.units().len(), BTreeSet::len);
     let is_current = |(before, _): &&(Manifest, Records)| {
-        !options.fresh && !options.record && damage.aside.is_empty() && manifest.is_as(before)
+        !options.fresh && !options.record && !damage.is_any && manifest.is_as(before)
     };
     if let Some((before, records)) = stored.as_ref().filter(is_current) {
         journal.remove()?;

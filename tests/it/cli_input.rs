@@ -208,15 +208,18 @@ fn a_folder_where_a_record_belongs_stops_the_run_before_any_record_changes() {
     let before = bench.tree("target/replan/mini");
     bench.edit("mini/draws.toml", "seed = 7", "seed = 9");
     let said = bench.run(&["repro", "./mini"]);
-    assert_eq!(said.code, Some(1), "{}", said.err);
-    assert!(said.err.ends_with("draws.times.parquet: writing the file: is a directory\n"), "{}", said.err);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    assert!(
+        said.err.contains("draws.times.parquet: cannot be read (a link, a pipe or a folder"),
+        "{}",
+        said.err
+    );
     let after = bench.tree("target/replan/mini");
     assert!(
         before.iter().all(|(path, bytes)| after.get(path) == Some(bytes)),
         "an older record was replaced"
     );
-    let journals = after.keys().filter(|path| !before.contains_key(*path)).collect::<Vec<_>>();
-    assert!(journals.len() == 1 && journals[0].ends_with("draws.journal"), "{journals:?}");
+    assert!(after.len() == before.len(), "something was written");
 }
 
 #[test]

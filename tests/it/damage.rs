@@ -76,7 +76,7 @@ fn one_bit_of_a_manifest_flipped_anywhere_is_noticed() {
         fs::write(&path, &whole).unwrap();
         tried += 1;
     }
-    assert!(tried > 200, "{tried}");
+    assert!(tried > 100, "{tried}");
     // Even where it names the machine: nothing else is held against that.
     let at = text.find("rustc = ").unwrap() + 12;
     flip(&bench, "draws.manifest.toml", at);

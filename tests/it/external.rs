@@ -115,20 +115,20 @@ fn soon(is_so: impl Fn() -> bool) -> bool {
 
 #[test]
 fn replan_interrupted_or_killed_takes_its_planners_with_it() {
-    let hang = "hello; query; (sleep 2001) & trap '' TERM INT; while :; do sleep 2002; done";
+    let hang = "hello; query; (sleep 770011) & trap '' TERM INT; while :; do sleep 770012; done";
     let case = Case { name: "hang-on", script: hang, status: "", reason: "" };
     for (signal, code) in [("INT", Some(130)), ("TERM", Some(130)), ("KILL", None)] {
         let bench = bench(&[&case]);
         bench.edit("outside/study.toml", "time_s = 0.5", "time_s = 600.0");
         let mut run = bench.command(&["run", "./outside"]).spawn().unwrap();
-        assert!(soon(|| alive("sleep 2002").len() == 1), "{signal}: the planner was not seen");
+        assert!(soon(|| alive("sleep 770012").len() == 1), "{signal}: the planner was not seen");
         let kill =
             std::process::Command::new("kill").args([&format!("-{signal}"), &run.id().to_string()]).status();
         assert!(kill.unwrap().success());
         assert!(soon(|| run_has_ended(run.id())), "{signal}: replan goes on");
         assert_eq!(run.wait().unwrap().code(), code, "{signal}");
-        let is_gone = || alive("sleep 200").is_empty() && alive("hang-on.sh").is_empty();
-        assert!(soon(is_gone), "{signal}: left alone: {:?}", alive("sleep 200"));
+        let is_gone = || alive("sleep 77001").is_empty() && alive("hang-on.sh").is_empty();
+        assert!(soon(is_gone), "{signal}: left alone: {:?}", alive("sleep 77001"));
     }
 }
 

@@ -17,9 +17,8 @@ pub use traces::{GROUP_VALUES, TraceReader};
 
 use self::read::{Instances, Stored};
 use self::traces::TraceWriter;
-use super::StudyError;
+use super::error::{REMEDY, StudyError};
 use super::key::{KeyColumns, SweepKey};
-use super::manifest::{Manifest, REMEDY};
 use super::record::{Batch, Kept, Timing};
 use base::file::check_own;
 use base::hash::{Hasher, sha256};
@@ -218,22 +217,27 @@ pub fn set_records_aside(folder: &Path, study: &str) -> Result<Vec<PathBuf>, Stu
 }
 
 /// Puts in their places the files of `study` that a run had written whole beside them when it was killed: records and manifest are
-/// then of one run again. Only for who holds the folder's lock.
-pub fn finish_put(folder: &Path, study: &str) {
-    let begin = format!("{study}.manifest.toml.");
+/// then of one run again. `files` gives the hashes in a whole manifest, which is put at `manifest`. Only for who holds the folder's lock.
+pub fn finish_put(
+    folder: &Path,
+    study: &str,
+    manifest: &Path,
+    files: impl Fn(&Path) -> Option<BTreeMap<String, String>>,
+) {
+    let begin = format!("{}.", manifest.file_name().unwrap_or_default().to_string_lossy());
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();
         let Some(end) = name.strip_prefix(&begin).filter(|end| end.ends_with(TEMPORARY)) else { continue };
-        let Some(manifest) = Manifest::read_left(&entry.path()) else { continue };
+        let Some(hashes) = files(&entry.path()) else { continue };
         let beside = |path: &Path| {
             path.with_file_name(format!("{}.{end}", path.file_name().unwrap_or_default().to_string_lossy()))
         };
         let is_file = |path: &Path, hash: &String| hash_of(path).is_ok_and(|found| found == *hash);
-        let paths = manifest.files.iter().map(|(part, hash)| (part_path(folder, study, part), hash));
+        let paths = hashes.iter().map(|(part, hash)| (part_path(folder, study, part), hash));
         let left: Vec<(PathBuf, &String)> = paths.filter(|(path, hash)| !is_file(path, hash)).collect();
         if left.iter().all(|(path, hash)| is_file(&beside(path), hash)) {
             let staged = left.into_iter().map(|(path, _)| (beside(&path), path));
-            let manifest = (entry.path(), Manifest::path(folder, study));
+            let manifest = (entry.path(), manifest.to_owned());
             let files = staged.chain([manifest]).collect();
             // What cannot be put there is refused as damage by who reads it.
             let _ = Staged { files }.put();

@@ -6,8 +6,8 @@
 use super::describe::{CHOICE, SWEEP};
 use crate::StudyError;
 use crate::column::{self, Kind};
+use crate::error::REMEDY;
 use crate::key::{InstanceKey, InterpretationKey, Owner, SweepKey, SweepValue, Text, TrialKey};
-use crate::manifest::REMEDY;
 use crate::parquet::FrameReader;
 use crate::record::{Kept, PreprocessingRow, Row, Status, Timing, Values};
 use engine::planner::{Trace, Value};
