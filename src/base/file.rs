@@ -46,6 +46,19 @@ pub fn read_all(from: &mut impl Read) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
+/// Refuses what stands at `path` in place of a file of our own: a link leads elsewhere, a pipe keeps who opens it waiting.
+///
+/// # Errors
+/// Something else than a regular file, or nothing, stands there.
+pub fn check_own(path: &Path) -> io::Result<()> {
+    match std::fs::symlink_metadata(path) {
+        Ok(found) if !found.is_file() => Err(Error::other(
+            "a link, a pipe or a folder stands there; remove it: a regular file is accepted",
+        )),
+        _ => Ok(()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

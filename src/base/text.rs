@@ -65,6 +65,26 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     text.chars().map(|c| unseen(c).map_or_else(|| c.to_string(), |name| format!("‹{name}›"))).collect()
 }
 
+/// `text` on one line, with the name of each character that cannot be seen in its place, ends of lines as `\\n`.
+pub fn one_line(text: &str) -> String {
+    visible(text).replace('\n', "\\n").replace('\r', "\\r").replace('\t', " ")
+}
+
+/// `text` as a terminal may show it: control characters other than ends of lines and tabs are named, as they may move the cursor or
+/// hide what stands around them.
+pub fn shown(text: &str) -> Cow<'_, str> {
+    let is_safe = |c: char| {
+        c == '\n'
+            || c == '\t'
+            || !(c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'))
+    };
+    if text.chars().all(is_safe) {
+        return text.into();
+    }
+    let name = |c: char| unseen(c).map_or_else(|| "‹carriage return›".to_owned(), |name| format!("‹{name}›"));
+    text.chars().map(|c| if is_safe(c) { c.to_string() } else { name(c) }).collect()
+}
+
 /// A word as messages show it: visible, and its beginning if it is long.
 pub fn brief(word: &str) -> Cow<'_, str> {
     match word.char_indices().nth(MOST_OF_WORD) {

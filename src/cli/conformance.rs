@@ -1,6 +1,7 @@
 //! `replan conformance`: tells the author of a planner from outside what of the protocol it breaks.
 
 use super::places::home;
+use super::progress::stop_flag;
 use super::{Failure, counted};
 use base::settings::Settings;
 use clap::Args;
@@ -43,6 +44,7 @@ const QUERIES: usize = 3;
 impl Conformance {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
+        stop_flag();
         let limits = Limits { time_s: self.time_s, memory_mb: self.memory_mb, output_mb: 64 };
         let program = Program { command: self.command, limits, hello_s: 10.0 };
         let mut trial = Trial { program, broken: 0 };

@@ -344,6 +344,8 @@ impl<'p> Explorer<'p> {
                 portion: None,
                 quick: false,
                 record: false,
+                // What an exploration left is its own and can be had again.
+                replaces_damaged: true,
                 fresh: false,
                 threads: self.threads,
                 stop: stop_flag(),

@@ -22,7 +22,7 @@ fn print_failed(error: &io::Error) {
 macro_rules! say {
     ($($arguments:tt)*) => {{
         use std::io::Write as _;
-        if let Err(error) = writeln!(std::io::stdout(), $($arguments)*) {
+        if let Err(error) = writeln!(std::io::stdout(), "{}", base::text::shown(&format!($($arguments)*))) {
             $crate::cli::print_failed(&error);
         }
     }};
@@ -179,7 +179,7 @@ impl How {
 }
 
 /// What of the stored trials runs again although nothing it depends on has changed.
-#[derive(Args, Clone, Copy)]
+#[derive(Args, Clone, Copy, Default)]
 struct Again {
     /// Run all trials again, except those of external planners
     #[arg(long)]
@@ -187,6 +187,17 @@ struct Again {
     /// Run the trials of external planners again, which `--fresh` keeps
     #[arg(long)]
     record: bool,
+    /// Set damaged files of the stored run aside, and run again what they held; what is sound is kept
+    #[arg(long)]
+    replace_damaged: bool,
+}
+
+impl Again {
+    /// `options` with what runs again.
+    fn options(self, options: study::session::Options<'_>) -> study::session::Options<'_> {
+        let Self { fresh, record, replace_damaged } = self;
+        study::session::Options { fresh, record, replaces_damaged: replace_damaged, ..options }
+    }
 }
 
 /// Why a command ended without success.
@@ -275,7 +286,7 @@ fn all(results: Vec<Result<(), Failure>>, what: &str) -> Result<(), Failure> {
         return failures.pop().map_or(Ok(()), Err);
     }
     for failure in &failures {
-        let _ = writeln!(io::stderr(), "replan: {}", failure.message);
+        let _ = writeln!(io::stderr(), "replan: {}", base::text::shown(&failure.message));
     }
     let code = if failures.iter().any(|failure| failure.code == 2) { 2 } else { failures[0].code };
     Err(Failure::new(code, format!("{} of {count} {what}", failures.len())))
@@ -315,7 +326,7 @@ pub fn run() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             // A reader that closed the pipe early (head) is no failure of ours, and cannot be told anything.
-            let _ = writeln!(io::stderr(), "replan: {}", failure.message);
+            let _ = writeln!(io::stderr(), "replan: {}", base::text::shown(&failure.message));
             ExitCode::from(failure.code)
         }
     }
@@ -337,8 +348,9 @@ fn renamed(words: impl Iterator<Item = String>) -> Option<String> {
 fn command_line() -> String {
     let words = std::env::args().skip(1).filter(|word| word != "--why");
     let quoted = words.map(|word| {
-        let is_plain = word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./=,".contains(c));
-        if is_plain { word } else { format!("'{word}'") }
+        let is_plain =
+            !word.is_empty() && word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./=,".contains(c));
+        if is_plain { word } else { format!("'{}'", word.replace('\'', r"'\''")) }
     });
     std::iter::once("replan".to_owned()).chain(quoted).collect::<Vec<_>>().join(" ")
 }

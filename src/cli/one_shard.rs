@@ -31,7 +31,7 @@ impl OneShard<'_> {
     ) -> Result<(), Failure> {
         let sharded = sharded(self.paper, self.threads, self.parts, first, points)?;
         let folder = sharded.folder(self.parts);
-        sharded.run_shard(self.shard, &folder, Again { fresh: false, record: false }, false)
+        sharded.run_shard(self.shard, &folder, Again::default(), false)
     }
 }
 

@@ -9,6 +9,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal as _, Write as _};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 use study::runner::Progress;
 
 /// Set by the first Ctrl-C: units at work, or the figure at work, are finished.
@@ -18,13 +19,31 @@ static STOP: AtomicBool = AtomicBool::new(false);
 pub fn stop_flag() -> &'static AtomicBool {
     let handler = || {
         if STOP.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
+            end_at_once();
         }
+        external::interrupt();
         eprintln!("stopping at the next safe point; press Ctrl-C again to stop at once");
+        std::thread::spawn(|| {
+            std::thread::sleep(PATIENCE);
+            end_at_once();
+        });
     };
     // Without a handler Ctrl-C still ends the process, and the journal keeps what was done.
     let _ = ctrlc::set_handler(handler);
     &STOP
+}
+
+/// How long work may take to end by itself after an interrupt.
+const PATIENCE: Duration = Duration::from_millis(1400);
+
+/// Ends the process and every planner from outside. Files are whole, whenever that is.
+fn end_at_once() -> ! {
+    let left = external::end_planners();
+    if !left.is_empty() {
+        eprintln!("replan: processes of planners that could not be ended: {left:?}");
+    }
+    eprintln!("replan: interrupted: what was finished is kept; the same command goes on from there");
+    std::process::exit(130);
 }
 
 /// Says what is about to be done, as it may take longer than a second.

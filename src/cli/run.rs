@@ -111,7 +111,7 @@ fn run_study(
     let points = how.interpretations(study)?;
     let bar = Bar::default();
     let options = options((&points, &bar), places, how, lock);
-    Ok(session::run(study, &Options { fresh: again.fresh, record: again.record, ..options })?)
+    Ok(session::run(study, &again.options(options))?)
 }
 
 /// How a whole run of a study is to be done, reusing what is stored.
@@ -130,6 +130,7 @@ fn options<'a>(
         quick: how.quick,
         fresh: false,
         record: false,
+        replaces_damaged: false,
         threads: how.threads.map(|threads| threads as usize),
         stop: stop_flag(),
         progress: bar,

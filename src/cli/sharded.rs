@@ -131,6 +131,7 @@ impl Sharded {
                 quick: self.how.quick,
                 fresh: again.fresh,
                 record: again.record,
+                replaces_damaged: again.replace_damaged,
                 threads: self.how.threads.map(|threads| threads as usize),
                 stop: stop_flag(),
                 progress: &Bar::default(),

@@ -19,6 +19,9 @@ pub fn summary(report: &Report, why: bool) -> String {
     for UnexpectedStatus { status, count, trial, reason } in &report.odd {
         text += &format!("\n  {count} {status}; the first is {}/{trial}: {reason}", report.manifest.study);
     }
+    for aside in &report.aside {
+        text += &format!("\n  damaged, and kept as {}", aside.display());
+    }
     if !report.moved.is_empty() {
         let first = &report.moved[0];
         text += &format!(

@@ -22,6 +22,38 @@ const CM_PER_M: f64 = 100.0;
 /// A share of a motion that is known no better than this is not looked at more closely.
 const FRACTION: f64 = 1e-3;
 
+/// The most questions in one message.
+pub const MOST_QUESTIONS: u64 = 100_000;
+
+/// How many quick questions are answered between two looks at the clock.
+const SLICE: usize = 64;
+
+/// Why a batch was not answered.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Unanswered {
+    /// Its time was over.
+    Stopped,
+    /// It holds too much, or something that is no question about this world: a sentence.
+    Refused(String),
+}
+
+/// The answers to `all`, so many at a time while `goes_on` holds.
+fn sliced<Q, A>(
+    all: &[Q],
+    size: usize,
+    goes_on: &dyn Fn() -> bool,
+    mut answers: impl FnMut(&[Q]) -> Result<Vec<A>, String>,
+) -> Result<Vec<A>, Unanswered> {
+    let mut found = Vec::with_capacity(all.len());
+    for slice in all.chunks(size) {
+        if !goes_on() {
+            return Err(Unanswered::Stopped);
+        }
+        found.extend(answers(slice).map_err(Unanswered::Refused)?);
+    }
+    Ok(found)
+}
+
 /// How many questions were answered.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct QuestionCounts {
@@ -79,26 +111,53 @@ impl<'a> Space<'a> {
     /// # Errors
     /// A sentence about the first question that cannot be answered.
     pub fn answer(&mut self, ask: &Ask) -> Result<Answer, String> {
+        self.answer_while(ask, &|| true).map_err(|error| match error {
+            Unanswered::Stopped => unreachable!("nothing stops it"),
+            Unanswered::Refused(why) => why,
+        })
+    }
+
+    /// The answers to a batch, which is given up as soon as `goes_on` does not hold: it is looked at before every few questions.
+    ///
+    /// # Errors
+    /// [`Unanswered`].
+    pub fn answer_while(&mut self, ask: &Ask, goes_on: &dyn Fn() -> bool) -> Result<Answer, Unanswered> {
         let Ask { id, valid, motion, fractions, fk, ik } = ask;
         self.asked.batches += 1;
         self.asked.valid += count(valid.as_ref());
         self.asked.motion += count(motion.as_ref());
         self.asked.fk += count(fk.as_ref());
         self.asked.ik += count(ik.as_ref());
-        let valid = valid.as_ref().map(|states| self.are_valid(states)).transpose()?;
-        let free = |space: &mut Self, [from, to]: &[Vec<f64>; 2]| space.is_free(from, to);
-        let are_free =
-            motion.as_ref().map(|all| all.iter().map(|one| free(self, one)).collect::<Result<Vec<_>, _>>());
+        let all = count(valid.as_ref()) + count(motion.as_ref()) + count(fk.as_ref()) + count(ik.as_ref());
+        if all > MOST_QUESTIONS {
+            let why = format!("the planner asks {all} questions at once; {MOST_QUESTIONS} are accepted");
+            return Err(Unanswered::Refused(why));
+        }
+        let valid = valid.as_ref().map(|all| sliced(all, SLICE, goes_on, |some| self.are_valid(some)));
+        let valid = valid.transpose()?;
+        let are_free = motion.as_ref().map(|all| {
+            sliced(all, 1, goes_on, |one| one.iter().map(|[from, to]| self.is_free(from, to)).collect())
+        });
         let are_free = are_free.transpose()?;
         let ends = motion.as_ref().zip(are_free.as_ref()).filter(|_| *fractions);
         let free_until = ends.map(|(all, are_free)| {
-            let until = |([from, to], is_free): (&[Vec<f64>; 2], &bool)| {
-                if *is_free { 1.0 } else { self.free_until(from, to) }
-            };
-            all.iter().zip(are_free).map(until).collect()
+            let both: Vec<_> = all.iter().zip(are_free).collect();
+            sliced(&both, 1, goes_on, |one| {
+                let until = |([from, to], is_free): &(&[Vec<f64>; 2], &bool)| {
+                    if **is_free { 1.0 } else { self.free_until(from, to) }
+                };
+                Ok(one.iter().map(until).collect())
+            })
         });
-        let fk = fk.as_ref().map(|all| all.iter().map(|q| self.forward(q)).collect()).transpose()?;
-        let ik = ik.as_ref().map(|all| all.iter().map(|pose| self.inverse(pose)).collect()).transpose()?;
+        let free_until = free_until.transpose()?;
+        let fk = fk
+            .as_ref()
+            .map(|all| sliced(all, SLICE, goes_on, |some| some.iter().map(|q| self.forward(q)).collect()));
+        let fk = fk.transpose()?;
+        let ik = ik
+            .as_ref()
+            .map(|all| sliced(all, 1, goes_on, |one| one.iter().map(|pose| self.inverse(pose)).collect()));
+        let ik = ik.transpose()?;
         Ok(Answer { id: *id, valid, motion: are_free, free_until, fk, ik })
     }
 

@@ -1,22 +1,23 @@
 //! Ends a planner with every process that it started, also those that made a session of their own.
 //!
 //! Its processes are found in `/proc`: children of children, members of its process group, and whoever inherited the mark that
-//! its environment bears. A process that cleared its environment, left the group and outlived its parents is not found.
+//! its environment bears. One that cleared its environment, left the group and outlived its parents became a child of replan, and
+//! is ended with the last planner at work. All are stopped before any is killed: who is stopped does not fork.
 
-use rustix::process::{Pid, Signal, kill_process};
+use super::interrupt::{MARK, is_guard, planners};
+use rustix::process::{Pid, Signal, WaitOptions, getpgrp, getpid, kill_process, kill_process_group, waitpid};
 use std::collections::BTreeSet;
 use std::fs;
 use std::process::Child;
 use std::thread::sleep;
 use std::time::Duration;
 
-/// The variable of the environment that marks a planner's processes.
-pub(super) const MARK: &str = "REPLAN_PLANNER";
-
 /// How long processes may take to end by themselves after SIGTERM.
 const TERM_ROUNDS: u32 = 30;
 /// How often what is left is killed.
-const KILL_ROUNDS: u32 = 200;
+const KILL_ROUNDS: u32 = 30;
+/// How often it is looked who else is to be stopped.
+const STOP_ROUNDS: u32 = 50;
 const ROUND: Duration = Duration::from_millis(10);
 
 /// A process as `/proc` has it.
@@ -26,25 +27,62 @@ struct Seen {
     group: i32,
 }
 
-/// Ends `child` and all its descendants: SIGTERM, then SIGKILL.
-pub(super) fn end_all(child: &mut Child, mark: &str) {
+/// Ends `child` and all its descendants: SIGTERM, a moment, then SIGKILL; those that survive.
+pub(super) fn end_all(child: &mut Child, mark: &str) -> Vec<i32> {
     let root = child.id() as i32;
-    for (signal, rounds) in [(Signal::TERM, TERM_ROUNDS), (Signal::KILL, KILL_ROUNDS)] {
-        for round in 0..rounds {
-            // The planner itself is waited for, so that it does not stay as a zombie.
-            let _ = child.try_wait();
-            let left = members(root, mark);
-            if left.is_empty() {
-                return;
-            }
-            if signal == Signal::KILL || round == 0 {
-                for pid in left.into_iter().filter_map(Pid::from_raw) {
-                    // It may have ended meanwhile.
-                    let _ = kill_process(pid, signal);
-                }
-            }
-            sleep(ROUND);
+    for round in 0..TERM_ROUNDS {
+        // The planner itself is waited for, so that it does not stay as a zombie.
+        let _ = child.try_wait();
+        let left = members(root, mark);
+        if left.is_empty() {
+            return left;
         }
+        if round == 0 {
+            signal(&left, Signal::TERM);
+        }
+        sleep(ROUND);
+    }
+    let left = kill_all(root, mark);
+    let _ = child.try_wait();
+    left
+}
+
+/// Kills every planner at work with all that it started; the processes that survive.
+pub fn end_planners() -> Vec<i32> {
+    planners().iter().flat_map(|(mark, root)| kill_all(*root, mark)).collect()
+}
+
+/// Kills the planner `root` and all its descendants; those that survive.
+pub(super) fn kill_all(root: i32, mark: &str) -> Vec<i32> {
+    for _ in 0..KILL_ROUNDS {
+        let mut stopped = BTreeSet::new();
+        for _ in 0..STOP_ROUNDS {
+            let new: Vec<i32> = members(root, mark).into_iter().filter(|pid| stopped.insert(*pid)).collect();
+            if new.is_empty() {
+                break;
+            }
+            signal(&new, Signal::STOP);
+        }
+        if stopped.is_empty() {
+            return Vec::new();
+        }
+        // A group is killed at once, forks at work among it.
+        let _ = Pid::from_raw(root).map(|group| kill_process_group(group, Signal::KILL));
+        let stopped: Vec<i32> = stopped.into_iter().collect();
+        signal(&stopped, Signal::KILL);
+        sleep(ROUND);
+        for pid in stopped.into_iter().filter(|pid| *pid != root).filter_map(Pid::from_raw) {
+            // Orphans are children of this process; nobody else waits for them.
+            let _ = waitpid(Some(pid), WaitOptions::NOHANG);
+        }
+    }
+    members(root, mark)
+}
+
+fn signal(pids: &[i32], signal: Signal) {
+    for pid in pids.iter().copied().filter_map(Pid::from_raw) {
+        // It may have ended meanwhile.
+        let _ = kill_process(pid, signal);
     }
 }
 
@@ -56,9 +94,15 @@ pub(super) fn members(root: i32, mark: &str) -> Vec<i32> {
         let environment = fs::read(format!("/proc/{pid}/environ")).unwrap_or_default();
         environment.split(|byte| *byte == 0).any(|entry| entry == wanted.as_bytes())
     };
+    let planners = planners();
+    let is_last = planners.keys().all(|other| other == mark);
+    let [own, own_group] = [getpid(), getpgrp()].map(Pid::as_raw_nonzero).map(i32::from);
+    let is_orphan = |seen: &Seen| {
+        is_last && seen.parent == own && seen.group != own_group && !is_guard(seen.pid) && seen.pid != root
+    };
     let mut found: BTreeSet<i32> = all
         .iter()
-        .filter(|seen| seen.pid == root || seen.group == root || is_marked(seen.pid))
+        .filter(|seen| seen.pid == root || seen.group == root || is_orphan(seen) || is_marked(seen.pid))
         .map(|seen| seen.pid)
         .collect();
     loop {

@@ -9,12 +9,16 @@ mod answer;
 mod clear;
 mod describe;
 mod end;
+mod interrupt;
+mod linux;
 pub mod message;
 mod process;
 mod talk;
 pub mod world;
 
-pub use answer::{QuestionCounts, Space};
+pub use answer::{MOST_QUESTIONS, QuestionCounts, Space, Unanswered};
 pub use describe::describe;
+pub use end::end_planners;
+pub use interrupt::{interrupt, is_interrupted};
 pub use process::{Clock, Process, Program, Start};
 pub use talk::{COUNTERS, End, Query, Talk, greet, solve};

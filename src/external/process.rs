@@ -1,9 +1,10 @@
 //! A running planner: its program, its pipes, and the limits that hold for it.
 
-use super::end::{MARK, end_all};
+use super::end::end_all;
+use super::interrupt::{self, MARK, guard};
+use super::linux::limit_memory;
 use super::message::{FromPlanner, Hello, Limits, ToPlanner};
-use base::text::around;
-use rustix::process::{Pid, Resource, Rlimit, prlimit};
+use base::text::{around, one_line};
 use std::collections::VecDeque;
 use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
 use std::os::unix::process::CommandExt as _;
@@ -25,6 +26,27 @@ const WAITING_LINES: usize = 64;
 const LOOK: Duration = Duration::from_millis(50);
 /// How long a planner may take to end after `quit`.
 const QUIT: Duration = Duration::from_millis(500);
+
+/// The variables of the environment that a planner gets.
+pub const PASSED: [&str; 14] = [
+    "PATH",
+    "HOME",
+    "USER",
+    "LANG",
+    "LC_ALL",
+    "LC_CTYPE",
+    "TZ",
+    "TMPDIR",
+    "LD_LIBRARY_PATH",
+    "PYTHONPATH",
+    "VIRTUAL_ENV",
+    "JAVA_HOME",
+    "OMP_NUM_THREADS",
+    "SHELL",
+];
+
+/// How long a line is waited for that was written before there was a query.
+const EARLY: Duration = Duration::from_millis(1);
 
 /// A program that plans.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,17 +104,17 @@ impl Process {
         let Some((name, arguments)) = program.command.split_first() else {
             return Err(Start::Missing(String::new()));
         };
+        guard();
         let mut command = Command::new(name);
-        command.args(arguments).env(MARK, &mark).process_group(0);
+        command.args(arguments).env_clear().process_group(0);
+        command.envs(PASSED.iter().filter_map(|name| Some((name, std::env::var_os(name)?)))).env(MARK, &mark);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().map_err(|error| match error.kind() {
             ErrorKind::NotFound => Start::Missing(name.clone()),
             _ => Start::Refused(name.clone(), error.to_string()),
         })?;
-        let bytes = Some(program.limits.memory_mb << 20);
-        let limit = Rlimit { current: bytes, maximum: bytes };
-        // A process that has ended already is noticed when it says nothing.
-        let _ = prlimit(Pid::from_raw(child.id() as i32), Resource::As, limit);
+        interrupt::note(&mark, child.id() as i32);
+        limit_memory(child.id(), program.limits.memory_mb << 20);
         let stdin = child.stdin.take();
         let stdout = child.stdout.take();
         let stderr = child.stderr.take();
@@ -120,8 +142,15 @@ impl Process {
     }
 
     /// From now on its output counts from 0.
-    pub(super) fn begin(&self) {
+    ///
+    /// # Errors
+    /// A sentence: it has written something already that nobody asked for.
+    pub(super) fn begin(&mut self) -> Result<(), String> {
+        if let Ok(PlannerOutput::Line(line)) = self.from.recv_timeout(EARLY) {
+            return Err(format!("the planner wrote `{}` before it had a query", around(&line, 0)));
+        }
         self.written.store(0, Ordering::Relaxed);
+        Ok(())
     }
 
     /// The next message; none if there is none in time.
@@ -165,7 +194,7 @@ impl Process {
     pub fn log(&self) -> String {
         let log = self.log.lock().expect("no thread panics while it keeps the log");
         let (a, b) = log.as_slices();
-        String::from_utf8_lossy(&[a, b].concat()).trim().to_owned()
+        one_line(String::from_utf8_lossy(&[a, b].concat()).trim())
     }
 
     /// How it ended, once it has, after a moment in which its log arrives.
@@ -197,7 +226,11 @@ impl Process {
 
 impl Drop for Process {
     fn drop(&mut self) {
-        end_all(&mut self.child, &self.mark);
+        let left = end_all(&mut self.child, &self.mark);
+        if !left.is_empty() {
+            eprintln!("processes of a planner that could not be ended: {left:?}");
+        }
+        interrupt::forget(&self.mark);
     }
 }
 

@@ -1,6 +1,7 @@
 //! One conversation: a query is handed over, questions are answered, a result comes back or does not.
 
-use super::answer::{QuestionCounts, Space};
+use super::answer::{QuestionCounts, Space, Unanswered};
+use super::interrupt::is_interrupted;
 use super::message::{FromPlanner, Hello, Limits, PROTOCOL, QueryResult, Solve, Status, ToPlanner};
 use super::process::{Clock, Process, Program};
 use super::world::World;
@@ -11,6 +12,10 @@ use std::time::Duration;
 /// A result is waited for this much longer than a planner is given, so that one that looks at the clock itself is not cut off
 /// while it writes.
 const GRACE_S: f64 = 0.25;
+
+/// How often it is looked whether replan was interrupted, in seconds.
+const LOOK_S: f64 = 0.05;
+const LOOK: Duration = Duration::from_millis(50);
 
 /// What keeps most planners silent that are at work.
 const SILENT: &str = "; it wrote nothing: an output that is buffered must be flushed after each line";
@@ -112,8 +117,13 @@ pub struct Query<'a> {
 /// # Errors
 /// A sentence: it said nothing in time, or something else.
 pub fn greet(process: &mut Process, program: &Program) -> Result<Hello, String> {
-    let within = Duration::from_secs_f64(program.hello_s);
-    let hello = match process.next(within) {
+    let mut looks = (program.hello_s / LOOK_S).ceil() as u64;
+    let mut first = process.next(LOOK);
+    while looks > 1 && matches!(first, Ok(None)) && !is_interrupted() {
+        looks -= 1;
+        first = process.next(LOOK);
+    }
+    let hello = match first {
         Ok(Some(FromPlanner::Hello(hello))) if hello.protocol == PROTOCOL => hello,
         Ok(Some(FromPlanner::Hello(hello))) => {
             let spoken = hello.protocol;
@@ -149,20 +159,22 @@ pub fn solve(
     space: &mut Space<'_>,
     clock: Clock,
 ) -> Talk {
-    let begun = clock();
     let id = query.id;
     let talk = Talk::new(End::TimeSpent);
-    process.begin();
+    if let Err(why) = process.begin() {
+        return Talk::broken(with_log(process, &why));
+    }
+    let begun = clock();
     let (start, goal) = (query.start.to_vec(), query.goal.to_vec());
     let Query { seed, world, .. } = query;
     process.send(&ToPlanner::Solve(Box::new(Solve { id, seed, limits, world, start, goal })));
     let mut held = Conversation { id, limits, space, clock, begun, talk };
     let end = loop {
         let left_s = limits.time_s + GRACE_S - held.passed_s();
-        if left_s <= 0.0 {
+        if left_s <= 0.0 || is_interrupted() {
             break End::TimeSpent;
         }
-        match process.next(Duration::from_secs_f64(left_s)) {
+        match process.next(Duration::from_secs_f64(left_s.min(LOOK_S))) {
             Ok(None) => {}
             Ok(Some(message)) => match held.take(process, message) {
                 Ok(None) => {}
@@ -209,9 +221,16 @@ impl Conversation<'_, '_> {
             FromPlanner::Hello(_) => Err("the planner says `hello` again".to_owned()),
             FromPlanner::Ask(ask) => {
                 let before = (self.clock)();
-                let answer = self.space.answer(&ask)?;
-                process.send(&ToPlanner::Answer(answer));
+                let Self { clock, begun, .. } = *self;
+                let most_s = self.limits.time_s + GRACE_S;
+                let goes_on = || !is_interrupted() && (clock() - begun) as f64 * 1e-9 < most_s;
+                let answer = self.space.answer_while(&ask, &goes_on);
                 self.talk.answering_ns += (self.clock)() - before;
+                match answer {
+                    Ok(answer) => process.send(&ToPlanner::Answer(answer)),
+                    Err(Unanswered::Stopped) => return Ok(Some(End::TimeSpent)),
+                    Err(Unanswered::Refused(why)) => return Err(why),
+                }
                 Ok(None)
             }
             FromPlanner::Incumbent(incumbent) => {

@@ -3,6 +3,9 @@
 use base::settings::SettingsError;
 use std::path::PathBuf;
 
+/// What helps where a stored file is not the one that was written.
+pub const REMEDY: &str = "put back the file that was written, or `run` with --replace-damaged, which sets it aside and keeps what is sound";
+
 /// An error of the study floor.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {

@@ -1,6 +1,7 @@
 //! One process at a time writes into a folder of runs.
 
 use super::StudyError;
+use base::file::check_own;
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 
@@ -19,7 +20,9 @@ impl Lock {
     pub fn take(folder: &Path) -> Result<Self, StudyError> {
         fs::create_dir_all(folder).map_err(StudyError::io(folder, "creating the folder"))?;
         let path = folder.join(".lock");
-        let file = File::create(&path).map_err(StudyError::io(&path, "creating the lock"))?;
+        let file = check_own(&path)
+            .and_then(|()| File::create(&path))
+            .map_err(StudyError::io(&path, "creating the lock"))?;
         match file.try_lock() {
             Ok(()) => Ok(Self { folder: folder.to_owned(), _file: file }),
             Err(TryLockError::WouldBlock) => Err(StudyError::Busy { path: folder.to_owned() }),
@@ -29,7 +32,8 @@ impl Lock {
 
     /// Whether a process holds the lock of `folder`.
     pub fn is_held(folder: &Path) -> bool {
-        let file = File::open(folder.join(".lock"));
+        let path = folder.join(".lock");
+        let file = check_own(&path).and_then(|()| File::open(path));
         file.is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
     }
 

@@ -8,7 +8,7 @@ pub use hashes::Hashes;
 use super::checked::Study;
 use super::choice::Interpretation;
 use super::defaults::defaults;
-use super::error::StudyError;
+use super::error::{REMEDY, StudyError};
 use super::key::{InstanceKey, InterpretationKey, Text};
 use super::name;
 use super::runner::{BuiltStudy, SESSION};
@@ -165,6 +165,16 @@ impl Manifest {
     /// [`StudyError::Stored`] if there is none, [`StudyError::Touched`] if it cannot be understood.
     pub fn read(folder: &Path, study: &str) -> Result<Self, StudyError> {
         let path = Self::path(folder, study);
+        let manifest = Self::read_unsealed(folder, study)?;
+        check_seal(&path).map(|()| manifest)
+    }
+
+    /// As [`read`](Self::read), whatever its seal says: files that it names are held against their hashes all the same.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub(super) fn read_unsealed(folder: &Path, study: &str) -> Result<Self, StudyError> {
+        let path = Self::path(folder, study);
         if !path.exists() {
             let missing = "no stored run; run the study first";
             return Err(if part_path(folder, study, "trials").exists() {
@@ -173,8 +183,19 @@ impl Manifest {
                 StudyError::stored(&path, missing)
             });
         }
-        let read = Document::open(&path).and_then(|document| document.read_stored());
-        read.map_err(|error| StudyError::touched(error, "run the study again"))
+        Self::read_file(&path)
+    }
+
+    /// Reads the manifest in the file at `path`, without its seal.
+    fn read_file(path: &Path) -> Result<Self, StudyError> {
+        let read = Document::open(path).and_then(|document| document.read_stored());
+        read.map_err(|error| StudyError::touched(error, REMEDY))
+    }
+
+    /// Reads a manifest that a killed run left beside its place; `None` if it is not whole.
+    pub(super) fn read_left(path: &Path) -> Option<Self> {
+        let manifest = Self::read_file(path).ok()?;
+        check_seal(path).ok().map(|()| manifest)
     }
 
     /// Stages the manifest for `folder`.
@@ -183,7 +204,8 @@ impl Manifest {
     /// [`StudyError::Io`].
     pub fn stage(&self, staged: &mut Staged, folder: &Path) -> Result<(), StudyError> {
         let text = toml::to_string(self).expect("a manifest is strings, numbers and tables of them");
-        staged.add(&Self::path(folder, &self.study), text.as_bytes())
+        let sealed = format!("{SEAL}{}\n{text}", sha256(text.as_bytes()));
+        staged.add(&Self::path(folder, &self.study), sealed.as_bytes())
     }
 
     /// Whether the run that `before` describes gave all that this one would give, times among it: a run that
@@ -269,6 +291,22 @@ impl Session {
         let MadeBy { git, rustc, cpu, .. } = made_by.clone();
         Self { number: SESSION, git, rustc, cpu }
     }
+}
+
+/// How the first line of a manifest begins, which bears the SHA-256 of all lines below it.
+const SEAL: &str = "# seal: ";
+
+/// Refuses a manifest whose lines are not those that were sealed. One without a seal is of an older form.
+fn check_seal(path: &Path) -> Result<(), StudyError> {
+    let text = base::file::read_text(path).map_err(StudyError::io(path, "reading the manifest"))?;
+    let Some((seal, rest)) = text.strip_prefix(SEAL).and_then(|text| text.split_once('\n')) else {
+        return Ok(());
+    };
+    if sha256(rest.as_bytes()) == seal {
+        return Ok(());
+    }
+    let place = path.display();
+    Err(StudyError::Touched(format!("{place}: its lines are not those that its seal was made of; {REMEDY}")))
 }
 
 /// What a run itself writes does not make the tree that it runs from unclean.

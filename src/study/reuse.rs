@@ -9,15 +9,19 @@ use super::manifest::Manifest;
 use super::name::Names;
 use super::record::{Batch, Kept, Row};
 use super::runner::{BuiltStudy, Part};
-use super::store::{GROUP_VALUES, Journal, KeptTraces, Records, Traces, read_numbers};
+use super::store::{
+    GROUP_VALUES, Journal, KeptTraces, Records, Traces, read_numbers, salvaged, set_aside, set_parts_aside,
+    set_records_aside,
+};
 use super::unit::{Entrant, Unit};
 use engine::planner::Trace;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::iter;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// What is stored of a study, and why it cannot stand for the run that a manifest describes.
+#[derive(Default)]
 pub struct Before {
     /// The manifest and the records, without traces.
     pub stored: Option<(Manifest, Records)>,
@@ -25,20 +29,33 @@ pub struct Before {
     pub kept: KeptTraces,
     /// What has changed.
     pub why: Vec<String>,
+    /// What of it was damaged and set aside.
+    pub damage: Damage,
+}
+
+/// What of a stored run was damaged and set aside.
+#[derive(Debug, Default)]
+pub struct Damage {
+    /// The new names of the files.
+    pub aside: Vec<PathBuf>,
+    /// Whether anything was: a file that is gone leaves none to set aside.
+    pub is_any: bool,
+    /// Whether trials must run again to have all that was lost.
+    pub is_of_trials: bool,
 }
 
 impl Before {
-    /// What `folder` has of the study that `manifest` is about.
-    pub fn read(folder: &Path, manifest: &Manifest) -> Self {
+    /// What `folder` has of the study that `manifest` is about. What is damaged is set aside if `replaces_damaged`.
+    ///
+    /// # Errors
+    /// [`StudyError::Touched`] for a damaged file otherwise.
+    pub fn read(folder: &Path, manifest: &Manifest, replaces_damaged: bool) -> Result<Self, StudyError> {
         if !Manifest::path(folder, &manifest.study).exists() {
-            return Self { stored: None, kept: KeptTraces::default(), why: Vec::new() };
+            return Ok(Self::default());
         }
         match Self::stored(folder, manifest) {
-            Ok(before) => before,
-            Err(error) => {
-                let why = vec![format!("what is stored cannot be used: {error}")];
-                Self { stored: None, kept: KeptTraces::default(), why }
-            }
+            Err(StudyError::Touched(_)) if replaces_damaged => Self::salvaged(folder, manifest),
+            other => other,
         }
     }
 
@@ -48,7 +65,42 @@ impl Before {
         let kept = KeptTraces::stored(folder, study, &before.files)?;
         kept.owners()?;
         let why = manifest.differs_from(&before);
-        Ok(Self { stored: Some((before, records)), kept, why })
+        Ok(Self { stored: Some((before, records)), kept, why, damage: Damage::default() })
+    }
+
+    /// What is sound of it, after the rest was set aside. A manifest that can be read names its files rightly, or their hashes would
+    /// not be theirs.
+    fn salvaged(folder: &Path, manifest: &Manifest) -> Result<Self, StudyError> {
+        let study = &manifest.study;
+        let is_sealed = Manifest::read(folder, study).is_ok();
+        let before = Manifest::read_unsealed(folder, study);
+        let mut aside = Vec::new();
+        if !is_sealed {
+            aside.extend(set_aside(&Manifest::path(folder, study))?);
+        }
+        let Ok(before) = before else {
+            aside.extend(set_records_aside(folder, study)?);
+            return Ok(Self {
+                damage: Damage { aside, is_any: true, is_of_trials: true },
+                ..Self::default()
+            });
+        };
+        let (records, damaged) = salvaged(folder, study, &before.files);
+        aside.extend(set_parts_aside(folder, study, &damaged)?);
+        let has_traces = !damaged.contains(&"traces");
+        let kept = if has_traces {
+            KeptTraces::stored(folder, study, &before.files)?
+        } else {
+            KeptTraces::default()
+        };
+        let is_of_trials = damaged.iter().any(|part| *part != "times");
+        let why = manifest.differs_from(&before);
+        Ok(Self {
+            stored: Some((before, records)),
+            kept,
+            why,
+            damage: Damage { aside, is_any: true, is_of_trials },
+        })
     }
 }
 

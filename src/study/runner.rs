@@ -319,6 +319,10 @@ impl<'a> BuiltStudy<'a> {
                 return Ok(Vec::new());
             }
             let mut found = self.run_alike(&units, alike, parts);
+            if external::is_interrupted() && self.study.recorded().next().is_some() {
+                // What a planner from outside was cut off in is no result.
+                return Ok(Vec::new());
+            }
             for (index, batch) in &mut found {
                 journal.lock().expect("no thread panics while it writes").append(*index, batch)?;
                 progress.step();

@@ -6,17 +6,18 @@ use super::lock::Lock;
 use super::manifest::{MadeBy, Manifest, Session};
 use super::name::Names;
 use super::record::{Batch, Row, Status, Timing};
-use super::reuse::{self, Before, Gathered, Keeps, Reusable, moved};
+use super::reuse::{self, Before, Damage, Gathered, Keeps, Reusable, moved};
 use super::runner::{BuiltStudy, Progress, SESSION};
 use super::shard::Portion;
 use super::store::{
-    Columns, GROUP_VALUES, Journal, Records, Staged, Traces, open_traces, remove_temporaries, stage_records,
+    Columns, GROUP_VALUES, Journal, Records, Staged, Traces, finish_put, open_traces, remove_temporaries,
+    stage_records,
 };
 use super::unit::Unit;
 use super::{Inputs, StudyError};
 use base::settings::did_you_mean;
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
@@ -39,6 +40,8 @@ pub struct Options<'a> {
     pub fresh: bool,
     /// Run again what is recorded, even where it is stored and unchanged.
     pub record: bool,
+    /// Set damaged files aside and run again what they held, instead of refusing them.
+    pub replaces_damaged: bool,
     /// How many threads; the machine's number if absent.
     pub threads: Option<usize>,
     /// Set to stop after the units at work.
@@ -54,8 +57,9 @@ impl Options<'_> {
         built: &BuiltStudy<'_>,
         manifest: &Manifest,
         stored: Option<&(Manifest, Records)>,
+        damage: &Damage,
     ) -> Reusable {
-        let keeps = Keeps { repeated: !self.fresh, recorded: !self.record };
+        let keeps = Keeps { repeated: !self.fresh && !damage.is_of_trials, recorded: !self.record };
         stored.map_or_else(Reusable::default, |(before, old)| {
             Reusable::new(built, manifest, before, old, keeps)
         })
@@ -86,6 +90,8 @@ pub struct Report {
     pub why: Vec<String>,
     /// Trials that were run again and now differ from what was stored under equal dependencies.
     pub moved: Vec<String>,
+    /// Damaged files that were set aside.
+    pub aside: Vec<PathBuf>,
     /// Trials that brought neither a path nor the answer that there is none, by status.
     pub odd: Vec<UnexpectedStatus>,
 }
@@ -116,7 +122,18 @@ impl Report {
         let Counts { resumed, units, reused, kept } = *counts;
         let trials = batch.rows.len();
         let odd = UnexpectedStatus::among(&batch.rows, names);
-        Self { manifest, trials, resumed, reused, kept, units, why, moved: Vec::new(), odd }
+        Self {
+            manifest,
+            trials,
+            resumed,
+            reused,
+            kept,
+            units,
+            why,
+            moved: Vec::new(),
+            aside: Vec::new(),
+            odd,
+        }
     }
 }
 
@@ -144,19 +161,23 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let folder = options.lock.folder();
     let mut manifest = options.manifest(study, &built)?;
     let only = options.portion.map(|portion| manifest.cut_to(portion));
+    finish_put(folder, &study.name, &Manifest::path(folder, &study.name), |path| {
+        Some(Manifest::read_left(path)?.files)
+    });
     remove_temporaries(folder, &study.name);
+    let Before { stored, kept, why, damage } = Before::read(folder, &manifest, options.replaces_damaged)?;
     let (journal, mut done) = Journal::open(&Journal::path(folder, &study.name), &manifest.depends)?;
     let resumed = done.len();
     let units = only.map_or_else(|| built.units().len(), BTreeSet::len);
-    let Before { stored, kept, why } = Before::read(folder, &manifest);
-    let is_current =
-        |(before, _): &&(Manifest, Records)| !options.fresh && !options.record && manifest.is_as(before);
+    let is_current = |(before, _): &&(Manifest, Records)| {
+        !options.fresh && !options.record && !damage.is_any && manifest.is_as(before)
+    };
     if let Some((before, records)) = stored.as_ref().filter(is_current) {
         journal.remove()?;
         let counts = Counts { resumed, units, reused: units, kept: 0 };
         return Ok(Report::new(before.clone(), &counts, &records.batch, built.names(), why));
     }
-    let found = options.reusable(&built, &manifest, stored.as_ref());
+    let found = options.reusable(&built, &manifest, stored.as_ref(), &damage);
     let counts = Counts { resumed, units, reused: found.units.len(), kept: found.kept() };
     done = found.units.into_iter().chain(done).collect();
     built.check_programs(only, &done, &found.parts)?;
@@ -177,7 +198,7 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let new = &records.batch;
     let names = built.names();
     let moved = stored.map_or_else(Vec::new, |(was, old)| moved(&manifest, &was, &old.batch, new, names));
-    Ok(Report { moved, ..Report::new(manifest, &counts, new, names, why) })
+    Ok(Report { moved, aside: damage.aside, ..Report::new(manifest, &counts, new, names, why) })
 }
 
 /// Reads the clock of a stored run once more, in a session of its own beside those that are stored; the session's number.
@@ -188,7 +209,7 @@ pub fn read_clock(study: &Study, options: &Options<'_>) -> Result<u32, StudyErro
     let built = BuiltStudy::new(study, options.points, options.inputs)?;
     let folder = options.lock.folder();
     let manifest = options.manifest(study, &built)?;
-    let stored = Before::read(folder, &manifest).stored.filter(|(before, _)| manifest.is_as(before));
+    let stored = Before::read(folder, &manifest, false)?.stored.filter(|(before, _)| manifest.is_as(before));
     let Some((mut manifest, mut records)) = stored else {
         let reason = "not what the spec asks for now; run the study first, then read the clock once more";
         return Err(StudyError::stored(Manifest::path(folder, &study.name), reason));
@@ -229,7 +250,8 @@ fn times_beside(
         manifest.interpretations == before.interpretations
             && !manifest.sessions.is_empty()
             && is_timed_as(built.study(), &old.times)
-            && old.batch.rows == batch.rows
+            && (old.batch.rows == batch.rows
+                || old.batch.rows.is_empty() && manifest.depends == before.depends)
     };
     let Some((before, old)) = stored.filter(is_of_these) else {
         return built.time(SESSION, options.stop, options.progress);

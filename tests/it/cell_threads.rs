@@ -70,6 +70,7 @@ fn records(home: &Path, threads: usize) -> Vec<(String, Vec<u8>)> {
         quick: false,
         fresh: true,
         record: false,
+        replaces_damaged: false,
         portion: None,
         threads: Some(threads),
         stop: &AtomicBool::new(false),

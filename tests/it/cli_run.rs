@@ -228,20 +228,6 @@ fn repro_runs_what_is_stale_and_fresh_runs_everything_without_losing_a_byte() {
 }
 
 #[test]
-fn why_says_that_a_stored_run_cannot_be_read() {
-    let bench = Bench::new();
-    bench.done(&["run", "./mini"]);
-    bench.write("target/replan/mini/data/runs/mini/draws.manifest.toml", b"");
-    let out = bench.done(&["run", "./mini", "--why"]);
-    assert!(
-        out.contains(
-            "why: what is stored cannot be used: target/replan/mini/data/runs/mini/draws.manifest.toml:1:1: is not what replan wrote: truncated, edited, or of another version; run the study again"
-        ),
-        "{out}"
-    );
-}
-
-#[test]
 fn contenders_take_turns_at_the_clock() {
     let bench = Bench::new();
     bench.edit("mini/draws.toml", "repeats = 2", "repeats = 9");

@@ -85,7 +85,8 @@ fn check(row: &Row, case: &Case) {
 fn every_way_to_misbehave_is_the_status_of_one_row_and_costs_no_other_trial() {
     let cases: Vec<&Case> = CASES.iter().collect();
     let bench = bench(&cases);
-    bench.done(&["run", "./outside"]);
+    let run = bench.command(&["run", "./outside"]).env("REPLAN_TEST_SECRET", "secret").output().unwrap();
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
     let rows = rows(&bench);
     assert_eq!(rows.len(), cases.len() + 1);
     for case in &cases {
@@ -99,9 +100,41 @@ fn every_way_to_misbehave_is_the_status_of_one_row_and_costs_no_other_trial() {
     }
     assert_eq!(rows["cut-off"].value("is_cut_off"), Some(1.0));
     assert_eq!(rows["good"].value("is_cut_off"), Some(0.0));
-    for seconds in ["sleep 1001", "sleep 1002", "sleep 1003"] {
+    for seconds in ["sleep 1001", "sleep 1002", "sleep 1003", "sleep 1004"] {
         assert_eq!(alive(seconds), [""; 0], "left alone");
     }
+}
+
+/// Whether `is_so` within three seconds.
+fn soon(is_so: impl Fn() -> bool) -> bool {
+    (0..300).any(|_| {
+        std::thread::sleep(std::time::Duration::from_millis(10));
+        is_so()
+    })
+}
+
+#[test]
+fn replan_interrupted_or_killed_takes_its_planners_with_it() {
+    let hang = "hello; query; (sleep 770011) & trap '' TERM INT; while :; do sleep 770012; done";
+    let case = Case { name: "hang-on", script: hang, status: "", reason: "" };
+    for (signal, code) in [("INT", Some(130)), ("TERM", Some(130)), ("KILL", None)] {
+        let bench = bench(&[&case]);
+        bench.edit("outside/study.toml", "time_s = 0.5", "time_s = 600.0");
+        let mut run = bench.command(&["run", "./outside"]).spawn().unwrap();
+        assert!(soon(|| alive("sleep 770012").len() == 1), "{signal}: the planner was not seen");
+        let kill =
+            std::process::Command::new("kill").args([&format!("-{signal}"), &run.id().to_string()]).status();
+        assert!(kill.unwrap().success());
+        assert!(soon(|| run_has_ended(run.id())), "{signal}: replan goes on");
+        assert_eq!(run.wait().unwrap().code(), code, "{signal}");
+        let is_gone = || alive("sleep 77001").is_empty() && alive("hang-on.sh").is_empty();
+        assert!(soon(is_gone), "{signal}: left alone: {:?}", alive("sleep 77001"));
+    }
+}
+
+/// Whether the process has ended, though nobody has waited for it.
+fn run_has_ended(pid: u32) -> bool {
+    fs::read_to_string(format!("/proc/{pid}/stat")).map_or(true, |stat| stat.contains(") Z "))
 }
 
 #[test]

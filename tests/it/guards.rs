@@ -181,9 +181,13 @@ fn a_touched_record_is_caught_by_its_hash_and_by_the_verdict_if_the_hash_is_touc
 
 #[test]
 fn stored_texts_that_cannot_be_read_are_told_in_words_of_ours() {
-    for (name, again) in
-        [("verdicts", "`replan judge` writes it again"), ("scenarios.manifest", "run the study again")]
-    {
+    for (name, again) in [
+        ("verdicts", "`replan judge` writes it again"),
+        (
+            "scenarios.manifest",
+            "put back the file that was written, or `run` with --replace-damaged, which sets it aside and keeps what is sound",
+        ),
+    ] {
         for to in ["quick = 3", "quick = "] {
             let bench = committed();
             let file = format!("{RUNS}/{name}.toml");

@@ -24,6 +24,7 @@ mod committed;
 mod conformance;
 mod counted_interpretations;
 mod crosscheck;
+mod damage;
 mod documented;
 mod drawn_ends;
 mod english;

@@ -119,7 +119,7 @@ impl External {
         }
         let mut process = Process::start(&self.program).map_err(|error| error.to_string())?;
         let hello = greet(&mut process, &self.program)?;
-        let found = hello.version;
+        let found = base::text::one_line(&hello.version);
         let wanted = &self.version;
         if found == *wanted {
             return Ok(process);

@@ -90,6 +90,7 @@ impl House {
             quick: false,
             fresh: false,
             record: false,
+            replaces_damaged: false,
             portion: None,
             threads: Some(1),
             stop: &AtomicBool::new(false),

@@ -8,6 +8,7 @@ use super::traces::{GROUP_VALUES, sweep_of};
 use crate::StudyError;
 use crate::key::SweepKey;
 use crate::record::{Batch, Kept};
+use base::file::check_own;
 use base::hash::sha256;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -58,8 +59,9 @@ impl Journal {
     /// [`StudyError::Io`].
     pub fn open(path: &Path, key: &str) -> Result<(Self, BTreeMap<usize, Batch>), StudyError> {
         let io = |doing| StudyError::io(path, doing);
-        let options = OpenOptions::new().create(true).read(true).write(true).truncate(false).open(path);
-        let file = options.map_err(io("opening the journal"))?;
+        let mut options = OpenOptions::new();
+        options.create(true).read(true).write(true).truncate(false);
+        let file = check_own(path).and_then(|()| options.open(path)).map_err(io("opening the journal"))?;
         let mut journal = Self::new(path.to_owned(), file);
         let units = journal.read(key).map_err(io("reading the journal"))?;
         journal.file.set_len(journal.end).map_err(io("cutting the journal"))?;
@@ -158,7 +160,8 @@ impl Journal {
 
 /// About how many units the journal of `study` in `folder` holds, without understanding it: a run may be at work on it.
 pub fn journal_units(folder: &Path, study: &str) -> usize {
-    let bytes = fs::read(Journal::path(folder, study)).unwrap_or_default();
+    let path = Journal::path(folder, study);
+    let bytes = check_own(&path).and_then(|()| fs::read(path)).unwrap_or_default();
     bytes.split(|byte| *byte == b'\n').count().saturating_sub(2)
 }
 

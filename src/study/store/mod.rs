@@ -17,9 +17,10 @@ pub use traces::{GROUP_VALUES, TraceReader};
 
 use self::read::{Instances, Stored};
 use self::traces::TraceWriter;
-use super::StudyError;
+use super::error::{REMEDY, StudyError};
 use super::key::{KeyColumns, SweepKey};
 use super::record::{Batch, Kept, Timing};
+use base::file::check_own;
 use base::hash::{Hasher, sha256};
 use std::collections::BTreeMap;
 use std::fs;
@@ -157,6 +158,93 @@ fn read_parts(
     })
 }
 
+/// The parts of a study's records.
+const PARTS: [&str; 4] = ["trials", "preprocessing", "traces", "times"];
+
+/// What is sound of `study`'s records in `folder`, without traces, and the parts that are not.
+pub fn salvaged(
+    folder: &Path,
+    study: &str,
+    hashes: &BTreeMap<String, String>,
+) -> (Records, Vec<&'static str>) {
+    let instances = &mut Instances::default();
+    let mut damaged: Vec<&'static str> = Vec::new();
+    let rows = open(folder, study, "trials", hashes).and_then(|f| f.guarded(|file| file.trials(instances)));
+    let preprocessing = open(folder, study, "preprocessing", hashes)
+        .and_then(|f| f.guarded(|file| file.preprocessing(instances)));
+    let times = open(folder, study, "times", hashes).and_then(|f| f.guarded(|file| file.times(instances)));
+    let traces = KeptTraces::stored(folder, study, hashes);
+    let are_sound = [rows.is_ok(), preprocessing.is_ok(), traces.is_ok(), times.is_ok()];
+    damaged.extend(PARTS.iter().zip(are_sound).filter(|(_, is_sound)| !is_sound).map(|(part, _)| part));
+    let batch = Batch {
+        rows: rows.unwrap_or_default(),
+        preprocessing: preprocessing.unwrap_or_default(),
+        kept: Vec::new(),
+    };
+    (Records { batch, times: times.unwrap_or_default() }, damaged)
+}
+
+/// Renames the file at `path`, if there is one, so that it stays beside its place; its new name.
+///
+/// # Errors
+/// [`StudyError::Io`].
+pub fn set_aside(path: &Path) -> Result<Option<PathBuf>, StudyError> {
+    if path.symlink_metadata().is_err() {
+        return Ok(None);
+    }
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let mut free = (1..).map(|number| path.with_file_name(format!("{name}.damaged-{number}")));
+    let aside = free.find(|aside| aside.symlink_metadata().is_err()).expect("numbers do not end");
+    fs::rename(path, &aside).map_err(StudyError::io(path, "setting the file aside"))?;
+    Ok(Some(aside))
+}
+
+/// Sets aside these parts of `study`'s records in `folder`; their new names.
+///
+/// # Errors
+/// [`StudyError::Io`].
+pub fn set_parts_aside(folder: &Path, study: &str, parts: &[&str]) -> Result<Vec<PathBuf>, StudyError> {
+    let aside = parts.iter().map(|part| set_aside(&part_path(folder, study, part)));
+    Ok(aside.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
+}
+
+/// As [`set_parts_aside`], of all parts.
+///
+/// # Errors
+/// [`StudyError::Io`].
+pub fn set_records_aside(folder: &Path, study: &str) -> Result<Vec<PathBuf>, StudyError> {
+    set_parts_aside(folder, study, &PARTS)
+}
+
+/// Puts in their places the files of `study` that a run had written whole beside them when it was killed: records and manifest are
+/// then of one run again. `files` gives the hashes in a whole manifest, which is put at `manifest`. Only for who holds the folder's lock.
+pub fn finish_put(
+    folder: &Path,
+    study: &str,
+    manifest: &Path,
+    files: impl Fn(&Path) -> Option<BTreeMap<String, String>>,
+) {
+    let begin = format!("{}.", manifest.file_name().unwrap_or_default().to_string_lossy());
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let Some(end) = name.strip_prefix(&begin).filter(|end| end.ends_with(TEMPORARY)) else { continue };
+        let Some(hashes) = files(&entry.path()) else { continue };
+        let beside = |path: &Path| {
+            path.with_file_name(format!("{}.{end}", path.file_name().unwrap_or_default().to_string_lossy()))
+        };
+        let is_file = |path: &Path, hash: &String| hash_of(path).is_ok_and(|found| found == *hash);
+        let paths = hashes.iter().map(|(part, hash)| (part_path(folder, study, part), hash));
+        let left: Vec<(PathBuf, &String)> = paths.filter(|(path, hash)| !is_file(path, hash)).collect();
+        if left.iter().all(|(path, hash)| is_file(&beside(path), hash)) {
+            let staged = left.into_iter().map(|(path, _)| (beside(&path), path));
+            let manifest = (entry.path(), manifest.to_owned());
+            let files = staged.chain([manifest]).collect();
+            // What cannot be put there is refused as damage by who reads it.
+            let _ = Staged { files }.put();
+        }
+    }
+}
+
 /// Refuses records of `study` in `folder` of which some file is gone or has not its hash among `hashes`.
 ///
 /// # Errors
@@ -176,7 +264,9 @@ pub fn check_records(
 /// The SHA-256 of the file at `path`, which is not held in memory.
 fn hash_of(path: &Path) -> Result<String, StudyError> {
     let mut hasher = Hasher::default();
-    let copied = fs::File::open(path).and_then(|mut file| io::copy(&mut file, &mut hasher));
+    let copied = check_own(path)
+        .and_then(|()| fs::File::open(path))
+        .and_then(|mut file| io::copy(&mut file, &mut hasher));
     copied.map_err(|error| unreadable(path, &error))?;
     Ok(hasher.finish())
 }
@@ -207,8 +297,8 @@ fn check(path: &Path, found: &str, wanted: Option<&String>) -> Result<(), StudyE
         return Ok(());
     }
     let message = format!(
-        "{}: is not the file that the manifest names (sha256 {}… instead of {}…): truncated, edited, or from another spec; run \
-         the study again",
+        "{}: is not the file that the manifest names (sha256 {}… instead of {}…): truncated, edited, or from another spec; \
+         {REMEDY}",
         path.display(),
         &found[..12],
         wanted.get(..12).unwrap_or(wanted)
@@ -224,7 +314,7 @@ fn open(
     hashes: &BTreeMap<String, String>,
 ) -> Result<Stored, StudyError> {
     let path = part_path(folder, study, part);
-    let bytes = fs::read(&path).map_err(|e| unreadable(&path, &e))?;
+    let bytes = check_own(&path).and_then(|()| fs::read(&path)).map_err(|e| unreadable(&path, &e))?;
     check(&path, &sha256(&bytes), hashes.get(part))?;
     Stored::open(path, bytes)
 }
@@ -280,7 +370,10 @@ impl Staged {
         name.push(format!(".{}{TEMPORARY}", std::process::id()));
         let temporary = folder.join(name);
         self.files.push((temporary.clone(), path.to_owned()));
-        let mut out = Hashed { file: fs::File::create(&temporary).map_err(io())?, hasher: Hasher::default() };
+        // What was planted under the temporary name is replaced, not written through.
+        let _ = fs::remove_file(&temporary);
+        let mut out =
+            Hashed { file: fs::File::create_new(&temporary).map_err(io())?, hasher: Hasher::default() };
         write(&mut out)?;
         out.file.sync_all().map_err(io())?;
         Ok(out.hasher.finish())

@@ -6,6 +6,7 @@
 use super::describe::{CHOICE, SWEEP};
 use crate::StudyError;
 use crate::column::{self, Kind};
+use crate::error::REMEDY;
 use crate::key::{InstanceKey, InterpretationKey, Owner, SweepKey, SweepValue, Text, TrialKey};
 use crate::parquet::FrameReader;
 use crate::record::{Kept, PreprocessingRow, Row, Status, Timing, Values};
@@ -92,7 +93,7 @@ impl<T: Clone> Numbered<T> {
 
 /// A file that is not what was written.
 pub fn touched(path: &Path, what: &str) -> StudyError {
-    StudyError::Touched(format!("{}: {what}; run the study again", path.display()))
+    StudyError::Touched(format!("{}: {what}; {REMEDY}", path.display()))
 }
 
 /// What is said of a file that polars cannot make anything of.

@@ -63,6 +63,7 @@ fn facts(folder: &Path, threads: usize) -> BTreeMap<String, Vec<u8>> {
         quick: false,
         fresh: false,
         record: false,
+        replaces_damaged: false,
         portion: None,
         threads: Some(threads),
         stop: &AtomicBool::new(false),

@@ -206,6 +206,31 @@ pub const CASES: &[Case] = &[
         "ended before its result",
     ),
     case(
+        "orphans-without-a-mark",
+        "hello; query; (setsid env -i sh -c 'trap \"\" TERM; sleep 1004; :' &); sleep 0.1; exit 4",
+        "crashed",
+        "ended before its result",
+    ),
+    case(
+        "result-before-its-query",
+        r#"hello; id=1; result '[[0,1],[299,200]]'; sleep 100"#,
+        "crashed",
+        "before it had a query",
+    ),
+    case(
+        "too-many-questions",
+        r#"hello; query; printf '{"type":"ask","id":1,"valid":[[0,1]'; yes ',[0,1]' | head -n 100000 | tr -d '\n'; echo ']}'; query"#,
+        "crashed",
+        "asks 100001 questions at once; 100000 are accepted",
+    ),
+    case(
+        "escapes",
+        r#"hello; query; printf '\033]0;mine\007a\nb\033[2J' >&2; exit 3"#,
+        "crashed",
+        r"its log ends: ‹escape›]0;mine‹control character U+0007›a\nb‹escape›[2J",
+    ),
+    case("secrets", r#"hello; query; [ -z "$REPLAN_TEST_SECRET" ] || exit 9; straight; query"#, "solved", ""),
+    case(
         "better-than-optimal",
         r#"hello; query; result "[$start,$goal]" ',"cost":1.5'; query"#,
         "rejected",
