@@ -115,6 +115,7 @@ pub static METRICS: &[Metric] = &[
     metric("roadmap_checked_states", "Configurations checked for the roadmap", "", Better::Lower),
     metric("roadmap_edges", "Edges of the roadmap", "", Better::Neither),
     metric("sharp_edges", "Sharp edges", "", Better::Lower),
+    metric("shortest_path_cells", "Shortest path", "cells", Better::Neither),
     metric("shots", "Shots at the goal", "", Better::Neither),
     Metric {
         name: "solve_time_ms",

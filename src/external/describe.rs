@@ -42,7 +42,7 @@ fn corners(rule: base::grid::CornerRule) -> Corners {
 }
 
 fn grid(lattice: &LatticeWorld, any_angle: bool) -> Grid {
-    let grid = lattice.grid();
+    let grid = lattice.cells();
     let cell = |x, y| if grid.is_free_xy(x, y) { '.' } else { '@' };
     let row = |y: i32| (0..grid.width() as i32).map(|x| cell(x, y)).collect();
     Grid {
@@ -50,6 +50,7 @@ fn grid(lattice: &LatticeWorld, any_angle: bool) -> Grid {
         rows: (0..grid.height() as i32).map(row).collect(),
         corners: corners(lattice.corner_rule()),
         any_angle,
+        vertices: lattice.vertices(),
     }
 }
 

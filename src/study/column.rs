@@ -61,6 +61,7 @@ pub static COLUMNS: &[Column] = &[
     real("turn_interior_deg", "sum of interior angles at the path's bends"),
     count("bends", "points at which the path changes heading"),
     real("optimal_cost_cells", "least cost in the lattice's graph, found by the verifier"),
+    real("shortest_path_cells", "length of a shortest path between corners of cells, found by the verifier"),
     real("path_length_cm", "length of the path of the arm's tip"),
     real("optimal_length_cm", "least length in the planner's graph, found by the verifier"),
     count("hops", "hops from lattice point to lattice point along the path"),
