@@ -4,6 +4,7 @@ use super::world::{
     Cell, Corners, Elbow, Grid, Joint, Motion, Part, PlanarArm, Plane, Polyhedra, Polyhedron, Pose, Shape,
     Solid, Straight, World,
 };
+use base::grid::Vertices;
 use engine::geometry::planar::Touch;
 use engine::geometry::{Frame, Solid as EngineSolid, Vec3};
 use engine::kinematics::planar_2r::ElbowRule;
@@ -50,7 +51,7 @@ fn grid(lattice: &LatticeWorld, any_angle: bool) -> Grid {
         rows: (0..grid.height() as i32).map(row).collect(),
         corners: corners(lattice.corner_rule()),
         any_angle,
-        vertices: lattice.vertices(),
+        vertices: lattice.cornered().map(|_| Vertices::Corners),
     }
 }
 

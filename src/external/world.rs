@@ -76,12 +76,8 @@ pub struct Grid {
     /// Where configurations are: at the `centres` of cells, where the field is absent, or at their `corners`. Corner `[column, row]` is
     /// the one before both of the cell of that column and row, and there is one more of each than there are cells. A step may then run
     /// along edges of blocked cells, but not between two that share an edge; it may pass between two that touch at a corner.
-    #[serde(default, skip_serializing_if = "are_centres")]
-    pub vertices: Vertices,
-}
-
-fn are_centres(vertices: &Vertices) -> bool {
-    *vertices == Vertices::Centres
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub vertices: Option<Vertices>,
 }
 
 /// Which diagonal steps are refused.

@@ -139,6 +139,7 @@ pub static COLUMNS: &[Column] = &[
         "configurations checked for contact for all edges of the roadmap, before any query",
     ),
     real("straight_mm", "distance of the tool's or the particle's places at start and goal"),
+    count("smoothing_checks", "lines of sight that post-smoothing looked at"),
     count("sight_checks", "lines of sight between two cells that were looked at"),
     count("shots", "local paths to the goal that were tried before an expansion"),
     count("joins", "local paths that were tried to straighten the path"),

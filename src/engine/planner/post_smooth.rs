@@ -17,7 +17,7 @@ pub static ENTRY: Entry = Entry {
     about: "from one end on, drops every node of a path whose successor is still seen from the last node kept",
     revision: 1,
     needs: WorldKind::Lattice,
-    columns: &["sight_checks"],
+    columns: &["smoothing_checks"],
     settings: Accepted::shape::<PostSmooth>(),
     example: r#"
 line_of_sight = "exact_interior"
@@ -57,7 +57,7 @@ impl Stage for PostSmooth {
         if self.from == FirstEnd::Goal {
             nodes.reverse();
         }
-        let mut checks = plan.counts.get("sight_checks").map_or(0.0, |value| value.as_f64()) as u64;
+        let mut checks = 0;
         let mut kept = smoothing(nodes.len(), |i, j| {
             checks += 1;
             sees(world, self.line_of_sight.into(), nodes[i], nodes[j])
@@ -71,7 +71,7 @@ impl Stage for PostSmooth {
         }
         plan.path = kept.into_iter().map(|i| nodes[i].map(f64::from).to_vec()).collect();
         plan.cost = Some(path_length(&plan.path));
-        plan.counts.insert("sight_checks", Value::Count(checks));
+        plan.counts.insert("smoothing_checks", Value::Count(checks));
         plan
     }
 }

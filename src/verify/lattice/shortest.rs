@@ -111,7 +111,8 @@ fn in_sight(cells: &Grid2, from: [i32; 2], stack: &mut Vec<Part>, mut visit: imp
                 last += 1;
             }
             let run = [f64::from(first.unwrap_or(column)), f64::from(last + 1)];
-            column = last + 1;
+            // What is left of a run that goes on beyond all that is seen is not a run of its own.
+            column = if is_free(last + 1) { i32::MAX } else { last + 1 };
             if run[0] > high || run[1] < low {
                 continue;
             }

@@ -87,7 +87,8 @@ fn world(case: &Case) -> &LatticeWorld {
 /// What is true in the eight-connected graph that every planner of this kind searches.
 pub fn truth(case: &Case, optimum: Option<f64>, subject: &Subject) -> Truth {
     // Of those that search from both ends or by jump points, no search takes every cell.
-    let takes_all = !["bidirectional", "jps", "jps_plus"].contains(&subject.entry.name);
+    let takes_all = !["bidirectional", "jps", "jps_plus"].contains(&subject.entry.name)
+        && !subject.settings.table().contains_key("branching");
     Truth {
         optimum,
         is_exact: subject.planner.is_complete(),

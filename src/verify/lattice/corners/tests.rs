@@ -100,3 +100,12 @@ fn a_path_is_refused_where_it_is_not_what_it_claims() {
         assert!(refused.contains(message), "{points:?}: {refused:?} lacks {message:?}");
     }
 }
+
+#[test]
+fn an_open_map_is_seen_once() {
+    // As many intervals as rows: were any handed on twice, they would double from row to row.
+    let cells = Grid2::new(300, 200).unwrap();
+    let ends = [[300.0, 0.0], [299.0, 200.0]];
+    let least = CornerCase::new(&cells, [&ends[0], &ends[1]]).least().unwrap();
+    assert!((least.shortest - 200.0_f64.hypot(1.0)).abs() < 1e-9, "{least:?}");
+}
