@@ -115,7 +115,10 @@ pub static METRICS: &[Metric] = &[
     metric("roadmap_checked_states", "Configurations checked for the roadmap", "", Better::Lower),
     metric("roadmap_edges", "Edges of the roadmap", "", Better::Neither),
     metric("sharp_edges", "Sharp edges", "", Better::Lower),
+    metric("shortest_path_cells", "Shortest path", "cells", Better::Neither),
     metric("shots", "Shots at the goal", "", Better::Neither),
+    metric("sight_checks", "Lines of sight", "", Better::Lower),
+    metric("smoothing_checks", "Lines of sight of smoothing", "", Better::Lower),
     Metric {
         name: "solve_time_ms",
         label: "Time to a planner's result",

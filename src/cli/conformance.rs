@@ -31,7 +31,7 @@ pub struct Conformance {
 
 /// Families that pose small problems, by the kind of world, with what is laid over their examples.
 const WORLDS: [(Kind, &str, &str); 5] = [
-    (Kind::Grid, "random_cells", "corner_rule = \"forbid_any\""),
+    (Kind::Grid, "random_cells", "corner_rule = \"forbid_any\"\nvertices = \"centres\""),
     (Kind::PlanarArm, "arm_workspace", "obstacles_cm = [[-35, 20]]\nhop_check = \"continuous\""),
     (Kind::Cell, "cell_queries", "samples = 1\npath = \"joints\""),
     (Kind::Polyhedra, "random_polyhedra", ""),

@@ -8,7 +8,7 @@ use super::clear;
 use super::describe::{RASTER_MM, pose};
 use super::message::{Answer, Ask};
 use super::world::Pose;
-use base::grid::CornerRule;
+use base::grid::{CornerRule, corners_see};
 use engine::geometry::{Frame, Segment, Vec2, Vec3};
 use engine::kinematics::{Arm, Joints};
 use engine::shorten::path_length;
@@ -346,6 +346,10 @@ fn joins_cells(lattice: &LatticeWorld, from: &[f64], to: &[f64], any_angle: bool
     let [dx, dy] = [to_x - x, to_y - y];
     if [dx, dy] == [0, 0] {
         return false;
+    }
+    if let Some(cells) = lattice.cornered() {
+        let is_step = any_angle || (dx.abs() <= 1 && dy.abs() <= 1);
+        return is_step && corners_see(cells, [x, y], [to_x, to_y]);
     }
     if any_angle {
         return clear::is_clear(grid, rule, from, to);

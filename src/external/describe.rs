@@ -4,6 +4,7 @@ use super::world::{
     Cell, Corners, Elbow, Grid, Joint, Motion, Part, PlanarArm, Plane, Polyhedra, Polyhedron, Pose, Shape,
     Solid, Straight, World,
 };
+use base::grid::Vertices;
 use engine::geometry::planar::Touch;
 use engine::geometry::{Frame, Solid as EngineSolid, Vec3};
 use engine::kinematics::planar_2r::ElbowRule;
@@ -42,7 +43,7 @@ fn corners(rule: base::grid::CornerRule) -> Corners {
 }
 
 fn grid(lattice: &LatticeWorld, any_angle: bool) -> Grid {
-    let grid = lattice.grid();
+    let grid = lattice.cells();
     let cell = |x, y| if grid.is_free_xy(x, y) { '.' } else { '@' };
     let row = |y: i32| (0..grid.width() as i32).map(|x| cell(x, y)).collect();
     Grid {
@@ -50,6 +51,7 @@ fn grid(lattice: &LatticeWorld, any_angle: bool) -> Grid {
         rows: (0..grid.height() as i32).map(row).collect(),
         corners: corners(lattice.corner_rule()),
         any_angle,
+        vertices: lattice.cornered().map(|_| Vertices::Corners),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Worlds as data, so complete that a planner can rebuild the collision check. A world's units are in its fields' names.
 
+use base::grid::Vertices;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -72,6 +73,11 @@ pub struct Grid {
     /// Whether a step may join any two cells: it must then not cross the inside of a blocked cell, and where it runs through
     /// the corner of cells the rule of corners holds. Otherwise a step leads to one of the eight neighbours.
     pub any_angle: bool,
+    /// Where configurations are: at the `centres` of cells, where the field is absent, or at their `corners`. Corner `[column, row]` is
+    /// the one before both of the cell of that column and row, and there is one more of each than there are cells. A step may then run
+    /// along edges of blocked cells, but not between two that share an edge; it may pass between two that touch at a corner.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub vertices: Option<Vertices>,
 }
 
 /// Which diagonal steps are refused.

@@ -320,9 +320,9 @@ impl Study {
     /// Every column that its records can have.
     pub fn columns(&self) -> BTreeSet<&'static str> {
         let counted = self.contenders.iter().flat_map(|c| &c.stages).flat_map(|stage| stage.entry.columns);
-        let posed = self.groups.iter().flat_map(|group| group.family.columns);
+        let posed = self.groups.iter().flat_map(Group::columns);
         let timed = self.timing.iter().flat_map(|_| [super::clock::COLUMN].iter());
-        counted.chain(posed).chain(self.task.columns).chain(timed).copied().collect()
+        counted.chain(self.task.columns).chain(timed).copied().chain(posed).collect()
     }
 
     /// Trials that keep their traces: those that figures show, and `keep`.

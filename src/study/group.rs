@@ -6,6 +6,7 @@ use super::error::StudyError;
 use super::family::{Entry, Family};
 use super::inputs::Inputs;
 use super::key::SweepKey;
+use super::verification::CORNER_COLUMNS;
 use base::settings::{Faults, Settings, SettingsError};
 use std::sync::Arc;
 use toml::Table;
@@ -39,6 +40,14 @@ impl Group {
     /// The point of the sweeps over its settings that is called `key`; the first if none is.
     pub fn point(&self, key: &SweepKey) -> &SweepPoint {
         self.points.iter().find(|point| point.key == *key).unwrap_or(&self.points[0])
+    }
+
+    /// The columns of trials on its problems: those of its family and, between corners of cells, the length of a shortest path.
+    pub fn columns(&self) -> impl Iterator<Item = &'static str> {
+        let is_cornered =
+            self.settings.table().get("vertices").and_then(toml::Value::as_str) == Some("corners");
+        let more = if is_cornered { CORNER_COLUMNS } else { &[] };
+        self.family.columns.iter().chain(more).copied()
     }
 
     /// The family at the point `at` of the sweeps, under the interpretation `point`.

@@ -16,17 +16,22 @@ use super::record::Status;
 use engine::planner::{Counts, Ending, Plan, Request, Trace, Value};
 use engine::shorten::{TurnAngle, bends, path_length, turn_sum_deg};
 use engine::space::{LatticeWorld, World};
-use verify::lattice::{Answer, Case, Landmarks};
+use verify::lattice::{Answer, Case, CornerCase, Landmarks, Least};
 
 /// The columns of every trial on a lattice.
 pub const LATTICE_COLUMNS: &[&str] =
     &["path_cost_cells", "turn_exterior_deg", "turn_interior_deg", "bends", "optimal_cost_cells"];
+
+/// The columns of every trial between corners of cells, besides.
+pub const CORNER_COLUMNS: &[&str] = &["shortest_path_cells"];
 
 /// What the verifier found out about a query before any planner ran.
 #[derive(Debug)]
 pub enum Truth {
     /// On a lattice: the least cost in the world's graph; `None` if the goal cannot be reached.
     Lattice(Option<f64>),
+    /// On a lattice of corners: the least costs; `None` if the goal cannot be reached.
+    Corners(Option<Least>),
     /// Among polyhedra: the solids, and the arm if there is one.
     Polyhedra(Box<polyhedra::Truth>),
     /// On a roadmap: its robot and surroundings.
@@ -41,7 +46,9 @@ impl Truth {
     pub fn optimal(&self) -> Option<f64> {
         match self {
             Self::Lattice(optimal) => *optimal,
-            Self::Polyhedra(_) | Self::Roadmap(_) | Self::Arm => panic!("a lattice is tested"),
+            Self::Corners(_) | Self::Polyhedra(_) | Self::Roadmap(_) | Self::Arm => {
+                panic!("a lattice is tested")
+            }
         }
     }
 }
@@ -67,7 +74,8 @@ pub struct Guide(Option<Landmarks>);
 impl Guide {
     /// For these queries in `world`.
     pub fn new(world: &World, queries: &[Query]) -> Self {
-        let lattice = world.as_lattice().filter(|_| queries.len() >= MANY);
+        let lattice = world.as_lattice().filter(|lattice| lattice.cornered().is_none());
+        let lattice = lattice.filter(|_| queries.len() >= MANY);
         // A query may begin in a part of the map that no other query is in.
         let middle = queries.get(queries.len() / 2);
         Self(lattice.zip(middle).and_then(|(lattice, q)| Landmarks::new(&case(lattice, &q.start, &q.goal))))
@@ -79,6 +87,9 @@ pub fn truth(world: &World, query: &Query, guide: &Guide) -> Truth {
     match world {
         // Its optimum depends on the planner's neighbourhood and is found when a plan is verified.
         World::Arm(_) => Truth::Arm,
+        World::Lattice(lattice) if let Some(cells) = lattice.cornered() => {
+            Truth::Corners(CornerCase::new(cells, query.ends()).least())
+        }
         World::Lattice(lattice) => {
             Truth::Lattice(case(lattice, &query.start, &query.goal).optimal_cost_by(guide.0.as_ref()))
         }
@@ -93,6 +104,9 @@ pub fn verify(request: &Request<'_>, plan: &Plan, pipeline: &Pipeline, truth: &T
         (World::Arm(world), _) => arm::verify(world, request, plan, pipeline),
         (World::Lattice(lattice), Truth::Lattice(optimal)) => {
             verify_lattice(lattice, request, plan, pipeline, *optimal)
+        }
+        (World::Lattice(lattice), Truth::Corners(least)) => {
+            verify_corners(lattice, request, plan, pipeline, *least)
         }
         (World::Polyhedra(world), Truth::Polyhedra(truth)) => polyhedra::verify(world, request, plan, truth),
         (_, Truth::Roadmap(case)) => case.verify(request, plan),
@@ -112,10 +126,37 @@ fn verify_lattice(
     optimal: Option<f64>,
 ) -> Verified {
     let case = case(lattice, request.start, request.goal);
-    let mut values = Counts::new();
-    if let Some(optimal) = optimal {
-        values.insert("optimal_cost_cells", Value::Real(optimal));
-    }
+    let known = optimal.map(|optimal| ("optimal_cost_cells", optimal));
+    let refusal = |answer: &Answer<'_>| case.refuse_path(answer, optimal);
+    verify_on_grid(request, plan, pipeline, known.as_slice(), refusal, || case.refuse_no_path(optimal))
+}
+
+fn verify_corners(
+    lattice: &LatticeWorld,
+    request: &Request<'_>,
+    plan: &Plan,
+    pipeline: &Pipeline,
+    least: Option<Least>,
+) -> Verified {
+    let case = CornerCase::new(lattice.cells(), [request.start, request.goal]);
+    let known = least.map(|Least { in_graph, shortest }| {
+        [("optimal_cost_cells", in_graph), ("shortest_path_cells", shortest)]
+    });
+    let refusal = |answer: &Answer<'_>| case.refuse_path(answer, least);
+    verify_on_grid(request, plan, pipeline, known.as_slice().as_flattened(), refusal, || {
+        case.refuse_no_path(least)
+    })
+}
+
+fn verify_on_grid(
+    request: &Request<'_>,
+    plan: &Plan,
+    pipeline: &Pipeline,
+    known: &[(&'static str, f64)],
+    refuse_path: impl Fn(&Answer<'_>) -> Option<String>,
+    refuse_no_path: impl Fn() -> Option<String>,
+) -> Verified {
+    let mut values: Counts = known.iter().map(|(name, value)| (*name, Value::Real(*value))).collect();
     let untouched = pipeline.stages.is_empty();
     let answer = Answer {
         path: &plan.path,
@@ -125,8 +166,8 @@ fn verify_lattice(
         sight_corners: pipeline.stages.iter().find_map(|stage| stage.sight_corners()),
     };
     let refusal = refuse_ending(request, plan).or_else(|| match plan.ending {
-        Ending::Solved => case.refuse_path(&answer, optimal),
-        Ending::NoPath if pipeline.planner.is_complete() => case.refuse_no_path(optimal),
+        Ending::Solved => refuse_path(&answer),
+        Ending::NoPath if pipeline.planner.is_complete() => refuse_no_path(),
         _ => None,
     });
     if plan.ending == Ending::Solved && refusal.is_none() {

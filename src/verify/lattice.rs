@@ -4,10 +4,13 @@
 //! in integers: it enters a cell if it meets the cell's open interior. Where it passes exactly through the corner
 //! between two diagonal cells, the corner rule decides by the two cells that flank it.
 
+mod corners;
 mod landmarks;
 mod optimum;
 mod search;
+mod shortest;
 
+pub use corners::{CornerCase, Least};
 pub use landmarks::Landmarks;
 
 use base::grid::{CornerRule, Grid2};

@@ -22,6 +22,7 @@ mod cli_told;
 mod cli_witness;
 mod committed;
 mod conformance;
+mod corners;
 mod counted_interpretations;
 mod crosscheck;
 mod damage;

@@ -12,6 +12,7 @@ use engine::space::{World, WorldKind};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 use std::sync::LazyLock;
+use verify::lattice::Least;
 use verify::plane;
 
 /// A planner with the settings that it was built from.
@@ -36,6 +37,8 @@ pub struct Case {
 enum Posed {
     /// The least cost.
     Lattice(Option<f64>),
+    /// The least costs.
+    Corners(Option<Least>),
     /// The obstacles.
     Arm(Vec<crate::shapes::Placed>),
     /// The samples, and the verifier's map.
@@ -60,6 +63,7 @@ pub struct Truth {
 /// A sample of worlds of `kind`, some with the goal walled off; drawn once for all tests.
 pub fn worlds(kind: WorldKind) -> &'static [Case] {
     static ARM: LazyLock<Vec<Case>> = LazyLock::new(|| (0..48).map(arm::arm).collect());
+    static CORNERS: LazyLock<Vec<Case>> = LazyLock::new(|| (0..150).map(lattice::corners).collect());
     static LATTICE: LazyLock<Vec<Case>> = LazyLock::new(|| (0..150).map(lattice::lattice).collect());
     static POLYHEDRA: LazyLock<Vec<Case>> = LazyLock::new(|| (0..60).map(polyhedra::polyhedra).collect());
     static ROADMAP: LazyLock<Vec<Case>> = LazyLock::new(|| (0..60).map(roadmap::roadmap).collect());
@@ -67,7 +71,8 @@ pub fn worlds(kind: WorldKind) -> &'static [Case] {
     match kind.name() {
         "arm" => &ARM,
         "arm among polyhedra" => &RODS,
-        "lattice" => &LATTICE,
+        "lattice" | "lattice of centres" => &LATTICE,
+        "lattice of corners" => &CORNERS,
         "polyhedra" => &POLYHEDRA,
         "roadmap" => &ROADMAP,
         other => panic!("conformance has no sample of {other} worlds; add one to tests/it/worlds"),
@@ -97,6 +102,7 @@ impl Case {
     pub fn truth(&self, subject: &Subject) -> Truth {
         match &self.posed {
             Posed::Lattice(optimum) => lattice::truth(self, *optimum, subject),
+            Posed::Corners(least) => lattice::truth_at_corners(*least, subject),
             Posed::Arm(_) => arm::truth(self, subject),
             Posed::Roadmap(places, plane) => roadmap::truth(self, places, plane, subject),
             Posed::Polyhedra(scene) => polyhedra::truth(self, scene, subject),
@@ -112,6 +118,9 @@ impl Case {
             Posed::Lattice(optimum) => {
                 lattice::refusal(self, *optimum, plan, [!subject.planner.is_any_angle(), optimal])
             }
+            Posed::Corners(least) => {
+                lattice::refusal_at_corners(self, *least, plan, [!subject.planner.is_any_angle(), optimal])
+            }
             Posed::Arm(solids) => arm::refusal(self, solids, plan, steps, optimal),
             Posed::Roadmap(places, plane) => roadmap::refusal(self, places, plane, plan, Some(subject)),
             Posed::Polyhedra(scene) => polyhedra::refusal(self, scene, plan),
@@ -123,6 +132,7 @@ impl Case {
     pub fn refusal_off_graph(&self, plan: &Plan) -> Option<String> {
         match &self.posed {
             Posed::Lattice(optimum) => lattice::refusal(self, *optimum, plan, [false; 2]),
+            Posed::Corners(least) => lattice::refusal_at_corners(self, *least, plan, [false; 2]),
             Posed::Arm(solids) => arm::refusal(self, solids, plan, None, false),
             Posed::Roadmap(places, plane) => roadmap::refusal(self, places, plane, plan, None),
             Posed::Polyhedra(scene) => polyhedra::refusal(self, scene, plan),
@@ -133,7 +143,7 @@ impl Case {
     /// Starts and goals that cannot be posed.
     pub fn impossible(&self) -> Vec<(Vec<f64>, Vec<f64>)> {
         let points = match &self.posed {
-            Posed::Lattice(_) => lattice::impossible(self),
+            Posed::Lattice(_) | Posed::Corners(_) => lattice::impossible(self),
             Posed::Arm(solids) => arm::impossible(solids),
             Posed::Roadmap(..) => roadmap::impossible(),
             Posed::Polyhedra(_) => polyhedra::impossible(self),

@@ -11,6 +11,7 @@
 mod built;
 mod columns;
 mod components;
+mod corners;
 mod cubic;
 mod error;
 mod image;
@@ -27,6 +28,7 @@ mod text;
 pub use built::{maze, rooms, streets};
 pub use columns::{Bits, Columns, MAX_REACH_CELLS};
 pub use components::{Components, components};
+pub use corners::{Vertices, corner_moves, corner_vertices, corners_see};
 pub use cubic::{Grid3, STEPS_26};
 pub use error::GridError;
 pub use moves::{CornerRule, DIRECTIONS, Moves};
@@ -34,7 +36,7 @@ pub use movingai::{Scenario, parse_movingai_map, parse_scenarios, read_movingai_
 pub use offsets::Offsets;
 pub use order::NeighbourOrder;
 pub use picture::{FileMap, read_map};
-pub use random::{bars, independent_cells, rectangles};
+pub use random::{Blocking, bars, blocked_cells, independent_cells, rectangles};
 pub use sight::Sight;
 pub use text::{parse_text_map, read_text_map, to_text_map};
 

@@ -7,6 +7,60 @@ use super::{Grid2, GridError};
 use crate::seed::Stream;
 use rand::RngExt as _;
 
+/// Which cells of a map are blocked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Blocking {
+    /// Each with this probability, independently.
+    Independent(f64),
+    /// So many, all sets of as many cells alike; all of them, if they are fewer.
+    Count(u32),
+    /// Those that are hit by so many draws with replacement.
+    Draws(u32),
+}
+
+/// A `size_cells` = [width, height] map whose cells are blocked as `blocking` has it, but for those within `border_cells` of the rim.
+///
+/// # Errors
+/// [`GridError::Size`] as for [`Grid2::new`].
+///
+/// # Panics
+/// If a probability is not in 0..=1, draws are to hit a map that is all border, or `keep_free` names a cell outside.
+pub fn blocked_cells(
+    stream: &mut Stream,
+    size_cells: [u32; 2],
+    blocking: Blocking,
+    border_cells: u32,
+    keep_free: &[u32],
+) -> Result<Grid2, GridError> {
+    let [width, height] = size_cells;
+    let mut grid = Grid2::new(width, height)?;
+    let is_inner = |at: u32, side: u32| border_cells <= at && at + border_cells < side;
+    let mut inner: Vec<u32> = (0..grid.cell_count())
+        .filter(|cell| is_inner(cell % width, width) && is_inner(cell / width, height))
+        .collect();
+    match blocking {
+        Blocking::Independent(share) => {
+            for cell in inner {
+                grid.set_blocked(cell, stream.random_bool(share));
+            }
+        }
+        Blocking::Count(count) => {
+            for place in 0..inner.len().min(count as usize) {
+                let drawn = stream.random_range(place as u32..inner.len() as u32);
+                inner.swap(place, drawn as usize);
+                grid.set_blocked(inner[place], true);
+            }
+        }
+        Blocking::Draws(count) => {
+            for _ in 0..count {
+                grid.set_blocked(inner[stream.random_range(0..inner.len() as u32) as usize], true);
+            }
+        }
+    }
+    free(&mut grid, keep_free);
+    Ok(grid)
+}
+
 /// A `size_cells` = [width, height] map whose cells are blocked independently with probability `blocked_share`.
 ///
 /// # Errors
@@ -20,12 +74,7 @@ pub fn independent_cells(
     blocked_share: f64,
     keep_free: &[u32],
 ) -> Result<Grid2, GridError> {
-    let mut grid = Grid2::new(size_cells[0], size_cells[1])?;
-    for cell in 0..grid.cell_count() {
-        grid.set_blocked(cell, stream.random_bool(blocked_share));
-    }
-    free(&mut grid, keep_free);
-    Ok(grid)
+    blocked_cells(stream, size_cells, Blocking::Independent(blocked_share), 0, keep_free)
 }
 
 /// A map with `count` filled rectangles whose sides are uniform in `side_cells` = [least, most] and whose lower
@@ -103,6 +152,27 @@ mod tests {
         let grid = independent_cells(&mut seed::stream(4), [200, 200], 0.3, &[]).unwrap();
         let blocked = f64::from(grid.cell_count() - grid.free_count()) / f64::from(grid.cell_count());
         assert!((blocked - 0.3).abs() < 0.01, "seed 4: {blocked}"); // four standard errors
+    }
+
+    #[test]
+    fn cells_are_blocked_by_chance_by_count_or_by_draws_and_never_on_the_border() {
+        let mut seen = [0.0; 3];
+        for seed in 0..50 {
+            let draw = |blocking| blocked_cells(&mut seed::stream(seed), [30, 20], blocking, 2, &[]).unwrap();
+            let grids = [Blocking::Independent(0.4), Blocking::Count(160), Blocking::Draws(160)].map(draw);
+            for (grid, seen) in grids.iter().zip(&mut seen) {
+                *seen += f64::from(grid.cell_count() - grid.free_count()) / 50.0;
+                let is_border = |[x, y]: [i32; 2]| x < 2 || y < 2 || x >= 28 || y >= 18;
+                let border = (0..600).filter(|cell| is_border(grid.xy(*cell)));
+                assert!(border.into_iter().all(|cell| grid.is_free(cell)), "seed {seed}");
+            }
+            assert_eq!(grids[1].free_count(), 600 - 160, "seed {seed}");
+        }
+        // Of 416 cells: 0.4 of them, and 1 - (1 - 1/416)^160 of them; four standard errors of 50 maps.
+        assert!((seen[0] - 166.4).abs() < 5.7, "{seen:?}");
+        assert!((seen[2] - 132.9).abs() < 2.9, "{seen:?}");
+        let all = blocked_cells(&mut seed::stream(1), [5, 4], Blocking::Count(99), 1, &[]).unwrap();
+        assert_eq!(all.free_count(), 14, "no more than there are");
     }
 
     #[test]

@@ -1,10 +1,12 @@
 //! What the any-angle planners share: their settings, their memory, their plans.
 
-use super::lattice::{self, Posed, SightSetting, TiesSetting, sees};
+use super::lattice::{self, Posed, SightSetting, TiesSetting, check_sight, sees};
 use super::pool::Pool;
 use super::{Invalid, Plan, Planner, Request, Value};
-use crate::search::{AnyAngle, Closings, Heap, Observer, Seen, Sighted, VisitOrder, When};
-use base::settings::{Settings, SettingsError};
+use crate::search::{
+    AnyAngle, AnyAngleRules, Branching, Closings, Heap, Observer, Seen, Sighted, VisitOrder, When,
+};
+use base::settings::{Faults, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -21,13 +23,59 @@ pub(super) struct AnyAngleSettings {
     /// The order among equal f.
     #[serde(default)]
     ties: TiesSetting,
+    /// What the distance to the goal is multiplied by; 1 if absent. Below 1, more is expanded and paths tend to be shorter.
+    weight: Option<f64>,
+    /// Whether a closed node to which a better way is found is expanded again; only where `theta_star` looks at lines of sight.
+    #[serde(default)]
+    reopen: bool,
+    /// How many neighbours a node has at most; `eight` if absent.
+    branching: Option<BranchingSetting>,
+    /// Which lines of sight are counted; those that are `looked_at` if absent.
+    counted_sight: Option<CountedSetting>,
     #[serde(skip)]
     pool: Pool<AnyAngle<Heap>>,
+}
+
+/// How many neighbours a node has, as settings write it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum BranchingSetting {
+    /// Along rows and columns.
+    Four,
+    /// Diagonally too.
+    Eight,
+    /// Those that a knight reaches in chess too, where they are seen.
+    Sixteen,
+}
+
+/// Which lines of sight are counted, as settings write it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum CountedSetting {
+    /// Those that are looked at: a way that would not improve is not.
+    LookedAt,
+    /// One to every successor that is not closed, as the printed Theta* has it.
+    Printed,
 }
 
 /// The planner that looks at lines of sight at the time `when`.
 pub(super) fn built(settings: &Settings, when: When) -> Result<Box<dyn Planner>, SettingsError> {
     let read: AnyAngleSettings = settings.read()?;
+    let mut faults = Faults::default();
+    if let Some(weight) = read.weight.filter(|weight| !weight.is_finite() || *weight < 0.0) {
+        let message = format!("weight is {weight}; 0 or any larger number is accepted");
+        faults.add(settings.error_at("weight", message));
+    }
+    if when == When::Taken {
+        let printed = read.counted_sight.filter(|counted| *counted == CountedSetting::Printed);
+        for (key, is_set) in [("reopen", read.reopen), ("counted_sight", printed.is_some())] {
+            if is_set {
+                let message = format!("{key} is for lines of sight to successors; theta_star accepts it");
+                faults.add(settings.error_at(key, message));
+            }
+        }
+    }
+    faults.done()?;
     Ok(Box::new(Timed { settings: read, when }))
 }
 
@@ -47,7 +95,7 @@ impl Planner for Timed {
     }
 
     fn is_complete(&self) -> bool {
-        true
+        self.settings.branching != Some(BranchingSetting::Four)
     }
 
     fn is_any_angle(&self) -> bool {
@@ -59,6 +107,7 @@ impl AnyAngleSettings {
     /// The plan of a search that looks at lines of sight at the time `when`; its path lists corners alone.
     fn plan(&self, request: &Request<'_>, when: When) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
+        check_sight(posed.world, self.line_of_sight.into())?;
         let grid = posed.world.grid();
         let closings = Closings::default();
         let mut watching = (VisitOrder::default(), closings.one_side(0));
@@ -84,8 +133,20 @@ impl AnyAngleSettings {
         let sight = self.line_of_sight.into();
         let sees = |from: u32, to: u32| sees(world, sight, grid.xy(from), grid.xy(to));
         let on = Sighted { grid, moves: world.moves(), sees };
+        let rules = AnyAngleRules {
+            when,
+            weight: self.weight.unwrap_or(1.0),
+            reopens: self.reopen,
+            branching: match self.branching {
+                Some(BranchingSetting::Four) => Branching::Four,
+                Some(BranchingSetting::Sixteen) => Branching::Sixteen,
+                Some(BranchingSetting::Eight) | None => Branching::Eight,
+            },
+            counts_all: self.counted_sight == Some(CountedSetting::Printed),
+            max_expansions: expansions,
+        };
         let mut search = self.pool.any(|| AnyAngle::new(Heap::new(self.ties.into())));
-        let seen = search.solve(&on, when, [posed.start, posed.goal], expansions, observer);
+        let seen = search.solve(&on, rules, [posed.start, posed.goal], observer);
         self.pool.keep(search);
         seen
     }

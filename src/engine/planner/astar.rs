@@ -1,11 +1,11 @@
-//! A* on a lattice with the Euclidean heuristic.
+//! A* on a lattice with the Euclidean or the octile heuristic.
 
 use super::lattice::{self, COLUMNS_DISTINCT, Posed, TiesSetting, UPDATE};
 use super::pool::Pool;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
-    Closings, Combined, GridGraph, Heap, Observer, Octile, Report, Rules, Search, SideInputs, Stop,
-    VisitOrder, euclidean_to, falling, weighted,
+    Closings, Combined, Estimate, GridGraph, Heap, Observer, Octile, Report, Rules, Search, SideInputs, Stop,
+    VisitOrder, euclidean_to, falling, octile_to, weighted,
 };
 use crate::space::WorldKind;
 use base::grid::NeighbourOrder;
@@ -51,6 +51,8 @@ struct Astar {
     /// The order in which neighbours are generated; it decides among the first opened of equal f.
     #[serde(default)]
     neighbours: NeighbourOrder,
+    /// The distance to the goal that h is; `euclidean` if absent.
+    heuristic: Option<Heuristic>,
     #[serde(skip)]
     pool: Pool<Search<Octile, Heap>>,
 }
@@ -69,6 +71,16 @@ enum Weight {
     Ruled(Rule),
 }
 
+/// The distance that h is.
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+enum Heuristic {
+    /// The straight line.
+    Euclidean,
+    /// The shortest path by the eight moves, were no cell blocked.
+    Octile,
+}
+
 #[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Rule {
@@ -79,11 +91,27 @@ enum Rule {
 impl Astar {
     /// Searches under the settings' weight; `observer` watches.
     fn run<O: Observer>(&self, posed: &Posed<'_>, expansions: u64, observer: &mut O) -> Report<Octile> {
+        let (grid, goal) = (posed.world.grid(), posed.goal);
+        match self.heuristic.unwrap_or(Heuristic::Euclidean) {
+            Heuristic::Euclidean => self.run_by(posed, euclidean_to(grid, goal), expansions, observer),
+            Heuristic::Octile => self.run_by(posed, octile_to(grid, goal), expansions, observer),
+        }
+    }
+
+    fn run_by<O: Observer>(
+        &self,
+        posed: &Posed<'_>,
+        h: impl Fn(u32) -> f64,
+        expansions: u64,
+        observer: &mut O,
+    ) -> Report<Octile> {
         match self.weight {
-            Weight::Constant(weight) => self.run_with(posed, weighted(weight), expansions, observer),
+            Weight::Constant(weight) => {
+                self.run_with(posed, Combined { h, combine: weighted(weight) }, expansions, observer)
+            }
             Weight::Ruled(Rule::Falling) => {
-                let apart = euclidean_to(posed.world.grid(), posed.goal)(posed.start);
-                self.run_with(posed, falling(apart), expansions, observer)
+                let combine = falling(h(posed.start));
+                self.run_with(posed, Combined { h, combine }, expansions, observer)
             }
         }
     }
@@ -91,13 +119,11 @@ impl Astar {
     fn run_with<O: Observer>(
         &self,
         posed: &Posed<'_>,
-        combine: impl Fn(f64, f64) -> f64,
+        estimate: impl Estimate<Octile>,
         expansions: u64,
         observer: &mut O,
     ) -> Report<Octile> {
-        let grid = posed.world.grid();
         let goal = posed.goal;
-        let estimate = Combined { h: euclidean_to(grid, goal), combine };
         let terms = SideInputs {
             graph: &mut GridGraph::in_order(posed.world.moves(), self.neighbours),
             estimate: &estimate,

@@ -1,6 +1,6 @@
 //! Zhang's inflection-point deletion as a stage.
 
-use super::lattice::{SightCorners, SightSetting, lattice, sees_by};
+use super::lattice::{SightCorners, SightSetting, lattice, sees_under};
 use super::{Build, Ending, Entry, Plan, Request, Stage};
 use crate::shorten::{bends, inflection_deletion, path_length};
 use crate::space::WorldKind;
@@ -48,7 +48,7 @@ impl Stage for DeleteInflections {
         let corner_rule = self.sight_corners.own().unwrap_or(world.corner_rule());
         let mut refused = Vec::new();
         let kept = inflection_deletion(corners.len(), |i, j| {
-            let is_free = sees_by(world.grid(), corner_rule, sight, corners[i], corners[j]);
+            let is_free = sees_under(world, corner_rule, sight, corners[i], corners[j]);
             if !is_free && request.trace {
                 refused.extend([corners[i], corners[j]].concat().into_iter().map(f64::from));
             }

@@ -20,7 +20,7 @@ pub static ENTRY: Entry = Entry {
     name: "jps",
     about: "jump point search, online, with block-based scanning and intermediate pruning: least cost",
     revision: 1,
-    needs: WorldKind::Lattice,
+    needs: WorldKind::CentreLattice,
     columns: COLUMNS,
     settings: Accepted::shape::<JumpPoints>(),
     example: "preparation = \"kept\"",

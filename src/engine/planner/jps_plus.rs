@@ -21,7 +21,7 @@ pub static ENTRY: Entry = Entry {
     name: "jps_plus",
     about: "jump point search over a table of distances to jump points, made once for each map: least cost",
     revision: 1,
-    needs: WorldKind::Lattice,
+    needs: WorldKind::CentreLattice,
     columns: COLUMNS,
     settings: Accepted::shape::<JumpPoints>(),
     example: "preparation = \"kept\"",

@@ -3,7 +3,7 @@
 use super::{Counts, Ending, Invalid, Plan, Request, Trace, Value};
 use crate::search::{Closing, Closings, Cost, Counters, Outcome, Ties, Update};
 use crate::space::{LatticeWorld, World};
-use base::grid::{CornerRule, Grid2, Sight};
+use base::grid::{CornerRule, Grid2, Sight, corners_see};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -25,6 +25,8 @@ pub(super) enum TiesSetting {
     Lifo,
     /// The node with the larger g; among those the one that was put in first.
     LargerG,
+    /// The node with the smaller g; among those the one that was put in first.
+    SmallerG,
 }
 
 impl From<TiesSetting> for Ties {
@@ -33,11 +35,13 @@ impl From<TiesSetting> for Ties {
             TiesSetting::Fifo => Self::Fifo,
             TiesSetting::Lifo => Self::Lifo,
             TiesSetting::LargerG => Self::LargerG,
+            TiesSetting::SmallerG => Self::SmallerG,
         }
     }
 }
 
-/// Which cells a line of sight must find free, as settings write it.
+/// Which cells a line of sight must find free, as settings write it. Between corners of cells only `exact_interior` is accepted: a
+/// line may run along a blocked cell, but not between two that share an edge.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum SightSetting {
@@ -103,6 +107,17 @@ impl<'a> Posed<'a> {
     }
 }
 
+/// That lines of sight in `world` are looked at by a definition that its vertices have.
+///
+/// # Errors
+/// [`Invalid`] between corners of cells, if it is not that of [`corners_see`].
+pub(super) fn check_sight(world: &LatticeWorld, sight: Sight) -> Result<(), Invalid> {
+    if world.cornered().is_none() || sight == Sight::ExactInterior {
+        return Ok(());
+    }
+    Err(Invalid("between corners of cells, line_of_sight = \"exact_interior\" is accepted".to_owned()))
+}
+
 /// The lattice that `world` is; a checked study gives these planners no other kind.
 pub(super) fn lattice(world: &World) -> &LatticeWorld {
     world.as_lattice().expect("a checked study gives a planner the kind of world it needs")
@@ -165,11 +180,25 @@ pub(super) fn closings(grid: &Grid2, closings: Closings) -> Trace {
 
 /// Whether the segment is free by the line of sight and cuts no corner that the world's rule forbids.
 pub(super) fn sees(world: &LatticeWorld, sight: Sight, from: [i32; 2], to: [i32; 2]) -> bool {
-    sees_by(world.grid(), world.corner_rule(), sight, from, to)
+    sees_under(world, world.corner_rule(), sight, from, to)
+}
+
+/// The same under another rule; between corners of cells there is one alone.
+pub(super) fn sees_under(
+    world: &LatticeWorld,
+    rule: CornerRule,
+    sight: Sight,
+    from: [i32; 2],
+    to: [i32; 2],
+) -> bool {
+    match world.cornered() {
+        Some(cells) => corners_see(cells, from, to),
+        None => sees_by(world.grid(), rule, sight, from, to),
+    }
 }
 
 /// Whether the segment is free by the line of sight and cuts no corner that `corners` forbids.
-pub(super) fn sees_by(grid: &Grid2, corners: CornerRule, sight: Sight, from: [i32; 2], to: [i32; 2]) -> bool {
+fn sees_by(grid: &Grid2, corners: CornerRule, sight: Sight, from: [i32; 2], to: [i32; 2]) -> bool {
     let is_free = |[x, y]: [i32; 2]| grid.is_free_xy(x, y);
     if !sight.all_cells(from, to, is_free) {
         return false;

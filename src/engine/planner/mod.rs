@@ -5,14 +5,17 @@
 //! here knows studies or records; nothing outside an entry's file knows its settings.
 
 mod any_angle;
+mod ap_theta_star;
 mod astar;
 mod astar_octile;
 mod bidirectional;
 mod bspline;
 mod chaos_astar;
+mod corners;
 mod delete_inflections;
 mod direct;
 mod entry;
+mod field_dstar;
 mod joint_astar;
 mod joint_bspline;
 mod jps;
@@ -28,6 +31,7 @@ mod lazy_theta_star;
 mod mirrors;
 mod polyhedra;
 mod pool;
+mod post_smooth;
 mod posture;
 mod posture_turns;
 mod roadmap;
@@ -38,12 +42,14 @@ mod straighten;
 mod straighten_from_previous;
 mod theta_star;
 mod tips;
+mod visibility_astar;
 mod visibility_edges;
 
 pub use entry::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Stage, Trace, Value};
 
 /// Every planner and stage, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
+    &ap_theta_star::ENTRY,
     &astar::ENTRY,
     &astar_octile::ENTRY,
     &bidirectional::ENTRY,
@@ -51,6 +57,7 @@ pub static REGISTRY: &[&Entry] = &[
     &chaos_astar::ENTRY,
     &delete_inflections::ENTRY,
     &direct::ENTRY,
+    &field_dstar::ENTRY,
     &joint_astar::ENTRY,
     &joint_bspline::ENTRY,
     &jps::ENTRY,
@@ -59,6 +66,7 @@ pub static REGISTRY: &[&Entry] = &[
     &lattice26_astar::ENTRY,
     &lattice_astar::ENTRY,
     &lazy_theta_star::ENTRY,
+    &post_smooth::ENTRY,
     &posture::ENTRY,
     &posture_turns::ENTRY,
     &roadmap_astar::ENTRY,
@@ -67,6 +75,7 @@ pub static REGISTRY: &[&Entry] = &[
     &straighten::ENTRY,
     &straighten_from_previous::ENTRY,
     &theta_star::ENTRY,
+    &visibility_astar::ENTRY,
     &visibility_edges::ENTRY,
 ];
 

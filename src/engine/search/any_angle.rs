@@ -3,20 +3,21 @@
 //! Nodes are expanded as by A* with the Euclidean distance, but the way to a successor goes straight from the parent of
 //! the node expanded, where that parent sees it. So g is the length of a polyline, whose corners
 //! [`Outcome::Solved`] lists; it is not the shortest polyline in general. [`When`] says at what time a line of sight is
-//! looked at. Under Theta*, a successor that the straight way would not improve is not looked at.
+//! looked at. Under Theta*, a successor that the straight way would not improve is not looked at; [`AnyAngleRules::counts_all`] counts
+//! it all the same, as the printed procedure looks at it.
 //!
 //! # Source
 //! Nash, Daniel, Koenig & Felner, *Theta\*: Any-Angle Path Planning on Grids*, AAAI 2007; Nash, Koenig & Tovey, *Lazy
 //! Theta\*: Any-Angle Path Planning and Path Length Analysis in 3D*, AAAI 2010.
 
 use super::cost::Cost as _;
-use super::estimate::{Combined, euclidean_to, sum};
+use super::estimate::{Combined, euclidean_to, weighted};
 use super::frontier::Frontier;
 use super::graph::{Graph, GridGraph};
 use super::observe::{Observer, Place};
 use super::side::{Side, SideInputs, Update};
 use super::{Outcome, Report, Route};
-use base::grid::{Grid2, Moves};
+use base::grid::{DIRECTIONS, Grid2, Moves};
 
 /// When it is looked at whether a parent sees a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,6 +26,43 @@ pub enum When {
     Generated,
     /// When the node is taken from OPEN; until then it is taken to be seen: Lazy Theta*.
     Taken,
+}
+
+/// How many neighbours a node has at most.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Branching {
+    /// Along rows and columns.
+    Four,
+    /// Diagonally too.
+    #[default]
+    Eight,
+    /// Those that a knight reaches in chess too, where they are seen.
+    Sixteen,
+}
+
+/// What distinguishes one any-angle search from another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AnyAngleRules {
+    /// When lines of sight are looked at.
+    pub when: When,
+    /// f = g + weight · h, h the distance to the goal.
+    pub weight: f64,
+    /// Whether a closed node to which a better way is found returns to OPEN; not where lines are looked at when nodes are taken.
+    pub reopens: bool,
+    /// How many neighbours a node has.
+    pub branching: Branching,
+    /// Whether a line to each successor that is not closed counts as looked at, as the printed procedure has it.
+    pub counts_all: bool,
+    /// At most this many expansions.
+    pub max_expansions: u64,
+}
+
+impl AnyAngleRules {
+    /// As the papers have it.
+    pub fn new(when: When, max_expansions: u64) -> Self {
+        let branching = Branching::default();
+        Self { when, weight: 1.0, reopens: false, branching, counts_all: false, max_expansions }
+    }
 }
 
 /// A grid with its moves and its line of sight.
@@ -63,32 +101,31 @@ impl<Q: Frontier> AnyAngle<Q> {
     pub fn solve<S: Fn(u32, u32) -> bool>(
         &mut self,
         on: &Sighted<'_, S>,
-        when: When,
+        rules: AnyAngleRules,
         ends: [u32; 2],
-        max_expansions: u64,
         observer: &mut impl Observer,
     ) -> Seen {
-        let estimate = Combined { h: euclidean_to(on.grid, ends[1]), combine: sum };
-        let mut graph = Plane(GridGraph::new(on.moves));
-        let mut terms =
-            SideInputs { graph: &mut graph, estimate: &estimate, observer, update: Update::default() };
+        let estimate = Combined { h: euclidean_to(on.grid, ends[1]), combine: weighted(rules.weight) };
+        let mut graph = Plane::new(on, rules.branching);
+        let update = Update { reopen_closed: rules.reopens, ..Update::default() };
+        let mut terms = SideInputs { graph: &mut graph, estimate: &estimate, observer, update };
         self.side.begin(ends[0], &mut terms);
         let mut sight_checks = 0;
         let outcome = loop {
             let Some(offer) = self.side.best() else { break Outcome::NoPath };
-            if when == When::Taken {
-                sight_checks += self.look(on, offer.node);
+            if rules.when == When::Taken {
+                sight_checks += self.look(on, rules.branching, offer.node);
             }
             if offer.node == ends[1] {
                 break self.solved(ends[1]);
             }
-            if self.side.counters.expansions >= max_expansions {
+            if self.side.counters.expansions >= rules.max_expansions {
                 break Outcome::BudgetSpent;
             }
             self.side.close(offer.node, terms.observer);
             let way = Way::from(&self.side, offer.node);
             let choose = |side: &Side<f64, Q>, to: u32, cost: f64| {
-                way.to(side, on, to, cost, (when == When::Generated).then_some(&mut sight_checks))
+                way.to(side, on, (to, cost), rules, &mut sight_checks)
             };
             self.side.expand_by(offer.node, &mut terms, choose, |_, _| true);
         };
@@ -97,11 +134,11 @@ impl<Q: Frontier> AnyAngle<Q> {
 
     /// Hangs the open `node` under the closed neighbour over which it is reached at least cost, if its parent does not see
     /// it; how many lines of sight were looked at.
-    fn look<S: Fn(u32, u32) -> bool>(&mut self, on: &Sighted<'_, S>, node: u32) -> u64 {
+    fn look<S: Fn(u32, u32) -> bool>(&mut self, on: &Sighted<'_, S>, branching: Branching, node: u32) -> u64 {
         let Some(parent) = self.side.parent(node) else { return 0 };
         if !(on.sees)(parent, node) {
             let mut best: Option<(u32, f64)> = None;
-            Plane(GridGraph::new(on.moves)).successors(node, |from, cost| {
+            Plane::new(on, branching).successors(node, |from, cost| {
                 let is_closed = self.side.place(from) == Place::Closed;
                 let reached = self.side.g(from).filter(|_| is_closed).map(|g| g + cost);
                 if let Some(g) = reached.filter(|g| best.is_none_or(|(_, least)| *g < least)) {
@@ -134,45 +171,80 @@ impl Way {
         Self { node: known(node), parent: side.parent(node).map(known) }
     }
 
-    /// The parent and g of `to`, one move of length `cost` away; lines of sight are looked at if they are counted.
+    /// The parent and g of a successor, one move of length `cost` away.
     fn to<Q: Frontier, S: Fn(u32, u32) -> bool>(
         &self,
         side: &Side<f64, Q>,
         on: &Sighted<'_, S>,
-        to: u32,
-        cost: f64,
-        sight_checks: Option<&mut u64>,
+        (to, cost): (u32, f64),
+        rules: AnyAngleRules,
+        sight_checks: &mut u64,
     ) -> (u32, f64) {
         let (node, g) = self.node;
+        let place = side.place(to);
+        let is_left = place == Place::Closed && !rules.reopens;
+        let looks = rules.when == When::Generated && !is_left;
+        *sight_checks += u64::from(looks && rules.counts_all);
         let Some((parent, g_parent)) = self.parent else { return (node, g + cost) };
         let straight = g_parent + euclidean_to(on.grid, parent)(to);
         // The way over the node is no shorter.
-        let would_improve = match side.place(to) {
-            Place::Unseen => true,
-            Place::Open => side.g(to).is_none_or(|known| straight.is_below(known)),
-            Place::Closed => false,
-        };
-        match sight_checks.filter(|_| would_improve) {
-            None => (parent, straight),
-            Some(count) => {
-                *count += 1;
-                if (on.sees)(parent, to) { (parent, straight) } else { (node, g + cost) }
-            }
+        let would_improve = place == Place::Unseen || side.g(to).is_none_or(|known| straight.is_below(known));
+        if !(looks && would_improve) {
+            return (parent, straight);
         }
+        *sight_checks += u64::from(!rules.counts_all);
+        if (on.sees)(parent, to) { (parent, straight) } else { (node, g + cost) }
     }
 }
 
-/// The moves of a grid, with their lengths as numbers.
-struct Plane<'a>(GridGraph<'a>);
+/// The steps of a knight: two along one axis, one along the other.
+const KNIGHT: [[i32; 2]; 8] = [[2, 1], [2, -1], [1, 2], [1, -2], [-1, 2], [-1, -2], [-2, 1], [-2, -1]];
 
-impl Graph for Plane<'_> {
+/// Which of the [`DIRECTIONS`] lead along rows and columns, as a mask.
+const STRAIGHT: u8 = {
+    let mut mask = 0;
+    let mut bit = 0;
+    while bit < 8 {
+        mask |= ((DIRECTIONS[bit][0] * DIRECTIONS[bit][1] == 0) as u8) << bit;
+        bit += 1;
+    }
+    mask
+};
+
+/// The moves of a grid, with their lengths as numbers.
+struct Plane<'a, S> {
+    on: &'a Sighted<'a, S>,
+    moves: GridGraph<'a>,
+    branching: Branching,
+}
+
+impl<'a, S: Fn(u32, u32) -> bool> Plane<'a, S> {
+    fn new(on: &'a Sighted<'a, S>, branching: Branching) -> Self {
+        let kept = if branching == Branching::Four { STRAIGHT } else { u8::MAX };
+        Self { on, moves: GridGraph::new(on.moves).only(kept), branching }
+    }
+}
+
+impl<S: Fn(u32, u32) -> bool> Graph for Plane<'_, S> {
     type Cost = f64;
 
     fn node_count(&self) -> usize {
-        self.0.node_count()
+        self.moves.node_count()
     }
 
     fn successors(&mut self, node: u32, mut visit: impl FnMut(u32, f64)) {
-        self.0.successors(node, |to, cost| visit(to, cost.value()));
+        self.moves.successors(node, |to, cost| visit(to, cost.value()));
+        if self.branching != Branching::Sixteen {
+            return;
+        }
+        let [x, y] = self.on.grid.xy(node);
+        for [dx, dy] in KNIGHT {
+            if let Some(to) = self.on.grid.cell(x + dx, y + dy)
+                && self.on.grid.is_free(to)
+                && (self.on.sees)(node, to)
+            {
+                visit(to, 5.0_f64.sqrt());
+            }
+        }
     }
 }

@@ -229,6 +229,10 @@ fn comes_after(one: &Open, other: &Open, ties: Ties) -> bool {
         // Costs of lattice moves have nothing more to tell equals apart by.
         Ties::Fifo | Ties::Smaller => one.rank > other.rank,
         Ties::Lifo => one.rank < other.rank,
+        Ties::SmallerG => {
+            let key = |open: &Open| (quantised(open.g.value()), open.rank);
+            key(one) > key(other)
+        }
         Ties::LargerG => {
             let key = |open: &Open| (Reverse(quantised(open.g.value())), open.rank);
             key(one) > key(other)

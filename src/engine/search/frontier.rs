@@ -60,6 +60,8 @@ pub enum Ties {
     Lifo,
     /// The node with the larger g (to 1e-9), then the one first opened earlier.
     LargerG,
+    /// The node with the smaller g (to 1e-9), then the one first opened earlier.
+    SmallerG,
     /// The node whose cost has the smaller [`tie`](super::Cost::tie), then the one first opened earlier.
     Smaller,
 }
@@ -93,7 +95,7 @@ impl Heap {
     pub fn new(ties: Ties) -> Self {
         let keys = match ties {
             Ties::Fifo | Ties::Lifo => Keys::default(),
-            Ties::LargerG | Ties::Smaller => Keys::Deep(BinaryHeap::new()),
+            Ties::LargerG | Ties::SmallerG | Ties::Smaller => Keys::Deep(BinaryHeap::new()),
         };
         Self { ties, keys, nodes: Vec::new() }
     }
@@ -122,7 +124,11 @@ impl Frontier for Heap {
         match &mut self.keys {
             Keys::Flat(keys) => keys.push(Reverse(u128::from(f) << 64 | u128::from(last))),
             Keys::Deep(keys) => {
-                let depth = if self.ties == Ties::LargerG { !quantised(g) } else { tie };
+                let depth = match self.ties {
+                    Ties::LargerG => !quantised(g),
+                    Ties::SmallerG => quantised(g),
+                    _ => tie,
+                };
                 keys.push(Reverse([f, depth, last]));
             }
         }
@@ -157,6 +163,7 @@ mod tests {
             (Ties::Fifo, [5, 1, 2, 3, 4, 0]),
             (Ties::Lifo, [5, 4, 3, 2, 1, 0]),
             (Ties::LargerG, [5, 2, 3, 1, 4, 0]),
+            (Ties::SmallerG, [5, 4, 1, 2, 3, 0]),
             (Ties::Smaller, [5, 2, 3, 4, 1, 0]),
         ] {
             let mut heap = Heap::new(ties);

@@ -23,6 +23,8 @@ pub trait Graph {
 #[derive(Clone, Copy, Debug)]
 pub struct GridGraph<'a> {
     moves: &'a Moves,
+    /// Moves of other directions are left out.
+    kept: u8,
     /// For every mask of legal moves, the same moves as places in the order of neighbours.
     places: &'static [u8; 256],
     /// By place in that order.
@@ -42,10 +44,19 @@ impl<'a> GridGraph<'a> {
         let cost = |[dx, dy]: [i32; 2]| if dx != 0 && dy != 0 { Octile::DIAGONAL } else { Octile::STRAIGHT };
         Self {
             moves,
+            kept: u8::MAX,
             places: places(order),
             steps: steps.map(|[dx, dy]| dy * moves.width() as i32 + dx),
             costs: steps.map(cost),
         }
+    }
+}
+
+impl GridGraph<'_> {
+    /// The same with the moves of this mask alone.
+    #[must_use]
+    pub fn only(self, kept: u8) -> Self {
+        Self { kept, ..self }
     }
 }
 
@@ -67,7 +78,7 @@ impl Graph for GridGraph<'_> {
     }
 
     fn successors(&mut self, node: u32, mut visit: impl FnMut(u32, Octile)) {
-        let mut places = self.places[usize::from(self.moves.mask(node))];
+        let mut places = self.places[usize::from(self.moves.mask(node) & self.kept)];
         while places != 0 {
             let place = places.trailing_zeros() as usize;
             places &= places - 1;

@@ -6,6 +6,7 @@
 //! whether closed nodes reopen ([`Update`]), when to stop ([`Stop`]), what is tried before an expansion
 //! ([`BeforeExpansion`]) and who watches ([`Observer`]). [`Search`] runs one side, [`Bidirectional`] two, [`AnyAngle`] one
 //! whose ways leave the moves of the grid.
+//! Between corners of cells, [`AngleRanges`] hands on what each sees and [`Interpolated`] costs along edges.
 //! [`OctileAstar`] is the declared specialisation for 8-connected grids, [`LatticeAstar`] the one for neighbourhoods of any
 //! size, [`CubicAstar`] the one for cubic lattices with 26 neighbours, [`FirstWayAstar`] the one for the lengths of an A*
 //! that never lowers open nodes there, [`ManyGrids`] the one for the costs on many such grids at once; tests hold each
@@ -30,6 +31,7 @@
 //! Graphs with states of their own (poses, configurations) number them in the order in which they meet them;
 //! records grow as numbers appear.
 
+mod angle_ranges;
 mod any_angle;
 mod bidirectional;
 mod buckets;
@@ -40,6 +42,7 @@ mod first_way;
 mod first_way_back;
 mod frontier;
 mod graph;
+mod interpolated;
 mod jump;
 mod lattice_astar;
 mod many;
@@ -55,7 +58,8 @@ mod straight;
 #[cfg(test)]
 mod tests;
 
-pub use any_angle::{AnyAngle, Seen, Sighted, When};
+pub use angle_ranges::{AngleRanges, Cornered};
+pub use any_angle::{AnyAngle, AnyAngleRules, Branching, Seen, Sighted, When};
 pub use bidirectional::{Bidirectional, BidirectionalReport, BidirectionalRules, End, Meeting, SideChoice};
 pub use buckets::Buckets;
 pub use cost::{Cost, Octile, quantised};
@@ -65,6 +69,7 @@ pub use first_way::FirstWayAstar;
 pub use first_way_back::{FirstWayBack, Unsettled};
 pub use frontier::{Best, Frontier, Heap, Offer, Ties};
 pub use graph::{Graph, GridGraph, LatticeGraph};
+pub use interpolated::{Field, Interpolated};
 pub use jump::JumpSearch;
 pub use lattice_astar::{LatticeAstar, LatticeQuery};
 pub use many::{GridSet, ManyGrids};

@@ -49,7 +49,7 @@ impl NodeLists {
         let flip = match ties {
             Ties::Fifo => 0,
             Ties::Lifo => u32::MAX,
-            Ties::LargerG | Ties::Smaller => return None,
+            Ties::LargerG | Ties::SmallerG | Ties::Smaller => return None,
         };
         Some(Self {
             flip,

@@ -138,6 +138,24 @@ impl Observer for ListScans {
     }
 }
 
+impl<O: Observer + ?Sized> Observer for &mut O {
+    fn opened(&mut self, node: u32) {
+        (**self).opened(node);
+    }
+
+    fn closed(&mut self, node: u32) {
+        (**self).closed(node);
+    }
+
+    fn selecting(&mut self, lists: Lists) {
+        (**self).selecting(lists);
+    }
+
+    fn generated(&mut self, place: Place, lists: Lists) {
+        (**self).generated(place, lists);
+    }
+}
+
 impl<A: Observer, B: Observer> Observer for (A, B) {
     fn opened(&mut self, node: u32) {
         self.0.opened(node);

@@ -6,6 +6,7 @@
 mod inflection;
 mod measure;
 mod selection;
+mod smoothing;
 mod spline;
 mod stepwise;
 mod straighten;
@@ -15,6 +16,7 @@ mod tests;
 pub use inflection::{bends, inflection_deletion};
 pub use measure::{TurnAngle, path_length, turn_sum_deg};
 pub use selection::least_selection;
+pub use smoothing::smoothing;
 pub use spline::cubic_spline;
 pub use stepwise::{Resume, stepwise_straightening};
 pub use straighten::{LastNode, straightening};

@@ -11,7 +11,7 @@ pub use lines::JumpLines;
 pub use pruning::Pruning;
 pub use table::JumpTable;
 
-use base::grid::{CornerRule, Grid2, Moves};
+use base::grid::{CornerRule, Grid2, Moves, Vertices, corner_moves, corner_vertices};
 use base::text::listed;
 use std::sync::{Arc, OnceLock};
 
@@ -33,9 +33,14 @@ pub trait Jumps {
 }
 
 /// A map with the moves that its corner rule leaves.
+///
+/// Searches see its vertices only: a grid in which those that can be stood on are free. They are its cells, or the corners of its
+/// cells.
 #[derive(Debug)]
 pub struct LatticeWorld {
     grid: Grid2,
+    /// The map, if its vertices are the corners of its cells.
+    cornered: Option<Grid2>,
     corner_rule: CornerRule,
     moves: Arc<Moves>,
     jump_lines: OnceLock<JumpLines>,
@@ -45,13 +50,49 @@ pub struct LatticeWorld {
 impl LatticeWorld {
     /// The world of `grid` under `corner_rule`.
     pub fn new(grid: Grid2, corner_rule: CornerRule) -> Self {
-        let moves = Arc::new(Moves::new(&grid, corner_rule));
-        Self { grid, corner_rule, moves, jump_lines: OnceLock::new(), jump_table: OnceLock::new() }
+        let moves = Moves::new(&grid, corner_rule);
+        Self::with_moves(grid, None, corner_rule, moves)
+    }
+
+    /// The world of the corners of `cells`; a path may pass between two blocked cells that touch at a corner.
+    pub fn of_corners(cells: Grid2) -> Self {
+        let grid = corner_vertices(&cells);
+        let moves = corner_moves(&cells);
+        Self::with_moves(grid, Some(cells), CornerRule::Allow, moves)
+    }
+
+    fn with_moves(grid: Grid2, cornered: Option<Grid2>, corner_rule: CornerRule, moves: Moves) -> Self {
+        let moves = Arc::new(moves);
+        Self { grid, cornered, corner_rule, moves, jump_lines: OnceLock::new(), jump_table: OnceLock::new() }
+    }
+
+    /// The same without what searches by jump points have made of it.
+    #[must_use]
+    pub fn again(&self) -> Self {
+        let Self { grid, cornered, corner_rule, moves, .. } = self;
+        let (jump_lines, jump_table) = (OnceLock::new(), OnceLock::new());
+        let (grid, cornered, moves) = (grid.clone(), cornered.clone(), Arc::clone(moves));
+        Self { grid, cornered, corner_rule: *corner_rule, moves, jump_lines, jump_table }
+    }
+
+    /// Its vertices.
+    pub fn grid(&self) -> &Grid2 {
+        &self.grid
     }
 
     /// The map.
-    pub fn grid(&self) -> &Grid2 {
-        &self.grid
+    pub fn cells(&self) -> &Grid2 {
+        self.cornered.as_ref().unwrap_or(&self.grid)
+    }
+
+    /// The map, if the vertices are the corners of its cells.
+    pub fn cornered(&self) -> Option<&Grid2> {
+        self.cornered.as_ref()
+    }
+
+    /// Where its vertices are.
+    pub fn vertices(&self) -> Vertices {
+        if self.cornered.is_some() { Vertices::Corners } else { Vertices::Centres }
     }
 
     /// Which corners may be cut.
@@ -74,15 +115,17 @@ impl LatticeWorld {
         self.jump_table.get_or_init(|| JumpTable::new(self))
     }
 
-    /// The free cell whose centre is `point` = [x, y].
+    /// The free vertex at `point` = [x, y].
     ///
     /// # Errors
-    /// A sentence about `what` (start or goal) if the point is no cell centre, outside, or blocked.
+    /// A sentence about `what` (start or goal) if the point is no vertex, outside, or blocked.
     pub fn free_cell(&self, what: &str, point: &[f64]) -> Result<u32, String> {
+        let is_cell = self.cornered.is_none();
         let outside = || {
             let (width, height) = (self.grid.width(), self.grid.height());
+            let [one, all] = if is_cell { ["a cell", "cells"] } else { ["a corner", "corners"] };
             format!(
-                "the {what} {point} is not a cell of the map; cells are 0..{width} by 0..{height}",
+                "the {what} {point} is not {one} of the map; {all} are 0..{width} by 0..{height}",
                 point = listed(point)
             )
         };
@@ -92,9 +135,9 @@ impl LatticeWorld {
         }
         let cell = self.grid.cell(x as i32, y as i32).ok_or_else(outside)?;
         if self.grid.is_free(cell) {
-            Ok(cell)
-        } else {
-            Err(format!("the {what} {point} is blocked", point = listed(point)))
+            return Ok(cell);
         }
+        let place = if is_cell { "is blocked" } else { "touches no free cell" };
+        Err(format!("the {what} {point} {place}", point = listed(point)))
     }
 }

@@ -28,6 +28,10 @@ pub enum WorldKind {
     Arm,
     /// A point and the arm that carries it, among convex polyhedra.
     ArmAmongPolyhedra,
+    /// A lattice of square cells, whose vertices are their centres: all that a search by jump points can plan in.
+    CentreLattice,
+    /// A lattice whose vertices are the corners of square cells.
+    CornerLattice,
     /// A lattice of square cells, some of them blocked.
     Lattice,
     /// A point among convex polyhedra.
@@ -43,6 +47,8 @@ impl WorldKind {
             Self::Any => "any",
             Self::Arm => "arm",
             Self::ArmAmongPolyhedra => "arm among polyhedra",
+            Self::CentreLattice => "lattice of centres",
+            Self::CornerLattice => "lattice of corners",
             Self::Lattice => "lattice",
             Self::Polyhedra => "polyhedra",
             Self::Roadmap => "roadmap",
@@ -51,7 +57,13 @@ impl WorldKind {
 
     /// Whether what needs a world of the kind `needed` can plan in one of this kind.
     pub fn serves(self, needed: Self) -> bool {
-        needed == Self::Any || self == needed || (self, needed) == (Self::ArmAmongPolyhedra, Self::Polyhedra)
+        let serves_too = [
+            (Self::ArmAmongPolyhedra, Self::Polyhedra),
+            (Self::CentreLattice, Self::Lattice),
+            (Self::CornerLattice, Self::Lattice),
+            (Self::Lattice, Self::CentreLattice),
+        ];
+        needed == Self::Any || self == needed || serves_too.contains(&(self, needed))
     }
 }
 
@@ -73,6 +85,7 @@ impl World {
     pub fn kind(&self) -> WorldKind {
         match self {
             Self::Arm(_) => WorldKind::Arm,
+            Self::Lattice(lattice) if lattice.cornered().is_some() => WorldKind::CornerLattice,
             Self::Lattice(_) => WorldKind::Lattice,
             Self::Polyhedra(world) if world.arm().is_some() => WorldKind::ArmAmongPolyhedra,
             Self::Polyhedra(_) => WorldKind::Polyhedra,

@@ -22,7 +22,7 @@ pub struct Query {
 
 impl Query {
     /// Its start and its goal.
-    pub(super) fn ends(&self) -> [&[f64]; 2] {
+    pub fn ends(&self) -> [&[f64]; 2] {
         [&self.start, &self.goal]
     }
 }

@@ -1,12 +1,12 @@
 //! One map from a file of any kind; start and goal are written, or drawn with each instance.
 
 use super::ends::{Ends, PlaneEnd};
-use super::random_maps::{draw_cell, ends_on};
+use super::random_maps::{draw_vertex, ends_on};
 use super::{Entry, Family, Query};
 use crate::StudyError;
 use crate::preprocessing::{Preprocessing, lattice};
 use crate::verification::LATTICE_COLUMNS;
-use base::grid::{FileMap, read_map};
+use base::grid::{FileMap, Vertices, read_map};
 use base::settings::{Accepted, Faults};
 use engine::planner::Invalid;
 use engine::space::{LatticeWorld, WorldKind};
@@ -34,8 +34,10 @@ corner_rule = "allow"
         let read: GridMap = settings.read()?;
         let file = inputs.locate(&read.map).map_err(|message| settings.error_at("map", message))?;
         let map = read_map(&file).map_err(|e| settings.error_at("map", e.to_string()))?;
-        let world = LatticeWorld::new(map.grid.clone(), read.corner_rule.into());
+        let vertices = read.vertices.unwrap_or_default();
+        let world = lattice::world(map.grid.clone(), read.corner_rule, vertices);
         let mut faults = Faults::default();
+        faults.keep(lattice::check_rule(settings, read.corner_rule, vertices));
         for (what, end) in [("start", &read.start), ("goal", &read.goal)] {
             if let PlaneEnd::Written(cell) = end {
                 let free = world.free_cell(what, &cell.map(f64::from));
@@ -44,8 +46,8 @@ corner_rule = "allow"
         }
         faults.done()?;
         let size = [map.grid.width(), map.grid.height()];
-        let ends = ends_on(settings, size, [&read.start, &read.goal], read.queries)?;
-        Ok::<Box<dyn Family>, StudyError>(Box::new(Posed { corners: read.corner_rule, map, ends }))
+        let ends = ends_on(settings, size, vertices, [&read.start, &read.goal], read.queries)?;
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Posed { world, map, ends }))
     },
 };
 
@@ -65,28 +67,31 @@ struct GridMap {
     queries: Option<NonZeroU32>,
     /// When a diagonal move past blocked cells is allowed.
     corner_rule: lattice::CornerSetting,
+    /// Where the vertices are that paths lead over; `centres` of cells if absent. At `corners`, a start or goal [x, y] is the lower
+    /// left corner of that cell.
+    vertices: Option<Vertices>,
 }
 
 struct Posed {
-    corners: lattice::CornerSetting,
+    world: LatticeWorld,
     map: FileMap,
     ends: Ends,
 }
 
 impl Posed {
     fn drawn(&self, seed: u64) -> Result<Vec<Query>, Invalid> {
-        self.ends.drawn(seed, |stream, limits| draw_cell(&self.map.grid, stream, limits))
+        self.ends.drawn(seed, |stream, limits| draw_vertex(self.world.grid(), stream, limits))
     }
 }
 
 impl Family for Posed {
     fn world(&self) -> WorldKind {
-        WorldKind::Lattice
+        lattice::kind(self.world.vertices())
     }
 
     fn prepare(&self, seed: u64) -> Result<Preprocessing, Invalid> {
         let queries = self.drawn(seed)?;
-        lattice::prepare(self.map.grid.clone(), self.corners, queries.iter().map(Query::ends))
+        lattice::prepare(self.world.again(), queries.iter().map(Query::ends))
     }
 
     fn queries(&self) -> &[Query] {

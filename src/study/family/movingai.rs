@@ -8,10 +8,10 @@
 use super::{Entry, Family, Query};
 use crate::StudyError;
 use crate::preprocessing::{Preprocessing, lattice};
-use base::grid::{Grid2, Scenario, read_movingai_map, read_scenarios};
+use base::grid::{Scenario, Vertices, read_movingai_map, read_scenarios};
 use base::settings::{Accepted, Faults};
 use engine::planner::{Counts, Invalid, Value};
-use engine::space::WorldKind;
+use engine::space::{LatticeWorld, WorldKind};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::num::NonZeroUsize;
@@ -55,15 +55,22 @@ corner_rule = "forbid_any"
         let all = read_scenarios(&files[1], &grid).map_err(refused("scenarios"))?;
         read.check_names(&all).map_err(|message| settings.error_at("scenarios", message))?;
         let scenarios = read.picked(all).map_err(|message| settings.error_at("scenarios", message))?;
-        let point = |cell: u32| grid.xy(cell).map(f64::from).to_vec();
+        let vertices = read.vertices.unwrap_or_default();
+        lattice::check_rule(settings, read.corner_rule, vertices)?;
+        // The files count rows downwards from the highest, so that their corner [x, y] is the upper left one of their cell.
+        let up = if vertices == Vertices::Corners { 1.0 } else { 0.0 };
+        let point = |cell: u32| {
+            let [x, y] = grid.xy(cell).map(f64::from);
+            vec![x, y + up]
+        };
         let query = |s: &Scenario| Query {
             name: format!("line-{}", s.line),
             start: point(s.start),
             goal: point(s.goal),
         };
         let queries = scenarios.iter().map(query).collect();
-        let corners = read.corner_rule;
-        Ok::<Box<dyn Family>, StudyError>(Box::new(Posed { corners, grid, scenarios, queries, files }))
+        let world = lattice::world(grid, read.corner_rule, vertices);
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Posed { world, scenarios, queries, files }))
     },
 };
 
@@ -77,6 +84,9 @@ struct MovingAi {
     /// The benchmark's lengths hold for `forbid_any`.
     #[serde(default = "no_corner_is_cut")]
     corner_rule: lattice::CornerSetting,
+    /// Where the vertices are that paths lead over; `centres` of cells if absent. At `corners`, a cell of a query stands for its upper
+    /// left corner, [x, y] as the file counts, and the benchmark's lengths do not hold.
+    vertices: Option<Vertices>,
     /// Only every so many-th query, from the first on; all of them if absent.
     every: Option<NonZeroUsize>,
 }
@@ -106,8 +116,7 @@ impl MovingAi {
 }
 
 struct Posed {
-    corners: lattice::CornerSetting,
-    grid: Grid2,
+    world: LatticeWorld,
     scenarios: Vec<Scenario>,
     queries: Vec<Query>,
     files: [PathBuf; 2],
@@ -115,11 +124,11 @@ struct Posed {
 
 impl Family for Posed {
     fn world(&self) -> WorldKind {
-        WorldKind::Lattice
+        lattice::kind(self.world.vertices())
     }
 
     fn prepare(&self, _seed: u64) -> Result<Preprocessing, Invalid> {
-        Ok(lattice::prepare_map(self.grid.clone(), self.corners))
+        Ok(lattice::prepare_map(self.world.again()))
     }
 
     fn queries(&self) -> &[Query] {
@@ -139,7 +148,7 @@ impl Family for Posed {
     }
 
     fn cells(&self) -> u64 {
-        u64::from(self.grid.cell_count())
+        u64::from(self.world.cells().cell_count())
     }
 
     fn inputs(&self) -> &[PathBuf] {

@@ -7,7 +7,7 @@ use super::{Entry, Family, Query};
 use crate::StudyError;
 use crate::preprocessing::{Preprocessing, lattice};
 use crate::verification::LATTICE_COLUMNS;
-use base::grid::{Grid2, GridError};
+use base::grid::{Grid2, GridError, Vertices, corner_vertices};
 use base::seed::{self, Stream};
 use base::settings::{Accepted, Faults, Settings, SettingsError};
 use engine::planner::Invalid;
@@ -60,6 +60,7 @@ pub(super) struct Frame<'a> {
     pub(super) goal: &'a PlaneEnd<u32>,
     pub(super) queries: Option<NonZeroU32>,
     pub(super) corner_rule: lattice::CornerSetting,
+    pub(super) vertices: Vertices,
 }
 
 /// How large a map is.
@@ -100,16 +101,20 @@ macro_rules! settings {
             queries: Option<std::num::NonZeroU32>,
             /// When a diagonal move past blocked cells is allowed.
             corner_rule: $crate::preprocessing::lattice::CornerSetting,
+            /// Where the vertices are that paths lead over; `centres` of cells if absent. At `corners`, a start or goal [x, y] is the
+            /// lower left corner of that cell, which is freed if it is written.
+            vertices: Option<base::grid::Vertices>,
             $($own)*
         }
 
         impl $crate::family::random_maps::Framed for $name {
             fn frame(&self) -> $crate::family::random_maps::Frame<'_> {
-                let Self { start, goal, queries, corner_rule, .. } = self;
+                let Self { start, goal, queries, corner_rule, vertices, .. } = self;
                 let size_cells = self.size_cells.sides();
                 let queries = *queries;
                 let corner_rule = *corner_rule;
-                $crate::family::random_maps::Frame { size_cells, start, goal, queries, corner_rule }
+                let vertices = vertices.unwrap_or_default();
+                $crate::family::random_maps::Frame { size_cells, start, goal, queries, corner_rule, vertices }
             }
         }
     };
@@ -135,16 +140,19 @@ pub(super) fn check_range(
 /// Ends and limits outside the map; those of [`Ends::new`].
 pub(super) fn ends_on(
     settings: &Settings,
-    [width, height]: [u32; 2],
+    size_cells: [u32; 2],
+    vertices: Vertices,
     [start, goal]: [&PlaneEnd<u32>; 2],
     queries: Option<NonZeroU32>,
 ) -> Result<Ends, SettingsError> {
+    let (more, all) = if vertices == Vertices::Corners { (1, "corners") } else { (0, "cells") };
+    let [width, height] = size_cells.map(|side| side + more);
     let plane = [width, height].map(|side| [0.0, f64::from(side) - 1.0]);
     let mut faults = Faults::default();
     let [start, goal] = [("start", start), ("goal", goal)].map(|(key, end)| {
         let outside = |x: &u32, y: &u32| {
             let message =
-                format!("{key} is [{x}, {y}], outside the map; cells are 0..{width} by 0..{height}");
+                format!("{key} is [{x}, {y}], outside the map; {all} are 0..{width} by 0..{height}");
             settings.error_at(key, message)
         };
         faults.keep(match end {
@@ -156,8 +164,8 @@ pub(super) fn ends_on(
     Ends::new(start, goal, queries, |key, message| settings.error_at(key, message))
 }
 
-/// A free cell within limits of its column and row, if the one that is drawn is free.
-pub(super) fn draw_cell(grid: &Grid2, stream: &mut Stream, limits: &[[f64; 2]]) -> Option<Vec<f64>> {
+/// A free vertex within limits of its column and row, if the one that is drawn is free.
+pub(super) fn draw_vertex(grid: &Grid2, stream: &mut Stream, limits: &[[f64; 2]]) -> Option<Vec<f64>> {
     let at = [0, 1].map(|axis: usize| stream.random_range(limits[axis][0] as i32..=limits[axis][1] as i32));
     let cell = grid.cell(at[0], at[1])?;
     grid.is_free(cell).then(|| at.map(f64::from).to_vec())
@@ -173,16 +181,23 @@ struct RandomMaps<O> {
 impl<O: Obstacles> RandomMaps<O> {
     fn build(settings: &Settings) -> Result<Box<dyn Family>, StudyError> {
         let read: O = settings.read()?;
-        let Frame { size_cells, start, goal, queries, .. } = read.frame();
+        let Frame { size_cells, start, goal, queries, corner_rule, vertices } = read.frame();
         let mut faults = Faults::default();
         faults.keep(read.check(settings));
+        faults.keep(lattice::check_rule(settings, corner_rule, vertices));
         let empty = Grid2::new(size_cells[0], size_cells[1])
             .map_err(|e| settings.error_at("size_cells", format!("size_cells: {e}")));
         let empty = faults.keep(empty);
-        let ends =
-            empty.as_ref().and_then(|_| faults.keep(ends_on(settings, size_cells, [start, goal], queries)));
+        let ends = empty
+            .as_ref()
+            .and_then(|_| faults.keep(ends_on(settings, size_cells, vertices, [start, goal], queries)));
         let (empty, ends) = faults.or(empty.zip(ends))?;
-        let cell = |at: &[f64]| empty.cell(at[0] as i32, at[1] as i32).expect("ends lie on the map");
+        // The last column and row of corners belong to the cells before them.
+        let within = |at: f64, side: u32| (at as i32).min(side as i32 - 1);
+        let [width, height] = size_cells;
+        let cell = |at: &[f64]| {
+            empty.cell(within(at[0], width), within(at[1], height)).expect("ends lie on the map")
+        };
         let keep_free = ends.written().map(cell).collect();
         Ok(Box::new(Self { read, ends, keep_free }))
     }
@@ -193,25 +208,30 @@ impl<O: Obstacles> RandomMaps<O> {
             .expect("the size was checked when the settings were read")
     }
 
-    fn queries_on(&self, grid: &Grid2, seed: u64) -> Result<Vec<Query>, Invalid> {
-        self.ends.drawn(seed, |stream, limits| draw_cell(grid, stream, limits))
+    fn world_of(&self, seed: u64) -> LatticeWorld {
+        let Frame { corner_rule, vertices, .. } = self.read.frame();
+        lattice::world(self.map(seed), corner_rule, vertices)
+    }
+
+    fn queries_on(&self, vertices: &Grid2, seed: u64) -> Result<Vec<Query>, Invalid> {
+        self.ends.drawn(seed, |stream, limits| draw_vertex(vertices, stream, limits))
     }
 }
 
 impl<O: Obstacles> Family for RandomMaps<O> {
     fn world(&self) -> WorldKind {
-        WorldKind::Lattice
+        lattice::kind(self.read.frame().vertices)
     }
 
     fn prepare(&self, seed: u64) -> Result<Preprocessing, Invalid> {
-        let grid = self.map(seed);
-        let queries = self.queries_on(&grid, seed)?;
-        lattice::prepare(grid, self.read.frame().corner_rule, queries.iter().map(Query::ends))
+        let world = self.world_of(seed);
+        let queries = self.queries_on(world.grid(), seed)?;
+        lattice::prepare(world, queries.iter().map(Query::ends))
     }
 
     fn draw(&self, seed: u64) -> Result<World, Invalid> {
         // A written start and goal are freed, so that no map is invalid.
-        Ok(World::Lattice(LatticeWorld::new(self.map(seed), self.read.frame().corner_rule.into())))
+        Ok(World::Lattice(self.world_of(seed)))
     }
 
     fn queries(&self) -> &[Query] {
@@ -223,7 +243,11 @@ impl<O: Obstacles> Family for RandomMaps<O> {
             return self.queries().to_vec();
         }
         // An instance whose ends cannot be drawn is refused by `prepare`; its queries are never planned.
-        self.queries_on(&self.map(seed), seed).unwrap_or_else(|_| self.queries().to_vec())
+        let mut vertices = self.map(seed);
+        if self.read.frame().vertices == Vertices::Corners {
+            vertices = corner_vertices(&vertices);
+        }
+        self.queries_on(&vertices, seed).unwrap_or_else(|_| self.queries().to_vec())
     }
 
     fn draws_ends(&self) -> bool {

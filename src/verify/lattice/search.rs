@@ -164,7 +164,12 @@ impl Case<'_> {
     pub(super) fn moves(&self, at: [i32; 2]) -> u8 {
         let is_open =
             |[dx, dy]: [i32; 2]| self.grid.is_free_xy(at[0] + dx, at[1] + dy) && self.may_step(at, [dx, dy]);
-        STEPS.iter().enumerate().fold(0, |mask, (bit, step)| mask | u8::from(is_open(*step)) << bit)
+        Self::steps_by(is_open)
+    }
+
+    /// The steps that are legal, a bit each.
+    pub(super) fn steps_by(is_legal: impl Fn([i32; 2]) -> bool) -> u8 {
+        STEPS.iter().enumerate().fold(0, |mask, (bit, step)| mask | u8::from(is_legal(*step)) << bit)
     }
 
     pub(super) fn index(&self, [x, y]: [i32; 2]) -> usize {

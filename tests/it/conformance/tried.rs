@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 
 /// The settings that each entry is tried with.
 pub const SETTINGS: &[(&str, &[&str])] = &[
+    ("ap_theta_star", &["ties = 'smaller_g'", "ties = 'larger_g'"]),
     (
         "astar",
         &[
@@ -16,6 +17,7 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
             "weight = 1\nties = 'lifo'",
             "weight = 1\nties = 'larger_g'",
             "weight = 3\nties = 'fifo'",
+            "heuristic = 'octile'\nties = 'smaller_g'",
         ],
     ),
     ("astar_octile", &[""]),
@@ -48,6 +50,7 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
     ),
     ("delete_inflections", &["line_of_sight = 'exact_interior'", "line_of_sight = 'closed_cells'"]),
     ("direct", &[""]),
+    ("field_dstar", &["ties = 'larger_g'"]),
     ("joint_astar", &["delta_deg = 12.0\nneighbours = 12"]),
     (
         "joint_bspline",
@@ -90,6 +93,13 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
         &["line_of_sight = 'exact_interior'", "line_of_sight = 'closed_cells'\nties = 'lifo'"],
     ),
     (
+        "post_smooth",
+        &[
+            "line_of_sight = 'exact_interior'\nfrom = 'start'",
+            "line_of_sight = 'exact_interior'\nfrom = 'goal'",
+        ],
+    ),
+    (
         "posture",
         &[
             "adjust = true\nsign = 'down'\nclamp = 'floor'\ndistance = 'exact'\npose = 'inverse'\ndamping = 0.02\n\
@@ -120,8 +130,13 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
     ("straighten_from_previous", &["resume = 'last_joined'", "resume = 'first_refused'", "resume = 'off'"]),
     (
         "theta_star",
-        &["line_of_sight = 'exact_interior'", "line_of_sight = 'closed_cells'\nties = 'larger_g'"],
+        &[
+            "line_of_sight = 'exact_interior'",
+            "line_of_sight = 'closed_cells'\nties = 'larger_g'",
+            "line_of_sight = 'exact_interior'\nweight = 0.5\nreopen = true\nbranching = 'sixteen'",
+        ],
     ),
+    ("visibility_astar", &["ties = 'larger_g'\nvertices = 'all'", "ties = 'fifo'\nvertices = 'convex'"]),
     ("visibility_edges", &["spacing_cm = 2.0"]),
 ];
 

@@ -88,7 +88,12 @@ fn sighted(case: &Case) -> Sighted<'_, impl Fn(u32, u32) -> bool> {
 }
 
 fn run(case: &Case, when: When) -> Seen {
-    AnyAngle::new(Heap::new(Ties::Fifo)).solve(&sighted(case), when, case.ends, u64::MAX, &mut ())
+    AnyAngle::new(Heap::new(Ties::Fifo)).solve(
+        &sighted(case),
+        AnyAngleRules::new(when, u64::MAX),
+        case.ends,
+        &mut (),
+    )
 }
 
 #[test]
@@ -167,11 +172,54 @@ fn a_budget_ends_the_search_before_the_expansion_that_it_does_not_allow() {
     let full = run(&case, When::Generated).report.counters.expansions;
     let with = |budget| {
         let mut search = AnyAngle::new(Heap::new(Ties::Fifo));
-        search.solve(&sighted(&case), When::Generated, case.ends, budget, &mut ()).report
+        let rules = AnyAngleRules::new(When::Generated, budget);
+        search.solve(&sighted(&case), rules, case.ends, &mut ()).report
     };
     assert_ne!(with(full).outcome, Outcome::BudgetSpent);
     assert_eq!(
         (with(full - 1).outcome, with(full - 1).counters.expansions),
         (Outcome::BudgetSpent, full - 1)
     );
+}
+
+#[test]
+fn rules_change_what_they_name() {
+    let plain = AnyAngleRules::new(When::Generated, u64::MAX);
+    let mut lengths = [0.0; 5];
+    let mut expanded = [0; 5];
+    for case in cases(150, 0.25) {
+        let with = |rules| {
+            AnyAngle::new(Heap::new(Ties::SmallerG)).solve(&sighted(&case), rules, case.ends, &mut ())
+        };
+        let seen = with(plain);
+        if seen.report.outcome.route().is_none() {
+            continue;
+        }
+        // The printed procedure looks at one line to each successor that is not closed.
+        let printed = with(AnyAngleRules { counts_all: true, ..plain });
+        let cases = (printed.sight_checks, printed.report == seen.report);
+        assert!(
+            cases.1 && (seen.sight_checks..=seen.report.counters.generated).contains(&cases.0),
+            "{cases:?}"
+        );
+        let sixteen = with(AnyAngleRules { branching: Branching::Sixteen, ..plain });
+        let four = with(AnyAngleRules { branching: Branching::Four, ..plain });
+        let light = AnyAngleRules { weight: 0.5, ..plain };
+        let all = [four, seen.clone(), sixteen, with(light), with(AnyAngleRules { reopens: true, ..light })];
+        let routes: Vec<_> = all.iter().map(|seen| seen.report.outcome.route()).collect();
+        assert!(routes[1..].iter().all(Option::is_some), "seed {}", case.seed);
+        if let Some(four) = routes[0] {
+            let costs = [four.cost, routes[1].unwrap().cost, routes[2].unwrap().cost];
+            let more = [routes[3].unwrap().cost, routes[4].unwrap().cost];
+            for (sum, cost) in lengths.iter_mut().zip(costs.into_iter().chain(more)) {
+                *sum += cost;
+            }
+            for (sum, seen) in expanded.iter_mut().zip(&all) {
+                *sum += seen.report.counters.expansions;
+            }
+        }
+    }
+    assert!(lengths[0] > lengths[1] + 1.0 && lengths[1] > lengths[2] && lengths[2] > 500.0, "{lengths:?}");
+    assert!(lengths[1] > lengths[3] && lengths[3] > lengths[4], "{lengths:?}");
+    assert!(expanded[1] < expanded[3] && expanded[3] < expanded[4], "{expanded:?}");
 }

@@ -1,0 +1,135 @@
+//! A\* on the visibility graph of a map: start, goal and corners of blocked cells, joined where they see each other.
+//!
+//! Edges are found when a vertex is expanded, by a look at every other one.
+
+use super::corners;
+use super::lattice::{Posed, TiesSetting};
+use super::pool::Pool;
+use super::{Build, Entry, Invalid, Plan, Planner, Request, Value};
+use crate::search::{
+    Combined, Cornered, Graph, Heap, Rules, Search, SideInputs, Stop, Update, euclidean_to, sum,
+};
+use crate::space::WorldKind;
+use base::grid::corners_see;
+use base::settings::Accepted;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "visibility_astar",
+    about: "A* on the visibility graph over corners of blocked cells: a shortest path of any angle",
+    revision: 1,
+    needs: WorldKind::CornerLattice,
+    columns: &["opened", "opened_distinct", "closed", "expansions", "generated", "sight_checks"],
+    settings: Accepted::shape::<VisibilityAstar>(),
+    example: r#"
+ties = "larger_g"
+vertices = "all"
+"#,
+    build: Build::Planner(|settings| {
+        let read: VisibilityAstar = settings.read()?;
+        Ok(Box::new(read))
+    }),
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct VisibilityAstar {
+    /// The order among equal f.
+    ties: TiesSetting,
+    /// Which corners of blocked cells are vertices.
+    vertices: VerticesSetting,
+    #[serde(skip)]
+    pool: Pool<Search<f64, Heap>>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum VerticesSetting {
+    /// All that touch a free cell.
+    All,
+    /// Those about which a shortest path can turn: they belong to one blocked cell, or to two that touch there.
+    Convex,
+}
+
+impl VerticesSetting {
+    /// The corners of this kind.
+    fn vertices(self, on: &Cornered<'_>) -> Vec<u32> {
+        let is_vertex = |corner: &u32| {
+            let [x, y] = on.grid.xy(*corner);
+            let around = [[x, y], [x - 1, y - 1], [x - 1, y], [x, y - 1]];
+            let free = around.map(|[x, y]| on.cells.is_free_xy(x, y));
+            match free.iter().filter(|is_free| **is_free).count() {
+                0 | 4 => false,
+                3 => true,
+                2 => self == Self::All || free[0] == free[1],
+                _ => self == Self::All,
+            }
+        };
+        (0..on.grid.cell_count()).filter(is_vertex).collect()
+    }
+}
+
+/// The graph; edges are those of the vertex in hand.
+struct Visible<'a> {
+    on: Cornered<'a>,
+    /// With the goal.
+    vertices: Vec<u32>,
+    sight_checks: u64,
+}
+
+impl Graph for Visible<'_> {
+    type Cost = f64;
+
+    fn node_count(&self) -> usize {
+        self.on.grid.cell_count() as usize
+    }
+
+    fn successors(&mut self, node: u32, mut visit: impl FnMut(u32, f64)) {
+        let at = self.on.grid.xy(node);
+        for &to in self.vertices.iter().filter(|to| **to != node) {
+            self.sight_checks += 1;
+            if corners_see(self.on.cells, at, self.on.grid.xy(to)) {
+                visit(to, euclidean_to(self.on.grid, to)(node));
+            }
+        }
+    }
+}
+
+impl Planner for VisibilityAstar {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        let posed = Posed::new(request)?;
+        let goal = posed.goal;
+        let on = corners::cornered(posed.world);
+        let mut vertices = self.vertices.vertices(&on);
+        if !vertices.contains(&goal) {
+            vertices.push(goal);
+        }
+        let estimate = Combined { h: euclidean_to(on.grid, goal), combine: sum };
+        let mut graph = Visible { on, vertices, sight_checks: 0 };
+        let mut search = self.pool.any(|| Search::new(Heap::new(self.ties.into())));
+        let (report, traces) = corners::watched(request, &posed, |mut observer| {
+            let (graph, observer) = (&mut graph, &mut observer);
+            let terms = SideInputs { graph, estimate: &estimate, observer, update: Update::default() };
+            let rules = Rules { stop: Stop::GoalPopped, max_expansions: request.expansions };
+            search.run(terms, posed.start, |corner| corner == goal, rules, &mut ())
+        });
+        self.pool.keep(search);
+        let mut plan = corners::plan(&posed, &report, traces);
+        plan.counts.insert("sight_checks", Value::Count(graph.sight_checks));
+        Ok(plan)
+    }
+
+    fn is_optimal(&self) -> bool {
+        true
+    }
+
+    fn is_complete(&self) -> bool {
+        true
+    }
+
+    fn is_any_angle(&self) -> bool {
+        true
+    }
+}
