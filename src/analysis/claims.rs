@@ -17,7 +17,8 @@ use super::verdict_rule::{Chosen, Verdict};
 use base::hash::sha256;
 use base::settings::{Faults, Settings, SettingsError, none_called};
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use study::Study;
 use study::paper::{Claim, Paper, Parts, PrintedTable, TestRole, names_of};
 use toml::Table;
 
@@ -84,8 +85,10 @@ fn question(claim: &Claim) -> String {
 /// The hash of what one claim says and how it is judged, with its parts and the claims that its criteria name.
 pub fn claim_hash(paper: &Paper, claim: &Claim) -> String {
     let own = question(claim);
-    let is_named = |other: &&Claim| other.id != claim.id && own.contains(&format!("\"{}\"", other.id));
-    let others: Vec<&Claim> = paper.claims.iter().filter(is_named).collect();
+    // The text writes every name between quotes.
+    let named: BTreeSet<usize> = own.split('"').filter_map(|text| paper.place_of(text)).collect();
+    let others: Vec<&Claim> =
+        named.into_iter().map(|place| &paper.claims[place]).filter(|other| other.id != claim.id).collect();
     let text: String = others.iter().map(|other| question(other)).collect();
     let revisions: String = std::iter::once(claim).chain(others).map(revisions).collect();
     sha256((own.clone() + &text + &revisions).as_bytes())[..16].to_owned()
@@ -119,8 +122,9 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
     }
     let mut together = together(evidence)?;
     // A number that no data can give is not met by a trial that prints alike.
-    let is_impossible =
-        |id: &String| claims.iter().any(|judged| judged.claim == *id && judged.outcome == Outcome::Proved);
+    let impossible = claims.iter().filter(|judged| judged.outcome == Outcome::Proved);
+    let impossible: BTreeSet<&str> = impossible.map(|judged| judged.claim.as_str()).collect();
+    let is_impossible = |id: &String| impossible.contains(id.as_str());
     for set in &mut together {
         let (out, hold) = std::mem::take(&mut set.hold).into_iter().partition(is_impossible);
         set.hold = hold;
@@ -305,14 +309,10 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
         found.because.extend(because);
         if evidence.paper.source.ours { said } else { Sessions::OfAnother }
     });
-    let is_fitted = |id: &str| studies.iter().any(|study| study.fitted_to.iter().any(|other| other == id));
-    // A cell of a row that something was chosen to meet was met with it, and so was a sentence that repeats such a number.
-    let row = |id: &str| evidence.paper.whole_of(id).filter(|whole| matches!(whole.parts, Parts::Cells(_)));
-    let is_met = |id: &str| is_fitted(id) || row(id).is_some_and(|row| is_fitted(&row.id));
     let not_run = evidence.paper.not_run(claim, &studies);
     let caps = Caps {
         searched: studies.iter().any(|study| study.searched),
-        fitted: evidence.paper.claims.iter().any(|other| other.tests_alike(claim) && is_met(&other.id)),
+        fitted: is_fitted(evidence.paper, claim, &studies),
         existential: found.existential,
         powerless: found.powerless,
         censored: found.censored > 0,
@@ -328,6 +328,20 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
     let finding = finding(name, found, caps, &not_run);
     let refused = refused_share(&of.selections(), evidence);
     CappedFinding { finding, caps, refused, is_covered, is_posed, results: String::new(), studies }
+}
+
+/// Whether something in `studies` was chosen to meet `claim`: it, the row of which it is a cell, or a claim that repeats its number.
+fn is_fitted(paper: &Paper, claim: &Claim, studies: &[&Study]) -> bool {
+    let fitted = studies.iter().flat_map(|study| &study.fitted_to).filter_map(|id| paper.claim(id));
+    let mut met = fitted.flat_map(|fitted| {
+        let cells = match &fitted.parts {
+            Parts::Cells(ids) => &ids[..],
+            _ => &[],
+        };
+        let is_own = |id: &&String| paper.whole_of(id).is_some_and(|whole| whole.id == fitted.id);
+        std::iter::once(fitted).chain(cells.iter().filter(is_own).filter_map(|id| paper.claim(id)))
+    });
+    met.any(|met| met.tests_alike(claim))
 }
 
 /// Where alone a claim is meant, an interpretation each.

@@ -2,7 +2,7 @@
 //!
 //! A paper's claims speak of several maps, but of one algorithm. So one set is made under one interpretation and one choice
 //! of contenders: claims that are asked of the same problems share a problem, and each such group of claims takes one
-//! of its problems. Every choice of problems is looked at.
+//! of its problems. Every choice of problems is looked at, unless there are so many that one is taken and the set says so.
 
 use super::context::Context;
 use super::criterion::{Attained, EXISTS, Seen};
@@ -21,6 +21,9 @@ type Contenders<'a> = BTreeMap<&'a str, Outcomes<'a>>;
 
 /// Outcomes of one study: by problem, then contender.
 type Problems<'a> = BTreeMap<String, Contenders<'a>>;
+
+/// Most choices of problems that are all looked at.
+const MOST_CHOICES: f64 = 64.0;
 
 /// The sets of claims that are met exactly together, none within another, under the evidence's interpretation; the largest first.
 ///
@@ -94,8 +97,13 @@ fn sets_of(study: &str, problems: &Problems<'_>, interpretation: &str) -> Vec<To
     let of_choice = |choice: Option<&str>| {
         let labels: Vec<&str> = fixed.iter().copied().chain(choice).collect();
         let under = labels.join(" and ");
-        let choices = choices_of_problems(problems, &labels).into_iter();
-        choices.map(|chosen| set(study, interpretation, &under, &chosen)).collect::<Vec<_>>()
+        let (choices, count) = choices_of_problems(problems, &labels);
+        let mut sets: Vec<Together> =
+            choices.iter().map(|chosen| set(study, interpretation, &under, chosen)).collect();
+        if count > MOST_CHOICES {
+            sets.iter_mut().for_each(|set| set.problem += &format!(" (the largest of {count:.3e} choices)"));
+        }
+        sets
     };
     choices.into_iter().flat_map(of_choice).collect()
 }
@@ -118,59 +126,81 @@ fn set(study: &str, interpretation: &str, under: &str, chosen: &[(&str, Outcomes
 }
 
 /// Every choice of one problem for each group of claims, but for problems on which no more of the group holds than on
-/// another.
-fn choices_of_problems<'a>(problems: &'a Problems<'_>, labels: &[&str]) -> Vec<Vec<(&'a str, Outcomes<'a>)>> {
-    let mut groups: Vec<(BTreeSet<&str>, Vec<(&str, Outcomes<'_>)>)> = Vec::new();
+/// another. Where there are more than [`MOST_CHOICES`], the one on which most of each group holds; then how many there are.
+fn choices_of_problems<'a>(
+    problems: &'a Problems<'_>,
+    labels: &[&str],
+) -> (Vec<Vec<(&'a str, Outcomes<'a>)>>, f64) {
+    let mut groups: Vec<Vec<(&str, Outcomes<'_>)>> = Vec::new();
+    let mut group_of: BTreeMap<&str, usize> = BTreeMap::new();
     for (problem, by_contender) in problems {
         let of = labels.iter().filter_map(|label| by_contender.get(*label)).flatten();
         let outcomes: Outcomes<'_> = of.map(|(claim, is_met)| (*claim, *is_met)).collect();
-        let claims: BTreeSet<&str> = outcomes.keys().copied().collect();
         // A contender that does not solve a problem leaves fewer claims there.
-        match groups.iter_mut().find(|(known, _)| !known.is_disjoint(&claims)) {
-            Some((known, of_group)) => {
-                known.extend(claims);
-                of_group.push((problem, outcomes));
-            }
-            None => groups.push((claims, vec![(problem, outcomes)])),
+        let known = outcomes.keys().filter_map(|claim| group_of.get(claim)).min();
+        let group = known.copied().unwrap_or(groups.len());
+        if group == groups.len() {
+            groups.push(Vec::new());
+        }
+        for claim in outcomes.keys() {
+            group_of.entry(claim).and_modify(|known| *known = group.min(*known)).or_insert(group);
+        }
+        groups[group].push((problem, outcomes));
+    }
+    let kept = groups.into_iter().map(greatest_problems);
+    let mut kept: Vec<_> = kept.filter(|of_group| !of_group.is_empty()).collect();
+    // A float: twenty groups of ten problems each have more choices than a whole number holds.
+    let count: f64 = kept.iter().map(|of_group| of_group.len() as f64).product();
+    if count > MOST_CHOICES {
+        for of_group in &mut kept {
+            let largest =
+                of_group.iter().enumerate().rev().max_by_key(|(_, (_, outcomes))| held(outcomes).len());
+            *of_group = largest.map(|(place, _)| vec![of_group[place].clone()]).unwrap_or_default();
         }
     }
-    let kept = groups.into_iter().map(|(_, of_group)| greatest_problems(of_group));
-    kept.filter(|of_group| !of_group.is_empty()).fold(vec![Vec::new()], |choices, of_group| {
+    let choices = kept.into_iter().fold(vec![Vec::new()], |choices, of_group| {
         let with = |choice: &Vec<(&'a str, Outcomes<'a>)>| {
             let one = |next: &(&'a str, Outcomes<'a>)| [&choice[..], std::slice::from_ref(next)].concat();
             of_group.iter().map(one).collect::<Vec<_>>()
         };
         choices.iter().flat_map(with).collect()
-    })
+    });
+    (choices, count)
+}
+
+/// The claims that are met.
+fn held<'a>(outcomes: &Outcomes<'a>) -> BTreeSet<&'a str> {
+    outcomes.iter().filter(|(_, is_met)| **is_met).map(|(claim, _)| *claim).collect()
 }
 
 /// The problems on which something holds and no other has all that holds and more; of equals the first.
 fn greatest_problems<'a>(of_group: Vec<(&'a str, Outcomes<'a>)>) -> Vec<(&'a str, Outcomes<'a>)> {
-    let hold = |outcomes: &Outcomes<'a>| {
-        outcomes.iter().filter(|(_, is_met)| **is_met).map(|(claim, _)| *claim).collect::<BTreeSet<_>>()
-    };
-    let mut sets: Vec<BTreeSet<&str>> = Vec::new();
-    let mut distinct = Vec::new();
-    for (problem, outcomes) in of_group {
-        let held = hold(&outcomes);
-        if !held.is_empty() && !sets.contains(&held) {
-            sets.push(held.clone());
-            distinct.push((held, problem, outcomes));
+    let mut first: BTreeMap<BTreeSet<&str>, usize> = BTreeMap::new();
+    for (place, (_, outcomes)) in of_group.iter().enumerate() {
+        first.entry(held(outcomes)).or_insert(place);
+    }
+    first.remove(&BTreeSet::new());
+    let mut sets: Vec<(BTreeSet<&str>, usize)> = first.into_iter().collect();
+    sets.sort_by_key(|(held, _)| std::cmp::Reverse(held.len()));
+    let mut greatest: Vec<(BTreeSet<&str>, usize)> = Vec::new();
+    for (held, place) in sets {
+        if !greatest.iter().any(|(other, _)| held.is_subset(other)) {
+            greatest.push((held, place));
         }
     }
-    let is_greatest =
-        |held: &BTreeSet<&str>| !sets.iter().any(|other| other != held && held.is_subset(other));
-    distinct.retain(|(held, _, _)| is_greatest(held));
-    distinct.into_iter().map(|(_, problem, outcomes)| (problem, outcomes)).collect()
+    let places: BTreeSet<usize> = greatest.into_iter().map(|(_, place)| place).collect();
+    of_group.into_iter().enumerate().filter(|(place, _)| places.contains(place)).map(|(_, one)| one).collect()
 }
 
 /// The sets of more than one claim that lie within no other, the largest first and of equals the first.
 pub fn greatest(mut sets: Vec<Together>) -> Vec<Together> {
+    sets.retain(|set| set.hold.len() > 1);
     sets.sort_by_key(|set| std::cmp::Reverse(set.hold.len()));
     let mut kept: Vec<Together> = Vec::new();
+    let mut held: Vec<BTreeSet<String>> = Vec::new();
     for set in sets {
-        let is_within = kept.iter().any(|other| set.hold.iter().all(|claim| other.hold.contains(claim)));
-        if set.hold.len() > 1 && !is_within {
+        if !held.iter().any(|other| set.hold.iter().all(|claim| other.contains(claim))) {
+            held.push(set.hold.iter().cloned().collect());
             kept.push(set);
         }
     }
@@ -217,6 +247,22 @@ mod tests {
         let sets = sets_of("s", &problems, "default");
         let seen: Vec<_> = sets.iter().map(|s| (s.problem.as_str(), s.hold.join(" "))).collect();
         assert_eq!(seen, [("m1", "a b".to_owned()), ("m2", "c".to_owned())]);
+    }
+
+    #[test]
+    fn of_too_many_choices_the_largest_is_taken_and_the_set_says_so() {
+        let names: Vec<[String; 3]> = (0..20).map(|g| ["a", "b", "c"].map(|id| format!("{id}{g}"))).collect();
+        let mut problems = Problems::new();
+        for (group, [a, b, c]) in names.iter().enumerate() {
+            for (problem, met) in [[true, false, false], [false, true, true]].iter().enumerate() {
+                let of: Vec<(&str, bool)> = [a, b, c].iter().map(|id| id.as_str()).zip(*met).collect();
+                problems.insert(format!("m{group}.{problem}"), Contenders::from([("base", outcomes(&of))]));
+            }
+        }
+        let sets = sets_of("s", &problems, "default");
+        assert_eq!(sets.len(), 1);
+        assert_eq!([sets[0].hold.len(), sets[0].fail.len()], [40, 20]);
+        assert!(sets[0].problem.ends_with("m9.1 (the largest of 1.049e6 choices)"), "{}", sets[0].problem);
     }
 
     #[test]

@@ -11,6 +11,7 @@ use base::robot::read_urdf;
 use base::settings::none_called;
 use clap::{Args, ValueEnum};
 use engine::kinematics::{AXES, Robot, robot::Body};
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use study::paper::Paper;
 use study::{Inputs, Study, recorded_mark};
@@ -248,7 +249,7 @@ fn loaded() -> (Vec<Paper>, Vec<Result<(), Failure>>) {
         Ok(Paper::load(&folder, &inputs)?)
     };
     doing("reading the papers");
-    let read: Vec<Result<Paper, Failure>> = papers().into_iter().map(load).collect();
+    let read: Vec<Result<Paper, Failure>> = papers().into_par_iter().map(load).collect();
     let mut papers = Vec::new();
     let mut results = Vec::new();
     for paper in read {

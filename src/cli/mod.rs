@@ -34,7 +34,7 @@ mod check;
 mod compare;
 mod confirm;
 mod conformance;
-mod crosscheck;
+pub mod crosscheck;
 mod described;
 mod drawn;
 mod example;

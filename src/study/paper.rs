@@ -190,6 +190,19 @@ pub struct Paper {
     pub others: Vec<(PathBuf, &'static str)>,
     /// The file it was read from.
     pub document: Arc<Document>,
+    /// Where each claim stands among its claims.
+    places: BTreeMap<String, usize>,
+    /// The first claim that each part is a part of.
+    wholes: BTreeMap<String, usize>,
+}
+
+/// The first place at which each id stands.
+fn first_places<'a>(ids: impl Iterator<Item = (usize, &'a String)>) -> BTreeMap<String, usize> {
+    let mut places = BTreeMap::new();
+    for (place, id) in ids {
+        places.entry(id.clone()).or_insert(place);
+    }
+    places
 }
 
 /// Holds files beside the studies against what they are taken for; what is wrong in one that a study names was told already.
@@ -307,6 +320,10 @@ impl Paper {
         let (mut claims, tables) = tables::printed(document, &spec.tables, &cells, faults);
         claims
             .extend(spec.claims.iter().enumerate().map(|claim| self::claim(document, claim, &cells, faults)));
+        let places = first_places(claims.iter().map(|claim| &claim.id).enumerate());
+        let parts = claims.iter().map(|claim| claim.parts.ids()).enumerate();
+        let parts = parts.flat_map(|(place, ids)| ids.iter().map(move |part| (place, part)));
+        let wholes = first_places(parts);
         let absolute = fs::canonicalize(folder).map_err(StudyError::io(folder, "opening the folder"))?;
         let paper = Self {
             id: absolute.file_name().unwrap_or_default().to_string_lossy().into_owned(),
@@ -325,6 +342,8 @@ impl Paper {
             studies,
             others,
             document: document.clone(),
+            places,
+            wholes,
         };
         paper.check(&spec.claims, &spec.tables, faults);
         Ok(paper)
@@ -392,7 +411,7 @@ impl Paper {
 
     /// The sentence or row that the claim called `id` is a part of, and with which it counts.
     pub fn whole_of(&self, id: &str) -> Option<&Claim> {
-        self.claims.iter().find(|claim| claim.parts.ids().iter().any(|part| part == id))
+        self.claims.get(*self.wholes.get(id)?)
     }
 
     /// The table of our results called `id`.
@@ -402,7 +421,12 @@ impl Paper {
 
     /// The claim called `id`.
     pub fn claim(&self, id: &str) -> Option<&Claim> {
-        self.claims.iter().find(|claim| claim.id == id)
+        self.claims.get(self.place_of(id)?)
+    }
+
+    /// Where the claim called `id` stands among the claims.
+    pub fn place_of(&self, id: &str) -> Option<usize> {
+        self.places.get(id).copied()
     }
 }
 

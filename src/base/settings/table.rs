@@ -343,7 +343,11 @@ fn find<'a, 't>(value: &'a Written<'t>, span: &Range<usize>) -> Option<&'a Writt
     }
     match value.get_ref() {
         DeValue::Table(table) => table.iter().find_map(|(_, v)| find(v, span)),
-        DeValue::Array(array) => array.iter().find_map(|v| find(v, span)),
+        // What belongs to an element, also under a header of its own, stands before the next element.
+        DeValue::Array(array) => {
+            let after = array.partition_point(|element| element.span().start <= span.start);
+            find(&array[after.checked_sub(1)?], span)
+        }
         _ => None,
     }
 }
