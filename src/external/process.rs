@@ -263,7 +263,9 @@ fn read_lines(stdout: ChildStdout, said: &SyncSender<PlannerOutput>, written: &A
             Ok(chunk) if !chunk.is_empty() => chunk,
             _ => break,
         };
-        let end = chunk.iter().position(|byte| *byte == b'\n');
+        // Empty lines are passed over together: a flood of them is as quick to refuse as any other.
+        let empty = if line.is_empty() { chunk.iter().take_while(|byte| **byte == b'\n').count() } else { 0 };
+        let end = empty.checked_sub(1).or_else(|| chunk.iter().position(|byte| *byte == b'\n'));
         let used = end.map_or(chunk.len(), |end| end + 1);
         line.extend_from_slice(&chunk[..used]);
         reader.consume(used);
