@@ -104,7 +104,8 @@ fn seconds(text: &str, studies: usize, groups: usize) -> [f64; 2] {
 
 /// The exponent of the power of the size that fits the times best.
 fn exponent(points: &[(usize, f64)]) -> f64 {
-    let logs: Vec<[f64; 2]> = points.iter().map(|(size, time)| [*size as f64, *time].map(f64::ln)).collect();
+    let logs: Vec<[f64; 2]> =
+        points.iter().map(|(size, time)| [*size as f64, *time].map(libm::log)).collect();
     let mean = |at: usize| logs.iter().map(|log| log[at]).sum::<f64>() / logs.len() as f64;
     let [x, y] = [mean(0), mean(1)];
     let along: f64 = logs.iter().map(|log| (log[0] - x) * (log[1] - y)).sum();
