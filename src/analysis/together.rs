@@ -101,7 +101,9 @@ fn sets_of(study: &str, problems: &Problems<'_>, interpretation: &str) -> Vec<To
         let mut sets: Vec<Together> =
             choices.iter().map(|chosen| set(study, interpretation, &under, chosen)).collect();
         if count > MOST_CHOICES {
-            sets.iter_mut().for_each(|set| set.problem += &format!(" (the largest of {count:.3e} choices)"));
+            for set in &mut sets {
+                set.problem += &format!(" (the largest of {count:.3e} choices)");
+            }
         }
         sets
     };
