@@ -112,7 +112,7 @@ enum Command {
     Merge(merge::Merge),
     /// Show the progress of a sharded run: done, running, stopped, left
     Status(status::Status),
-    /// Split a run into jobs for a cluster: Slurm, GNU parallel or HyperQueue
+    /// Split a run into jobs for a cluster: Slurm, GNU parallel or Python
     Shard(shard::Shard),
     /// Judge a paper's claims under every interpretation that has a source
     Explore(explore::Explore),
