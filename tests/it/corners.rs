@@ -1,6 +1,7 @@
 //! Lattices whose vertices are corners of cells: planners of both kinds of lattice, and the laws of their lengths.
 
 use crate::worlds::{Case, worlds};
+use base::grid::parse_text_map;
 use base::settings::Settings;
 use engine::planner::{self, Build, Ending, Plan, Planner, Request, Stage};
 use engine::space::{LatticeWorld, World, WorldKind};
@@ -127,4 +128,35 @@ fn a_line_of_sight_by_cells_is_refused_between_corners() {
     let case = &worlds(WorldKind::CornerLattice)[0];
     let invalid = planner("theta_star", "line_of_sight = 'closed_cells'").plan(&request(case)).unwrap_err();
     assert_eq!(invalid.0, "between corners of cells, line_of_sight = \"exact_interior\" is accepted");
+}
+
+#[test]
+fn planner_and_verifier_find_the_lengths_of_visibility_graphs_in_python() {
+    // crosscheck/visibility_graphs.py writes it.
+    let file =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/crosscheck/visibility_graphs.json");
+    let cases: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap();
+    let exact = planner("visibility_astar", "ties = 'larger_g'\nvertices = 'convex'");
+    let [mut found, mut walled] = [0, 0];
+    for (number, case) in cases.as_array().unwrap().iter().enumerate() {
+        let rows: Vec<&str> =
+            case["map"].as_array().unwrap().iter().map(|row| row.as_str().unwrap()).collect();
+        let cells = parse_text_map(&format!("{}\n", rows.join("\n"))).unwrap();
+        let (start, goal) = ([0.0; 2], [f64::from(cells.width()), f64::from(cells.height())]);
+        let least = CornerCase::new(&cells, [&start, &goal]).least().map(|least| least.shortest);
+        let world = World::Lattice(LatticeWorld::of_corners(cells));
+        let (start, goal) = (&start, &goal);
+        let posed = Request { world: &world, start, goal, expansions: 100_000, seed: 1, trace: false };
+        let cost = exact.plan(&posed).unwrap().cost;
+        let truth = case["shortest"].as_f64();
+        for (who, length) in [("the planner", cost), ("the verifier", least)] {
+            let same = match (length, truth) {
+                (Some(length), Some(truth)) => (length - truth).abs() < 1e-9,
+                (length, truth) => length.is_none() && truth.is_none(),
+            };
+            assert!(same, "map {number}: {who} found {length:?} for {truth:?}");
+        }
+        *(if truth.is_some() { &mut found } else { &mut walled }) += 1;
+    }
+    assert!(found > 100 && walled > 10, "{found} found, {walled} walled off");
 }

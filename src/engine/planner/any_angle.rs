@@ -6,6 +6,7 @@ use super::{Invalid, Plan, Planner, Request, Value};
 use crate::search::{
     AnyAngle, AnyAngleRules, Branching, Closings, Heap, Observer, Seen, Sighted, VisitOrder, When,
 };
+use crate::shorten::path_length;
 use base::settings::{Faults, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -123,6 +124,10 @@ impl AnyAngleSettings {
         }
         let plan = lattice::plan(grid, &report.outcome, &[report.counters], traces);
         let mut plan = lattice::with_distinct(plan, report.counters.opened);
+        if self.reopen && plan.cost.is_some() {
+            // A way to a node on the path may have become shorter after the goal's g was added up.
+            plan.cost = Some(path_length(&plan.path));
+        }
         plan.counts.insert("sight_checks", Value::Count(sight_checks));
         Ok(plan)
     }

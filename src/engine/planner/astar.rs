@@ -107,11 +107,11 @@ impl Astar {
     ) -> Report<Octile> {
         match self.weight {
             Weight::Constant(weight) => {
-                self.run_with(posed, Combined { h, combine: weighted(weight) }, expansions, observer)
+                self.run_with(posed, &Combined { h, combine: weighted(weight) }, expansions, observer)
             }
             Weight::Ruled(Rule::Falling) => {
                 let combine = falling(h(posed.start));
-                self.run_with(posed, Combined { h, combine }, expansions, observer)
+                self.run_with(posed, &Combined { h, combine }, expansions, observer)
             }
         }
     }
@@ -119,14 +119,14 @@ impl Astar {
     fn run_with<O: Observer>(
         &self,
         posed: &Posed<'_>,
-        estimate: impl Estimate<Octile>,
+        estimate: &impl Estimate<Octile>,
         expansions: u64,
         observer: &mut O,
     ) -> Report<Octile> {
         let goal = posed.goal;
         let terms = SideInputs {
             graph: &mut GridGraph::in_order(posed.world.moves(), self.neighbours),
-            estimate: &estimate,
+            estimate,
             observer,
             update: UPDATE,
         };

@@ -75,7 +75,7 @@ impl<'a> CornerCase<'a> {
             return Some("the path is empty".to_owned());
         };
         if [first.as_slice(), last.as_slice()] != self.ends {
-            let [first, last] = [first, last].map(|end| listed(end));
+            let [first, last] = [first, last].map(listed);
             return Some(format!("the path goes from {first} to {last}, not from start to goal"));
         }
         let refused = |two: &[Vec<f64>]| self.refuse_leg(&two[0], &two[1], answer.in_graph);
@@ -114,7 +114,7 @@ impl<'a> CornerCase<'a> {
             return (!fits).then(|| format!("{} joins no corners and stays in no free cell", told()));
         };
         if a == b {
-            return Some(format!("the path stands still at {}", listed(&a)));
+            return Some(format!("the path stands still at {}", listed(a)));
         }
         if in_graph && (a[0].abs_diff(b[0]) > 1 || a[1].abs_diff(b[1]) > 1) {
             return Some(format!("{} is not one of the eight moves", told()));
