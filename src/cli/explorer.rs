@@ -343,10 +343,8 @@ impl<'p> Explorer<'p> {
                 command: command_line(),
                 portion: None,
                 quick: false,
-                record: false,
                 // What an exploration left is its own and can be had again.
-                replaces_damaged: true,
-                fresh: false,
+                again: session::Again { replaces_damaged: true, ..session::Again::default() },
                 threads: self.threads,
                 stop: stop_flag(),
                 progress: &Bar::default(),

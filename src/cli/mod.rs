@@ -43,6 +43,7 @@ mod explore;
 mod explorer;
 mod export;
 pub mod file_schema;
+mod findings;
 mod judge;
 mod list;
 mod load;
@@ -192,11 +193,9 @@ struct Again {
     replace_damaged: bool,
 }
 
-impl Again {
-    /// `options` with what runs again.
-    fn options(self, options: study::session::Options<'_>) -> study::session::Options<'_> {
-        let Self { fresh, record, replace_damaged } = self;
-        study::session::Options { fresh, record, replaces_damaged: replace_damaged, ..options }
+impl From<Again> for study::session::Again {
+    fn from(Again { fresh, record, replace_damaged }: Again) -> Self {
+        Self { fresh, record, replaces_damaged: replace_damaged }
     }
 }
 

@@ -40,7 +40,7 @@ const PATIENCE: Duration = Duration::from_millis(1400);
 fn end_at_once() -> ! {
     let left = external::end_planners();
     if !left.is_empty() {
-        eprintln!("replan: processes of planners that could not be ended: {left:?}");
+        eprintln!("replan: processes of planners that could not be ended: {}", external::listed(&left));
     }
     eprintln!("replan: interrupted: what was finished is kept; the same command goes on from there");
     std::process::exit(130);

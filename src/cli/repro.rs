@@ -1,12 +1,13 @@
 //! `replan repro`: from the spec to the verdicts.
 
+use super::counted;
 use super::drawn::Drawn;
 use super::load::load;
 use super::places::Places;
 use super::progress::{safe_point, stop_flag};
 use super::run::run_studies;
 use super::summary::summary;
-use super::{Again, Failure, How, Which, trial, verdicts};
+use super::{Again, Failure, How, Which, findings, trial, verdicts};
 use super::{judge, render};
 use crate::analysis::verdict::Verdicts;
 use crate::render::output::Outputs;
@@ -28,6 +29,9 @@ pub struct Repro {
     /// Run one trial, print it, and compare it with its stored row
     #[arg(long, value_name = "STUDY/TRIAL")]
     trial: Option<String>,
+    /// List every study and every claim, not the headline claims alone
+    #[arg(long)]
+    all: bool,
 }
 
 impl Repro {
@@ -43,14 +47,33 @@ impl Repro {
         self.how.check_interpretations(&paper)?;
         let lock = Lock::take(&places.runs)?;
         let stop = stop_flag();
-        for report in run_studies(&paper, &places, &self.how, &lock, self.again)? {
-            say!("{}", summary(&report, false));
+        let reports = run_studies(&paper, &places, &self.how, &lock, self.again)?;
+        let (stored, run): (Vec<_>, Vec<_>) =
+            reports.iter().partition(|report| !self.all && report.is_stored());
+        for report in run {
+            say!("{}", summary(report, false));
+        }
+        if !stored.is_empty() {
+            say!(
+                "{}: nothing to run, the stored trials are current",
+                counted(stored.len(), ["study", "studies"])
+            );
         }
         safe_point(stop, "the records are kept")?;
         let point = self.how.interpretation(&paper.choices)?;
         let judged = judge::judge(&paper, point, &places)?;
-        verdicts::print(&judged);
+        if self.all {
+            verdicts::print(&judged);
+        } else {
+            findings::print(&paper, &judged);
+        }
         let outputs = draw(&paper, &places, &judged, self.again, stop)?;
+        if !self.all {
+            let id = &paper.id;
+            say!(
+                "why: replan show {id} CLAIM; all claims: replan show {id}; one page: replan report {id} --open"
+            );
+        }
         say!(
             "records and verdicts are in {}, figures and tables in {}, the report in {}",
             places.runs.display(),

@@ -111,7 +111,7 @@ fn run_study(
     let points = how.interpretations(study)?;
     let bar = Bar::default();
     let options = options((&points, &bar), places, how, lock);
-    Ok(session::run(study, &again.options(options))?)
+    Ok(session::run(study, &Options { again: again.into(), ..options })?)
 }
 
 /// How a whole run of a study is to be done, reusing what is stored.
@@ -128,9 +128,7 @@ fn options<'a>(
         command: command_line(),
         portion: None,
         quick: how.quick,
-        fresh: false,
-        record: false,
-        replaces_damaged: false,
+        again: session::Again::default(),
         threads: how.threads.map(|threads| threads as usize),
         stop: stop_flag(),
         progress: bar,

@@ -12,12 +12,20 @@ pub const COLUMNS: usize = 100;
 
 /// Prints every claim's verdict, and how many there are of each.
 pub fn print(verdicts: &Verdicts) {
-    let is_coloured = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-    say!("{}", table(verdicts, is_coloured).trim_end());
+    say!("{}", table(verdicts).trim_end());
+}
+
+/// `word` in the colour of `verdict`, on a terminal alone.
+pub fn coloured(verdict: Verdict, word: &str) -> String {
+    if std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none() {
+        format!("\x1b[{}m{word}\x1b[0m", colour(verdict))
+    } else {
+        word.to_owned()
+    }
 }
 
 /// The table as text, within [`COLUMNS`].
-fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
+fn table(verdicts: &Verdicts) -> String {
     let head = ["claim", "printed", "ours", "solved", "verdict"].map(str::to_owned);
     let rows: Vec<[String; 5]> = verdicts.claims.iter().map(cells).collect();
     let width = |at: usize, most: usize| {
@@ -27,9 +35,7 @@ fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
     let widths = [width(0, 30), width(1, 14), width(2, 26), width(3, 9)];
     let mut text = line(&head, widths);
     for (judged, mut row) in verdicts.claims.iter().zip(rows) {
-        if is_coloured {
-            row[4] = format!("\x1b[{}m{}\x1b[0m", colour(judged.verdict), row[4]);
-        }
+        row[4] = coloured(judged.verdict, &row[4]);
         text += &line(&row, widths);
         let what = judged.ours().map(|ours| ours.what.clone());
         let what: Vec<String> = what.into_iter().chain(judged.beside()).collect();
@@ -37,6 +43,12 @@ fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
             text += &(wrapped("   ", &what.join("; "), 4, COLUMNS) + "\n");
         }
     }
+    text + &tallied(verdicts)
+}
+
+/// How many there are of each verdict, and what is to be known of them as a whole.
+pub fn tallied(verdicts: &Verdicts) -> String {
+    let mut text = String::new();
     let Counts { verdicts: of_each, parts, asserted } = verdicts.counts();
     let quick = verdicts
         .quick

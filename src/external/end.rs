@@ -52,6 +52,11 @@ pub fn end_planners() -> Vec<i32> {
     planners().iter().flat_map(|(mark, root)| kill_all(*root, mark)).collect()
 }
 
+/// The numbers of processes in a message.
+pub fn listed(processes: &[i32]) -> String {
+    processes.iter().map(i32::to_string).collect::<Vec<_>>().join(", ")
+}
+
 /// Kills the planner `root` and all its descendants; those that survive.
 pub(super) fn kill_all(root: i32, mark: &str) -> Vec<i32> {
     for _ in 0..KILL_ROUNDS {

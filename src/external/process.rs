@@ -228,7 +228,7 @@ impl Drop for Process {
     fn drop(&mut self) {
         let left = end_all(&mut self.child, &self.mark);
         if !left.is_empty() {
-            eprintln!("processes of a planner that could not be ended: {left:?}");
+            eprintln!("processes of a planner that could not be ended: {}", crate::end::listed(&left));
         }
         interrupt::forget(&self.mark);
     }

@@ -21,6 +21,17 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
+/// What runs again although it is stored.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Again {
+    /// Everything that can be repeated, even where it is unchanged.
+    pub fresh: bool,
+    /// What is recorded, even where it is unchanged.
+    pub record: bool,
+    /// What damaged files held, which are set aside instead of refused.
+    pub replaces_damaged: bool,
+}
+
 /// How to run.
 pub struct Options<'a> {
     /// The right to write where records go.
@@ -36,12 +47,8 @@ pub struct Options<'a> {
     pub portion: Option<&'a Portion>,
     /// Cut down by `--quick`.
     pub quick: bool,
-    /// Run everything again that can be repeated, even what is stored and unchanged.
-    pub fresh: bool,
-    /// Run again what is recorded, even where it is stored and unchanged.
-    pub record: bool,
-    /// Set damaged files aside and run again what they held, instead of refusing them.
-    pub replaces_damaged: bool,
+    /// What runs again although it is stored.
+    pub again: Again,
     /// How many threads; the machine's number if absent.
     pub threads: Option<usize>,
     /// Set to stop after the units at work.
@@ -59,7 +66,8 @@ impl Options<'_> {
         stored: Option<&(Manifest, Records)>,
         damage: &Damage,
     ) -> Reusable {
-        let keeps = Keeps { repeated: !self.fresh && !damage.is_of_trials, recorded: !self.record };
+        let keeps =
+            Keeps { repeated: !self.again.fresh && !damage.is_of_trials, recorded: !self.again.record };
         stored.map_or_else(Reusable::default, |(before, old)| {
             Reusable::new(built, manifest, before, old, keeps)
         })
@@ -94,6 +102,13 @@ pub struct Report {
     pub aside: Vec<PathBuf>,
     /// Trials that brought neither a path nor the answer that there is none, by status.
     pub odd: Vec<UnexpectedStatus>,
+}
+
+impl Report {
+    /// Whether every trial was stored and nothing ran.
+    pub fn is_stored(&self) -> bool {
+        self.reused == self.units && self.moved.is_empty() && self.aside.is_empty()
+    }
 }
 
 /// Trials of one status that a reader may not have expected.
@@ -165,12 +180,13 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
         Some(Manifest::read_left(path)?.files)
     });
     remove_temporaries(folder, &study.name);
-    let Before { stored, kept, why, damage } = Before::read(folder, &manifest, options.replaces_damaged)?;
+    let Before { stored, kept, why, damage } =
+        Before::read(folder, &manifest, options.again.replaces_damaged)?;
     let (journal, mut done) = Journal::open(&Journal::path(folder, &study.name), &manifest.depends)?;
     let resumed = done.len();
     let units = only.map_or_else(|| built.units().len(), BTreeSet::len);
     let is_current = |(before, _): &&(Manifest, Records)| {
-        !options.fresh && !options.record && !damage.is_any && manifest.is_as(before)
+        !options.again.fresh && !options.again.record && !damage.is_any && manifest.is_as(before)
     };
     if let Some((before, records)) = stored.as_ref().filter(is_current) {
         journal.remove()?;

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use study::lock::Lock;
 use study::runner::Unwatched;
-use study::session::{Options, run};
+use study::session::{Again, Options, run};
 use study::{Inputs, Study};
 
 const STUDY: &str = r#"
@@ -68,9 +68,7 @@ fn records(home: &Path, threads: usize) -> Vec<(String, Vec<u8>)> {
         inputs: &inputs,
         command: String::new(),
         quick: false,
-        fresh: true,
-        record: false,
-        replaces_damaged: false,
+        again: Again { fresh: true, ..Again::default() },
         portion: None,
         threads: Some(threads),
         stop: &AtomicBool::new(false),

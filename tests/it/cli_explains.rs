@@ -78,7 +78,7 @@ fn a_scene_in_a_papers_folder_is_taken_for_a_scene() {
 fn list_explains_one_thing_within_eighty_columns_and_meets_a_misspelled_name() {
     let bench = Bench::new();
     for (what, name, part) in [
-        ("planners", "astar", "ties: \"fifo\", \"lifo\" or \"larger_g\"; \"fifo\" if left out"),
+        ("planners", "astar", "ties: \"fifo\", \"lifo\", \"larger_g\" or \"smaller_g\""),
         ("criteria", "one_instance", "[claim.check.one_instance.of]\n"),
         ("checks", "one_instance", "contender = \"A*\""),
         ("rules", "straight_line", "start = [2.0, 2.0]"),

@@ -220,7 +220,8 @@ fn repro_runs_what_is_stale_and_fresh_runs_everything_without_losing_a_byte() {
     let repro = |flags: &[&str]| bench.done(&[&["repro", "./mini"], flags].concat());
     assert!(repro(&[]).starts_with("draws: 48 trials\n"));
     let first = bench.tree("target/replan/mini");
-    assert!(repro(&[]).starts_with("draws: 48 trials (24 of 24 units reused)\n"));
+    assert!(repro(&[]).starts_with("2 studies: nothing to run, the stored trials are current\n"));
+    assert!(repro(&["--all"]).starts_with("draws: 48 trials (24 of 24 units reused)\n"));
     assert!(bench.tree("target/replan/mini") == first, "a run with nothing to do changed something");
     let facts = bench.facts("target/replan/mini");
     assert!(repro(&["--fresh"]).starts_with("draws: 48 trials\n"));

@@ -93,7 +93,7 @@ fn a_margin_that_moves_after_the_run_is_reported_for_good() {
     assert!(text(&bench, DETAILS).contains("No claim was changed after its data had been seen.\n"));
     bench.edit(PAPER, "margin = 0.25", "margin = 3.0");
     let said = bench.done(&["repro", "./mini"]);
-    assert!(said.contains(mark) && said.contains("draws: 48 trials (24 of 24 units reused)"), "{said}");
+    assert!(said.contains(mark) && said.starts_with("2 studies: nothing to run, "), "{said}");
     assert_reported(&bench, "repro");
     assert!(bench.done(&["repro", "./mini", "--fresh"]).contains(mark));
     assert_reported(&bench, "--fresh");

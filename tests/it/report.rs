@@ -325,3 +325,20 @@ fn one_claim_is_shown_with_its_evidence_within_100_columns() {
         assert!(long.is_empty(), "{long:#?}");
     }
 }
+
+#[test]
+fn repro_ends_with_the_finding_and_its_headline_claims_within_a_screen() {
+    let bench = Bench::new();
+    bench.edit("mini/paper.toml", "at = \"section 1\"\n", "at = \"section 1\"\nheadline = true\n");
+    bench.done(&["repro", "./mini"]);
+    let said = bench.done(&["repro", "./mini"]);
+    let lines: Vec<&str> = said.lines().collect();
+    assert!(lines.len() <= 40 && lines.iter().all(|line| line.chars().count() <= 100), "{said}");
+    let claims = |text: &str| ["nodes  ", "cost  "].map(|id| text.lines().any(|line| line.starts_with(id)));
+    assert_eq!(claims(&said), [true, false], "{said}");
+    assert_eq!(claims(&bench.done(&["repro", "./mini", "--all"])), [true, true]);
+    assert!(lines.iter().any(|line| line.starts_with("why: replan show mini CLAIM; ")), "{said}");
+    let verdict = bench.done(&["show", "./mini", "nodes"]);
+    let word = lines.iter().find(|line| line.starts_with("nodes  ")).unwrap().rsplit("  ").next().unwrap();
+    assert!(verdict.contains(word), "{word}: {verdict}");
+}

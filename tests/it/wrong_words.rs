@@ -61,7 +61,7 @@ pub const WRONG: &[Wrong] = &[
         "draws",
         "weight = 1,",
         "wait = 1,",
-        "mini/draws.toml:24:14: unknown key `wait`; accepted: `neighbours`, `ties`, `weight`",
+        "mini/draws.toml:24:14: unknown key `wait`; accepted: `heuristic`, `neighbours`, `ties`, `weight`",
     ),
     wrong(
         "draws",
@@ -73,7 +73,7 @@ pub const WRONG: &[Wrong] = &[
         "draws",
         "\"fifo\" }\n\n",
         "\"filo\" }\n\n",
-        "mini/draws.toml:24:33: `ties` is \"filo\" (did you mean `fifo`?); \"fifo\", \"lifo\" or \"larger_g\" is accepted",
+        "mini/draws.toml:24:33: `ties` is \"filo\" (did you mean `fifo`?); \"fifo\", \"lifo\", \"larger_g\" or \"smaller_g\" is accepted",
     ),
     wrong(
         "draws",

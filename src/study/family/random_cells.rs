@@ -18,9 +18,6 @@ start = "drawn"
 goal = { x = 39 }
 queries = 2
 blocked_share = 0.2
-blocking = "draws"
-border_cells = 1
-vertices = "corners"
 corner_rule = "allow"
 "#,
 );

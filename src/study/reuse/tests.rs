@@ -3,7 +3,7 @@ use crate::lock::Lock;
 use crate::manifest::Manifest;
 use crate::paper::Paper;
 use crate::record::Row;
-use crate::session::{Options, Report, run};
+use crate::session::{Again, Options, Report, run};
 use crate::store::{Columns, Records, Staged, Traces, read_records, stage_records};
 use crate::{Inputs, runner::Unwatched};
 use std::collections::{BTreeMap, BTreeSet};
@@ -88,9 +88,7 @@ impl House {
             inputs: &inputs,
             command: String::new(),
             quick: false,
-            fresh: false,
-            record: false,
-            replaces_damaged: false,
+            again: Again::default(),
             portion: None,
             threads: Some(1),
             stop: &AtomicBool::new(false),

@@ -3,7 +3,7 @@ use crate::lock::Lock;
 use crate::paper::Paper;
 use crate::rerun::rerun;
 use crate::runner::{BuiltStudy, Unwatched};
-use crate::session::{Options, run, run_one};
+use crate::session::{Again, Options, run, run_one};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -61,9 +61,7 @@ fn facts(folder: &Path, threads: usize) -> BTreeMap<String, Vec<u8>> {
         inputs: &inputs,
         command: String::new(),
         quick: false,
-        fresh: false,
-        record: false,
-        replaces_damaged: false,
+        again: Again::default(),
         portion: None,
         threads: Some(threads),
         stop: &AtomicBool::new(false),

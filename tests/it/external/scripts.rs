@@ -213,7 +213,7 @@ pub const CASES: &[Case] = &[
     ),
     case(
         "result-before-its-query",
-        r#"hello; id=1; result '[[0,1],[299,200]]'; sleep 100"#,
+        r"hello; id=1; result '[[0,1],[299,200]]'; sleep 100",
         "crashed",
         "before it had a query",
     ),
@@ -225,7 +225,7 @@ pub const CASES: &[Case] = &[
     ),
     case(
         "escapes",
-        r#"hello; query; printf '\033]0;mine\007a\nb\033[2J' >&2; exit 3"#,
+        r"hello; query; printf '\033]0;mine\007a\nb\033[2J' >&2; exit 3",
         "crashed",
         r"its log ends: ‹escape›]0;mine‹control character U+0007›a\nb‹escape›[2J",
     ),
