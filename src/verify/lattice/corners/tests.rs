@@ -84,7 +84,7 @@ fn a_path_is_refused_where_it_is_not_what_it_claims() {
         case.refuse_path(&answer, least).unwrap_or_default()
     };
     let bent = 2.0 * 5.0_f64.sqrt();
-    let on_edges = 2.0 * 0.5_f64.hypot(1.0) + 5.0_f64.sqrt();
+    let on_edges = 2.0 * libm::hypot(0.5, 1.0) + 5.0_f64.sqrt();
     assert_eq!(refusal(&[[0.0, 0.0], [1.0, 2.0], [3.0, 3.0]], bent, false), "");
     assert_eq!(refusal(&[[0.0, 0.0], [0.5, 1.0], [1.0, 2.0], [3.0, 3.0]], on_edges, false), "");
     for (points, cost, in_graph, message) in [
@@ -107,5 +107,5 @@ fn an_open_map_is_seen_once() {
     let cells = Grid2::new(300, 200).unwrap();
     let ends = [[300.0, 0.0], [299.0, 200.0]];
     let least = CornerCase::new(&cells, [&ends[0], &ends[1]]).least().unwrap();
-    assert!((least.shortest - 200.0_f64.hypot(1.0)).abs() < 1e-9, "{least:?}");
+    assert!((least.shortest - libm::hypot(200.0, 1.0)).abs() < 1e-9, "{least:?}");
 }
