@@ -1,9 +1,9 @@
 """Shortest paths between corners of cells, by Dijkstra's algorithm on whole visibility graphs.
 
-Writes tests/it/crosscheck/visibility_graphs.json for a Rust test: 200 small maps from a written seed, each with the length of a
-shortest path from its lower left to its upper right corner; null where there is none. A line is clear if it crosses no blocked
-square, clipped in fractions, and if no unit of it lies between two squares that are blocked or outside. Run from the root of the
-repository:
+Writes tests/it/crosscheck/visibility_graphs.json for a Rust test: 200 small maps from a written seed. Each has the
+length of a shortest path from its lower left to its upper right corner, or null where there is none. A line is clear if
+it crosses no blocked square, clipped in fractions, and if no unit of it lies between two squares that are blocked or
+outside. Run from the root of the repository:
 
     python crosscheck/visibility_graphs.py
 """

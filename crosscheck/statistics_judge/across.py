@@ -202,7 +202,9 @@ class Across:
         """The interpretations that vote and are compatible, with equal results once."""
         assert self.first is not None
         interpretations = self.first["interpretations"]
-        voting = [at for at, one in enumerate(interpretations) if all(choice.votes(one) for choice in self.choices)]
+        voting = [
+            at for at, one in enumerate(interpretations) if all(choice.votes(one) for choice in self.choices)
+        ]
         judged = self.compatible(voting, *self.calibrating(claim))
         none_compatible = bool(voting) and not judged
         judged = voting if none_compatible else judged
@@ -282,7 +284,11 @@ class Across:
     def unfitted(self, place: int) -> tuple[str, ...]:
         """The options of an interpretation where nothing is fitted."""
         assert self.first is not None
-        return tuple(choice.option(self.first["interpretations"][place]) for choice in self.choices if not choice.fitted)
+        return tuple(
+            choice.option(self.first["interpretations"][place])
+            for choice in self.choices
+            if not choice.fitted
+        )
 
     def confirm(self, claim: str, results: list[Result]) -> None:
         """Leaves open what speaks against most results and does not do so on the second seed."""
@@ -292,7 +298,9 @@ class Across:
             if self.second is not None and claim not in self.stale[1]:
                 interpretation = self.first["interpretations"][one.interpretations[0]]
                 if interpretation in self.second["interpretations"]:
-                    again = self.result(self.second, claim, self.second["interpretations"].index(interpretation))
+                    again = self.result(
+                        self.second, claim, self.second["interpretations"].index(interpretation)
+                    )
             if again is None or SPEAKS[stored_outcome(again)] != SPEAKS[one.stored]:
                 one.vote = OPEN
 
@@ -338,7 +346,9 @@ class Across:
 
     def sides(self, claim: str, counted: Counted, sides: list[int]) -> Sides:
         """The results that count, on these sides."""
-        choices = {choice.id: partial(self.taken, choice) for choice in self.choices if self.moves(claim, choice)}
+        choices = {
+            choice.id: partial(self.taken, choice) for choice in self.choices if self.moves(claim, choice)
+        }
         return Sides(choices, [one.interpretations for one in counted.results], sides)
 
     def taken(self, choice: Choice, place: int) -> str:
@@ -359,7 +369,9 @@ class Across:
             start = "the exception has" if len(apart) == 1 else f"all {len(apart)} exceptions have"
             return f"{start} {rule.said()}"
         assert self.first is not None
-        short = [one for one in apart if len(self.first["interpretations"][one.interpretations[0]]) <= OPTIONS]
+        short = [
+            one for one in apart if len(self.first["interpretations"][one.interpretations[0]]) <= OPTIONS
+        ]
         names = [self.name(one) if self.departs(one) else "the defaults" for one in short[:LISTED]]
         names += [f"{len(apart) - len(names)} more"] if len(apart) > len(names) else []
         return f"exceptions: {' · '.join(names)}"
@@ -386,7 +398,10 @@ class Across:
         """The first interpretation of a result by what differs from the defaults."""
         assert self.first is not None
         interpretation = self.first["interpretations"][result.interpretations[0]]
-        return ", ".join(f"{choice} = {option}" for choice, option in sorted(interpretation.items())) or "the default"
+        return (
+            ", ".join(f"{choice} = {option}" for choice, option in sorted(interpretation.items()))
+            or "the default"
+        )
 
     def alone(self, claim: str, choice: Choice, option: str) -> dict[str, Any] | None:
         """What was found under an option, all else at its default."""
@@ -399,7 +414,9 @@ class Across:
         """Whether some voting option alone gives other results than the defaults, or was not looked at."""
         assert self.first is not None
         base = self.result(self.first, claim, 0)
-        voting = [name for name in choice.options if name != choice.default and choice.votes({choice.id: name})]
+        voting = [
+            name for name in choice.options if name != choice.default and choice.votes({choice.id: name})
+        ]
         if base is None or not voting:
             return True
         for found in (self.alone(claim, choice, name) for name in voting):

@@ -150,7 +150,9 @@ def is_not_run(paper: Paper, claim: dict[str, Any], studies: list[Study]) -> boo
     premises = claim.get("holds_when", {})
     for choice in across.choices(paper):
         lost = [
-            name for name, option in choice.options.items() if "cannot_run" in option and choice.is_meant(name)
+            name
+            for name, option in choice.options.items()
+            if "cannot_run" in option and choice.is_meant(name)
         ]
         lost = [name for name in lost if name in premises.get(choice.id, [name])]
         of_claims = any(key in option for option in choice.options.values() for key in ("metric", "digits"))
@@ -203,7 +205,9 @@ def compare(paper: Paper, claims: list[Claim], verdicts: dict[str, Any]) -> Said
     """What verdicts.toml says, held against what was recomputed."""
     said = Said()
     if verdicts["interpretation"] != paper.taken:
-        said.differ.append(f"{paper.id}: verdicts.toml was judged under other interpretations than the default")
+        said.differ.append(
+            f"{paper.id}: verdicts.toml was judged under other interpretations than the default"
+        )
         return said
     stored = {one["claim"]: one for one in verdicts.get("claim", [])}
     if list(stored) != [claim.id for claim in claims]:

@@ -87,7 +87,7 @@ class Study:
     @cached_property
     def inherited(self) -> list[str]:
         """The choices that touch its trials: the stored run names them."""
-        return toml(self.runs / f"{self.name}.manifest.toml")["axes"]
+        return toml(self.runs / f"{self.name}.manifest.toml")["choices"]
 
     @property
     def groups(self) -> list[str]:
@@ -321,7 +321,9 @@ class Paper:
         paths = [self.runs / f"{name}.toml.gz" for name in ("explored", "second_seed")]
         found = [toml(path) if path.is_file() else None for path in paths]
         for claim in (claim for one in found if one is not None for claim in one["claims"].values()):
-            claim["at"] = {place: result for result in claim["results"] for place in result["interpretations"]}
+            claim["at"] = {
+                place: result for result in claim["results"] for place in result["interpretations"]
+            }
         return found
 
     def metric(self, name: str) -> Metric:

@@ -126,7 +126,7 @@ def test_a_vote_made_a_probe_changes_what_is_counted() -> None:
     )
     choice["option"][name].pop("practice")
     choice["option"][name].pop("paper", None)
-    choice = next(choice for choice in choices(of) if choice.id == choice["id"])
+    choice = next(one for one in choices(of) if one.id == choice["id"])
     assert not choice.votes({choice.id: name})
     assert said(of, stored(of))
 
@@ -195,7 +195,10 @@ def test_meanings_depend_where_they_speak_both_ways_and_else_are_the_weakest() -
 
 def test_what_speaks_against_most_is_a_flip_and_of_as_many_what_speaks_against_the_default() -> None:
     def of(*votes: str) -> list[int]:
-        return [one.interpretations[0] for one in flips([Result([at], vote, vote) for at, vote in enumerate(votes)])]
+        return [
+            one.interpretations[0]
+            for one in flips([Result([at], vote, vote) for at, vote in enumerate(votes)])
+        ]
 
     assert of(GOOD, BAD, GOOD) == [1]
     assert of(GOOD, BAD, BAD) == [0]
@@ -213,7 +216,10 @@ def said_of(options: list[str], votes: list[str]) -> tuple[str | None, str | Non
         for both in options
     ]
     at = {place: {"interpretations": [place], "class": vote} for place, vote in enumerate(votes)}
-    across.first = {"interpretations": interpretations, "claims": {"fewer": {"results": list(at.values()), "at": at}}}
+    across.first = {
+        "interpretations": interpretations,
+        "claims": {"fewer": {"results": list(at.values()), "at": at}},
+    }
     counted = Counted(
         [Result([place], vote, vote) for place, vote in enumerate(votes)],
         len(votes),

@@ -75,7 +75,7 @@ impl Repro {
             );
         }
         say!(
-            "records and verdicts are in {}, figures and tables in {}, the report in {}",
+            "records and verdicts are in {}\nfigures and tables are in {}\nthe report is {}",
             places.runs.display(),
             places.plots.display(),
             places.report.display()

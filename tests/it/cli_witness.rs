@@ -139,7 +139,7 @@ fn what_failed_on_draws_that_were_not_timed_is_no_failure_among_the_timed() {
     let bench = Bench::new();
     bench.edit("mini/draws.toml", "problems = 2", "problems = 12");
     bench.edit("mini/paper.toml", "metric = \"nodes\"", "metric = \"plan_time_us\"");
-    let judged = bench.done(&["repro", "./mini"]);
+    let judged = bench.done(&["repro", "./mini", "--all"]);
     let line = judged.lines().find(|line| line.starts_with("nodes ")).unwrap();
     let solved = line.split_whitespace().find(|word| word.contains('/')).unwrap();
     let failed = judged_failures(&bench);

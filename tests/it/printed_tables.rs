@@ -93,7 +93,7 @@ fn forty() -> Bench {
 fn forty_printed_cells_in_eighty_lines_of_toml_are_checked_run_and_judged() {
     let bench = forty();
     assert!(bench.done(&["check", "./forty"]).contains("50 claims"), "forty cells, ten rows");
-    let said = bench.done(&["repro", "./forty"]);
+    let said = bench.done(&["repro", "./forty", "--all"]);
     for cell in ["t.astar0.length", "t.weighted4.bends", "t.astar2 "] {
         assert!(said.lines().any(|line| line.starts_with(cell)), "{cell}: {said}");
     }
@@ -242,7 +242,7 @@ fn a_ninth_headline_is_refused_where_it_is_set_and_eight_open_the_chapter() {
     assert!(said.code == Some(2) && said.err.contains(wanted), "{}", said.err);
     assert!(said.err.contains("forty/paper.toml:19:"), "{}", said.err);
     assert_eq!(with(8).code, Some(0));
-    bench.done(&["repro", "./forty"]);
+    bench.done(&["repro", "./forty", "--all"]);
     let report = std::fs::read_to_string(bench.at("target/replan/forty/paper_repro.md")).unwrap();
     let listed = report.lines().filter(|line| line.starts_with("| [`t.")).collect::<Vec<_>>();
     assert_eq!(listed.len(), 8, "{report}");
@@ -272,7 +272,7 @@ fn a_claim_asks_for_a_part_of_a_sweep() {
             "[claim.check.share]\nhits = \"solved\"\naccepted = [0.0, 0.5]\nof = {{ study = \"maps\", problems = \"0\", contender = \"A*\", \
              sweep = {sweep} }}\n"
         ));
-        let said = bench.done(&["repro", "./forty"]);
+        let said = bench.done(&["repro", "./forty", "--all"]);
         let line = said.lines().find(|line| line.starts_with("c ")).unwrap();
         line.split_whitespace()
             .find_map(|word| word.strip_prefix("12/").or(word.split_once('/').map(|(_, all)| all)))
@@ -303,7 +303,7 @@ fn success_along_a_part_of_a_sweep_is_asked_of_that_part() {
     let bench = swept(
         "[claim.check.lower]\nof = { study = \"maps\", problems = \"3\", contender = \"A*\", against = \"Weighted\", sweep = \"weight<=3\" }\n",
     );
-    bench.done(&["repro", "./forty"]);
+    bench.done(&["repro", "./forty", "--all"]);
     let said = bench.done(&["show", "./forty", "c"]);
     assert!(said.contains("at 0 of 3 points"), "{said}");
 }

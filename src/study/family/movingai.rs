@@ -36,7 +36,8 @@ pub static ENTRY: Entry = Entry {
     example: r#"
 map = "data/maps/movingai_sample.map"
 scenarios = "data/maps/movingai_sample.scen"
-corner_rule = "forbid_any"
+corner_rule = "allow"
+vertices = "corners"
 "#,
     build: |settings, inputs| {
         let read: MovingAi = settings.read()?;

@@ -95,7 +95,7 @@ impl RandomCells {
     fn check_border(&self, settings: &Settings) -> Result<(), SettingsError> {
         let [inner, all] = self.counts();
         let border = self.border_cells.unwrap_or(0);
-        if inner == 0.0 {
+        if inner == 0.0 && border > 0 {
             let message = format!(
                 "border_cells is {border}, and the border takes the whole map; less than half a side is accepted"
             );
