@@ -44,7 +44,7 @@ pub struct Ended {
 
 /// Whom a problem is for.
 #[derive(Debug, Clone)]
-pub struct Asked<'a> {
+pub struct Expected<'a> {
     /// The robot's name.
     pub robot: &'a str,
     /// The names of its joints, base first.
@@ -52,7 +52,7 @@ pub struct Asked<'a> {
 }
 
 /// The problem number `index`, from 0, of the set called `set` in `document`; of the only set, if none is named. Starts and goals are in
-/// the order of the robot's joints; without a robot nothing is asked of them.
+/// the order of the robot's joints; without a robot nothing is checked of them.
 ///
 /// # Errors
 /// The first fault at its place: no such set or problem, another robot or other joints, a value that is missing or of the wrong kind, a
@@ -61,19 +61,19 @@ pub fn parse_problem(
     document: &Document,
     set: Option<&str>,
     index: usize,
-    asked: Option<&Asked<'_>>,
+    expected: Option<&Expected<'_>>,
 ) -> Result<Problem, SettingsError> {
     let root = Yaml::parse(document)?;
     let notes = RefCell::default();
     let reader = Reader { yaml: Yaml(Source(document)), notes: &notes };
     refuse_moveit(reader, &root)?;
     let sets = reader.yaml.find(&root, "problems")?.unwrap_or(&root);
-    let mut order = asked.map(|asked| (0..asked.joints.len()).collect());
+    let mut order = expected.map(|expected| (0..expected.joints.len()).collect());
     if !std::ptr::eq(sets, &raw const root) {
         reader.rest(&root, &["problems", "robot", "joints"], false)?;
-        if let Some(asked) = asked {
-            check_robot(reader, &root, asked.robot)?;
-            order = named_order(reader, &root, asked)?.or(order);
+        if let Some(expected) = expected {
+            check_robot(reader, &root, expected.robot)?;
+            order = named_order(reader, &root, expected)?.or(order);
         }
     }
     let chosen = match (set, reader.yaml.table(sets)?) {
@@ -128,7 +128,7 @@ fn check_robot(reader: Reader<'_>, root: &Node, robot: &str) -> Result<(), Setti
 fn named_order(
     reader: Reader<'_>,
     root: &Node,
-    Asked { robot, joints }: &Asked<'_>,
+    Expected { robot, joints }: &Expected<'_>,
 ) -> Result<Option<Vec<usize>>, SettingsError> {
     let Some(node) = reader.yaml.find(root, "joints")? else { return Ok(None) };
     let listed = reader.yaml.list(node)?;

@@ -68,8 +68,14 @@ impl Repro {
             findings::print(&paper, &judged);
         }
         let outputs = draw(&paper, &places, &judged, self.again, stop)?;
-        if !self.all {
-            let id = &paper.id;
+        // What is not stored in its usual place is not what `show` reads.
+        if !self.all
+            && !self.how.quick
+            && self.how.with.is_none()
+            && self.how.seed.is_none()
+            && self.which.out.is_none()
+        {
+            let id = &self.which.paper;
             say!(
                 "why: replan show {id} CLAIM; all claims: replan show {id}; one page: replan report {id} --open"
             );

@@ -337,7 +337,7 @@ fn repro_ends_with_the_finding_and_its_headline_claims_within_a_screen() {
     let claims = |text: &str| ["nodes  ", "cost  "].map(|id| text.lines().any(|line| line.starts_with(id)));
     assert_eq!(claims(&said), [true, false], "{said}");
     assert_eq!(claims(&bench.done(&["repro", "./mini", "--all"])), [true, true]);
-    assert!(lines.iter().any(|line| line.starts_with("why: replan show mini CLAIM; ")), "{said}");
+    assert!(lines.iter().any(|line| line.starts_with("why: replan show ./mini CLAIM; ")), "{said}");
     let verdict = bench.done(&["show", "./mini", "nodes"]);
     let word = lines.iter().find(|line| line.starts_with("nodes  ")).unwrap().rsplit("  ").next().unwrap();
     assert!(verdict.contains(word), "{word}: {verdict}");

@@ -26,7 +26,7 @@ pub struct Rule {
 
 impl Rule {
     /// The options in words.
-    pub fn said(&self) -> String {
+    pub fn in_words(&self) -> String {
         let option = |(choice, option): &(String, String)| format!("{choice} = {option}");
         self.options.iter().map(option).collect::<Vec<_>>().join(" and ")
     }

@@ -3,7 +3,7 @@
 //! Under each interpretation that was explored every claim was judged by itself ([`glance`]); what came out is stored ([`stored`]).
 //! Interpretations that vote and are compatible with what the study was calibrated to are counted, equal results once ([`count`]);
 //! those of a minority need a second seed ([`combine`](mod@combine)). The [table of verdicts](super::verdict_rule) says what
-//! they amount to, [`said`] what stands beside it, [`depends`] on which options it depends, [`touched`] which interpretations were
+//! they amount to, [`wording`] what stands beside it, [`depends`] on which options it depends, [`touched`] which interpretations were
 //! not varied, and [`effects`] what each interpretation moves.
 
 pub mod by_interpretation;
@@ -12,9 +12,9 @@ pub mod count;
 pub mod depends;
 pub mod effects;
 pub mod glance;
-pub mod said;
 pub mod stored;
 pub mod touched;
+pub mod wording;
 
 use super::outcome::{Outcome, Polarity};
 use super::settle::{MEANT, across_settles, meanings_settle};
@@ -22,13 +22,13 @@ use super::together::greatest;
 use super::verdict::{Across, ClaimVerdict, Explored, Verdicts};
 use super::verdict_rule::{Line, Results, Verdict, of_meanings};
 use count::{Counted, Group, VotingChoices};
-use said::{Said, View};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use stored::Exploration;
 use study::paper::{Claim, Paper, Parts};
 use study::{Choice, StudyError};
 use touched::Touched;
+use wording::{View, Wording};
 
 /// What is stored of a paper besides its default run.
 #[derive(Debug, Default)]
@@ -163,9 +163,9 @@ impl OfClaim<'_> {
     /// Gives `judged` the verdict of its results, with what stands beside it.
     fn say(&self, judged: &mut ClaimVerdict, view: &View<'_>) {
         let (verdict, line) = view.results.verdict();
-        let Said { beside, depends_on } = view.said(line);
+        let Wording { beside, depends_on } = view.wording(line);
         let is_bearing = !matches!(line, Line::Proved | Line::Lacking);
-        let unvaried = said::not_varied(&judged.not_varied).filter(|_| is_bearing);
+        let unvaried = wording::not_varied(&judged.not_varied).filter(|_| is_bearing);
         let beside = judged.possible().map(str::to_owned).or(beside);
         judged.said = beside.into_iter().chain(unvaried).reduce(|one, two| format!("{one}; {two}"));
         (judged.verdict, judged.depends_on) = (verdict, depends_on);
@@ -231,7 +231,7 @@ fn alone(judged: &ClaimVerdict) -> Counted {
 }
 
 /// The verdict of a sentence that means one of its parts, from theirs, with what stands beside it; `None` of any other claim.
-fn meaning(claim: &Claim, verdicts: &Verdicts) -> Option<(String, Verdict, Said)> {
+fn meaning(claim: &Claim, verdicts: &Verdicts) -> Option<(String, Verdict, Wording)> {
     let Parts::MeansOneOf(ids) = &claim.parts else { return None };
     if claim.untestable.is_some() || claim.tests().next().is_some() {
         return None;
@@ -246,7 +246,7 @@ fn meaning(claim: &Claim, verdicts: &Verdicts) -> Option<(String, Verdict, Said)
     Some((
         claim.id.clone(),
         verdict,
-        Said { beside: Some(format!("meanings: {}", said.join(", "))), depends_on },
+        Wording { beside: Some(format!("meanings: {}", said.join(", "))), depends_on },
     ))
 }
 

@@ -3,8 +3,8 @@ use super::super::verdict_rule::{Results, Verdict};
 use super::combine::{confirmed, flips};
 use super::count::{Counted, Group, VotingChoices};
 use super::glance::{Glance, Sight};
-use super::said::View;
 use super::stored::{Exploration, ExploredClaim, ExploredResult, Now, results};
+use super::wording::View;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use study::Choice;
@@ -121,7 +121,7 @@ impl Planted {
     }
 
     /// What stands beside the verdict, and on what it depends.
-    fn said(&self) -> (String, Option<String>) {
+    fn wording(&self) -> (String, Option<String>) {
         let outcomes: Vec<Outcome> = self.groups.iter().map(|group| group.outcome).collect();
         let looked = self.groups.iter().map(|group| group.interpretations.len()).sum();
         let counted = Counted { groups: self.groups.clone(), looked, ..Counted::default() };
@@ -139,7 +139,7 @@ impl Planted {
             counted: &counted,
             results: &results,
         };
-        let said = view.said(line);
+        let said = view.wording(line);
         (said.beside.unwrap_or_default(), said.depends_on)
     }
 }
@@ -156,10 +156,10 @@ fn product(of: impl Fn(&str, &str) -> Outcome) -> Planted {
 fn a_planted_rule_of_one_option_is_named_from_either_side() {
     let against = product(|corners, _| if corners == "b" { Fails } else { Holds });
     let expected = "6/0/3 for/open/against; contradicted only if corners = b (3 of 3)";
-    assert_eq!(against.said(), (expected.to_owned(), Some("corners".to_owned())));
+    assert_eq!(against.wording(), (expected.to_owned(), Some("corners".to_owned())));
     let held = product(|_, ties| if ties == "a" { Holds } else { Fails });
     let expected = "3/0/6 for/open/against; holds only if ties = a (3 of 3)";
-    assert_eq!(held.said(), (expected.to_owned(), Some("ties".to_owned())));
+    assert_eq!(held.wording(), (expected.to_owned(), Some("ties".to_owned())));
 }
 
 #[test]
@@ -167,7 +167,7 @@ fn a_planted_rule_of_two_options_is_named_where_neither_alone_is_exact() {
     let both = product(|corners, ties| if corners == "b" && ties == "c" { Fails } else { Holds });
     // One of nine results is not a tenth: nine tenths would be reproduced with an exception.
     let expected = "8/0/1 for/open/against; contradicted only if corners = b and ties = c (1 of 1)";
-    assert_eq!(both.said(), (expected.to_owned(), Some("corners and ties".to_owned())));
+    assert_eq!(both.wording(), (expected.to_owned(), Some("corners and ties".to_owned())));
 }
 
 #[test]
@@ -184,13 +184,13 @@ fn an_option_that_all_contradicting_results_share_is_named_with_how_many_others_
     ];
     let planted = Planted::new(&[("corners", "a"), ("ties", "a"), ("side", "a")], &found);
     let expected = "5/0/2 for/open/against; contradicted only if corners = b (2 of 4)";
-    assert_eq!(planted.said(), (expected.to_owned(), Some("corners".to_owned())));
+    assert_eq!(planted.wording(), (expected.to_owned(), Some("corners".to_owned())));
 }
 
 #[test]
 fn where_the_sides_share_no_option_a_combination_decides_and_the_best_axis_is_named() {
     let either = product(|corners, ties| if (corners == "b") == (ties == "b") { Fails } else { Holds });
-    let (said, on) = either.said();
+    let (said, on) = either.wording();
     assert_eq!(on.as_deref(), Some("a combination"), "{said}");
     assert!(
         said.contains("corners separates best: contradicted under a 2 of 3, b 1 of 3, c 2 of 3"),
@@ -206,7 +206,7 @@ fn nothing_depends_on_an_axis_that_moves_nothing_alone() {
         idle.first.claims.get_mut("fewer").unwrap().results[place].results = "0".to_owned();
     }
     idle.groups.retain(|group| [0, 4].contains(&group.interpretation));
-    assert_eq!(idle.said().1.as_deref(), Some("ties"));
+    assert_eq!(idle.wording().1.as_deref(), Some("ties"));
 }
 
 #[test]
@@ -219,18 +219,18 @@ fn a_result_stands_under_all_of_its_readings_and_not_under_the_first_alone() {
     };
     // The other corners bring it alone, and so do other ties.
     planted.groups = vec![group(vec![0], Fails), group(vec![1, 3], Holds)];
-    assert_eq!(planted.said().1.as_deref(), Some("corners and ties"));
+    assert_eq!(planted.wording().1.as_deref(), Some("corners and ties"));
     planted.groups = vec![group(vec![0], Fails), group(vec![3], Holds)];
-    assert_eq!(planted.said().1.as_deref(), Some("corners"));
+    assert_eq!(planted.wording().1.as_deref(), Some("corners"));
 }
 
 #[test]
 fn exceptions_are_named_by_what_they_share_or_one_by_one() {
     let open = product(|corners, ties| if corners == "c" && ties != "a" { Open } else { Holds });
-    assert_eq!(open.said().0, "7/2/0 for/open/against; all 2 exceptions have corners = c");
+    assert_eq!(open.wording().0, "7/2/0 for/open/against; all 2 exceptions have corners = c");
     let apart = product(|corners, ties| if corners == ties && corners != "a" { Open } else { Holds });
     let expected = "7/2/0 for/open/against; exceptions: corners = b, ties = b · corners = c, ties = c";
-    assert_eq!(apart.said().0, expected);
+    assert_eq!(apart.wording().0, expected);
 }
 
 /// Of so many instances, whose trials these are.

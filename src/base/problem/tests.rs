@@ -35,8 +35,8 @@ const VAMP: &str = r#"{"robot": "panda", "problems": {"shelf": [{"index": 1, "st
       "sphere": [{"name": "ball", "position": [0, 1, 0], "radius": 0.1}]}]}}"#;
 
 fn read(text: &str, set: Option<&str>, index: usize) -> Result<Problem, String> {
-    let asked = Asked { robot: "panda", joints: vec!["lift", "turn"] };
-    parse_problem(&Document::new(Path::new("p.json"), text.to_owned()), set, index, Some(&asked))
+    let expected = Expected { robot: "panda", joints: vec!["lift", "turn"] };
+    parse_problem(&Document::new(Path::new("p.json"), text.to_owned()), set, index, Some(&expected))
         .map_err(|e| e.to_string())
 }
 

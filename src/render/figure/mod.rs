@@ -70,7 +70,7 @@ pub trait Kind {
     /// The numbers behind the figure as a table under its own name, where they are worth one.
     ///
     /// # Errors
-    /// As [`instance`](Self::instance).
+    /// As [`draw`](Self::draw).
     fn table(&self, _scene: &Scene<'_>, _label: &str, _caption: &str) -> Result<Option<Table>, RenderError> {
         Ok(None)
     }

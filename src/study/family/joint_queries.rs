@@ -9,7 +9,7 @@ use crate::preprocessing::Preprocessing;
 use crate::preprocessing::nested_roadmap::{self, Neighbours};
 use crate::verification::roadmap::JOINT_COLUMNS;
 use crate::{Inputs, StudyError};
-use base::problem::{Asked, Ended, Problem, parse_problem};
+use base::problem::{Ended, Expected, Problem, parse_problem};
 use base::robot::{Robot, read_srdf, read_urdf};
 use base::seed::{self, Stream};
 use base::settings::{Accepted, Document, Faults, Settings, SettingsError};
@@ -116,13 +116,13 @@ impl Posed {
         let near = Neighbours { radius_mm, radius_deg, nearest }.rule(settings)?;
         let mut faults = Faults::default();
         let robot = faults.keep(input(settings, inputs, "robot", &read.robot, read_urdf));
-        let asked = robot.as_ref().map(|(_, robot)| Asked {
+        let expected = robot.as_ref().map(|(_, robot)| Expected {
             robot: &robot.name,
             joints: robot.joints.iter().map(|joint| joint.name.as_str()).collect(),
         });
         let problem = faults.keep(input(settings, inputs, "problem", &read.problem, |file| {
             let document = Document::open(file)?;
-            Ok((parse_problem(&document, read.set.as_deref(), read.index, asked.as_ref())?, document))
+            Ok((parse_problem(&document, read.set.as_deref(), read.index, expected.as_ref())?, document))
         }));
         let contact =
             robot.as_ref().and_then(|(_, robot)| faults.keep(read.contact(settings, inputs, robot)));

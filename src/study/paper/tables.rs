@@ -281,7 +281,7 @@ impl TableSpec {
         let place = steps.join(".");
         let whole = [&steps[..], &["whole".to_owned()]].concat();
         let layers = [layer!(own, whole), Layer { of: &self.of, ..layer!(NOTHING, steps[..2]) }];
-        let mut asked = asked(document, &layers, own.untestable.is_some());
+        let mut asked = tests_of(document, &layers, own.untestable.is_some());
         for (_, _, settings) in &mut asked {
             fill(settings, &[("{row}", &row.id)]);
             settings.change(|table| {
@@ -377,7 +377,7 @@ impl Cell<'_> {
         let untestable = own.untestable.as_ref().or(row.untestable.as_ref());
         let untestable = untestable.or(column.untestable.as_ref()).or(table.untestable.as_ref()).cloned();
         let layers = self.layers();
-        let mut asked = asked(self.document, &layers, untestable.is_some());
+        let mut asked = tests_of(self.document, &layers, untestable.is_some());
         for (_, _, settings) in &mut asked {
             fill(settings, &[("{row}", &row.id), ("{column}", self.column.2)]);
         }
@@ -460,7 +460,7 @@ fn of_parts(document: &Arc<Document>, layers: &[Layer<'_>]) -> Vec<Part> {
 
 /// Rules and criteria with their settings: those that the nearest layer names which names any, each with what the others say of it.
 /// What is untestable is held against no criterion but those that it names itself.
-fn asked(
+fn tests_of(
     document: &Arc<Document>,
     layers: &[Layer<'_>],
     is_untestable: bool,

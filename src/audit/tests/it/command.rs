@@ -11,7 +11,7 @@ use tempfile::TempDir;
 /// A folder of its own, and the program run in it.
 struct Bench(TempDir);
 
-struct Said {
+struct Answer {
     code: Option<i32>,
     out: String,
     err: String,
@@ -38,8 +38,8 @@ impl Bench {
         command
     }
 
-    fn run(&self, arguments: &[&str]) -> Said {
-        said(&self.command(arguments).output().unwrap())
+    fn run(&self, arguments: &[&str]) -> Answer {
+        answer(&self.command(arguments).output().unwrap())
     }
 
     /// Runs the program, which must succeed, and gives what it printed.
@@ -50,9 +50,9 @@ impl Bench {
     }
 }
 
-fn said(output: &Output) -> Said {
+fn answer(output: &Output) -> Answer {
     let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
-    Said { code: output.status.code(), out: text(&output.stdout), err: text(&output.stderr) }
+    Answer { code: output.status.code(), out: text(&output.stdout), err: text(&output.stderr) }
 }
 
 const TABLE: &str = "| planner | success [% of 250] |\n|-|-|\n| A | 33.3 |\n| B | 33.2 |\n";
@@ -118,7 +118,7 @@ fn standard_input_is_read_and_wrong_input_ends_with_2() {
     let bench = Bench::new();
     let mut child = bench.command(&["-"]).stdin(Stdio::piped()).spawn().unwrap();
     child.stdin.take().unwrap().write_all(TABLE.replace("33.3", "33,3").as_bytes()).unwrap();
-    let said = said(&child.wait_with_output().unwrap());
+    let said = answer(&child.wait_with_output().unwrap());
     assert_eq!(said.code, Some(2));
     assert!(
         said.err.starts_with("replan: stdin:3:2: column `success`: `33,3` has a decimal comma"),
@@ -173,11 +173,11 @@ fn output_that_a_full_disk_loses_is_the_systems_refusal() {
     let full = fs::File::create("/dev/full").unwrap();
     let ended = Bench::new().command(&["--list"]).stdout(full).output().unwrap();
     assert_eq!(ended.status.code(), Some(1));
-    assert!(said(&ended).err.starts_with("replan: standard output: "));
+    assert!(answer(&ended).err.starts_with("replan: standard output: "));
 }
 
 /// The macros of `text`, checked with a stand-in for `replan` that finds the plots of the paper current, or fails.
-fn covered(bench: &Bench, first: &str, value: u32, is_current: bool) -> Said {
+fn covered(bench: &Bench, first: &str, value: u32, is_current: bool) -> Answer {
     let check = "[ \"$*\" = 'render --check --only numbers -- mini' ]";
     let ends = if is_current { "" } else { " && echo 'replan: not current: numbers.tex' >&2 && exit 3" };
     bench.write("replan", format!("#!/bin/sh\n{check}{ends}\n").as_bytes());
@@ -187,7 +187,7 @@ fn covered(bench: &Bench, first: &str, value: u32, is_current: bool) -> Said {
     bench.write("plots/mini/numbers.tex", macros(45).as_bytes());
     bench.write("numbers.tex", macros(value).as_bytes());
     let mut command = bench.command(&["--coverage", "paper.tex", "--macros", "numbers.tex"]);
-    said(&command.env("REPLAN", bench.at("replan")).output().unwrap())
+    answer(&command.env("REPLAN", bench.at("replan")).output().unwrap())
 }
 
 const FIRST: &str = "% made by `replan render mini --only numbers`\n";
@@ -231,7 +231,7 @@ fn macros_of_which_nobody_can_tell_whether_they_are_stale_do_not_pass() {
         assert_eq!(said.out.lines().count(), 1);
     }
     let mut gone = bench.command(&["--coverage", "paper.tex", "--macros", "numbers.tex"]);
-    let said = said(&gone.env("REPLAN", Path::new("no/such/replan")).output().unwrap());
+    let said = answer(&gone.env("REPLAN", Path::new("no/such/replan")).output().unwrap());
     assert!(said.out.contains("`no/such/replan`, which checks them, cannot be run: No such"), "{}", said.out);
 }
 

@@ -53,7 +53,7 @@ impl Style {
     }
 
     /// What the annotation says of it.
-    fn said(&self) -> String {
+    fn annotation(&self) -> String {
         let rounding = if self.is_said { format!(", rounding={}", self.rounding) } else { String::new() };
         rounding + &self.significant.map_or(String::new(), |digits| format!(", digits={digits}"))
     }

@@ -27,12 +27,12 @@ pub(super) fn table(rng: &mut SmallRng) -> String {
             (0..a.len()).map(|at| [a[at], b[at], a[at] + b[at]][index]).collect()
         };
         let cells = pairs.iter().flat_map(|pair| described(&of(pair), &style, rule, divisor)).collect();
-        sheet.add(format!("{header}, n={n}{}{}]", linear(rule), style.said()), cells);
+        sheet.add(format!("{header}, n={n}{}{}]", linear(rule), style.annotation()), cells);
     }
     if has_ratio {
         let style = Style::drawn(rng);
         let cells = pairs.iter().flat_map(|pair| quotients(pair, &style, rule)).collect();
-        sheet.add(format!("r [n={n}, ratio=a/b{}]", style.said()), cells);
+        sheet.add(format!("r [n={n}, ratio=a/b{}]", style.annotation()), cells);
     }
     format!("# t\n\n{}", sheet.markdown())
 }

@@ -37,7 +37,7 @@ fn sample(rng: &mut SmallRng) -> String {
     let rule = rng.random_range(1..=9);
     let exact: Vec<Exact> = values.iter().map(|value| whole(*value)).collect();
     let (sum, about) = moments(&values);
-    let mut text = format!("[[sample]]\nname = \"s\"\nis = \"integers, n={n}{}\"\n", style.said());
+    let mut text = format!("[[sample]]\nname = \"s\"\nis = \"integers, n={n}{}\"\n", style.annotation());
     text += &format!("mean = \"{}\"\nmin = \"{}\"\n", style.ratio(sum, n), style.value(exact[0]));
     if n > 1 {
         text += &format!("sd = \"{}\"\n", style.root(about, n * (n - 1)));

@@ -67,7 +67,10 @@ pub(super) fn table(rng: &mut SmallRng) -> String {
 
 fn add(sheet: &mut Sheet, rng: &mut SmallRng, header: &str, values: &[Exact]) {
     let style = Style::plain(rng);
-    sheet.add(format!("{header}{}]", style.said()), values.iter().map(|value| style.value(*value)).collect());
+    sheet.add(
+        format!("{header}{}]", style.annotation()),
+        values.iter().map(|value| style.value(*value)).collect(),
+    );
 }
 
 /// A value for each row of its own, in order.

@@ -32,18 +32,21 @@ fn shares(rng: &mut SmallRng, sheet: &mut Sheet) {
         let style = Style::drawn(rng);
         let count = |[k, first]: &[i128; 2]| [*first, k - first, n - k][index];
         let cells = all.iter().map(|pair| style.ratio(100 * count(pair), n)).collect();
-        sheet.add(format!("{name} [% of {n}, parts=all{}]", style.said()), cells);
+        sheet.add(format!("{name} [% of {n}, parts=all{}]", style.annotation()), cells);
     }
     let style = Style::drawn(rng);
     let counts = all.iter().map(|[k, _]| style.ratio(*k, 1)).collect();
-    sheet.add(format!("hits [count of {n}{}]", style.said()), counts);
+    sheet.add(format!("hits [count of {n}{}]", style.annotation()), counts);
     let (word, divisor) =
         if rng.random_bool(0.5) && n > 1 { (", sample", n - 1) } else { (", population", n) };
     let word = if rng.random_bool(0.5) { word } else { "" };
     let style = Style::drawn(rng);
     let cell =
         |[k, _]: &[i128; 2]| format!("{} ± {}", style.ratio(*k, n), style.root(k * (n - k), n * divisor));
-    sheet.add(format!("share [share of {n}, ±sd{word}{}]", style.said()), all.iter().map(cell).collect());
+    sheet.add(
+        format!("share [share of {n}, ±sd{word}{}]", style.annotation()),
+        all.iter().map(cell).collect(),
+    );
 }
 
 fn statistics(rng: &mut SmallRng, sheet: &mut Sheet) {
@@ -74,12 +77,12 @@ fn statistics(rng: &mut SmallRng, sheet: &mut Sheet) {
             style.ratio(4 * values[at] + rest * (next - values[at]), 4 * grain)
         };
         if rng.random_bool(0.7) {
-            sheet.add(format!("x [{word}{}]", style.said()), samples.iter().map(cell).collect());
+            sheet.add(format!("x [{word}{}]", style.annotation()), samples.iter().map(cell).collect());
         }
     }
     let style = Style::drawn(rng);
     let totals = samples.iter().map(|values| style.ratio(values.iter().sum(), grain)).collect();
-    sheet.add(format!("x [total{}]", style.said()), totals);
+    sheet.add(format!("x [total{}]", style.annotation()), totals);
 }
 
 fn means_and_deviations(rng: &mut SmallRng, sheet: &mut Sheet, samples: &[Vec<i128>], of: &str, grain: i128) {
@@ -95,7 +98,7 @@ fn means_and_deviations(rng: &mut SmallRng, sheet: &mut Sheet, samples: &[Vec<i1
         |style: &Style, values: &Vec<i128>| style.ratio(moments(values).0, values.len() as i128 * grain);
     let kind = if is_error { "se" } else { "sd" };
     let style = Style::drawn(rng);
-    let header = format!("mean, {of}{word}, quantiles=linear{}", style.said());
+    let header = format!("mean, {of}{word}, quantiles=linear{}", style.annotation());
     if rng.random_bool(0.5) {
         let cell = |values: &Vec<i128>| format!("{} ± {}", mean(&style, values), spread(&style, values));
         sheet.add(format!("x [{header}, ±{kind}]"), samples.iter().map(cell).collect());
@@ -104,7 +107,7 @@ fn means_and_deviations(rng: &mut SmallRng, sheet: &mut Sheet, samples: &[Vec<i1
     sheet.add(format!("x [{header}]"), samples.iter().map(|values| mean(&style, values)).collect());
     let style = Style::drawn(rng);
     let spreads = samples.iter().map(|values| spread(&style, values)).collect();
-    sheet.add(format!("x [{kind}{}]", style.said()), spreads);
+    sheet.add(format!("x [{kind}{}]", style.annotation()), spreads);
 }
 
 fn over_seeds(rng: &mut SmallRng, sheet: &mut Sheet) {
@@ -121,7 +124,7 @@ fn over_seeds(rng: &mut SmallRng, sheet: &mut Sheet) {
     });
     let cells = cells.collect();
     let word = if is_error { "±se" } else { "±sd" };
-    sheet.add(format!("rate [% of {trials}, seeds={seeds}, {word}, sample{}]", style.said()), cells);
+    sheet.add(format!("rate [% of {trials}, seeds={seeds}, {word}, sample{}]", style.annotation()), cells);
 }
 
 fn sums(rng: &mut SmallRng, sheet: &mut Sheet) {
@@ -140,7 +143,7 @@ fn sums(rng: &mut SmallRng, sheet: &mut Sheet) {
             let (above, below) = [(*a, n), (*b, n), (a + b, n), (a * b.signum(), b.abs())][index];
             style.ratio(above, below)
         };
-        sheet.add(format!("{header}{}]", style.said()), all.iter().map(cell).collect());
+        sheet.add(format!("{header}{}]", style.annotation()), all.iter().map(cell).collect());
     }
 }
 
@@ -161,10 +164,10 @@ fn lengths(rng: &mut SmallRng, sheet: &mut Sheet) {
         turns.push(turned.ratio(walk.turns(is_interior), 1));
         short.push(turned.ratio(10 * walk.straight() + 14 * walk.diagonal(), 10 * step));
     }
-    sheet.add(format!("length [a+b√2, from=0:0, to={dx}:{dy}, turns=turn{}]", style.said()), lengths);
-    sheet.add(format!("turn [value{}]", turned.said()), turns);
+    sheet.add(format!("length [a+b√2, from=0:0, to={dx}:{dy}, turns=turn{}]", style.annotation()), lengths);
+    sheet.add(format!("turn [value{}]", turned.annotation()), turns);
     let ends = if step == 1 { format!(", from=0:0, to={dx}:{dy}") } else { String::new() };
-    sheet.add(format!("short [a+b1.4, step=1/{step}{ends}{}]", turned.said()), short);
+    sheet.add(format!("short [a+b1.4, step=1/{step}{ends}{}]", turned.annotation()), short);
 }
 
 /// Readings of a clock, and expansions.
@@ -173,12 +176,12 @@ fn counts(rng: &mut SmallRng, sheet: &mut Sheet) {
     let style = Style::drawn(rng);
     let ticks: Vec<i128> = (0..sheet.rows).map(|_| rng.random_range(-200..2000)).collect();
     let cells = ticks.iter().map(|ticks| style.ratio(ticks * above, below)).collect();
-    sheet.add(format!("time [tick={tick}{}]", style.said()), cells);
+    sheet.add(format!("time [tick={tick}{}]", style.annotation()), cells);
     let free: i128 = rng.random_range(1..1000);
     let style = Style::drawn(rng);
     let expanded = (0..sheet.rows).map(|_| style.ratio(rng.random_range(0..=3 * free), 3)).collect();
     let kind = ["value", "mean", "max", "median"][rng.random_range(0..4)];
-    sheet.add(format!("expanded [{kind}, free={free}{}]", style.said()), expanded);
+    sheet.add(format!("expanded [{kind}, free={free}{}]", style.annotation()), expanded);
 }
 
 /// The best is bold, by the true values, as printed ones may be alike.
@@ -192,7 +195,10 @@ fn best(rng: &mut SmallRng, sheet: &mut Sheet) {
         if value == best { format!("**{text}**") } else { text }
     };
     let better = if is_lower { "lower" } else { "higher" };
-    sheet.add(format!("cost [value, {better} is better{}]", style.said()), values.iter().map(cell).collect());
+    sheet.add(
+        format!("cost [value, {better} is better{}]", style.annotation()),
+        values.iter().map(cell).collect(),
+    );
 }
 
 /// What is solved with fewer samples is solved with more.
@@ -204,5 +210,5 @@ fn rising(rng: &mut SmallRng, sheet: &mut Sheet) {
     let samples = (1..=sheet.rows).map(|row| (100 * row).to_string()).collect();
     sheet.add("samples [samples]".to_owned(), samples);
     let cells = solved.iter().map(|solved| style.ratio(100 * solved, n)).collect();
-    sheet.add(format!("success [% of {n}, anytime{}]", style.said()), cells);
+    sheet.add(format!("success [% of {n}, anytime{}]", style.annotation()), cells);
 }

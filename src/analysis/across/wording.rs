@@ -34,17 +34,17 @@ pub struct View<'a> {
     pub results: &'a Results<'a>,
 }
 
-/// What is said, and on what the verdict depends.
-pub struct Said {
-    /// What stands beside the verdict; `None` if there is nothing to say.
+/// The words beside a verdict, and on what it depends.
+pub struct Wording {
+    /// What stands beside the verdict; `None` if nothing does.
     pub beside: Option<String>,
     /// On what it depends.
     pub depends_on: Option<String>,
 }
 
 impl View<'_> {
-    /// What is said of a verdict by this line of the table.
-    pub fn said(&self, line: Line) -> Said {
+    /// The words for a verdict by this line of the table.
+    pub fn wording(&self, line: Line) -> Wording {
         let [holds, _, fails] = self.results.counts();
         let all = self.results.outcomes.len();
         let mut depends_on = None;
@@ -76,7 +76,7 @@ impl View<'_> {
             }
             Line::Short => self.with_counts([None, None]),
         };
-        Said { beside, depends_on }
+        Wording { beside, depends_on }
     }
 
     /// The counts of several results, and more.
@@ -124,7 +124,7 @@ impl View<'_> {
             count => format!("all {count} exceptions have"),
         };
         if let Some(rule) = sides.rule(false) {
-            return Some(format!("{all} {}", rule.said()));
+            return Some(format!("{all} {}", rule.in_words()));
         }
         let departs =
             |group: &&&Group| self.first.map_or(0, |first| first.interpretations[group.interpretation].len());
@@ -147,7 +147,7 @@ impl View<'_> {
         });
         if let Some(rule) = sides.rule(true) {
             let verb = if rule.is_first_side { "contradicted" } else { "holds" };
-            let said = format!("{verb} only if {} ({} of {})", rule.said(), rule.hits, rule.covered);
+            let said = format!("{verb} only if {} ({} of {})", rule.in_words(), rule.hits, rule.covered);
             return (rule.choices(), said);
         }
         let said = sides.separating().map_or_else(
