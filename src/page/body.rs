@@ -77,22 +77,66 @@ impl Body<'_> {
         text += &format!("<p>{}</p>\n", escaped(&about.join(". ")));
         // Findings were written on the study's own run; of any other they may be false.
         if is_own {
-            text += "<ul>\n";
+            text.extend(
+                paper
+                    .report
+                    .finding
+                    .iter()
+                    .map(|said| format!("<p><strong>{}</strong></p>\n", self.prose_html(said))),
+            );
+        }
+        text += &self.headlines();
+        if is_own && !paper.report.findings.is_empty() {
+            text += "<details><summary>More findings, with numbers</summary><ul>\n";
             text.extend(
                 paper.report.findings.iter().map(|said| format!("<li>{}</li>\n", self.prose_html(said))),
             );
-            text += "</ul>\n";
+            text += "</ul></details>\n";
         }
-        let more = counts.parts.into_iter().chain(counts.asserted);
-        let counts: Vec<String> =
-            std::iter::once(counts.verdicts).chain(more).map(|said| format!("{}.", escaped(&said))).collect();
-        text + &format!("<p>{}</p></header>\n", counts.join(" "))
+        let more: Vec<String> = counts
+            .parts
+            .into_iter()
+            .chain(counts.asserted)
+            .map(|said| format!("{}.", escaped(&said)))
+            .collect();
+        text + &format!("<p>{} {}</p></header>\n", self.tally(), more.join(" "))
+    }
+
+    /// The headline claims, each with its verdict, and with our number where it has one.
+    fn headlines(&self) -> String {
+        let headlines = self.evidence.paper.claims.iter().filter(|claim| claim.headline);
+        let line = |judged: &ClaimVerdict| {
+            let says = judged.says.as_ref().or(judged.quote.as_ref()).unwrap_or(&judged.at);
+            let ours = judged.ours().map_or_else(String::new, |ours| format!(": {}", short(ours)));
+            format!(
+                "<li>{} <a href=\"#claim={}\">{}</a>{}</li>\n",
+                badge(judged.word(), &judged.verdict_said()),
+                escaped(&judged.claim),
+                escaped(says),
+                escaped(&ours)
+            )
+        };
+        let lines: String = headlines.filter_map(|claim| self.verdicts.claim(&claim.id)).map(line).collect();
+        if lines.is_empty() { lines } else { format!("<ul>\n{lines}</ul>\n") }
+    }
+
+    /// How many there are of each verdict, on its colour.
+    fn tally(&self) -> String {
+        let counted = || self.verdicts.claims.iter().filter(|judged| judged.is_counted());
+        let of = |verdict: Verdict| counted().filter(|judged| judged.verdict == verdict).count();
+        let badges = Verdict::ALL.into_iter().filter(|verdict| of(*verdict) > 0);
+        let badges: Vec<String> = badges
+            .map(|verdict| badge(verdict.name(), &format!("{} {}", of(verdict), verdict.name())))
+            .collect();
+        let all = counted().count();
+        let what = if all == 1 { "sentence or row" } else { "sentences and rows" };
+        format!("{all} {what}: {}.", badges.join(" "))
     }
 
     fn navigation(&self, is_without_curves: bool) -> String {
         let parts = [
             ("claims", "Claims", true),
-            ("interpretations", "Readings", !self.evidence.paper.choices.is_empty()),
+            ("interpretations", "Choices", !self.evidence.paper.choices.is_empty()),
             ("tables", "Tables", self.has_tables()),
             ("curves", "Curves", !is_without_curves),
             ("replays", "Replays", !self.replayed.is_empty()),

@@ -12,12 +12,15 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use driver::Browser;
 use flate2::read::GzDecoder;
+use replan::analysis::verdict::Verdicts;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Mutex;
+use study::Inputs;
+use study::paper::Paper;
 
 /// A page may take so many bytes.
 const PAGE_BYTES: usize = 4_000_000;
@@ -65,6 +68,30 @@ fn every_committed_paper_fits_into_four_megabytes_and_asks_nothing_of_the_networ
             assert!(!body.contains(outside), "{name}: {outside}");
         }
     }
+}
+
+#[test]
+fn a_page_begins_with_the_finding_the_headline_claims_and_the_counts() {
+    let text = fs::read_to_string(page("zhang")).unwrap();
+    let (head, _) = text.split_once("<nav").unwrap();
+    let verdicts = Verdicts::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("data/runs/zhang")).unwrap();
+    let inputs = Inputs { roots: vec![PathBuf::from(env!("CARGO_MANIFEST_DIR"))] };
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("experiments/zhang");
+    let paper = Paper::load(&folder, &inputs).unwrap();
+    assert!(head.contains(&format!("<strong>{}", &paper.report.finding.as_ref().unwrap()[..40])), "{head}");
+    let headlines: Vec<_> = paper.claims.iter().filter(|claim| claim.headline).collect();
+    assert_eq!(headlines.len(), 8);
+    for claim in headlines {
+        let verdict = verdicts.claim(&claim.id).unwrap().verdict_said();
+        let line = head.lines().find(|line| line.contains(&format!("href=\"#claim={}\"", claim.id))).unwrap();
+        assert!(line.contains(&format!(">{verdict}</span>")), "{line}");
+    }
+    let counted = verdicts.claims.iter().filter(|judged| judged.is_counted()).count();
+    let tally =
+        head.lines().find(|line| line.contains(&format!("<p>{counted} sentences and rows: "))).unwrap();
+    let number = |badge: &str| badge.split_once('>').unwrap().1.split(' ').next().unwrap().parse::<usize>();
+    let badges = tally.split("<span class=\"class").skip(1);
+    assert_eq!(badges.map(|badge| number(badge).unwrap()).sum::<usize>(), counted, "{tally}");
 }
 
 const SHOWN: &str =
