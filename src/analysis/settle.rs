@@ -8,6 +8,9 @@ use super::verdict_rule::{Line, Verdict};
 use stats::proportion::{agreeing_for_width, units_for_margin};
 use study::paper::Parts;
 
+/// On what a claim depends where no option and no two tell its sides apart.
+pub const COMBINATION: &str = "a combination";
+
 /// What a sentence depends on whose parts speak both ways.
 pub const MEANT: &str = "what is meant";
 
@@ -132,7 +135,8 @@ fn depends_settles(on: Option<&str>) -> String {
         Some(MEANT) => {
             "which of its parts is meant: the paper does not say, and they speak both ways".to_owned()
         }
-        on => format!("what the paper means by {}", on.unwrap_or("the combination")),
+        None | Some(COMBINATION) => "which options the authors took together".to_owned(),
+        Some(on) => format!("which option the authors took for {on}"),
     }
 }
 

@@ -1,6 +1,7 @@
 //! What stands beside a verdict: over how many interpretations it is the same, its exceptions, or on what it depends.
 
 use super::super::outcome::{Outcome, Polarity};
+use super::super::settle::COMBINATION;
 use super::super::verdict_rule::{Chosen, Line, Results};
 use super::count::{Counted, Group, VotingChoices};
 use super::depends::Sides;
@@ -138,7 +139,6 @@ impl View<'_> {
 
     /// On what it depends which way the results speak, in few words and with its counts.
     fn rule(&self) -> (String, String) {
-        const COMBINATION: &str = "a combination";
         let Some(first) = self.first else { return (COMBINATION.to_owned(), String::new()) };
         let sides = self.sides(first, |way| match way {
             Polarity::Against => Some(true),
