@@ -159,7 +159,7 @@ pub struct Explored {
     /// Options that vote under which the verifier refuses many paths, with the share.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub refused: Vec<String>,
-    /// How each setting of the choices agrees with what a study was fitted to; none if no interpretation is fitted.
+    /// How each setting of the choices agrees with what a study was fitted to; none if no choice is fitted.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub fits: Vec<SettingFit>,
 }

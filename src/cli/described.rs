@@ -67,7 +67,7 @@ pub fn study(paper: &Paper, study: &Study) -> Result<String, Failure> {
 /// The groups of problems of a study, and its contenders.
 fn compared(study: &Study) -> Vec<String> {
     let group = |group: &Group| {
-        let instances = counted(group.instances as usize, ["draw", "draws"]);
+        let instances = counted(group.instances as usize, ["instance", "instances"]);
         wrapped(&format!("  {}: ", group.label), &format!("{instances} of `{}`", group.family.name), 6)
     };
     let contender = |contender: &Contender| {

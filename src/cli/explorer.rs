@@ -56,7 +56,7 @@ pub fn budget(paper: &Paper) -> Result<ExploreSpec, Failure> {
     let missing = || {
         let path = paper.folder.join("paper.toml");
         Failure::input(format!(
-            "{}: explores no interpretations; `[explore]` with `sample`, `trials` and, by study, `draws` is accepted",
+            "{}: explores no interpretations; `[explore]` with `sample`, `trials` and, by study, `instances` is accepted",
             path.display()
         ))
     };

@@ -30,7 +30,7 @@ fn instances(first: &Exploration) -> [BTreeSet<usize>; 2] {
 }
 
 #[test]
-fn a_second_round_instances_more_only_where_a_class_is_near_a_flip() {
+fn a_second_round_draws_more_only_where_a_class_is_near_a_flip() {
     let toy = Toy::unexplored(&[CITED, MORE, MET]);
     let plan = toy.0.done(&["explore", "./toy", "--plan"]);
     let first_round: u64 =

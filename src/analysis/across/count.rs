@@ -147,7 +147,7 @@ impl VotingChoices {
     }
 
     /// How each setting of the choices that are not fitted agrees with the calibration claims under each option of the one
-    /// that is; none if no interpretation is fitted.
+    /// that is; none if no choice is fitted.
     pub fn fits(&self, first: &Exploration, default: &BTreeMap<String, Outcome>) -> Vec<SettingFit> {
         let Some(fitted) = self.choices.iter().find(|choice| choice.fitted) else { return Vec::new() };
         let voting =
@@ -186,7 +186,7 @@ impl VotingChoices {
     }
 
     /// The voting interpretations under which no other calibration claim is contradicted and each has power; of those that differ in
-    /// fitted interpretations alone, the ones that fit best.
+    /// fitted choices alone, the ones that fit best.
     fn compatible(
         &self,
         first: &Exploration,
@@ -225,7 +225,7 @@ struct Calibration<'c> {
     own: Vec<&'c str>,
 }
 
-/// How well a setting of fitted interpretations fits, the worst first.
+/// How well a setting of fitted choices fits, the worst first.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 struct Goodness {
     /// No calibration claim, the judged one among them, is contradicted, and each has power.

@@ -39,7 +39,7 @@ impl Rule {
 
 /// The results of a claim, each on the first side, on the other, or on neither.
 pub struct Sides<'a> {
-    /// The interpretations of the paper.
+    /// The choices of the paper.
     pub choices: &'a VotingChoices,
     /// What was explored.
     pub first: &'a Exploration,

@@ -3,7 +3,7 @@
 //! Under each interpretation that was explored every claim was judged by itself ([`glance`]); what came out is stored ([`stored`]).
 //! Interpretations that vote and are compatible with what the study was calibrated to are counted, equal results once ([`count`]);
 //! those of a minority need a second seed ([`combine`](mod@combine)). The [table of verdicts](super::verdict_rule) says what
-//! they amount to, [`wording`] what stands beside it, [`depends`] on which options it depends, [`touched`] which interpretations were
+//! they amount to, [`wording`] what stands beside it, [`depends`] on which options it depends, [`touched`] which choices were
 //! not varied, and [`effects`] what each interpretation moves.
 
 pub mod by_interpretation;
@@ -157,7 +157,7 @@ impl OfClaim<'_> {
         let own = self.second.and_then(|second| second.result(&self.claim.id, 0));
         judged.second = own.filter(|own| own.sight == glance::Sight::Looked).map(|own| own.outcome);
         let is_moved = judged.second.is_some_and(|second| second != judged.outcome);
-        judged.is_seedless = !is_moved && touched.instances_nothing(self.paper);
+        judged.is_seedless = !is_moved && touched.draws_nothing(self.paper);
     }
 
     /// Gives `judged` the verdict of its results, with what stands beside it.

@@ -1,4 +1,4 @@
-//! What a claim looks at, and which interpretations touch that: by the spec alone, so that an interpretation nobody explored is known too.
+//! What a claim looks at, and which choices touch that: by the spec alone, so that a choice nobody explored is known too.
 
 use super::super::criterion::EXISTS;
 use super::super::evidence::default_point;
@@ -44,14 +44,14 @@ impl<'p> Touched<'p> {
     }
 
     /// Whether no seed decides anything of it: neither what is posed nor what a contender does.
-    pub fn instances_nothing(&self, paper: &Paper) -> bool {
+    pub fn draws_nothing(&self, paper: &Paper) -> bool {
         self.studies.iter().all(|study| {
             let groups = self.named(&study.groups, |group| &group.label);
             let contenders = self.contenders(study);
             // A study without contenders draws whatever its task draws.
             !contenders.is_empty()
                 && !groups.iter().any(|group| group.is_drawn || group.instances > 1)
-                && !contenders.iter().any(|own| instances(paper, study, own))
+                && !contenders.iter().any(|own| draws(paper, study, own))
         })
     }
 
@@ -125,7 +125,7 @@ fn others(choice: &Choice) -> impl Iterator<Item = &String> {
 }
 
 /// Whether a contender draws at random; one that cannot be built is taken to.
-fn instances(paper: &Paper, study: &Study, contender: &Contender) -> bool {
+fn draws(paper: &Paper, study: &Study, contender: &Contender) -> bool {
     let point = default_point(paper).for_trials(&study.choices);
     let sweep = study.sweep_points().swap_remove(0);
     contender.pipeline(&point, &sweep).map_or(true, |pipeline| pipeline.planner.draws())

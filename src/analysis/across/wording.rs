@@ -7,23 +7,23 @@ use super::count::{Counted, Group, VotingChoices};
 use super::depends::Sides;
 use super::stored::Exploration;
 
-/// How many exceptions, or interpretations that were not varied, are listed one by one.
+/// How many exceptions, or choices that were not varied, are listed one by one.
 const LISTED: usize = 3;
 
 /// An exception with more options than these is counted and not listed.
 const OPTIONS: usize = 2;
 
-/// The interpretations that touch a claim and were not varied, in words.
-pub fn not_varied(interpretations: &[String]) -> Option<String> {
-    let listed = interpretations.iter().take(LISTED).cloned().collect::<Vec<_>>().join(", ");
-    let more = interpretations.len().saturating_sub(LISTED);
+/// The choices that touch a claim and were not varied, in words.
+pub fn not_varied(choices: &[String]) -> Option<String> {
+    let listed = choices.iter().take(LISTED).cloned().collect::<Vec<_>>().join(", ");
+    let more = choices.len().saturating_sub(LISTED);
     let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-    (!interpretations.is_empty()).then(|| format!("not varied: {listed}{more}"))
+    (!choices.is_empty()).then(|| format!("not varied: {listed}{more}"))
 }
 
 /// The results of a claim that count, and where they come from.
 pub struct View<'a> {
-    /// The interpretations of the paper.
+    /// The choices of the paper.
     pub choices: &'a VotingChoices,
     /// What was explored; `None` if the default alone was judged.
     pub first: Option<&'a Exploration>,

@@ -155,7 +155,7 @@ impl<'a> Attained<'a> {
         self.places.iter().any(is_there)
     }
 
-    /// The first of its contenders that the study has and that departs from no interpretation.
+    /// The first of its contenders that the study has and that departs from no default.
     pub fn contender_of(&self, study: &Study) -> Option<&str> {
         let is_plain = |label: &&String| {
             study.contenders.iter().any(|own| own.label == **label && own.departs.is_empty())

@@ -138,7 +138,7 @@ impl<'a> Lower<'a> {
             trial: selection::nearest(&self.of, evidence, &instances, of_case, value),
             because: std::iter::once(self.sentence(metric, &change, &pairs)).chain(tied(&pairs)).collect(),
             limits: vec![0.0, if self.way == Way::Higher { self.by_percent } else { 0.0 - self.by_percent }],
-            units: "draws",
+            units: "instances",
             needs: needs(units),
             narrows: narrows(change.is_agreed),
             censored: if is_turned { selection::censored(&instances) } else { 0 },
@@ -210,7 +210,7 @@ impl<'a> Lower<'a> {
             trial: selection::least(&self.of, evidence, &instances, against),
             because: vec![because],
             limits: vec![0.0],
-            units: "draws",
+            units: "instances",
             censored: self.unended_along(&instances, outcome),
             needs: needs(units),
             ..CriterionResult::default()

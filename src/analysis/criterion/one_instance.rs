@@ -279,7 +279,7 @@ impl Criterion for OneInstance<'_> {
             powerless,
             power: Some(refused_beyond(interval)),
             censored: self.censored(&drawn, outcome),
-            units: "draws",
+            units: "instances",
             ..CriterionResult::default()
         }
     }

@@ -256,7 +256,7 @@ impl Criterion for RowOneInstance<'_> {
             ours: Some(ours.of_cases(solved(&drawn[0]))),
             trial: self.shown(evidence, &drawn[0]),
             because: self.because(&place, &level, rank, &cells),
-            units: "draws",
+            units: "instances",
             needs: Some(self.fewest()).filter(|fewest| n < *fewest),
             ..CriterionResult::default()
         }

@@ -90,7 +90,7 @@ impl Hits {
             Self::Above => "trials above",
             Self::Lower => "cases on which it is lower",
             Self::Higher => "cases on which it is higher",
-            Self::LowerThroughout => "draws on every case of which it is lower",
+            Self::LowerThroughout => "instances on every case of which it is lower",
         }
     }
 }
@@ -336,7 +336,7 @@ impl Criterion for Counted<'_> {
                 .chain(self.refusals(&instances))
                 .collect(),
             limits: self.settings.accepted.map_or_else(Vec::new, |accepted| accepted.to_vec()),
-            units: "draws",
+            units: "instances",
             censored: self.censored(&instances, outcome),
             needs: needs(share.instances).filter(|_| !share.is_exact),
             narrows: narrows(share.is_agreed),

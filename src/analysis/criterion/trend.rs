@@ -152,7 +152,7 @@ impl Criterion for Trend<'_> {
             trial: self.shown(evidence, &instances, outcome),
             because: vec![because],
             limits: vec![0.0],
-            units: "draws",
+            units: "instances",
             censored: self.censored(&instances, outcome),
             needs: needs(found.units),
             ..CriterionResult::default()

@@ -202,7 +202,7 @@ impl Criterion for Within<'_> {
             trial: self.shown(evidence, &instances, found.value),
             because: vec![because],
             limits: vec![self.accepted.low, self.accepted.high],
-            units: "draws",
+            units: "instances",
             censored: self.censored(&instances, found.interval, outcome),
             refused: censored::refused(&instances),
             needs: self.needs(&instances, found.units),

@@ -1,11 +1,10 @@
 //! What the any-angle planners share: their settings, their memory, their plans.
 
-use super::lattice::{self, Posed, SightSetting, TiesSetting, check_sight, sees};
+use super::lattice::{Posed, SightSetting, TiesSetting, check_sight, sees};
+use super::one_side::{Found, OneSided};
 use super::pool::Pool;
-use super::{Invalid, Plan, Planner, Request, Value};
-use crate::search::{
-    AnyAngle, AnyAngleRules, Branching, Closings, Heap, Observer, Seen, Sighted, VisitOrder, When,
-};
+use super::{Invalid, Plan, Planner, Request};
+use crate::search::{AnyAngle, AnyAngleRules, Branching, Heap, Observer, Seen, Sighted, When};
 use crate::shorten::path_length;
 use base::settings::{Faults, Settings, SettingsError};
 use schemars::JsonSchema;
@@ -86,9 +85,46 @@ struct Timed {
     when: When,
 }
 
+impl OneSided for Timed {
+    type Cost = f64;
+
+    fn search<O: Observer>(&self, posed: &Posed<'_>, expansions: u64, observer: &mut O) -> Found<f64> {
+        let settings = &self.settings;
+        let world = posed.world;
+        let grid = posed.world.grid();
+        let sight = settings.line_of_sight.into();
+        let sees = |from: u32, to: u32| sees(world, sight, grid.xy(from), grid.xy(to));
+        let on = Sighted { grid, moves: world.moves(), sees };
+        let rules = AnyAngleRules {
+            when: self.when,
+            weight: settings.weight.unwrap_or(1.0),
+            reopens: settings.reopen,
+            branching: match settings.branching {
+                Some(BranchingSetting::Four) => Branching::Four,
+                Some(BranchingSetting::Sixteen) => Branching::Sixteen,
+                Some(BranchingSetting::Eight) | None => Branching::Eight,
+            },
+            counts_all: settings.counted_sight == Some(CountedSetting::Printed),
+            max_expansions: expansions,
+        };
+        let mut search = settings.pool.any(|| AnyAngle::new(Heap::new(settings.ties.into())));
+        let Seen { report, sight_checks } = search.solve(&on, rules, [posed.start, posed.goal], observer);
+        settings.pool.keep(search);
+        Found { sight_checks: Some(sight_checks), ..report.into() }
+    }
+}
+
 impl Planner for Timed {
+    /// Its path lists corners alone.
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
-        self.settings.plan(request, self.when)
+        let posed = Posed::new(request)?;
+        check_sight(posed.world, self.settings.line_of_sight.into())?;
+        let mut plan = self.planned(request, &posed);
+        if self.settings.reopen && plan.cost.is_some() {
+            // A way to a node on the path may have become shorter after the goal's g was added up.
+            plan.cost = Some(path_length(&plan.path));
+        }
+        Ok(plan)
     }
 
     fn is_optimal(&self) -> bool {
@@ -101,58 +137,5 @@ impl Planner for Timed {
 
     fn is_any_angle(&self) -> bool {
         true
-    }
-}
-
-impl AnyAngleSettings {
-    /// The plan of a search that looks at lines of sight at the time `when`; its path lists corners alone.
-    fn plan(&self, request: &Request<'_>, when: When) -> Result<Plan, Invalid> {
-        let posed = Posed::new(request)?;
-        check_sight(posed.world, self.line_of_sight.into())?;
-        let grid = posed.world.grid();
-        let closings = Closings::default();
-        let mut watching = (VisitOrder::default(), closings.one_side(0));
-        let Seen { report, sight_checks } = if request.trace {
-            self.search(&posed, request.expansions, when, &mut watching)
-        } else {
-            self.search(&posed, request.expansions, when, &mut ())
-        };
-        let mut traces = Vec::new();
-        if request.trace {
-            traces.push(lattice::cells(grid, "opened_start_side", &watching.0.opened));
-            traces.push(lattice::closings(grid, closings));
-        }
-        let plan = lattice::plan(grid, &report.outcome, &[report.counters], traces);
-        let mut plan = lattice::with_distinct(plan, report.counters.opened);
-        if self.reopen && plan.cost.is_some() {
-            // A way to a node on the path may have become shorter after the goal's g was added up.
-            plan.cost = Some(path_length(&plan.path));
-        }
-        plan.counts.insert("sight_checks", Value::Count(sight_checks));
-        Ok(plan)
-    }
-
-    fn search(&self, posed: &Posed<'_>, expansions: u64, when: When, observer: &mut impl Observer) -> Seen {
-        let world = posed.world;
-        let grid = posed.world.grid();
-        let sight = self.line_of_sight.into();
-        let sees = |from: u32, to: u32| sees(world, sight, grid.xy(from), grid.xy(to));
-        let on = Sighted { grid, moves: world.moves(), sees };
-        let rules = AnyAngleRules {
-            when,
-            weight: self.weight.unwrap_or(1.0),
-            reopens: self.reopen,
-            branching: match self.branching {
-                Some(BranchingSetting::Four) => Branching::Four,
-                Some(BranchingSetting::Sixteen) => Branching::Sixteen,
-                Some(BranchingSetting::Eight) | None => Branching::Eight,
-            },
-            counts_all: self.counted_sight == Some(CountedSetting::Printed),
-            max_expansions: expansions,
-        };
-        let mut search = self.pool.any(|| AnyAngle::new(Heap::new(self.ties.into())));
-        let seen = search.solve(&on, rules, [posed.start, posed.goal], observer);
-        self.pool.keep(search);
-        seen
     }
 }

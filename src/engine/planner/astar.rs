@@ -1,11 +1,12 @@
 //! A* on a lattice with the Euclidean or the octile heuristic.
 
-use super::lattice::{self, COLUMNS_DISTINCT, Posed, TiesSetting, UPDATE};
+use super::lattice::{COLUMNS_DISTINCT, Posed, TiesSetting, UPDATE};
+use super::one_side::{Found, OneSided};
 use super::pool::Pool;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
-    Closings, Combined, Estimate, GridGraph, Heap, Observer, Octile, Report, Rules, Search, SideInputs, Stop,
-    VisitOrder, euclidean_to, falling, octile_to, weighted,
+    Combined, Estimate, GridGraph, Heap, Observer, Octile, Report, Rules, Search, SideInputs, Stop,
+    euclidean_to, falling, octile_to, weighted,
 };
 use crate::space::WorldKind;
 use base::grid::NeighbourOrder;
@@ -88,16 +89,21 @@ enum Rule {
     Falling,
 }
 
-impl Astar {
-    /// Searches under the settings' weight; `observer` watches.
-    fn run<O: Observer>(&self, posed: &Posed<'_>, expansions: u64, observer: &mut O) -> Report<Octile> {
-        let (grid, goal) = (posed.world.grid(), posed.goal);
-        match self.heuristic.unwrap_or(Heuristic::Euclidean) {
+impl OneSided for Astar {
+    type Cost = Octile;
+
+    fn search<O: Observer>(&self, posed: &Posed<'_>, expansions: u64, observer: &mut O) -> Found<Octile> {
+        let grid = posed.world.grid();
+        let goal = posed.goal;
+        let report = match self.heuristic.unwrap_or(Heuristic::Euclidean) {
             Heuristic::Euclidean => self.run_by(posed, euclidean_to(grid, goal), expansions, observer),
             Heuristic::Octile => self.run_by(posed, octile_to(grid, goal), expansions, observer),
-        }
+        };
+        report.into()
     }
+}
 
+impl Astar {
     fn run_by<O: Observer>(
         &self,
         posed: &Posed<'_>,
@@ -140,22 +146,7 @@ impl Astar {
 
 impl Planner for Astar {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
-        let posed = Posed::new(request)?;
-        let grid = posed.world.grid();
-        let closings = Closings::default();
-        let mut watching = (VisitOrder::default(), closings.one_side(0));
-        let report = if request.trace {
-            self.run(&posed, request.expansions, &mut watching)
-        } else {
-            self.run(&posed, request.expansions, &mut ())
-        };
-        let mut traces = Vec::new();
-        if request.trace {
-            traces.push(lattice::cells(grid, "opened_start_side", &watching.0.opened));
-            traces.push(lattice::closings(grid, closings));
-        }
-        let plan = lattice::plan(grid, &report.outcome, &[report.counters], traces);
-        Ok(lattice::with_distinct(plan, report.counters.opened))
+        Ok(self.planned(request, &Posed::new(request)?))
     }
 
     fn is_optimal(&self) -> bool {

@@ -1,9 +1,14 @@
-//! What the planners that plan between corners of cells alone share.
+//! What the planners share that plan between corners of cells alone.
 
-use super::lattice::{self, Posed};
-use super::{Plan, Request, Trace};
-use crate::search::{Closings, Cornered, Observer, Report, VisitOrder};
+use super::lattice::{Posed, TiesSetting};
+use super::one_side::{Found, OneSided};
+use super::pool::Pool;
+use super::{Invalid, Plan, Planner, Request};
+use crate::search::{AngleRanges, Cornered, Heap, Interpolated, Observer};
 use crate::space::LatticeWorld;
+use base::settings::{Settings, SettingsError};
+use schemars::JsonSchema;
+use serde::Deserialize;
 
 /// The corners of the cells of `world`; a checked study gives these planners no other lattice.
 pub(super) fn cornered(world: &LatticeWorld) -> Cornered<'_> {
@@ -11,25 +16,102 @@ pub(super) fn cornered(world: &LatticeWorld) -> Cornered<'_> {
     Cornered { cells, grid: world.grid(), moves: world.moves() }
 }
 
-/// What `run` gives, and the traces of what it did if the request asks for them.
-pub(super) fn watched<T>(
-    request: &Request<'_>,
-    posed: &Posed<'_>,
-    run: impl FnOnce(&mut dyn Observer) -> T,
-) -> (T, Vec<Trace>) {
-    if !request.trace {
-        return (run(&mut ()), Vec::new());
-    }
-    let closings = Closings::default();
-    let mut watching = (VisitOrder::default(), closings.one_side(0));
-    let found = run(&mut watching);
-    let grid = posed.world.grid();
-    let opened = lattice::cells(grid, "opened_start_side", &watching.0.opened);
-    (found, vec![opened, lattice::closings(grid, closings)])
+/// The settings of a planner that has a choice of ties alone.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TiesAlone {
+    /// The order among equal f.
+    ties: TiesSetting,
 }
 
-/// The plan of a search from one side.
-pub(super) fn plan(posed: &Posed<'_>, report: &Report<f64>, traces: Vec<Trace>) -> Plan {
-    let plan = lattice::plan(posed.world.grid(), &report.outcome, &[report.counters], traces);
-    lattice::with_distinct(plan, report.counters.opened)
+/// A search between corners of cells.
+pub(super) trait CornerSearch: Send + 'static {
+    /// With an empty memory.
+    fn new(frontier: Heap) -> Self;
+
+    /// What it finds between `ends`.
+    fn solve(
+        &mut self,
+        on: &Cornered<'_>,
+        ends: [u32; 2],
+        expansions: u64,
+        observer: &mut impl Observer,
+    ) -> Found<f64>;
+}
+
+impl CornerSearch for AngleRanges<Heap> {
+    fn new(frontier: Heap) -> Self {
+        Self::new(frontier)
+    }
+
+    fn solve(
+        &mut self,
+        on: &Cornered<'_>,
+        ends: [u32; 2],
+        expansions: u64,
+        observer: &mut impl Observer,
+    ) -> Found<f64> {
+        self.solve(on, ends, expansions, observer).into()
+    }
+}
+
+impl CornerSearch for Interpolated<Heap> {
+    fn new(frontier: Heap) -> Self {
+        Self::new(frontier)
+    }
+
+    fn solve(
+        &mut self,
+        on: &Cornered<'_>,
+        ends: [u32; 2],
+        expansions: u64,
+        observer: &mut impl Observer,
+    ) -> Found<f64> {
+        let field = self.solve(on, ends, expansions, observer);
+        let path = field.path.into_iter().map(|at| at.to_vec()).collect();
+        Found { path: Some(path), ..field.report.into() }
+    }
+}
+
+/// The planner that searches by `S`.
+///
+/// # Errors
+/// Settings other than [`TiesAlone`].
+pub(super) fn built<S: CornerSearch>(settings: &Settings) -> Result<Box<dyn Planner>, SettingsError> {
+    let TiesAlone { ties } = settings.read()?;
+    Ok(Box::new(BetweenCorners::<S> { ties, pool: Pool::default() }))
+}
+
+struct BetweenCorners<S> {
+    ties: TiesSetting,
+    pool: Pool<S>,
+}
+
+impl<S: CornerSearch> OneSided for BetweenCorners<S> {
+    type Cost = f64;
+
+    fn search<O: Observer>(&self, posed: &Posed<'_>, expansions: u64, observer: &mut O) -> Found<f64> {
+        let mut search = self.pool.any(|| S::new(Heap::new(self.ties.into())));
+        let found = search.solve(&cornered(posed.world), [posed.start, posed.goal], expansions, observer);
+        self.pool.keep(search);
+        found
+    }
+}
+
+impl<S: CornerSearch> Planner for BetweenCorners<S> {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        Ok(self.planned(request, &Posed::new(request)?))
+    }
+
+    fn is_optimal(&self) -> bool {
+        false
+    }
+
+    fn is_complete(&self) -> bool {
+        true
+    }
+
+    fn is_any_angle(&self) -> bool {
+        true
+    }
 }

@@ -29,6 +29,7 @@ mod lattice_astar;
 mod lazy_theta_star;
 #[cfg(test)]
 mod mirrors;
+mod one_side;
 mod polyhedra;
 mod pool;
 mod post_smooth;

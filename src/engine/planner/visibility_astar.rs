@@ -3,11 +3,12 @@
 //! Edges are found when a vertex is expanded, by a look at every other one.
 
 use super::corners;
-use super::lattice::{Posed, TiesSetting};
+use super::lattice::{Posed, TiesSetting, UPDATE};
+use super::one_side::{Found, OneSided};
 use super::pool::Pool;
-use super::{Build, Entry, Invalid, Plan, Planner, Request, Value};
+use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
-    Combined, Cornered, Graph, Heap, Rules, Search, SideInputs, Stop, Update, euclidean_to, sum,
+    Combined, Cornered, Graph, Heap, Observer, Rules, Search, SideInputs, Stop, euclidean_to, sum,
 };
 use crate::space::WorldKind;
 use base::grid::corners_see;
@@ -97,9 +98,10 @@ impl Graph for Visible<'_> {
     }
 }
 
-impl Planner for VisibilityAstar {
-    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
-        let posed = Posed::new(request)?;
+impl OneSided for VisibilityAstar {
+    type Cost = f64;
+
+    fn search<O: Observer>(&self, posed: &Posed<'_>, expansions: u64, observer: &mut O) -> Found<f64> {
         let goal = posed.goal;
         let on = corners::cornered(posed.world);
         let mut vertices = self.vertices.vertices(&on);
@@ -109,16 +111,17 @@ impl Planner for VisibilityAstar {
         let estimate = Combined { h: euclidean_to(on.grid, goal), combine: sum };
         let mut graph = Visible { on, vertices, sight_checks: 0 };
         let mut search = self.pool.any(|| Search::new(Heap::new(self.ties.into())));
-        let (report, traces) = corners::watched(request, &posed, |mut observer| {
-            let (graph, observer) = (&mut graph, &mut observer);
-            let terms = SideInputs { graph, estimate: &estimate, observer, update: Update::default() };
-            let rules = Rules { stop: Stop::GoalPopped, max_expansions: request.expansions };
-            search.run(terms, posed.start, |corner| corner == goal, rules, &mut ())
-        });
+        let terms = SideInputs { graph: &mut graph, estimate: &estimate, observer, update: UPDATE };
+        let rules = Rules { stop: Stop::GoalPopped, max_expansions: expansions };
+        let report = search.run(terms, posed.start, |corner| corner == goal, rules, &mut ());
         self.pool.keep(search);
-        let mut plan = corners::plan(&posed, &report, traces);
-        plan.counts.insert("sight_checks", Value::Count(graph.sight_checks));
-        Ok(plan)
+        Found { sight_checks: Some(graph.sight_checks), ..report.into() }
+    }
+}
+
+impl Planner for VisibilityAstar {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        Ok(self.planned(request, &Posed::new(request)?))
     }
 
     fn is_optimal(&self) -> bool {

@@ -8,13 +8,12 @@
 //! # Source
 //! Daniel, Nash, Koenig & Felner, *Theta\*: Any-Angle Path Planning on Grids*, JAIR 39 (2010), section 6.
 
-use super::cost::Cost as _;
+use super::Report;
 use super::estimate::{Combined, euclidean_to, sum};
 use super::frontier::Frontier;
-use super::graph::{Graph, GridGraph};
+use super::graph::{Graph as _, GridGraph, Lengths};
 use super::observe::{Observer, Place};
 use super::side::{Side, SideInputs, Update};
-use super::{Outcome, Report, Route};
 use base::grid::{Grid2, Moves};
 
 /// Corners of cells, with the cells and the moves.
@@ -57,70 +56,65 @@ impl<Q: Frontier> AngleRanges<Q> {
         let mut graph = Lengths(GridGraph::new(on.moves));
         let update = Update::default();
         let mut terms = SideInputs { graph: &mut graph, estimate: &estimate, observer, update };
-        self.side.begin(ends[0], &mut terms);
-        self.ranges.resize(on.grid.cell_count() as usize, [None; 2]);
-        let outcome = loop {
-            let Some(offer) = self.side.best() else { break Outcome::NoPath };
-            if offer.node == ends[1] {
-                let cost = self.side.g(ends[1]).expect("a node that ends a search was opened");
-                break Outcome::Solved(Route { nodes: self.side.chain(ends[1]), cost });
-            }
-            if self.side.counters.expansions >= max_expansions {
-                break Outcome::BudgetSpent;
-            }
-            let node = offer.node;
-            let parent = self.side.parent(node);
+        let Self { side, ranges } = self;
+        ranges.resize(on.grid.cell_count() as usize, [None; 2]);
+        let outcome = side.run(ends, max_expansions, &mut terms, |side, node, terms| {
+            let parent = side.parent(node);
             if let Some(parent) = parent {
-                self.ranges[node as usize] = self.range(on, node, parent);
+                ranges[node as usize] = seen_past(side, ranges, on, [node, parent]);
             }
-            self.side.close(node, terms.observer);
-            let range = self.ranges[node as usize];
-            let g = self.side.g(node).expect("it was opened");
-            let from = parent.map(|parent| (parent, self.side.g(parent).expect("a parent was opened")));
+            let range = ranges[node as usize];
+            let g = side.g(node).expect("it was opened");
+            let from = parent.map(|parent| (parent, side.g(parent).expect("a parent was opened")));
             let choose = |_: &Side<f64, Q>, to: u32, cost: f64| match from {
                 Some((parent, g_parent)) if is_within(range, apart(on.grid, parent, to)) => {
                     (parent, g_parent + euclidean_to(on.grid, parent)(to))
                 }
                 _ => (node, g + cost),
             };
-            self.side.expand_by(node, &mut terms, choose, |_, _| true);
-        };
-        Report { outcome, counters: self.side.counters }
-    }
-
-    /// Within which directions `parent` sees past `node`.
-    fn range(&self, on: &Cornered<'_>, node: u32, parent: u32) -> [Bound; 2] {
-        let own = apart(on.grid, parent, node);
-        let mut range = [None, None];
-        let [x, y] = on.grid.xy(node);
-        for cell in [[x, y], [x - 1, y], [x, y - 1], [x - 1, y - 1]] {
-            if on.cells.is_free_xy(cell[0], cell[1]) {
-                continue;
-            }
-            let [at_x, at_y] = on.grid.xy(parent);
-            let corners =
-                [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[dx, dy]| [cell[0] + dx - at_x, cell[1] + dy - at_y]);
-            let is_behind = |corner: &[i32; 2]| turn(own, *corner) == 0 && square(*corner) <= square(own);
-            let all_on =
-                |sign: i64| corners.iter().all(|corner| turn(own, *corner) * sign > 0 || is_behind(corner));
-            narrow(&mut range, own, [all_on(-1), all_on(1)]);
-        }
-        Lengths(GridGraph::new(on.moves)).successors(node, |near, _| {
-            let shares = self.side.place(near) == Place::Closed && self.side.parent(near) == Some(parent);
-            let way = apart(on.grid, parent, near);
-            if shares {
-                let [low, high] = self.ranges[near as usize];
-                let [low, high] =
-                    [low.filter(|low| turn(own, *low) <= 0), high.filter(|high| turn(own, *high) >= 0)];
-                narrow(&mut range, low.unwrap_or(own), [low.is_some(), false]);
-                narrow(&mut range, high.unwrap_or(own), [false, high.is_some()]);
-            } else if near != parent && square(way) < square(own) {
-                let turn = turn(own, way);
-                narrow(&mut range, way, [turn < 0, turn > 0]);
-            }
+            side.expand_by(node, terms, choose, |_, _| true);
         });
-        range
+        Report { outcome, counters: side.counters }
     }
+}
+
+/// Within which directions `parent` sees past `node`.
+fn seen_past<Q: Frontier>(
+    side: &Side<f64, Q>,
+    ranges: &[[Bound; 2]],
+    on: &Cornered<'_>,
+    [node, parent]: [u32; 2],
+) -> [Bound; 2] {
+    let own = apart(on.grid, parent, node);
+    let mut range = [None, None];
+    let [x, y] = on.grid.xy(node);
+    for cell in [[x, y], [x - 1, y], [x, y - 1], [x - 1, y - 1]] {
+        if on.cells.is_free_xy(cell[0], cell[1]) {
+            continue;
+        }
+        let [at_x, at_y] = on.grid.xy(parent);
+        let corners =
+            [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[dx, dy]| [cell[0] + dx - at_x, cell[1] + dy - at_y]);
+        let is_behind = |corner: &[i32; 2]| turn(own, *corner) == 0 && square(*corner) <= square(own);
+        let all_on =
+            |sign: i64| corners.iter().all(|corner| turn(own, *corner) * sign > 0 || is_behind(corner));
+        narrow(&mut range, own, [all_on(-1), all_on(1)]);
+    }
+    Lengths(GridGraph::new(on.moves)).successors(node, |near, _| {
+        let shares = side.place(near) == Place::Closed && side.parent(near) == Some(parent);
+        let way = apart(on.grid, parent, near);
+        if shares {
+            let [low, high] = ranges[near as usize];
+            let [low, high] =
+                [low.filter(|low| turn(own, *low) <= 0), high.filter(|high| turn(own, *high) >= 0)];
+            narrow(&mut range, low.unwrap_or(own), [low.is_some(), false]);
+            narrow(&mut range, high.unwrap_or(own), [false, high.is_some()]);
+        } else if near != parent && square(way) < square(own) {
+            let turn = turn(own, way);
+            narrow(&mut range, way, [turn < 0, turn > 0]);
+        }
+    });
+    range
 }
 
 /// Lifts the lowest and lowers the highest direction of a range to `bound`, where `which` says so and it is not within already.
@@ -150,19 +144,4 @@ fn turn(from: [i32; 2], to: [i32; 2]) -> i64 {
 
 fn square([dx, dy]: [i32; 2]) -> i64 {
     i64::from(dx) * i64::from(dx) + i64::from(dy) * i64::from(dy)
-}
-
-/// The moves of a grid, with their lengths as numbers.
-pub(super) struct Lengths<'a>(pub(super) GridGraph<'a>);
-
-impl Graph for Lengths<'_> {
-    type Cost = f64;
-
-    fn node_count(&self) -> usize {
-        self.0.node_count()
-    }
-
-    fn successors(&mut self, node: u32, mut visit: impl FnMut(u32, f64)) {
-        self.0.successors(node, |to, cost| visit(to, cost.value()));
-    }
 }

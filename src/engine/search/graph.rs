@@ -87,6 +87,22 @@ impl Graph for GridGraph<'_> {
     }
 }
 
+/// The moves of a grid, with their lengths as numbers.
+#[derive(Debug)]
+pub(super) struct Lengths<'a>(pub(super) GridGraph<'a>);
+
+impl Graph for Lengths<'_> {
+    type Cost = f64;
+
+    fn node_count(&self) -> usize {
+        self.0.node_count()
+    }
+
+    fn successors(&mut self, node: u32, mut visit: impl FnMut(u32, f64)) {
+        self.0.successors(node, |to, cost| visit(to, cost.value()));
+    }
+}
+
 /// The free cells of a grid with a neighbourhood of any shape; a step costs its Euclidean length.
 ///
 /// `may_hop(from, step)` decides whether the way between two free cells may be taken: always, for a check of end

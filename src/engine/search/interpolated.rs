@@ -9,10 +9,10 @@
 //! Ferguson & Stentz, *Using Interpolation to Improve Path Planning: The Field D\* Algorithm*, JFR 23 (2006); as a search from start to goal:
 //! Daniel, Nash, Koenig & Felner, *Theta\*: Any-Angle Path Planning on Grids*, JAIR 39 (2010), section 4.
 
-use super::angle_ranges::{Cornered, Lengths};
+use super::angle_ranges::Cornered;
 use super::estimate::{Combined, euclidean_to, sum};
 use super::frontier::Frontier;
-use super::graph::GridGraph;
+use super::graph::{GridGraph, Lengths};
 use super::observe::Observer;
 use super::side::{Side, SideInputs, Update};
 use super::{Outcome, Report, Route};
@@ -57,24 +57,17 @@ impl<Q: Frontier> Interpolated<Q> {
         let mut graph = Lengths(GridGraph::new(on.moves));
         let update = Update::default();
         let mut terms = SideInputs { graph: &mut graph, estimate: &estimate, observer, update };
-        self.side.begin(ends[0], &mut terms);
+        let mut outcome = self.side.run(ends, max_expansions, &mut terms, |side, node, terms| {
+            let choose =
+                |side: &Side<f64, Q>, to: u32, cost: f64| (node, reached(side, on, [node, to], cost));
+            side.expand_by(node, terms, choose, |_, _| true);
+        });
         let mut path = Vec::new();
-        let outcome = loop {
-            let Some(offer) = self.side.best() else { break Outcome::NoPath };
-            if offer.node == ends[1] {
-                path = self.extract(on, ends);
-                let cost = path.windows(2).map(|two| apart(two[0], two[1])).sum();
-                break Outcome::Solved(Route { nodes: ends.to_vec(), cost });
-            }
-            if self.side.counters.expansions >= max_expansions {
-                break Outcome::BudgetSpent;
-            }
-            self.side.close(offer.node, terms.observer);
-            let choose = |side: &Side<f64, Q>, to: u32, cost: f64| {
-                (offer.node, reached(side, on, [offer.node, to], cost))
-            };
-            self.side.expand_by(offer.node, &mut terms, choose, |_, _| true);
-        };
+        if let Outcome::Solved(route) = &mut outcome {
+            path = self.extract(on, ends);
+            let cost = path.windows(2).map(|two| apart(two[0], two[1])).sum();
+            *route = Route { nodes: ends.to_vec(), cost };
+        }
         Field { report: Report { outcome, counters: self.side.counters }, path }
     }
 

@@ -1,11 +1,11 @@
 //! One side of a search: its records, its frontier, and the step that every driver repeats.
 
-use super::Counters;
 use super::cost::Cost;
 use super::estimate::Estimate;
 use super::frontier::{Best, Frontier, Offer};
 use super::graph::Graph;
 use super::observe::{Lists, Observer, Place};
+use super::{Counters, Outcome, Route};
 
 const NONE: u32 = u32::MAX;
 
@@ -160,6 +160,35 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
             goes_on = each(self, to);
         });
         self.counters.peak_open = self.counters.peak_open.max(self.open);
+    }
+
+    /// Searches from the first of `ends` until the second is taken from OPEN; `expand` expands each node that is closed before.
+    pub(super) fn run<G, E, O>(
+        &mut self,
+        ends: [u32; 2],
+        max_expansions: u64,
+        terms: &mut SideInputs<'_, G, E, O>,
+        mut expand: impl FnMut(&mut Self, u32, &mut SideInputs<'_, G, E, O>),
+    ) -> Outcome<C>
+    where
+        G: Graph<Cost = C>,
+        E: Estimate<C>,
+        O: Observer,
+    {
+        let [start, goal] = ends;
+        self.begin(start, terms);
+        loop {
+            let Some(Best { node, .. }) = self.best() else { return Outcome::NoPath };
+            if node == goal {
+                let cost = self.g(goal).expect("a node that ends a search was opened");
+                return Outcome::Solved(Route { nodes: self.chain(goal), cost });
+            }
+            if self.counters.expansions >= max_expansions {
+                return Outcome::BudgetSpent;
+            }
+            self.close(node, terms.observer);
+            expand(self, node, terms);
+        }
     }
 
     /// Gives an open node another parent, and the cost of the way over it; its place in OPEN stays.

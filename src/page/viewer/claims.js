@@ -66,7 +66,7 @@ export function claims() {
   follow();
 }
 
-// The interpretations that turn a claim's outcome or open it.
+// The choices that turn a claim's outcome or open it.
 function choices(line) {
   return line.dataset.hangs ? line.dataset.hangs.split(" ") : [];
 }

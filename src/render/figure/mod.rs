@@ -110,7 +110,7 @@ pub struct CurveLine {
 pub struct Shown<'a> {
     /// The problem group.
     pub problems: &'a str,
-    /// The contender; any if what was prepared for the group is drawn.
+    /// The contender; any if the group's preprocessing is drawn.
     pub contender: Option<&'a str>,
     /// The instance.
     pub instance: u32,
@@ -123,7 +123,7 @@ impl<'a> Shown<'a> {
         contenders.iter().map(by).collect()
     }
 
-    /// What was prepared for the first instance of `problems`.
+    /// What was preprocessed for the first instance of `problems`.
     fn preprocessing(problems: &'a str) -> Vec<Self> {
         vec![Self { problems, contender: None, instance: 0 }]
     }
