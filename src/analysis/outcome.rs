@@ -11,23 +11,21 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
     /// What the claim says, to the margin that was set.
-    #[serde(alias = "reproduced")]
     Holds,
     /// It holds, but something in the study was chosen so that it would.
     Fitted,
     /// It holds on an input that was searched for, or on one of many.
     Attainable,
     /// The sign is what the claim says, the size is not.
-    #[serde(rename = "right_in_direction", alias = "direction_only")]
+    #[serde(rename = "right_in_direction")]
     SignOnly,
     /// Too little is known to say.
-    #[serde(alias = "undecided")]
     Open,
     /// The paper leaves out what is needed.
-    #[serde(rename = "not_testable", alias = "untestable")]
+    #[serde(rename = "not_testable")]
     Lacking,
     /// The contrary of what the claim says.
-    #[serde(rename = "contradicted", alias = "not_reproduced")]
+    #[serde(rename = "contradicted")]
     Fails,
     /// The printed numbers contradict arithmetic, geometry or each other, whatever was measured.
     #[serde(rename = "impossible")]

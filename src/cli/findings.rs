@@ -19,8 +19,7 @@ fn text(paper: &Paper, verdicts: &Verdicts) -> String {
     if let Some(finding) = &paper.report.finding {
         text += &(plain("", &prose(finding, verdicts), 0, COLUMNS) + "\n\n");
     }
-    let headlines = paper.claims.iter().filter(|claim| claim.headline);
-    let mut shown: Vec<&ClaimVerdict> = headlines.filter_map(|claim| verdicts.claim(&claim.id)).collect();
+    let mut shown: Vec<&ClaimVerdict> = verdicts.headlines(paper).collect();
     if shown.is_empty() {
         shown = verdicts.claims.iter().filter(|judged| judged.is_counted()).take(CLAIMS).collect();
     }

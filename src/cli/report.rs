@@ -124,7 +124,7 @@ fn made(paper: &Paper, places: &Places, folder: &Path) -> Result<Made, Failure> 
     }
     let beside = beside.map_or_else(String::new, |size| format!(", and {size:.2} MB of replays in {rest}"));
     let said: Vec<String> =
-        state(&evidence, &verdicts).into_iter().chain([verdicts.counts().verdicts]).collect();
+        state(&evidence, &verdicts).into_iter().chain([verdicts.counts().verdicts()]).collect();
     Ok(Made { said: said.join(" "), sizes: format!("{size:.2} MB{beside}") })
 }
 

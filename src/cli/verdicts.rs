@@ -1,6 +1,5 @@
 //! The verdict table on the terminal.
 
-use crate::analysis::tally::Counts;
 use crate::analysis::verdict::{ClaimVerdict, Verdicts};
 use crate::analysis::verdict_rule::{Column, Verdict};
 use crate::render::prose::wrapped;
@@ -49,11 +48,12 @@ fn table(verdicts: &Verdicts) -> String {
 /// How many there are of each verdict, and what is to be known of them as a whole.
 pub fn tallied(verdicts: &Verdicts) -> String {
     let mut text = String::new();
-    let Counts { verdicts: of_each, parts, asserted } = verdicts.counts();
+    let counts = verdicts.counts();
+    let of_each = counts.verdicts();
     let quick = verdicts
         .quick
         .then(|| "a quick run: few instances, so these verdicts are not the study's".to_owned());
-    for said in [Some(of_each), parts, asserted, quick].into_iter().flatten() {
+    for said in [Some(of_each), counts.parts, counts.asserted, quick].into_iter().flatten() {
         text += &(wrapped("", &said, 2, COLUMNS) + "\n");
     }
     for said in explored(verdicts).into_iter().chain(verdicts.changed()) {

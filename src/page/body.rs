@@ -93,18 +93,19 @@ impl Body<'_> {
             );
             text += "</ul></details>\n";
         }
-        let more: Vec<String> = counts
-            .parts
-            .into_iter()
-            .chain(counts.asserted)
-            .map(|said| format!("{}.", escaped(&said)))
+        let of_each = counts.of_each.iter();
+        let badges: Vec<String> = of_each
+            .map(|(count, verdict)| badge(verdict.name(), &format!("{count} {}", verdict.name())))
             .collect();
-        text + &format!("<p>{} {}</p></header>\n", self.tally(), more.join(" "))
+        text += &format!("<p>{}: {}.", counts.whole, badges.join(" "));
+        text.extend(
+            counts.parts.into_iter().chain(counts.asserted).map(|said| format!(" {}.", escaped(&said))),
+        );
+        text + "</p></header>\n"
     }
 
     /// The headline claims, each with its verdict, and with our number where it has one.
     fn headlines(&self) -> String {
-        let headlines = self.evidence.paper.claims.iter().filter(|claim| claim.headline);
         let line = |judged: &ClaimVerdict| {
             let says = judged.says.as_ref().or(judged.quote.as_ref()).unwrap_or(&judged.at);
             let ours = judged.ours().map_or_else(String::new, |ours| format!(": {}", short(ours)));
@@ -116,21 +117,8 @@ impl Body<'_> {
                 escaped(&ours)
             )
         };
-        let lines: String = headlines.filter_map(|claim| self.verdicts.claim(&claim.id)).map(line).collect();
+        let lines: String = self.verdicts.headlines(self.evidence.paper).map(line).collect();
         if lines.is_empty() { lines } else { format!("<ul>\n{lines}</ul>\n") }
-    }
-
-    /// How many there are of each verdict, on its colour.
-    fn tally(&self) -> String {
-        let counted = || self.verdicts.claims.iter().filter(|judged| judged.is_counted());
-        let of = |verdict: Verdict| counted().filter(|judged| judged.verdict == verdict).count();
-        let badges = Verdict::ALL.into_iter().filter(|verdict| of(*verdict) > 0);
-        let badges: Vec<String> = badges
-            .map(|verdict| badge(verdict.name(), &format!("{} {}", of(verdict), verdict.name())))
-            .collect();
-        let all = counted().count();
-        let what = if all == 1 { "sentence or row" } else { "sentences and rows" };
-        format!("{all} {what}: {}.", badges.join(" "))
     }
 
     fn navigation(&self, is_without_curves: bool) -> String {

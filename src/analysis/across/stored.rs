@@ -63,7 +63,6 @@ pub struct ExploredResult {
     /// The interpretations, by their places.
     pub interpretations: Vec<usize>,
     /// The outcome.
-    #[serde(alias = "class")]
     pub outcome: Outcome,
     /// Whether that says something.
     pub sight: Sight,

@@ -155,8 +155,7 @@ impl Page<'_> {
     fn claims(&self, text: &mut String) {
         let paper = self.evidence.paper;
         let verdicts = self.verdicts;
-        let headlines = paper.claims.iter().filter(|claim| claim.headline);
-        let mut shown: Vec<&ClaimVerdict> = headlines.filter_map(|claim| verdicts.claim(&claim.id)).collect();
+        let mut shown: Vec<&ClaimVerdict> = verdicts.headlines(paper).collect();
         if shown.is_empty() {
             shown.extend(verdicts.claims.iter().filter(|judged| judged.is_counted()).take(CLAIMS));
         }
@@ -188,9 +187,9 @@ impl Page<'_> {
 
     fn counts(&self) -> String {
         let counts = self.verdicts.counts();
-        let more = counts.parts.into_iter().chain(counts.asserted);
-        std::iter::once(counts.verdicts)
-            .chain(more)
+        std::iter::once(counts.verdicts())
+            .chain(counts.parts)
+            .chain(counts.asserted)
             .map(|said| format!("{said}."))
             .collect::<Vec<_>>()
             .join(" ")
