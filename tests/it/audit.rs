@@ -1,25 +1,29 @@
 //! `replan audit` runs a program beside it or on the PATH, whose arguments, streams and exit code are its own.
 
 use crate::paper::Bench;
-use std::fs;
 use std::io::Write as _;
-use std::os::unix::fs::PermissionsExt as _;
 use std::path::Path;
 use std::process::Stdio;
+
+/// Puts a program at `to` by another process: a child of another test would hold what this process has open for writing, and a program
+/// that is open for writing cannot be started.
+fn install(from: &Path, to: &Path) {
+    let status = std::process::Command::new("install").args(["-D", "-m", "755"]).args([from, to]).status();
+    assert!(status.unwrap().success(), "{}", to.display());
+}
 
 /// Writes a stand-in for the program: it prints the arguments and what it reads, and ends with code 7.
 fn stand_in(bench: &Bench, name: &str) {
     let script = "#!/bin/sh\nprintf '%s|' '$0' \"$REPLAN\" \"$@\"\n/bin/cat\necho lost >&2\nexit 7\n";
-    bench.write(name, script.replace("$0", name).as_bytes());
-    fs::set_permissions(bench.at(name), fs::Permissions::from_mode(0o755)).unwrap();
+    bench.write("script", script.replace("$0", name).as_bytes());
+    install(&bench.at("script"), &bench.at(name));
 }
 
 #[test]
 fn the_program_beside_replan_comes_first_then_the_path_and_without_both_the_message_has_the_command() {
     let bench = Bench::empty();
-    fs::create_dir(bench.at("bin")).unwrap();
     let replan = bench.at("bin/replan");
-    fs::copy(env!("CARGO_BIN_EXE_replan"), &replan).unwrap();
+    install(Path::new(env!("CARGO_BIN_EXE_replan")), &replan);
     let run = |arguments: &[&str]| {
         let mut command = std::process::Command::new(&replan);
         command.arg("audit").args(arguments).env("PATH", bench.at("path")).current_dir(bench.at("bin"));
