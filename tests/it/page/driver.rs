@@ -9,6 +9,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use tempfile::TempDir;
 
+/// How often a driver is started until one keeps its port.
+const STARTS: usize = 5;
+
 /// The first of `names` among the programs of this machine.
 fn program(names: &[&str]) -> Option<PathBuf> {
     let path = env::var_os("PATH")?;
@@ -26,6 +29,28 @@ pub struct Browser {
     profile: TempDir,
 }
 
+/// A driver at work, and its port. It takes one number for both families of addresses, and ends where another driver took the second
+/// meanwhile: then it is started again.
+fn started(program: &Path) -> (Child, u16) {
+    let mut said = Vec::new();
+    for _ in 0..STARTS {
+        let mut driver = Command::new(program)
+            .arg("--port=0")
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        for line in BufReader::new(driver.stdout.take().unwrap()).lines().map_while(Result::ok) {
+            if let Some((_, port)) = line.split_once("started successfully on port ") {
+                return (driver, port.trim_end_matches('.').parse().unwrap());
+            }
+            said.push(line);
+        }
+        driver.wait().unwrap();
+    }
+    panic!("chromedriver names no port: {}", said.join("; "));
+}
+
 impl Browser {
     /// A browser with a window of this size; none, and a line that says so, where Chromium or its driver is not installed.
     pub fn open([width, height]: [u32; 2]) -> Option<Self> {
@@ -37,18 +62,8 @@ impl Browser {
             return None;
         };
         let profile = tempfile::tempdir().unwrap();
-        let mut driver = Command::new(driver)
-            .arg("--port=0")
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        let lines = BufReader::new(driver.stdout.take().unwrap()).lines();
-        let port = lines.map_while(Result::ok).find_map(|line| {
-            line.split("started successfully on port ").nth(1)?.trim_end_matches('.').parse().ok()
-        });
-        let mut browser =
-            Self { driver, port: port.expect("chromedriver says its port"), session: String::new(), profile };
+        let (driver, port) = started(&driver);
+        let mut browser = Self { driver, port, session: String::new(), profile };
         let data = format!("--user-data-dir={}", browser.profile.path().display());
         let size = format!("--window-size={width},{height}");
         let args = [
