@@ -117,8 +117,9 @@ fn cell(lines: &Lines) -> Cell {
         a_m: joint.a_m,
         d_m: joint.d_m,
         offset_rad: joint.offset_rad,
-        lower_rad: joint.lower_rad,
-        upper_rad: joint.upper_rad,
+        lower_rad: joint.range_rad()[0],
+        upper_rad: joint.range_rad()[1],
+        is_endless: joint.is_endless(),
         speed_rad_s: joint.speed_rad_s,
     };
     let part = |part: &engine::kinematics::robot::Part| Part {

@@ -5,7 +5,8 @@ use std::fs;
 use std::path::Path;
 use study::reuse;
 
-const PAPER: &str =
+/// The least that a paper has.
+pub const PAPER: &str =
     "[source]\ntitle = \"Files\"\nauthors = \"N. N.\"\n\n[prints]\nfigures = 0\ntables = 0\nequations = 0\n";
 
 /// An arm of two rods that nod about y, before limits and kinds of its joints are put in.

@@ -9,6 +9,7 @@ use nalgebra::Matrix4;
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
+use study::reuse;
 use verify::joints;
 
 fn root() -> &'static Path {
@@ -151,5 +152,65 @@ fn the_ur5_by_urdf_is_the_ur5_by_rows() {
             off < 1e-9 && urdf.bodies()[0].parts().len() == rows.bodies()[0].parts().len(),
             "capsules off by {off}"
         );
+    }
+}
+
+/// Two queries of a UR5 across half a turn of its first and last joints, on straight ways of the joints and of the tool.
+const ROUND: &str = r#"
+paper = "round"
+question = "Which way round?"
+seed = 3
+[budget]
+expansions = 1000
+[[problems]]
+label = "joints"
+family = "cell_queries"
+instances = 1
+settings = { robot = "arm.urdf", scene = "empty.toml", queries = "poses.toml", obstacles = false, self_collision = false, samples = 40, region = "full", counted = "accepted", radius_mm = 9000, path = "joints", step_mm = 20, step_deg = 4, jump_deg = 20, turn_deg = 180, end = "own" }
+[[problems]]
+label = "tool"
+family = "cell_queries"
+instances = 1
+settings = { robot = "arm.urdf", scene = "empty.toml", queries = "poses.toml", obstacles = false, self_collision = false, samples = 40, region = "full", counted = "accepted", radius_mm = 9000, path = "tool", step_mm = 20, step_deg = 4, jump_deg = 20, turn_deg = 180, end = "own" }
+[[contender]]
+label = "straight"
+planner = "direct"
+"#;
+
+#[test]
+fn in_a_cell_a_joint_that_turns_without_end_takes_the_shorter_way_round() {
+    let bench = Bench::empty();
+    bench.write("round/paper.toml", crate::files::PAPER.as_bytes());
+    bench.write(
+        "round/poses.toml",
+        b"[pose_deg]\nA = [172, -60, 90, -120, -90, 176]\nB = [-172, -60, 90, -120, -90, -178]\n\
+          [[group]]\nname = \"low\"\nfrom = \"A\"\nto = \"B\"\n",
+    );
+    let empty = b"name = \"nothing\"\n[support]\nunder = \"floor\"\nbase_mm = [0, 0, 0]\nyaw_deg = 0\n";
+    bench.write("round/empty.toml", empty);
+    bench.write("round/cell.toml", ROUND.as_bytes());
+    let file = fs::read_to_string(root().join("data/robots/ur5.urdf")).unwrap();
+    let mut endless = file.clone();
+    for joint in [1, 6] {
+        let revolute = format!("joint_{joint}\" type=\"revolute\"");
+        assert!(file.contains(&revolute), "ur5.urdf is written otherwise");
+        endless = endless.replace(&revolute, &format!("joint_{joint}\" type=\"continuous\""));
+    }
+    // 16 and 6 degrees the shorter way round, or 344 and 354.
+    for (text, travel_deg) in [(&endless, 22.0), (&file, 698.0)] {
+        bench.write("round/arm.urdf", text.as_bytes());
+        bench.done(&["run", "./round"]);
+        let (_, records) = reuse::stored(&bench.at("target/replan/round/data/runs/round"), "cell").unwrap();
+        let row = |group: &str| records.batch.rows.iter().find(|row| *row.key.on.group == *group).unwrap();
+        let [joints, tool] = ["joints", "tool"].map(row);
+        assert_eq!(joints.status.name(), "solved", "{:?}", joints.reason);
+        let travel = joints.value("joint_travel_deg").unwrap();
+        assert!((travel - travel_deg).abs() < 1e-6, "{travel}");
+        if travel_deg < 180.0 {
+            assert_eq!(tool.status.name(), "solved", "{:?}", tool.reason);
+            assert!(tool.value("joint_travel_deg").unwrap() < 180.0);
+        } else {
+            assert_ne!(tool.status.name(), "solved", "the joints arrive a turn from the goal");
+        }
     }
 }

@@ -62,7 +62,7 @@ pub enum KinematicsError {
     },
     /// A joint of a URDF file is none that a work cell's arm may have.
     #[error(
-        "joint `{joint}` {why}; revolute joints with limits and a velocity are accepted here, and all kinds in problems in joint space"
+        "joint `{joint}` {why}; revolute and continuous joints with a velocity are accepted here, and all kinds in problems in joint space"
     )]
     Unfit {
         /// Its name.

@@ -13,7 +13,7 @@
 use super::{KinematicsError, angle::nearest_copy};
 use crate::geometry::{Frame, Vec3};
 use nalgebra::{Matrix3, Matrix6};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// How many joints an arm has.
 pub const AXES: usize = 6;
@@ -32,9 +32,9 @@ pub struct Joint {
     pub d_m: f64,
     /// Added to the joint angle.
     pub offset_rad: f64,
-    /// The least joint angle.
+    /// The least joint angle; minus infinity, with an infinite greatest, of a joint that turns without end.
     pub lower_rad: f64,
-    /// The greatest joint angle.
+    /// The greatest joint angle; infinite, with an infinite least, of a joint that turns without end.
     pub upper_rad: f64,
     /// The greatest speed.
     pub speed_rad_s: f64,
@@ -44,6 +44,22 @@ impl Joint {
     /// Whether `angle_rad` is within the limits; the limits are.
     pub fn allows(&self, angle_rad: f64) -> bool {
         (self.lower_rad..=self.upper_rad).contains(&angle_rad)
+    }
+
+    /// Whether it turns without end: angles that whole turns part are one.
+    pub fn is_endless(&self) -> bool {
+        self.lower_rad == f64::NEG_INFINITY && self.upper_rad == f64::INFINITY
+    }
+
+    /// Where a motion from `from_rad` to `to_rad` ends: a joint that turns without end takes the shorter way round.
+    #[inline]
+    pub fn toward(&self, from_rad: f64, to_rad: f64) -> f64 {
+        if self.is_endless() { nearest_copy(to_rad, from_rad) } else { to_rad }
+    }
+
+    /// Limits that lie at most half a turn to either side for a joint that turns without end, its own otherwise.
+    pub fn range_rad(&self) -> [f64; 2] {
+        if self.is_endless() { [-PI, PI] } else { [self.lower_rad, self.upper_rad] }
     }
 
     /// Of the angles within the limits that differ from `angle_rad` by whole turns, the one nearest to
@@ -75,6 +91,7 @@ impl Joint {
             ("speed_deg_s", self.speed_rad_s),
         ];
         let unmeant = |(key, value): (&'static str, f64)| match value {
+            _ if self.is_endless() && ["lower_deg", "upper_deg"].contains(&key) => None,
             _ if !value.is_finite() => Some((key, value, "a finite number")),
             _ if value.abs() > LARGEST && key.ends_with("_mm") => Some((key, value, "-10^9 to 10^9")),
             _ if value.abs() > LARGEST => Some((key, value, "at most 10^6 rad, either way")),
@@ -190,6 +207,11 @@ impl Chain {
     #[must_use]
     pub fn placed(&self, base: &Frame) -> Self {
         Self { base: *base * self.base, ..self.clone() }
+    }
+
+    /// Where a motion straight in joint space from `from` to `to` ends: `to`, by whole turns of joints that turn without end.
+    pub fn toward(&self, from: &Joints, to: &Joints) -> Joints {
+        std::array::from_fn(|i| self.joints[i].toward(from[i], to[i]))
     }
 
     /// Whether every joint is within its limits.

@@ -385,12 +385,13 @@ impl Posed {
 fn bounds_rad(cell: &Cell, read: &CellQueries, queries: &[Query]) -> [[f64; 2]; AXES] {
     let joints = cell.robot().arm().chain().joints();
     let half_turn = std::f64::consts::PI;
-    let whole = joints.map(|joint| [joint.lower_rad.max(-half_turn), joint.upper_rad.min(half_turn)]);
+    let whole =
+        joints.map(|joint| joint.range_rad()).map(|[low, high]| [low.max(-half_turn), high.min(half_turn)]);
     // A joint that turns beyond half a turn on one side only keeps its own ends.
     let whole: [[f64; 2]; AXES] = std::array::from_fn(|i| {
-        let span = joints[i].upper_rad - joints[i].lower_rad;
-        if span <= 2.0 * half_turn + 1e-9 || read.turns == Turns::Whole {
-            [joints[i].lower_rad, joints[i].upper_rad]
+        let [low, high] = joints[i].range_rad();
+        if high - low <= 2.0 * half_turn + 1e-9 || read.turns == Turns::Whole {
+            [low, high]
         } else {
             whole[i]
         }

@@ -19,7 +19,7 @@ pub struct Row {
     pub d_m: f64,
     /// Added to the joint angle.
     pub offset_rad: f64,
-    /// The least and the greatest angle.
+    /// The least and the greatest angle; infinite both of a joint that turns without end.
     pub limits_rad: [f64; 2],
     /// The greatest speed.
     pub speed_rad_s: f64,
@@ -29,6 +29,11 @@ pub struct Row {
 pub(super) type Frames = [Matrix4<f64>; 8];
 
 impl Row {
+    /// Whether whole turns are the same angle.
+    pub(super) fn is_endless(&self) -> bool {
+        self.limits_rad.iter().all(|limit| limit.is_infinite())
+    }
+
     /// The row's frame in the one before, given the sine and cosine of its twist.
     fn matrix(&self, (sa, ca): (f64, f64), angle_rad: f64) -> Matrix4<f64> {
         let (s, c) = libm::sincos(angle_rad + self.offset_rad);

@@ -81,7 +81,11 @@ pub(super) fn leg(case: &Case, from: &Angles, to: &Angles) -> Result<Leg, String
     let ends = Ends::new(&chain.tool(from), &chain.tool(to));
     let length_m = (ends.to.1 - ends.from.1).norm();
     let turn_rad = 2.0 * ends.half_rad;
-    let widest = from.iter().zip(to).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    // Where the joints go straight, one that turns without end takes the shorter way round.
+    let goal: Angles = std::array::from_fn(|i| {
+        if chain.rows()[i].is_endless() { to[i] - TAU * ((to[i] - from[i]) / TAU).round() } else { to[i] }
+    });
+    let widest = from.iter().zip(&goal).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let steps = if rules.straight_joints {
         widest / rules.step_rad
     } else {
@@ -96,7 +100,7 @@ pub(super) fn leg(case: &Case, from: &Angles, to: &Angles) -> Result<Leg, String
         let share = f64::from(step) / f64::from(steps);
         let last = &states[states.len() - 1];
         let q = if rules.straight_joints {
-            let q = std::array::from_fn(|i| from[i] + (to[i] - from[i]) * share);
+            let q = std::array::from_fn(|i| from[i] + (goal[i] - from[i]) * share);
             chain.write_frames(&q, &mut frames);
             q
         } else {
@@ -114,7 +118,7 @@ pub(super) fn leg(case: &Case, from: &Angles, to: &Angles) -> Result<Leg, String
         places.push(tip(&frames));
     }
     refuse_motion(case, &states, length_m.max(turn_rad / rules.step_rad * rules.step_m))?;
-    refuse_end(rules.end, states.last().expect("a leg has two ends"), to)?;
+    refuse_end(case, states.last().expect("a leg has two ends"), to)?;
     Ok(measure(case, &states, &places, [length_m, turn_rad]))
 }
 
@@ -177,11 +181,13 @@ fn refuse_motion(case: &Case, states: &[Angles], law_m: f64) -> Result<(), Strin
     Ok(())
 }
 
-fn refuse_end(end: LegEnd, arrived: &Angles, wanted: &Angles) -> Result<(), String> {
+fn refuse_end(case: &Case, arrived: &Angles, wanted: &Angles) -> Result<(), String> {
     for i in 0..6 {
         let gap = arrived[i] - wanted[i];
-        let turns = if i == 3 || i == 5 { (gap / TAU).round() * TAU } else { 0.0 };
-        let left = match end {
+        let turns = (gap / TAU).round() * TAU;
+        let left = match case.rules.end {
+            LegEnd::Own | LegEnd::WholeTurns if case.chain.rows()[i].is_endless() => gap - turns,
+            LegEnd::WholeTurns if i != 3 && i != 5 => gap,
             LegEnd::Own => gap,
             LegEnd::WholeTurns => gap - turns,
             LegEnd::PoseOnly => 0.0,

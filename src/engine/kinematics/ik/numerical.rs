@@ -51,8 +51,8 @@ fn build(chain: &Chain) -> Result<Arc<dyn Solver>, KinematicsError> {
     let mut stream = seed::stream(SEED);
     let draw = |_| {
         joints.map(|joint| {
-            let upper_rad = joint.upper_rad.min(joint.lower_rad + TAU);
-            stream.random_range(joint.lower_rad..upper_rad)
+            let [lower_rad, upper_rad] = joint.range_rad();
+            stream.random_range(lower_rad..upper_rad.min(lower_rad + TAU))
         })
     };
     let length_m: f64 = joints.iter().map(|joint| libm::hypot(joint.a_m, joint.d_m)).sum();

@@ -38,8 +38,8 @@ pub(super) fn robot(read: &base::robot::Robot) -> Result<Robot, KinematicsError>
     let frames = open.frames(&zero);
     let rows = rows(&open, &frames);
     let joints = std::array::from_fn(|i| Joint {
-        lower_rad: read.joints[i].limits[0],
-        upper_rad: read.joints[i].limits[1],
+        lower_rad: limits_rad(&read.joints[i])[0],
+        upper_rad: limits_rad(&read.joints[i])[1],
         speed_rad_s: speeds[i],
         ..rows.joints[i]
     });
@@ -70,12 +70,14 @@ fn speed_rad_s(joint: &base::robot::Joint) -> Result<f64, KinematicsError> {
     let unfit = |why| KinematicsError::Unfit { joint: joint.name.clone(), why };
     match (joint.kind, joint.speed) {
         (Kind::Slides, _) => Err(unfit("slides, which inverse kinematics does not know")),
-        (Kind::TurnsOn, _) => {
-            Err(unfit("turns without end, and paths in a cell are told apart by whole turns"))
-        }
-        (Kind::Turns, None) => Err(unfit("has no `velocity` above 0, which a cell's arm needs")),
-        (Kind::Turns, Some(speed)) => Ok(speed),
+        (_, None) => Err(unfit("has no `velocity` above 0, which a cell's arm needs")),
+        (_, Some(speed)) => Ok(speed),
     }
+}
+
+/// The limits of a joint; a continuous one has none.
+fn limits_rad(joint: &base::robot::Joint) -> [f64; 2] {
+    if joint.kind == Kind::TurnsOn { [f64::NEG_INFINITY, f64::INFINITY] } else { joint.limits }
 }
 
 /// What capsules stand for, unless every solid is a sphere.
@@ -212,7 +214,10 @@ fn self_pairs(chain: &Chain, parts: &[Part]) -> Vec<[usize; 2]> {
     }
     let mut stream = seed::stream(seed::derive(0, &["urdf", "pairs that always touch"]));
     for _ in 0..DRAWS {
-        let q = chain.joints().map(|joint| stream.random_range(joint.lower_rad..joint.upper_rad));
+        let q = chain.joints().map(|joint| {
+            let [lower, upper] = joint.range_rad();
+            stream.random_range(lower..upper)
+        });
         let frames = chain.frames(&q);
         for ([a, b], always) in &mut pairs {
             let [one, other] = [&parts[*a], &parts[*b]].map(|part| part.placed(&frames));

@@ -73,7 +73,8 @@ impl Lines {
                 let steps = self.joint_steps(from, to);
                 scratch.states.clear();
                 let shares = (0..=steps as u32).map(|step| f64::from(step) / steps);
-                scratch.states.extend(shares.map(|share| between(&from.q, &to.q, share)));
+                let end = self.cell.robot().arm().chain().toward(&from.q, &to.q);
+                scratch.states.extend(shares.map(|share| between(&from.q, &end, share)));
                 None
             }
             Path::Tool => {
@@ -176,21 +177,26 @@ impl Lines {
     }
 
     fn arrives(&self, end: &Joints, wanted: &Joints) -> Result<(), Rejection> {
-        let far = (0..AXES).any(|i| {
-            let gap = end[i] - wanted[i];
-            let turns = if i == 3 || i == 5 { (gap / TAU).round() * TAU } else { 0.0 };
-            match self.rules.end {
-                EdgeEnd::Own => gap.abs() > SAME_RAD,
-                EdgeEnd::WholeTurns => (gap - turns).abs() > SAME_RAD,
-                EdgeEnd::PoseOnly => false,
-            }
-        });
+        let far = (0..AXES).any(|i| self.end_gap_rad(end, wanted, i).abs() > SAME_RAD);
         if far { Err(Rejection::End) } else { Ok(()) }
+    }
+
+    /// How far joint `i` arrives from where it should be; whole turns do not count where the rules or the joint make nothing of them.
+    pub(super) fn end_gap_rad(&self, end: &Joints, wanted: &Joints, i: usize) -> f64 {
+        let gap = end[i] - wanted[i];
+        let turns_free = match self.rules.end {
+            EdgeEnd::PoseOnly => return 0.0,
+            EdgeEnd::WholeTurns => i == 3 || i == 5,
+            EdgeEnd::Own => false,
+        };
+        let is_same_after_turns = turns_free || self.cell.robot().arm().chain().joints()[i].is_endless();
+        if is_same_after_turns { gap - (gap / TAU).round() * TAU } else { gap }
     }
 
     /// How many steps a path takes that is straight in joint space.
     pub(super) fn joint_steps(&self, from: &Pose, to: &Pose) -> f64 {
-        (largest_change(&from.q, &to.q) / self.rules.step_rad).ceil().max(1.0)
+        let end = self.cell.robot().arm().chain().toward(&from.q, &to.q);
+        (largest_change(&from.q, &end) / self.rules.step_rad).ceil().max(1.0)
     }
 
     /// Whether no configuration of `scratch` and none between them is in contact: from the middle outwards.

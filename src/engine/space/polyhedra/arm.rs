@@ -10,7 +10,7 @@ use crate::geometry::{
     nearest_segment_half_space,
 };
 use crate::kinematics::{
-    AXES, Arm, Joints, Robot,
+    AXES, Arm, Joint, Joints, Robot,
     robot::{Body, Part},
 };
 use crate::space::Support;
@@ -56,6 +56,15 @@ impl CarriedArm {
             let known: Vec<&str> = robot.bodies().iter().map(Body::name).collect();
             format!("robot `{}` has no body `{body}`; it has {}", robot.name(), known.join(", "))
         })?;
+        let endless = robot.arm().chain().joints().iter().position(Joint::is_endless);
+        if let Some(joint) = endless {
+            let robot = robot.name();
+            return Err(format!(
+                "joint {} of robot `{robot}` turns without end, and its angles are searched between limits here; a revolute \
+                 joint is accepted",
+                joint + 1
+            ));
+        }
         let floor = support.floor_m().map(|height| HalfSpace::below(height * CM_PER_M));
         let floor = floor.transpose().map_err(|e| e.to_string())?;
         let arm = robot.arm().placed(support.base());

@@ -1,7 +1,7 @@
 //! What a roadmap stands on: configurations, their places, and local paths between them.
 
 use super::plane::PlaneMap;
-use crate::kinematics::{AXES, Joints};
+use crate::kinematics::{AXES, Joint, Joints};
 use crate::space::JointSpace;
 use crate::space::cell::{Lines, Path, Pose, Rejection, Scratch};
 use base::robot::Kind;
@@ -71,7 +71,10 @@ impl Local {
     /// Which numbers of a configuration are angles that whole turns part from themselves.
     pub(super) fn turn_on(&self) -> Vec<bool> {
         match self {
-            Self::Arm(_) | Self::Plane(_) => vec![false; self.width()],
+            Self::Arm(lines) => {
+                lines.cell().robot().arm().chain().joints().iter().map(Joint::is_endless).collect()
+            }
+            Self::Plane(_) => vec![false; self.width()],
             Self::Joints(space) => {
                 space.robot().joints.iter().map(|joint| joint.kind == Kind::TurnsOn).collect()
             }

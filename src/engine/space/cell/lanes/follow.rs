@@ -5,7 +5,7 @@ use crate::kinematics::angle::nearest_copy;
 use crate::kinematics::ik::{Branch, LaneSolutions};
 use crate::kinematics::{AXES, Joint, Joints};
 use crate::space::cell::limits::PARTS;
-use crate::space::cell::lines::{EdgeEnd, SAME_RAD, StepSchedule, largest_change};
+use crate::space::cell::lines::{SAME_RAD, StepSchedule, largest_change};
 use crate::space::cell::way::Way;
 use crate::space::cell::{Lines, Pose, Rejection};
 use std::f64::consts::{PI, TAU};
@@ -221,14 +221,7 @@ impl Lines {
 
     fn arrives_surely(&self, end: &Joints, wanted: &Joints) -> Option<Result<(), Rejection>> {
         for i in 0..AXES {
-            let gap = end[i] - wanted[i];
-            let turns = if i == 3 || i == 5 { (gap / TAU).round() * TAU } else { 0.0 };
-            let gap = match self.rules.end {
-                EdgeEnd::Own => gap,
-                EdgeEnd::WholeTurns => gap - turns,
-                EdgeEnd::PoseOnly => 0.0,
-            };
-            if exceeds(gap.abs(), SAME_RAD)? {
+            if exceeds(self.end_gap_rad(end, wanted, i).abs(), SAME_RAD)? {
                 return Some(Err(Rejection::End));
             }
         }

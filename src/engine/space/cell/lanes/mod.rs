@@ -231,7 +231,8 @@ impl Lines {
     /// A straight line of the joints, and how many configurations are looked at on it.
     fn line(&self, from: &Pose, to: &Pose) -> (Course<'_>, usize) {
         let steps = self.joint_steps(from, to);
-        let step = std::array::from_fn(|i| ((to.q[i] - from.q[i]) / steps) as f32);
+        let end = self.cell.robot.arm().chain().toward(&from.q, &to.q);
+        let step = std::array::from_fn(|i| ((end[i] - from.q[i]) / steps) as f32);
         (Course::Line { from: from.q.map(|angle| angle as f32), step }, steps as usize + 1)
     }
 }
