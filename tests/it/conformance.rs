@@ -5,6 +5,7 @@
 
 mod tried;
 
+use crate::paper::thoroughly;
 use crate::worlds::{Case, Subject, worlds};
 use base::settings::Settings;
 use engine::planner::{self, Build, Ending, Entry, Invalid, Plan, Planner, Request, Stage};
@@ -258,7 +259,8 @@ fn counters_are_what_the_world_saw() {
     for subject in searching() {
         let mut exhausted = 0;
         let mut is_counted = false;
-        for case in worlds(subject.entry.needs) {
+        let all = worlds(subject.entry.needs);
+        for case in all.iter().step_by(all.len() / thoroughly(all.len())) {
             let plan = subject.planner.plan(&request(case, PLENTY, true)).unwrap();
             let what = format!("{} on {}: {:?}", subject.name, case.name, plan.counts);
             for list in ["opened", "closed"] {
@@ -285,7 +287,7 @@ fn counters_are_what_the_world_saw() {
                 exhausted += 1;
             }
         }
-        assert!(exhausted > 3 || !is_counted, "{}: {exhausted} worlds were exhausted", subject.name);
+        assert!(exhausted > 0 || !is_counted, "{}: {exhausted} worlds were exhausted", subject.name);
     }
 }
 

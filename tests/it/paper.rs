@@ -6,6 +6,11 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 
+/// Of `all` cases that a test draws, those that it draws now: a fifth, or all where `REPLAN_THOROUGH` is set.
+pub fn thoroughly(all: usize) -> usize {
+    if std::env::var_os("REPLAN_THOROUGH").is_some() { all } else { all / 5 }
+}
+
 const PAPER: &str = r#"[source]
 title = "A tiny paper"
 authors = "N. N."

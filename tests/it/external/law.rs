@@ -1,5 +1,6 @@
 //! What `motion` accepts, the verifier accepts: over random motions in every world of the protocol.
 
+use crate::paper::thoroughly;
 use base::seed;
 use base::settings::Settings;
 use engine::planner::{Build, Counts, Ending, Plan, Request};
@@ -191,7 +192,7 @@ fn what_motion_accepts_the_verifier_accepts() {
             let mut draw = |low: f64, high: f64| stream.random_range(low..=high);
             let mut space = Space::new(&world, sample.any_angle);
             assert!(describe(&world, sample.any_angle).is_ok());
-            for _ in 0..sample.motions {
+            for _ in 0..thoroughly(sample.motions) {
                 let pair = motion(&world, &mut draw);
                 drawn += 1;
                 if space.is_free(&pair[0], &pair[1]) == Ok(true) {
@@ -212,5 +213,5 @@ fn what_motion_accepts_the_verifier_accepts() {
         assert!(refused.is_empty(), "{what}: {} of {accepted} refused; {}", refused.len(), refused[0]);
         asked += drawn;
     }
-    assert!(asked >= 100_000, "{asked} motions");
+    assert!(asked as usize >= thoroughly(100_000), "{asked} motions");
 }

@@ -8,6 +8,7 @@ use super::{
     *,
 };
 use crate::kinematics::{Joint, angle::wrapped, robot::tests::urdf::read_back};
+use crate::thoroughly;
 use base::seed::Stream;
 
 /// How far two poses are apart: metres and radians.
@@ -60,7 +61,7 @@ fn published_arms_get_every_branch_to_a_nanometre_and_the_configuration_drawn_is
         assert_eq!(arm.solver().name, solver, "{name}");
         let mut stream = seed::stream(seed);
         let mut count = 0;
-        for index in 0..100_000 {
+        for index in 0..thoroughly(100_000) {
             let q = draw(&mut stream, arm.chain());
             let place = format!("{name}, seed {seed} case {index}: {q:?}");
             count += held(&arm, &q, &q, &place);
@@ -71,7 +72,8 @@ fn published_arms_get_every_branch_to_a_nanometre_and_the_configuration_drawn_is
             let misplaced = solutions.iter().find(|(branch, found)| arm.branch_of(found) != *branch);
             assert_eq!(misplaced, None, "{place}");
         }
-        assert!(count > 400_000, "{name}: only {count} solutions in 100000 poses");
+        let poses = thoroughly(100_000);
+        assert!(count > 4 * poses, "{name}: only {count} solutions in {poses} poses");
     }
 }
 
@@ -206,7 +208,7 @@ fn singular_poses_are_reached_to_a_nanometre() {
         let mut stream = seed::stream(seed);
         let mut refused = 0;
         let mut twice = 0;
-        for index in 0..100_000 {
+        for index in 0..thoroughly(100_000) {
             let mut q = draw(&mut stream, arm.chain());
             let by = nearly[index / 24 % nearly.len()] * if index % 2 == 0 { 1.0 } else { -1.0 };
             let kind = index % 24 / 2;
