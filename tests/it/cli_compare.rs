@@ -80,6 +80,20 @@ fn an_export_holds_every_trial_and_what_they_come_to() {
 }
 
 #[test]
+fn a_spreadsheet_computes_no_label_of_an_export() {
+    let bench = Bench::new();
+    bench.edit("mini/room.toml", "label = \"A*\"", "label = \"=1+1, A*\"");
+    bench.edit("mini/room.toml", "contenders = [\"A*\"]", "contenders = [\"=1+1, A*\"]");
+    bench.edit("mini/paper.toml", "contenders = [\"A*\"]", "contenders = [\"=1+1, A*\"]");
+    bench.done(&["run", "./mini", "--out", "a"]);
+    bench.done(&["export", "a", "--csv", "--out", "csv"]);
+    for file in ["csv/room.trials.csv", "csv/statistics.csv"] {
+        let text = fs::read_to_string(bench.at(file)).unwrap();
+        assert!(text.contains(",\"'=1+1, A*\",") && !text.contains(",\"="), "{text}");
+    }
+}
+
+#[test]
 fn what_cannot_be_compared_is_told() {
     let bench = Bench::new();
     bench.done(&["run", "./mini", "--out", "a"]);
