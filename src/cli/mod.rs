@@ -44,6 +44,7 @@ mod explorer;
 pub mod export;
 pub mod file_schema;
 mod findings;
+mod import;
 mod judge;
 mod list;
 mod load;
@@ -129,6 +130,8 @@ enum Command {
     Compare(compare::Compare),
     /// Write stored trials and their statistics for other programs
     Export(export::Export),
+    /// Make records of results that were recorded elsewhere
+    Import(import::Import),
     /// Show one claim with its evidence, or list all claims
     Show(show::Show),
     /// Search for a map on which several claims hold together
@@ -320,6 +323,7 @@ pub fn run() -> ExitCode {
         Command::Report(command) => command.run(),
         Command::Compare(command) => command.run(),
         Command::Export(command) => command.run(),
+        Command::Import(command) => command.run(),
         Command::Show(command) => command.run(),
         Command::Witness(command) => command.run(),
         Command::Conformance(command) => command.run(),

@@ -86,5 +86,8 @@ fn replan_is_made_without_the_audit_and_without_a_database() {
     ]);
     let listed = String::from_utf8(tree.current_dir(root).output().unwrap().stdout).unwrap();
     assert!(listed.contains("replan-proofs"), "{listed}");
-    assert!(!["replan-audit", "replan-export", "rusqlite"].iter().any(|name| listed.contains(name)), "{listed}");
+    assert!(
+        !["replan-audit", "replan-export", "rusqlite"].iter().any(|name| listed.contains(name)),
+        "{listed}"
+    );
 }

@@ -113,7 +113,7 @@ fn what_cannot_be_compared_is_told() {
         (&["compare", "a", "a", "--gate", "expansions"], "is not `METRIC ±NUMBER` or `METRIC ±NUMBER%`"),
         (&["compare", "a", "a", "--gate", "hops +2%"], "no pair of trials has a `hops`"),
         (&["compare", "a", "a", "--strict"], "--gate"),
-        (&["export", "a"], "--csv"),
+        (&["export", "a"], "--to <FORMAT>"),
         (&["export", "nowhere", "--csv"], "`nowhere` holds no stored run"),
     ] {
         let said = bench.run(arguments);

@@ -38,6 +38,7 @@ mod follow_on;
 mod guards;
 mod hidden_faults;
 mod history;
+mod import;
 mod jump_points;
 mod latex;
 mod laws;

@@ -312,7 +312,7 @@ impl Stored {
     pub fn trials(&self, instances: &mut Instances) -> Result<Vec<Row>, StudyError> {
         let keys = self.trial_keys(instances)?;
         let reason = self.texts("reason")?;
-        let seed = self.wholes("seed")?;
+        let seed = self.maybe_wholes("seed")?;
         let Numbered { numbers, values } = self.full_texts("status")?;
         let values = values.iter().map(|name| Status::find(name).ok_or_else(|| self.wrong("status")));
         let status = Numbered { numbers, values: values.collect::<Result<Vec<_>, _>>()? };
