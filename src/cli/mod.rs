@@ -51,6 +51,7 @@ mod load;
 mod merge;
 mod new;
 mod one_shard;
+mod pack;
 mod places;
 mod progress;
 mod render;
@@ -130,6 +131,8 @@ enum Command {
     Compare(compare::Compare),
     /// Write stored trials and their statistics for other programs
     Export(export::Export),
+    /// Write a folder for reviewers: specs, records, verdicts, tables, page and hashes
+    Pack(pack::Pack),
     /// Make records of results that were recorded elsewhere
     Import(import::Import),
     /// Show one claim with its evidence, or list all claims
@@ -324,6 +327,7 @@ pub fn run() -> ExitCode {
         Command::Compare(command) => command.run(),
         Command::Export(command) => command.run(),
         Command::Import(command) => command.run(),
+        Command::Pack(command) => command.run(),
         Command::Show(command) => command.run(),
         Command::Witness(command) => command.run(),
         Command::Conformance(command) => command.run(),

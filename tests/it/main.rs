@@ -45,6 +45,7 @@ mod laws;
 mod mutation;
 mod own_keys;
 mod own_paper;
+mod pack;
 mod page;
 mod paper;
 mod polyhedra;
