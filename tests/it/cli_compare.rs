@@ -121,3 +121,33 @@ fn what_cannot_be_compared_is_told() {
         assert!(said.err.contains(complaint), "{arguments:?} is answered: {}", said.err);
     }
 }
+
+#[test]
+fn two_encodings_of_one_paper_show_what_they_judge_differently_and_which_default_differs() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini", "--out", "a"]);
+    let same = bench.done(&["compare", "a", "a", "--verdicts"]);
+    assert!(same.starts_with("0 of ") && !same.contains('|'), "{same}");
+    // A stranger asks the opposite, takes another default, and calls a printed cell by another name.
+    bench.edit("mini/paper.toml", "is = \"lower\"", "is = \"higher\"");
+    bench.edit("mini/paper.toml", "default = \"opened\"", "default = \"closed\"");
+    bench.edit("mini/paper.toml", "id = \"table1\"", "id = \"costs\"");
+    bench.edit("mini/paper.toml", "cell.cost.id = \"cost\"", "cell.cost.id = \"length\"");
+    bench.edit("mini/paper.toml", "figures = [\"table1\"]", "figures = [\"costs\"]");
+    bench.done(&["repro", "./mini", "--out", "b"]);
+    let said = bench.done(&["compare", "a", "b", "--verdicts"]);
+    assert!(said.contains("| `nodes` | "), "{said}");
+    assert!(said.contains("- default of `nodes`: opened and closed"), "{said}");
+    let json: serde_json::Value =
+        serde_json::from_str(&bench.done(&["compare", "a", "b", "--verdicts", "--json"])).unwrap();
+    let claims = json["claims"].as_array().unwrap();
+    let cell = claims.iter().find(|pair| pair["ids"][0] == "cost");
+    assert_eq!(
+        cell.map(|pair| &pair["ids"][1]),
+        Some(&"length".into()),
+        "matched by the printed cell: {json:#}"
+    );
+    assert!(
+        claims.iter().any(|pair| pair["is_same"] == false && !pair["because"].as_array().unwrap().is_empty())
+    );
+}
