@@ -57,7 +57,7 @@ fn made_up(built: &BuiltStudy<'_>, units: &[Unit<'_>], portion: &Portion) -> Bat
             let reals = ["path_cost_cells", "turn_exterior_deg", "turn_interior_deg"];
             let counts = counts.into_iter().zip(1..).map(|(name, times)| (name, count(times)));
             let values = counts.chain(reals.into_iter().map(|name| (name, real(1.4)))).collect();
-            batch.rows.push(Row { key, seed: unit.seed, status: Status::Solved, reason: None, values });
+            batch.rows.push(Row { key, seed: Some(unit.seed), status: Status::Solved, reason: None, values });
         }
     }
     batch

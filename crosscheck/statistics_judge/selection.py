@@ -160,6 +160,7 @@ DRAWN = frozenset(
         "random_cells",
         "random_polyhedra",
         "random_rectangles",
+        "recorded",
     )
 )
 

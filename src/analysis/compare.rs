@@ -265,6 +265,12 @@ fn notes(seen: &[BTreeMap<&str, Seen<'_>>; 2], lines: &[Line<'_>]) -> Vec<String
     for (study, first) in &seen[0] {
         let Some(second) = seen[1].get(study) else { continue };
         let (one, other) = (first.manifest, second.manifest);
+        let elsewhere = [one, other].into_iter().filter_map(|of| of.elsewhere.as_ref());
+        notes.extend(elsewhere.map(|source| {
+            format!(
+                "{study}: recorded elsewhere, with unknown seeds and paths that nobody verified: {source}"
+            )
+        }));
         if one.quick != other.quick {
             notes.push(format!("{study}: one of the runs is quick and the other full"));
         }

@@ -7,6 +7,7 @@
 //! [table](verdict_rule).
 
 pub mod across;
+pub mod agreement;
 mod censored;
 pub mod claims;
 pub mod compare;

@@ -55,7 +55,7 @@ pub fn grid(evidence: &Evidence<'_>, table: &ResultsSpec) -> Result<Grid, String
 /// The caption of `table`, and which of its rows were recorded.
 pub fn table_caption(evidence: &Evidence<'_>, table: &ResultsSpec) -> String {
     let study = evidence.run(table.study.get_ref()).map(|run| run.study);
-    let recorded = study.into_iter().flat_map(Study::recorded);
+    let recorded = study.into_iter().flat_map(Study::clock_bound);
     let mark = recorded_mark(recorded.filter(|label| table.rows.iter().any(|row| row == label)));
     std::iter::once(table.caption.clone()).chain(mark).collect::<Vec<_>>().join(" ")
 }

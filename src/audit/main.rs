@@ -9,7 +9,7 @@ use replan_audit::reader::{self, Format};
 use replan_audit::report::{Options, Report, audit};
 use replan_audit::table::Fault;
 use replan_audit::witness::Budget;
-use replan_audit::{coverage, output};
+use replan_audit::{claims, coverage, output};
 use std::fs;
 use std::io::{self, Read, Write as _};
 use std::num::NonZero;
@@ -20,11 +20,11 @@ use std::process::{Command, ExitCode};
 #[derive(Parser)]
 #[command(bin_name = "replan audit", version, after_help = EXAMPLES, max_term_width = 100)]
 struct Audit {
-    /// A table (CSV, Markdown) or relations (TOML); `-` for standard input
+    /// A table (CSV, Markdown, LaTeX) or relations (TOML); `-` for standard input
     #[arg(required_unless_present_any = ["list", "coverage"])]
     file: Option<PathBuf>,
     /// How the input is written; by its ending or looks if absent
-    #[arg(long, value_name = "FORMAT", value_parser = ["csv", "md", "toml"])]
+    #[arg(long, value_name = "FORMAT", value_parser = ["csv", "md", "tex", "toml"])]
     format: Option<String>,
     /// Print the whole report, certificates included, as JSON
     #[arg(long)]
@@ -44,6 +44,9 @@ struct Audit {
     /// Write the table's header with every guess, to be corrected
     #[arg(long, value_name = "FILE")]
     stub: Option<PathBuf>,
+    /// Print the table as `[[table]]` of a paper.toml, each number a claim, and audit nothing
+    #[arg(long, conflicts_with_all = ["json", "witness", "certificates", "stub"])]
+    to_claims: bool,
     /// List the checks and the items of annotations
     #[arg(long)]
     list: bool,
@@ -58,6 +61,7 @@ struct Audit {
 const EXAMPLES: &str = "Examples:
   replan audit results.md                       | method | success [% of 250] | time [mean s, n=250] |
   replan audit results.csv --json
+  replan audit table.tex --to-claims
   replan audit claims.toml --witness
   replan audit --coverage paper.tex --macros plots/zhang/numbers.tex
 Exit code 3: something is impossible under the premises named, or a number is backed by no macro.";
@@ -99,6 +103,10 @@ impl Audit {
             Failure(2, lines.join("\n"))
         };
         let input = reader::read(&text, format).map_err(wrong)?;
+        if self.to_claims {
+            let tables = (1..).zip(&input.tables).map(|(number, table)| claims::toml(table, number));
+            return print(&tables.collect::<Vec<_>>().join("\n"));
+        }
         if let Some(stub) = &self.stub {
             let header = |table| format!("{}\n", reader::stub_line(table));
             write(stub, &input.tables.iter().map(header).collect::<String>())?;

@@ -4,20 +4,21 @@ use super::crosscheck::Spec;
 use super::load::gather;
 use super::places::{Places, papers};
 use super::progress::doing;
-use super::{Failure, Which, all, counted};
+use super::{Failure, Which, all, counted, pack};
 use crate::analysis::compare::stored_studies;
 use crate::analysis::evidence::default_point;
 use crate::analysis::history::History;
 use base::settings::Faults;
 use clap::Args;
 use std::collections::BTreeSet;
+use std::path::Path;
 use study::paper::Paper;
 use study::rerun;
 
 /// Checks papers and specs.
 #[derive(Args)]
 pub struct Check {
-    /// Papers or folders to check; all papers if absent
+    /// Papers, folders or packs to check; all papers if absent
     #[arg(value_name = "PAPER")]
     specs: Vec<String>,
     /// Also run this many stored trials of each study again, chosen by seed, and compare their rows
@@ -43,6 +44,9 @@ impl Check {
 
     /// Checks one paper.
     fn check(&self, spec: &str) -> Result<(), Failure> {
+        if pack::is_pack(Path::new(spec)) {
+            return pack::check(Path::new(spec));
+        }
         let which = Which { paper: folder_of(spec), out: None };
         let places = Places::find(&which, "")?;
         let mut faults = Faults::default();

@@ -3,9 +3,11 @@
 use super::places::stored_run;
 use super::progress::doing;
 use super::{Failure, command_line};
+use crate::analysis::agreement::Agreement;
 use crate::analysis::compare::{CompareOptions, Comparison, Gate, Outcome, Sides, StoredRun, compare};
-use crate::render::comparison;
+use crate::analysis::verdict::Verdicts;
 use crate::render::vector::Provenance;
+use crate::render::{agreement, comparison};
 use base::hash::sha256;
 use clap::Args;
 use std::path::PathBuf;
@@ -24,6 +26,9 @@ pub struct Compare {
     /// Two contenders of the first run instead of two runs
     #[arg(long, num_args = 2, value_names = ["X", "Y"])]
     contenders: Vec<String>,
+    /// The verdicts of two encodings of one paper instead of their records
+    #[arg(long, requires = "second", conflicts_with_all = ["contenders", "studies", "metrics", "gates", "csv", "figure"])]
+    verdicts: bool,
     /// Only this study; may be given several times
     #[arg(long = "study", value_name = "STUDY")]
     studies: Vec<String>,
@@ -53,11 +58,15 @@ pub struct Compare {
 const EXAMPLES: &str = "Examples:
   replan compare zhang target/replan/zhang-seed-9
   replan compare zhang --contenders 'A*' 'Improved A*' --study ensemble
+  replan compare zhang ../their/zhang --verdicts
   replan compare before after --gate 'expansions +2%' --gate 'solved -1%'";
 
 impl Compare {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
+        if let (true, Some(second)) = (self.verdicts, &self.second) {
+            return self.compare_verdicts(second);
+        }
         let gates = self
             .gates
             .iter()
@@ -86,6 +95,21 @@ impl Compare {
             write_whole(path, drawn.svg.as_bytes())?;
         }
         self.judge(&found)
+    }
+
+    /// Prints how the verdicts of both sides agree; a difference is no failure.
+    fn compare_verdicts(&self, second: &str) -> Result<(), Failure> {
+        let names = [self.first.as_str(), second];
+        let read = |name: &str| Ok::<_, Failure>(Verdicts::read(&stored_run(name)?)?);
+        let [one, other] = [read(names[0])?, read(names[1])?];
+        let agreement = Agreement::new(names, [&one, &other]);
+        let text = if self.json {
+            serde_json::to_string_pretty(&agreement).expect("texts alone")
+        } else {
+            agreement::markdown(&agreement)
+        };
+        say!("{}", text.trim_end());
+        Ok(())
     }
 
     fn print(&self, found: &Comparison) {

@@ -7,7 +7,7 @@ use super::progress::doing;
 use super::{Failure, Which, counted};
 use std::path::PathBuf;
 use study::paper::Paper;
-use study::{Contender, Group, Study, recorded_mark};
+use study::{Contender, Group, Study, elsewhere_mark, recorded_mark};
 
 /// A paper: its source, studies and claims, and how it is run.
 pub fn paper(paper: &Paper) -> String {
@@ -50,7 +50,8 @@ pub fn study(paper: &Paper, study: &Study) -> Result<String, Failure> {
         wrapped("  task: ", study.task.name, 6),
         format!("  {} under the default interpretation", counted(trials as usize, ["trial", "trials"])),
     ];
-    lines.extend(recorded_mark(study.recorded()).map(|mark| wrapped("  ", &mark, 6)));
+    let marks = [recorded_mark(study.clock_bound()), elsewhere_mark(study.elsewhere())];
+    lines.extend(marks.into_iter().flatten().map(|mark| wrapped("  ", &mark, 6)));
     lines.extend(compared(study));
     let of = |label: &str, ids: Vec<&str>| (!ids.is_empty()).then(|| wrapped(label, &ids.join(", "), 2));
     lines.extend(of("\nSweeps over: ", study.sweeps.iter().map(|sweep| sweep.key.as_str()).collect()));

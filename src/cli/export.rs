@@ -1,11 +1,15 @@
-//! `replan export`: stored trials and what they come to, for other programs.
+//! `replan export`: stored trials and their statistics in the formats of other programs.
+//!
+//! Comma-separated values are written here. What needs a database or another reader of records is written by the program
+//! `replan-export`, which takes the same arguments.
 
 use super::Failure;
+use super::beside::become_program;
 use super::places::stored_run;
 use super::progress::doing;
 use crate::analysis::compare::{StoredRun, cells, stored_studies};
 use crate::render::comparison::cells_csv;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use study::manifest::Manifest;
 use study::store::{Staged, check_records, csv};
@@ -14,13 +18,31 @@ use study::store::{Staged, check_records, csv};
 #[derive(Args)]
 pub struct Export {
     /// A stored run: a paper's name, the folder of an earlier `--out`, or a folder of records
-    paper: String,
-    /// As comma-separated values: trials, preprocessed objects and times of each study, and statistics.csv
-    #[arg(long, required = true)]
+    pub paper: String,
+    /// The same as `--to csv`
+    #[arg(long)]
     csv: bool,
+    /// The format
+    #[arg(long, value_name = "FORMAT", required_unless_present = "csv", conflicts_with = "csv")]
+    to: Option<Format>,
     /// Write into this folder; below target/replan/export/ if absent
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+}
+
+/// A format that stored runs are exported in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// Comma-separated values: trials, preprocessed objects and times of each study, and statistics.csv
+    Csv,
+    /// One Parquet file of all trials, and one of their statistics
+    Parquet,
+    /// A benchmark log of OMPL for each problem group
+    OmplLog,
+    /// A database (SQL) that Planner Arena reads
+    PlannerArena,
+    /// A trace for posthoc of each stored search on a grid
+    Posthoc,
 }
 
 /// The kinds of record that are exported; traces are lists of numbers without a table's shape.
@@ -36,12 +58,37 @@ pub(super) fn check_stored(folder: &Path) -> Result<(), Failure> {
 
 impl Export {
     /// Runs the command.
+    ///
+    /// # Errors
+    /// No sound run is stored there, a file cannot be written, or `replan-export` is missing.
     pub fn run(self) -> Result<(), Failure> {
+        if self.format() == Format::Csv { self.write_csv() } else { become_program("replan-export") }
+    }
+
+    /// The format.
+    pub fn format(&self) -> Format {
+        self.to.unwrap_or(Format::Csv)
+    }
+
+    /// The folder of the stored run, whose records are those that their manifests name, and the folder to write into.
+    ///
+    /// # Errors
+    /// No run is stored there, or one of its files is damaged.
+    pub fn places(&self) -> Result<[PathBuf; 2], Failure> {
         let folder = stored_run(&self.paper)?;
-        let name = folder.file_name().unwrap_or_default();
-        doing(&format!("{}: reading its records and computing their statistics", self.paper));
         check_stored(&folder)?;
-        let out = self.out.unwrap_or_else(|| PathBuf::from("target/replan/export").join(name));
+        let name = folder.file_name().unwrap_or_default();
+        let out = self.out.clone().unwrap_or_else(|| PathBuf::from("target/replan/export").join(name));
+        Ok([folder, out])
+    }
+
+    /// Writes comma-separated values.
+    ///
+    /// # Errors
+    /// As [`places`](Self::places), and those of the file system.
+    pub fn write_csv(&self) -> Result<(), Failure> {
+        doing(&format!("{}: reading its records and computing their statistics", self.paper));
+        let [folder, out] = self.places()?;
         let mut staged = Staged::default();
         let cells = cells(&StoredRun::read(&folder, &self.paper)?);
         for study in stored_studies(&folder) {

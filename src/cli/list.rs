@@ -178,7 +178,7 @@ fn rows(what: What, LoadedFiles { papers, robots }: &LoadedFiles) -> Vec<(String
         What::Studies => {
             let studies = papers.iter().flat_map(|paper| &paper.studies);
             let about = |study: &Study| {
-                let mark = recorded_mark(study.recorded());
+                let mark = recorded_mark(study.clock_bound());
                 [Some(study.question.clone()), mark].into_iter().flatten().collect::<Vec<_>>().join(" ")
             };
             studies.map(|study| (format!("{}/{}", study.paper, study.name), about(study))).collect()

@@ -2,7 +2,7 @@
 //!
 //! Exit codes: 0 done; 1 the system refused (disk, permissions, a busy folder); 2 wrong words on the command line or
 //! wrong input files; 3 a check said no: something is not as stored, is worse than a gate allows, is judged otherwise, is impossible, or an independent judge
-//! disagrees; 4 a tool is missing: Python or the network for `crosscheck`, `replan-audit`, a planner from outside; 130 interrupted, and what was done is kept.
+//! disagrees; 4 a tool is missing: Python or the network for `crosscheck`, `replan-audit`, `replan-export`, a planner from outside; 130 interrupted, and what was done is kept.
 //!
 //! A stored file that is edited, damaged, gone, or of a spec that has changed is the answer that a check gives: code 3 under
 //! `--check` and `--rerun`. A command that needs it as its input ends with code 2, and so does a check where nothing was ever
@@ -28,7 +28,7 @@ macro_rules! say {
     }};
 }
 
-mod audit;
+mod beside;
 pub mod catalogue;
 mod check;
 mod compare;
@@ -41,15 +41,17 @@ mod example;
 mod explain;
 mod explore;
 mod explorer;
-mod export;
+pub mod export;
 pub mod file_schema;
 mod findings;
+mod import;
 mod judge;
 mod list;
 mod load;
 mod merge;
 mod new;
 mod one_shard;
+mod pack;
 mod places;
 mod progress;
 mod render;
@@ -129,6 +131,10 @@ enum Command {
     Compare(compare::Compare),
     /// Write stored trials and their statistics for other programs
     Export(export::Export),
+    /// Write a folder for reviewers: specs, records, verdicts, tables, page and hashes
+    Pack(pack::Pack),
+    /// Make records of results that were recorded elsewhere
+    Import(import::Import),
     /// Show one claim with its evidence, or list all claims
     Show(show::Show),
     /// Search for a map on which several claims hold together
@@ -138,7 +144,7 @@ enum Command {
     /// Let MuJoCo check robots, scenes and stored paths; needs Python
     Crosscheck(crosscheck::Crosscheck),
     /// Check by arithmetic whether a printed table is possible
-    Audit(audit::Audit),
+    Audit(beside::Audit),
     /// Write a JSON Schema of every kind of TOML file, for editors
     Schema(schema::Schema),
     /// List papers, studies, planners, criteria, metrics, figures, choices and more
@@ -201,7 +207,7 @@ impl From<Again> for study::session::Again {
 
 /// Why a command ended without success.
 #[derive(Debug)]
-struct Failure {
+pub struct Failure {
     code: u8,
     message: String,
     /// Something that is stored is not what would be written now.
@@ -209,8 +215,16 @@ struct Failure {
 }
 
 impl Failure {
-    fn input(message: impl Into<String>) -> Self {
+    /// Wrong words on the command line, or wrong input files.
+    pub fn input(message: impl Into<String>) -> Self {
         Self::new(2, message)
+    }
+
+    /// Prints it as the command called `program` does, and gives its exit code.
+    pub fn end(&self, program: &str) -> ExitCode {
+        // A reader that closed the pipe early (head) is no failure of ours, and cannot be told anything.
+        let _ = writeln!(io::stderr(), "{program}: {}", base::text::shown(&self.message));
+        ExitCode::from(self.code)
     }
 
     /// Something stored that is not what would be written now, and is needed.
@@ -312,22 +326,20 @@ pub fn run() -> ExitCode {
         Command::Report(command) => command.run(),
         Command::Compare(command) => command.run(),
         Command::Export(command) => command.run(),
+        Command::Import(command) => command.run(),
+        Command::Pack(command) => command.run(),
         Command::Show(command) => command.run(),
         Command::Witness(command) => command.run(),
         Command::Conformance(command) => command.run(),
         Command::Crosscheck(command) => command.run(),
-        Command::Audit(_) => audit::run(),
+        Command::Audit(_) => beside::become_program("replan-audit"),
         Command::List(command) => command.run(),
         Command::Schema(command) => command.run(),
     };
     match done {
         Ok(()) if IS_LOST.load(Ordering::Relaxed) => ExitCode::from(1),
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            // A reader that closed the pipe early (head) is no failure of ours, and cannot be told anything.
-            let _ = writeln!(io::stderr(), "replan: {}", base::text::shown(&failure.message));
-            ExitCode::from(failure.code)
-        }
+        Err(failure) => failure.end("replan"),
     }
 }
 

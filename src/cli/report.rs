@@ -74,7 +74,7 @@ impl Report {
 
 /// Writes the page of the paper at `places` into `folder`; gives its line of the index. What cannot be shown is said in the
 /// page's first line, and is a failure all the same.
-fn write(places: &Places, folder: &Path) -> Result<[String; 3], (Option<[String; 3]>, Failure)> {
+pub(super) fn write(places: &Places, folder: &Path) -> Result<[String; 3], (Option<[String; 3]>, Failure)> {
     let how = How { quick: false, seed: None, with: None, threads: None };
     let paper = super::load::load(places, &how).map_err(|failure| (None, failure))?;
     let file = folder.join(format!("{}.html", paper.id));

@@ -66,7 +66,7 @@ fn print_row(row: &Row, names: &Names) {
     text("problem", &names.problem(&row.key.on, row.key.query.as_deref()));
     text("contender", &row.key.contender);
     text("interpretation", &names.interpretation(&row.key.on.interpretation));
-    text("seed", &row.seed.to_string());
+    text("seed", &row.seed.map_or_else(|| "unknown".to_owned(), |seed| seed.to_string()));
     text("status", row.status.name());
     if let Some(reason) = &row.reason {
         text("reason", reason);

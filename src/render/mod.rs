@@ -4,6 +4,7 @@
 //! embedded font, and leaves as SVG and PNG ([`vector`]). [`chart`] builds sheets of panels from marks,
 //! [`scene3`] draws solids, [`style`] holds colours, strokes and sizes, [`latex`] writes tables and macros.
 
+pub mod agreement;
 pub mod canvas;
 pub mod chart;
 pub mod comparison;

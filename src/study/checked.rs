@@ -124,6 +124,17 @@ pub fn recorded_mark<'a>(labels: impl Iterator<Item = &'a str>) -> Option<String
         .then(|| format!("Bound to a clock, so recorded and not repeated: {}.", labels.join(", ")))
 }
 
+/// The same of contenders whose trials were recorded elsewhere.
+pub fn elsewhere_mark<'a>(labels: impl Iterator<Item = &'a str>) -> Option<String> {
+    let labels: Vec<&str> = labels.collect();
+    (!labels.is_empty()).then(|| {
+        let labels = labels.join(", ");
+        format!(
+            "Recorded elsewhere and imported, with unknown seeds and paths that nobody verified: {labels}."
+        )
+    })
+}
+
 impl Study {
     /// Whether the seed decides anything of what is posed in a problem group: one instance is then one of many.
     pub fn is_drawn(&self, group: &str) -> bool {
@@ -309,6 +320,17 @@ impl Study {
     /// sample of stored trials repeats them.
     pub fn recorded(&self) -> impl Iterator<Item = &str> {
         self.contenders.iter().filter(|contender| contender.is_recorded()).map(|one| one.label.as_str())
+    }
+
+    /// Those of them that depend on a clock and on a program that can run here.
+    pub fn clock_bound(&self) -> impl Iterator<Item = &str> {
+        let is_bound = |contender: &&Contender| contender.is_recorded() && !contender.is_elsewhere();
+        self.contenders.iter().filter(is_bound).map(|one| one.label.as_str())
+    }
+
+    /// Those of them whose trials were recorded elsewhere and imported.
+    pub fn elsewhere(&self) -> impl Iterator<Item = &str> {
+        self.contenders.iter().filter(|contender| contender.is_elsewhere()).map(|one| one.label.as_str())
     }
 
     /// Every column that what it prepares can have.

@@ -52,6 +52,11 @@ impl Contender {
         self.stages.iter().any(|stage| planner::is_recorded(stage.entry))
     }
 
+    /// Whether its trials were recorded elsewhere, and imported.
+    pub fn is_elsewhere(&self) -> bool {
+        self.stages.iter().any(|stage| stage.entry.name == planner::recorded::ENTRY.name)
+    }
+
     /// The pipeline under the interpretation `point` with the sweep's settings laid on top.
     ///
     /// # Errors

@@ -45,6 +45,8 @@ pub mod shard;
 
 pub mod manifest;
 
+pub mod elsewhere;
+
 pub mod plan;
 pub mod reuse;
 
@@ -54,7 +56,7 @@ pub mod merge;
 
 pub mod rerun;
 
-pub use checked::{Shared, Study, columns_of, labels_of, recorded_mark, sweeps_of};
+pub use checked::{Shared, Study, columns_of, elsewhere_mark, labels_of, recorded_mark, sweeps_of};
 pub use choice::{Choice, Interpretation};
 pub use contender::{Contender, StageUse, Sweep};
 pub use error::StudyError;

@@ -47,6 +47,9 @@ pub struct Manifest {
     /// The contenders whose trials are bound to a clock: they were recorded, and no run repeats them unless asked.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub recorded: Vec<String>,
+    /// Where the records come from, if no run of ours made them: the file, and SHA-256 of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elsewhere: Option<String>,
     /// What the spec leaves out, and the value that holds there.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub defaults: Vec<String>,
@@ -131,6 +134,7 @@ impl Manifest {
             spec: sha256(study.document.text().as_bytes()),
             depends,
             recorded: study.recorded().map(str::to_owned).collect(),
+            elsewhere: None,
             defaults: defaults(study),
             sessions: study.timing.iter().map(|_| Session::here(&made_by)).collect(),
             made_by,

@@ -146,8 +146,8 @@ impl From<Values> for BTreeMap<String, Value> {
 pub struct Row {
     /// What names it, unique in the study.
     pub key: TrialKey,
-    /// The contender's seed.
-    pub seed: u64,
+    /// The contender's seed; unknown of a trial that was recorded elsewhere.
+    pub seed: Option<u64>,
     /// How it ended.
     pub status: Status,
     /// Why, unless solved.

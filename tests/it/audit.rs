@@ -1,4 +1,5 @@
-//! `replan audit` runs a program beside it or on the PATH, whose arguments, streams and exit code are its own.
+//! `replan audit` and `replan export --to` run a program beside replan or on the PATH, whose arguments, streams and exit code are its
+//! own.
 
 use crate::paper::Bench;
 use std::io::Write as _;
@@ -49,7 +50,27 @@ fn the_program_beside_replan_comes_first_then_the_path_and_without_both_the_mess
 }
 
 #[test]
-fn replan_is_made_without_the_audit() {
+fn other_formats_than_csv_are_exported_by_the_program_beside_replan() {
+    let bench = Bench::empty();
+    let replan = bench.at("bin/replan");
+    install(Path::new(env!("CARGO_BIN_EXE_replan")), &replan);
+    let run = |arguments: &[&str]| {
+        let mut command = std::process::Command::new(&replan);
+        command.arg("export").args(arguments).env("PATH", bench.at("path")).current_dir(bench.at("bin"));
+        bench.output(&command.output().unwrap())
+    };
+    let missing = run(&["zhang", "--to", "posthoc"]);
+    let message = "replan: `replan-export` is neither beside this program nor on the PATH; `cargo build -p replan-export` builds it\n";
+    assert_eq!((missing.code, &*missing.err), (Some(4), message));
+    stand_in(&bench, "bin/replan-export");
+    let done = run(&["zhang", "--to", "posthoc", "--out", "there"]);
+    assert_eq!(done.out, "bin/replan-export|[dir]/bin/replan|zhang|--to|posthoc|--out|there|");
+    assert_eq!(done.code, Some(7));
+    assert_eq!(run(&["nowhere", "--to", "csv"]).code, Some(2), "it is written by replan itself");
+}
+
+#[test]
+fn replan_is_made_without_the_audit_and_without_a_database() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut tree = std::process::Command::new(env!("CARGO"));
     tree.args([
@@ -64,5 +85,9 @@ fn replan_is_made_without_the_audit() {
         "{p}",
     ]);
     let listed = String::from_utf8(tree.current_dir(root).output().unwrap().stdout).unwrap();
-    assert!(listed.contains("replan-proofs") && !listed.contains("replan-audit"), "{listed}");
+    assert!(listed.contains("replan-proofs"), "{listed}");
+    assert!(
+        !["replan-audit", "replan-export", "rusqlite"].iter().any(|name| listed.contains(name)),
+        "{listed}"
+    );
 }

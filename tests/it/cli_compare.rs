@@ -80,6 +80,20 @@ fn an_export_holds_every_trial_and_what_they_come_to() {
 }
 
 #[test]
+fn a_spreadsheet_computes_no_label_of_an_export() {
+    let bench = Bench::new();
+    bench.edit("mini/room.toml", "label = \"A*\"", "label = \"=1+1, A*\"");
+    bench.edit("mini/room.toml", "contenders = [\"A*\"]", "contenders = [\"=1+1, A*\"]");
+    bench.edit("mini/paper.toml", "contenders = [\"A*\"]", "contenders = [\"=1+1, A*\"]");
+    bench.done(&["run", "./mini", "--out", "a"]);
+    bench.done(&["export", "a", "--csv", "--out", "csv"]);
+    for file in ["csv/room.trials.csv", "csv/statistics.csv"] {
+        let text = fs::read_to_string(bench.at(file)).unwrap();
+        assert!(text.contains(",\"'=1+1, A*\",") && !text.contains(",\"="), "{text}");
+    }
+}
+
+#[test]
 fn what_cannot_be_compared_is_told() {
     let bench = Bench::new();
     bench.done(&["run", "./mini", "--out", "a"]);
@@ -99,11 +113,41 @@ fn what_cannot_be_compared_is_told() {
         (&["compare", "a", "a", "--gate", "expansions"], "is not `METRIC ±NUMBER` or `METRIC ±NUMBER%`"),
         (&["compare", "a", "a", "--gate", "hops +2%"], "no pair of trials has a `hops`"),
         (&["compare", "a", "a", "--strict"], "--gate"),
-        (&["export", "a"], "--csv"),
+        (&["export", "a"], "--to <FORMAT>"),
         (&["export", "nowhere", "--csv"], "`nowhere` holds no stored run"),
     ] {
         let said = bench.run(arguments);
         assert_eq!(said.code, Some(2), "{arguments:?}: {}{}", said.out, said.err);
         assert!(said.err.contains(complaint), "{arguments:?} is answered: {}", said.err);
     }
+}
+
+#[test]
+fn two_encodings_of_one_paper_show_what_they_judge_differently_and_which_default_differs() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini", "--out", "a"]);
+    let same = bench.done(&["compare", "a", "a", "--verdicts"]);
+    assert!(same.starts_with("0 of ") && !same.contains('|'), "{same}");
+    // A stranger asks the opposite, takes another default, and calls a printed cell by another name.
+    bench.edit("mini/paper.toml", "is = \"lower\"", "is = \"higher\"");
+    bench.edit("mini/paper.toml", "default = \"opened\"", "default = \"closed\"");
+    bench.edit("mini/paper.toml", "id = \"table1\"", "id = \"costs\"");
+    bench.edit("mini/paper.toml", "cell.cost.id = \"cost\"", "cell.cost.id = \"length\"");
+    bench.edit("mini/paper.toml", "figures = [\"table1\"]", "figures = [\"costs\"]");
+    bench.done(&["repro", "./mini", "--out", "b"]);
+    let said = bench.done(&["compare", "a", "b", "--verdicts"]);
+    assert!(said.contains("| `nodes` | "), "{said}");
+    assert!(said.contains("- default of `nodes`: opened and closed"), "{said}");
+    let json: serde_json::Value =
+        serde_json::from_str(&bench.done(&["compare", "a", "b", "--verdicts", "--json"])).unwrap();
+    let claims = json["claims"].as_array().unwrap();
+    let cell = claims.iter().find(|pair| pair["ids"][0] == "cost");
+    assert_eq!(
+        cell.map(|pair| &pair["ids"][1]),
+        Some(&"length".into()),
+        "matched by the printed cell: {json:#}"
+    );
+    assert!(
+        claims.iter().any(|pair| pair["is_same"] == false && !pair["because"].as_array().unwrap().is_empty())
+    );
 }

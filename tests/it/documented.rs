@@ -121,8 +121,8 @@ fn every_example_of_a_planner_solves_a_problem_of_an_example_of_a_family() {
     for item in catalogue::planners() {
         let entry = study::planner::find(item.name).unwrap();
         let engine::planner::Build::Planner(build) = entry.build else { panic!("{} is none", item.name) };
-        if item.name == study::planner::external::ENTRY.name {
-            continue; // Its example names a program, which tests/it/external runs.
+        if study::planner::is_recorded(entry) {
+            continue; // tests/it/external and tests/it/import record and import trials.
         }
         let planner = build(&example(&item)).unwrap();
         let is_solved = |(preprocessing, query): (&Preprocessing, &Query)| {

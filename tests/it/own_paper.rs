@@ -1,5 +1,6 @@
 //! Papers of one's own: what `replan new` writes, and every command and file of `docs/YOUR_OWN_PAPER.md`.
 
+use crate::import::LOG;
 use crate::paper::{Bench, ProgramOutput};
 use std::fs;
 use std::path::Path;
@@ -74,11 +75,10 @@ fn letters(text: &str) -> String {
     text.split_whitespace().collect()
 }
 
-#[test]
-fn every_command_and_file_of_the_page_on_papers_of_ones_own_does_what_the_page_says() {
-    let page =
-        fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/YOUR_OWN_PAPER.md")).unwrap();
-    let bench = Bench::empty();
+/// Runs the commands of a page in order, writes its files, and holds what it shows against what the last command prints; how many
+/// commands and lines of output there are.
+fn followed(page: &str, bench: &Bench) -> [usize; 2] {
+    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(page)).unwrap();
     let mut commands = 0;
     let mut shown = 0;
     let mut last = ProgramOutput { code: None, out: String::new(), err: String::new(), doing: Vec::new() };
@@ -93,7 +93,7 @@ fn every_command_and_file_of_the_page_on_papers_of_ones_own_does_what_the_page_s
                     commands += 1;
                 }
             }
-            ("toml" | "python", file) if !file.is_empty() => bench.write(file, text.as_bytes()),
+            ("toml" | "python" | "csv", file) if !file.is_empty() => bench.write(file, text.as_bytes()),
             ("text", "") => {
                 let said: Vec<String> = last.out.lines().map(letters).collect();
                 for line in text.lines().map(letters) {
@@ -105,10 +105,30 @@ fn every_command_and_file_of_the_page_on_papers_of_ones_own_does_what_the_page_s
                     shown += 1;
                 }
             }
-            _ => panic!("a block of `{info}`: sh, text or a file in toml or python is accepted"),
+            _ => panic!("a block of `{info}`: sh, text or a file in toml, python or csv is accepted"),
         }
     }
+    [commands, shown]
+}
+
+#[test]
+fn every_command_and_file_of_the_page_on_papers_of_ones_own_does_what_the_page_says() {
+    let [commands, shown] = followed("docs/YOUR_OWN_PAPER.md", &Bench::empty());
     assert!(commands >= 12 && shown >= 8, "{commands} commands, {shown} lines of output");
+}
+
+#[test]
+fn every_command_and_file_of_the_page_on_results_that_exist_does_what_the_page_says() {
+    let bench = Bench::empty();
+    bench.write("benchmark.log", LOG.as_bytes());
+    let [commands, shown] = followed("docs/AUTHORS_DATA.md", &bench);
+    assert!(commands >= 4 && shown >= 3, "{commands} commands, {shown} lines of output");
+    bench.done(&["repro", "./mine"]);
+    for file in ["verdicts.toml", "results.trials.parquet"] {
+        assert!(bench.at("target/replan/mine/data/runs/mine").join(file).is_file(), "{file}");
+    }
+    let report = fs::read_to_string(bench.at("target/replan/mine/paper_repro.md")).unwrap();
+    assert!(report.contains("recorded elsewhere") && !report.contains("**reproduced**"), "{report}");
 }
 
 #[test]

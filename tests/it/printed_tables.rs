@@ -335,3 +335,20 @@ fn a_selection_that_selects_nothing_is_refused_with_the_names_there_are() {
     bench.edit("forty/paper.toml", "\"Printed\"", "\"Printed distance\"");
     assert_eq!(bench.run(&["check", "./forty"]).code, Some(0));
 }
+
+#[test]
+fn a_table_that_the_audit_wrote_as_claims_is_accepted_and_each_number_is_not_testable_yet() {
+    let bench = Bench::new();
+    let written = include_str!("../../src/audit/tests/it/claims/table.toml");
+    let own = written.replace("table1", "table2").replace("Table 1", "Table 2");
+    let paper = std::fs::read_to_string(bench.at("mini/paper.toml")).unwrap();
+    bench.write("mini/paper.toml", (paper + &own).as_bytes());
+    bench.edit("mini/paper.toml", "tables = 1", "tables = 2");
+    bench.done(&["check", "./mini"]);
+    bench.done(&["run", "./mini"]);
+    let said = bench.done(&["judge", "./mini"]);
+    for claim in ["table2.a_star.cost", "table2.improved_a_star.time", "table2.d_star.time"] {
+        let line = said.lines().find(|line| line.starts_with(claim));
+        assert!(line.is_some_and(|line| line.contains("not testable")), "{claim}: {said}");
+    }
+}

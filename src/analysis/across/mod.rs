@@ -144,11 +144,15 @@ impl OfClaim<'_> {
             second: if judged.is_seedless { default } else { again },
             chosen: judged.chosen,
             states_size: touched.states_size(),
-            is_unvaried: !judged.not_varied.is_empty(),
+            is_unvaried: !judged.not_varied.is_empty() || touched.is_elsewhere(),
         };
         let id = &self.claim.id;
         let view = View { choices: self.choices, first: explored, id, counted: &counted, results: &results };
         self.say(judged, &view);
+        if touched.is_elsewhere() {
+            let said = judged.said.take().into_iter().chain([wording::ELSEWHERE.to_owned()]);
+            judged.said = said.reduce(|one, two| format!("{one}; {two}"));
+        }
         none_compatible
     }
 

@@ -33,6 +33,11 @@ impl<'p> Touched<'p> {
         Self { claims, studies, words }
     }
 
+    /// Whether it looks at trials that were recorded elsewhere.
+    pub fn is_elsewhere(&self) -> bool {
+        self.studies.iter().any(|study| self.contenders(study).iter().any(|own| own.is_elsewhere()))
+    }
+
     /// Whether it states a size that can be missed: a printed number, or a margin.
     pub fn states_size(&self) -> bool {
         const SIZES: [&str; 4] = ["by_percent", "margin", "printed_ratio", "accepted"];

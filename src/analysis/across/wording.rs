@@ -13,6 +13,9 @@ const LISTED: usize = 3;
 /// An exception with more options than these is counted and not listed.
 const OPTIONS: usize = 2;
 
+/// What stands beside every verdict on trials that no run of ours made, which caps it at supported and not supported.
+pub const ELSEWHERE: &str = "on trials recorded elsewhere, not reproduced here";
+
 /// The choices that touch a claim and were not varied, in words.
 pub fn not_varied(choices: &[String]) -> Option<String> {
     let listed = choices.iter().take(LISTED).cloned().collect::<Vec<_>>().join(", ");

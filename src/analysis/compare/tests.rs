@@ -19,6 +19,7 @@ fn manifest(seed: u64) -> Manifest {
         spec: String::new(),
         depends: String::new(),
         recorded: Vec::new(),
+        elsewhere: None,
         defaults: Vec::new(),
         made_by: MadeBy::default(),
         shard: None,
@@ -54,7 +55,7 @@ fn run(seed: u64, group: &str, contender: &str, expansions: &[Option<u64>]) -> S
         let status = if count.is_some() { Status::Solved } else { Status::BudgetSpent };
         let key =
             TrialKey { on, query: None, contender: contender.into(), sweep: SweepKey::default(), repeat: 0 };
-        batch.rows.push(Row { key, seed: 0, status, reason: None, values });
+        batch.rows.push(Row { key, seed: Some(0), status, reason: None, values });
     }
     let records = Records { batch, times: Vec::new() };
     StoredRun {

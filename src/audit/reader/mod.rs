@@ -1,4 +1,4 @@
-//! Reads tables and relations: CSV, Markdown, TOML.
+//! Reads tables and relations: CSV, Markdown, LaTeX, TOML.
 //!
 //! Nothing here judges. What cannot be read is a [`Fault`] with its place; all faults of a text are given together. Cells
 //! stay strings, since trailing zeros count.
@@ -7,6 +7,7 @@ pub mod cells;
 mod counts;
 mod csv;
 mod guess;
+mod latex;
 mod markdown;
 mod toml;
 mod units;
@@ -28,6 +29,8 @@ pub enum Format {
     Csv,
     /// Markdown: every pipe table in the text.
     Markdown,
+    /// LaTeX: every tabular in the text.
+    Latex,
     /// TOML: tables, cells, samples and relations.
     Toml,
 }
@@ -38,6 +41,7 @@ impl Format {
         match ending.to_lowercase().as_str() {
             "csv" | "tsv" => Some(Self::Csv),
             "md" | "markdown" => Some(Self::Markdown),
+            "tex" | "latex" => Some(Self::Latex),
             "toml" => Some(Self::Toml),
             _ => None,
         }
@@ -45,6 +49,9 @@ impl Format {
 
     /// The format that a text looks like.
     pub fn of_text(text: &str) -> Self {
+        if latex::is_latex(text) {
+            return Self::Latex;
+        }
         if text.lines().any(markdown::is_rule) {
             return Self::Markdown;
         }
@@ -83,12 +90,13 @@ pub fn read(text: &str, format: Format) -> Result<Input, Vec<Fault>> {
     let input = match format {
         Format::Csv => csv::raw(text, &mut faults).map(|raw| Input::of_tables(tables([raw], &mut faults))),
         Format::Markdown => Some(Input::of_tables(tables(markdown::raw(text, 1, &mut faults), &mut faults))),
+        Format::Latex => Some(Input::of_tables(tables(latex::raw(text, &mut faults), &mut faults))),
         Format::Toml => toml::read(text, &mut faults),
     };
     let is_empty = input.as_ref().is_none_or(Input::is_empty);
     if faults.is_empty() && is_empty {
         let message = "there is no table here; a CSV with a header line, a Markdown table with a line |---|---| below its \
-                       header, or TOML with [[table]], [[sample]] or [[relation]] is accepted";
+                       header, a tabular of LaTeX, or TOML with [[table]], [[sample]] or [[relation]] is accepted";
         faults.push(Fault::new(Place { line: 1, cell: 0 }, message));
     }
     faults.truncate(FAULTS);

@@ -176,7 +176,7 @@ impl Page<'_> {
             let trials = run.records.batch.rows.len();
             let seed = run.manifest.seed;
             let spec = &run.manifest.spec[..12];
-            let mark = recorded_mark(study.recorded());
+            let mark = recorded_mark(study.clock_bound());
             let about = format!(
                 "**`{}`**: {} {trials} trials, seed {seed}, spec `{spec}`.{}",
                 study.name,

@@ -20,6 +20,7 @@ mod random_cells;
 mod random_maps;
 mod random_polyhedra;
 mod random_rectangles;
+mod recorded;
 
 pub use entry::{ArmPlacement, Entry, Family, Query};
 
@@ -37,6 +38,7 @@ pub static REGISTRY: &[&Entry] = &[
     &random_cells::ENTRY,
     &random_polyhedra::ENTRY,
     &random_rectangles::ENTRY,
+    &recorded::ENTRY,
 ];
 
 /// The entry called `name`.

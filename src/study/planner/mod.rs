@@ -1,13 +1,15 @@
 //! Planners and stages that specs can name: those of the engine, and those that need more than it, one a file, in [`REGISTRY`].
 
 pub mod external;
+pub mod recorded;
 
 use engine::planner::Entry;
 
 /// Every planner that is not the engine's own, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[&external::ENTRY];
+pub static REGISTRY: &[&Entry] = &[&external::ENTRY, &recorded::ENTRY];
 
-/// Whether the trials of `entry` are recorded and not repeated: they depend on a clock and on programs of others.
+/// Whether the trials of `entry` are recorded and not repeated: they depend on a clock and on programs of others, or come from
+/// elsewhere.
 pub fn is_recorded(entry: &Entry) -> bool {
     REGISTRY.iter().any(|own| own.name == entry.name)
 }

@@ -193,14 +193,14 @@ fn trials_of_a_contender_that_has_not_changed_are_taken_as_they_are_stored() {
     // A mark that no run would leave shows which rows were taken over.
     let folder = house.at("runs");
     let mut records = house.records("runs");
-    records.batch.rows.iter_mut().for_each(|row| row.seed = 1);
+    records.batch.rows.iter_mut().for_each(|row| row.seed = Some(1));
     house.rewrite(&folder, &records);
     house.run(&STUDY.replace("weight = 2", "weight = 4"), "runs");
     let rows = house.records("runs").batch.rows;
     let of = |label: &str| rows.iter().filter(|row| *row.key.contender == *label).collect::<Vec<&Row>>();
     assert_eq!((of("first").len(), of("second").len()), (14, 14));
-    assert!(of("first").iter().all(|row| row.seed == 1), "a trial ran again");
-    assert!(of("second").iter().all(|row| row.seed != 1), "a trial did not run");
+    assert!(of("first").iter().all(|row| row.seed == Some(1)), "a trial ran again");
+    assert!(of("second").iter().all(|row| row.seed != Some(1)), "a trial did not run");
 }
 
 #[test]

@@ -312,7 +312,7 @@ impl Stored {
     pub fn trials(&self, instances: &mut Instances) -> Result<Vec<Row>, StudyError> {
         let keys = self.trial_keys(instances)?;
         let reason = self.texts("reason")?;
-        let seed = self.wholes("seed")?;
+        let seed = self.maybe_wholes("seed")?;
         let Numbered { numbers, values } = self.full_texts("status")?;
         let values = values.iter().map(|name| Status::find(name).ok_or_else(|| self.wrong("status")));
         let status = Numbered { numbers, values: values.collect::<Result<Vec<_>, _>>()? };
@@ -386,13 +386,12 @@ fn shown(cell: &AnyValue<'_>) -> String {
     }
 }
 
-/// `text` as a cell of a file of comma-separated values, in quotes where it needs them.
+/// `text` as a cell of a file of comma-separated values, in quotes where it needs them. An apostrophe stands before what a
+/// spreadsheet would take for a formula and compute.
 pub fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
+    let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
+    let text = if is_formula { format!("'{text}") } else { text.to_owned() };
+    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
 }
 
 fn fill(rows: &mut [Values], place: u16, cells: impl Iterator<Item = Option<Value>>) {

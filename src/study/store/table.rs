@@ -16,7 +16,7 @@ pub const DESCRIPTION: &str = "columns";
 pub fn trials(rows: &[Row], keys: &KeyColumns, columns: &[&'static str]) -> DataFrame {
     let mut frame = trial_keys(rows, keys, |row| &row.key);
     frame.extend([
-        whole("seed", rows, |row| Some(row.seed)),
+        whole("seed", rows, |row| row.seed),
         text("status", rows, |row| Some(row.status.name())),
         text("reason", rows, |row| row.reason.as_deref()),
     ]);

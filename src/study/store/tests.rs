@@ -51,7 +51,7 @@ fn trial(instance: u32, query: Option<&str>) -> TrialKey {
 fn rows() -> Vec<Row> {
     let row = |instance, query, reason: Option<&str>, values: &[(&'static str, Value)]| Row {
         key: trial(instance, query),
-        seed: u64::MAX,
+        seed: Some(u64::MAX),
         status: if reason.is_some() { Status::NoPath } else { Status::Solved },
         reason: reason.map(str::to_owned),
         values: values.iter().copied().collect::<Values>(),

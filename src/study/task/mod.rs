@@ -109,7 +109,7 @@ fn variant_key(unit: &Unit<'_>, label: &str, finding: u32) -> TrialKey {
 fn variant_row(unit: &Unit<'_>, label: &str) -> Row {
     Row {
         key: variant_key(unit, label, 0),
-        seed: unit.seed,
+        seed: Some(unit.seed),
         status: Status::Crashed,
         reason: None,
         values: Values::default(),

@@ -194,7 +194,7 @@ impl Trial<'_> {
     fn row(&self, seed: u64) -> Row {
         Row {
             key: self.unit.trial(self.query, self.entrant, self.repeat),
-            seed,
+            seed: Some(seed),
             status: Status::Crashed,
             reason: None,
             values: super::named(self.known),

@@ -130,6 +130,7 @@ fn manifest() -> Manifest {
         seed: 1,
         choices: Vec::new(),
         recorded: Vec::new(),
+        elsewhere: None,
         defaults: Vec::new(),
         interpretations: vec![Vec::new()],
         spec: String::new(),
@@ -220,7 +221,7 @@ impl Sample {
             End::Unposed => (Status::InvalidProblem, None),
         };
         let values = value.into_iter().map(|value| ("path_cost_cells", Value::Real(value))).collect();
-        self.records.batch.rows.push(Row { key, seed: 1, status, reason: None, values });
+        self.records.batch.rows.push(Row { key, seed: Some(1), status, reason: None, values });
     }
 
     /// A trial of `contender` on the instance, with one of its seeds.

@@ -2,9 +2,11 @@
 
 mod boundaries;
 mod cells;
+mod claims;
 mod command;
 mod contradictions;
 mod coverage;
+mod elsewhere;
 mod false_alarms;
 mod octile_turns;
 mod package;

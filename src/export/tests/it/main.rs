@@ -1,0 +1,184 @@
+//! `replan-export` from outside: what it writes of the project's own runs is what their records hold.
+
+use polars::prelude::DataFrame;
+use rusqlite::Connection;
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use study::parquet::FrameReader;
+use tempfile::TempDir;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn export(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_replan-export")).args(arguments).current_dir(root()).output().unwrap()
+}
+
+/// The folder that `paper` was exported to.
+fn exported(paper: &str, format: &str) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let done = export(&[paper, "--to", format, "--out", folder.path().to_str().unwrap()]);
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    folder
+}
+
+fn stored(study: &str) -> DataFrame {
+    let path = root().join(format!("data/runs/baselines/{study}.trials.parquet"));
+    FrameReader::open(File::open(path).unwrap()).unwrap().frame().unwrap()
+}
+
+const STUDIES: [&str; 3] = ["cell", "grids", "scenes"];
+
+#[test]
+fn an_arena_has_a_run_for_each_trial_with_its_numbers() {
+    let folder = exported("baselines", "planner-arena");
+    let arena = Connection::open(folder.path().join("plannerarena.db")).unwrap();
+    let runs: i64 = arena.query_row("SELECT count(*) FROM runs", [], |row| row.get(0)).unwrap();
+    let trials: usize = STUDIES.iter().map(|study| stored(study).height()).sum();
+    assert_eq!(runs as usize, trials);
+    let ours: f64 = STUDIES
+        .iter()
+        .filter_map(|study| {
+            Some(stored(study).column("path_cost_cells").ok()?.f64().ok()?.iter().flatten().sum::<f64>())
+        })
+        .sum();
+    let theirs: f64 =
+        arena.query_row("SELECT total(path_cost_cells) FROM runs", [], |row| row.get(0)).unwrap();
+    assert!(ours > 0.0 && (ours - theirs).abs() < 1e-9 * ours, "{ours} and {theirs}");
+    let solved: i64 = arena
+        .query_row(
+            "SELECT count(*) FROM runs JOIN enums ON enums.name = 'status' AND enums.value = runs.status \
+             WHERE enums.description = 'Exact solution' AND runs.solved = 1",
+            [],
+            |row| row.get(0),
+        )
+        .unwrap();
+    let is_solved = |study: &&str| {
+        stored(study)
+            .column("status")
+            .unwrap()
+            .str()
+            .unwrap()
+            .iter()
+            .filter(|cell| *cell == Some("solved"))
+            .count()
+    };
+    assert_eq!(solved as usize, STUDIES.iter().map(is_solved).sum::<usize>());
+    let orphans = "SELECT count(*) FROM runs WHERE plannerid NOT IN (SELECT id FROM plannerConfigs) \
+                   OR experimentid NOT IN (SELECT id FROM experiments)";
+    assert_eq!(arena.query_row(orphans, [], |row| row.get::<_, i64>(0)).unwrap(), 0);
+}
+
+/// What a log says of each planner: its runs by the names of their properties.
+fn parsed(text: &str) -> BTreeMap<String, Vec<BTreeMap<String, String>>> {
+    let start = text.lines().position(|line| line.ends_with(" planners")).unwrap();
+    let mut lines = text.lines().skip(start + 1);
+    let mut planners = BTreeMap::new();
+    while let Some(planner) = lines.next() {
+        assert_eq!(lines.next(), Some("0 common properties"));
+        let count = |line: Option<&str>| line.unwrap().split(' ').next().unwrap().parse::<usize>().unwrap();
+        let properties = count(lines.next());
+        let names: Vec<String> =
+            (0..properties).map(|_| lines.next().unwrap().rsplit_once(' ').unwrap().0.to_owned()).collect();
+        let runs = count(lines.next());
+        let run = |line: &str| {
+            let cells: Vec<&str> = line.split("; ").collect();
+            assert_eq!(cells.len(), properties + 1, "{line}");
+            names.iter().cloned().zip(cells.into_iter().map(str::to_owned)).collect()
+        };
+        let runs = (0..runs).map(|_| run(lines.next().unwrap())).collect();
+        assert_eq!(lines.next(), Some("."));
+        planners.insert(planner.to_owned(), runs);
+    }
+    planners
+}
+
+#[test]
+fn logs_have_a_run_for_each_trial_and_leave_out_what_was_not_measured() {
+    let folder = exported("baselines", "ompl-log");
+    let logs =
+        fs::read_dir(folder.path()).unwrap().map(|entry| fs::read_to_string(entry.unwrap().path()).unwrap());
+    let (mut runs, mut missing) = (0, 0);
+    for log in logs {
+        assert!(log.starts_with("replan version "), "{log}");
+        for run in parsed(&log).into_values().flatten() {
+            runs += 1;
+            missing += usize::from(run["time"].is_empty());
+            assert!(run["status"].parse::<u8>().unwrap() < 10);
+        }
+    }
+    let trials: usize = STUDIES.iter().map(|study| stored(study).height()).sum();
+    assert_eq!(runs, trials);
+    assert!(missing > 0 && missing < runs, "{missing} of {runs} runs have no time");
+}
+
+#[test]
+fn one_parquet_file_has_the_trials_of_all_studies_and_the_columns_of_each() {
+    let folder = exported("baselines", "parquet");
+    let read = |name: &str| FrameReader::open(File::open(folder.path().join(name)).unwrap()).unwrap();
+    let mut reader = read("trials.parquet");
+    let described: Vec<serde_json::Value> = serde_json::from_str(reader.entry("columns").unwrap()).unwrap();
+    let trials = reader.frame().unwrap();
+    for study in STUDIES {
+        let own = stored(study);
+        let mask =
+            trials.column("study").unwrap().str().unwrap().iter().map(|name| name == Some(study)).collect();
+        let part = trials.filter(&mask).unwrap();
+        for column in own.columns() {
+            let found = part.column(column.name()).unwrap();
+            assert!(found.cast(column.dtype()).unwrap().equals_missing(column), "{study}: {}", column.name());
+        }
+    }
+    let names: Vec<&str> = described.iter().map(|one| one["name"].as_str().unwrap()).collect();
+    assert_eq!(names.len(), trials.width());
+    let statistics = read("statistics.parquet").frame().unwrap();
+    assert!(
+        statistics.height() > 20 && statistics.column("mean_low").unwrap().null_count() < statistics.height()
+    );
+}
+
+#[test]
+fn a_trace_for_posthoc_opens_and_expands_as_the_search_did() {
+    let folder = exported("zhang", "posthoc");
+    let files: Vec<PathBuf> =
+        fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().path()).collect();
+    assert!(files.len() > 5, "{files:?}");
+    for file in files {
+        let text = fs::read_to_string(&file).unwrap();
+        let (head, events) = text.split_once("\nevents:\n").unwrap();
+        assert!(head.starts_with("version: 1.4.0\n"));
+        let event = |line: &str| {
+            serde_json::from_str::<serde_json::Value>(line.strip_prefix("  - ").unwrap()).unwrap()
+        };
+        let events: Vec<serde_json::Value> = events.lines().map(event).collect();
+        let mut open = Vec::new();
+        for event in &events {
+            match event["type"].as_str().unwrap() {
+                "generating" => open.push(&event["id"]),
+                "expanding" => assert!(open.contains(&&event["id"]), "{}: {event}", file.display()),
+                kind => assert!(["source", "destination", "solution"].contains(&kind), "{kind}"),
+            }
+        }
+        assert!(open.len() > 1, "{}", file.display());
+    }
+}
+
+#[test]
+fn what_cannot_be_exported_leaves_nothing_and_says_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    for (arguments, code, message) in [
+        (["nowhere", "--to", "planner-arena"], 2, "`nowhere` holds no stored run"),
+        (["gallery", "--to", "xlsx"], 2, "[possible values: csv, parquet, ompl-log, planner-arena, posthoc"),
+        (["fu2018", "--to", "posthoc"], 2, "`fu2018` has no stored search on a grid"),
+    ] {
+        let said = export(&[&arguments[..], &["--out", out.to_str().unwrap()]].concat());
+        let err = String::from_utf8(said.stderr).unwrap();
+        assert_eq!(said.status.code(), Some(code), "{err}");
+        assert!(err.contains(message), "{err}");
+        assert!(!out.exists(), "{arguments:?}");
+    }
+}

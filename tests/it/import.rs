@@ -1,0 +1,207 @@
+//! Results that others recorded: what becomes of a table or a log, and what is refused.
+
+use crate::paper::Bench;
+use polars::prelude::DataFrame;
+use std::fs;
+use study::parquet::FrameReader;
+
+/// A benchmark log as OMPL 1.6 writes it, with a run that timed out, an approximate solution, and progress over time.
+pub const LOG: &str = include_str!("import/benchmark.log");
+
+const COLUMNS: &str = "group = { is = \"maps\" }\ninstance = \"map\"\ncontender = { column = \"planner\" }\n\
+                       [status]\ncolumn = \"ok\"\nmeans = { solved = [\"1\"], no_path = [\"0\"] }\n\
+                       [metric]\nexpansions = { column = \"n\" }\n";
+
+const RESULTS: &str = "map,planner,ok,n\nb,A*,1,9\na,A*,1,7\nb,Ours,0,\na,Ours,1,3\n";
+
+fn trials(bench: &Bench, file: &str) -> DataFrame {
+    FrameReader::open(fs::File::open(bench.at(file)).unwrap()).unwrap().frame().unwrap()
+}
+
+/// The cells of a column, as text.
+fn cells(frame: &DataFrame, column: &str) -> Vec<String> {
+    let column = frame.column(column).unwrap();
+    (0..frame.height()).map(|row| column.get(row).unwrap().to_string().replace('"', "")).collect()
+}
+
+#[test]
+fn rows_of_a_table_become_trials_of_unknown_seed_whose_instances_are_paired_by_name() {
+    let bench = Bench::empty();
+    bench.write("columns.toml", COLUMNS.as_bytes());
+    bench.write("results.csv", RESULTS.as_bytes());
+    bench.done(&["import", "results.csv", "--from", "csv", "--columns", "columns.toml", "--out", "there"]);
+    let frame = trials(&bench, "there/results.trials.parquet");
+    assert_eq!(cells(&frame, "contender"), ["A*", "Ours", "A*", "Ours"]);
+    assert_eq!(cells(&frame, "instance"), ["0", "0", "1", "1"], "map b comes first");
+    assert_eq!(cells(&frame, "expansions"), ["9", "null", "7", "3"]);
+    assert_eq!(cells(&frame, "status"), ["solved", "no_path", "solved", "solved"]);
+    assert_eq!(cells(&frame, "seed"), ["null"; 4]);
+    let manifest = fs::read_to_string(bench.at("there/results.manifest.toml")).unwrap();
+    assert!(manifest.contains("elsewhere = \"results.csv (sha256 "), "{manifest}");
+    // What leaves as Parquet comes back the same.
+    let columns = COLUMNS
+        .replace("{ is = \"maps\" }", "{ column = \"group\" }")
+        .replace("\"map\"", "\"instance\"")
+        .replace("\"planner\"", "\"contender\"")
+        .replace("\"ok\"", "\"status\"")
+        .replace("[\"1\"]", "[\"solved\"]")
+        .replace("[\"0\"]", "[\"no_path\"]")
+        .replace("\"n\"", "\"expansions\"");
+    bench.write("again.toml", columns.as_bytes());
+    let file = "there/results.trials.parquet";
+    bench.done(&["import", file, "--from", "parquet", "--columns", "again.toml", "--out", "again"]);
+    assert!(trials(&bench, "again/results-trials.trials.parquet").equals_missing(&frame));
+}
+
+#[test]
+fn a_log_of_ompl_is_compared_and_gated() {
+    let bench = Bench::empty();
+    bench.write("bench.log", LOG.as_bytes());
+    bench.done(&["import", "bench.log", "--from", "ompl-log", "--out", "a"]);
+    let frame = trials(&bench, "a/bench.trials.parquet");
+    assert_eq!(
+        cells(&frame, "status"),
+        ["solved", "solved", "solved", "solved", "time_spent", "time_spent"],
+        "an approximate solution reaches no goal"
+    );
+    assert_eq!(frame.column("own_wall_ns").unwrap().f64().unwrap().get(0), Some(1.5e9));
+    assert_eq!(cells(&frame, "samples"), ["900", "120", "1000", "130", "950", "90"]);
+    let slower = LOG.replace("; 0.25; ", "; 2.5; ").replace("120; 200;", "1200; 200;");
+    bench.write("bench.log", slower.as_bytes());
+    bench.done(&["import", "bench.log", "--from", "ompl-log", "--out", "b"]);
+    let said = bench.run(&["compare", "a", "b", "--markdown"]);
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    assert!(said.out.contains("recorded elsewhere, with unknown seeds"), "{}", said.out);
+    let gated = bench.run(&["compare", "a", "b", "--gate", "solved -1%"]);
+    assert!(gated.out.contains("gate solved -1%: bench: geometric_PRM: "), "{}{}", gated.out, gated.err);
+}
+
+#[test]
+fn a_log_that_is_cut_off_or_of_another_form_is_refused_with_its_line_and_leaves_nothing() {
+    let bench = Bench::empty();
+    let lines: Vec<&str> = LOG.lines().collect();
+    let mut refused = 0;
+    for cut in 0..lines.len() {
+        bench.write("bench.log", (lines[..cut].join("\n") + "\n").as_bytes());
+        let said = bench.run(&["import", "bench.log", "--from", "ompl-log", "--out", "there"]);
+        assert_eq!(said.code, Some(2), "{cut}: {}{}", said.out, said.err);
+        let place = format!("bench.log: line {}: ", cut + 1);
+        let is_empty = cut == 0 && said.err.contains("line 1: ");
+        assert!(said.err.contains(&place) || is_empty, "{cut}: {}", said.err);
+        assert!(!bench.at("there").exists());
+        refused += 1;
+    }
+    assert!(refused > 40);
+    for (from, to, message) in [
+        ("120; 200; 3120.5", "120; 200", "line 30: `120; 200; 6; 0.25; ` stands where a run with 5 values"),
+        ("3 runs\n120", "many runs\n120", "line 29: `many runs` stands where `N runs` is expected"),
+        ("status|Unknown", "outcome|Unknown", "no `status|…` names the statuses"),
+        ("; 6; 0.25; ", "; 66; 0.25; ", "line 30, column `status`: `66` means no status"),
+        ("; 6; 0.25; ", "; 6; soon; ", "line 30, column `time`: `soon` is no number"),
+    ] {
+        assert!(LOG.contains(from), "{from}");
+        bench.write("bench.log", LOG.replacen(from, to, 1).as_bytes());
+        let said = bench.run(&["import", "bench.log", "--from", "ompl-log", "--out", "there"]);
+        assert_eq!(said.code, Some(2), "{from}: {}", said.out);
+        assert!(said.err.contains(message), "{from}: {}", said.err);
+        assert!(!bench.at("there").exists());
+    }
+}
+
+#[test]
+fn a_table_or_a_mapping_that_does_not_fit_is_refused_at_its_place() {
+    let bench = Bench::empty();
+    for (results, columns, message) in [
+        (
+            RESULTS,
+            COLUMNS.replace("\"map\"", "\"mapp\""),
+            "there is no column `mapp` (did you mean `map`?); there are map, planner, ok, n",
+        ),
+        (
+            RESULTS,
+            COLUMNS.replace("expansions", "expansion"),
+            "columns.toml:8:1: there is no column of records `expansion`",
+        ),
+        (RESULTS, COLUMNS.replace("no_path", "nopath"), "there is no status `nopath`"),
+        (
+            RESULTS,
+            COLUMNS.replace("[\"0\"]", "[\"no\"]"),
+            "line 4, column `ok`: `0` means no status; no, 1 do",
+        ),
+        ("map,planner,ok,n\nb,A*,1,9.5\n", COLUMNS.to_owned(), "line 2, column `n`: 9.5 is no count"),
+        (
+            "map,planner,ok,n\nb,A*,1\n",
+            COLUMNS.to_owned(),
+            "results.csv: line 2: has 3 cells; 4 are accepted",
+        ),
+        ("map,planner,ok,n\n", COLUMNS.to_owned(), "holds no row below its heads"),
+        (
+            "map,planner,ok,n\nb,A*,1,9\nb,A*,1,8\n",
+            COLUMNS.to_owned(),
+            "line 3 is the same trial as line 2: `A*` on instance `b` of `maps`, repeat 0",
+        ),
+    ] {
+        bench.write("results.csv", results.as_bytes());
+        bench.write("columns.toml", columns.as_bytes());
+        let said = bench.run(&[
+            "import",
+            "results.csv",
+            "--from",
+            "csv",
+            "--columns",
+            "columns.toml",
+            "--out",
+            "there",
+        ]);
+        assert_eq!(said.code, Some(2), "{message}: {}{}", said.out, said.err);
+        assert!(said.err.contains(message), "{message}\nis not in\n{}", said.err);
+        assert!(!bench.at("there").exists(), "{message}");
+    }
+}
+
+const STUDY: &str = "paper = \"own\"\nquestion = \"Fewer?\"\nseed = 1\n[budget]\nexpansions = 1\n\
+                     [[problems]]\nlabel = \"maps\"\nfamily = \"recorded\"\ninstances = 2\nsettings = { unit = \"map\" }\n\
+                     [[contender]]\nlabel = \"A*\"\nplanner = \"recorded\"\n[[contender]]\nlabel = \"Ours\"\nplanner = \"recorded\"\n";
+
+const PAPER: &str = "[source]\ntitle = \"T\"\nauthors = \"N. N.\"\n[prints]\ntables = 0\n\
+                     [[inventory]]\nitem = \"section 1\"\nsays = \"s\"\nclaims = [\"fewer\"]\n\
+                     [[claim]]\nid = \"fewer\"\nat = \"section 1\"\nsays = \"fewer\"\n[claim.check.lower]\n\
+                     of = { study = \"results\", problems = \"maps\", contender = \"Ours\", against = \"A*\", metric = \"expansions\" }\n";
+
+#[test]
+fn results_that_are_not_those_of_the_study_are_refused_and_a_study_without_them_says_what_to_do() {
+    let bench = Bench::empty();
+    bench.write("own/results.toml", STUDY.as_bytes());
+    bench.write("own/paper.toml", PAPER.as_bytes());
+    bench.write("columns.toml", COLUMNS.as_bytes());
+    let left = bench.run(&["run", "./own"]);
+    assert_eq!(left.code, Some(4), "{}", left.err);
+    assert!(left.err.contains("`replan import` writes them"), "{}", left.err);
+    let import = |results: &str, into: &str| {
+        bench.write("results.csv", results.as_bytes());
+        bench.run(&["import", "results.csv", "--from", "csv", "--columns", "columns.toml", "--into", into])
+    };
+    for (results, into, message) in [
+        (RESULTS.to_owned(), "./own/result", "there is no study `result` (did you mean `results`?)"),
+        (RESULTS.replace("Ours", "Theirs"), "./own/results", "there is no contender `Theirs`"),
+        (
+            RESULTS.to_owned() + "c,A*,1,4\n",
+            "./own/results",
+            "instance `c` of `maps` is number 3, repeat 0; the study has 2",
+        ),
+        (RESULTS.replace("b,Ours,0,\n", ""), "./own/results", "a trial that failed is a row with a status"),
+    ] {
+        let said = import(&results, into);
+        assert_eq!(said.code, Some(2), "{message}: {}{}", said.out, said.err);
+        assert!(said.err.contains(message), "{message}\nis not in\n{}", said.err);
+        assert!(!bench.at("target/replan/own/data/runs/own/results.manifest.toml").exists());
+    }
+    assert_eq!(import(RESULTS, "./own/results").code, Some(0));
+    // The records are the study's: nothing is stale, not even where everything is to run again.
+    for again in [&["run", "./own"][..], &["run", "./own", "--fresh"]] {
+        let said = bench.run(again);
+        assert_eq!(said.code, Some(0), "{again:?}: {}", said.err);
+    }
+    let frame = trials(&bench, "target/replan/own/data/runs/own/results.trials.parquet");
+    assert_eq!(cells(&frame, "expansions"), ["9", "null", "7", "3"]);
+}
