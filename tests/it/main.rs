@@ -42,6 +42,7 @@ mod jump_points;
 mod latex;
 mod laws;
 mod mutation;
+mod outside_text;
 mod own_keys;
 mod own_paper;
 mod page;
