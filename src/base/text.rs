@@ -98,7 +98,8 @@ pub fn fault_of_name(name: &str) -> Option<String> {
         return Some(format!("has {count} characters; at most {MOST_OF_NAME} are accepted"));
     }
     let is_line = !name.contains(|c| c == '\n' || acts(c));
-    (!is_line).then(|| "holds a control character or the end of a line; text on one line is accepted".to_owned())
+    (!is_line)
+        .then(|| "holds a control character or the end of a line; text on one line is accepted".to_owned())
 }
 
 /// A word as messages show it: visible, and its beginning if it is long.

@@ -39,6 +39,7 @@ mod guards;
 mod hidden_faults;
 mod history;
 mod jump_points;
+mod large;
 mod latex;
 mod laws;
 mod mutation;

@@ -39,10 +39,20 @@ fn names_are_short_and_on_one_line() {
     let bench = Bench::new();
     let long = "x".repeat(MOST_OF_NAME + 1);
     for (file, from, to, fault) in [
-        ("draws", "label = \"drawn\"", "label = \"drawn\\nreplan: all is well\"".to_owned(), "the end of a line"),
+        (
+            "draws",
+            "label = \"drawn\"",
+            "label = \"drawn\\nreplan: all is well\"".to_owned(),
+            "the end of a line",
+        ),
         ("draws", "label = \"drawn\"", "label = \"drawn\\u202e\"".to_owned(), "holds a control character"),
         ("draws", "label = \"drawn\"", format!("label = \"{long}\""), "`label` has 101 characters"),
-        ("paper", "[choice.option.allow]", "[choice.option.\"a\\u001b\"]".to_owned(), "the key `a‹escape›` holds"),
+        (
+            "paper",
+            "[choice.option.allow]",
+            "[choice.option.\"a\\u001b\"]".to_owned(),
+            "the key `a‹escape›` holds",
+        ),
         ("paper", "[choice.option.allow]", format!("[choice.option.{long}]"), "has 101 characters"),
         ("paper", "id = \"cost\"", "id = \"co\\u0085st\"".to_owned(), "holds a control character"),
     ] {
