@@ -10,6 +10,8 @@ use std::fmt::Debug;
 const MOST_OF_LINE: usize = 200;
 /// The most characters of a word that a message shows.
 const MOST_OF_WORD: usize = 60;
+/// The most characters of a name: names of files are made of several.
+pub const MOST_OF_NAME: usize = 100;
 
 /// The text in `bytes`, without a byte-order mark and with line feeds at the ends of lines.
 ///
@@ -48,7 +50,7 @@ pub fn unseen(c: char) -> Option<Cow<'static, str>> {
         '\u{3000}' => "wide space",
         '\u{feff}' => "byte-order mark",
         '\u{2000}'..='\u{200a}' | '\u{205f}' => return Some(format!("space U+{:04X}", c as u32).into()),
-        '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2061}'..='\u{206f}' => {
+        '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2061}'..='\u{206f}' => {
             return Some(format!("U+{:04X}", c as u32).into());
         }
         c if c.is_control() => return Some(format!("control character U+{:04X}", c as u32).into()),
@@ -70,19 +72,34 @@ pub fn one_line(text: &str) -> String {
     visible(text).replace('\n', "\\n").replace('\r', "\\r").replace('\t', " ")
 }
 
-/// `text` as a terminal may show it: control characters other than ends of lines and tabs are named, as they may move the cursor or
-/// hide what stands around them.
+/// Whether `c` does something to what shows it instead of being seen: control characters but for line feeds and tabs, ends of lines of
+/// other alphabets, and marks that turn the direction of reading.
+pub fn acts(c: char) -> bool {
+    match c {
+        '\n' | '\t' => false,
+        '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => true,
+        c => c.is_control(),
+    }
+}
+
+/// `text` as a terminal, a page or a document may show it: what [`acts`] is named in its place.
 pub fn shown(text: &str) -> Cow<'_, str> {
-    let is_safe = |c: char| {
-        c == '\n'
-            || c == '\t'
-            || !(c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'))
-    };
-    if text.chars().all(is_safe) {
+    if !text.contains(acts) {
         return text.into();
     }
     let name = |c: char| unseen(c).map_or_else(|| "‹carriage return›".to_owned(), |name| format!("‹{name}›"));
-    text.chars().map(|c| if is_safe(c) { c.to_string() } else { name(c) }).collect()
+    text.chars().map(|c| if acts(c) { name(c) } else { c.to_string() }).collect()
+}
+
+/// What is wrong with a name that people give: no more than [`MOST_OF_NAME`] characters on one line are accepted.
+pub fn fault_of_name(name: &str) -> Option<String> {
+    let count = name.chars().count();
+    if count > MOST_OF_NAME {
+        return Some(format!("has {count} characters; at most {MOST_OF_NAME} are accepted"));
+    }
+    let is_line = !name.contains(|c| c == '\n' || acts(c));
+    (!is_line)
+        .then(|| "holds a control character or the end of a line; text on one line is accepted".to_owned())
 }
 
 /// A word as messages show it: visible, and its beginning if it is long.

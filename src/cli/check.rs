@@ -1,5 +1,6 @@
 //! `replan check`: everything that can be wrong with a paper, without running it.
 
+use super::consent::AllowLarge;
 use super::crosscheck::Spec;
 use super::load::gather;
 use super::places::{Places, papers};
@@ -27,6 +28,8 @@ pub struct Check {
     /// Threads for the trials that are run again
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: u32,
+    #[command(flatten)]
+    large: AllowLarge,
 }
 
 impl Check {
@@ -55,6 +58,7 @@ impl Check {
             crosscheck.check(paper, &places.inputs, &mut faults);
         }
         let Some(paper) = paper.filter(|_| faults.is_empty()) else { return Err(faults.error().into()) };
+        self.large.check(&paper.studies, &places)?;
         say!(
             "{}: {}, {}, {} are in order",
             paper.id,

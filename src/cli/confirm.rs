@@ -1,5 +1,6 @@
 //! `replan confirm`: a paper's claims on the second seed.
 
+use super::consent::Consent;
 use super::explorer::{Explorer, judged, most_instances, scratch, within};
 use super::load::load;
 use super::one_shard::OneShard;
@@ -34,6 +35,8 @@ pub struct Confirm {
     /// Threads for the trials; all cores if absent
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: Option<u32>,
+    #[command(flatten)]
+    consent: Consent,
     /// Run only this shard of N of the current round and keep it below --out for `replan merge`
     #[arg(long, value_name = "K/N", value_parser = shard::parse, requires = "out")]
     shard: Option<(usize, usize)>,
@@ -44,10 +47,16 @@ impl Confirm {
     pub fn run(self) -> Result<(), Failure> {
         MadeBy::here();
         if let (Some(shard), Some(parts)) = (self.shard, &self.which.out) {
-            let one = OneShard { paper: &self.which.paper, shard, parts, threads: self.threads };
+            let one = OneShard {
+                paper: &self.which.paper,
+                shard,
+                parts,
+                threads: self.threads,
+                consent: self.consent,
+            };
             return one.run(Round::Default, first_points);
         }
-        confirm(&self.which, self.threads, None, command_line())
+        confirm(&self.which, self.threads, None, (command_line(), self.consent))
     }
 }
 
@@ -64,10 +73,11 @@ pub fn confirm(
     which: &Which,
     threads: Option<u32>,
     rounds: Option<Rounds>,
-    command: String,
+    (command, consent): (String, Consent),
 ) -> Result<(), Failure> {
     let places = Places::find(which, "")?;
     let paper = load(&places, &How::plain(threads))?;
+    consent.check(&paper.studies, &places)?;
     check_seeds(&paper)?;
     let _lock = Lock::take(&places.runs)?;
     let folder = rounds

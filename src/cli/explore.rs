@@ -1,5 +1,6 @@
 //! `replan explore`: a paper's claims under every interpretation that is explored.
 
+use super::consent::Consent;
 use super::explorer::{Explorer, budget, judged, scratch};
 use super::load::load;
 use super::one_shard::OneShard;
@@ -28,6 +29,8 @@ pub struct Explore {
     /// Threads for the trials; all cores if absent
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: Option<u32>,
+    #[command(flatten)]
+    consent: Consent,
     /// Print what would run, and run nothing
     #[arg(long, conflicts_with = "shard")]
     plan: bool,
@@ -41,13 +44,19 @@ impl Explore {
     pub fn run(self) -> Result<(), Failure> {
         MadeBy::here();
         if let (Some(shard), Some(parts)) = (self.shard, &self.which.out) {
-            let one = OneShard { paper: &self.which.paper, shard, parts, threads: self.threads };
+            let one = OneShard {
+                paper: &self.which.paper,
+                shard,
+                parts,
+                threads: self.threads,
+                consent: self.consent,
+            };
             return one.run(Round::First, first_points);
         }
         if self.plan {
             return plan(&self.which);
         }
-        explore(&self.which, self.threads, None, command_line())
+        explore(&self.which, self.threads, None, (command_line(), self.consent))
     }
 }
 
@@ -70,10 +79,11 @@ pub fn explore(
     which: &Which,
     threads: Option<u32>,
     rounds: Option<Rounds>,
-    command: String,
+    (command, consent): (String, Consent),
 ) -> Result<(), Failure> {
     let places = Places::find(which, "")?;
     let paper = load(&places, &How::plain(threads))?;
+    consent.check(&paper.studies, &places)?;
     let budget = budget(&paper)?;
     let folder = rounds
         .as_ref()

@@ -1,6 +1,7 @@
 //! `replan merge`: the parts of a run, or of a round of an exploration, that was cut into shards, put together.
 
 use super::confirm::confirm;
+use super::consent::Consent;
 use super::explore::explore;
 use super::load::load;
 use super::rounds::{Rounds, at_work};
@@ -21,6 +22,8 @@ pub struct Merge {
     /// Write below this folder; for an exploration or confirmation the folder of its default run
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    consent: Consent,
 }
 
 impl Merge {
@@ -34,8 +37,8 @@ impl Merge {
         let command = format!("replan {}", plan.unsharded(self.out.as_deref()).join(" "));
         let rounds = Some(Rounds::new(&plan, &self.parts));
         match round.command.as_str() {
-            "explore" => explore(&which, None, rounds, command),
-            _ => confirm(&which, None, rounds, command),
+            "explore" => explore(&which, None, rounds, (command, self.consent)),
+            _ => confirm(&which, None, rounds, (command, self.consent)),
         }
     }
 

@@ -34,6 +34,7 @@ mod check;
 mod compare;
 mod confirm;
 mod conformance;
+mod consent;
 pub mod crosscheck;
 mod described;
 mod drawn;
@@ -355,9 +356,9 @@ fn renamed(words: impl Iterator<Item = String>) -> Option<String> {
     Some(format!("`{old}` is now `{new}`"))
 }
 
-/// The command line as it would be typed for the same results: what only talks is left out.
+/// The command line as it would be typed for the same results: what only talks, and the trust that people give, is left out.
 fn command_line() -> String {
-    let words = std::env::args().skip(1).filter(|word| word != "--why");
+    let words = std::env::args().skip(1).filter(|word| word != "--why" && word != "--trust");
     let quoted = words.map(|word| {
         let is_plain =
             !word.is_empty() && word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./=,".contains(c));

@@ -1,5 +1,6 @@
 //! One shard of the round of an exploration or a confirmation that is at work.
 
+use super::consent::Consent;
 use super::explorer::Explorer;
 use super::load::load;
 use super::places::Places;
@@ -20,6 +21,8 @@ pub struct OneShard<'a> {
     pub parts: &'a Path,
     /// Threads for the trials.
     pub threads: Option<u32>,
+    /// What people allow.
+    pub consent: Consent,
 }
 
 impl OneShard<'_> {
@@ -31,7 +34,7 @@ impl OneShard<'_> {
     ) -> Result<(), Failure> {
         let sharded = sharded(self.paper, self.threads, self.parts, first, points)?;
         let folder = sharded.folder(self.parts);
-        sharded.run_shard(self.shard, &folder, Again::default(), false)
+        sharded.run_shard(self.shard, &folder, (Again::default(), self.consent), false)
     }
 }
 

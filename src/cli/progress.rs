@@ -5,6 +5,7 @@
 //! how far it is, at most once in [`SAID_EVERY_S`].
 
 use super::{Failure, counted};
+use base::text::shown;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal as _, Write as _};
 use std::sync::Mutex;
@@ -49,7 +50,7 @@ fn end_at_once() -> ! {
 /// Says what is about to be done, as it may take longer than a second.
 pub fn doing(what: &str) {
     // A reader that closed the pipe early is no reason to stop.
-    let _ = writeln!(std::io::stderr(), "{what} …");
+    let _ = writeln!(std::io::stderr(), "{} …", shown(what));
 }
 
 /// How often it is said how far units are, where there is no terminal for a bar.
@@ -98,7 +99,7 @@ impl Progress for Bar {
         let bar = ProgressBar::with_draw_target(Some(total as u64), ProgressDrawTarget::stderr_with_hz(10));
         let style = ProgressStyle::with_template("{msg} [{bar:30}] {pos}/{len} units, {eta} left");
         bar.set_style(style.expect("the template is well formed").progress_chars("=> "));
-        bar.set_message(what.to_owned());
+        bar.set_message(shown(what).into_owned());
         if bar.is_hidden() && total > 0 {
             doing(&format!("{what}: {}", counted(total, UNITS)));
         }
@@ -123,7 +124,7 @@ impl Progress for Bar {
         let seconds = bar.elapsed().as_secs_f64();
         bar.finish_and_clear();
         if std::io::stderr().is_terminal() || done > 0 {
-            eprintln!("{what}: {} in {seconds:.1} s", counted(done as usize, UNITS));
+            eprintln!("{}: {} in {seconds:.1} s", shown(&what), counted(done as usize, UNITS));
         }
     }
 }

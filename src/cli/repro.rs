@@ -1,5 +1,6 @@
 //! `replan repro`: from the spec to the verdicts.
 
+use super::consent::Consent;
 use super::counted;
 use super::drawn::Drawn;
 use super::load::load;
@@ -26,6 +27,8 @@ pub struct Repro {
     how: How,
     #[command(flatten)]
     again: Again,
+    #[command(flatten)]
+    consent: Consent,
     /// Run one trial, print it, and compare it with its stored row
     #[arg(long, value_name = "STUDY/TRIAL")]
     trial: Option<String>,
@@ -40,6 +43,7 @@ impl Repro {
         MadeBy::here();
         let places = Places::find(&self.which, &self.how.variant())?;
         let paper = load(&places, &self.how)?;
+        self.consent.check(&paper.studies, &places)?;
         if let Some(name) = &self.trial {
             return trial::run(&paper, &places, &self.how, name);
         }

@@ -1,5 +1,6 @@
 //! `replan run`: the trials, and nothing after them.
 
+use super::consent::Consent;
 use super::load::load;
 use super::places::Places;
 use super::progress::{Bar, doing, stop_flag};
@@ -27,6 +28,8 @@ pub struct Run {
     how: How,
     #[command(flatten)]
     again: Again,
+    #[command(flatten)]
+    consent: Consent,
     /// Time every stored study with `[timing]` once more, as a session of its own; run nothing else
     #[arg(long, conflicts_with_all = ["fresh", "shard"])]
     clock: bool,
@@ -45,11 +48,12 @@ impl Run {
         if let (Some((number, of)), Some(folder)) = (self.shard, &self.which.out) {
             check_is_run(folder)?;
             let sharded = Sharded::load(&self.which.paper, &self.how)?;
-            return sharded.run_shard((number, of), folder, self.again, self.why);
+            return sharded.run_shard((number, of), folder, (self.again, self.consent), self.why);
         }
         let places = Places::find(&self.which, &self.how.variant())?;
         let paper = load(&places, &self.how)?;
         self.how.check_interpretations(&paper)?;
+        self.consent.check(&paper.studies, &places)?;
         let lock = Lock::take(&places.runs)?;
         if self.clock {
             return between_notes(&paper, &lock, || read_clocks(&paper, &places, &self.how, &lock));

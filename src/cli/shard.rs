@@ -1,5 +1,6 @@
 //! `replan shard`: a run cut into shards, and the script that runs them on one machine or many.
 
+use super::consent::Consent;
 use super::explorer::Explorer;
 use super::one_shard;
 use super::rounds::Round;
@@ -19,6 +20,8 @@ pub struct Shard {
     paper: String,
     #[command(flatten)]
     how: How,
+    #[command(flatten)]
+    consent: Consent,
     /// Split `replan explore` instead, round by round
     #[arg(long, conflicts_with_all = ["quick", "seed", "interpretations", "confirm"])]
     explore: bool,
@@ -57,6 +60,7 @@ impl Shard {
     pub fn run(self) -> Result<(), Failure> {
         MadeBy::here();
         let sharded = self.sharded()?;
+        self.consent.check(sharded.studies_alone(), &sharded.places)?;
         let shards = self.shards as usize;
         let folder = sharded.folder(&self.out);
         let plan = Plan::agreed(&folder, &sharded.wanted(shards), &sharded.studies()?)?;
@@ -117,6 +121,11 @@ impl Shard {
         let mut run = plan.arguments(folder, &format!("{number}/{shards}"));
         run.extend(["--threads".to_owned(), threads.to_string()]);
         let mut merge = ["merge", &shown(&self.out)].map(str::to_owned).to_vec();
+        if self.consent.is_large_allowed() {
+            for words in [&mut run, &mut merge] {
+                words.push("--allow-large".to_owned());
+            }
+        }
         merge.extend(self.merge.iter().flat_map(|out| ["--out".to_owned(), shown(out)]));
         let in_shell = |word: &String| {
             // The script itself fills the number in.

@@ -1,5 +1,6 @@
 //! What is cut into shards: the studies of a run, or of one round of an exploration, as they would run whole.
 
+use super::consent::Consent;
 use super::load::load;
 use super::places::Places;
 use super::progress::{Bar, doing, stop_flag};
@@ -103,6 +104,11 @@ impl Sharded {
         Ok(studies)
     }
 
+    /// The studies.
+    pub fn studies_alone(&self) -> impl Iterator<Item = &Study> + Clone {
+        self.runs.iter().map(|(study, _)| study)
+    }
+
     /// Runs the shard `number` of `of` into its own part of `folder`.
     ///
     /// # Errors
@@ -111,9 +117,10 @@ impl Sharded {
         &self,
         (number, of): (usize, usize),
         folder: &Path,
-        again: Again,
+        (again, consent): (Again, Consent),
         why: bool,
     ) -> Result<(), Failure> {
+        consent.check(self.studies_alone(), &self.places)?;
         let (plan, portions) = {
             let studies = self.studies()?;
             let plan = Plan::agreed(folder, &self.wanted(of), &studies)?;

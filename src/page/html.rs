@@ -1,9 +1,11 @@
 //! Text as HTML that shows it literally.
 
-/// `text` in which nothing is taken for a tag, an entity or the end of an attribute.
+use base::text::shown;
+
+/// `text` in which nothing is taken for a tag, an entity or the end of an attribute, and characters that act are named.
 pub fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
-    for character in text.chars() {
+    for character in shown(text).chars() {
         match character {
             '&' => safe += "&amp;",
             '<' => safe += "&lt;",
@@ -40,6 +42,7 @@ mod tests {
         let html = prose(nasty, |code| code == "zhang");
         assert!(!html.contains("<script") && !html.contains("a<b"), "{html}");
         assert!(html.contains("<a href=\"#claim=zhang\"><code>zhang</code></a>"), "{html}");
+        assert_eq!(escaped("a\u{1b}[2J\u{202e}b"), "a‹escape›[2J‹U+202E›b");
         assert!(!escaped(nasty).contains(['<', '>', '"', '\'']), "{}", escaped(nasty));
     }
 

@@ -4,6 +4,7 @@ use super::RenderError;
 use super::chart::marks::Line;
 use super::chart::rows::Interval;
 use super::chart::{Axis, Panel, Sheet};
+use super::prose;
 use super::style::{INK, Stroke, Width, series_color, series_marker};
 use super::vector::{Figure, Provenance};
 use crate::analysis::compare::{Cell, Change, Comparison, Measured, Outcome, Passed};
@@ -48,7 +49,7 @@ pub fn markdown(of: &Comparison) -> String {
         let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
         let head = line(table.head.iter().map(|name| (*name).to_owned()).collect());
         let rule = line(vec!["---".to_owned(); table.head.len()]);
-        let escaped = |row: &Vec<String>| line(row.iter().map(|cell| cell.replace('|', "\\|")).collect());
+        let escaped = |row: &Vec<String>| line(row.iter().map(|cell| prose::markdown(cell)).collect());
         format!("### {}\n\n{head}{rule}{}", table.title, table.rows.iter().map(escaped).collect::<String>())
     };
     written(of, tabled, "- ")

@@ -7,14 +7,16 @@ mod table;
 pub use table::{Cell, Column, Table};
 
 use super::RenderError;
+use base::text::{one_line, shown};
 use std::collections::BTreeMap;
 
-/// `text` as LaTeX shows it literally: special characters escaped, known signs in mathematics mode.
+/// `text` as LaTeX shows it literally: special characters escaped, known signs in mathematics mode,
+/// characters that act named.
 ///
 /// Signs of Unicode that have no entry here are kept; a UTF-8 source with a rich font shows them.
 pub fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
-    for character in text.chars() {
+    for character in shown(text).chars() {
         match literal(character) {
             Some(latex) => safe.push_str(latex),
             None => safe.push(character),
@@ -135,14 +137,19 @@ impl Numbers {
     /// [`RenderError::EmptyMacro`] if the prefix gives no name.
     pub fn latex(&self, prefix: &str, made: &str) -> Result<String, RenderError> {
         let prefix = macro_name(prefix)?;
-        let mut text = made.lines().fold(String::new(), |all, line| all + "% " + line + "\n");
+        let mut text = comment(made);
         for (name, [key, value, what]) in &self.macros {
             let value = escaped(value);
-            let what = what.replace('\n', " ");
-            text += &format!("\\newcommand{{\\{prefix}{name}}}{{{value}}} % {key}: {what}\n");
+            let what = comment(&format!("{key}: {}", what.replace('\n', " ")));
+            text += &format!("\\newcommand{{\\{prefix}{name}}}{{{value}}} {what}");
         }
         Ok(text)
     }
+}
+
+/// `text` as comments, a line each: nothing in it ends the comment.
+fn comment(text: &str) -> String {
+    text.lines().fold(String::new(), |all, line| all + "% " + &one_line(line) + "\n")
 }
 
 /// `name` with a capital first letter.

@@ -9,6 +9,7 @@ use super::{RenderError, marks};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::Verdicts;
 use base::settings::did_you_mean;
+use base::text::shown;
 use rayon::prelude::*;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -230,7 +231,8 @@ pub fn chapter(
     let plots =
         plots.components().map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/");
     let page = Page { evidence, verdicts, plots, undrawn, beside: beside(folder) };
-    let details = Output { name: "details.md".to_owned(), bytes: page.details(&back).into_bytes() };
+    let details = shown(&page.details(&back)).into_owned();
+    let details = Output { name: "details.md".to_owned(), bytes: details.into_bytes() };
     Ok((page.chapter()?, details))
 }
 

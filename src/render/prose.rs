@@ -1,6 +1,7 @@
 //! Text: a paper's own words with our numbers put in, Markdown that shows text as it is, and lines of limited length.
 
 use crate::analysis::verdict::{ClaimVerdict, Verdicts};
+use base::text::shown;
 use study::paper::{OVER_INTERPRETATIONS, filled};
 
 /// Paragraphs and lists are broken into lines of so many characters.
@@ -46,9 +47,9 @@ pub fn number(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text }
 }
 
-/// `text` as Markdown that shows it literally, on one line; what stands between backticks is code.
+/// `text` as Markdown that shows it literally, on one line, characters that act named; what stands between backticks is code.
 pub fn markdown(text: &str) -> String {
-    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let text = shown(text).split_whitespace().collect::<Vec<_>>().join(" ");
     let pieces: Vec<&str> = text.split('`').collect();
     let is_code = pieces.len() % 2 == 1 && pieces.iter().skip(1).step_by(2).all(|code| !code.is_empty());
     if !is_code {

@@ -11,6 +11,7 @@ pub use interpretations::across_lines;
 use super::prose::{COLUMNS, markdown, wrapped};
 use crate::analysis::verdict::{ClaimVerdict, Verdicts};
 use crate::analysis::verdict_rule::Column;
+use base::text::shown;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -74,9 +75,9 @@ fn touched(path: &Path, what: &str) -> StudyError {
 /// [`StudyError::Touched`] with the line if the markers of its chapters do not pair up.
 pub fn with_chapter(path: &Path, report: &str, name: &str, chapter: &Chapter) -> Result<String, StudyError> {
     let put = || {
-        let overview = overview(chapters::chapter(report, OVERVIEW)?, name, &chapter.line);
+        let overview = overview(chapters::chapter(report, OVERVIEW)?, name, &shown(&chapter.line));
         let report = chapters::with_chapter(report, OPENING, OVERVIEW, &overview)?;
-        chapters::with_chapter(&report, OPENING, name, &chapter.text)
+        chapters::with_chapter(&report, OPENING, name, &shown(&chapter.text))
     };
     put().map_err(|error: chapters::MarkerError| touched(path, &error.to_string()))
 }

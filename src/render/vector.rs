@@ -8,6 +8,7 @@ use super::RenderError;
 use super::font::Weight;
 use super::style::HAIR_PT;
 use crate::render::palette;
+use base::text::shown;
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg;
 
@@ -36,10 +37,10 @@ pub struct Figure {
     pub flaws: Vec<String>,
 }
 
-/// `text` with XML's five special characters and control characters made harmless.
+/// `text` with XML's five special characters made harmless, ends of lines as spaces, and characters that act named.
 pub(super) fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
-    for character in text.chars() {
+    for character in shown(text).chars() {
         match character {
             '<' => safe.push_str("&lt;"),
             '>' => safe.push_str("&gt;"),

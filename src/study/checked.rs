@@ -5,6 +5,7 @@ mod each;
 mod load;
 mod shared;
 mod sizes;
+mod work;
 
 use super::choice::{self, Choice, Interpretation};
 use super::contender::{Contender, Sweep, SweepPoint};

@@ -4,6 +4,7 @@ mod arm;
 mod law;
 mod marks;
 mod scripts;
+mod trust;
 
 use crate::paper::Bench;
 use scripts::{CASES, Case, PRELUDE, SHORTER, SILENT};
@@ -85,7 +86,8 @@ fn check(row: &Row, case: &Case) {
 fn every_way_to_misbehave_is_the_status_of_one_row_and_costs_no_other_trial() {
     let cases: Vec<&Case> = CASES.iter().collect();
     let bench = bench(&cases);
-    let run = bench.command(&["run", "./outside"]).env("REPLAN_TEST_SECRET", "secret").output().unwrap();
+    let run =
+        bench.command(&["run", "./outside", "--trust"]).env("REPLAN_TEST_SECRET", "secret").output().unwrap();
     assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
     let rows = rows(&bench);
     assert_eq!(rows.len(), cases.len() + 1);
@@ -120,7 +122,7 @@ fn replan_interrupted_or_killed_takes_its_planners_with_it() {
     for (signal, code) in [("INT", Some(130)), ("TERM", Some(130)), ("KILL", None)] {
         let bench = bench(&[&case]);
         bench.edit("outside/study.toml", "time_s = 0.5", "time_s = 600.0");
-        let mut run = bench.command(&["run", "./outside"]).spawn().unwrap();
+        let mut run = bench.command(&["run", "./outside", "--trust"]).spawn().unwrap();
         assert!(soon(|| alive("sleep 770012").len() == 1), "{signal}: the planner was not seen");
         let kill =
             std::process::Command::new("kill").args([&format!("-{signal}"), &run.id().to_string()]).status();
@@ -148,7 +150,7 @@ fn a_path_shorter_than_the_optimum_is_refused_with_the_end_of_the_planners_log()
         bench.edit("outside/study.toml", "any_angle = true", &format!("any_angle = {any_angle}"));
         let ends = format!("start = {start:?}, goal = {goal:?}");
         bench.edit("outside/study.toml", "start = [0, 1], goal = [299, 200]", &ends);
-        bench.done(&["run", "./outside"]);
+        bench.done(&["run", "./outside", "--trust"]);
         let rows = rows(&bench);
         let row = &rows[SHORTER.name];
         check(row, &SHORTER);
@@ -162,7 +164,7 @@ fn a_path_shorter_than_the_optimum_is_refused_with_the_end_of_the_planners_log()
 #[test]
 fn a_planner_that_never_says_hello_is_given_up_after_ten_seconds() {
     let bench = bench(&[&SILENT]);
-    bench.done(&["run", "./outside"]);
+    bench.done(&["run", "./outside", "--trust"]);
     let rows = rows(&bench);
     check(&rows[SILENT.name], &SILENT);
     assert!(rows["A*"].is_solved());
@@ -172,17 +174,17 @@ fn a_planner_that_never_says_hello_is_given_up_after_ten_seconds() {
 fn recorded_trials_are_kept_by_fresh_and_run_again_by_record_or_where_a_file_changed() {
     let good = CASES.iter().find(|case| case.name == "good").unwrap();
     let bench = bench(&[good]);
-    bench.done(&["run", "./outside"]);
+    bench.done(&["run", "./outside", "--trust"]);
     let clock = |bench: &Bench| rows(bench)["good"].value("solve_wall_ns").unwrap();
     let first = clock(&bench);
-    bench.done(&["run", "./outside", "--fresh"]);
+    bench.done(&["run", "./outside", "--trust", "--fresh"]);
     assert_eq!(clock(&bench), first, "--fresh ran a recorded trial again");
-    bench.done(&["run", "./outside", "--record"]);
+    bench.done(&["run", "./outside", "--trust", "--record"]);
     let second = clock(&bench);
     assert_ne!(second, first, "--record kept a recorded trial");
     let text = fs::read_to_string(bench.at("outside/good.sh")).unwrap();
     bench.write("outside/good.sh", format!("{text}# another\n").as_bytes());
-    bench.done(&["run", "./outside"]);
+    bench.done(&["run", "./outside", "--trust"]);
     assert_ne!(clock(&bench), second, "a changed program's trial was kept");
 }
 
@@ -193,7 +195,7 @@ fn without_its_program_a_run_says_what_to_install_and_stored_trials_stay_readabl
     let study =
         STUDY.to_owned() + &contender("theirs", program, "[]").replace("a shell", "pip install theirs");
     bench.write("outside/study.toml", study.as_bytes());
-    let said = bench.run(&["run", "./outside"]);
+    let said = bench.run(&["run", "./outside", "--trust"]);
     assert_eq!(said.code, Some(4), "{}", said.err);
     let lacks = "contender `theirs` cannot run: there is no program `./outside/planner`; to install: pip install theirs";
     assert!(said.err.contains(lacks), "{}", said.err);
@@ -202,9 +204,9 @@ fn without_its_program_a_run_says_what_to_install_and_stored_trials_stay_readabl
     let mut mode = fs::metadata(bench.at("outside/planner")).unwrap().permissions();
     std::os::unix::fs::PermissionsExt::set_mode(&mut mode, 0o755);
     fs::set_permissions(bench.at("outside/planner"), mode).unwrap();
-    bench.done(&["run", "./outside"]);
+    bench.done(&["run", "./outside", "--trust"]);
     fs::remove_file(bench.at("outside/planner")).unwrap();
-    bench.done(&["run", "./outside"]);
+    bench.done(&["run", "./outside", "--trust"]);
     bench.done(&["judge", "./outside"]);
     assert!(rows(&bench)["theirs"].is_solved());
 }

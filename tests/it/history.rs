@@ -121,7 +121,7 @@ fn a_change_is_reported_where_trials_are_recorded_and_recorded_again() {
                    files = [], version = \"1\", time_s = 5.0, memory_mb = 128, output_mb = 4, install = \"a shell\" }\n\n[[contender]]";
     bench.edit("mini/draws.toml", "\n[[contender]]", outside);
     bench.edit("mini/draws.toml", "instances = 24", "instances = 12");
-    let first = bench.done(&["repro", "./mini"]);
+    let first = bench.done(&["repro", "./mini", "--trust"]);
     assert!(!first.contains("Changed after"), "{first}");
     bench.edit(PAPER, "margin = 0.25", "margin = 3.0");
     for again in [&[][..], &["--fresh"], &["--record"], &["--fresh", "--record"]] {

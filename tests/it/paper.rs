@@ -255,6 +255,7 @@ impl Bench {
     pub fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_replan"));
         command.current_dir(self.folder.path()).args(arguments);
+        command.env("XDG_STATE_HOME", self.at("state"));
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         command
     }

@@ -5,13 +5,16 @@
 use super::nearest::{did_you_mean, nearest};
 use super::renamed::renamed_key;
 use super::schema::Node;
-use crate::text::{brief, unseen, written};
+use crate::text::{acts, brief, fault_of_name, written};
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// The largest number, either way, that is accepted where none is said: a thousand kilometres in millimetres.
 const LARGEST: f64 = 1e9;
+
+/// The keys whose values are names: they stand in tables, in messages and in names of files.
+const OF_NAMES: [&str; 3] = ["id", "label", "name"];
 
 /// Something that is not accepted.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -171,13 +174,6 @@ fn tag_word<'a>(branch: Node<'a>, key: &str) -> Option<&'a str> {
     branch.property(key)?.text("const")
 }
 
-/// Whether it does something to a terminal or a page instead of being seen: all control characters but ends of lines and tabs, and
-/// those that turn the direction of reading.
-fn acts(c: char) -> bool {
-    let turns = matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    turns || (c.is_control() && unseen(c).is_some())
-}
-
 fn plain(node: Node<'_>, subject: Subject<'_>, found: &mut FoundFaults) {
     let words = node.words();
     if !words.is_empty() {
@@ -197,11 +193,16 @@ fn plain(node: Node<'_>, subject: Subject<'_>, found: &mut FoundFaults) {
     match subject.value.get_ref() {
         DeValue::Table(table) => keys(node, subject, table, found),
         DeValue::Array(elements) => array(node, subject, elements, found),
-        DeValue::String(text) if text.chars().any(acts) => found.push(|| {
+        DeValue::String(text) if text.contains(acts) => found.push(|| {
             let message =
                 format!("`{}` holds a control character; text that can be seen is accepted", subject.name);
             Fault::new(subject.span(), message)
         }),
+        DeValue::String(name) if OF_NAMES.contains(&subject.name) => {
+            if let Some(fault) = fault_of_name(name) {
+                found.push(|| Fault::new(subject.span(), format!("`{}` {fault}", subject.name)));
+            }
+        }
         value => {
             if number(value).is_some_and(|number| number.is_finite() && !is_usable(node, number)) {
                 found.push(|| refused(subject, &node.accepted_within(LARGEST)));
@@ -248,6 +249,10 @@ fn keys(node: Node<'_>, subject: Subject<'_>, table: &DeTable<'_>, found: &mut F
     for (key, value) in table {
         let name = key.get_ref().as_ref();
         let span = key.span();
+        if let Some(fault) = fault_of_name(name) {
+            found.push(|| Fault::new(span, format!("the key `{}` {fault}", brief(name))));
+            continue;
+        }
         match node.property(name).or(other) {
             Some(part) if !part.refuses_all() => {
                 check(part, Subject { name, key: Some(&span), value }, found);

@@ -1,6 +1,6 @@
 //! Tables as wide as the text: `tabularx` breaks their cells, `booktabs` rules them.
 
-use super::{RenderError, escaped};
+use super::{RenderError, comment, escaped};
 
 /// Where a column's cells stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,7 +110,7 @@ impl Table {
     /// # Errors
     /// [`RenderError::RowWidth`] if a line does not fill the columns.
     pub fn latex(&self, made: &str) -> Result<String, RenderError> {
-        let comment: String = made.lines().fold(String::new(), |all, line| all + "% " + line + "\n");
+        let comment = comment(made);
         let caption = escaped(&self.caption);
         let label = &self.label;
         let widths = self.widths();

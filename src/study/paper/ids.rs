@@ -4,16 +4,16 @@
 use super::Paper;
 use super::rules::names_of;
 use base::settings::{Document, Faults};
-use base::text::brief;
+use base::text::{MOST_OF_NAME, brief};
 use std::collections::BTreeSet;
 
 /// What is wrong with `name`, which stands in tables and links, if anything is.
 fn wrong(what: &str, name: &str) -> Option<String> {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '.' | '-');
-    let is_accepted = !name.is_empty() && name.chars().all(is_plain);
+    let is_accepted = (1..=MOST_OF_NAME).contains(&name.len()) && name.chars().all(is_plain);
     (!is_accepted).then(|| {
         format!(
-            "the {what} is called \"{}\"; one or more of a to z, A to Z, 0 to 9, `_`, `.` and `-` are accepted as its name",
+            "the {what} is called \"{}\"; 1 to {MOST_OF_NAME} of a to z, A to Z, 0 to 9, `_`, `.` and `-` are accepted as its name",
             brief(name).escape_debug()
         )
     })

@@ -82,7 +82,7 @@ fn a_planner_from_outside_plans_for_the_arm_and_one_that_does_not_ask_is_refused
     }
     bench.write("outside/paper.toml", PAPER.as_bytes());
     bench.write("outside/study.toml", study.as_bytes());
-    bench.done(&["run", "./outside"]);
+    bench.done(&["run", "./outside", "--trust"]);
     let asks = rows(&bench, "asks");
     let blind = rows(&bench, "blind");
     assert_eq!((asks.len(), blind.len()), (10, 10));

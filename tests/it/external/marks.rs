@@ -60,7 +60,7 @@ fn project() -> Bench {
 #[test]
 fn a_study_bound_to_a_clock_says_so_wherever_it_is_shown() {
     let bench = project();
-    bench.done(&["repro", "outside"]);
+    bench.done(&["repro", "outside", "--trust"]);
     let mark = "Bound to a clock, so recorded and not repeated: theirs.";
     let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     let read = |name: &str| words(&fs::read_to_string(bench.at(name)).unwrap());
@@ -75,7 +75,7 @@ fn a_study_bound_to_a_clock_says_so_wherever_it_is_shown() {
     assert_eq!(said.code, Some(3), "{}{}", said.out, said.err);
     assert!(format!("{}{}", said.out, said.err).contains("`recorded` is not what the study"), "{}", said.out);
     // The next run puts the mark back, and runs no trial for it.
-    let said = bench.done(&["run", "outside"]);
+    let said = bench.done(&["run", "outside", "--trust"]);
     assert!(said.contains("study: 2 trials (1 of 1 units reused)"), "{said}");
     assert!(read(manifest).contains("recorded = [\"theirs\"]"), "{}", read(manifest));
 }
@@ -83,7 +83,7 @@ fn a_study_bound_to_a_clock_says_so_wherever_it_is_shown() {
 #[test]
 fn a_table_shows_what_a_roadmap_cost_those_who_search_it_and_nobody_else() {
     let bench = project();
-    bench.done(&["repro", "outside"]);
+    bench.done(&["repro", "outside", "--trust"]);
     let (_, records) = reuse::stored(&bench.at("data/runs/outside"), "study").unwrap();
     let parts = records.batch.preprocessing[0].values.get("components").unwrap().as_f64();
     assert!(parts >= 1.0, "{parts} parts");

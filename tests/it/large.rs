@@ -1,0 +1,56 @@
+//! Studies that ask for more than people mean by accident are refused before anything runs, unless people say that they mean it.
+
+use crate::paper::{Bench, committed};
+use std::path::Path;
+use study::Inputs;
+use study::paper::Paper;
+
+#[test]
+fn no_study_of_a_committed_paper_comes_near_the_limits() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut most = 0.0_f64;
+    for name in committed() {
+        let folder = root.join("experiments").join(name);
+        let inputs = Inputs { roots: vec![folder.clone(), root.to_owned()] };
+        for study in Paper::load(&folder, &inputs).unwrap().studies {
+            let work = study.work(&inputs).unwrap();
+            println!("{} {} {work:?}", study.paper, study.name);
+            assert_eq!(work.excess(), None, "{}/{}: {work:?}", study.paper, study.name);
+            most = most.max(work.trials);
+        }
+    }
+    assert!(most > 10_000.0, "no trials were counted: {most}");
+}
+
+#[test]
+fn a_study_beyond_the_limits_is_refused_by_every_command_that_runs_and_runs_where_people_allow_it() {
+    let bench = Bench::new();
+    for (from, to, excess) in [
+        ("instances = 24", "instances = 600_000", "asks for about 1.2e6 trials, above 1e6"),
+        ("size_cells = [12, 12]", "size_cells = [4000, 4000]", "asks for about 1.2 GB a thread, above 1 GB"),
+        ("problems = 2\nrepeats = 2", "problems = 24\nrepeats = 100_000", "4.8e6 trials, above 1e6"),
+    ] {
+        let before = std::fs::read(bench.at("mini/draws.toml")).unwrap();
+        bench.edit("mini/draws.toml", from, to);
+        for command in [
+            &["check", "./mini"][..],
+            &["run", "./mini"],
+            &["run", "./mini", "--shard", "1/2", "--out", "parts"],
+            &["repro", "./mini"],
+            &["confirm", "./mini"],
+            &["shard", "./mini", "--engine", "parallel", "--out", "parts", "--merge", "merged"],
+        ] {
+            let refused = bench.run(command);
+            assert_eq!(refused.code, Some(2), "{to}: {command:?}: {}{}", refused.out, refused.err);
+            let is_told =
+                refused.err.contains(excess) && refused.err.contains("`--allow-large` accepts that");
+            assert!(is_told, "{to}: {command:?}: {}", refused.err);
+        }
+        assert!(!bench.at("target").exists() && !bench.at("parts").exists(), "{to}: something was written");
+        bench.done(&["check", "./mini", "--allow-large"]);
+        bench.write("mini/draws.toml", &before);
+    }
+    bench.edit("mini/draws.toml", "problems = 2\nrepeats = 2", "problems = 24\nrepeats = 100_000");
+    bench.edit("mini/draws.toml", "[quick]", "[quick]\ntiming = { problems = 1, repeats = 1 }");
+    bench.done(&["repro", "./mini", "--quick"]);
+}
