@@ -95,6 +95,9 @@ pub(super) struct ColumnSpec {
     pub(super) unit: Option<String>,
     /// What its cells are if they are no claims.
     pub(super) none: Option<String>,
+    /// Two columns of which the first has more than the second by what stands here: a column that the paper does not print. Rows have
+    /// no cell for it, and a table of its own shows it.
+    pub(super) difference: Option<[Spanned<String>; 2]>,
     /// What the paper leaves out, if that makes its cells untestable.
     pub(super) untestable: Option<String>,
     /// The trials that criteria look at: laid under their `of`.
