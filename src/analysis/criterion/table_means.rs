@@ -136,6 +136,8 @@ struct RowResult<'a> {
     test: Option<(f64, usize, usize)>,
     /// The cells that say most, in words.
     loudest: Vec<String>,
+    /// The cell that is farthest from what is printed, by its place in the row.
+    farthest: usize,
     /// Exact cells that do not print as the paper's.
     refused: Vec<&'a str>,
     /// By what share every number of the row would have to be off to be refused alone, T² at a share of one.
@@ -171,17 +173,20 @@ impl<'a> TableMeans<'a> {
         let prints = |cell: usize| row[cell].mean.rounded.contains(first[cell]);
         let refused: Vec<&str> =
             exact.iter().filter(|cell| !prints(**cell)).map(|cell| row[*cell].id).collect();
+        let first_refused = exact.iter().copied().find(|cell| !prints(*cell)).unwrap_or_default();
         let label = row[0].mean.of.groups.join(", ");
         let instances: Vec<Vec<f64>> =
             units.iter().map(|unit| moving.iter().map(|cell| unit[*cell]).collect()).collect();
         let rounding: Vec<f64> = moving.iter().map(|cell| row[*cell].mean.rounded.half_width()).collect();
         let p_exact = f64::from(u8::from(refused.is_empty()));
         if moving.is_empty() && units.len() >= FEWEST_NORMAL {
+            let loudest = Vec::new();
             return Some(RowResult {
                 label,
                 p: p_exact,
                 test: None,
-                loudest: Vec::new(),
+                loudest,
+                farthest: first_refused,
                 refused,
                 power: None,
             });
@@ -196,10 +201,12 @@ impl<'a> TableMeans<'a> {
             Some(from) => format!("{} less {} {errors:+.1} σ", name(cell), name(from)),
         };
         let loudest = test.loudest(&apart, 3).into_iter().map(spoken).collect();
+        let far = test.loudest(&apart, 1).first().map_or(0, |far| moving[far.cell]);
+        let farthest = if refused.is_empty() { far } else { first_refused };
         let p = test.probability(statistic) * p_exact;
         let at_one = test.statistic(&test.means);
         let shape = Some((statistic, moving.len(), units.len()));
-        Some(RowResult { label, p, test: shape, loudest, refused, power: Some((test, at_one)) })
+        Some(RowResult { label, p, test: shape, loudest, farthest, refused, power: Some((test, at_one)) })
     }
 
     /// From how many per cent on a table that is off by as much in every cell would have been refused.
@@ -252,6 +259,18 @@ impl<'a> TableMeans<'a> {
     }
 }
 
+impl TableMeans<'_> {
+    /// A trial near our mean in the cell that is farthest from what is printed, of the row that fits least.
+    fn shown(&self, rows: &[RowResult<'_>], evidence: &Evidence<'_>) -> Option<String> {
+        let (row, cells) = rows.iter().zip(&self.rows).min_by(|one, other| one.0.p.total_cmp(&other.0.p))?;
+        let cell = &cells[row.farthest].mean;
+        let instances = cell.of.instances(evidence);
+        let numbers = by_instance(&instances, |case| cell.number(case));
+        let middle = mean(&numbers.concat())?;
+        selection::nearest(&cell.of, evidence, &instances, |case| cell.number(case), middle)
+    }
+}
+
 impl Criterion for TableMeans<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
         let drawn: Vec<_> = self.selections().iter().map(|of| of.instances(evidence)).collect();
@@ -272,6 +291,7 @@ impl Criterion for TableMeans<'_> {
         CriterionResult {
             outcome: Some(if is_kept { Outcome::Holds } else { Outcome::Fails }),
             ours: Some(ours.of_cases(solved(&drawn.into_iter().flatten().collect::<Vec<_>>()))),
+            trial: self.shown(&rows, evidence),
             because: self.because(&rows, p),
             units: "instances",
             censored: unended,

@@ -35,6 +35,8 @@ pub(super) struct TableSpec {
     pub(super) none: Option<String>,
     /// What the paper leaves out, if that makes its cells untestable.
     pub(super) untestable: Option<String>,
+    /// What was changed in how its cells are judged after a run had been seen, and why.
+    pub(super) changed_after_run: Option<String>,
     /// The trials that criteria look at: laid under their `of`.
     #[serde(default)]
     #[schemars(with = "AnyTable")]

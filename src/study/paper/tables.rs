@@ -20,6 +20,8 @@ pub struct PrintedTable {
     pub id: String,
     /// What it shows.
     pub caption: String,
+    /// Whether it shows differences of columns, which the paper does not print.
+    pub compares: bool,
     /// What stands below it.
     pub notes: Vec<String>,
     /// With how many decimals our numbers are shown.
@@ -200,7 +202,8 @@ pub(super) fn printed(
         if !compared.is_empty() {
             let shown = table.shown(differences(table), compared);
             let caption = format!("{}; differences of columns", shown.caption.trim_end_matches('.'));
-            tables.push(PrintedTable { id: format!("{}_differences", table.id), caption, ..shown });
+            let id = format!("{}_differences", table.id);
+            tables.push(PrintedTable { id, caption, compares: true, ..shown });
         }
     }
     (claims, tables)
@@ -315,7 +318,7 @@ impl TableSpec {
             untestable: own.untestable.clone(),
             theorem: None,
             difference: None,
-            changed_after_run: own.changed_after_run.clone(),
+            changed_after_run: own.changed_after_run.clone().or_else(|| self.changed_after_run.clone()),
             holds_when: own.holds_when.clone(),
             asked,
             parts: Parts::Cells(parts),
@@ -340,6 +343,7 @@ impl TableSpec {
         PrintedTable {
             id: self.id.clone(),
             caption: self.caption.clone(),
+            compares: false,
             notes: self.notes.clone(),
             decimals: self.decimals.unwrap_or(2),
             columns,
@@ -421,7 +425,7 @@ impl Cell<'_> {
             untestable,
             theorem: None,
             difference: None,
-            changed_after_run: own.changed_after_run.clone(),
+            changed_after_run: own.changed_after_run.clone().or_else(|| table.changed_after_run.clone()),
             holds_when: own.holds_when.clone(),
             asked,
             parts: Parts::None,
