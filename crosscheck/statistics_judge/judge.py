@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from statistics_judge import across, classes, medians, printed_cells, shares, sizes
+from statistics_judge import across, classes, means, medians, printed_cells, shares, sizes
 from statistics_judge.found import FEWEST_INSTANCES, Asked, Estimate, Found
 from statistics_judge.records import Paper, Study
 from statistics_judge.selection import labels, select
@@ -15,11 +15,13 @@ CRITERIA: dict[str, Callable[[Asked], Found]] = {
     "exists": medians.exists,
     "least_of": medians.least_of,
     "lower": sizes.lower,
+    "mean_of": means.mean_of,
     "on_every": shares.on_every,
     "one_instance": printed_cells.one_instance,
     "prints_as": printed_cells.prints_as,
     "row_one_instance": printed_cells.row_one_instance,
     "share": shares.share_within,
+    "table_means": means.table_means,
     "trend": sizes.trend,
     "within": sizes.within,
 }
@@ -164,7 +166,8 @@ def is_not_run(paper: Paper, claim: dict[str, Any], studies: list[Study]) -> boo
 def is_few(name: str, settings: dict[str, Any], found: Found) -> bool:
     """Whether an interval that is not exact rests on too few instances."""
     resampled = (
-        name in ("lower", "share", "trend", "within") and settings.get("statistic") != "ratio_of_groups"
+        name in ("lower", "mean_of", "share", "trend", "within")
+        and settings.get("statistic") != "ratio_of_groups"
     )
     ours = found.estimate
     if found.few:

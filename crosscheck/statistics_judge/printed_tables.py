@@ -2,6 +2,7 @@
 
 import copy
 from collections.abc import Iterator
+from decimal import Decimal
 from typing import Any
 
 Settings = dict[str, Any]
@@ -19,11 +20,12 @@ def claims_of(paper: Settings) -> list[Settings]:
 
 def of_table(table: Settings) -> Iterator[Settings]:
     """The claims of one table."""
-    columns = [
+    every = [
         (column, name)
         for column in table["column"]
         for name in ([column["id"]] if isinstance(column["id"], str) else column["id"])
     ]
+    columns = [(column, name) for column, name in every if "difference" not in column]
     begin = table.get("claims", table["id"])
     for row in table["row"]:
         cells = [
@@ -31,12 +33,35 @@ def of_table(table: Settings) -> Iterator[Settings]:
             for printed, (column, name) in zip(row["printed"], columns, strict=True)
             if printed != "N/A" and "none" not in table and "none" not in column
         ]
+        cells += differences((table, row), every, cells)
         parts = [cell["id"] for cell in cells if "untestable" not in cell] + row.get("with", [])
         if len(parts) > 1:
             whole = {"id": f"{begin}.{row['id']}", **row.get("whole", {}), "cells": parts}
             layers = [{"of": table.get("of", {})}, row.get("whole", {})]
             yield {**whole, **judged(layers, untestable=False, names={"{row}": row["id"]})}
         yield from cells
+
+
+def differences(
+    around: tuple[Settings, Settings], columns: list[tuple[Settings, str]], cells: list[Settings]
+) -> list[Settings]:
+    """The cells of columns that the paper does not print: what one column has more than another."""
+    table, row = around
+    begin = f"{table.get('claims', table['id'])}.{row['id']}"
+    names = {name: row.get("cell", {}).get(name, {}).get("id", f"{begin}.{name}") for _, name in columns}
+    known = {cell["id"]: cell for cell in cells}
+    spoilt = [part["untestable"] for part in (table, row) if "untestable" in part]
+    spoilt_columns = {name for column, name in columns if "untestable" in column}
+    found = []
+    for column, name in columns:
+        of = column.get("difference", [])
+        ids = [names[one] for one in of]
+        if not of or spoilt or {name, *of} & spoilt_columns or not all(one in known for one in ids):
+            continue
+        more, less = (Decimal(known[one]["printed"]) for one in ids)
+        cell = of_cell(names[name], f"{more - less:f}", (table, column, row), name)
+        found.append({**cell, "difference": ids})
+    return found
 
 
 def of_cell(name: str, printed: str, around: tuple[Settings, Settings, Settings], column: str) -> Settings:

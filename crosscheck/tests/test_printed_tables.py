@@ -50,6 +50,40 @@ def test_the_nearest_layer_says_how_a_cell_is_judged() -> None:
     assert claims["c"]["check"]["row_one_draw"]["rows"] == [{"claims": named}]
 
 
+COMPARED = """
+[[table]]
+id = "t"
+check.mean_of = { instances = 5 }
+[[table.column]]
+id = "a"
+[[table.column]]
+id = "b"
+[[table.column]]
+id = "more"
+difference = ["a", "b"]
+of = { contender = "A", against = "B" }
+[[table.row]]
+id = "one"
+printed = ["1.25", "3.5"]
+[[table.row]]
+id = "two"
+printed = ["1", "N/A"]
+[[table.row]]
+id = "three"
+printed = ["1", "2"]
+untestable = "no maps"
+"""
+
+
+def test_what_one_column_has_more_than_another_is_a_cell() -> None:
+    claims = {claim["id"]: claim for claim in claims_of(tomllib.loads(COMPARED))}
+    more = claims["t.one.more"]
+    assert (more["printed"], more["difference"]) == ("-2.25", ["t.one.a", "t.one.b"])
+    assert more["check"]["mean_of"] == {"instances": 5, "of": {"contender": "A", "against": "B"}}
+    assert claims["t.one"]["cells"] == ["t.one.a", "t.one.b", "t.one.more"]
+    assert not {"t.two.more", "t.three.more"} & set(claims)
+
+
 @pytest.mark.parametrize(
     ("text", "met"),
     [

@@ -184,6 +184,7 @@ WITHOUT = {
     ("least_of", "solved"),
     ("prints_as", "interval"),
     ("row_one_instance", "interval"),
+    ("table_means", "interval"),
 }
 
 

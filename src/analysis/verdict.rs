@@ -128,6 +128,9 @@ pub struct Across {
     /// The least and the greatest of our numbers over them, where the paper's chapter asks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub range: Option<[f64; 2]>,
+    /// The results of a joint test, the likeliest first, each with its interpretations.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tested: Vec<String>,
     /// What probes that are never counted do, where they change what is said of it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub probes: Vec<String>,

@@ -5,9 +5,11 @@
 //! takes a seed and the number of its repetitions; sums run in the order given.
 
 pub mod bands;
+pub mod beta;
 pub mod bootstrap;
 pub mod gate;
 pub mod interval;
+pub mod means;
 pub mod paired;
 pub mod pooled;
 pub mod proportion;

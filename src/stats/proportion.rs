@@ -247,7 +247,7 @@ fn at_least(hits: usize, trials: usize, share: f64) -> f64 {
 }
 
 /// The point between `low` and `high` up to which `is_below` holds, to the last bit.
-fn bisect(mut low: f64, mut high: f64, is_below: impl Fn(f64) -> bool) -> f64 {
+pub(super) fn bisect(mut low: f64, mut high: f64, is_below: impl Fn(f64) -> bool) -> f64 {
     loop {
         let middle = f64::midpoint(low, high);
         if middle <= low || middle >= high {

@@ -4,6 +4,7 @@
 
 mod choices;
 mod claim;
+mod columns;
 mod ids;
 mod inventory;
 mod report;

@@ -4,6 +4,7 @@
 //! other. The rates stand in `docs/OPERATING_CHARACTERISTICS.md`; `REPLAN_WRITE=1` writes them, `REPLAN_PAPERS` draws more.
 
 mod censored;
+mod means;
 mod named;
 mod numbers;
 mod page;
@@ -30,8 +31,9 @@ fn papers() -> usize {
 fn outcomes() -> &'static [(Scenario, Counts)] {
     static OUTCOMES: OnceLock<Vec<(Scenario, Counts)>> = OnceLock::new();
     OUTCOMES.get_or_init(|| {
-        let mut all =
-            [universal::scenarios(), numbers::scenarios(), shares::scenarios()].into_iter().flatten();
+        let mut all = [universal::scenarios(), numbers::scenarios(), shares::scenarios(), means::scenarios()]
+            .into_iter()
+            .flatten();
         let mut all: Vec<Scenario> = all.by_ref().collect();
         all.sort_by_key(|scenario| scenario.criterion);
         all.into_par_iter().map(|one| (one.run(papers()), one)).map(|(counts, one)| (one, counts)).collect()

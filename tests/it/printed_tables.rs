@@ -225,6 +225,94 @@ fn what_is_wrong_with_a_table_is_told_once_at_its_own_place() {
     }
 }
 
+const COMPARED: &str = r#"
+[[table]]
+id = "u"
+at = "Table 2"
+caption = "Means over twelve maps."
+of = { study = "maps", metric = "opened" }
+check.mean_of = { instances = 12 }
+
+[[table.column]]
+id = "astar"
+of = { contender = "A*" }
+
+[[table.column]]
+id = "weighted"
+of = { contender = "Weighted" }
+
+[[table.column]]
+id = "more"
+difference = ["astar", "weighted"]
+of = { contender = "A*", against = "Weighted" }
+
+[[table.row]]
+id = "one"
+printed = ["120.5", "9000"]
+of = { problems = "1" }
+
+[[table.row]]
+id = "two"
+printed = ["N/A", "60"]
+of = { problems = "2" }
+
+[[claim]]
+id = "whole"
+at = "Table 2"
+says = "its numbers come from the same maps"
+[claim.check.table_means]
+in = [{ study = "maps", claims = ["u.*"] }]
+refused_below = 0.05
+"#;
+
+/// The table of forty numbers beside one with a column that the paper does not print.
+fn compared() -> Bench {
+    let bench = forty();
+    let text = std::fs::read_to_string(bench.at("forty/paper.toml")).unwrap() + COMPARED;
+    bench.write("forty/paper.toml", text.as_bytes());
+    bench
+}
+
+#[test]
+fn what_one_column_has_more_than_another_is_a_claim_in_a_table_of_its_own() {
+    let bench = compared();
+    let paper = loaded(&bench, "forty");
+    let ids: Vec<&str> = paper.claims.iter().map(|claim| claim.id.as_str()).collect();
+    assert!(ids.contains(&"u.one.more") && !ids.contains(&"u.two.more"), "one number of it is not printed");
+    let more = paper.claim("u.one.more").unwrap();
+    assert_eq!(more.printed.as_deref(), Some("-8879.5"));
+    assert_eq!(more.difference, Some(["u.one.astar", "u.one.weighted"].map(str::to_owned)));
+    let said = bench.done(&["repro", "./forty", "--all"]);
+    let line = |id: &str| said.lines().find(|line| line.starts_with(id)).unwrap_or_default();
+    assert!(line("u.one.more").contains("not reproduced"), "A* opens more: {said}");
+    assert!(line("whole").contains("inconclusive"), "twelve maps are too few: {said}");
+    let report = std::fs::read_to_string(bench.at("target/replan/forty/paper_repro.md")).unwrap();
+    assert!(!report.contains("| one | -8879.5 |"), "the paper does not print it: {report}");
+    let details = std::fs::read_to_string(bench.at("target/replan/forty/plots/forty/details.md")).unwrap();
+    assert!(details.contains("| one | -8879.5 |"), "{details}");
+    assert!(!details.contains("| two | N/A |"), "a row without a difference: {details}");
+}
+
+#[test]
+fn means_and_differences_that_cannot_be_asked_are_refused_where_they_stand() {
+    for (from, to, wanted) in [
+        (
+            "difference = [\"astar\"",
+            "difference = [\"astra\"",
+            "table `u`: there is no column `astra` (did you mean `astar`?)",
+        ),
+        ("\"u.*\"", "\"t.astar0.length\"", "claim `t.astar0.length` is not judged by `mean_of`"),
+        ("claims = [\"u.*\"]", "claims = []", "no claim that `mean_of` judges is named"),
+        ("{ instances = 12 }", "{ instances = 0 }", "instances"),
+    ] {
+        let bench = compared();
+        bench.edit("forty/paper.toml", from, to);
+        let said = bench.run(&["check", "./forty"]);
+        let told = said.err.lines().find(|line| line.contains("forty/paper.toml:")).unwrap_or_default();
+        assert!(said.code == Some(2) && told.contains(wanted), "{to}: {}", said.err);
+    }
+}
+
 #[test]
 fn a_ninth_headline_is_refused_where_it_is_set_and_eight_open_the_chapter() {
     let bench = forty();

@@ -13,6 +13,7 @@ pub mod depends;
 pub mod effects;
 pub mod glance;
 pub mod stored;
+mod tested;
 pub mod touched;
 pub mod wording;
 
@@ -221,6 +222,7 @@ impl OfClaim<'_> {
             refused: counted.refused.iter().map(named).collect(),
             range: is_asked.then(|| range(first, judged, counted)).flatten(),
             effects: effects::effects(self.choices, first, &judged.claim, judged.outcome),
+            tested: tested::tested(first, self.claim),
             probes: effects::probes(self.choices, first, &judged.claim, judged.outcome),
         };
         across.settles = across_settles(&across, judged, line);

@@ -7,11 +7,13 @@ mod equals;
 mod exists;
 mod least_of;
 mod lower;
+mod mean_of;
 mod on_every;
 mod one_instance;
 mod prints_as;
 mod row_one_instance;
 mod share;
+mod table_means;
 mod trend;
 mod within;
 
@@ -121,11 +123,13 @@ pub static REGISTRY: &[&Entry] = &[
     &exists::ENTRY,
     &least_of::ENTRY,
     &lower::ENTRY,
+    &mean_of::ENTRY,
     &on_every::ENTRY,
     &one_instance::ENTRY,
     &prints_as::ENTRY,
     &row_one_instance::ENTRY,
     &share::ENTRY,
+    &table_means::ENTRY,
     &trend::ENTRY,
     &within::ENTRY,
 ];

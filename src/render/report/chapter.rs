@@ -94,7 +94,7 @@ impl Page<'_> {
         let paper = self.evidence.paper;
         let details = self.details_file();
         let verdict = |judged: &ClaimVerdict| link(judged, &judged.verdict_said(), &details);
-        for table in paper.tables.iter().filter(|table| table.has_claims()) {
+        for table in paper.tables.iter().filter(|table| table.has_claims() && !table.compares) {
             *text += &paragraph(&table.caption);
             *text += &tables::markdown(self.evidence, table, self.verdicts, verdict)?;
             *text += "\n";

@@ -99,7 +99,7 @@ impl Page<'_> {
         for figure in self.further() {
             *text += &self.figure(figure, "");
         }
-        for table in paper.tables.iter().filter(|table| !table.has_claims()) {
+        for table in paper.tables.iter().filter(|table| !table.has_claims() || table.compares) {
             *text += &paragraph(&table.caption);
             let shown = tables::markdown(self.evidence, table, self.verdicts, |_| String::new());
             *text += &shown.unwrap_or_else(|error| paragraph(&error.to_string()));

@@ -125,9 +125,10 @@ pub fn across_lines(judged: &ClaimVerdict) -> impl Iterator<Item = String> {
         let moving = across.effects.iter().filter(|(_, of)| of.effect > Effect::Number);
         moving.map(|(choice, of)| format!("{choice} = {} alone: {}", of.option, of.outcome.name()))
     });
+    let tested = across.into_iter().flat_map(|across| across.tested.iter().cloned());
     let probes = across.filter(|across| !across.probes.is_empty());
     let probes = probes.map(|across| format!("probes, not counted: {}", across.probes.join("; ")));
     let settles = across.and_then(|across| across.settles.as_ref());
     let settles = settles.map(|settles| format!("what would settle it: {settles}"));
-    counts.into_iter().chain(settles).chain(moves).chain(probes)
+    counts.into_iter().chain(settles).chain(moves).chain(tested).chain(probes)
 }

@@ -90,6 +90,8 @@ pub struct Claim {
     pub untestable: Option<String>,
     /// Why it must hold whatever the paper says, if it must: it is then asserted, and no evidence for anything.
     pub theorem: Option<String>,
+    /// Two claims of which the first prints more than the second by its number, which the paper does not print itself.
+    pub difference: Option<[String; 2]>,
     /// What was changed in how it is judged after a run had been seen, and why.
     pub changed_after_run: Option<String>,
     /// The choices under some of whose options alone it is meant, each with those options.
@@ -248,6 +250,7 @@ pub(super) fn claim(
         headline: spec.headline,
         untestable: spec.untestable.clone(),
         theorem: spec.theorem.clone(),
+        difference: None,
         changed_after_run: spec.changed_after_run.clone(),
         holds_when: spec.holds_when.clone(),
         asked,

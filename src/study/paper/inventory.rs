@@ -1,7 +1,7 @@
 //! The inventory: everything that a paper prints, and what answers it. It is complete by rule, both ways: each numbered figure,
 //! table and equation has a row, each printed number is listed where it is printed, and each claim's number is among them.
 
-use super::{Paper, PrintedCell, PrintedTable, cells_named, printed_by};
+use super::{Claim, Paper, PrintedCell, PrintedTable, cells_named, printed_by};
 use base::settings::{Faults, Spanned};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -120,9 +120,8 @@ impl Paper {
         }
         if row.printed.is_empty() {
             let named = row.claims.iter().flat_map(|name| cells_named(name.get_ref(), &self.cells));
-            let printed =
-                named.filter_map(|id| Some((self.claim(id)?.printed.clone()?, Some(id.to_owned()))));
-            return printed.collect();
+            let own = named.filter_map(|id| self.claim(id)).filter(|claim| claim.difference.is_none());
+            return own.filter_map(|claim| Some((claim.printed.clone()?, Some(claim.id.clone())))).collect();
         }
         let answer = row.claims.first().map(|claim| claim.get_ref().clone());
         row.printed.iter().map(|printed| (printed.get_ref().clone(), answer.clone())).collect()
@@ -174,7 +173,8 @@ impl Paper {
             listed.extend(named.filter(prints).map(str::to_owned));
             listed.extend(numbers.iter().filter_map(|(_, claim)| claim.clone()));
         }
-        for claim in self.claims.iter().filter(|claim| !listed.contains(&claim.id)) {
+        let is_printed = |claim: &&Claim| claim.difference.is_none() && !listed.contains(&claim.id);
+        for claim in self.claims.iter().filter(is_printed) {
             let Some(printed) = &claim.printed else { continue };
             let message =
                 format!("no row of the inventory lists the number {printed} for claim `{}`", claim.id);

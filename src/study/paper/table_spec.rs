@@ -35,6 +35,8 @@ pub(super) struct TableSpec {
     pub(super) none: Option<String>,
     /// What the paper leaves out, if that makes its cells untestable.
     pub(super) untestable: Option<String>,
+    /// What was changed in how its cells are judged after a run had been seen, and why.
+    pub(super) changed_after_run: Option<String>,
     /// The trials that criteria look at: laid under their `of`.
     #[serde(default)]
     #[schemars(with = "AnyTable")]
@@ -95,6 +97,9 @@ pub(super) struct ColumnSpec {
     pub(super) unit: Option<String>,
     /// What its cells are if they are no claims.
     pub(super) none: Option<String>,
+    /// Two columns of which the first has more than the second by what stands here: a column that the paper does not print. Rows have
+    /// no cell for it, and a table of its own shows it.
+    pub(super) difference: Option<[Spanned<String>; 2]>,
     /// What the paper leaves out, if that makes its cells untestable.
     pub(super) untestable: Option<String>,
     /// The trials that criteria look at: laid under their `of`.

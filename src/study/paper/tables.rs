@@ -5,15 +5,13 @@
 //! are written: nothing above this floor tells them apart.
 
 use super::claim::{Claim, Parts, TestRole, Written, check_printed, name_cells};
+use super::columns::{NOT_PRINTED, columns, differences};
 use super::ids::twice;
 use super::table_spec::{CellSpec, ColumnSpec, RowSpec, TableSpec};
 use base::settings::{Document, Faults, Part, Place, Settings, Spanned, none_called};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, LazyLock};
 use toml::{Table, Value};
-
-/// What stands in a cell for which the paper prints no number.
-const NOT_PRINTED: &str = "N/A";
 
 /// One of the paper's tables, as it is shown beside ours.
 #[derive(Debug, Clone)]
@@ -22,6 +20,8 @@ pub struct PrintedTable {
     pub id: String,
     /// What it shows.
     pub caption: String,
+    /// Whether it shows differences of columns, which the paper does not print.
+    pub compares: bool,
     /// What stands below it.
     pub notes: Vec<String>,
     /// With how many decimals our numbers are shown.
@@ -121,6 +121,8 @@ pub(super) fn cell_ids(tables: &[TableSpec]) -> Vec<String> {
                     ids.push(table.cell_id(row, id));
                 }
             }
+            let more = differences(table).filter(|(column, ..)| table.difference(row, column).is_some());
+            ids.extend(more.map(|(.., id)| table.cell_id(row, id)));
         }
     }
     ids
@@ -137,7 +139,7 @@ pub(super) fn printed(
     let mut tables = Vec::new();
     for (number, table) in specs.iter().enumerate() {
         table.check_columns(document, number, faults);
-        let mut shown = Vec::new();
+        let (mut shown, mut compared) = (Vec::new(), Vec::new());
         for (index, row) in table.rows.iter().enumerate() {
             table.check_row(document, (number, index), faults);
             let mut own = Vec::new();
@@ -158,6 +160,28 @@ pub(super) fn printed(
                 });
                 own.extend(claim);
             }
+            let mut more = Vec::new();
+            for column in differences(table) {
+                let Some(found) = table.difference(row, column.0) else {
+                    let printed = NOT_PRINTED.to_owned();
+                    more.push(PrintedCell { printed, claim: None, beside: None });
+                    continue;
+                };
+                let cell = Cell {
+                    document,
+                    table: (table, number),
+                    row: (row, index),
+                    column,
+                    printed: (&found.printed, found.at),
+                };
+                let claim = Claim { difference: Some(found.of), ..cell.claim(faults) };
+                more.push(PrintedCell {
+                    printed: found.printed.get_ref().clone(),
+                    claim: Some(claim.id.clone()),
+                    beside: None,
+                });
+                own.push(claim);
+            }
             let whole = table.whole(document, (number, index), &own, ids);
             if whole.is_none() && row.whole.is_some() && !document.is_part("table") {
                 let message = format!(
@@ -168,18 +192,21 @@ pub(super) fn printed(
             }
             claims.extend(whole);
             claims.extend(own);
-            shown.push(PrintedRow { label: with_unit(row.label(), row.unit.as_ref()), cells });
+            let label = with_unit(row.label(), row.unit.as_ref());
+            if more.iter().any(|cell| cell.claim.is_some()) {
+                compared.push(PrintedRow { label: label.clone(), cells: more });
+            }
+            shown.push(PrintedRow { label, cells });
         }
-        tables.push(table.shown(shown));
+        tables.push(table.shown(columns(table), shown));
+        if !compared.is_empty() {
+            let shown = table.shown(differences(table), compared);
+            let caption = format!("{}; differences of columns", shown.caption.trim_end_matches('.'));
+            let id = format!("{}_differences", table.id);
+            tables.push(PrintedTable { id, caption, compares: true, ..shown });
+        }
     }
     (claims, tables)
-}
-
-/// The columns of a table, each with the number of its entry and its id.
-fn columns(table: &TableSpec) -> impl Iterator<Item = (&ColumnSpec, usize, &str)> {
-    let entries = table.columns.iter().enumerate();
-    entries
-        .flat_map(|(number, column)| column.id.listed().iter().map(move |id| (column, number, id.as_str())))
 }
 
 fn with_unit(label: &str, unit: Option<&String>) -> String {
@@ -200,30 +227,17 @@ impl ColumnSpec {
 }
 
 impl TableSpec {
-    fn prefix(&self) -> &str {
-        self.claims.as_ref().unwrap_or(&self.id)
-    }
-
-    fn cell_id(&self, row: &RowSpec, column: &str) -> String {
-        let own = row.cell.get(column).and_then(|cell| cell.id.clone());
-        own.unwrap_or_else(|| format!("{}.{}.{column}", self.prefix(), row.id))
-    }
-
-    /// Whether what is `printed` in a column is a claim.
-    fn is_claim(&self, column: &ColumnSpec, printed: &Spanned<String>) -> bool {
-        self.none.is_none() && column.none.is_none() && printed.get_ref() != NOT_PRINTED
-    }
-
     /// No two columns have one id.
     fn check_columns(&self, document: &Document, number: usize, faults: &mut Faults) {
         let mut seen = BTreeSet::new();
-        for (_, entry, id) in columns(self) {
+        for (_, entry, id) in columns(self).chain(differences(self)) {
             if !seen.insert(id) {
                 let message = format!("table `{}` has another column `{id}`", self.id);
                 faults.add(document.error_at(&format!("table.{number}.column.{entry}.id"), message));
                 faults.unread(twice(&format!("table.{number}")));
             }
         }
+        self.check_differences(document, number, faults);
     }
 
     /// A row has a cell for each column, and says nothing of cells that there are not.
@@ -303,7 +317,8 @@ impl TableSpec {
             headline: own.headline,
             untestable: own.untestable.clone(),
             theorem: None,
-            changed_after_run: own.changed_after_run.clone(),
+            difference: None,
+            changed_after_run: own.changed_after_run.clone().or_else(|| self.changed_after_run.clone()),
             holds_when: own.holds_when.clone(),
             asked,
             parts: Parts::Cells(parts),
@@ -316,14 +331,19 @@ impl TableSpec {
         })
     }
 
-    /// The table as it is shown, with these rows.
-    fn shown(&self, rows: Vec<PrintedRow>) -> PrintedTable {
+    /// The table as it is shown, with these columns and rows.
+    fn shown<'a>(
+        &self,
+        columns: impl Iterator<Item = (&'a ColumnSpec, usize, &'a str)>,
+        rows: Vec<PrintedRow>,
+    ) -> PrintedTable {
         let columns: Vec<String> =
-            columns(self).map(|(column, _, id)| with_unit(&column.label(id), column.unit.as_ref())).collect();
+            columns.map(|(column, _, id)| with_unit(&column.label(id), column.unit.as_ref())).collect();
         let (columns, rows) = if self.transposed { transposed(columns, rows) } else { (columns, rows) };
         PrintedTable {
             id: self.id.clone(),
             caption: self.caption.clone(),
+            compares: false,
             notes: self.notes.clone(),
             decimals: self.decimals.unwrap_or(2),
             columns,
@@ -404,7 +424,8 @@ impl Cell<'_> {
             headline: own.headline,
             untestable,
             theorem: None,
-            changed_after_run: own.changed_after_run.clone(),
+            difference: None,
+            changed_after_run: own.changed_after_run.clone().or_else(|| table.changed_after_run.clone()),
             holds_when: own.holds_when.clone(),
             asked,
             parts: Parts::None,

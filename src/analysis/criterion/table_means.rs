@@ -1,0 +1,307 @@
+//! Whether a printed table of means, as a whole, could be that of so many instances like ours.
+//!
+//! The cells of a row share their instances, so they are judged jointly; rows draw instances of their own, so their probabilities
+//! are taken together. A cell that is the same on all of our instances is exact and must print as the paper's. The paper means
+//! one interpretation and does not say which, so the size of the test is shared out among all that it may mean.
+
+use super::mean_of::{self, MeanOf};
+use super::{Criterion, Entry};
+use crate::analysis::context::Context;
+use crate::analysis::criterion_result::CriterionResult;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::outcome::Outcome;
+use crate::analysis::selection::{self, Selection, by_instance, solved};
+use crate::analysis::statistic::mean;
+use crate::analysis::verdict::Estimate;
+use base::settings::{Accepted, Faults, SettingsError};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use stats::beta::combined;
+use stats::means::{Apart, FEWEST_NORMAL, JointTest};
+use std::collections::BTreeMap;
+use study::Study;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "table_means",
+    about: "could the printed means of a table, taken together, be those of so many instances like ours?",
+    revision: |_| 1,
+    settings: Accepted::shape::<Settings>(),
+    example: r#"
+in = [{ study = "compare", claims = ["table1.astar.length"] }]
+refused_below = 0.05
+"#,
+    build: |context| Ok(Box::new(TableMeans::new(context)?)),
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    /// The studies with the claims of each that print the means: those that `mean_of` judges. Untestable claims and differences of
+    /// two cells are left out.
+    #[serde(rename = "in")]
+    places: Vec<PlaceSpec>,
+    /// The table is refused where its probability, times the interpretations that the paper may mean, is below this.
+    #[schemars(range(max = 1.0), extend("exclusiveMinimum" = 0))]
+    refused_below: f64,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct PlaceSpec {
+    /// The study whose instances the means are held against.
+    study: String,
+    /// The claims that print them.
+    claims: Vec<String>,
+}
+
+struct Cell<'a> {
+    id: &'a str,
+    mean: MeanOf<'a>,
+}
+
+struct TableMeans<'a> {
+    /// The cells by what they share: the study and its problem groups.
+    rows: Vec<Vec<Cell<'a>>>,
+    refused_below: f64,
+    interpretations: usize,
+}
+
+/// How many interpretations the paper may mean that trials of `studies` tell apart.
+fn interpretations(studies: &BTreeMap<&str, &Study>) -> usize {
+    let mut options: BTreeMap<&str, usize> = BTreeMap::new();
+    for choice in studies.values().flat_map(|study| &study.choices).filter(|choice| choice.touches_trials) {
+        options.insert(&choice.id, choice.options.keys().filter(|name| choice.votes(name)).count().max(1));
+    }
+    options.values().product()
+}
+
+impl<'a> TableMeans<'a> {
+    fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
+        let settings: Settings = context.settings.read()?;
+        let mut faults = Faults::default();
+        let mut rows: BTreeMap<(String, Vec<String>, usize), Vec<Cell<'a>>> = BTreeMap::new();
+        let mut studies = BTreeMap::new();
+        for (index, place) in settings.places.iter().enumerate() {
+            let Some(study) = faults.keep(context.study(&format!("in.{index}"), &place.study, &[])) else {
+                continue;
+            };
+            studies.insert(study.name.as_str(), study);
+            for (at, id) in place.claims.iter().enumerate() {
+                let at = format!("in.{index}.claims.{at}");
+                let Some(cell) = faults.keep(cell(context, &at, id)).flatten() else { continue };
+                if cell.mean.of.study.name != study.name {
+                    let message = format!("claim `{id}` looks at study `{}`", cell.mean.of.study.name);
+                    faults.add(context.settings.error_at(&at, message));
+                }
+                let key = (study.name.clone(), cell.mean.of.groups.clone(), cell.mean.instances);
+                rows.entry(key).or_default().push(cell);
+            }
+        }
+        faults.done()?;
+        if rows.is_empty() {
+            let message = "no claim that `mean_of` judges is named; at least one is needed";
+            return Err(context.settings.error_at("in", message).about("in").about("claims"));
+        }
+        let interpretations = interpretations(&studies);
+        Ok(Self {
+            rows: rows.into_values().collect(),
+            refused_below: settings.refused_below,
+            interpretations,
+        })
+    }
+}
+
+/// The cell that the claim `id` is, `None` if it is untestable or a difference of two others.
+fn cell<'a>(context: &Context<'a>, at: &str, id: &str) -> Result<Option<Cell<'a>>, SettingsError> {
+    let claim = context.claim_called(id)?;
+    if claim.untestable.is_some() || claim.difference.is_some() {
+        return Ok(None);
+    }
+    let Some(settings) = claim.check(mean_of::ENTRY.name) else {
+        let message = format!("claim `{id}` is not judged by `{}`", mean_of::ENTRY.name);
+        return Err(context.settings.error_at(at, message).about("check"));
+    };
+    let mean = MeanOf::new(&Context { claim, settings, ..*context })?;
+    Ok(Some(Cell { id: &claim.id, mean }))
+}
+
+/// What a row gives.
+struct RowResult<'a> {
+    /// Its problem groups.
+    label: String,
+    /// The probability of a row as far from ours.
+    p: f64,
+    /// T² and how many cells and instances it has; of exact cells alone none.
+    test: Option<(f64, usize, usize)>,
+    /// The cells that say most, in words.
+    loudest: Vec<String>,
+    /// The cell that is farthest from what is printed, by its place in the row.
+    farthest: usize,
+    /// Exact cells that do not print as the paper's.
+    refused: Vec<&'a str>,
+    /// By what share every number of the row would have to be off to be refused alone, T² at a share of one.
+    power: Option<(JointTest, f64)>,
+}
+
+/// What an instance is called where cells are joined.
+type Unit<'e> = (&'e str, u32, u32);
+
+impl<'a> TableMeans<'a> {
+    /// The number of each cell, of every instance that has them all.
+    fn units<'e>(row: &[Cell<'a>], evidence: &'e Evidence<'_>) -> Vec<Vec<f64>> {
+        let of_cell = |cell: &Cell<'a>| -> BTreeMap<Unit<'e>, f64> {
+            let instances = cell.mean.of.instances(evidence);
+            let number = |instance: &selection::Instance<'e>| {
+                let numbers = by_instance(std::slice::from_ref(instance), |case| cell.mean.number(case));
+                let first = instance.cases.first()?.row;
+                Some(((instance.group, first.instance(), first.key.repeat), mean(numbers.first()?)?))
+            };
+            instances.iter().filter_map(number).collect()
+        };
+        let cells: Vec<_> = row.iter().map(of_cell).collect();
+        let whole = |unit: &Unit<'e>| cells.iter().map(|cell| cell.get(unit).copied()).collect();
+        cells.first().into_iter().flat_map(BTreeMap::keys).filter_map(whole).collect()
+    }
+
+    /// What a row gives; `None` of too few instances.
+    fn row<'s>(row: &'s [Cell<'a>], evidence: &Evidence<'_>) -> Option<RowResult<'s>> {
+        let units = Self::units(row, evidence);
+        let first = units.first()?;
+        let is_exact = |cell: &usize| units.iter().all(|unit| unit[*cell] == first[*cell]);
+        let (exact, moving): (Vec<usize>, Vec<usize>) = (0..row.len()).partition(is_exact);
+        let prints = |cell: usize| row[cell].mean.rounded.contains(first[cell]);
+        let refused: Vec<&str> =
+            exact.iter().filter(|cell| !prints(**cell)).map(|cell| row[*cell].id).collect();
+        let first_refused = exact.iter().copied().find(|cell| !prints(*cell)).unwrap_or_default();
+        let label = row[0].mean.of.groups.join(", ");
+        let instances: Vec<Vec<f64>> =
+            units.iter().map(|unit| moving.iter().map(|cell| unit[*cell]).collect()).collect();
+        let rounding: Vec<f64> = moving.iter().map(|cell| row[*cell].mean.rounded.half_width()).collect();
+        let p_exact = f64::from(u8::from(refused.is_empty()));
+        if moving.is_empty() && units.len() >= FEWEST_NORMAL {
+            let loudest = Vec::new();
+            return Some(RowResult {
+                label,
+                p: p_exact,
+                test: None,
+                loudest,
+                farthest: first_refused,
+                refused,
+                power: None,
+            });
+        }
+        let test = JointTest::new(&instances, row[0].mean.instances, &rounding)?;
+        let apart: Vec<f64> =
+            moving.iter().zip(&test.means).map(|(cell, own)| row[*cell].mean.printed - own).collect();
+        let statistic = test.statistic(&apart);
+        let name = |place: usize| row[moving[place]].id.rsplit('.').next().unwrap_or_default();
+        let spoken = |Apart { cell, from, errors }: Apart| match from {
+            None => format!("{} {errors:+.1} σ", name(cell)),
+            Some(from) => format!("{} less {} {errors:+.1} σ", name(cell), name(from)),
+        };
+        let loudest = test.loudest(&apart, 3).into_iter().map(spoken).collect();
+        let far = test.loudest(&apart, 1).first().map_or(0, |far| moving[far.cell]);
+        let farthest = if refused.is_empty() { far } else { first_refused };
+        let p = test.probability(statistic) * p_exact;
+        let at_one = test.statistic(&test.means);
+        let shape = Some((statistic, moving.len(), units.len()));
+        Some(RowResult { label, p, test: shape, loudest, farthest, refused, power: Some((test, at_one)) })
+    }
+
+    /// From how many per cent on a table that is off by as much in every cell would have been refused.
+    fn power_percent(&self, rows: &[RowResult<'_>]) -> Option<f64> {
+        let tests: Vec<&(JointTest, f64)> = rows.iter().filter_map(|row| row.power.as_ref()).collect();
+        let probability = |percent: f64| {
+            let share = percent / 100.0;
+            combined(&tests.iter().map(|(test, t)| test.probability(t * share * share)).collect::<Vec<_>>())
+        };
+        let is_kept = |percent: f64| self.judged(probability(percent)) >= self.refused_below;
+        let (mut low, mut high) = (0.0, 100.0);
+        if tests.is_empty() || is_kept(high) {
+            return None;
+        }
+        for _ in 0..40 {
+            let middle = f64::midpoint(low, high);
+            if is_kept(middle) { low = middle } else { high = middle }
+        }
+        Some(high)
+    }
+
+    /// The probability times the interpretations that the paper may mean.
+    fn judged(&self, p: f64) -> f64 {
+        (p * self.interpretations as f64).min(1.0)
+    }
+
+    fn because(&self, rows: &[RowResult<'_>], p: f64) -> Vec<String> {
+        let of_row = |row: &RowResult<'_>| {
+            let exact = match &row.refused[..] {
+                [] => String::new(),
+                cells => format!("; the same on all of ours, and printed otherwise: {}", cells.join(", ")),
+            };
+            let Some((statistic, cells, units)) = row.test else {
+                return format!("{}: all cells are exact{exact}", row.label);
+            };
+            format!(
+                "{}: T² = {statistic:.1} of {cells} cells on {units} instances, p = {:.2e}; most apart, printed less ours: {}{exact}",
+                row.label,
+                row.p,
+                row.loudest.join(", ")
+            )
+        };
+        let whole = format!(
+            "all rows together (Fisher): p = {p:.2e}; times {} interpretations {:.2e}, refused below {}",
+            self.interpretations,
+            self.judged(p),
+            self.refused_below
+        );
+        std::iter::once(whole).chain(rows.iter().map(of_row)).collect()
+    }
+}
+
+impl TableMeans<'_> {
+    /// A trial near our mean in the cell that is farthest from what is printed, of the row that fits least.
+    fn shown(&self, rows: &[RowResult<'_>], evidence: &Evidence<'_>) -> Option<String> {
+        let (row, cells) = rows.iter().zip(&self.rows).min_by(|one, other| one.0.p.total_cmp(&other.0.p))?;
+        let cell = &cells[row.farthest].mean;
+        let instances = cell.of.instances(evidence);
+        let numbers = by_instance(&instances, |case| cell.number(case));
+        let middle = mean(&numbers.concat())?;
+        selection::nearest(&cell.of, evidence, &instances, |case| cell.number(case), middle)
+    }
+}
+
+impl Criterion for TableMeans<'_> {
+    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
+        let drawn: Vec<_> = self.selections().iter().map(|of| of.instances(evidence)).collect();
+        let least = drawn.iter().map(Vec::len).min().unwrap_or(0);
+        let unended = drawn.iter().map(|instances| selection::unended(instances)).sum();
+        let found: Option<Vec<RowResult<'_>>> =
+            self.rows.iter().map(|row| Self::row(row, evidence)).collect();
+        let Some(rows) = found else {
+            let widest = self.rows.iter().map(Vec::len).max().unwrap_or(0);
+            return CriterionResult::too_few(least, least, widest + FEWEST_NORMAL).hanging_on(unended);
+        };
+        let p = combined(&rows.iter().map(|row| row.p).collect::<Vec<_>>());
+        let is_kept = self.judged(p) >= self.refused_below;
+        let ours = Estimate::bare(p, "p of the joint test of all cells", least);
+        let power = self.power_percent(&rows).map(|percent| {
+            format!("power: a table whose cells are all off by {percent:.1} % would have been refused")
+        });
+        CriterionResult {
+            outcome: Some(if is_kept { Outcome::Holds } else { Outcome::Fails }),
+            ours: Some(ours.of_cases(solved(&drawn.into_iter().flatten().collect::<Vec<_>>()))),
+            trial: self.shown(&rows, evidence),
+            because: self.because(&rows, p),
+            units: "instances",
+            censored: unended,
+            powerless: power.is_none() && is_kept && rows.iter().any(|row| row.test.is_some()),
+            power,
+            ..CriterionResult::default()
+        }
+    }
+
+    fn selections(&self) -> Vec<&Selection<'_>> {
+        self.rows.iter().flatten().map(|cell| &cell.mean.of).collect()
+    }
+}
