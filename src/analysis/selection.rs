@@ -6,7 +6,6 @@ use super::metric::Metric;
 use super::selection_spec::SelectionSpec;
 use base::settings::{Faults, SettingsError};
 use std::collections::BTreeMap;
-use study::contender::SweepPoint;
 use study::key::SweepKey;
 use study::name;
 use study::record::{Row, Status};
@@ -173,7 +172,7 @@ impl<'a> Selection<'a> {
 
     /// Whether it looks at a point of the sweeps.
     fn is_at(&self, point: &SweepKey) -> bool {
-        self.sweep.as_ref().is_none_or(|wanted| wanted.iter().any(|own| own.is_same(point)))
+        self.sweep.as_ref().is_none_or(|wanted| wanted.iter().any(|own| point.has(own)))
     }
 
     /// The contender that it is held against.
@@ -200,10 +199,11 @@ impl<'a> Selection<'a> {
         self.metric.is_some_and(Metric::is_clock)
     }
 
-    /// The points of the sweeps that its trials can have.
-    pub fn sweep_points(&self) -> Vec<SweepPoint> {
-        let mut points = self.study.sweep_points_of(|label| self.groups.iter().any(|group| group == label));
-        points.retain(|point| self.is_at(&point.key));
+    /// The points of the sweeps that its trials can have; those that are drawn within an instance are one.
+    pub fn sweep_points(&self) -> Vec<SweepKey> {
+        let mut points = self.study.pooled_points_of(|label| self.groups.iter().any(|group| group == label));
+        let wanted = self.sweep.iter().flatten();
+        points.retain(|point| self.sweep.is_none() || wanted.clone().any(|own| own.has(point)));
         points
     }
 
@@ -364,7 +364,7 @@ impl Instance<'_> {
     /// What it holds at one point of the sweeps.
     #[must_use]
     pub fn at(&self, sweep: &SweepKey) -> Self {
-        let is_own = |case: &&Case<'_>| case.row.key.sweep == *sweep;
+        let is_own = |case: &&Case<'_>| case.row.key.sweep.has(sweep);
         Self { group: self.group, cases: self.cases.iter().filter(is_own).copied().collect() }
     }
 

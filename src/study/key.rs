@@ -164,6 +164,20 @@ impl SweepKey {
         Arc::ptr_eq(&self.0, &other.0) || self == other
     }
 
+    /// It without the values of the settings that `is_dropped`.
+    #[must_use]
+    pub fn without(&self, is_dropped: impl Fn(&str) -> bool) -> Self {
+        if !self.0.iter().any(|(name, _)| is_dropped(name)) {
+            return self.clone();
+        }
+        Self(self.0.iter().filter(|(name, _)| !is_dropped(name)).cloned().collect())
+    }
+
+    /// Whether it has every value of `part`.
+    pub fn has(&self, part: &Self) -> bool {
+        self.is_same(part) || part.0.iter().all(|value| self.0.contains(value))
+    }
+
     /// The value of the sweep over the setting `key`.
     pub fn value(&self, key: &str) -> Option<&SweepValue> {
         self.0.iter().find(|(name, _)| **name == *key).map(|(_, value)| value)

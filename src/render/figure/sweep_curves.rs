@@ -164,15 +164,15 @@ impl SweepCurves {
         ask::known(settings, study, [&read.problems], read.rows.iter().map(|row| &row.contender))?;
         let metrics =
             read.metrics.iter().map(|name| ask::metric(settings, name)).collect::<Result<_, _>>()?;
-        let points = study.sweep_points_of(|label| *label == *read.problems);
-        if points.iter().any(|point| point.key.values().len() > 1) {
+        let points = study.pooled_points_of(|label| *label == *read.problems);
+        if points.iter().any(|point| point.values().len() > 1) {
             let message =
                 format!("study `{}` sweeps more than `{}`, and one sweep is drawn", study.name, read.sweep);
             return Err(settings.error_at("sweep", message));
         }
         let value = |key: &SweepKey| key.value(&read.sweep)?.as_f64();
-        let points = points.into_iter().map(|point| point.key);
-        let points: Vec<(f64, SweepKey)> = points.filter_map(|key| Some((value(&key)?, key))).collect();
+        let points: Vec<(f64, SweepKey)> =
+            points.into_iter().filter_map(|key| Some((value(&key)?, key))).collect();
         if points.is_empty() {
             let message = format!("study `{}` does not sweep numbers of `{}`", study.name, read.sweep);
             return Err(settings.error_at("sweep", message).about(&sweeps_of(&study.name)));
