@@ -3,7 +3,7 @@
 use super::context::Context;
 use super::evidence::{Evidence, Run, paired};
 use super::metric::Metric;
-use super::selection_spec::SelectionSpec;
+use super::selection_spec::{Labels, SelectionSpec};
 use base::settings::{Faults, SettingsError};
 use std::collections::BTreeMap;
 use study::key::SweepKey;
@@ -24,8 +24,8 @@ pub struct Selection<'a> {
     pub against: Option<String>,
     /// The metric; absent if statuses alone are looked at.
     pub metric: Option<&'static Metric>,
-    /// The one query.
-    pub query: Option<String>,
+    /// The queries; all if `None`.
+    pub query: Option<Vec<String>>,
     /// The points of the sweeps; all if `None`.
     pub sweep: Option<Vec<SweepKey>>,
     /// Whether only instances count of which everything is solved.
@@ -119,7 +119,8 @@ impl<'a> Selection<'a> {
         let groups = faults.keep(context.groups("of", study, &of.problems)).unwrap_or_default();
         let metric = of.metric.as_ref().and_then(|name| faults.keep(context.metric(name, study)));
         let labels: Vec<&str> = groups.iter().map(String::as_str).collect();
-        let lacking = of.query.as_ref().and_then(|query| study.lacks_query(&labels, query));
+        let query = of.query.as_ref().map(Labels::listed);
+        let lacking = query.iter().flatten().find_map(|query| study.lacks_query(&labels, query));
         if let Some(message) = lacking {
             faults.add(context.settings.error_at("of.query", message));
         }
@@ -133,7 +134,6 @@ impl<'a> Selection<'a> {
         }
         faults.done()?;
         let against = of.against.clone();
-        let query = of.query.clone();
         let whole_instances = of.whole_instances;
         let all_ends = of.all_ends;
         Ok(Self { study, groups, contenders, against, metric, query, sweep, whole_instances, all_ends })
@@ -291,7 +291,7 @@ impl<'a> Selection<'a> {
         let mut rows = run.rows(group, contender);
         rows.retain(|row| {
             row.status != Status::InvalidProblem
-                && self.query.as_ref().is_none_or(|query| row.query() == query)
+                && self.query.as_ref().is_none_or(|queries| queries.iter().any(|query| row.query() == query))
                 && self.is_at(&row.key.sweep)
                 && self.is_read(row)
         });
@@ -323,7 +323,10 @@ impl<'a> Selection<'a> {
     pub fn description(&self) -> String {
         let who = self.contenders.join(", ");
         let against = self.against.as_ref().map_or_else(String::new, |other| format!(" against {other}"));
-        let query = self.query.as_ref().map_or_else(String::new, |query| format!(", query {query}"));
+        let query = self.query.as_ref().map_or_else(String::new, |queries| match &queries[..] {
+            [one] => format!(", query {one}"),
+            all => format!(", queries {}", all.join(", ")),
+        });
         let points = self.sweep.iter().flatten().map(name::sweep).collect::<Vec<_>>();
         let at = match &points[..] {
             [] => String::new(),
