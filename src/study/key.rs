@@ -268,3 +268,21 @@ impl From<&TrialKey> for Owner {
         Self::Trial(key.clone())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_has_its_parts_and_loses_what_is_dropped() {
+        let of = |values: &[(&str, i64)]| {
+            let value = |(name, whole): &(&str, i64)| ((*name).into(), SweepValue::Whole(*whole));
+            SweepKey::new(values.iter().map(value).collect())
+        };
+        let whole = of(&[("roadmap", 2), ("samples", 100)]);
+        let pooled = whole.without(|name| name == "roadmap");
+        assert_eq!(pooled, of(&[("samples", 100)]));
+        assert!(whole.has(&pooled) && whole.has(&whole) && whole.has(&SweepKey::default()));
+        assert!(!pooled.has(&whole) && !whole.has(&of(&[("samples", 200)])));
+    }
+}
