@@ -3,10 +3,9 @@
 use super::context::Context;
 use super::evidence::{Evidence, Run, paired};
 use super::metric::Metric;
-use super::selection_spec::SelectionSpec;
+use super::selection_spec::{Labels, SelectionSpec};
 use base::settings::{Faults, SettingsError};
 use std::collections::BTreeMap;
-use study::contender::SweepPoint;
 use study::key::SweepKey;
 use study::name;
 use study::record::{Row, Status};
@@ -25,8 +24,8 @@ pub struct Selection<'a> {
     pub against: Option<String>,
     /// The metric; absent if statuses alone are looked at.
     pub metric: Option<&'static Metric>,
-    /// The one query.
-    pub query: Option<String>,
+    /// The queries; all if `None`.
+    pub query: Option<Vec<String>>,
     /// The points of the sweeps; all if `None`.
     pub sweep: Option<Vec<SweepKey>>,
     /// Whether only instances count of which everything is solved.
@@ -120,7 +119,8 @@ impl<'a> Selection<'a> {
         let groups = faults.keep(context.groups("of", study, &of.problems)).unwrap_or_default();
         let metric = of.metric.as_ref().and_then(|name| faults.keep(context.metric(name, study)));
         let labels: Vec<&str> = groups.iter().map(String::as_str).collect();
-        let lacking = of.query.as_ref().and_then(|query| study.lacks_query(&labels, query));
+        let query = of.query.as_ref().map(Labels::listed);
+        let lacking = query.iter().flatten().find_map(|query| study.lacks_query(&labels, query));
         if let Some(message) = lacking {
             faults.add(context.settings.error_at("of.query", message));
         }
@@ -134,7 +134,6 @@ impl<'a> Selection<'a> {
         }
         faults.done()?;
         let against = of.against.clone();
-        let query = of.query.clone();
         let whole_instances = of.whole_instances;
         let all_ends = of.all_ends;
         Ok(Self { study, groups, contenders, against, metric, query, sweep, whole_instances, all_ends })
@@ -173,7 +172,7 @@ impl<'a> Selection<'a> {
 
     /// Whether it looks at a point of the sweeps.
     fn is_at(&self, point: &SweepKey) -> bool {
-        self.sweep.as_ref().is_none_or(|wanted| wanted.iter().any(|own| own.is_same(point)))
+        self.sweep.as_ref().is_none_or(|wanted| wanted.iter().any(|own| point.has(own)))
     }
 
     /// The contender that it is held against.
@@ -200,10 +199,11 @@ impl<'a> Selection<'a> {
         self.metric.is_some_and(Metric::is_clock)
     }
 
-    /// The points of the sweeps that its trials can have.
-    pub fn sweep_points(&self) -> Vec<SweepPoint> {
-        let mut points = self.study.sweep_points_of(|label| self.groups.iter().any(|group| group == label));
-        points.retain(|point| self.is_at(&point.key));
+    /// The points of the sweeps that its trials can have; those that are drawn within an instance are one.
+    pub fn sweep_points(&self) -> Vec<SweepKey> {
+        let mut points = self.study.pooled_points_of(|label| self.groups.iter().any(|group| group == label));
+        let wanted = self.sweep.iter().flatten();
+        points.retain(|point| self.sweep.is_none() || wanted.clone().any(|own| own.has(point)));
         points
     }
 
@@ -291,7 +291,7 @@ impl<'a> Selection<'a> {
         let mut rows = run.rows(group, contender);
         rows.retain(|row| {
             row.status != Status::InvalidProblem
-                && self.query.as_ref().is_none_or(|query| row.query() == query)
+                && self.query.as_ref().is_none_or(|queries| queries.iter().any(|query| row.query() == query))
                 && self.is_at(&row.key.sweep)
                 && self.is_read(row)
         });
@@ -323,7 +323,10 @@ impl<'a> Selection<'a> {
     pub fn description(&self) -> String {
         let who = self.contenders.join(", ");
         let against = self.against.as_ref().map_or_else(String::new, |other| format!(" against {other}"));
-        let query = self.query.as_ref().map_or_else(String::new, |query| format!(", query {query}"));
+        let query = self.query.as_ref().map_or_else(String::new, |queries| match &queries[..] {
+            [one] => format!(", query {one}"),
+            all => format!(", queries {}", all.join(", ")),
+        });
         let points = self.sweep.iter().flatten().map(name::sweep).collect::<Vec<_>>();
         let at = match &points[..] {
             [] => String::new(),
@@ -364,7 +367,7 @@ impl Instance<'_> {
     /// What it holds at one point of the sweeps.
     #[must_use]
     pub fn at(&self, sweep: &SweepKey) -> Self {
-        let is_own = |case: &&Case<'_>| case.row.key.sweep == *sweep;
+        let is_own = |case: &&Case<'_>| case.row.key.sweep.has(sweep);
         Self { group: self.group, cases: self.cases.iter().filter(is_own).copied().collect() }
     }
 

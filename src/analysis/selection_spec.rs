@@ -18,8 +18,8 @@ pub struct SelectionSpec {
     pub against: Option<String>,
     /// The metric: a name that `replan list metrics` gives, or one that an interpretation gives a meaning.
     pub metric: Option<String>,
-    /// The one query of each instance that is looked at; all if absent.
-    pub query: Option<String>,
+    /// The one query of each instance that is looked at, or several; all if absent.
+    pub query: Option<Labels>,
     /// The points of the study's sweeps: `samples=100`, a part of them as `samples<=1400` or `samples>200,samples<=1400`, or a list of
     /// such; all if absent.
     pub sweep: Option<Labels>,

@@ -170,7 +170,7 @@ fn by_query<T>(
     }
     let of_query = |name: &&str| {
         let query = Some((*name).to_owned());
-        ((*name).to_owned(), take(&Selection { query, ..of.clone() }))
+        ((*name).to_owned(), take(&Selection { query: query.map(|query| vec![query]), ..of.clone() }))
     };
     order.iter().map(of_query).collect()
 }

@@ -225,6 +225,19 @@ impl Study {
         posed.iter().flat_map(|posed| contenders.iter().map(|own| posed.and(own))).collect()
     }
 
+    /// The points of [`sweep_points_of`](Self::sweep_points_of) without the values that are drawn within an instance, each once.
+    pub fn pooled_points_of(&self, is_meant: impl Fn(&str) -> bool) -> Vec<SweepKey> {
+        let nested = |name: &str| self.sweeps.iter().any(|sweep| sweep.nested && sweep.key == name);
+        let mut points: Vec<SweepKey> = Vec::new();
+        for point in self.sweep_points_of(is_meant) {
+            let pooled = point.key.without(nested);
+            if !points.contains(&pooled) {
+                points.push(pooled);
+            }
+        }
+        points
+    }
+
     /// The point of the sweeps that people write as `text`: empty without sweeps.
     ///
     /// # Errors

@@ -121,6 +121,8 @@ pub struct Sweep {
     pub number: usize,
     /// Its values, in the paper's order.
     pub values: Vec<toml::Value>,
+    /// Whether its values are drawn within an instance.
+    pub nested: bool,
     /// Where it stands.
     pub place: Place,
 }

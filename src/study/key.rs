@@ -164,6 +164,20 @@ impl SweepKey {
         Arc::ptr_eq(&self.0, &other.0) || self == other
     }
 
+    /// It without the values of the settings that `is_dropped`.
+    #[must_use]
+    pub fn without(&self, is_dropped: impl Fn(&str) -> bool) -> Self {
+        if !self.0.iter().any(|(name, _)| is_dropped(name)) {
+            return self.clone();
+        }
+        Self(self.0.iter().filter(|(name, _)| !is_dropped(name)).cloned().collect())
+    }
+
+    /// Whether it has every value of `part`.
+    pub fn has(&self, part: &Self) -> bool {
+        self.is_same(part) || part.0.iter().all(|value| self.0.contains(value))
+    }
+
     /// The value of the sweep over the setting `key`.
     pub fn value(&self, key: &str) -> Option<&SweepValue> {
         self.0.iter().find(|(name, _)| **name == *key).map(|(_, value)| value)
@@ -252,5 +266,23 @@ impl From<&Arc<InstanceKey>> for Owner {
 impl From<&TrialKey> for Owner {
     fn from(key: &TrialKey) -> Self {
         Self::Trial(key.clone())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_has_its_parts_and_loses_what_is_dropped() {
+        let of = |values: &[(&str, i64)]| {
+            let value = |(name, whole): &(&str, i64)| ((*name).into(), SweepValue::Whole(*whole));
+            SweepKey::new(values.iter().map(value).collect())
+        };
+        let whole = of(&[("roadmap", 2), ("samples", 100)]);
+        let pooled = whole.without(|name| name == "roadmap");
+        assert_eq!(pooled, of(&[("samples", 100)]));
+        assert!(whole.has(&pooled) && whole.has(&whole) && whole.has(&SweepKey::default()));
+        assert!(!pooled.has(&whole) && !whole.has(&of(&[("samples", 200)])));
     }
 }

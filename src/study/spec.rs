@@ -135,6 +135,10 @@ pub struct SweepSpec {
     /// The values, in the paper's order.
     #[schemars(with = "Vec<AnyValue>")]
     pub values: Spanned<Vec<toml::Value>>,
+    /// Its values are drawn within an instance, as roadmaps in a cell are: claims and figures pool them unless they select one, and
+    /// intervals resample whole instances.
+    #[serde(default)]
+    pub nested: bool,
 }
 
 /// Something that the paper leaves open.

@@ -20,7 +20,7 @@ use stats::bootstrap::{Estimate as Estimated, Resampling};
 use stats::interval::Interval;
 use stats::paired::{self, snapped};
 use stats::proportion::clopper_pearson;
-use study::contender::SweepPoint;
+use study::key::SweepKey;
 use study::name;
 use study::record::Row;
 use study::sweeps_of;
@@ -74,7 +74,7 @@ impl<'a> Lower<'a> {
         let of = Selection::new(context, &settings.of)?;
         of.contender(context)?;
         of.against(context)?;
-        if of.metric.is_none() && of.sweep_points().iter().all(|point| point.key.is_empty()) {
+        if of.metric.is_none() && of.sweep_points().iter().all(SweepKey::is_empty) {
             let message = format!("`of` needs a `metric`: study `{}` sweeps nothing", of.study.name);
             return Err(context
                 .settings
@@ -152,8 +152,8 @@ impl<'a> Lower<'a> {
     fn curves(&self, instances: &[Instance<'_>], unended: [bool; 2]) -> Vec<Vec<f64>> {
         let points = self.of.sweep_points();
         let is_solved = |row: &Row, unended: bool| row.is_solved() || unended && is_unended(row);
-        let at = |instance: &Instance<'_>, point: &SweepPoint| {
-            let instance = instance.at(&point.key);
+        let at = |instance: &Instance<'_>, point: &SweepKey| {
+            let instance = instance.at(point);
             let base = instance.percent(|case| case.base.is_some_and(|base| is_solved(base, unended[0])))?;
             Some(instance.percent(|case| is_solved(case.row, unended[1]))? - base)
         };
@@ -185,7 +185,7 @@ impl<'a> Lower<'a> {
             return CriterionResult::too_few(units, instances.len(), FEWEST_INSTANCES);
         };
         let points = self.of.sweep_points();
-        let at = |index: usize| name::sweep(&points[index].key);
+        let at = |index: usize| name::sweep(&points[index]);
         let sign = if self.way == Way::Higher { 1.0 } else { -1.0 };
         let signed = |index: usize| sign * mean[index];
         let least = (0..mean.len()).min_by(|a, b| signed(*a).total_cmp(&signed(*b))).unwrap_or(0);
@@ -203,7 +203,7 @@ impl<'a> Lower<'a> {
         );
         let what = format!("least mean difference in points, at {}, simultaneous 95 % band", at(least));
         let against =
-            |case: &Case<'_>| (case.row.key.sweep == points[least].key).then(|| sign * solved_more(case));
+            |case: &Case<'_>| case.row.key.sweep.has(&points[least]).then(|| sign * solved_more(case));
         CriterionResult {
             outcome: Some(outcome),
             ours: Some(Estimate::new(mean[least], band[least], what, units).of_cases(solved(&instances))),

@@ -14,7 +14,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::rows::{Level, Place, monotone_probability};
 use std::collections::BTreeMap;
-use study::contender::SweepPoint;
+use study::key::SweepKey;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -66,7 +66,7 @@ struct Row<'a> {
 
 enum Cells {
     Statistics(Vec<InstanceStatistic>),
-    Sweep(Vec<SweepPoint>),
+    Sweep(Vec<SweepKey>),
 }
 
 struct RowOneInstance<'a> {
@@ -124,7 +124,7 @@ impl Row<'_> {
                 Cells::Sweep(points) => {
                     let is_hit =
                         |case: &Case<'_>| case.row.is_solved() || unended_solved && case.is_unended();
-                    points.iter().map(|point| instance.at(&point.key).percent(is_hit)).collect()
+                    points.iter().map(|point| instance.at(point).percent(is_hit)).collect()
                 }
             }
         };

@@ -6,7 +6,7 @@ use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::outcome::Outcome;
-use crate::analysis::selection::{Case, Instance, Selection, cases, most_cases, solved};
+use crate::analysis::selection::{Case, Instance, Selection, cases, is_unended, most_cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{Share, narrows, needs, plan};
 use base::settings::{Accepted, SettingsError};
@@ -72,6 +72,8 @@ enum Hits {
     Higher,
     /// Instances with the metric below the other contender's on every case that both solve.
     LowerThroughout,
+    /// Instances of which more cases are solved than by the other contender.
+    SolvedMore,
 }
 
 /// Whether a claim with these settings is about what is solved by everyone who is compared.
@@ -91,6 +93,7 @@ impl Hits {
             Self::Lower => "cases on which it is lower",
             Self::Higher => "cases on which it is higher",
             Self::LowerThroughout => "instances on every case of which it is lower",
+            Self::SolvedMore => "instances of which it solves more",
         }
     }
 }
@@ -129,7 +132,7 @@ impl<'a> Counted<'a> {
         if matches!(hits, Hits::Above | Hits::Lower | Hits::Higher | Hits::LowerThroughout) {
             of.metric(context)?;
         }
-        if matches!(hits, Hits::Lower | Hits::Higher | Hits::LowerThroughout) {
+        if matches!(hits, Hits::Lower | Hits::Higher | Hits::LowerThroughout | Hits::SolvedMore) {
             of.against(context)?;
         }
         if let Some(accepted) = settings.accepted {
@@ -163,6 +166,7 @@ impl<'a> Counted<'a> {
             Hits::Above => hit(case.value? > self.settings.bound? + EQUAL),
             Hits::Lower | Hits::LowerThroughout => hit(gap()? < -EQUAL),
             Hits::Higher => hit(gap()? > EQUAL),
+            Hits::SolvedMore => hit(row.is_solved() && !case.base?.is_solved()),
         }
     }
 
@@ -177,7 +181,8 @@ impl<'a> Counted<'a> {
             | Hits::Above
             | Hits::Lower
             | Hits::Higher
-            | Hits::LowerThroughout => case.is_unended(),
+            | Hits::LowerThroughout
+            | Hits::SolvedMore => case.is_unended(),
         }
     }
 
@@ -190,6 +195,10 @@ impl<'a> Counted<'a> {
 
     /// Hits and chances of one instance; its cases of which nothing is known left out, or all as hits or as misses.
     fn of_instance(&self, instance: &Instance<'_>, unknown: Option<bool>) -> [f64; 2] {
+        if self.settings.hits == Hits::SolvedMore && !instance.cases.is_empty() {
+            let more = instance.cases.iter().map(|case| solved_more(case, unknown)).sum::<i32>();
+            return [f64::from(u8::from(more > 0)), 1.0];
+        }
         let of_case = |case: &Case<'_>| match unknown.filter(|_| self.is_unknown(case)) {
             Some(is_hit) => Some([f64::from(u8::from(is_hit)), 1.0]),
             None => self.counts(case),
@@ -205,7 +214,7 @@ impl<'a> Counted<'a> {
     /// The most chances that an instance could have had: of events the most that were seen, as they have no bound.
     fn most(&self, instances: &[Instance<'_>]) -> f64 {
         match self.settings.hits {
-            Hits::LowerThroughout => 1.0,
+            Hits::LowerThroughout | Hits::SolvedMore => 1.0,
             Hits::Events => 0.0,
             _ => most_cases(instances),
         }
@@ -299,6 +308,14 @@ impl Counted<'_> {
         let said: Vec<String> = kinds.iter().map(|(kind, count)| format!("{kind} ({count})")).collect();
         (!said.is_empty()).then(|| format!("refused because, first fault of each path: {}", said.join("; ")))
     }
+}
+
+/// By how many a case is solved more than by the other contender; what did not end counts as solved by this one alone, or by the other
+/// alone, if that is `unknown`.
+fn solved_more(case: &Case<'_>, unknown: Option<bool>) -> i32 {
+    let solved = |row: &Row, unended: bool| i32::from(row.is_solved() || is_unended(row) && unended);
+    let base = case.base.map_or(0, |base| solved(base, unknown == Some(false)));
+    solved(case.row, unknown == Some(true)) - base
 }
 
 /// `text` with an n for every number.

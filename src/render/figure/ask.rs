@@ -239,5 +239,8 @@ pub(super) fn savings(scene: &Scene<'_>, problems: &str, of_query: &str, contend
     let all = trials(scene.run, problems, last);
     let metric = metric::find("path_length_mm");
     let query = Some(of_query.to_owned());
-    Savings::new(&Selection { against: Some(first.clone()), metric, query, ..all }, scene.evidence)
+    Savings::new(
+        &Selection { against: Some(first.clone()), metric, query: query.map(|query| vec![query]), ..all },
+        scene.evidence,
+    )
 }

@@ -45,14 +45,22 @@ rows = [
                 read.lacks(
                     settings,
                     "across",
-                    &["problems", "rows", "single_instances", "metrics", "printed_ratio"],
+                    &["problems", "rows", "single_instances", "metrics", "printed_ratio", "levels"],
                 )?;
                 read.has(settings, &["sweep", "axis"])?;
                 Box::new(across.built((read.sweep, read.axis), settings, study, paper)?)
             }
             (None, Some(saving)) => {
-                let others =
-                    ["problems", "sweep", "axis", "rows", "single_instances", "metrics", "printed_ratio"];
+                let others = [
+                    "problems",
+                    "sweep",
+                    "axis",
+                    "rows",
+                    "single_instances",
+                    "metrics",
+                    "printed_ratio",
+                    "levels",
+                ];
                 read.lacks(settings, "saving", &others)?;
                 Box::new(saving.built(settings, study)?)
             }
@@ -78,6 +86,9 @@ struct Read {
     /// The contenders that are shown.
     #[serde(default)]
     rows: Vec<ReadRow>,
+    /// Shares that do not hang on the sweep, of contenders in other studies, as dashed lines.
+    #[serde(default)]
+    levels: Vec<Level>,
     /// In place of rows: one contender's shares, one curve a study.
     across: Option<across::Across>,
     /// In place of a sweep and rows: one contender's saving over another along a column of the problem, instance by instance.
@@ -110,6 +121,20 @@ struct ReadRow {
     printed: Option<String>,
 }
 
+/// A share of solved queries as a line across the panel.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Level {
+    /// The study.
+    study: String,
+    /// Its problem group, by its label.
+    problems: String,
+    /// Its contender, by its label.
+    contender: String,
+    /// What the line is called.
+    label: String,
+}
+
 impl Read {
     /// Whether a key is not written, or says nothing.
     fn is_left_out(&self, key: &str) -> bool {
@@ -119,6 +144,7 @@ impl Read {
             "axis" => self.axis.is_empty(),
             "single_instances" => !self.single_instances,
             "metrics" => self.metrics.is_empty(),
+            "levels" => self.levels.is_empty(),
             "printed_ratio" => self.printed_ratio.is_none(),
             _ => self.rows.is_empty(),
         }
@@ -164,18 +190,25 @@ impl SweepCurves {
         ask::known(settings, study, [&read.problems], read.rows.iter().map(|row| &row.contender))?;
         let metrics =
             read.metrics.iter().map(|name| ask::metric(settings, name)).collect::<Result<_, _>>()?;
-        let points = study.sweep_points_of(|label| *label == *read.problems);
-        if points.iter().any(|point| point.key.values().len() > 1) {
+        let points = study.pooled_points_of(|label| *label == *read.problems);
+        if points.iter().any(|point| point.values().len() > 1) {
             let message =
                 format!("study `{}` sweeps more than `{}`, and one sweep is drawn", study.name, read.sweep);
             return Err(settings.error_at("sweep", message));
         }
         let value = |key: &SweepKey| key.value(&read.sweep)?.as_f64();
-        let points = points.into_iter().map(|point| point.key);
-        let points: Vec<(f64, SweepKey)> = points.filter_map(|key| Some((value(&key)?, key))).collect();
+        let points: Vec<(f64, SweepKey)> =
+            points.into_iter().filter_map(|key| Some((value(&key)?, key))).collect();
         if points.is_empty() {
             let message = format!("study `{}` does not sweep numbers of `{}`", study.name, read.sweep);
             return Err(settings.error_at("sweep", message).about(&sweeps_of(&study.name)));
+        }
+        for (index, level) in read.levels.iter().enumerate() {
+            let other = paper.study(&level.study).ok_or_else(|| {
+                let message = format!("there is no study `{}`", level.study);
+                settings.error_at(&format!("levels.{index}.study"), message)
+            })?;
+            ask::known(settings, other, [&level.problems], [&level.contender])?;
         }
         let mut rows = Vec::new();
         for (index, row) in read.rows.iter().enumerate() {
@@ -243,6 +276,20 @@ impl SweepCurves {
         let printed =
             Points::unlabelled(row.printed.clone(), series_marker(index), size, series_color(index));
         panel.add(printed.labelled(format!("{}: printed", row.contender)));
+    }
+
+    /// The mean share of another study's contender, as a line across.
+    fn add_level(&self, scene: &Scene<'_>, panel: &mut Panel, level: &Level) -> Result<(), RenderError> {
+        let missing =
+            || RenderError::NotStored { what: format!("`{}` of `{}`", level.contender, level.study) };
+        let run = scene.evidence.run(&level.study).ok_or_else(missing)?;
+        let trials = ask::trials(run, &level.problems, &level.contender);
+        let curves = shown::Curves::solved(&[trials], scene.evidence);
+        let mean = *curves.means().first().filter(|mean| mean.is_finite()).ok_or_else(missing)?;
+        let ends = self.points.first().into_iter().chain(self.points.last()).map(|(x, _)| [*x, mean]);
+        let line = Line::through(ends.collect(), Stroke::solid(GREY, 1.0).dashed(Dash::Dashed));
+        panel.add(line.labelled(format!("{}: {mean:.0} %", level.label)));
+        Ok(())
     }
 
     fn single_instances(&self, scene: &Scene<'_>, place: usize) -> Result<Panel, RenderError> {
@@ -357,6 +404,9 @@ impl Kind for SweepCurves {
         let mut panel = self.panel("")?;
         for (place, row) in self.rows.iter().enumerate() {
             self.add_band(scene, &mut panel, row, place)?;
+        }
+        for level in &self.read.levels {
+            self.add_level(scene, &mut panel, level)?;
         }
         for place in (0..self.rows.len()).rev().filter(|place| !self.rows[*place].printed.is_empty()) {
             self.add_printed(scene, &mut panel, place);

@@ -210,7 +210,14 @@ fn sweeps(specs: Vec<SweepSpec>, document: &Arc<Document>, faults: &mut Faults) 
                 spec.problems.filter(|_| found.is_none()).map(Spanned::into_inner).unwrap_or_default(),
             ),
         };
-        Sweep { key: spec.key.into_inner(), of, number, values: spec.values.into_inner(), place }
+        Sweep {
+            key: spec.key.into_inner(),
+            of,
+            number,
+            values: spec.values.into_inner(),
+            nested: spec.nested,
+            place,
+        }
     };
     specs.into_iter().enumerate().map(&mut sweep).collect()
 }

@@ -5,6 +5,7 @@ mod picture;
 
 pub use groups::GROUPS_FILE;
 
+use super::drawn_scene::DrawnScene;
 use super::ends::{Ends, SpaceLimits, is_within};
 use super::input::{input, load_robot, load_scene};
 use super::{ArmPlacement, Entry, Family, Query};
@@ -14,6 +15,7 @@ use crate::verification::roadmap::ARM_COLUMNS;
 use crate::{Inputs, StudyError};
 use base::seed::{self, Stream};
 use base::settings::{Accepted, AnyTable, Document, Faults, Settings, SettingsError};
+use engine::geometry::Solid;
 use engine::kinematics::ik::Branch;
 use engine::kinematics::{AXES, FARTHEST_MM, Joints, Robot};
 use engine::planner::Invalid;
@@ -65,6 +67,8 @@ const DRAWS_PER_SAMPLE: u32 = 1000;
 const DRAWN_TOGETHER: usize = 256;
 /// How far the region around the queries' poses reaches beyond them.
 const AROUND_DEG: f64 = 20.0;
+/// Obstacles of a drawn scene that reach less into each other than this touch.
+const TOUCHING_M: f64 = 1e-6;
 
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -74,8 +78,11 @@ struct CellQueries {
     /// What is laid over the robot file: elements of lists go by their number from 0 or their `name`.
     #[schemars(with = "Option<AnyTable>")]
     robot_with: Option<Table>,
-    /// The scene file.
+    /// The scene file; with a table `[drawn]`, a scene is drawn with each instance, in which nothing stands in anything else and the
+    /// arm can stand at every written start and goal.
     scene: String,
+    /// Which of the roadmaps in a drawn scene it is: a sweep over it gives every instance several.
+    roadmap: Option<u32>,
     /// What is laid over the scene file.
     #[schemars(with = "Option<AnyTable>")]
     scene_with: Option<Table>,
@@ -228,14 +235,13 @@ impl CellQueries {
     }
 
     /// `scene` with the heights that the settings give its boxes, or without its obstacles.
-    fn furnished(&self, settings: &Settings, scene: Scene) -> Result<Scene, SettingsError> {
+    fn furnished(&self, scene: Scene) -> Result<Scene, String> {
         if !self.obstacles {
             return Ok(scene.cleared());
         }
         let raised =
             |scene: Scene, (name, height_mm): (&String, &f64)| scene.with_height(name, height_mm * 1e-3);
-        let scene = self.heights_mm.iter().try_fold(scene, raised);
-        scene.map_err(|message| settings.error_at("heights_mm", message))
+        self.heights_mm.iter().try_fold(scene, raised)
     }
 
     /// How queries are drawn, if they are.
@@ -286,7 +292,10 @@ impl CellQueries {
 struct Posed {
     read: CellQueries,
     near: Near,
+    /// The cell; the one in the middle of its bounds if it is drawn.
     cell: Cell,
+    /// How the cell's scene is drawn, if it is.
+    drawn_scene: Option<DrawnScene>,
     bounds_rad: [[f64; 2]; AXES],
     branch: Option<Branch>,
     queries: Vec<Query>,
@@ -306,7 +315,11 @@ impl Posed {
         let robot =
             faults.keep(input(settings, inputs, "robot", &read.robot, |file| read.robot(settings, file)));
         let scene = faults.keep(input(settings, inputs, "scene", &read.scene, |file| {
-            load_scene(settings, file, read.scene_with.as_ref(), Scene::parse)
+            load_scene(settings, file, read.scene_with.as_ref(), |document| {
+                let drawn = DrawnScene::read(document)?;
+                let middle = drawn.as_ref().map(DrawnScene::middle);
+                Ok((Scene::parse(middle.as_ref().unwrap_or(document))?, drawn))
+            })
         }));
         let drawn = faults.keep(read.drawn(settings));
         let placed = match &read.queries {
@@ -317,14 +330,20 @@ impl Posed {
             })),
         };
         let all = robot.zip(scene).zip(drawn);
-        let (((robot_file, robot), (scene_file, scene)), drawn) = faults.or(all)?;
-        let scene = read.furnished(settings, scene)?;
+        let (((robot_file, robot), (scene_file, (scene, drawn_scene))), drawn) = faults.or(all)?;
+        let scene = read.furnished(scene).map_err(|message| settings.error_at("heights_mm", message))?;
+        if read.roadmap.is_some() && drawn_scene.is_none() {
+            let message =
+                "roadmap numbers the roadmaps of a drawn scene; a scene with a table `[drawn]` is accepted";
+            return Err(settings.error_at("roadmap", message));
+        }
         let cell = Cell::new(robot, scene, read.self_collision);
         let mut inputs = vec![robot_file, scene_file];
         let (queries, ends) = match placed {
             Some((file, (placed, document))) => {
                 inputs.push(file);
-                let ends = posed(&cell, &document, &placed);
+                // In a drawn scene every instance sees to it.
+                let ends = if drawn_scene.is_none() { posed(&cell, &document, &placed) } else { Ok(()) };
                 (placed.0, ends)
             }
             None => (drawn.iter().flat_map(Ends::queries).cloned().collect(), Ok(())),
@@ -335,16 +354,30 @@ impl Posed {
             cell.robot().arm().branch_of(&home)
         });
         inputs.extend(cell.robot().files().iter().cloned());
-        Ok(Self { read, near, cell, bounds_rad, branch, queries, drawn, ends, inputs })
+        Ok(Self { read, near, cell, drawn_scene, bounds_rad, branch, queries, drawn, ends, inputs })
     }
 
-    /// The queries of the instance that belongs to `seed`.
-    fn queries_drawn(&self, seed: u64) -> Result<Vec<Query>, Invalid> {
+    /// The cell of the instance that belongs to `seed`.
+    fn cell_of(&self, seed: u64) -> Result<Cell, Invalid> {
+        let Some(drawn) = &self.drawn_scene else { return Ok(self.cell.clone()) };
+        let ends: Vec<Joints> =
+            self.queries.iter().flat_map(Query::ends).filter_map(|end| end.try_into().ok()).collect();
+        // A draw that leaves a box without size is no scene, and is drawn again.
+        let cell = drawn.draw(seed, |document| {
+            let scene = self.read.furnished(Scene::parse(document).ok()?).ok()?;
+            let cell = Cell::new(self.cell.robot().clone(), scene, self.read.self_collision);
+            (are_apart(cell.scene()) && ends.iter().all(|end| cell.is_free(end))).then_some(cell)
+        });
+        cell.ok_or_else(|| Invalid("no drawn scene left every start and goal free".to_owned()))
+    }
+
+    /// The queries of the instance that belongs to `seed`, in its cell.
+    fn queries_drawn(&self, cell: &Cell, seed: u64) -> Result<Vec<Query>, Invalid> {
         let Some(drawn) = &self.drawn else { return Ok(self.queries.clone()) };
         drawn.drawn(seed, |stream, limits| {
             let q = self.draw_configuration(stream);
-            let tip_mm: [f64; 3] = (self.cell.robot().arm().chain().forward(&q).origin * 1e3).into();
-            (is_within(&tip_mm, limits) && self.cell.is_free(&q)).then(|| q.to_vec())
+            let tip_mm: [f64; 3] = (cell.robot().arm().chain().forward(&q).origin * 1e3).into();
+            (is_within(&tip_mm, limits) && cell.is_free(&q)).then(|| q.to_vec())
         })
     }
 
@@ -352,8 +385,12 @@ impl Posed {
         self.bounds_rad.map(|[low, high]| low + (high - low) * stream.random::<f64>())
     }
 
-    /// Free configurations, as many as were asked for, and how many draws they took; fewer if the draws run out.
-    fn samples(&self, seed: u64) -> (Vec<Sample>, u32) {
+    /// Free configurations of `cell`, as many as were asked for, and how many draws they took; fewer if the draws run out.
+    fn samples(&self, cell: &Cell, seed: u64) -> (Vec<Sample>, u32) {
+        let seed = match self.read.roadmap {
+            None => seed,
+            Some(number) => seed::derive(seed, &["roadmap", &number.to_string()]),
+        };
         let mut stream = seed::stream(seed);
         let wanted = self.read.samples;
         let mut samples = Vec::new();
@@ -368,7 +405,7 @@ impl Posed {
             // What is drawn beyond the last sample is dropped: the stream serves nothing else.
             let drawn: [Joints; DRAWN_TOGETHER] =
                 std::array::from_fn(|_| self.draw_configuration(&mut stream));
-            for (q, is_free) in drawn.iter().zip(self.cell.are_free(&drawn)) {
+            for (q, is_free) in drawn.iter().zip(cell.are_free(&drawn)) {
                 if is_done(samples.len(), draws) {
                     break;
                 }
@@ -380,6 +417,20 @@ impl Posed {
         }
         (samples, draws)
     }
+}
+
+/// Whether no box or ball about an obstacle of `scene` reaches into another's; touching is allowed.
+fn are_apart(scene: &Scene) -> bool {
+    let bounds: Vec<_> = scene
+        .obstacles()
+        .iter()
+        .filter(|obstacle| !matches!(obstacle.solid, Solid::HalfSpace(_)))
+        .map(|obstacle| obstacle.solid.aabb())
+        .collect();
+    bounds
+        .iter()
+        .enumerate()
+        .all(|(index, one)| bounds[..index].iter().all(|other| !one.grown(-TOUCHING_M).overlaps(other)))
 }
 
 fn bounds_rad(cell: &Cell, read: &CellQueries, queries: &[Query]) -> [[f64; 2]; AXES] {
@@ -420,8 +471,9 @@ impl Family for Posed {
     }
 
     fn prepare(&self, seed: u64) -> Result<Preprocessing, Invalid> {
-        let queries = self.queries_drawn(seed)?;
-        let (samples, draws) = self.samples(seed);
+        let cell = self.cell_of(seed)?;
+        let queries = self.queries_drawn(&cell, seed)?;
+        let (samples, draws) = self.samples(&cell, seed);
         let counted = match self.read.counted {
             CountedSetting::Accepted => Counted::Accepted,
             CountedSetting::Drawn => Counted::Drawn,
@@ -433,7 +485,7 @@ impl Family for Posed {
                 "{found} of {wanted} free configurations were found in {draws} draws"
             )));
         }
-        let lines = Lines::new(self.cell.clone(), self.read.rules());
+        let lines = Lines::new(cell, self.read.rules());
         let local = Local::Arm(Box::new(lines.clone()));
         let mut preprocessing = nested_roadmap::prepare(local, samples, draws, self.near, counted);
         if let (World::Roadmap(map), Some(unit_mm)) = (&mut preprocessing.world, self.read.radius_mm) {
@@ -448,7 +500,11 @@ impl Family for Posed {
     }
 
     fn queries_for(&self, seed: u64) -> Vec<Query> {
-        self.queries_drawn(seed).unwrap_or_else(|_| self.queries.clone())
+        if self.drawn.is_none() {
+            return self.queries.clone();
+        }
+        let queries = self.cell_of(seed).and_then(|cell| self.queries_drawn(&cell, seed));
+        queries.unwrap_or_else(|_| self.queries.clone())
     }
 
     fn draws_ends(&self) -> bool {
@@ -468,7 +524,8 @@ impl Family for Posed {
     }
 
     fn stance(&self, q_rad: &[f64]) -> Option<ArmPlacement> {
-        picture::stance(&self.cell, q_rad)
+        // How clear an arm is in a drawn scene hangs on the instance.
+        if self.drawn_scene.is_some() { None } else { picture::stance(&self.cell, q_rad) }
     }
 
     fn notes(&self) -> Vec<String> {

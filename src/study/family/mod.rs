@@ -6,6 +6,7 @@
 mod arm_workspace;
 pub(super) mod cell_queries;
 mod conditioned;
+mod drawn_scene;
 mod ends;
 mod entry;
 mod grid_map;

@@ -107,7 +107,7 @@ fn regions_hold_what_they_say() {
     let home = [0.0, -90.0, 0.0, 0.0, 90.0, 0.0_f64].map(f64::to_radians);
     for (region, seed) in [("full", 1), ("front", 2), ("one_branch", 3), ("around_poses", 4)] {
         let posed = Posed::new(&settings(&format!("region = '{region}'")), &inputs(None)).unwrap();
-        let (samples, draws) = posed.samples(seed);
+        let (samples, draws) = posed.samples(&posed.cell, seed);
         assert_eq!(samples.len(), 60);
         assert!(samples.windows(2).all(|pair| pair[0].drawn_after < pair[1].drawn_after));
         assert_eq!(samples[59].drawn_after + 1, draws);
@@ -128,7 +128,7 @@ fn regions_hold_what_they_say() {
 #[test]
 fn the_first_samples_of_an_arm_and_a_smaller_radius_give_the_roadmap_that_is_built_from_them() {
     let posed = Posed::new(&settings("samples = 300\nregion = 'around_poses'"), &inputs(None)).unwrap();
-    let (samples, _) = posed.samples(11);
+    let (samples, _) = posed.samples(&posed.cell, 11);
     let built = |count: usize, radius_mm: f64| {
         let local = Local::Arm(Box::new(Lines::new(posed.cell.clone(), posed.read.rules())));
         Roadmap::build(local, samples[..count].to_vec(), Near::Places(radius_mm), Counted::Accepted)
@@ -221,7 +221,7 @@ fn samples_are_those_that_drawing_and_looking_one_by_one_gives() {
         ("samples = 40\nregion = 'one_branch'", 23),
     ] {
         let posed = Posed::new(&settings(over), &inputs(None)).unwrap();
-        let (samples, draws) = posed.samples(seed);
+        let (samples, draws) = posed.samples(&posed.cell, seed);
         let mut stream = seed::stream(seed);
         let mut expected = Vec::new();
         for drawn_after in 0..draws {
@@ -294,4 +294,29 @@ fn a_roadmap_in_joint_space_has_paths_that_the_verifier_accepts() {
         let message = refused.err().expect(rule).to_string();
         assert!(message.contains("exactly one of radius_mm, radius_deg and nearest"), "{rule}: {message}");
     }
+}
+
+#[test]
+fn drawn_cells_leave_every_pose_free_and_hold_several_roadmaps() {
+    let family = |more: &str| {
+        let over = format!("scene = 'data/scenes/fu2018_drawn_cell.toml'\n{more}");
+        Posed::new(&settings(&over), &inputs(None)).unwrap()
+    };
+    let [first, second] = [family("roadmap = 1"), family("roadmap = 2")];
+    let mut free = [0; 11];
+    for seed in 0..40 {
+        let cell = first.cell_of(seed).unwrap();
+        assert!(are_apart(cell.scene()), "seed {seed}");
+        assert!(first.queries.iter().flat_map(Query::ends).all(|end| cell.is_free(end.try_into().unwrap())));
+        let same = second.cell_of(seed).unwrap();
+        assert_eq!(format!("{:?}", cell.scene()), format!("{:?}", same.scene()), "seed {seed}");
+        assert_ne!(first.samples(&cell, seed).0[0].config, second.samples(&same, seed).0[0].config);
+        let lines = Lines::new(cell, first.read.rules());
+        let straight = picture::traces(&lines, &first.queries).pop().unwrap();
+        free[straight.values.chunks(2).filter(|line| line[0] > 0.0).count()] += 1;
+    }
+    assert!(free.iter().filter(|cells| **cells > 0).count() > 2, "cells alike: {free:?}");
+    assert!(
+        Posed::new(&settings("roadmap = 1"), &inputs(None)).err().unwrap().to_string().contains("[drawn]")
+    );
 }
