@@ -37,6 +37,14 @@ pub fn with_an_end_moved([start, goal]: [Cell; 2], size: [i32; 2]) -> Vec<[Cell;
     starts.chain(goals).filter(|pair| *pair != [start, goal] && pair[0] != pair[1]).collect()
 }
 
+/// The pairs of a start and a goal that are both moved to one of their neighbours, never to the same cell.
+pub fn with_both_ends_moved([start, goal]: [Cell; 2], size: [i32; 2]) -> Vec<[Cell; 2]> {
+    let moved = |cell| neighbourhood(cell, size).into_iter().filter(move |near| *near != cell);
+    let goals: Vec<Cell> = moved(goal).collect();
+    let pairs = moved(start).flat_map(|start| goals.iter().map(move |&goal| [start, goal]));
+    pairs.filter(|[start, goal]| start != goal).collect()
+}
+
 /// An upper bound in words: `decimals` of it, rounded up so that it stays one.
 pub fn at_most(bound: f64, decimals: usize) -> String {
     let scale = libm::pow(10.0, decimals as f64);
@@ -63,5 +71,13 @@ mod tests {
         assert_eq!(moved.len(), 2 + 4, "{moved:?}");
         assert!(moved.iter().all(|[a, b]| a != b && (*a == [0, 0]) != (*b == [1, 0])));
         assert_eq!(with_an_end_moved([[22, 15], [26, 28]], [30, 30]).len(), 16);
+    }
+
+    #[test]
+    fn both_ends_move_and_stay_on_the_grid_and_apart() {
+        let moved = with_both_ends_moved([[0, 0], [1, 0]], [30, 30]);
+        assert_eq!(moved.len(), 3 * 5 - 2, "{moved:?}");
+        assert!(moved.iter().all(|[a, b]| a != b && *a != [0, 0] && *b != [1, 0]));
+        assert_eq!(with_both_ends_moved([[22, 15], [26, 28]], [30, 30]).len(), 64);
     }
 }

@@ -6,7 +6,7 @@ use crate::exact::{Exact, Print};
 use crate::lattice::{Octile, Step, lengths_printing, nearest_lengths};
 use crate::printed::Digits;
 use crate::turns::{Cell, straight_line_between};
-use crate::{at_most, neighbourhood, with_an_end_moved};
+use crate::{at_most, neighbourhood, with_an_end_moved, with_both_ends_moved};
 use stats::interval::Interval;
 
 /// Whether a printed distance is the Euclidean one between two printed points; also that distance.
@@ -92,16 +92,23 @@ pub fn lattice_length(print: Print, ends: Option<[Cell; 2]>, size: Option<[i32; 
     }
 }
 
-/// Whether an 8-connected path has the length where one end is moved to a neighbour.
+/// Whether an 8-connected path has the length where one end, or else both, are moved to a neighbour.
 fn rescued(print: Print, ends: [Cell; 2], size: [i32; 2]) -> String {
-    let rescues = |ends: &[Cell; 2]| {
-        !lengths_printing(print.printed, print.digits, Step::ONE, Some(displacement(*ends))).is_empty()
+    let met = |ends: [Cell; 2]| {
+        let lengths = lengths_printing(print.printed, print.digits, Step::ONE, Some(displacement(ends)));
+        lengths.first().map(|length| (ends, spelled(*length)))
     };
-    match with_an_end_moved(ends, size).into_iter().find(rescues) {
-        Some([from, to]) => format!(
-            "from {from:?} to {to:?}, one end moved to a neighbour, there is one, so the proof rests on the printed ends"
+    if let Some(([from, to], length)) = with_an_end_moved(ends, size).into_iter().find_map(met) {
+        return format!(
+            "from {from:?} to {to:?}, one end moved to a neighbour, there is {length}, so the proof rests on the printed ends"
+        );
+    }
+    let neither = "with the start or the goal moved to any of its eight neighbours there is none";
+    match with_both_ends_moved(ends, size).into_iter().find_map(met) {
+        Some(([from, to], length)) => format!(
+            "{neither}; with both moved, from {from:?} to {to:?}, there is {length}, so the proof rests on one of the printed ends"
         ),
-        None => "nor is there one with the start or the goal moved to any of its eight neighbours".to_owned(),
+        None => format!("{neither}, nor with both moved"),
     }
 }
 
@@ -155,4 +162,28 @@ pub fn largest_saving(print: Print, baseline: Print, ends: Ends) -> Proof {
         "costs are lengths; the baseline's is that of an 8-connected path".to_owned(),
     ];
     Proof { is_possible, because, premises }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn moved(printed: &str, [start, goal]: [Cell; 2]) -> String {
+        let print = Print { printed: printed.parse().unwrap(), digits: Digits::Unknown };
+        let proof = lattice_length(print, Some([start, goal]), Some([30, 30]));
+        assert!(!proof.is_possible, "{printed}");
+        proof.because.last().unwrap().clone()
+    }
+
+    #[test]
+    fn a_length_between_no_printed_ends_is_tried_with_one_and_with_both_of_them_moved() {
+        let complex = [[28, 19], [13, 16]];
+        let both = moved("17.56", complex);
+        assert!(both.contains("moved to any of its eight neighbours there is none"), "{both}");
+        assert!(both.contains("2 + 11√2 = 17.5563"), "{both}");
+        let one = moved("15.83", complex);
+        assert!(one.contains("one end moved to a neighbour, there is 13 + 2√2 = 15.8284"), "{one}");
+        let none = moved("13.05", complex);
+        assert!(none.ends_with("nor with both moved"), "{none}");
+    }
 }
