@@ -10,6 +10,7 @@ use crate::analysis::verdict::{ClaimVerdict, CriterionFinding, Effect, Verdicts}
 use crate::analysis::verdict_rule::Verdict;
 use crate::render::RenderError;
 use crate::render::figure::caption;
+use crate::render::headline::{Headline, headlines};
 use crate::render::prose::prose;
 use crate::render::tables::{Beside, beside, short};
 use study::paper::PrintedTable;
@@ -106,18 +107,17 @@ impl Body<'_> {
 
     /// The headline claims, each with its verdict, and with our number where it has one.
     fn headlines(&self) -> String {
-        let line = |judged: &ClaimVerdict| {
-            let says = judged.says.as_ref().or(judged.quote.as_ref()).unwrap_or(&judged.at);
-            let ours = judged.ours().map_or_else(String::new, |ours| format!(": {}", short(ours)));
+        let line = |headline: &Headline<'_>| {
+            let ours = headline.ours.as_ref().map_or_else(String::new, |ours| format!(": {ours}"));
             format!(
                 "<li>{} <a href=\"#claim={}\">{}</a>{}</li>\n",
-                badge(judged.word(), &judged.verdict_said()),
-                escaped(&judged.claim),
-                escaped(says),
+                badge(headline.judged.word(), &headline.judged.verdict_said()),
+                escaped(&headline.judged.claim),
+                escaped(&headline.says),
                 escaped(&ours)
             )
         };
-        let lines: String = self.verdicts.headlines(self.evidence.paper).map(line).collect();
+        let lines: String = headlines(self.evidence.paper, self.verdicts).iter().map(line).collect();
         if lines.is_empty() { lines } else { format!("<ul>\n{lines}</ul>\n") }
     }
 

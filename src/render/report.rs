@@ -12,6 +12,7 @@ use super::prose::{COLUMNS, markdown, wrapped};
 use crate::analysis::verdict::{ClaimVerdict, Verdicts};
 use crate::analysis::verdict_rule::Column;
 use base::text::shown;
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -40,9 +41,12 @@ const SECTIONS: [(&str, &str); 7] = [
 
 const OPENING: &str = "# What the papers claim and what we found
 
-`replan repro PAPER` writes a paper's chapter and its line in the table, `replan render PAPER --check` says whether both are
-current; what stands between markers is not edited by hand. The project's README says what the verdicts mean.
+Each paper has a chapter below. [README](README.md) explains the words of a verdict. `replan repro PAPER` writes what stands
+between the markers.
 ";
+
+/// The heading of the table of counts, behind what was found in each paper.
+const ALL: &str = "### All claims";
 
 /// The name of the overview among the chapters: it sorts before the name of any paper.
 const OVERVIEW: &str = "! overview";
@@ -75,7 +79,7 @@ fn touched(path: &Path, what: &str) -> StudyError {
 /// [`StudyError::Touched`] with the line if the markers of its chapters do not pair up.
 pub fn with_chapter(path: &Path, report: &str, name: &str, chapter: &Chapter) -> Result<String, StudyError> {
     let put = || {
-        let overview = overview(chapters::chapter(report, OVERVIEW)?, name, &shown(&chapter.line));
+        let overview = overview(chapters::chapter(report, OVERVIEW)?, name, chapter);
         let report = chapters::with_chapter(report, OPENING, OVERVIEW, &overview)?;
         chapters::with_chapter(&report, OPENING, name, &shown(&chapter.text))
     };
@@ -104,24 +108,27 @@ pub fn besides(path: &Path, name: &str) -> Result<String, StudyError> {
     text.map_err(|error| touched(path, &error.to_string()))
 }
 
-/// The overview, of which `before` is the former text, with `line` for the paper `name`.
-fn overview(before: &str, name: &str, line: &str) -> String {
-    let begin = begin_of_line(name);
-    let is_line = |line: &&str| line.starts_with("| [`");
-    let former = before.lines().filter(is_line).filter(|former| !former.starts_with(&begin));
-    let mut lines: Vec<&str> = former.chain([line]).collect();
-    lines.sort_unstable();
+/// The overview, of which `before` is the former text, with what was found in the paper `name`.
+fn overview(before: &str, name: &str, chapter: &Chapter) -> String {
+    let (found, rows) = before.split_once(ALL).unwrap_or((before, ""));
+    let parts = found.split("### [").skip(1).filter_map(|part| Some((part.split_once(']')?.0, part.trim())));
+    let mut found: BTreeMap<&str, &str> = parts.collect();
+    let [own, row] = [&chapter.found, &chapter.row].map(|text| shown(text));
+    found.insert(name, own.trim().trim_start_matches("### ["));
+    let found: Vec<String> = found.into_values().map(|part| format!("### [{part}\n\n")).collect();
+    let found = found.concat();
+    let begin = begin_of_row(name);
+    let is_row = |line: &&str| line.starts_with("| [") && !line.starts_with(&begin);
+    let mut rows: Vec<&str> = rows.lines().filter(is_row).chain([&*row]).collect();
+    rows.sort_unstable();
     let columns = Column::ALL.map(Column::name);
     let rule = "---:|".repeat(columns.len() + 1);
-    format!(
-        "| paper | sentences and rows | {} | found |\n|---|{rule}---|\n{}",
-        columns.join(" | "),
-        lines.join("\n")
-    )
+    let rows = rows.join("\n");
+    format!("{found}{ALL}\n\n| paper | sentences and rows | {} |\n|---|{rule}\n{rows}", columns.join(" | "))
 }
 
-/// How the line of the paper `name` begins: with a link to its chapter.
-fn begin_of_line(name: &str) -> String {
+/// How the row of the paper `name` begins: with a link to its chapter.
+fn begin_of_row(name: &str) -> String {
     format!("| [`{name}`](#{}) |", anchor(name))
 }
 

@@ -17,7 +17,7 @@ pub use self::claim::{Claim, Parts, TestRole, cells_named, printed_by};
 use self::claim::{ClaimSpec, claim};
 pub use self::rules::names_of;
 pub use inventory::{InventoryRow, NumbersRow};
-pub use report::{CLAIMS, FIGURES, OVER_INTERPRETATIONS, ReportSpec, filled};
+pub use report::{FIGURES, OVER_INTERPRETATIONS, ReportSpec, filled};
 
 use self::results::ResultsSpec;
 use self::table_spec::TableSpec;

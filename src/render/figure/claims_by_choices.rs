@@ -16,8 +16,8 @@ use std::collections::BTreeSet;
 pub static ENTRY: Entry = Entry {
     name: "claims_by_choices",
     about: "which choice moves which claim: the greatest effect of an axis's voting options, one at a time",
-    statistic: "Of options that vote, one at a time beside the defaults; of several in one cell the greatest effect; what nothing moves is \
-                left out; {interpretations}.",
+    statistic: "Options that vote, one at a time beside the defaults. Of several in one cell the greatest effect. Claims that nothing moves \
+                are left out; {interpretations}.",
     settings: Accepted::shape::<ClaimsByChoices>(),
     example: r#"
 fitted = "threshold"
@@ -55,7 +55,7 @@ const FITS: [(Fit, &str, Rgb); 3] = [
 ];
 
 /// What a figure of settings shows of how many.
-const SETTINGS: &str = "The defaults, every other option that votes with the rest at their defaults, and a sample of the product of options that vote, drawn by a seed; {interpretations}. A white cell was not asked.";
+const SETTINGS: &str = "The defaults, every other option that votes, alone, and a random sample of their combinations; {interpretations}. A white cell was not run.";
 
 /// Which settings agree with what the studies were fitted to: one a row, the options of the fitted choice side by side, with
 /// `words` along the axis.

@@ -23,7 +23,7 @@ use study::paper::Paper;
 pub static ENTRY: Entry = Entry {
     name: "intervals",
     about: "shares solved, their differences from one group, or reductions, by problem group or contender, with intervals",
-    statistic: "Means over instances with 95 % intervals: bootstrap, or where all instances agree what allows for others; of reductions, trials that one of both did not solve are left out; {n}.",
+    statistic: "Means over instances with 95 % bootstrap intervals; where all instances agree, the bar bounds one more. Reductions count trials that both solve; {n}.",
     settings: Accepted::shape::<Read>(),
     example: r#"
 problems = ["cell"]

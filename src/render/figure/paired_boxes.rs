@@ -20,7 +20,7 @@ use study::key::SweepKey;
 pub static ENTRY: Entry = Entry {
     name: "paired_boxes",
     about: "a metric by query and contender, boxes over the instances on which all compared contenders solve the query, and savings",
-    statistic: "Median, quartiles, 5 and 95 %; an instance on which a contender does not solve the query is left out; {n}.",
+    statistic: "Median, quartiles, 5 and 95 %. An instance counts only if every contender solves the query; {n}.",
     settings: Accepted::shape::<Read>(),
     example: r#"
 problems = "cell"

@@ -18,7 +18,7 @@ use study::record::PreprocessingRow;
 pub static ENTRY: Entry = Entry {
     name: "rejections",
     about: "what became of the pairs of samples that roadmaps tried, by the first reason: mean share over instances",
-    statistic: "Means over instances; an instance without such pairs is left out; {n}.",
+    statistic: "Means over instances that have such pairs; {n}.",
     settings: Accepted::shape::<Rejections>(),
     example: r#"
 problems = ["cell"]

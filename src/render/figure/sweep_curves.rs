@@ -26,7 +26,7 @@ pub static ENTRY: Entry = Entry {
     name: "sweep_curves",
     about: "along a sweep: shares of solved queries with simultaneous bands or instance by instance, printed rows on top; or metrics, \
             several studies, a saving along a column",
-    statistic: "Shares are means over instances, unsolved queries counted as such; other metrics are of single trials; {n}.",
+    statistic: "Shares are means over instances and count unsolved queries. Other metrics are of single trials; {n}.",
     settings: Accepted::shape::<Read>(),
     example: r#"
 problems = "cell"

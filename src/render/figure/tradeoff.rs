@@ -21,7 +21,7 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "tradeoff",
     about: "one metric against another, a point a contender: means with intervals both ways, or all trials and their medians",
-    statistic: "Means over instances that every contender solves, changes of means over pairs, or medians with failures at infinity, which are not drawn; {n}.",
+    statistic: "Means over instances that every contender solves, changes of means over pairs, or medians. Failures are infinite and not drawn; {n}.",
     settings: Accepted::shape::<Tradeoff>(),
     example: r#"
 x = "opened"

@@ -1,24 +1,27 @@
 //! A paper's chapter: what was found, its tables beside ours, figures, and claims that lead to their evidence.
 
-use super::{SECTIONS, Undrawn, begin_of_line, item, link, linked, paper_statement, paragraph, place};
+use super::{SECTIONS, Undrawn, anchor, begin_of_row, item, link, linked, paper_statement, paragraph, place};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::{ClaimVerdict, Verdicts};
 use crate::analysis::verdict_rule::Column;
 use crate::render::figure::caption;
+use crate::render::headline::{Headline, headlines};
 use crate::render::prose::{COLUMNS, markdown, prose, wrapped};
-use crate::render::tables::{self, short};
+use crate::render::tables;
 use crate::render::{RenderError, results, state};
 use std::collections::BTreeSet;
-use study::paper::{CLAIMS, FIGURES, Paper};
+use study::paper::{FIGURES, Paper};
 use study::spec::FigureSpec;
 
-/// A chapter and the paper's line of the overview.
+/// A chapter, and what opens the report.
 #[derive(Debug)]
 pub struct Chapter {
     /// The chapter.
     pub text: String,
-    /// The line.
-    pub line: String,
+    /// The finding and the headline claims.
+    pub found: String,
+    /// The paper's row of the table of counts.
+    pub row: String,
 }
 
 /// What a chapter and its details are made of.
@@ -41,7 +44,16 @@ pub fn unread(paper: &Paper, why: &str) -> Chapter {
     let mut text = heading(paper);
     text.insert_str(text.find('\n').unwrap_or(0) + 1, &format!("\n{why}\n"));
     let blank = " – |".repeat(Column::ALL.len() + 1);
-    Chapter { text, line: format!("{}{blank} {why} |", begin_of_line(&paper.id)) }
+    Chapter {
+        text,
+        found: begin_of_found(paper) + &why + "\n",
+        row: format!("{}{blank}", begin_of_row(&paper.id)),
+    }
+}
+
+/// How what was found in `paper` begins in the report: with a link to its chapter.
+fn begin_of_found(paper: &Paper) -> String {
+    format!("### [{}](#{})\n\n", markdown(&paper.id), anchor(&paper.id))
 }
 
 fn heading(paper: &Paper) -> String {
@@ -63,30 +75,60 @@ impl Page<'_> {
     /// A table for which something is not stored.
     pub fn chapter(&self) -> Result<Chapter, RenderError> {
         let paper = self.evidence.paper;
-        let verdicts = self.verdicts;
-        let state = state(self.evidence, verdicts);
+        let state = state(self.evidence, self.verdicts);
         let mut text = heading(paper);
-        if !state.is_empty() {
-            let state = state.iter().map(|said| format!("\n**{}**\n", markdown(said)));
-            let state = state.collect::<Vec<_>>().concat();
-            text.insert_str(text.find('\n').unwrap_or(0) + 1, &state);
-        }
+        let notes: Vec<String> = state.iter().map(|note| format!("\n**{}**\n", markdown(note))).collect();
+        text.insert_str(text.find('\n').unwrap_or(0) + 1, &notes.concat());
         // Findings were written on the study's own run; of any other they may be false.
-        let found = |text: &String| linked(&prose(text, verdicts), verdicts, &self.details_file());
-        if state.is_empty() {
-            text.extend(paper.report.findings.iter().map(|finding| item(0, &found(finding))));
-            text += "\n";
+        let findings = if state.is_empty() { self.findings() } else { Vec::new() };
+        if !findings.is_empty() {
+            text += &(wrapped("", &findings.join(" "), 0, COLUMNS) + "\n\n");
         }
+        self.headlines(&mut text);
         self.tables(&mut text)?;
         self.figures(&mut text);
         self.claims(&mut text);
-        let finding = match (&state[..], &paper.report.finding) {
-            ([first, ..], _) => format!("**{}**", markdown(first)),
-            ([], finding) => finding.as_ref().map_or_else(String::new, found),
-        };
-        let counts: Vec<String> = verdicts.tally().into_iter().map(|count| format!(" {count} |")).collect();
-        let line = format!("{}{} {finding} |", begin_of_line(&paper.id), counts.concat());
-        Ok(Chapter { text, line })
+        let counts: Vec<String> = self.verdicts.tally().iter().map(|count| format!(" {count} |")).collect();
+        let row = begin_of_row(&paper.id) + &counts.concat();
+        Ok(Chapter { text, found: self.found(state.first(), findings.first()), row })
+    }
+
+    /// What was found, a sentence or two each: the finding first.
+    fn findings(&self) -> Vec<String> {
+        let report = &self.evidence.paper.report;
+        let texts = report.finding.iter().chain(&report.findings);
+        let found = |text: &String| linked(&prose(text, self.verdicts), self.verdicts, &self.details_file());
+        texts.map(found).collect()
+    }
+
+    /// What opens the report: the finding, and the headline claims in a few words.
+    fn found(&self, state: Option<&String>, finding: Option<&String>) -> String {
+        let paper = self.evidence.paper;
+        let mut text = begin_of_found(paper);
+        let first = state.map(|state| format!("**{}**", markdown(state))).or_else(|| finding.cloned());
+        text.extend(first.map(|first| wrapped("", &first, 0, COLUMNS) + "\n\n"));
+        for headline in headlines(paper, self.verdicts) {
+            let ours = headline.ours.as_ref().map_or_else(String::new, |ours| format!(": {ours}"));
+            let verdict = headline.judged.verdict_said();
+            text += &item(0, &format!("{}. **{}**", markdown(&(headline.says + &ours)), markdown(&verdict)));
+        }
+        text
+    }
+
+    /// The headline claims: what the paper says, ours, and the verdict.
+    fn headlines(&self, text: &mut String) {
+        *text += "| claim | in the paper | ours | verdict |\n|---|---|---|---|\n";
+        let details = self.details_file();
+        for headline in headlines(self.evidence.paper, self.verdicts) {
+            let verdict = headline.verdict();
+            let Headline { judged, says, ours } = headline;
+            let says = link(judged, &markdown(&says), &details);
+            let n = judged.ours().map_or_else(String::new, |ours| format!("; n = {}", ours.n));
+            let ours = ours.map_or_else(|| "–".to_owned(), |ours| markdown(&(ours + &n)));
+            let stated = markdown(&format!("{}: {}", judged.at, paper_statement(judged)));
+            *text += &format!("| {says} | {stated} | {ours} | {} |\n", markdown(&verdict));
+        }
+        *text += "\n";
     }
 
     /// The paper's tables that hold claims, and those of our results that the chapter shows.
@@ -152,29 +194,10 @@ impl Page<'_> {
         format!("{}/details.md", self.plots)
     }
 
+    /// How many claims have each verdict, and where the evidence stands.
     fn claims(&self, text: &mut String) {
-        let paper = self.evidence.paper;
-        let verdicts = self.verdicts;
-        let mut shown: Vec<&ClaimVerdict> = verdicts.headlines(paper).collect();
-        if shown.is_empty() {
-            shown.extend(verdicts.claims.iter().filter(|judged| judged.is_counted()).take(CLAIMS));
-        }
-        *text += "| claim | in the paper | ours | verdict |\n|---|---|---|---|\n";
         let details = self.details_file();
-        for judged in &shown {
-            let ours = judged.ours().map_or_else(
-                || "–".to_owned(),
-                |ours| format!("{} ({}; n = {})", short(ours), markdown(&ours.what), ours.n),
-            );
-            let interpretations = judged.beside_if_other();
-            let interpretations =
-                interpretations.map_or_else(String::new, |words| format!(" ({})", markdown(&words)));
-            let claim = link(judged, &format!("`{}`", judged.claim), &details);
-            let said = markdown(&format!("{}: {}", judged.at, paper_statement(judged)));
-            let verdict = judged.verdict_said();
-            *text += &format!("| {claim} | {said} | {ours} | {verdict}{interpretations} |\n");
-        }
-        let all = verdicts.claims.len();
+        let all = self.verdicts.claims.len();
         let mut more = format!("{} More: [evidence of all {all} claims]({details})", self.counts());
         for (name, to) in SECTIONS.iter().skip(1) {
             more += &format!(", [{}]({details}#{to})", name.to_lowercase());

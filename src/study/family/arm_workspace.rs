@@ -21,6 +21,7 @@ use std::num::NonZeroU32;
 pub static ENTRY: Entry = Entry {
     name: "arm_workspace",
     about: "a planar arm among obstacles, its tip on a lattice; start and goal are written, or drawn with each instance",
+    instances: "problems",
     revision: 1,
     is_drawn: false,
     preprocessing: workspace_map::ENTRY.name,

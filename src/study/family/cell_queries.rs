@@ -35,6 +35,7 @@ use toml::Table;
 pub static ENTRY: Entry = Entry {
     name: "cell_queries",
     about: "queries of a six-axis arm in its cell, on roadmaps of free configurations drawn at random",
+    instances: "roadmaps",
     revision: 5,
     is_drawn: true,
     preprocessing: nested_roadmap::ENTRY.name,

@@ -27,6 +27,7 @@ use toml::{Table, Value as Toml};
 pub static ENTRY: Entry = Entry {
     name: "conditioned",
     about: "draws of other families, each with equal chance, on which one planner's record lies in given bands",
+    instances: "maps",
     revision: 1,
     is_drawn: true,
     preprocessing: lattice::ENTRY.name,

@@ -120,6 +120,8 @@ pub struct Entry {
     pub name: &'static str,
     /// One line for `replan list`.
     pub about: &'static str,
+    /// The noun for its instances, in the plural: readers count maps or roadmaps.
+    pub instances: &'static str,
     /// Raised whenever a change moves what it draws.
     pub revision: u32,
     /// Whether its seed decides anything of what it poses: a single instance is then one of many, not the paper's own.

@@ -19,6 +19,7 @@ use std::path::PathBuf;
 pub static ENTRY: Entry = Entry {
     name: "grid_map",
     about: "one map from a file (text, PNG, ROS, Moving AI); start and goal are written, or drawn with each instance",
+    instances: "maps",
     revision: 1,
     is_drawn: false,
     preprocessing: lattice::ENTRY.name,

@@ -21,6 +21,7 @@ use std::path::PathBuf;
 pub static ENTRY: Entry = Entry {
     name: "movingai",
     about: "a MovingAI map (.map) with the queries of a scenario file (.scen) and their printed optimal lengths",
+    instances: "maps",
     revision: 1,
     is_drawn: false,
     preprocessing: lattice::ENTRY.name,

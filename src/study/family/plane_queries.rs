@@ -24,6 +24,7 @@ use std::path::PathBuf;
 pub static ENTRY: Entry = Entry {
     name: "plane_queries",
     about: "a particle among polygons, on roadmaps of free points drawn at random; start and goal are written, or drawn too",
+    instances: "roadmaps",
     revision: 1,
     is_drawn: true,
     preprocessing: nested_roadmap::ENTRY.name,

@@ -25,6 +25,7 @@ use toml::Table;
 pub static ENTRY: Entry = Entry {
     name: "polyhedra_scene",
     about: "one scene of polyhedra from a file, with written queries or ones drawn around them; an arm may carry the tip",
+    instances: "environments",
     revision: 3,
     is_drawn: false,
     preprocessing: polyhedra::ENTRY.name,

@@ -27,6 +27,7 @@ pub(super) const fn entry<O: Obstacles>(
     Entry {
         name,
         about,
+        instances: "maps",
         revision: 1,
         is_drawn: true,
         preprocessing: lattice::ENTRY.name,

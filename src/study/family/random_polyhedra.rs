@@ -18,6 +18,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "random_polyhedra",
     about: "a random number of random obstacles in a cube, disjoint or not, with written queries or a drawn one",
+    instances: "environments",
     revision: 2,
     is_drawn: true,
     preprocessing: polyhedra::ENTRY.name,

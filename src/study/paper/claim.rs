@@ -17,6 +17,8 @@ pub(super) struct ClaimSpec {
     pub(super) at: String,
     /// The sentence, where it is not a number alone.
     pub(super) says: Option<String>,
+    /// The sentence in a few words, for the first screens.
+    pub(super) short: Option<String>,
     /// The paper's own words, where they are given word for word.
     pub(super) quote: Option<String>,
     /// The number as printed, digits and all.
@@ -76,6 +78,8 @@ pub struct Claim {
     pub at: String,
     /// The sentence, where it is not a number alone.
     pub says: Option<String>,
+    /// The sentence in a few words, for the first screens.
+    pub short: Option<String>,
     /// The paper's own words, where they are given word for word.
     pub quote: Option<String>,
     /// The number as printed.
@@ -243,6 +247,7 @@ pub(super) fn claim(
         id: id.clone(),
         at: spec.at.clone(),
         says: spec.says.clone(),
+        short: spec.short.clone(),
         quote: spec.quote.clone(),
         printed: spec.printed.as_ref().map(|printed| printed.get_ref().clone()),
         unit: spec.unit.clone(),

@@ -25,12 +25,12 @@ pub struct ReportSpec {
 
 /// How many figures a chapter shows at most.
 pub const FIGURES: usize = 6;
-/// How many claims a chapter lists at most where none is a headline.
-pub const CLAIMS: usize = 25;
 
-/// The forms in which a place can ask for what was found: with one decimal, as a percentage, the ends of the interval, the
+/// The forms in which a place can ask for what was found: with one decimal, as a percentage, in words with
+/// a direction, the ends of the interval, the
 /// number of instances, the class, and the least and the greatest percentage over the interpretations that count.
-pub const FORMS: [&str; 7] = ["tenths", "percent", "low", "high", "n", "verdict", OVER_INTERPRETATIONS];
+pub const FORMS: [&str; 8] =
+    ["tenths", "percent", "effect", "low", "high", "n", "verdict", OVER_INTERPRETATIONS];
 
 /// The form that asks what a number is over interpretations.
 pub const OVER_INTERPRETATIONS: &str = "percents";

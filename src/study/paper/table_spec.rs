@@ -176,6 +176,8 @@ pub(super) struct CellSpec {
     pub(super) at: Option<String>,
     /// The sentence, where it is not a number alone.
     pub(super) says: Option<String>,
+    /// The sentence in a few words, for the first screens.
+    pub(super) short: Option<String>,
     /// The paper's own words, where they are given word for word.
     pub(super) quote: Option<String>,
     /// How the number's digits end, where it says so; otherwise the interpretation decides.

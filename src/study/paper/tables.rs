@@ -310,6 +310,7 @@ impl TableSpec {
                 .or_else(|| row.at.clone())
                 .unwrap_or_else(|| format!("{}, {}", self.at, row.label())),
             says: own.says.clone().or_else(|| Some(format!("the row of {}", row.label()))),
+            short: own.short.clone(),
             quote: own.quote.clone(),
             printed: None,
             unit: None,
@@ -417,6 +418,7 @@ impl Cell<'_> {
         Claim {
             at: own.at.clone().unwrap_or_else(|| format!("{place}, {}", column.label(self.column.2))),
             says: own.says.clone(),
+            short: own.short.clone(),
             quote: own.quote.clone(),
             printed: Some(printed.get_ref().clone()),
             unit: unit.cloned(),

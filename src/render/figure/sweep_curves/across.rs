@@ -194,7 +194,7 @@ impl Identification {
 
 impl Kind for Identification {
     fn statistic(&self) -> Option<&'static str> {
-        Some("Means over instances with 95 % bootstrap intervals, unsolved queries counted as such; {n}.")
+        Some("Means over instances with 95 % bootstrap intervals; unsolved queries count; {n}.")
     }
 
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {

@@ -52,7 +52,7 @@ pub(super) struct SavingOver {
 
 impl Kind for SavingOver {
     fn statistic(&self) -> Option<&'static str> {
-        Some("One dot an instance, an instance that one of both does not solve left out; {n}.")
+        Some("One dot for each instance that both solve; {n}.")
     }
 
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
