@@ -118,7 +118,9 @@ fn is_of_repository(folder: &Path) -> bool {
 
 /// What a study says of planners from outside: in contenders, in options of choices and in sweeps.
 fn programs(study: &Study) -> Vec<Table> {
-    let is_outside = |entry: &str| planner::find(entry).is_some_and(planner::is_recorded);
+    // Trials that were imported start nothing.
+    let is_started = |entry: &&Entry| planner::is_recorded(entry) && entry.name != planner::recorded::ENTRY.name;
+    let is_outside = |entry: &str| planner::find(entry).as_ref().is_some_and(is_started);
     let stages = study.contenders.iter().flat_map(|own| &own.stages);
     let own = stages.filter(|stage| is_outside(stage.entry.name)).map(|stage| stage.settings.table().clone());
     let sweeps = study.sweeps.iter().filter(|sweep| sweep.entry().is_some_and(is_outside));

@@ -15,9 +15,3 @@ pub mod shorten;
 pub mod length_inversion;
 
 pub mod planner;
-
-/// Of `all` cases that a test draws, those that it draws now: a fifth, or all where `REPLAN_THOROUGH` is set.
-#[cfg(test)]
-fn thoroughly(all: usize) -> usize {
-    if std::env::var_os("REPLAN_THOROUGH").is_some() { all } else { all / 5 }
-}

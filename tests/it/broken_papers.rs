@@ -142,9 +142,9 @@ const BROKEN: [(&str, &str, &[Mistake]); 10] = [
             ),
             (
                 "paper.toml",
-                "statistic = \"mean\"",
+                "statistic = \"reduction_percent\"",
                 "statistic = \"average\"",
-                "paper.toml:51:30: `statistic` is \"average\"",
+                "paper.toml:59:30: `statistic` is \"average\"",
             ),
         ],
     ),

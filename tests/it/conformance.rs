@@ -5,7 +5,6 @@
 
 mod tried;
 
-use crate::paper::thoroughly;
 use crate::worlds::{Case, Subject, worlds};
 use base::settings::Settings;
 use engine::planner::{self, Build, Ending, Entry, Invalid, Plan, Planner, Request, Stage};
@@ -259,8 +258,7 @@ fn counters_are_what_the_world_saw() {
     for subject in searching() {
         let mut exhausted = 0;
         let mut is_counted = false;
-        let all = worlds(subject.entry.needs);
-        for case in all.iter().step_by(all.len() / thoroughly(all.len())) {
+        for case in worlds(subject.entry.needs) {
             let plan = subject.planner.plan(&request(case, PLENTY, true)).unwrap();
             let what = format!("{} on {}: {:?}", subject.name, case.name, plan.counts);
             for list in ["opened", "closed"] {
@@ -287,7 +285,7 @@ fn counters_are_what_the_world_saw() {
                 exhausted += 1;
             }
         }
-        assert!(exhausted > 0 || !is_counted, "{}: {exhausted} worlds were exhausted", subject.name);
+        assert!(exhausted > 3 || !is_counted, "{}: {exhausted} worlds were exhausted", subject.name);
     }
 }
 

@@ -130,7 +130,9 @@ fn a_fault_of_the_first_claim_hides_none_of_the_second() {
 fn ids_that_would_break_tables_and_links_are_refused() {
     for id in ["", "a|b", "a*", "`a`", "a b", "a\\nb", "ä", "a\\\\b", "50%"] {
         let change = format!("id = \"{id}\"");
-        let wanted = "paper.toml:78:6: the claim is called \"";
+        let is_one_line = !id.contains("\\n");
+        let wanted = if is_one_line { "the claim is called \"" } else { "`id` holds a control character" };
+        let wanted = &format!("paper.toml:78:6: {wanted}");
         assert_alone("grid", ("paper.toml", "id = \"fewer_nodes\"", &change), wanted);
     }
     let figure = ("compare.toml", "id = \"maps\"", "id = \"ma|ps\"");

@@ -15,6 +15,7 @@ pub static ENTRY: Entry = Entry {
     name: "recorded",
     about: "problems that others posed, whose trials were recorded elsewhere and imported, docs/AUTHORS_DATA.md",
     revision: 1,
+    instances: "problems",
     is_drawn: true,
     preprocessing: lattice::ENTRY.name,
     columns: &[],
