@@ -9,6 +9,7 @@ use super::places::Places;
 use base::hash::sha256;
 use base::text::{around, one_line};
 use clap::Args;
+use engine::planner::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, OpenOptions};
 use std::io::Write as _;
@@ -119,7 +120,8 @@ fn is_of_repository(folder: &Path) -> bool {
 /// What a study says of planners from outside: in contenders, in options of choices and in sweeps.
 fn programs(study: &Study) -> Vec<Table> {
     // Trials that were imported start nothing.
-    let is_started = |entry: &&Entry| planner::is_recorded(entry) && entry.name != planner::recorded::ENTRY.name;
+    let is_started =
+        |entry: &&Entry| planner::is_recorded(entry) && entry.name != planner::recorded::ENTRY.name;
     let is_outside = |entry: &str| planner::find(entry).as_ref().is_some_and(is_started);
     let stages = study.contenders.iter().flat_map(|own| &own.stages);
     let own = stages.filter(|stage| is_outside(stage.entry.name)).map(|stage| stage.settings.table().clone());

@@ -182,7 +182,7 @@ pub struct Joint {
     /// The greatest angle.
     pub upper_rad: f64,
     /// Whether it turns without end: the limits are then half a turn to either side, and angles that whole turns part are one.
-    #[serde(default, rename = "endless", skip_serializing_if = "std::ops::Not::not")]
+    #[serde(default, rename = "endless")]
     pub is_endless: bool,
     /// The greatest speed.
     pub speed_rad_s: f64,

@@ -54,8 +54,7 @@ fn stored_records_are_the_bytes_that_this_program_would_write_of_them() {
         for study in &paper.studies {
             let manifest = Manifest::read(&runs, &study.name).unwrap();
             // Those of the largest take most of the time; a written file of any study has all that another has.
-            let bytes: u64 =
-                ["trials", "traces", "times", "preprocessing"]
+            let bytes: u64 = ["trials", "traces", "times", "preprocessing"]
                 .iter()
                 .filter_map(|kind| fs::metadata(runs.join(format!("{}.{kind}.parquet", study.name))).ok())
                 .map(|file| file.len())

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::geometry::tests::sample;
+use crate::geometry::tests::thoroughly;
 use crate::geometry::{HalfSpace, Segment, Solid, distance_segment_box, distance_segment_segment};
-use crate::thoroughly;
 use base::seed::{self, Stream};
 use rand::RngExt as _;
 use std::cell::Cell;

@@ -7,8 +7,8 @@ use super::{
     },
     *,
 };
+use crate::geometry::tests::thoroughly;
 use crate::kinematics::{Joint, angle::wrapped, robot::tests::urdf::read_back};
-use crate::thoroughly;
 use base::seed::Stream;
 
 /// How far two poses are apart: metres and radians.
