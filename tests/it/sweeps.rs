@@ -119,7 +119,8 @@ fn a_sweep_over_problems_has_a_typed_column_that_is_null_on_other_groups() {
         of(0.2),
         of(0.4)
     );
-    let shown = bench.done(&["repro", "./mini"]);
+    bench.done(&["repro", "./mini"]);
+    let shown = bench.done(&["show", "./mini", "more"]);
     assert!(shown.contains("at blocked_share=0."), "the claim along the sweep: {shown}");
     let trial = "study/maps/blocked_share=0.4/3/2/jps";
     assert!(bench.done(&["repro", "./mini", "--trial", trial]).contains("equals the stored row"));

@@ -9,7 +9,7 @@ use std::path::Path;
 
 /// What the legend of the success curves says: each curve with its value.
 const LEGEND: &str = "
-    const figure = [...document.querySelectorAll('#curves figure')].find((figure) => figure.textContent.includes('rows printed in Table 2'));
+    const figure = [...document.querySelectorAll('#curves figure')].find((figure) => figure.textContent.includes('in the reconstructed cell'));
     figure.querySelector('.u-over').id = 'success';
     return Object.fromEntries([...figure.querySelectorAll('.u-series:not(.band)')]
         .map((series) => [series.querySelector('.u-label').textContent, series.querySelector('.u-value').textContent]))";
