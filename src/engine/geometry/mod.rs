@@ -21,7 +21,7 @@ mod rounded;
 mod segment;
 mod solid;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use aabb::{Aabb, BroadPhase};
 pub use convex::{
