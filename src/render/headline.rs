@@ -57,7 +57,9 @@ fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
             judged.printed.as_ref().map_or_else(String::new, |printed| format!("printed {printed}, ours "));
         // A rank among instances is a probability, not a size that a reader could compare.
         let is_rank = ours.what.starts_with("the lesser rank");
-        return (!is_rank).then(|| printed + &effect(ours).unwrap_or_else(|| short(ours)) + &unit);
+        let letter = if ours.what.starts_with("p of") { "p = " } else { "" };
+        let number = || effect(ours).unwrap_or_else(|| short(ours));
+        return (!is_rank).then(|| format!("{printed}{letter}{}{unit}", number()));
     }
     let parts = verdicts.claims.iter().filter(|part| part.part_of.as_ref() == Some(&judged.claim));
     let estimates: Vec<&Estimate> = parts.filter_map(ClaimVerdict::ours).collect();
