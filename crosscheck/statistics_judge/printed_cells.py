@@ -169,7 +169,7 @@ def along_sweep(cases: Cases, solved: bool) -> list[Reals]:
 
     What did not end is solved only if so wanted.
     """
-    places, names = cases.study.sweep
+    places, names = cases.study.pooled
     found = []
     for point in cases.points:
         at = places[cases.own] == names.index(point)

@@ -135,7 +135,24 @@ class Study:
     @cached_property
     def sweep(self) -> tuple[Places, list[str]]:
         """The point of the sweeps of each trial."""
-        keys = list(dict.fromkeys(sweep["key"] for sweep in self.sweeps))
+        return self.points_of(self.sweeps)
+
+    @cached_property
+    def pooled(self) -> tuple[Places, list[str]]:
+        """The same without the sweeps that number what is drawn within an instance."""
+        return self.points_of([sweep for sweep in self.sweeps if not sweep.get("nested", False)])
+
+    def pooled_points(self, points: list[str]) -> list[str]:
+        """Points without the values of those sweeps, each once."""
+        nested = {sweep["key"] for sweep in self.sweeps if sweep.get("nested", False)}
+        kept = [
+            [part for part in point.split(",") if part.split("=", 1)[0] not in nested] for point in points
+        ]
+        return list(dict.fromkeys(",".join(parts) for parts in kept))
+
+    def points_of(self, sweeps: list[dict[str, Any]]) -> tuple[Places, list[str]]:
+        """The point of some of its sweeps of each trial."""
+        keys = list(dict.fromkeys(sweep["key"] for sweep in sweeps))
         if not keys:
             return np.zeros(self.count, dtype=np.int64), [""]
         columns = [self.trials.sweep(f"sweep_{key}") for key in keys]

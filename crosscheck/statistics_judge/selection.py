@@ -213,7 +213,7 @@ def select(paper: Paper, of: dict[str, Any], session: int) -> Cases:
     seed = study.repeat[own] if base is None else np.maximum(study.repeat[own], study.repeat[base])
     seed = np.where(np.isin(places, drawn), 0, seed)
     unit = (places * instances + study.instance[own]) * seeds + seed
-    points = study.sweeps_called(groups_of(study, of["problems"]), of.get("sweep"))
+    points = study.pooled_points(study.sweeps_called(groups_of(study, of["problems"]), of.get("sweep")))
     ends = of.get("all_ends", False)
     cases = Cases(study, metric, session, against, own, base, unit, places, ends, points)
     if not of.get("whole_instances", False):
@@ -238,7 +238,7 @@ def posed(
     sweeps = None
     if "sweep" in of:
         sweeps = study.sweeps_called(groups_of(study, of["problems"]), of["sweep"])
-    query = [of["query"]] if "query" in of else None
+    query = labels(of["query"]) if "query" in of else None
     for wanted, (places, words) in ((query, study.query), (sweeps, study.sweep)):
         if wanted is not None:
             kept &= np.isin(places[rows], [words.index(one) for one in wanted if one in words])

@@ -138,7 +138,8 @@ def share_within(asked: Asked) -> Found:
     """A share lies within bounds."""
     cases, settings = asked.cases(), asked.settings
     hits, chances = by_unit(asked, cases)
-    most = {"lower_throughout": 1.0, "events": 0.0}.get(settings["hits"], most_cases(cases))
+    few = {"lower_throughout": 1.0, "solved_more": 1.0, "events": 0.0}
+    most = few.get(settings["hits"], most_cases(cases))
     estimate = with_cases(share(hits, chances, most, asked.seed), cases.solved_of_all())
     if "accepted" not in settings:
         return certain(None, estimate)
@@ -177,6 +178,8 @@ def unknown(asked: Asked, cases: Cases) -> Flags:
 def by_unit(asked: Asked, cases: Cases, given: bool | None = None) -> tuple[Reals, Reals]:
     """Hits and chances of each unit; cases of which nothing is known are left out, or all hits or misses."""
     kind = asked.settings["hits"]
+    if kind == "solved_more":
+        return solves_more(cases, given)
     hits, chances = hits_of(asked, cases)
     if given is not None:
         lost = unknown(asked, cases)
@@ -185,6 +188,18 @@ def by_unit(asked: Asked, cases: Cases, given: bool | None = None) -> tuple[Real
     if kind == "lower_throughout":
         return ((hits == chances) & (chances > 0)).astype(float), (chances > 0).astype(float)
     return hits, chances
+
+
+def solves_more(cases: Cases, given: bool | None) -> tuple[Reals, Reals]:
+    """Whether more cases of each unit are solved than by the other contender.
+
+    What did not end is solved by this one alone, or by the other alone, if that is given.
+    """
+    assert cases.base is not None
+    own = cases.ended_as(cases.own, given is True).astype(float)
+    base = cases.ended_as(cases.base, given is False).astype(float)
+    more, count = sums_by_unit(cases.unit, cases.units, own - base, np.ones(len(own)))
+    return (more > 0).astype(float), (count > 0).astype(float)
 
 
 def hits_of(asked: Asked, cases: Cases) -> tuple[Reals, Reals]:

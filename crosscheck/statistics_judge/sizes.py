@@ -183,7 +183,7 @@ def curves(cases: Cases, *, other: bool, own: bool) -> Reals:
 
     What did not end is solved by the other, or by the contender itself, only if so wanted.
     """
-    places, names = cases.study.sweep
+    places, names = cases.study.pooled
     assert cases.base is not None
     found = []
     for point in cases.points:
