@@ -18,6 +18,7 @@ pub mod difference;
 pub mod evidence;
 pub mod history;
 pub mod inclusion;
+pub mod joint_test;
 pub mod meaning;
 pub mod metric;
 pub mod outcome;

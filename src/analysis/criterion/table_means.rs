@@ -9,6 +9,7 @@ use super::{Criterion, Entry};
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::joint_test::{Apart, JointTest};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Selection, by_instance, solved};
 use crate::analysis::statistic::mean;
@@ -17,7 +18,7 @@ use base::settings::{Accepted, Faults, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::beta::combined;
-use stats::means::{Apart, FEWEST_NORMAL, JointTest};
+use stats::means::FEWEST_NORMAL;
 use std::collections::BTreeMap;
 use study::Study;
 
