@@ -72,6 +72,13 @@ def test_a_counterexample_is_one_whatever_else_did_not_end_and_equal_cases_are_n
         assert (found.outcome, firm(found)) == (FAILS, True)
 
 
+def test_one_solves_more_of_an_instance_unless_what_the_other_left_unended_is_solved() -> None:
+    of = asked([(1.0, SPENT), (1.0, 1.0), (NONE, 1.0)], {"hits": "solved_more"})
+    for given, expected in [(None, [1, 0, 0]), (True, [1, 0, 0]), (False, [0, 0, 0])]:
+        hits, chances = shares.by_unit(of, of.cases(), given)
+        assert (list(hits), list(chances)) == (expected, [1, 1, 1])
+
+
 def test_what_chance_decides_hangs_both_ways() -> None:
     one, two = frozenset([HOLDS]), frozenset([HOLDS, FAILS])
     assert hangs(HOLDS, one, []) == hangs(HOLDS, one, [one]) == {False}
@@ -234,6 +241,7 @@ def drawn(status: list[str], *, family: str, repeats: int = 1) -> tuple[SimpleNa
         query=(place % 2, ["0", "1"]),
         sweep=(np.zeros(count, dtype=int), [""]),
         sweeps_called=lambda groups, written: [""],
+        pooled_points=lambda points: points,
         groups=["g"],
         spec={"problems": [{"label": "g", "family": family}]},
     )
