@@ -46,14 +46,7 @@ impl Confirm {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
         MadeBy::here();
-        if let (Some(shard), Some(parts)) = (self.shard, &self.which.out) {
-            let one = OneShard {
-                paper: &self.which.paper,
-                shard,
-                parts,
-                threads: self.threads,
-                consent: self.consent,
-            };
+        if let Some(one) = OneShard::new(&self.which, self.shard, (self.threads, self.consent)) {
             return one.run(Round::Default, first_points);
         }
         confirm(&self.which, self.threads, None, (command_line(), self.consent))

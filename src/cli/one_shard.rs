@@ -25,7 +25,17 @@ pub struct OneShard<'a> {
     pub consent: Consent,
 }
 
-impl OneShard<'_> {
+impl<'a> OneShard<'a> {
+    /// The shard that the command line asks for, if it asks for one: it then names the folder of all parts, too.
+    pub fn new(
+        which: &'a Which,
+        shard: Option<(usize, usize)>,
+        (threads, consent): (Option<u32>, Consent),
+    ) -> Option<Self> {
+        let (shard, parts) = shard.zip(which.out.as_deref())?;
+        Some(Self { paper: &which.paper, shard, parts, threads, consent })
+    }
+
     /// Runs it in the round that is at work; in `first` under the points that it gives if none is planned yet.
     pub fn run(
         &self,

@@ -25,7 +25,7 @@ use std::process::Command;
 use std::sync::OnceLock;
 
 /// What stands in `<study>.manifest.toml`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
     /// The study.

@@ -106,14 +106,15 @@ fn joint_group(name: &str) -> String {
     )
 }
 
-fn study(groups: &str, contender: &str) -> String {
+/// A study of these groups of problems and one contender.
+pub fn study(groups: &str, contender: &str) -> String {
     format!(
         "paper = \"files\"\nquestion = \"What is meant?\"\nseed = 9\n\n[budget]\nexpansions = 100_000\n{groups}\n[[contender]]\n{contender}\n"
     )
 }
 
 /// A straight shot at the goal, so that the path is the query itself.
-const STRAIGHT: &str = "label = \"straight\"\nplanner = \"direct\"";
+pub const STRAIGHT: &str = "label = \"straight\"\nplanner = \"direct\"";
 
 #[test]
 fn joints_move_as_their_urdf_file_means_and_go_where_the_problem_file_names_them() {

@@ -155,26 +155,28 @@ fn the_ur5_by_urdf_is_the_ur5_by_rows() {
     }
 }
 
-/// Two queries of a UR5 across half a turn of its first and last joints, on straight ways of the joints and of the tool.
+/// A query of a UR5 on straight ways of its joints, or of its tool: what `[path]` stands for.
 const ROUND: &str = r#"
-paper = "round"
-question = "Which way round?"
-seed = 3
-[budget]
-expansions = 1000
 [[problems]]
-label = "joints"
+label = "[path]"
 family = "cell_queries"
 instances = 1
-settings = { robot = "arm.urdf", scene = "empty.toml", queries = "poses.toml", obstacles = false, self_collision = false, samples = 40, region = "full", counted = "accepted", radius_mm = 9000, path = "joints", step_mm = 20, step_deg = 4, jump_deg = 20, turn_deg = 180, end = "own" }
-[[problems]]
-label = "tool"
-family = "cell_queries"
-instances = 1
-settings = { robot = "arm.urdf", scene = "empty.toml", queries = "poses.toml", obstacles = false, self_collision = false, samples = 40, region = "full", counted = "accepted", radius_mm = 9000, path = "tool", step_mm = 20, step_deg = 4, jump_deg = 20, turn_deg = 180, end = "own" }
-[[contender]]
-label = "straight"
-planner = "direct"
+[problems.settings]
+robot = "arm.urdf"
+scene = "empty.toml"
+queries = "poses.toml"
+obstacles = false
+self_collision = false
+samples = 40
+region = "full"
+counted = "accepted"
+radius_mm = 9000
+path = "[path]"
+step_mm = 20
+step_deg = 4
+jump_deg = 20
+turn_deg = 180
+end = "own"
 "#;
 
 #[test]
@@ -188,7 +190,9 @@ fn in_a_cell_a_joint_that_turns_without_end_takes_the_shorter_way_round() {
     );
     let empty = b"name = \"nothing\"\n[support]\nunder = \"floor\"\nbase_mm = [0, 0, 0]\nyaw_deg = 0\n";
     bench.write("round/empty.toml", empty);
-    bench.write("round/cell.toml", ROUND.as_bytes());
+    let groups = ["joints", "tool"].map(|path| ROUND.replace("[path]", path)).concat();
+    let study = crate::files::study(&groups, crate::files::STRAIGHT);
+    bench.write("round/cell.toml", study.replace("\"files\"", "\"round\"").as_bytes());
     let file = fs::read_to_string(root().join("data/robots/ur5.urdf")).unwrap();
     let mut endless = file.clone();
     for joint in [1, 6] {

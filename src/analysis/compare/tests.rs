@@ -4,31 +4,11 @@ use engine::planner::Value;
 use rand::RngExt as _;
 use std::sync::Arc;
 use study::key::{InstanceKey, SweepKey, TrialKey};
-use study::manifest::MadeBy;
 use study::record::{Batch, PreprocessingRow, Values};
 use study::store::Records;
 
 fn manifest(seed: u64) -> Manifest {
-    Manifest {
-        study: "s".to_owned(),
-        command: String::new(),
-        quick: false,
-        seed,
-        choices: Vec::new(),
-        interpretations: vec![Vec::new()],
-        spec: String::new(),
-        depends: String::new(),
-        recorded: Vec::new(),
-        elsewhere: None,
-        defaults: Vec::new(),
-        made_by: MadeBy::default(),
-        shard: None,
-        inputs: BTreeMap::new(),
-        sessions: Vec::new(),
-        problems: BTreeMap::new(),
-        contenders: BTreeMap::new(),
-        files: BTreeMap::new(),
-    }
+    Manifest { study: "s".to_owned(), seed, interpretations: vec![Vec::new()], ..Manifest::default() }
 }
 
 /// A run of one contender on `group`, an instance a number; no path where there is none.

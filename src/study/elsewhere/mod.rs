@@ -93,22 +93,12 @@ impl Imported {
         let manifest = Manifest {
             study: name.to_owned(),
             command,
-            quick: false,
-            seed: 0,
-            choices: Vec::new(),
             interpretations: vec![Vec::new()],
             depends: spec.clone(),
             spec,
             recorded: contenders.into_iter().map(str::to_owned).collect(),
-            elsewhere: None,
-            defaults: Vec::new(),
             made_by: MadeBy { replan: env!("CARGO_PKG_VERSION").to_owned(), ..MadeBy::default() },
-            shard: None,
-            inputs: BTreeMap::new(),
-            sessions: Vec::new(),
-            problems: BTreeMap::new(),
-            contenders: BTreeMap::new(),
-            files: BTreeMap::new(),
+            ..Manifest::default()
         };
         let filled: BTreeSet<&str> = self
             .trials

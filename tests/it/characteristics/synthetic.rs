@@ -12,7 +12,7 @@ use std::path::Path;
 use std::sync::Arc;
 use study::Inputs;
 use study::key::{InstanceKey, InterpretationKey, SweepKey, SweepValue, TrialKey};
-use study::manifest::{MadeBy, Manifest};
+use study::manifest::Manifest;
 use study::paper::Paper;
 use study::record::{Row, Status, Timing};
 use study::store::Records;
@@ -126,22 +126,9 @@ fn manifest() -> Manifest {
     Manifest {
         study: "drawn".to_owned(),
         command: "none".to_owned(),
-        quick: false,
         seed: 1,
-        choices: Vec::new(),
-        recorded: Vec::new(),
-        elsewhere: None,
-        defaults: Vec::new(),
         interpretations: vec![Vec::new()],
-        spec: String::new(),
-        depends: String::new(),
-        made_by: MadeBy::default(),
-        shard: None,
-        inputs: BTreeMap::new(),
-        sessions: Vec::new(),
-        problems: BTreeMap::new(),
-        contenders: BTreeMap::new(),
-        files: BTreeMap::new(),
+        ..Manifest::default()
     }
 }
 
