@@ -327,21 +327,13 @@ pub fn run_one(
     let built = BuiltStudy::new(study, points, inputs)?;
     let units = built.units();
     let names = built.names();
-    // What a task finds may have rows of its own, below a trial's name.
-    let is_below = |name: &str| trial.strip_prefix(name).is_some_and(|rest| rest.starts_with('/'));
-    let find = |is_it: &dyn Fn(&str) -> bool| {
-        let mut all =
-            units.iter().flat_map(|unit| built.trials(unit).into_iter().map(move |key| (unit, key)));
-        all.find(|(_, key)| is_it(&names.trial(key)))
-    };
     let unknown = || {
         let all = units.iter().flat_map(|unit| built.trials(unit)).map(|key| names.trial(&key));
         unknown_trial(&study.name, trial, &all.collect::<Vec<String>>())
     };
-    let owner = find(&|name| name == trial).or_else(|| find(&is_below));
-    let (unit, key) = owner.ok_or_else(unknown)?;
-    let mut batch =
-        built.run_unit(&Unit { keeps_all: true, wanted: Some(BTreeSet::from([key])), ..unit.clone() });
+    let is_it = |unit: &&Unit<'_>| built.trials(unit).iter().any(|key| names.trial(key) == trial);
+    let unit = units.iter().find(is_it).ok_or_else(unknown)?;
+    let mut batch = built.run_unit(&Unit { keeps_all: true, ..unit.clone() });
     batch.rows.retain(|row| names.trial(&row.key) == trial);
     batch.kept.retain(|kept| names.owner(&kept.of) == trial);
     let before = if Manifest::path(folder, &study.name).exists() {
@@ -351,9 +343,6 @@ pub fn run_one(
     } else {
         None
     };
-    if batch.rows.is_empty() && before.is_none() {
-        return Err(unknown());
-    }
     Ok((batch, before))
 }
 

@@ -6,7 +6,6 @@ mod arm_plane;
 mod ask;
 mod claims_by_choices;
 mod cost_over_time;
-mod endpoint_pairs;
 mod grid_search;
 mod instances;
 mod intervals;
@@ -192,7 +191,6 @@ pub static REGISTRY: &[&Entry] = &[
     &arm_plane::ENTRY,
     &claims_by_choices::ENTRY,
     &cost_over_time::ENTRY,
-    &endpoint_pairs::ENTRY,
     &grid_search::ENTRY,
     &instances::ENTRY,
     &intervals::ENTRY,
