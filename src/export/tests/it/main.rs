@@ -195,7 +195,7 @@ fn names_that_sql_or_a_log_could_take_for_more_come_back_as_they_are() {
     let arena = Connection::open(out.path().join("plannerarena.db")).unwrap();
     let mut query = arena.prepare("SELECT name FROM plannerConfigs ORDER BY id").unwrap();
     let found: Vec<String> = query.query_map([], |row| row.get(0)).unwrap().map(Result::unwrap).collect();
-    assert_eq!(found, names);
+    assert_eq!(found.into_iter().collect::<BTreeSet<_>>(), names.map(str::to_owned).into());
     let group: String = arena.query_row("SELECT name FROM experiments", [], |row| row.get(0)).unwrap();
     assert_eq!(group, "results/maps'; --");
     let out = exported(run.to_str().unwrap(), "ompl-log");
