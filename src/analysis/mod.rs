@@ -9,6 +9,7 @@
 pub mod across;
 pub mod agreement;
 mod censored;
+pub mod citation;
 pub mod claims;
 pub mod compare;
 pub mod context;

@@ -11,6 +11,7 @@ use crate::render::tables::short;
 use base::settings::none_called;
 use clap::Args;
 use std::path::PathBuf;
+use study::paper::Reply;
 
 /// Shows what was found about a claim.
 ///
@@ -39,7 +40,11 @@ impl Show {
         let claims = || verdicts.claims.iter().map(|judged| judged.claim.as_str());
         let judged =
             verdicts.claim(&id).ok_or_else(|| Failure::input(none_called("claim", &id, claims())))?;
-        say!("{}", shown(judged).trim_end());
+        let citation = History::read(&places.runs)?.citation(&verdicts, judged);
+        let replies = verdicts.replies_to(&id).map(Reply::line);
+        let cite = citation.map(|citation| format!("cite as: {citation}"));
+        let more = replies.chain(cite).map(|line| wrapped("  ", &line, 4, COLUMNS) + "\n");
+        say!("{}{}", shown(judged), more.collect::<String>().trim_end());
         Ok(())
     }
 }

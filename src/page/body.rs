@@ -2,7 +2,7 @@
 //! is drawn.
 
 use super::html::{escaped, prose as inline};
-use super::interpretations;
+use super::{interpretations, replies};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::outcome::Outcome;
 use crate::analysis::tabulated::{grid, table_caption};
@@ -182,13 +182,14 @@ impl Body<'_> {
         let second = judged.second.map_or_else(String::new, |outcome| {
             format!("<div class=\"second\">second seed: {}</div>", badge(outcome.name(), outcome.name()))
         });
+        let reply = replies::mark(self.verdicts, judged);
         let rank = Verdict::ALL.iter().position(|verdict| *verdict == judged.verdict).unwrap_or(0);
         let part = if judged.part_of.is_some() { " data-part" } else { "" };
         format!(
             "<tbody id=\"claim={id}\" data-class=\"{}\" data-rank=\"{rank}\" \
              data-hangs=\"{}\"{part}>\
              <tr><th scope=\"row\"><button type=\"button\" class=\"open\" aria-expanded=\"false\">{}</button></th>\
-             <td>{}: {}</td><td>{}</td><td>{}{second}</td><td class=\"interpretations\">{}</td>\
+             <td>{}: {}</td><td>{}</td><td>{}{second}{reply}</td><td class=\"interpretations\">{}</td>\
              <td class=\"under\"></td></tr>\n\
              <tr class=\"evidence\" hidden><td colspan=\"6\">{}</td></tr></tbody>\n",
             escaped(judged.verdict.name()),
@@ -215,6 +216,7 @@ impl Body<'_> {
         text += &line("a part of", &whole);
         text += &line("must hold", &judged.theorem);
         text += &line("changed after a run", &judged.changed());
+        text += &replies::lines(self.evidence.paper, self.verdicts, judged);
         text + &judged.findings.iter().map(|finding| self.finding(finding)).collect::<String>()
     }
 

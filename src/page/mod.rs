@@ -11,6 +11,7 @@ mod html;
 mod interpretations;
 mod packed;
 mod replay;
+mod replies;
 
 use crate::analysis::across::Stored;
 use crate::analysis::across::by_interpretation::by_interpretation;

@@ -4,6 +4,7 @@ mod chapter;
 mod chapters;
 mod details;
 mod interpretations;
+mod replies;
 
 pub use chapter::{Chapter, Page, unread};
 pub use interpretations::across_lines;

@@ -53,6 +53,7 @@ mod paper;
 mod polyhedra;
 mod printed_tables;
 mod registries;
+mod replies;
 mod report;
 mod shapes;
 mod snapshots;

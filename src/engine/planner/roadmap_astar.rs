@@ -244,10 +244,6 @@ impl Planner for RoadmapAstar {
         searches_alone && self.nearest.is_none() && matches!(self.cost, CostSetting::Length)
     }
 
-    fn is_complete(&self) -> bool {
-        false
-    }
-
     fn asks(&self) -> Option<Extent> {
         Some(self.extent())
     }

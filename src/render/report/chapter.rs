@@ -1,5 +1,6 @@
 //! A paper's chapter: what was found, its tables beside ours, figures, and claims that lead to their evidence.
 
+use super::replies::replies;
 use super::{SECTIONS, Undrawn, anchor, begin_of_row, item, link, linked, paper_statement, paragraph, place};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::{ClaimVerdict, Verdicts};
@@ -85,6 +86,7 @@ impl Page<'_> {
             text += &(wrapped("", &findings.join(" "), 0, COLUMNS) + "\n\n");
         }
         self.headlines(&mut text);
+        text += &replies(self.verdicts, &self.details_file());
         self.tables(&mut text)?;
         self.figures(&mut text);
         self.claims(&mut text);

@@ -13,6 +13,7 @@ mod traces;
 pub use journal::{Journal, journal_units};
 pub use pick::KeptTraces;
 pub use read::quoted;
+pub(crate) use read::{UNREADABLE, unpanicked};
 pub use traces::{GROUP_VALUES, TraceReader};
 
 use self::read::{Instances, Stored};
