@@ -2,7 +2,8 @@
 
 use super::places::Places;
 use super::progress::doing;
-use super::{Failure, How, Which, command_line, verdicts};
+use super::stamp::{Stamp, hash_of};
+use super::{Again, Failure, How, Which, command_line, verdicts};
 use crate::analysis::across::stored::Exploration;
 use crate::analysis::across::{self, Stored};
 use crate::analysis::claims;
@@ -143,6 +144,29 @@ pub fn judge(paper: &Paper, point: Interpretation, places: &Places) -> Result<Ve
     let verdicts = judged(&evidence, places, &history)?;
     evidence.keep_polylines();
     verdicts.write(&places.runs)?;
+    Ok(verdicts)
+}
+
+/// As [`judge`], but where nothing has changed that the verdicts rest on: then those that it wrote. Whoever calls it has just held
+/// the records to their manifests.
+pub fn judge_changes(
+    paper: &Paper,
+    point: Interpretation,
+    places: &Places,
+    again: Again,
+) -> Result<Verdicts, Failure> {
+    let runs = &places.runs;
+    let beside = [Exploration::first(runs), Exploration::second(runs), History::path(runs)];
+    let stamp = |point: &Interpretation| {
+        let hashes = beside.iter().map(|path| hash_of(path).unwrap_or_default());
+        Stamp::new("judged", paper, places, hashes.chain([point.name().to_owned()]).collect())
+    };
+    if !again.fresh && stamp(&point)?.is_current() {
+        return Ok(Verdicts::read(runs)?);
+    }
+    let verdicts = judge(paper, point.clone(), places)?;
+    // The history may have an entry more.
+    stamp(&point)?.keep([Verdicts::path(runs)]);
     Ok(verdicts)
 }
 
