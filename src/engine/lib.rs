@@ -13,5 +13,6 @@ pub mod search;
 pub mod shorten;
 
 pub mod length_inversion;
+pub mod sampling;
 
 pub mod planner;
