@@ -122,6 +122,7 @@ pub static METRICS: &[Metric] = &[
     metric("questions_valid", "Configurations checked for the planner", "", Better::Lower),
     metric("roadmap_checked_states", "Configurations checked for the roadmap", "", Better::Lower),
     metric("roadmap_edges", "Edges of the roadmap", "", Better::Neither),
+    metric("set_problems", "Problems of the set", "", Better::Neither),
     metric("sharp_edges", "Sharp edges", "", Better::Lower),
     metric("shortest_path_cells", "Shortest path", "cells", Better::Neither),
     metric("shots", "Shots at the goal", "", Better::Neither),
@@ -146,6 +147,7 @@ pub static METRICS: &[Metric] = &[
     metric("turn_interior_deg", "Turn sum, interior angles", "°", Better::Lower),
     metric("unjoined_legs", "Legs that are no edges", "", Better::Lower),
     metric("unsafe_hops", "Hops that hit an obstacle", "", Better::Lower),
+    metric("valid_problems", "Valid problems", "", Better::Neither),
 ];
 
 /// The metric called `name`.

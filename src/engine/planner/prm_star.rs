@@ -77,6 +77,12 @@ impl Roadmap {
         }
     }
 
+    /// Takes the link between two nodes away.
+    fn part(&mut self, [a, b]: [u32; 2]) {
+        self.links[a as usize].retain(|(to, _)| *to != b);
+        self.links[b as usize].retain(|(to, _)| *to != a);
+    }
+
     /// The nodes of the shortest way from the first node to the second.
     fn shortest(&self, motions: &Motions<'_>) -> Option<Vec<u32>> {
         let h = |node: u32| motions.distance(self.nodes.config(node), self.nodes.config(1));
@@ -111,11 +117,15 @@ impl PrmStar {
                 continue;
             }
             due = found.iterations as f64 * self.growth;
-            if let Some(nodes) = map.shortest(motions) {
+            while let Some(nodes) = map.shortest(motions) {
                 let path: Vec<Vec<f64>> = nodes.iter().map(|node| map.nodes.config(*node).to_vec()).collect();
-                if found.note(motions.length(&path)) {
-                    found.path = path;
-                }
+                let Some(leg) = motions.refused_leg(&path) else {
+                    if found.note(motions.length(&path)) {
+                        found.path = path;
+                    }
+                    break;
+                };
+                map.part([nodes[leg], nodes[leg + 1]]);
             }
         }
         found.nodes = map.links.len();

@@ -61,9 +61,12 @@ impl Planner for Rrt {
             let Some(step) = extended(&mut motions, &tree, near, &sample, self.range) else { continue };
             let node = tree.add(&step, near);
             if motions.distance(&step, request.goal) <= self.range && motions.goes(&step, request.goal) {
-                found.path = tree.path(node);
-                found.path.push(request.goal.to_vec());
-                found.path.dedup();
+                let mut path = tree.path(node);
+                path.push(request.goal.to_vec());
+                path.dedup();
+                if motions.refused_leg(&path).is_none() {
+                    found.path = path;
+                }
             }
         }
         found.nodes = tree.count();

@@ -114,8 +114,9 @@ impl DynamicDomain {
 impl RrtConnect {
     fn search(&self, motions: &mut Motions<'_>, request: &Request<'_>) -> Found {
         let mut found = Found::default();
-        if motions.goes(request.start, request.goal) {
-            found.path = vec![request.start.to_vec(), request.goal.to_vec()];
+        let straight = vec![request.start.to_vec(), request.goal.to_vec()];
+        if motions.goes(request.start, request.goal) && motions.refused_leg(&straight).is_none() {
+            found.path = straight;
             return found;
         }
         let mut draw = Draw::new(self.sampler, request.seed);
@@ -131,8 +132,11 @@ impl RrtConnect {
             }
             let sample = draw.next(motions.limits());
             if let Some(met) = self.grow(motions, &mut sides, own, &sample) {
-                found.path = joined(&sides, own, met);
-                break;
+                let path = joined(&sides, own, met);
+                if motions.refused_leg(&path).is_none() {
+                    found.path = path;
+                    break;
+                }
             }
         }
         found.nodes = sides.iter().map(|side| side.tree.count()).sum();
@@ -140,7 +144,13 @@ impl RrtConnect {
     }
 
     /// Grows one tree to a sample and then to the other tree; gives a node of each where they meet, the own first.
-    fn grow(&self, motions: &mut Motions<'_>, sides: &mut [Side; 2], own: usize, sample: &[f64]) -> Option<[u32; 2]> {
+    fn grow(
+        &self,
+        motions: &mut Motions<'_>,
+        sides: &mut [Side; 2],
+        own: usize,
+        sample: &[f64],
+    ) -> Option<[u32; 2]> {
         let (near, distance) = sides[own].tree.nearest(sample);
         let radius = sides[own].radii[near as usize];
         if self.dynamic_domain.is_some() && radius < distance {

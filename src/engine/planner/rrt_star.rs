@@ -121,9 +121,10 @@ fn informed(draw: &mut Draw, motions: &Motions<'_>, request: &Request<'_>, lengt
     let middle = request.start.iter().zip(&along).map(|(start, by)| start + 0.5 * by);
     let sample: Vec<f64> = middle.zip(ball).map(|(middle, by)| middle + by).collect();
     let limits = motions.limits().iter().zip(motions.turn_on());
-    let is_within = sample.iter().zip(limits).all(|(value, (limits, turns_on))| {
-        *turns_on || (limits[0]..=limits[1]).contains(value)
-    });
+    let is_within = sample
+        .iter()
+        .zip(limits)
+        .all(|(value, (limits, turns_on))| *turns_on || (limits[0]..=limits[1]).contains(value));
     is_within.then_some(sample)
 }
 
@@ -134,7 +135,6 @@ impl RrtStar {
         let mut costs = Costs::new(Tree::new(motions, request.start));
         // Nodes from which a free motion leads to the goal, each with its length.
         let mut before_goal: Vec<(u32, f64)> = Vec::new();
-        let mut best: Option<u32> = None;
         while found.iterations < self.iterations.min(request.expansions) {
             found.iterations += 1;
             let length = found.incumbents.last().map(|(_, length)| *length);
@@ -151,17 +151,22 @@ impl RrtStar {
             if to_goal <= self.range && motions.goes(&step, request.goal) {
                 before_goal.push((node, to_goal));
             }
-            let whole = before_goal.iter().map(|(node, rest)| (*node, costs.cost[*node as usize] + rest));
-            if let Some((node, length)) = whole.min_by(|a, b| a.1.total_cmp(&b.1))
-                && found.note(length)
-            {
-                best = Some(node);
+            let whole = |(node, rest): &(u32, f64)| costs.cost[*node as usize] + rest;
+            let Some(last) = before_goal.iter().copied().min_by(|a, b| whole(a).total_cmp(&whole(b))) else {
+                continue;
+            };
+            if length.is_some_and(|known| whole(&last) >= known) {
+                continue;
             }
-        }
-        if let Some(node) = best {
-            found.path = costs.tree.path(node);
-            found.path.push(request.goal.to_vec());
-            found.path.dedup();
+            let mut path = costs.tree.path(last.0);
+            path.push(request.goal.to_vec());
+            path.dedup();
+            if motions.refused_leg(&path).is_none() {
+                found.note(whole(&last));
+                found.path = path;
+            } else {
+                before_goal.retain(|(node, _)| *node != last.0);
+            }
         }
         found.nodes = costs.tree.count();
         found

@@ -7,7 +7,8 @@ use crate::shorten::path_length;
 use crate::space::roadmap::Local;
 
 /// What every planner that samples counts.
-pub(super) const COLUMNS: &[&str] = &["iterations", "tree_nodes", "motions", "motion_states", "initial_length_rad"];
+pub(super) const COLUMNS: &[&str] =
+    &["iterations", "tree_nodes", "motions", "motion_states", "initial_length_rad"];
 
 /// What those count besides that go on after a first path.
 pub(super) const IMPROVING_COLUMNS: &[&str] = &[
@@ -88,7 +89,8 @@ pub(super) fn plan(request: &Request<'_>, motions: &Motions<'_>, found: Found, i
         }
     }
     let numbers = found.incumbents.iter().flat_map(|(iteration, length)| [*iteration as f64, *length]);
-    let incumbents = Trace { name: "incumbents_by_iteration".to_owned(), width: 2, values: numbers.collect() };
+    let incumbents =
+        Trace { name: "incumbents_by_iteration".to_owned(), width: 2, values: numbers.collect() };
     Plan {
         ending: if is_solved { Ending::Solved } else { Ending::BudgetSpent },
         cost: if is_solved { claimed(local, &found.path) } else { None },
@@ -110,3 +112,6 @@ pub(super) fn extended(
     let to = motions.toward(tree.config(from), sample, range);
     motions.goes(tree.config(from), &to).then_some(to)
 }
+
+#[cfg(test)]
+mod tests;

@@ -34,7 +34,9 @@ bspline = { rounds = 1, least_change = 0.1, share = 0.5 }
         ] {
             if read.operations.contains(&operation) != is_given {
                 let found = if is_given { "given, and not among" } else { "not given, but among" };
-                return Err(settings.error(format!("{key} is {found} the operations; both or neither is accepted")));
+                return Err(
+                    settings.error(format!("{key} is {found} the operations; both or neither is accepted"))
+                );
             }
         }
         Ok(Box::new(read))
@@ -67,7 +69,11 @@ impl Stage for SimplifyPath {
         let bspline = self.bspline.unwrap_or(BSpline { rounds: 0, least_change: 0.0, share: 0.0 });
         let reduce = self.reduce.unwrap_or(Reduce { tries: 0, empty_tries: 0, range_share: 0.0 });
         let rounds = (self.rounds, &self.operations[..]);
-        plan.path = simplify(&mut motions, &mut draw, plan.path, rounds, (&bspline, &reduce));
+        let short = simplify(&mut motions, &mut draw, plan.path.clone(), rounds, (&bspline, &reduce));
+        // What a finer look refuses is no path; the one that it came from is.
+        if motions.refused_leg(&short).is_none() {
+            plan.path = short;
+        }
         plan.cost = claimed(local, &plan.path);
         plan.counts.insert("simplification_motions", Value::Count(motions.motions()));
         plan.counts.insert("simplification_states", Value::Count(motions.checked()));

@@ -3,6 +3,9 @@
 use crate::space::roadmap::{Local, MotionScratch};
 use std::f64::consts::TAU;
 
+/// How many times as often a path is checked as the motions that it is made of.
+const FINER: f64 = 4.0;
+
 /// The space of a query, which counts what is asked of it.
 #[derive(Debug)]
 pub struct Motions<'a> {
@@ -77,6 +80,12 @@ impl<'a> Motions<'a> {
     /// Whether the straight motion between two configurations, of which the first is free, is free.
     pub fn goes(&mut self, from: &[f64], to: &[f64]) -> bool {
         self.motions += 1;
-        self.local.goes(from, to, &mut self.scratch)
+        self.local.goes([from, to], 1.0, &mut self.scratch)
+    }
+
+    /// The first leg of a path that a finer look refuses. What stands between two configurations that are checked may be missed; so a path
+    /// is looked at again before it is returned.
+    pub fn refused_leg(&mut self, path: &[Vec<f64>]) -> Option<usize> {
+        path.windows(2).position(|leg| !self.local.goes([&leg[0], &leg[1]], FINER, &mut self.scratch))
     }
 }

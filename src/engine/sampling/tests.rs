@@ -66,10 +66,18 @@ fn simplified_paths_keep_their_ends_are_free_and_no_longer() {
         &BSpline { rounds: 1, least_change: 0.1, share: 0.5 },
         &Reduce { tries: 10, empty_tries: 5, range_share: 0.5 },
     );
-    let path: Vec<Vec<f64>> =
-        [[10.0, 10.0], [5.0, 50.0], [20.0, 95.0], [40.0, 85.0], [50.0, 95.0], [70.0, 85.0], [95.0, 60.0], [90.0, 10.0]]
-            .map(|point| point.to_vec())
-            .to_vec();
+    let path: Vec<Vec<f64>> = [
+        [10.0, 10.0],
+        [5.0, 50.0],
+        [20.0, 95.0],
+        [40.0, 85.0],
+        [50.0, 95.0],
+        [70.0, 85.0],
+        [95.0, 60.0],
+        [90.0, 10.0],
+    ]
+    .map(|point| point.to_vec())
+    .to_vec();
     for operations in [
         &[Operation::Shortcut, Operation::Bspline][..],
         &[Operation::Reduce],

@@ -93,7 +93,9 @@ impl Tree {
     pub fn nearest_of(&self, config: &[f64], count: usize) -> Vec<(u32, f64)> {
         let mut all = Vec::with_capacity(self.count());
         self.each_group(config, |group, squares| {
-            all.extend(squares.iter().enumerate().map(|(lane, square)| ((group * GROUP + lane) as u32, *square)));
+            all.extend(
+                squares.iter().enumerate().map(|(lane, square)| ((group * GROUP + lane) as u32, *square)),
+            );
         });
         all.truncate(self.count());
         let order = |a: &(u32, f64), b: &(u32, f64)| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0));

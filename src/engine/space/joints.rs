@@ -159,19 +159,26 @@ impl JointSpace {
 
     /// Whether it can go straight from one configuration, where it can be, to another; counts every configuration that is checked.
     ///
-    /// As often as in [`joins`](Self::joins) or oftener, eight at once that are spread over the whole motion, as in VAMP: a motion that
+    /// As often as in [`joins`](Self::joins), times `finer`, or oftener, eight at once that are spread over the whole motion, as in VAMP: a motion that
     /// meets something is refused early. What does not fit eight at once is checked one at a time, with the same verdict.
     ///
     /// # Source
     /// Thomason, Kingston & Kavraki, *Motions in Microseconds via Vectorized Sampling-Based Planning*, ICRA 2024, section IV ("rakes").
-    pub fn goes(&self, from: &[f64], to: &[f64], memory: &mut MotionMemory, checked: &mut u64) -> bool {
+    pub fn goes(
+        &self,
+        [from, to]: [&[f64]; 2],
+        finer: f64,
+        memory: &mut MotionMemory,
+        checked: &mut u64,
+    ) -> bool {
         if self.chain.outside(to).is_some() {
             return false;
         }
         let changes: Vec<f64> = self.chain.change(from, to).collect();
         let change = changes.iter().map(|change| change.abs()).fold(0.0, f64::max);
-        let blocks = (change / self.step_rad / ROUGH_LANES as f64).ceil().max(1.0) as u32;
-        let at = |share: f64| -> Vec<f64> { from.iter().zip(&changes).map(|(a, by)| a + by * share).collect() };
+        let blocks = (finer * change / self.step_rad / ROUGH_LANES as f64).ceil().max(1.0) as u32;
+        let at =
+            |share: f64| -> Vec<f64> { from.iter().zip(&changes).map(|(a, by)| a + by * share).collect() };
         let in_lanes = self.spheres.as_ref().filter(|_| Spheres::takes(from) && Spheres::takes(&at(1.0)));
         (0..blocks).all(|block| {
             *checked += ROUGH_LANES as u64;

@@ -177,8 +177,17 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
 ];
 
 /// Planners that have nothing to show but their path.
-pub const WITHOUT_TRACES: &[&str] =
-    &["astar_octile", "direct", "jps", "jps_plus", "keynode_astar", "lattice26_astar", "rrt", "rrt_connect", "visibility_edges"];
+pub const WITHOUT_TRACES: &[&str] = &[
+    "astar_octile",
+    "direct",
+    "jps",
+    "jps_plus",
+    "keynode_astar",
+    "lattice26_astar",
+    "rrt",
+    "rrt_connect",
+    "visibility_edges",
+];
 
 /// An entry, one of its settings, and the value under which a property is not asked of it.
 pub type Exception = (&'static str, &'static str, &'static str);

@@ -222,7 +222,8 @@ impl Spheres {
             for [i, j] in &pair.spheres {
                 let apart = point(simd, &memory.spheres[*i]) - point(simd, &memory.spheres[*j]);
                 let [i, j] = [(a, *i), (b, *j)];
-                let [r, s] = [i, j].map(|(link, i)| self.links[link].spheres[i - self.links[link].first].radius);
+                let [r, s] =
+                    [i, j].map(|(link, i)| self.links[link].spheres[i - self.links[link].first].radius);
                 let gap = apart.dot(apart);
                 let near = gap.simd_lt(square(r + s + BAND));
                 if near.any_true() {
@@ -246,10 +247,7 @@ impl Spheres {
         memory.is_placed.clear();
         memory.is_placed.resize(self.links.len(), false);
         let unit = |i: usize| Point::splat_rough(simd, std::array::from_fn(|j| f32::from(u8::from(i == j))));
-        let mut at = Frames {
-            axes: [unit(0), unit(1), unit(2)],
-            origin: Point::splat_rough(simd, [0.0; 3]),
-        };
+        let mut at = Frames { axes: [unit(0), unit(1), unit(2)], origin: Point::splat_rough(simd, [0.0; 3]) };
         store_frame(&at, &mut memory.frames[0]);
         for (index, (joint, row)) in self.joints.iter().zip(values).enumerate() {
             let [x, y, z] = joint.axes.map(|axis| direction(simd, &at.axes, axis));
@@ -343,11 +341,7 @@ fn square(length: f32) -> f32 {
 }
 
 #[inline(always)]
-fn direction<S: Simd>(
-    simd: S,
-    [x, y, z]: &[Point<Rough<S>>; 3],
-    [a, b, c]: [f32; 3],
-) -> Point<Rough<S>> {
+fn direction<S: Simd>(simd: S, [x, y, z]: &[Point<Rough<S>>; 3], [a, b, c]: [f32; 3]) -> Point<Rough<S>> {
     let [a, b, c] = [a, b, c].map(|along| Rough::splat(simd, along));
     x.scaled(a).plus(b, *y).plus(c, *z)
 }
@@ -374,6 +368,7 @@ fn store_frame<S: Simd>(at: &Frames<Rough<S>>, rows: &mut [RoughRow; 12]) {
 
 #[inline(always)]
 fn load_frame<S: Simd>(simd: S, rows: &[RoughRow; 12]) -> Frames<Rough<S>> {
-    let [x, y, z, origin] = std::array::from_fn(|i| Point::load(simd, [&rows[3 * i], &rows[3 * i + 1], &rows[3 * i + 2]]));
+    let [x, y, z, origin] =
+        std::array::from_fn(|i| Point::load(simd, [&rows[3 * i], &rows[3 * i + 1], &rows[3 * i + 2]]));
     Frames { axes: [x, y, z], origin }
 }

@@ -15,8 +15,7 @@ fn seven() -> Robot {
         limits: [-2.5, 2.5],
         speed: None,
     };
-    let rod =
-        |i: usize| Solid { name: format!("rod {i}"), pose: up(0.1), form: Form::Cylinder(0.03, 0.18) };
+    let rod = |i: usize| Solid { name: format!("rod {i}"), pose: up(0.1), form: Form::Cylinder(0.03, 0.18) };
     Robot {
         name: "seven".to_owned(),
         joints: (0..7).map(joint).collect(),
@@ -45,10 +44,7 @@ fn seven_axes_move_and_stop_at_what_is_in_the_way() {
     let mut below = up;
     below[1] = 2.2;
     let mut checked = 0;
-    assert!(
-        space.is_free(&below) && !space.joins(&up, &below, &mut checked),
-        "the ball is between the two"
-    );
+    assert!(space.is_free(&below) && !space.joins(&up, &below, &mut checked), "the ball is between the two");
     assert!(checked > 10, "{checked}");
     level[0] = 3.0;
     assert!(space.refusal(&level).unwrap().contains("joint `joint 0` is at 3 rad, outside -2.5 to 2.5"));
@@ -89,7 +85,11 @@ fn motions_in_lanes_are_free_where_the_scalar_code_finds_them_free() {
         ball(0.9, 0.4),
         solid("box", place(-0.5, 0.9), Form::Box([0.2, 0.3, 0.1])),
         solid("can", place(0.3, 1.3), Form::Cylinder(0.15, 0.4)),
-        solid("hull", place(0.2, -0.6), Form::Hull(vec![[0.0; 3], [0.3, 0.0, 0.0], [0.0, 0.3, 0.0], [0.0, 0.0, 0.3]])),
+        solid(
+            "hull",
+            place(0.2, -0.6),
+            Form::Hull(vec![[0.0; 3], [0.3, 0.0, 0.0], [0.0, 0.3, 0.0], [0.0, 0.0, 0.3]]),
+        ),
     ];
     let space = JointSpace::new(of_spheres(), obstacles, &SelfContact::Apart, 0.1);
     assert!(space.spheres.is_some(), "the robot is made of spheres");
@@ -97,7 +97,10 @@ fn motions_in_lanes_are_free_where_the_scalar_code_finds_them_free() {
     let mut stream = base::seed::stream(23);
     let mut draw = || -> Vec<f64> {
         let joints = &space.robot().joints;
-        joints.iter().map(|joint| rand::RngExt::random_range(&mut stream, joint.limits[0]..=joint.limits[1])).collect()
+        joints
+            .iter()
+            .map(|joint| rand::RngExt::random_range(&mut stream, joint.limits[0]..=joint.limits[1]))
+            .collect()
     };
     let (mut free, mut hit) = (0, 0);
     for case in 0..400 {
@@ -105,10 +108,12 @@ fn motions_in_lanes_are_free_where_the_scalar_code_finds_them_free() {
         let to = space.chain().change(&from, &to).zip(&from).map(|(by, a)| a + 0.2 * by).collect::<Vec<_>>();
         let mut memory = MotionMemory::default();
         let mut plain = 0;
-        let truth = scalar.goes(&from, &to, &mut memory, &mut plain);
+        let truth = scalar.goes([&from, &to], 1.0, &mut memory, &mut plain);
         for level in crate::geometry::lanes::levels() {
             let mut wide = 0;
-            let found = crate::geometry::lanes::on_level(level, || space.goes(&from, &to, &mut memory, &mut wide));
+            let found = crate::geometry::lanes::on_level(level, || {
+                space.goes([&from, &to], 1.0, &mut memory, &mut wide)
+            });
             assert_eq!((found, wide), (truth, plain), "seed 23 case {case} on {level:?}: {from:?} {to:?}");
         }
         if truth { free += 1 } else { hit += 1 }
@@ -124,11 +129,37 @@ fn few_configurations_are_left_to_the_scalar_code() {
     let mut stream = base::seed::stream(29);
     let mut doubts = 0;
     for _ in 0..500 {
-        let rows: Vec<RoughRow> =
-            (0..7).map(|_| std::array::from_fn(|_| rand::RngExt::random_range(&mut stream, -0.4_f32..0.4))).collect();
+        let rows: Vec<RoughRow> = (0..7)
+            .map(|_| std::array::from_fn(|_| rand::RngExt::random_range(&mut stream, -0.4_f32..0.4)))
+            .collect();
         if let Look::FreeBut(doubt) = dispatch!(level(), simd => spheres.look(simd, &rows, &mut lanes)) {
             doubts += doubt.iter().filter(|doubt| **doubt).count();
         }
     }
     assert!(doubts < 10, "{doubts} of 4000 configurations in doubt");
+}
+
+/// What is thinner than a step may stand between two configurations that are checked; a finer look meets it.
+#[test]
+fn a_motion_that_slips_past_something_thin_is_refused_by_a_finer_look() {
+    let thin = Solid {
+        name: "thin".to_owned(),
+        pose: Pose { origin_m: [1.5, 0.0, 0.3], ..Pose::IDENTITY },
+        form: Form::Sphere(0.001),
+    };
+    let space = JointSpace::new(of_spheres(), vec![thin], &SelfContact::Unchecked, 0.2);
+    let (mut slipped, mut met) = (0, 0);
+    for case in 0..200 {
+        let mut from = vec![0.0; 7];
+        (from[1], from[6]) = (1.2, 0.001 * f64::from(case));
+        let mut to = from.clone();
+        to[1] = 1.6;
+        let mut memory = MotionMemory::default();
+        let mut goes = |finer| space.goes([&from, &to], finer, &mut memory, &mut 0);
+        let [coarse, fine] = [goes(1.0), goes(4.0)];
+        assert!(coarse || !fine, "case {case}: what a coarse look meets a finer one meets as well");
+        slipped += u32::from(coarse && !fine);
+        met += u32::from(!coarse);
+    }
+    assert!(slipped > 0 && met > 0, "one-sided sample: {slipped} slipped, {met} met");
 }

@@ -2,8 +2,8 @@
 
 use super::plane::PlaneMap;
 use crate::kinematics::{AXES, Joint, Joints};
-use crate::space::{JointSpace, MotionMemory};
 use crate::space::cell::{Lines, Path, Pose, Rejection, Scratch};
+use crate::space::{JointSpace, MotionMemory};
 use base::robot::Kind;
 use std::f64::consts::PI;
 
@@ -130,10 +130,14 @@ impl Local {
         }
     }
 
-    /// Whether the local path between two configurations, at the first of which the robot can be, can be executed.
-    pub fn goes(&self, from: &[f64], to: &[f64], scratch: &mut MotionScratch) -> bool {
+    /// Whether the local path between two configurations, at the first of which the robot can be, can be executed; a robot of any number of
+    /// joints is checked `finer` times as often as its step says.
+    pub fn goes(&self, [from, to]: [&[f64]; 2], finer: f64, scratch: &mut MotionScratch) -> bool {
         match self {
-            Self::Joints(space) => space.goes(from, to, &mut scratch.memory, scratch.paths.count()),
+            Self::Joints(space) => {
+                let MotionScratch { paths, memory } = scratch;
+                space.goes([from, to], finer, memory, paths.count())
+            }
             Self::Arm(_) | Self::Plane(_) => {
                 self.refusal(to).is_none()
                     && self.join(&self.node(from), &self.node(to), &mut scratch.paths).is_ok()
