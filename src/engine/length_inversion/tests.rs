@@ -190,7 +190,7 @@ fn kernel_length(ties: Ties, world: &ArmWorld, moves: &Moves, [start, goal]: Pai
         graph: &mut GridGraph::new(moves),
         estimate: &estimate,
         observer: &mut (),
-        update: Update { lower_open: false, reopen_closed: false },
+        update: Update { lower_open: false, ..Update::default() },
     };
     let search = &mut Search::new(Heap::new(ties));
     let report = search.run(terms, start, |cell| cell == goal, Rules::default(), &mut ());

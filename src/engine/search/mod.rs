@@ -74,7 +74,7 @@ pub use jump::JumpSearch;
 pub use lattice_astar::{LatticeAstar, LatticeQuery};
 pub use many::{GridSet, ManyGrids};
 pub use neighbourhood::{ColumnGraph, Successors};
-pub use observe::{Closing, Closings, ListScans, Lists, Observer, OneSide, Place, VisitOrder};
+pub use observe::{Closing, Closings, ListScans, Lists, Observer, OneSide, Parents, Place, VisitOrder};
 pub use octile::{OctileAstar, SearchError};
 pub use one_way::{BeforeExpansion, Rules, Search, Shot, Stop};
 pub use side::{SideInputs, Update};
