@@ -24,9 +24,10 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
         for cell in &table.cells {
             let columns = if cell.show == Show::Preprocessing { &preprocessing } else { &counted };
             let name = cell.metric.get_ref();
-            if !metric::find(name).is_some_and(|metric| columns.contains(metric.column)) {
+            let is_given = |metric: &metric::Metric| metric.is_read_from(columns);
+            if !metric::find(name).is_some_and(is_given) {
                 let known: Vec<&str> =
-                    metric::METRICS.iter().filter(|m| columns.contains(m.column)).map(|m| m.name).collect();
+                    metric::METRICS.iter().filter(|m| is_given(m)).map(|m| m.name).collect();
                 let message = format!(
                     "study `{}` does not produce the metric `{name}`; it produces {}",
                     table.study.get_ref(),

@@ -22,6 +22,7 @@ mod order;
 mod picture;
 mod random;
 mod ros;
+mod seen_corners;
 mod sight;
 mod text;
 
@@ -37,6 +38,7 @@ pub use offsets::Offsets;
 pub use order::NeighbourOrder;
 pub use picture::{FileMap, read_map};
 pub use random::{Blocking, bars, blocked_cells, independent_cells, rectangles};
+pub use seen_corners::seen_corners;
 pub use sight::Sight;
 pub use text::{parse_text_map, read_text_map, to_text_map};
 

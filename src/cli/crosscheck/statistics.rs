@@ -55,6 +55,7 @@ fn request_json(places: &[Places]) -> Value {
             "name": metric.name,
             "column": metric.column,
             "scale": metric.scale,
+            "at_most": metric.at_most,
             "better": metric.better.name(),
             "clock": metric.is_clock(),
             "status": metric.is_status(),

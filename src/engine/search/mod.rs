@@ -66,7 +66,7 @@ pub use interpolated::{Field, Interpolated};
 pub use jump::JumpSearch;
 pub use lattice_astar::{LatticeAstar, LatticeQuery};
 pub use neighbourhood::{ColumnGraph, Successors};
-pub use observe::{Closing, Closings, ListScans, Lists, Observer, OneSide, Place, VisitOrder};
+pub use observe::{Closing, Closings, ListScans, Lists, Observer, OneSide, Parents, Place, VisitOrder};
 pub use octile::{OctileAstar, SearchError};
 pub use one_way::{BeforeExpansion, Rules, Search, Shot, Stop};
 pub use side::{SideInputs, Update};

@@ -1,10 +1,11 @@
 // Plays replays: a list to choose from, a slider, play, speed. What is drawn is up to the kind of scene.
+import { anyAngle } from "./any_angle.js";
 import { arm } from "./arm.js";
 import { grid } from "./grid.js";
 import { plane } from "./plane.js";
 import { unpackJson } from "./unpack.js";
 
-const KINDS = { arm, grid, plane };
+const KINDS = { any_angle: anyAngle, arm, grid, plane };
 
 export function player(packed) {
   const place = document.getElementById("player");

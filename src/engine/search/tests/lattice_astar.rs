@@ -74,7 +74,7 @@ impl Query<'_> {
             graph: &mut LatticeGraph::new(self.grid, self.offsets, self.spacing, may_hop),
             estimate: &Combined { h: self.h(), combine: sum },
             observer: &mut scans,
-            update: Update { lower_open: self.lower_open, reopen_closed: false },
+            update: Update { lower_open: self.lower_open, ..Update::default() },
         };
         let rules = Rules { stop: Stop::GoalPopped, max_expansions: self.max_expansions };
         let [start, goal] = self.ends;
