@@ -53,7 +53,7 @@ impl Drawn {
         fs::create_dir_all(&places.plots)?;
         let run = sha256(fs::canonicalize(&places.plots)?.as_os_str().as_encoded_bytes());
         let name = format!("drawn-{}-{}.json", paper.id, &run[..12]);
-        let path = places.home.join("target/replan/cache").join(name);
+        let path = places.scratch.join("cache").join(name);
         Ok(Self { path, made_from: sha256(hashes.concat().as_bytes()) })
     }
 
