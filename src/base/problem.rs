@@ -140,8 +140,10 @@ impl ProblemFile {
 /// Scenes and requests of `MoveIt` hold half a problem each.
 fn refuse_moveit(reader: Reader<'_>, root: &Node) -> Result<(), SettingsError> {
     let has = |key: &str| root.keys().any(|known| known == key);
+    let world = reader.yaml.find(root, "world")?;
+    let has_objects = world.is_some_and(|world| world.keys().any(|key| key == "collision_objects"));
     let found = match () {
-        () if has("world") && (has("robot_model_name") || has("robot_state")) => "scene",
+        () if has_objects || has("world") && (has("robot_model_name") || has("robot_state")) => "scene",
         () if has("goal_constraints") || has("start_state") => "request",
         () => return Ok(()),
     };

@@ -65,7 +65,7 @@ pub fn budget(paper: &Paper) -> Result<ExploreSpec, Failure> {
 
 /// Where the trials of `command` are kept: they are large, and what was found in them is not.
 pub fn scratch(places: &Places, paper: &Paper, command: &str) -> PathBuf {
-    places.home.join("target/replan").join(command).join(&paper.id)
+    places.scratch.join(command).join(&paper.id)
 }
 
 /// The claims' verdicts by the stored default run.

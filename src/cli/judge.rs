@@ -185,7 +185,7 @@ fn judged(evidence: &Evidence<'_>, places: &Places, history: &History) -> Result
 
 /// Where polylines that were searched for are kept; a check searches for its own.
 pub fn polylines(places: &Places) -> std::path::PathBuf {
-    places.home.join("target/replan/cache/polylines.json")
+    places.scratch.join("cache/polylines.json")
 }
 
 /// The stored run of `paper`, to be judged under `point`.

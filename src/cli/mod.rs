@@ -359,10 +359,5 @@ fn renamed(words: impl Iterator<Item = String>) -> Option<String> {
 /// The command line as it would be typed for the same results: what only talks, and the trust that people give, is left out.
 fn command_line() -> String {
     let words = std::env::args().skip(1).filter(|word| word != "--why" && word != "--trust");
-    let quoted = words.map(|word| {
-        let is_plain =
-            !word.is_empty() && word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./=,".contains(c));
-        if is_plain { word } else { format!("'{}'", word.replace('\'', r"'\''")) }
-    });
-    std::iter::once("replan".to_owned()).chain(quoted).collect::<Vec<_>>().join(" ")
+    base::text::command(&words.collect::<Vec<_>>())
 }

@@ -18,6 +18,9 @@ const EXPERIMENTS: &str = "experiments";
 /// Where everything goes that is not committed.
 const TARGET: &str = "target/replan";
 
+/// The folder below `--out` for what saves time alone. It is not called as that of a project is, so that `--out` names none.
+const SCRATCH: &str = "scratch";
+
 /// Where stored runs lie below a root, a folder a paper.
 const RUNS: &str = "data/runs";
 
@@ -34,6 +37,8 @@ pub struct Places {
     pub plots: PathBuf,
     /// The report that holds its chapter.
     pub report: PathBuf,
+    /// Where what saves time alone is kept: below `--out`, if that is given.
+    pub scratch: PathBuf,
     /// Where input files are looked for.
     pub inputs: Inputs,
 }
@@ -60,11 +65,16 @@ impl Places {
             (None, "") => committed,
             (None, variant) => home.join(TARGET).join(format!("{id}-{variant}")),
         };
+        let scratch = match &which.out {
+            Some(out) if resolved(out) != resolved(&home) => out.join(SCRATCH),
+            _ => home.join(TARGET),
+        };
         let root = if root == Path::new(".") { PathBuf::new() } else { root };
         Ok(Self {
             runs: root.join(RUNS).join(&id),
             plots: root.join("plots").join(&id),
             report: root.join("paper_repro.md"),
+            scratch,
             inputs: Inputs { roots: vec![folder.clone(), home.clone()] },
             home,
             folder,

@@ -59,17 +59,23 @@ pub struct Grid2 {
     blocked: Vec<bool>,
 }
 
+/// Refuses a grid of this size, before anything of its size is made.
+fn check_size(width: u32, height: u32) -> Result<(), GridError> {
+    let accepted = 1..=MAX_SIDE_CELLS;
+    let cells = u64::from(width) * u64::from(height);
+    if !accepted.contains(&width) || !accepted.contains(&height) || cells > u64::from(MAX_CELLS) {
+        return Err(GridError::Size { width, height });
+    }
+    Ok(())
+}
+
 impl Grid2 {
     /// A grid whose cells are all free.
     ///
     /// # Errors
     /// [`GridError::Size`] unless both sides lie in 1..=[`MAX_SIDE_CELLS`] and their product is at most [`MAX_CELLS`].
     pub fn new(width: u32, height: u32) -> Result<Self, GridError> {
-        let accepted = 1..=MAX_SIDE_CELLS;
-        let cells = u64::from(width) * u64::from(height);
-        if !accepted.contains(&width) || !accepted.contains(&height) || cells > u64::from(MAX_CELLS) {
-            return Err(GridError::Size { width, height });
-        }
+        check_size(width, height)?;
         Ok(Self { width, height, blocked: vec![false; width as usize * height as usize] })
     }
 

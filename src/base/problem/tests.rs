@@ -224,6 +224,11 @@ const KEYS: &[(&str, &str, Result<&[&str], &str>)] = &[
     ),
     (
         "{\"robot\": \"panda\", \"problems\":",
+        "{\"world\": {\"collision_objects\": []}, \"problems\":",
+        Err("this is a MoveIt scene"),
+    ),
+    (
+        "{\"robot\": \"panda\", \"problems\":",
         "{\"start_state\": {}, \"problems\":",
         Err("this is a MoveIt request"),
     ),

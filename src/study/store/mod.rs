@@ -370,6 +370,7 @@ impl Staged {
         let mut name = path.file_name().unwrap_or_default().to_owned();
         name.push(format!(".{}{TEMPORARY}", std::process::id()));
         let temporary = folder.join(name);
+        remove_litter(path);
         self.files.push((temporary.clone(), path.to_owned()));
         // What was planted under the temporary name is replaced, not written through.
         let _ = fs::remove_file(&temporary);
@@ -439,6 +440,19 @@ pub fn write_first(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
     match linked {
         Err(error) if error.kind() == ErrorKind::AlreadyExists => Ok(()),
         other => other.map_err(StudyError::io(path, "writing the file")),
+    }
+}
+
+/// Removes what commands that were killed left half-written beside `path`: their processes live no more.
+fn remove_litter(path: &Path) {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let begin = format!("{}.", path.file_name().unwrap_or_default().to_string_lossy());
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let process = name.strip_prefix(&begin).and_then(|rest| rest.strip_suffix(TEMPORARY)?.parse().ok());
+        if process.is_some_and(|process| !external::is_living(process)) {
+            let _ = fs::remove_file(entry.path());
+        }
     }
 }
 
