@@ -46,7 +46,7 @@ impl Stamp {
         // However the paper is named, and from wherever: one place of one run.
         let run = sha256(fs::canonicalize(&places.runs)?.as_os_str().as_encoded_bytes());
         let name = format!("{step}-{}-{}.json", paper.id, &run[..12]);
-        let path = places.home.join("target/replan/cache").join(name);
+        let path = places.scratch.join("cache").join(name);
         Ok(Self { path, made_from: sha256(hashes.concat().as_bytes()) })
     }
 
