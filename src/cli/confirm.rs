@@ -81,7 +81,7 @@ pub fn confirm(
     let Some(second) = found.map(|found| Exploration { command, ..found }) else { return Ok(()) };
     let path = Exploration::second(&places.runs);
     second.write(&path)?;
-    verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?);
+    verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?, which);
     say!(
         "{} on the second seed, {} besides the default; what was found is in {}",
         counted(second.trials as usize, ["trial", "trials"]),

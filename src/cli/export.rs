@@ -17,7 +17,7 @@ use study::store::{Staged, check_records, csv};
 /// Exports a stored run.
 #[derive(Args)]
 pub struct Export {
-    /// A stored run: a paper's name, the folder of an earlier `--out`, or a folder of records
+    /// A paper's name, a folder that holds a paper.toml, or a stored run: an earlier `--out` or its records
     pub paper: String,
     /// The same as `--to csv`
     #[arg(long)]

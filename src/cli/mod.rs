@@ -179,6 +179,14 @@ struct How {
     threads: Option<u32>,
 }
 
+impl Which {
+    /// The command `name` on the same paper, as it is typed.
+    fn command(&self, name: &str) -> String {
+        let out = self.out.as_ref().map(|out| format!(" --out {}", typed(&out.to_string_lossy())));
+        format!("replan {name} {}{}", typed(&self.paper), out.unwrap_or_default())
+    }
+}
+
 impl How {
     /// As the specs say.
     fn plain(threads: Option<u32>) -> Self {
@@ -359,10 +367,13 @@ fn renamed(words: impl Iterator<Item = String>) -> Option<String> {
 /// The command line as it would be typed for the same results: what only talks, and the trust that people give, is left out.
 fn command_line() -> String {
     let words = std::env::args().skip(1).filter(|word| word != "--why" && word != "--trust");
-    let quoted = words.map(|word| {
-        let is_plain =
-            !word.is_empty() && word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./=,".contains(c));
-        if is_plain { word } else { format!("'{}'", word.replace('\'', r"'\''")) }
-    });
-    std::iter::once("replan".to_owned()).chain(quoted).collect::<Vec<_>>().join(" ")
+    let typed = words.map(|word| typed(&word));
+    std::iter::once("replan".to_owned()).chain(typed).collect::<Vec<_>>().join(" ")
+}
+
+/// A word as it is typed in a shell.
+fn typed(word: &str) -> String {
+    let is_plain =
+        !word.is_empty() && word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./=,".contains(c));
+    if is_plain { word.to_owned() } else { format!("'{}'", word.replace('\'', r"'\''")) }
 }

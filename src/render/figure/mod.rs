@@ -169,17 +169,19 @@ pub fn caption(spec: &FigureSpec, run: &Run<'_>, paper: &Paper, verdicts: &Verdi
     let own = build(spec, run.study, paper).ok().and_then(|kind| kind.statistic());
     let settings = spec.settings.as_ref().map(base::settings::Spanned::get_ref);
     let Trials { instances, solved, all } = trials(run, settings);
-    let n = format!("n = {instances} {}, {solved} of {all} trials solved", unit(run.study));
+    let unit = unit(run.study);
+    let n = format!("n = {instances} {unit}, {solved} of {all} trials solved");
     let interpretations = verdicts.explored.as_ref().map_or(0, |explored| explored.interpretations);
     let statistic = own.unwrap_or(entry.statistic);
     let statistic = statistic
+        .replace("instances", unit)
         .replace("{n}", &n)
         .replace("{interpretations}", &format!("n = {interpretations} interpretations"));
     format!("{} {statistic}", spec.caption)
 }
 
 /// The noun for the instances of `study`: that of its families if they agree.
-fn unit(study: &Study) -> &'static str {
+pub(crate) fn unit(study: &Study) -> &'static str {
     let nouns: BTreeSet<&str> = study.groups.iter().map(|group| group.family.instances).collect();
     match nouns.first() {
         Some(noun) if nouns.len() == 1 => noun,

@@ -1,6 +1,6 @@
 //! A paper's chapter: what was found, its tables beside ours, figures, and claims that lead to their evidence.
 
-use super::{SECTIONS, Undrawn, anchor, begin_of_row, item, link, linked, paper_statement, paragraph, place};
+use super::{SECTIONS, Undrawn, anchor, begin_of_row, item, link, linked, paragraph, place};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::{ClaimVerdict, Verdicts};
 use crate::analysis::verdict_rule::Column;
@@ -115,9 +115,9 @@ impl Page<'_> {
         text
     }
 
-    /// The headline claims: what the paper says, ours, and the verdict.
+    /// The headline claims, a line each: where the paper says it, ours, and the verdict.
     fn headlines(&self, text: &mut String) {
-        *text += "| claim | in the paper | ours | verdict |\n|---|---|---|---|\n";
+        *text += "| claim | at | ours | verdict |\n|---|---|---|---|\n";
         let details = self.details_file();
         for headline in headlines(self.evidence.paper, self.verdicts) {
             let verdict = headline.verdict();
@@ -125,8 +125,7 @@ impl Page<'_> {
             let says = link(judged, &markdown(&says), &details);
             let n = judged.ours().map_or_else(String::new, |ours| format!("; n = {}", ours.n));
             let ours = ours.map_or_else(|| "–".to_owned(), |ours| markdown(&(ours + &n)));
-            let stated = markdown(&format!("{}: {}", judged.at, paper_statement(judged)));
-            *text += &format!("| {says} | {stated} | {ours} | {} |\n", markdown(&verdict));
+            *text += &format!("| {says} | {} | {ours} | {} |\n", markdown(&judged.at), markdown(&verdict));
         }
         *text += "\n";
     }
