@@ -19,7 +19,7 @@ pub struct Effect {
 }
 
 impl Effect {
-    /// That of an estimate, by what it measures.
+    /// That of an estimate, from the name of its measure.
     pub fn new(estimate: &Estimate) -> Self {
         let what = estimate.what.as_str();
         let change = what.strip_prefix("change of ").and_then(|rest| rest.split_once(" in %"));

@@ -106,7 +106,7 @@ pub struct CurveLine {
     pub is_printed: bool,
 }
 
-/// Trials of which a figure draws what was kept.
+/// Trials whose traces a figure draws.
 pub struct Shown<'a> {
     /// The problem group.
     pub problems: &'a str,
@@ -137,7 +137,7 @@ impl<'a> Shown<'a> {
     }
 }
 
-/// The problem groups of `study`, each with its instance, of which figures draw what was kept.
+/// The problem groups of `study`, each with its instance, whose traces figures draw.
 pub fn drawn(study: &Study, paper: &Paper) -> BTreeSet<(String, u32)> {
     let kinds = study.figures.iter().filter_map(|figure| build(figure, study, paper).ok());
     let shown = |kind: Box<dyn Kind>| -> Vec<(String, u32)> {

@@ -106,7 +106,7 @@ struct Read {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PrintedRatio {
-    /// Of which metric it is.
+    /// Its metric.
     metric: String,
     /// The ratio.
     ratio: f64,
@@ -300,7 +300,7 @@ impl SweepCurves {
         let mut panel = self.panel(&row.contender)?;
         let thin = Stroke::solid(color.mixed(WHITE, 0.6), 0.35);
         for (instance, curve) in curves.instances.iter().take(DRAWN).enumerate() {
-            // Equal rows are moved apart by up to a point and a half, so that they can be told.
+            // Equal rows are moved apart by up to a point and a half, so that they can be seen.
             let shift = ((instance as f64 * 0.618_033_988_749_895).fract() - 0.5) * 3.0;
             let line = Line::through(
                 self.over(curve).map(|(x, y)| [x, (y + shift).clamp(0.0, 100.0)]).collect(),

@@ -275,7 +275,7 @@ impl WorkCell {
         let row = ask::trial(scene, &self.problems, number, Some(&self.query), contender)?;
         let stops =
             ask::trace(scene, &row.key, "trajectory").or_else(|_| ask::trace(scene, &row.key, "way_mm"))?;
-        // The tip is the last of what is said of each stop.
+        // The tip is the last of the numbers of each stop.
         let points: Vec<[f64; 3]> = stops
             .values
             .chunks(stops.width)

@@ -34,7 +34,7 @@ pub struct Page<'a> {
     pub plots: String,
     /// Figures that are missing there.
     pub undrawn: &'a [Undrawn],
-    /// Files there of which the report speaks: what an independent judge said of robots, scenes and paths.
+    /// Files there that the report links to: an independent judge's report on robots, scenes and paths.
     pub beside: Vec<&'static str>,
 }
 
