@@ -91,7 +91,7 @@ pub fn confirm(
     Ok(())
 }
 
-/// Refuses a paper of which a study has no second seed.
+/// Refuses a paper in which a study has no second seed.
 fn check_seeds(paper: &Paper) -> Result<(), Failure> {
     let without: Vec<&str> = paper
         .studies

@@ -257,7 +257,7 @@ impl How {
         parts.join("-")
     }
 
-    /// The paper with its studies cut down and reseeded as asked.
+    /// The paper with its studies cut down and reseeded as requested.
     pub fn apply(&self, mut paper: Paper) -> Paper {
         let change = |mut study: Study| {
             study.seed = self.seed.unwrap_or(study.seed);
@@ -267,7 +267,7 @@ impl How {
         paper
     }
 
-    /// The interpretations to run, of which the first is the one that claims are judged under.
+    /// The interpretations to run; the first is the one that claims are judged under.
     ///
     /// # Errors
     /// An unknown option, or one that cannot be run.
@@ -279,7 +279,7 @@ impl How {
         }
     }
 
-    /// That every study has the options asked for: before anything is written.
+    /// That every study has the requested options: before anything is written.
     ///
     /// # Errors
     /// Those of [`interpretations`](Self::interpretations).

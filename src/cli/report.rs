@@ -54,8 +54,8 @@ impl Report {
             let which = Which { paper: paper.clone(), out: self.out.clone() };
             let has_index = self.paper.is_none() || folder.join("index.html").is_file();
             match write(&Places::stored(&which)?, &folder, has_index) {
-                Ok(line) => listed.push(line),
-                Err((line, failure)) => {
+                (line, Ok(())) => listed.extend(line),
+                (line, Err(failure)) => {
                     listed.extend(line);
                     failed = Some(failed.unwrap_or(failure));
                 }
@@ -74,42 +74,41 @@ impl Report {
     }
 }
 
-/// Writes the page of the paper at `places` into `folder`; gives its line of the index. What cannot be shown is said in the
+/// Writes the page of the paper at `places` into `folder`; gives its line of the index. What cannot be shown stands in the
 /// page's first line, and is a failure all the same.
 pub(super) fn write(
     places: &Places,
     folder: &Path,
     has_index: bool,
-) -> Result<IndexLine, (Option<IndexLine>, Failure)> {
+) -> (Option<IndexLine>, Result<(), Failure>) {
     let how = How { quick: false, seed: None, with: None, threads: None };
-    let paper = super::load::load(places, &how).map_err(|failure| (None, failure))?;
+    let paper = match super::load::load(places, &how) {
+        Ok(paper) => paper,
+        Err(failure) => return (None, Err(failure)),
+    };
     let file = folder.join(format!("{}.html", paper.id));
-    let line = |finding: String, counts: String| IndexLine {
-        id: paper.id.clone(),
-        title: paper.source.title.clone(),
-        finding,
-        counts,
+    let line = |finding: String, counts: String| {
+        Some(IndexLine { id: paper.id.clone(), title: paper.source.title.clone(), finding, counts })
     };
     let (spent_ns, made) = timed(|| made(&paper, places, folder, has_index));
     match made {
         Ok(Made { finding, counts, sizes }) => {
             say!("{}: {sizes} in {:.1} s", paper.id, spent_ns as f64 / 1e9);
-            Ok(line(finding, counts))
+            (line(finding, counts), Ok(()))
         }
         Err(failure) => {
             let why = page::unread(&paper.id, &paper.source.title, &failure.message);
             match write_whole(&file, why.as_bytes()) {
-                Ok(()) => Err((
-                    Some(line(String::new(), format!("Nothing is shown: {}", failure.message))),
-                    failure,
-                )),
-                Err(error) => Err((None, error.into())),
+                Ok(()) => {
+                    (line(String::new(), format!("Nothing is shown: {}", failure.message)), Err(failure))
+                }
+                Err(error) => (None, Err(error.into())),
             }
         }
     }
 }
 
-/// What is said of a page that was written.
+/// The summary of a page that was written.
 struct Made {
     /// The finding; empty if the run is not the study's own.
     finding: String,

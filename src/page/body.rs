@@ -21,7 +21,7 @@ pub struct Body<'a> {
     pub evidence: &'a Evidence<'a>,
     /// What was found.
     pub verdicts: &'a Verdicts,
-    /// The trials of which there is a replay.
+    /// The trials that have a replay.
     pub replayed: &'a [&'a str],
     /// How many interpretations can be looked at.
     pub explored: usize,

@@ -8,7 +8,7 @@ use study::paper::{OVER_INTERPRETATIONS, filled};
 /// Paragraphs and lists are broken into lines of so many characters.
 pub const COLUMNS: usize = 120;
 
-/// `text` with every `{claim}` replaced by our number beside that claim, and every `{claim:form}` by what the form asks for; a
+/// `text` with every `{claim}` replaced by our number beside that claim, and every `{claim:form}` by the text that the form names; a
 /// dash where there is none.
 pub fn prose(text: &str, verdicts: &Verdicts) -> String {
     filled(text, |claim, form| {
@@ -124,7 +124,7 @@ pub fn columns<const N: usize>(rows: &[[String; N]], most: [usize; N]) -> Vec<St
     rows.iter().map(line).collect()
 }
 
-/// The words on lines, none of which begins with a word that `stays` with the one before.
+/// The words on lines; none begins with a word that `stays` with the one before.
 fn broken(first: &str, text: &str, [indent, columns]: [usize; 2], stays: fn(&str) -> bool) -> String {
     let mut lines = Vec::new();
     let mut line = first.to_owned();

@@ -81,7 +81,7 @@ impl Choices {
 
 /// From which cells searches start so that they find every pair that is far enough apart.
 ///
-/// Of two cells of a ball whose diameter is below all lengths that are asked for, none is a pair. Every other pair has a cell
+/// Of two cells of a ball whose diameter is below all lengths that are requested, none is a pair. Every other pair has a cell
 /// outside it, and no search has to start inside.
 pub(super) struct Starts {
     /// Whether each cell is in the ball, in every case.

@@ -2,7 +2,7 @@
 //!
 //! Its path then need not be a shortest one, and depends on the goal, so that no single-source search finds it. It is
 //! never shorter than a shortest path; pairs are tried whose shortest lengths lie at most a stated excess below
-//! those asked for. The same trial serves one pair of printed lengths and all targets around it, and all orders among equal
+//! those requested. The same trial serves one pair of printed lengths and all targets around it, and all orders among equal
 //! f where these do not matter.
 
 use super::{Pair, Targets, search, union};
@@ -57,7 +57,7 @@ struct Met {
     lengths: Vec<u32>,
 }
 
-/// A pair of which the lengths of some cases take a search forwards.
+/// A pair whose lengths in some cases take a search forwards.
 struct Open {
     pair: Pair,
     cases: Vec<Length>,
@@ -132,7 +132,7 @@ impl Tried {
 
 /// What the trials of one thread share in a case. Lengths are in the units of [`ScaledOctile`].
 struct CaseTrial {
-    /// The least and the largest length that is asked for.
+    /// The least and the largest length that is requested.
     bounds: [u32; 2],
     flood: OctileAstar,
     back: FirstWayBack,

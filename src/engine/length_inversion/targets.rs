@@ -63,7 +63,7 @@ impl Targets {
         met.collect()
     }
 
-    /// The targets of which each length is that of some pair in its case.
+    /// The targets whose every length is that of some pair in its case.
     fn attainable(&self, attained: &[Vec<bool>; 2]) -> Vec<bool> {
         let mut all = self.none();
         for (one, first) in self.lengths[0].iter().enumerate() {

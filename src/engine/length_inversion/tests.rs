@@ -161,7 +161,7 @@ fn grids_matched_freely_give_what_any_two_of_them_give() {
     let many = many();
     let targets = Targets::new(Small::LENGTHS, 0.75);
     let lengths = scaled(Small::LENGTHS);
-    // All grids of one case and three of the other, so that every two can be asked alone.
+    // All grids of one case and three of the other, so that every two can be tried alone.
     let grids = [many[0].clone(), [3, 32, 66].map(|place| many[1][place].clone()).to_vec()];
     let found = pairs(&grids, &lengths, Match::Freely);
     let hits = hits_of(&targets, &grids, Match::Freely);
@@ -227,7 +227,7 @@ fn where_open_nodes_are_never_lowered_lengths_between_many_pairs_are_the_kernels
     }
 }
 
-/// A quarter of the reproduced workspace with one obstacle in each case, and what is asked of it.
+/// A quarter of the reproduced workspace with one obstacle in each case, and the question about it.
 struct Small {
     rules: ArmRules,
     centers: [[f64; 2]; 2],

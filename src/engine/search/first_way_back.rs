@@ -4,13 +4,13 @@
 //! what few nodes on the way do:
 //!
 //! - A node is opened by its neighbour that is expanded first, the one of least f, as f falls along no path.
-//! - The shortest way to a node bounds its f from below. So neighbours are asked for their f in the order of these bounds, and
-//!   once the bound of the next exceeds the least f found, the rest need not be asked.
-//! - What is asked of a neighbour is what happens before the asker is opened; nodes that are still being asked have no part in that.
+//! - The shortest way to a node bounds its f from below. So neighbours compute their f in the order of these bounds, and
+//!   once the bound of the next exceeds the least f found, the rest need not be looked at.
+//! - The question to a neighbour is what happens before the asker is opened; nodes with an open question have no part in that.
 //!   An answer is kept only if none of them could have changed it.
 //!
 //! Where neighbours of equal f would open a node with different g, the order among equals decides; where too many nodes
-//! have to be asked, searching forwards is faster. Both are left [`Unsettled`].
+//! have to be looked at, searching forwards is faster. Both are left [`Unsettled`].
 
 use super::cost::{Cost as _, Octile, quantised};
 use super::estimate::ScaledOctile;
@@ -20,10 +20,10 @@ use std::f64::consts::SQRT_2;
 /// Keys of f this close count as equal: rounding moves a key by one.
 const CLOSE: u64 = 8;
 
-/// How many nodes are asked before a query is given up: the settled ones ask 64 on average.
+/// How many nodes are looked at before a query is given up: the settled ones ask 64 on average.
 const MOST_ASKED: u32 = 90;
 
-/// A length of a path whose cells no flood has told.
+/// A length of a path whose cells no flood has given.
 const FAR: f64 = 1e9;
 
 /// The length depends on the order among equals, or would take too long to find.
@@ -57,7 +57,7 @@ pub struct FirstWayBack {
 #[derive(Clone, Copy, Debug, Default)]
 struct Known {
     query: u32,
-    /// How many nodes wait for it, if it is being asked; 0 if it has answered.
+    /// How many nodes wait for it, if its question is open; 0 if it has answered.
     depth: u32,
     answer: Answer,
 }
@@ -112,13 +112,13 @@ impl FirstWayBack {
         (cell / self.width + 1) as usize * self.stride + (cell % self.width) as usize + 1
     }
 
-    /// Makes `start` the start of the queries that follow; what was told of another is forgotten.
+    /// Makes `start` the start of the queries that follow; what is known of another is forgotten.
     pub fn begin(&mut self, start: u32) {
         self.shortest.fill(FAR);
         self.start = self.node(start);
     }
 
-    /// Tells the shortest length from the start to `cell`, in the units of [`ScaledOctile`]. It has to be told of all cells up
+    /// Tells the shortest length from the start to `cell`, in the units of [`ScaledOctile`]. It must be given for all cells up
     /// to the bound of a query.
     #[inline]
     pub fn set_length(&mut self, cell: u32, length: u32) {
@@ -132,7 +132,7 @@ impl FirstWayBack {
     /// [`ScaledOctile`]; it is the same whatever the order among equals.
     ///
     /// # Errors
-    /// [`Unsettled`] if that order matters or too many nodes would have to be asked.
+    /// [`Unsettled`] if that order matters or too many nodes would have to be looked at.
     ///
     /// # Panics
     /// If `goal` is outside the grid.

@@ -128,7 +128,7 @@ impl ManyGrids {
     #[inline]
     fn expand(&mut self, node: u32, cost: u32, grids: GridSet) {
         let best = self.offered[node as usize];
-        // What was offered at more than the least cost is not told apart by the moves into the cell.
+        // What was offered at more than the least cost is not distinguished by the moves into the cell.
         let mut left = if best.cost == cost { best.exits } else { u8::MAX };
         let legal = self.legal[node as usize];
         while left != 0 {
