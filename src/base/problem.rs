@@ -154,7 +154,7 @@ fn refuse_moveit(reader: Reader<'_>, root: &Node) -> Result<(), SettingsError> {
     Err(reader.fault(root, message))
 }
 
-/// Refuses problems for another robot. Names that differ in case and punctuation alone, or of which one is a part of the other, are one.
+/// Refuses problems for another robot. Names that differ in case and punctuation alone, or contain each other, are one.
 fn check_robot(reader: Reader<'_>, root: &Node, key: &str, robot: &str) -> Result<(), SettingsError> {
     let Some(node) = reader.yaml.find(root, key)? else { return Ok(()) };
     let plain = |name: &str| name.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase();

@@ -81,7 +81,7 @@ pub fn confirm(
     let Some(second) = found.map(|found| Exploration { command, ..found }) else { return Ok(()) };
     let path = Exploration::second(&places.runs);
     second.write(&path)?;
-    verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?);
+    verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?, which);
     say!(
         "{} on the second seed, {} besides the default; what was found is in {}",
         counted(second.trials as usize, ["trial", "trials"]),
@@ -91,7 +91,7 @@ pub fn confirm(
     Ok(())
 }
 
-/// Refuses a paper of which a study has no second seed.
+/// Refuses a paper in which a study has no second seed.
 fn check_seeds(paper: &Paper) -> Result<(), Failure> {
     let without: Vec<&str> = paper
         .studies

@@ -89,7 +89,7 @@ pub fn explore(
     let Some(exploration) = found.map(|found| Exploration { command, ..found }) else { return Ok(()) };
     let path = Exploration::first(&places.runs);
     exploration.write(&path)?;
-    verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?);
+    verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?, which);
     say!(
         "{} under {}; what was found is in {}",
         counted(exploration.trials as usize, ["trial", "trials"]),

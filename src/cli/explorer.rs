@@ -84,7 +84,7 @@ impl<'p> Explorer<'p> {
         Self { paper, places, threads, folder, second_seed: false, rounds: None }
     }
 
-    /// The points that the budget has room for, and how many trials they take, which is told: all that must be, and drawn ones
+    /// The points that the budget has room for, and how many trials they take, which is printed: all that must be, and drawn ones
     /// in order.
     pub fn affordable(&self, budget: &ExploreSpec) -> Result<(Vec<Interpretation>, u64), Failure> {
         let paper = self.paper;
@@ -244,7 +244,7 @@ impl<'p> Explorer<'p> {
         Ok((places.into_iter().zip(found).collect(), trials))
     }
 
-    /// What every claim is under each of `points` by what runs in `round`, and which claims hold jointly there.
+    /// What every claim is under each of `points` from the trials of `round`, and which claims hold jointly there.
     pub fn look(
         &self,
         points: &[Interpretation],

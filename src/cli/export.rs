@@ -17,7 +17,7 @@ use study::store::{Staged, check_records, csv};
 /// Exports a stored run.
 #[derive(Args)]
 pub struct Export {
-    /// A stored run: a paper's name, the folder of an earlier `--out`, or a folder of records
+    /// A paper's name, a folder that holds a paper.toml, or a stored run: an earlier `--out` or its records
     pub paper: String,
     /// The same as `--to csv`
     #[arg(long)]
@@ -48,7 +48,7 @@ pub enum Format {
 /// The kinds of record that are exported; traces are lists of numbers without a table's shape.
 const PARTS: [&str; 3] = ["trials", "preprocessing", "times"];
 
-/// Refuses a folder of which some record is gone or is not what its manifest names.
+/// Refuses a folder in which some record is gone or is not what its manifest names.
 pub(super) fn check_stored(folder: &Path) -> Result<(), Failure> {
     for study in stored_studies(folder) {
         check_records(folder, &study, &Manifest::read(folder, &study)?.files)?;

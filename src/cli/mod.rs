@@ -1,7 +1,7 @@
 //! The command line: one subcommand a file.
 //!
 //! Exit codes: 0 done; 1 the system refused (disk, permissions, a busy folder); 2 wrong words on the command line or
-//! wrong input files; 3 a check said no: something is not as stored, is worse than a gate allows, is judged otherwise, is impossible, or an independent judge
+//! wrong input files; 3 a check failed: something is not as stored, is worse than a gate allows, is judged otherwise, is impossible, or an independent judge
 //! disagrees; 4 a tool is missing: Python or the network for `crosscheck`, `replan-audit`, `replan-export`, a planner from outside; 130 interrupted, and what was done is kept.
 //!
 //! A stored file that is edited, damaged, gone, or of a spec that has changed is the answer that a check gives: code 3 under
@@ -179,6 +179,14 @@ struct How {
     threads: Option<u32>,
 }
 
+impl Which {
+    /// The command `name` on the same paper, as it is typed.
+    fn command(&self, name: &str) -> String {
+        let out = self.out.as_ref().map(|out| format!(" --out {}", typed(&out.to_string_lossy())));
+        format!("replan {name} {}{}", typed(&self.paper), out.unwrap_or_default())
+    }
+}
+
 impl How {
     /// As the specs say.
     fn plain(threads: Option<u32>) -> Self {
@@ -223,7 +231,7 @@ impl Failure {
 
     /// Prints it as the command called `program` does, and gives its exit code.
     pub fn end(&self, program: &str) -> ExitCode {
-        // A reader that closed the pipe early (head) is no failure of ours, and cannot be told anything.
+        // A reader that closed the pipe early (head) is no failure of ours, and gets no message.
         let _ = writeln!(io::stderr(), "{program}: {}", base::text::shown(&self.message));
         ExitCode::from(self.code)
     }
@@ -292,7 +300,7 @@ impl From<io::Error> for Failure {
     }
 }
 
-/// Success if all of `results` are; otherwise the one failure, or every failure told and the worst code with `what`.
+/// Success if all of `results` are; otherwise the one failure, or every failure printed and the worst code with `what`.
 fn all(results: Vec<Result<(), Failure>>, what: &str) -> Result<(), Failure> {
     let count = results.len();
     let mut failures: Vec<Failure> = results.into_iter().filter_map(Result::err).collect();

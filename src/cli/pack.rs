@@ -61,7 +61,7 @@ impl Pack {
         super::export::check_stored(&places.runs)?;
         doing(&format!("{}: writing its page", paper.id));
         let page = tempfolder(&self.to)?;
-        let written = report::write(&places, &page).map_err(|(_, failure)| failure).map(drop);
+        let written = report::write(&places, &page, false).1;
         let files = written.and_then(|()| files(&paper, &places, &page));
         // What is left of it does no harm but taking room.
         let _ = fs::remove_dir_all(&page);

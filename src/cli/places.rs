@@ -3,7 +3,7 @@
 //! Only a full run with the studies' own seed and default interpretation may write the committed places; everything else
 //! goes below `target/replan/` or where `--out` says.
 
-use super::{Failure, How, Which};
+use super::{Failure, How, Which, typed};
 use crate::analysis::compare::stored_studies;
 use base::settings::{did_you_mean, none_called};
 use std::collections::BTreeMap;
@@ -87,15 +87,43 @@ impl Places {
     pub fn report_lock(&self) -> PathBuf {
         self.runs.parent().unwrap_or(Path::new("")).join(".lock")
     }
+
+    /// As [`find`](Self::find), where `which` may also name a stored run of a paper of the project.
+    ///
+    /// # Errors
+    /// If it names neither.
+    pub fn stored(which: &Which) -> Result<Self, Failure> {
+        Self::find(which, "").or_else(|unknown| {
+            let runs = match &which.out {
+                None => stored_run(&which.paper).ok(),
+                Some(_) => None,
+            };
+            let Some(runs) = runs else { return Err(unknown) };
+            let paper = paper_id(&runs)?;
+            let root = runs.ancestors().nth(3).filter(|root| root.join(RUNS).join(&paper) == runs);
+            let Some(root) = root else { return Err(unknown) };
+            Self::find(&Which { paper, out: Some(root.to_owned()) }, "")
+        })
+    }
+
+    /// The records of a paper, or a stored run, that `which` names.
+    ///
+    /// # Errors
+    /// If it names neither.
+    pub fn runs(which: &Which) -> Result<PathBuf, Failure> {
+        Self::find(which, "").map(|places| places.runs).or_else(|unknown| match &which.out {
+            None => stored_run(&which.paper).map_err(|_| unknown),
+            Some(_) => Err(unknown),
+        })
+    }
 }
 
-/// The folder of records that `given` means: itself, that of the one paper below it, or that of a paper of the project.
+/// The folder of records that `given` means: itself, that of the one paper below it, or that of a paper.
 ///
 /// # Errors
 /// If there is none, or there are several.
 pub fn stored_run(given: &str) -> Result<PathBuf, Failure> {
     let folder = Path::new(given);
-    let named = home(None)?.join(RUNS).join(given);
     let is_run = |folder: &Path| !stored_studies(folder).is_empty();
     let below: Vec<PathBuf> = fs::read_dir(folder.join(RUNS))
         .into_iter()
@@ -107,8 +135,15 @@ pub fn stored_run(given: &str) -> Result<PathBuf, Failure> {
     match &below[..] {
         _ if is_run(folder) => Ok(folder.to_owned()),
         [one] => Ok(one.clone()),
-        [] if is_run(&named) => Ok(named),
-        [] => Err(no_run(given)),
+        [] => match Places::find(&Which { paper: given.to_owned(), out: None }, "") {
+            Ok(places) if is_run(&places.runs) => Ok(places.runs),
+            Ok(places) => Err(Failure::input(format!(
+                "{}: no stored run; `replan repro {}` makes it",
+                places.runs.display(),
+                typed(given)
+            ))),
+            Err(_) => Err(no_run(given)),
+        },
         several => Err(Failure::input(format!(
             "`{given}` holds the runs of {} papers; name one of their folders, as {}",
             several.len(),
@@ -232,7 +267,7 @@ impl How {
         parts.join("-")
     }
 
-    /// The paper with its studies cut down and reseeded as asked.
+    /// The paper with its studies cut down and reseeded as requested.
     pub fn apply(&self, mut paper: Paper) -> Paper {
         let change = |mut study: Study| {
             study.seed = self.seed.unwrap_or(study.seed);
@@ -242,7 +277,7 @@ impl How {
         paper
     }
 
-    /// The interpretations to run, of which the first is the one that claims are judged under.
+    /// The interpretations to run; the first is the one that claims are judged under.
     ///
     /// # Errors
     /// An unknown option, or one that cannot be run.
@@ -254,7 +289,7 @@ impl How {
         }
     }
 
-    /// That every study has the options asked for: before anything is written.
+    /// That every study has the requested options: before anything is written.
     ///
     /// # Errors
     /// Those of [`interpretations`](Self::interpretations).

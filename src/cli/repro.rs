@@ -67,22 +67,15 @@ impl Repro {
         let point = self.how.interpretation(&paper.choices)?;
         let judged = judge::judge_changes(&paper, point, &places, self.again)?;
         if self.all {
-            verdicts::print(&judged);
+            verdicts::print(&judged, &self.which);
         } else {
-            findings::print(&paper, &judged);
+            findings::print(&paper, &judged, &self.which);
         }
         let outputs = draw(&paper, &places, &judged, self.again, stop)?;
         // What is not stored in its usual place is not what `show` reads.
-        if !self.all
-            && !self.how.quick
-            && self.how.with.is_none()
-            && self.how.seed.is_none()
-            && self.which.out.is_none()
-        {
-            let id = &self.which.paper;
-            say!(
-                "why: replan show {id} CLAIM; all claims: replan show {id}; one page: replan report {id} --open"
-            );
+        if !self.all && !self.how.quick && self.how.with.is_none() && self.how.seed.is_none() {
+            let [show, report] = ["show", "report"].map(|name| self.which.command(name));
+            say!("why: {show} CLAIM; all claims: {show}; one page: {report} --open");
         }
         say!(
             "records and verdicts are in {}\nfigures and tables are in {}\nthe report is {}",

@@ -89,7 +89,7 @@ pub struct Process {
     from: Receiver<PlannerOutput>,
     written: Arc<AtomicU64>,
     log: Arc<Mutex<VecDeque<u8>>>,
-    /// What it said of itself, once it has.
+    /// Its greeting, once it has.
     pub hello: Option<Hello>,
 }
 
@@ -144,7 +144,7 @@ impl Process {
     /// From now on its output counts from 0.
     ///
     /// # Errors
-    /// A sentence: it has written something already that nobody asked for.
+    /// A sentence: it has written something already that nobody requested.
     pub(super) fn begin(&mut self) -> Result<(), String> {
         if let Ok(PlannerOutput::Line(line)) = self.from.recv_timeout(EARLY) {
             return Err(format!(

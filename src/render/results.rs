@@ -18,7 +18,7 @@ use study::paper::results::{ResultsSpec, Show};
 pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
     let mut faults = Faults::default();
     for table in &paper.results {
-        // A study that is not there is told by the paper's own check.
+        // A study that is not there is reported by the paper's own check.
         let Some(study) = paper.study(table.study.get_ref()) else { continue };
         let [counted, preprocessing] = [study.columns(), study.preprocessing_columns()];
         for cell in &table.cells {

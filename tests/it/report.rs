@@ -313,9 +313,7 @@ fn one_claim_is_shown_with_its_evidence_within_100_columns() {
     bench.done(&["repro", "./mini"]);
     let said = bench.done(&["show", "./mini", "nodes"]);
     assert!(said.starts_with("nodes: reproduced\n") && said.contains("trial: draws/"), "{said}");
-    let wrong = bench.run(&["show", "./mini", "node"]);
-    assert_eq!(wrong.code, Some(2));
-    assert!(wrong.err.contains("there is no claim `node` (did you mean `nodes`?)"), "{}", wrong.err);
+    assert_eq!(bench.done(&["show", "./mini", "node"]), said);
     for (arguments, least) in [(&["show", "zhang"][..], 120), (&["show", "zhang", "t1.improved.cost"], 10)] {
         let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_replan"));
         let out = program.args(arguments).current_dir(root()).output().unwrap().stdout;
@@ -341,6 +339,6 @@ fn repro_ends_with_the_finding_and_its_headline_claims_within_a_screen() {
     assert!(lines.iter().any(|line| line.starts_with("why: replan show ./mini CLAIM; ")), "{said}");
     let verdict = bench.done(&["show", "./mini", "nodes"]);
     let at = lines.iter().position(|line| is_claim(line, "nodes")).unwrap();
-    let word = lines[at - 1].rsplit("  ").next().unwrap();
-    assert!(verdict.contains(word), "{word}: {verdict}");
+    let word = lines[at - 1].split("  ").next().unwrap();
+    assert!(!word.is_empty() && verdict.contains(word), "{word}: {verdict}");
 }

@@ -182,7 +182,7 @@ fn word<'b>(rest: &mut &'b [u8]) -> Option<&'b [u8]> {
 mod tests {
     use super::*;
 
-    /// An image, and the brightnesses of its pixels or what is said of it.
+    /// An image, and the brightnesses of its pixels or the message about it.
     const IMAGES: &[(&[u8], Result<&[f64], &str>)] = &[
         (b"P5\n# by hand\n2 1\n255\n\x00\xff", Ok(&[0.0, 1.0])),
         (b"P5 2 1 65535\n\x80\x00\xff\xff", Ok(&[32768.0 / 65535.0, 1.0])),

@@ -4,7 +4,7 @@
 //! `y · width + x`, a `u32`; cell (0, 0) is the lower left one. Map files list their highest row first (text maps)
 //! or count y downwards (`MovingAI`); both readers turn that into y up and nothing later needs to know.
 //!
-//! The order of neighbours is written once, as [`DIRECTIONS`]; every mask follows it, and every search that is not told
+//! The order of neighbours is written once, as [`DIRECTIONS`]; every mask follows it, and every search without orders
 //! another [`NeighbourOrder`].
 //! Costs belong to the search floor.
 

@@ -1,6 +1,6 @@
 //! `replan crosscheck --statistics`: estimates, intervals, outcomes and verdicts before a judge in Python.
 //!
-//! The judge is told what metrics mean and where papers lie, and nothing else of what is computed here.
+//! The judge knows what metrics mean and where papers lie, and nothing else of what is computed here.
 
 use super::super::places::{Places, home, papers};
 use super::super::progress::doing;
@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use study::store::write_whole;
 
-/// What the judge is asked, below the folder of cross-checks.
+/// The judge's questions, below the folder of cross-checks.
 const REQUEST: &str = "statistics.json";
 
 /// Has the statistics of one paper, or of all, computed again; of the runs below `out` if that is given.

@@ -85,7 +85,7 @@ pub struct Plan {
     pub cost: Option<f64>,
     /// What was counted.
     pub counts: Counts,
-    /// What figures need, if the request asked for it.
+    /// What figures need, if the request has it.
     pub traces: Vec<Trace>,
     /// Why it ended so, where the ending alone does not say it; of a path, what should be known if it is refused.
     pub reason: Option<String>,

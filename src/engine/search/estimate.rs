@@ -6,7 +6,7 @@ use std::f64::consts::SQRT_2;
 
 /// The key by which open nodes are ordered.
 pub trait Estimate<C> {
-    /// The heuristic of `node`; asked once for each node that a search opens.
+    /// The heuristic of `node`; called once for each node that a search opens.
     fn h(&self, node: u32) -> f64;
 
     /// The key of a node with heuristic `h` when the way to it costs `g`.

@@ -3,7 +3,7 @@
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 
-/// Told what a search does. Every method does nothing unless written, and `()` watches nothing at no cost.
+/// Follows what a search does. Every method does nothing unless written, and `()` watches nothing at no cost.
 pub trait Observer {
     /// `node` entered OPEN for the first time.
     fn opened(&mut self, node: u32) {

@@ -121,7 +121,7 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
         observer.closed(node);
     }
 
-    /// Generates the successors of `node` and deals with each; `each` is told of every one after that, and says whether to
+    /// Generates the successors of `node` and deals with each; `each` is called with every one after that, and says whether to
     /// go on.
     pub(super) fn expand<G, E, O>(
         &mut self,

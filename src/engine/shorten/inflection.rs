@@ -21,7 +21,7 @@ pub fn bends<P: AsRef<[f64]>>(points: &[P]) -> Vec<usize> {
 ///
 /// From the goal backwards: a node that `can_join` its grandfather loses its father and tries the next
 /// grandfather; at the first one that it cannot join, its father is the next node to try from. `can_join(i, j)` is
-/// asked with `i > j`.
+/// called with `i > j`.
 ///
 /// # Source
 /// Zhang & Zhang, *Path Planning for Mobile Robots Based on Improved A-star Algorithm*, section 2.4.

@@ -75,7 +75,7 @@ pub fn all(evidence: &Evidence<'_>, verdicts: &Verdicts, inputs: &Inputs) -> Res
     Ok(ranked.into_iter().map(|(.., replay)| replay).collect())
 }
 
-/// The problems of which something was kept under the interpretation that claims are judged under, in the order of groups and draws.
+/// The problems with traces kept under the interpretation that claims are judged under, in the order of groups and draws.
 fn cases<'r>(run: &'r Run<'r>) -> Vec<Case<'r>> {
     let mut cases = Vec::new();
     for group in &run.study.groups {

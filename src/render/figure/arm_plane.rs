@@ -68,7 +68,7 @@ struct PanelSetting {
     problem: String,
     /// What stands above it; the problem group if absent.
     title: Option<String>,
-    /// Whether its points are coloured by what they are.
+    /// Whether its points are coloured by kind.
     #[serde(default)]
     zones: bool,
     /// Whose paths, of the first seed.

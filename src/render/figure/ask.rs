@@ -93,7 +93,7 @@ pub(super) fn points(trace: &Trace) -> Vec<[f64; 2]> {
     trace.values.chunks(trace.width).map(|point| [point[0], point[1]]).collect()
 }
 
-/// Marks the first of `points` as the start and the last as the goal, each as said.
+/// Marks the first of `points` as the start and the last as the goal, each as named.
 pub(super) fn add_ends(panel: &mut Panel, points: &[[f64; 2]], radius_pt: f64, looks: [(Marker, Rgb); 2]) {
     let ends = [("start", points.first()), ("goal", points.last())];
     for ((label, at), (marker, color)) in ends.into_iter().zip(looks) {
@@ -186,7 +186,7 @@ pub(super) fn trial<'s>(
     })
 }
 
-/// The first trial of `contender` on `problems`, at one point of the sweeps if one is asked for.
+/// The first trial of `contender` on `problems`, at one point of the sweeps if one is requested.
 ///
 /// # Errors
 /// [`RenderError::NotStored`] if there is none.

@@ -58,7 +58,7 @@ struct PanelSpec {
     /// What stands above it.
     #[serde(default)]
     title: String,
-    /// The metric of which reductions are shown; shares of solved queries if absent.
+    /// The metric whose reductions are shown; shares of solved queries if absent.
     metric: Option<String>,
     /// The problem groups of a reduction, taken together.
     #[serde(default)]

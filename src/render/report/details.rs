@@ -1,5 +1,5 @@
 //! The details of a chapter: the evidence on each claim under an anchor, what holds together, interpretations, the inventory, studies. What two
-//! claims have in common is said once.
+//! claims have in common stands once.
 
 use super::chapter::Page;
 use super::interpretations::across_lines;
@@ -16,7 +16,7 @@ use study::recorded_mark;
 
 /// How many sets of claims that hold together are listed with those that fail.
 const LISTED_SETS: usize = 5;
-/// What is shorter than this is said again where it holds again.
+/// What is shorter than this is repeated where it holds again.
 const SHORT: usize = 60;
 
 impl Page<'_> {
@@ -241,7 +241,7 @@ fn together(set: &Together, with_fail: bool) -> String {
     text
 }
 
-/// What was found about one claim; `known` has the claims that said something first.
+/// What was found about one claim; `known` has the claims that stated something first.
 fn evidence<'a>(
     judged: &'a ClaimVerdict,
     paper: &Paper,

@@ -81,7 +81,7 @@ impl Robot {
     /// # Errors
     /// [`KinematicsError::File`] with the line, what was found and what is accepted, for anything that is
     /// not TOML, not known, missing, not a finite number of the right sign, or contradictory, and for rows
-    /// that the solver asked for does not allow.
+    /// that the requested solver does not allow.
     pub fn parse(text: &str, path: &Path) -> Result<Self, KinematicsError> {
         file::parse(text, path)
     }
