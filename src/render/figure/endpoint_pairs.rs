@@ -35,6 +35,12 @@ type Pairs = Vec<[[f64; 2]; 2]>;
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 190.0;
 
+/// Most panels that stand beside each other.
+const COLUMNS: usize = 3;
+
+/// Radius of a marker, in points: ends a centimetre apart do not hide each other.
+const RADIUS_PT: f64 = 1.3;
+
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct EndpointPairs {
@@ -59,7 +65,7 @@ impl Kind for EndpointPairs {
     }
 
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let mut sheet = Sheet::new(Width::Double, self.panels.len(), PLOT_PT);
+        let mut sheet = Sheet::new(Width::Double, self.panels.len().min(COLUMNS), PLOT_PT);
         let mut first = 0;
         for setting in &self.panels {
             let mut series = Vec::new();
@@ -86,8 +92,9 @@ impl Kind for EndpointPairs {
 fn panel(title: &str, first: usize, series: &[(&String, Pairs)]) -> Result<Panel, RenderError> {
     let count: usize = series.iter().map(|(_, pairs)| pairs.len()).sum();
     let (x, y) = (Axis::linear("x (cm)", -10.0, 55.0)?, Axis::linear("y (cm)", 0.0, 52.0)?);
-    let mut panel =
-        Panel::new(format!("{title}: {count} pairs"), x, y).trimmed(Trim::Grid).with_equal_scales();
+    let mut panel = Panel::new(format!("{title}: {count} pair{}", if count == 1 { "" } else { "s" }), x, y)
+        .trimmed(Trim::Grid)
+        .with_equal_scales();
     for (index, (_, pairs)) in (first..).zip(series) {
         for pair in pairs {
             let pale = Stroke::solid(series_color(index).mixed(WHITE, 0.6), 0.5);
@@ -96,12 +103,14 @@ fn panel(title: &str, first: usize, series: &[(&String, Pairs)]) -> Result<Panel
     }
     for (place, (label, pairs)) in series.iter().enumerate() {
         let index = first + place;
-        // Series may share points: the first ones are larger and show behind the last.
-        let radius_pt = 2.0 + 0.9 * (series.len() - 1 - place) as f64;
+        // Several series may share points: the first ones are larger and show behind the last.
+        let radius_pt = RADIUS_PT + 0.9 * (series.len() - 1 - place) as f64;
         let of_end = |end: usize| pairs.iter().map(|pair| pair[end]).collect::<Vec<_>>();
         // The caption says what a diamond is: a line of the legend for each would come apart from its circle's.
         let one = Points::unlabelled(of_end(0), Marker::Circle, radius_pt, series_color(index));
-        panel.add(one.labelled(format!("{label} ({})", pairs.len())));
+        let is_titled = series.len() == 1;
+        let said = if is_titled { String::new() } else { format!("{label} ({})", pairs.len()) };
+        panel.add(one.labelled(said));
         panel.add(Points::unlabelled(of_end(1), Marker::Diamond, radius_pt, series_color(index)));
     }
     Ok(panel)
