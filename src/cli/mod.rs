@@ -71,6 +71,7 @@ mod verdicts;
 mod witness;
 
 use base::settings::SettingsError;
+use base::text::shell_word;
 use clap::{Args, Parser, Subcommand};
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -182,8 +183,8 @@ struct How {
 impl Which {
     /// The command `name` on the same paper, as it is typed.
     fn command(&self, name: &str) -> String {
-        let out = self.out.as_ref().map(|out| format!(" --out {}", typed(&out.to_string_lossy())));
-        format!("replan {name} {}{}", typed(&self.paper), out.unwrap_or_default())
+        let out = self.out.as_ref().map(|out| format!(" --out {}", shell_word(&out.to_string_lossy())));
+        format!("replan {name} {}{}", shell_word(&self.paper), out.unwrap_or_default())
     }
 }
 

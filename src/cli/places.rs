@@ -3,9 +3,10 @@
 //! Only a full run with the studies' own seed and default interpretation may write the committed places; everything else
 //! goes below `target/replan/` or where `--out` says.
 
-use super::{Failure, How, Which, typed};
+use super::{Failure, How, Which};
 use crate::analysis::compare::stored_studies;
 use base::settings::{did_you_mean, none_called};
+use base::text::shell_word;
 use std::collections::BTreeMap;
 use std::fs;
 use std::iter;
@@ -140,7 +141,7 @@ pub fn stored_run(given: &str) -> Result<PathBuf, Failure> {
             Ok(places) => Err(Failure::input(format!(
                 "{}: no stored run; `replan repro {}` makes it",
                 places.runs.display(),
-                typed(given)
+                shell_word(given)
             ))),
             Err(_) => Err(no_run(given)),
         },

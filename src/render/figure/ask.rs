@@ -5,6 +5,7 @@ use crate::analysis::evidence::Run;
 use crate::analysis::metric::{self, Metric};
 use crate::analysis::selection::Selection;
 use crate::analysis::shown::Savings;
+use crate::analysis::statistic::{Estimate, Interval};
 use crate::render::RenderError;
 use crate::render::chart::Panel;
 use crate::render::chart::marks::Points;
@@ -100,6 +101,12 @@ pub(super) fn add_ends(panel: &mut Panel, points: &[[f64; 2]], radius_pt: f64, l
         let at = at.into_iter().copied().collect();
         panel.add(Points::unlabelled(at, marker, radius_pt, color).labelled(label));
     }
+}
+
+/// The bar of a difference between two contenders: its interval, or the value alone where they differ on no instance.
+pub(super) fn bar(difference: &Estimate) -> Interval {
+    let Estimate { value, interval, is_agreed, .. } = *difference;
+    if is_agreed && value == 0.0 { Interval::new(value, value) } else { interval }
 }
 
 /// The point of the sweeps that people write as `text`.
