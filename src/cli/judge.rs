@@ -151,22 +151,23 @@ pub fn judge(paper: &Paper, point: Interpretation, places: &Places) -> Result<Ve
 /// the records to their manifests.
 pub fn judge_changes(
     paper: &Paper,
-    point: Interpretation,
+    point: &Interpretation,
     places: &Places,
     again: Again,
 ) -> Result<Verdicts, Failure> {
     let runs = &places.runs;
     let beside = [Exploration::first(runs), Exploration::second(runs), History::path(runs)];
-    let stamp = |point: &Interpretation| {
+    let stamp = || {
         let hashes = beside.iter().map(|path| hash_of(path).unwrap_or_default());
-        Stamp::new("judged", paper, places, hashes.chain([point.name().to_owned()]).collect())
+        let more: Vec<String> = hashes.chain([point.name().to_owned()]).collect();
+        Stamp::new("judged", paper, places, &more)
     };
-    if !again.fresh && stamp(&point)?.is_current() {
+    if !again.fresh && stamp()?.is_current() {
         return Ok(Verdicts::read(runs)?);
     }
     let verdicts = judge(paper, point.clone(), places)?;
     // The history may have an entry more.
-    stamp(&point)?.keep([Verdicts::path(runs)]);
+    stamp()?.keep([Verdicts::path(runs)]);
     Ok(verdicts)
 }
 

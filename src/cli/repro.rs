@@ -65,7 +65,7 @@ impl Repro {
         }
         safe_point(stop, "the records are kept")?;
         let point = self.how.interpretation(&paper.choices)?;
-        let judged = judge::judge_changes(&paper, point, &places, self.again)?;
+        let judged = judge::judge_changes(&paper, &point, &places, self.again)?;
         if self.all {
             verdicts::print(&judged, &self.which);
         } else {
@@ -98,7 +98,7 @@ fn draw(
 ) -> Result<Outputs, Failure> {
     // The chapter leads to the cross-check where there is one.
     let crosscheck = places.plots.join(CROSSCHECK).is_file().to_string();
-    let stamp = Stamp::new("drawn", paper, places, vec![judged.text(), crosscheck])?;
+    let stamp = Stamp::new("drawn", paper, places, &[judged.text(), crosscheck])?;
     if !again.fresh && stamp.is_current() {
         say!("nothing to draw: figures, tables and the report are as they were drawn from this");
         return Ok(Outputs::default());

@@ -36,13 +36,13 @@ impl Stamp {
     ///
     /// # Errors
     /// A manifest or the program itself that cannot be read.
-    pub fn new(step: &str, paper: &Paper, places: &Places, more: Vec<String>) -> Result<Self, Failure> {
+    pub fn new(step: &str, paper: &Paper, places: &Places, more: &[String]) -> Result<Self, Failure> {
         let mut from = vec![program()?, paper.document.text().to_owned()];
         for study in &paper.studies {
             from.push(study.document.text().to_owned());
             from.push(fs::read_to_string(Manifest::path(&places.runs, &study.name))?);
         }
-        let hashes: Vec<String> = from.iter().chain(&more).map(|text| sha256(text.as_bytes())).collect();
+        let hashes: Vec<String> = from.iter().chain(more).map(|text| sha256(text.as_bytes())).collect();
         // However the paper is named, and from wherever: one place of one run.
         let run = sha256(fs::canonicalize(&places.runs)?.as_os_str().as_encoded_bytes());
         let name = format!("{step}-{}-{}.json", paper.id, &run[..12]);

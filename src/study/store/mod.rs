@@ -18,9 +18,11 @@ pub use traces::{GROUP_VALUES, TraceReader};
 
 use self::read::{Instances, Stored};
 use self::traces::TraceWriter;
+use super::column;
 use super::error::{REMEDY, StudyError};
 use super::key::{KeyColumns, SweepKey};
-use super::record::{Batch, Kept, Timing};
+use super::parquet::FrameReader;
+use super::record::{Batch, Kept, Row, Timing};
 use base::file::check_own;
 use base::hash::{Hasher, sha256};
 use std::collections::BTreeMap;
@@ -135,6 +137,22 @@ pub fn read_numbers(
     hashes: &BTreeMap<String, String>,
 ) -> Result<Records, StudyError> {
     read_parts(folder, study, hashes, false)
+}
+
+/// The trials of `study` in `folder` without their numbers, if every part of its records has its hash in `hashes`.
+///
+/// # Errors
+/// As [`read_records`].
+pub fn read_endings(
+    folder: &Path,
+    study: &str,
+    hashes: &BTreeMap<String, String>,
+) -> Result<Vec<Row>, StudyError> {
+    check_records(folder, study, hashes)?;
+    let path = part_path(folder, study, "trials");
+    let file = fs::File::open(&path).map_err(StudyError::io(&path, "opening the file"))?;
+    let read = || FrameReader::open(file)?.columns(|name| column::find(name).is_none());
+    Stored::read_by(path, read)?.guarded(|file| file.trials(&mut Instances::default()))
 }
 
 fn read_parts(
