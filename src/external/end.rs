@@ -165,7 +165,7 @@ mod tests {
     #[test]
     fn without_proc_a_group_is_seen_until_its_last_process_is_killed() {
         let mut command = Command::new("sh");
-        let child = command.args(["-c", "sleep 100 & exit 0"]).process_group(0).spawn().unwrap();
+        let mut child = command.args(["-c", "sleep 100 & exit 0"]).process_group(0).spawn().unwrap();
         let root = child.id() as i32;
         sleep(ROUND);
         assert_eq!(group(root).len(), 1, "its background process is in the group");
@@ -175,6 +175,7 @@ mod tests {
             group(root).is_empty()
         });
         assert!(is_over && !is_living(root));
+        assert!(child.wait().is_err(), "it was waited for with its group");
         assert!(is_living(std::process::id() as i32));
     }
 }

@@ -80,7 +80,7 @@ pub fn misshapen(stream: &mut Stream, bytes: &[u8]) -> Vec<u8> {
         0 => "x".repeat(times(stream)).into_bytes(),
         1 => OPENINGS[stream.random_range(0..OPENINGS.len())].repeat(10 * times(stream)).into_bytes(),
         2 => bytes[at..bytes.len().min(at + stream.random_range(1..40))].repeat(times(stream)),
-        3 => (0..times(stream)).map(|key| format!("\"k{key}\": 0,\n")).collect::<String>().into_bytes(),
+        3 => (0..times(stream)).flat_map(|key| format!("\"k{key}\": 0,\n").into_bytes()).collect(),
         4 => ODD_BYTES[stream.random_range(0..ODD_BYTES.len())].to_vec(),
         _ => return damaged(stream, bytes),
     };

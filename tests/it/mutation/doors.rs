@@ -75,6 +75,11 @@ fn door<'a>(
     Door { name, bytes: bytes.into(), damage: misshapen, read: Box::new(read) }
 }
 
+/// Whether a file's name ends so.
+fn ends(name: &str, ending: &str) -> bool {
+    Path::new(name).extension().is_some_and(|end| end == ending)
+}
+
 /// A door whose file is a document.
 fn document<'a>(
     name: &'static str,
@@ -226,7 +231,7 @@ fn files<'a>(folder: &'a Path, robots: &'a [Robot; 2]) -> Vec<Door<'a>> {
         file(folder, "room.yaml", HEAD, map),
     ];
     for door in &mut doors {
-        if door.name.ends_with(".png") {
+        if ends(door.name, "png") {
             door.damage = damaged_png;
         }
     }
@@ -234,7 +239,7 @@ fn files<'a>(folder: &'a Path, robots: &'a [Robot; 2]) -> Vec<Door<'a>> {
 }
 
 /// The specs of a small paper, which is read whole.
-fn specs<'a>(paper: &'a Path) -> Vec<Door<'a>> {
+fn specs(paper: &Path) -> Vec<Door<'_>> {
     let inputs = move || Inputs { roots: vec![paper.to_owned()] };
     let load = move |_: &Path| {
         let loaded = Paper::load(paper, &inputs()).map_err(|error| error.to_string())?;
@@ -246,7 +251,7 @@ fn specs<'a>(paper: &'a Path) -> Vec<Door<'a>> {
 
 /// What was wrong with a case beside what [`fault`] finds: a refusal without a place, or a long one.
 fn told(door: &Door<'_>, message: &str) -> Result<(), String> {
-    let most = if door.name.ends_with(".toml") { MOST_FAULTS * LONGEST_MESSAGE } else { LONGEST_MESSAGE };
+    let most = if ends(door.name, "toml") { MOST_FAULTS * LONGEST_MESSAGE } else { LONGEST_MESSAGE };
     let is_file = door.name != "planner";
     // An image has no lines, and a part of a map's head is missing nowhere.
     let is_told =
