@@ -105,6 +105,11 @@ impl ScaledOctile {
         Self { width, target: target.map(|cell| [cell % width, cell / width]) }
     }
 
+    /// `cost` in these units.
+    pub fn scaled(cost: Octile) -> u32 {
+        Self::STRAIGHT * cost.straight + Self::DIAGONAL * cost.diagonal
+    }
+
     /// The octile distance over `[dx, dy]` in these units.
     #[inline]
     pub fn distance([dx, dy]: [u32; 2]) -> u32 {

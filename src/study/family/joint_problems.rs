@@ -282,6 +282,10 @@ impl Family for Set {
         Counts::from([("valid_problems", Value::Count(self.valid())), ("set_problems", Value::Count(total))])
     }
 
+    fn cells(&self) -> u64 {
+        1
+    }
+
     fn notes(&self) -> Vec<String> {
         self.notes.clone()
     }
@@ -314,6 +318,10 @@ impl Family for Absent {
 
     fn draws_ends(&self) -> bool {
         true
+    }
+
+    fn cells(&self) -> u64 {
+        1
     }
 
     fn notes(&self) -> Vec<String> {

@@ -28,8 +28,7 @@ pub trait Task: Send + Sync {
 
     /// What names the unit's trials, in the order of records: one a query, entrant and repeat, or one a label of the task's own.
     fn trials(&self, unit: &Unit<'_>) -> Vec<TrialKey> {
-        let mut trials: Vec<TrialKey> =
-            self.labels().iter().map(|label| key(unit, label)).collect();
+        let mut trials: Vec<TrialKey> = self.labels().iter().map(|label| key(unit, label)).collect();
         if !trials.is_empty() {
             return trials;
         }
@@ -64,8 +63,7 @@ pub struct Entry {
 }
 
 /// Every task, in the order of their names.
-pub static REGISTRY: &[&Entry] =
-    &[&formula_error::ENTRY, &plan::ENTRY];
+pub static REGISTRY: &[&Entry] = &[&formula_error::ENTRY, &plan::ENTRY];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {
