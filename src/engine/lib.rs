@@ -12,6 +12,5 @@ pub mod space;
 pub mod search;
 pub mod shorten;
 
-pub mod sampling;
 
 pub mod planner;

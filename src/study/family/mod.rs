@@ -11,7 +11,6 @@ mod ends;
 mod entry;
 mod grid_map;
 mod input;
-mod joint_problems;
 mod joint_queries;
 mod movingai;
 mod overlay;
@@ -32,7 +31,6 @@ pub static REGISTRY: &[&Entry] = &[
     &cell_queries::ENTRY,
     &conditioned::ENTRY,
     &grid_map::ENTRY,
-    &joint_problems::ENTRY,
     &joint_queries::ENTRY,
     &movingai::ENTRY,
     &plane_queries::ENTRY,
