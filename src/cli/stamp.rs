@@ -60,7 +60,10 @@ impl Stamp {
 
     /// Keeps that the step made `files`. What cannot be kept is made again another time.
     pub fn keep(&self, files: impl IntoIterator<Item = PathBuf>) {
-        let hashed = |path: PathBuf| hash_of(&path).map(|hash| (path, hash));
+        let hashed = |path: PathBuf| -> io::Result<(PathBuf, String)> {
+            let hash = hash_of(&path)?;
+            Ok((fs::canonicalize(path)?, hash))
+        };
         let files: io::Result<BTreeMap<_, _>> = files.into_iter().map(hashed).collect();
         let stored = files.map(|files| Stored { made_from: self.made_from.clone(), files });
         if let Some(text) = stored.ok().and_then(|stored| serde_json::to_vec(&stored).ok()) {

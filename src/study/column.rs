@@ -94,7 +94,7 @@ pub static COLUMNS: &[Column] = &[
     real("solve_wall_ns", "from the query to its end by replan's clock, answers to questions included"),
     real("answer_wall_ns", "of it, what replan took to answer questions"),
     real("own_wall_ns", "planning time by the planner's own clock"),
-    count("pairs", "pairs of samples near enough to be joined"),
+    count("pairs", "pairs of points that have the printed lengths in all cases"),
     count("free_cells", "cells that are not blocked"),
     count("outer_cells", "lattice points farther away than the arm is long"),
     count("inner_cells", "lattice points within the inner radius"),
