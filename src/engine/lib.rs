@@ -12,5 +12,4 @@ pub mod space;
 pub mod search;
 pub mod shorten;
 
-
 pub mod planner;

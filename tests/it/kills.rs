@@ -103,6 +103,12 @@ fn commands_killed_at_random_moments_end_with_the_bytes_of_undisturbed_ones_and_
     let left: Vec<_> = names(&ended).difference(&names(&calm)).cloned().collect();
     assert!(left.is_empty(), "left behind: {left:?}");
     let others: Vec<_> = repeats.iter().filter(|path| ended.get(**path) != calm.get(**path)).collect();
+    let first_lines = |path: &PathBuf| {
+        let [calm, ended] = [&calm, &ended].map(|files| String::from_utf8_lossy(&files[path]).into_owned());
+        let differ = calm.lines().zip(ended.lines()).find(|(calm, ended)| calm != ended);
+        format!("{}: {differ:?}", path.display())
+    };
+    let others: Vec<String> = others.into_iter().map(|path| first_lines(path)).collect();
     assert!(others.is_empty(), "other bytes than undisturbed: {others:?}");
     assert!(at_work > kills() / 4, "{at_work} of {} kills hit a command at work", kills());
     println!("{} kills, {at_work} of them at work, {} files of equal bytes", kills(), repeats.len());
