@@ -23,6 +23,8 @@ fn success_curves_say_the_values_under_the_pointer() {
     browser.wait("return document.querySelectorAll('#curves .u-over').length >= 2");
     let legend = || -> BTreeMap<String, String> { serde_json::from_value(browser.run(LEGEND)).unwrap() };
     assert!(legend().values().all(|value| value.chars().all(|c| "-–".contains(c))), "{:?}", legend());
+    // A turn of the wheel, after which the page stays where it is put while other parts are drawn.
+    browser.scroll("nav", 1);
     browser.run("document.getElementById('success').scrollIntoView({ block: 'center' })");
     let width = browser.run("return document.getElementById('success').clientWidth").as_f64().unwrap();
     for samples in [300, 800, 1400] {
