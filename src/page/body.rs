@@ -132,12 +132,13 @@ impl Body<'_> {
     fn headlines(&self) -> String {
         let line = |headline: &Headline<'_>| {
             let ours = headline.ours.as_ref().map_or_else(String::new, |ours| format!(": {ours}"));
+            let beside = headline.beside(self.verdicts).map_or_else(String::new, |said| format!("; {said}"));
             format!(
                 "<li>{} <a href=\"#claim={}\">{}</a>{}</li>\n",
-                badge(headline.judged.word(), &headline.verdict(self.verdicts)),
+                badge(headline.judged.word(), &headline.judged.verdict_said()),
                 escaped(&headline.judged.claim),
                 escaped(&headline.says),
-                escaped(&ours)
+                escaped(&(ours + &beside))
             )
         };
         let lines: String = headlines(self.evidence.paper, self.verdicts).iter().map(line).collect();
