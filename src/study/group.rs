@@ -34,6 +34,8 @@ pub struct Group {
     pub queries: Vec<String>,
     /// Whether the seed decides anything of what is posed.
     pub is_drawn: bool,
+    /// The noun for its instances, in the plural.
+    pub noun: &'static str,
 }
 
 impl Group {

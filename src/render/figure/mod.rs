@@ -181,7 +181,7 @@ pub fn caption(spec: &FigureSpec, run: &Run<'_>, paper: &Paper, verdicts: &Verdi
 
 /// The noun for the instances of `study`: that of its families if they agree.
 pub(crate) fn unit(study: &Study) -> &'static str {
-    let nouns: BTreeSet<&str> = study.groups.iter().map(|group| group.family.instances).collect();
+    let nouns: BTreeSet<&str> = study.groups.iter().map(|group| group.noun).collect();
     match nouns.first() {
         Some(noun) if nouns.len() == 1 => noun,
         _ => "instances",

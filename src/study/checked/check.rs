@@ -48,6 +48,7 @@ impl Study {
             for group in &mut self.groups {
                 for (_, family) in built.iter().filter(|(label, _)| *label == group.label) {
                     group.is_drawn |= family.draws_ends();
+                    group.noun = family.instances().unwrap_or(group.noun);
                     for query in family.queries() {
                         if !group.queries.contains(&query.name) {
                             group.queries.push(query.name.clone());

@@ -242,6 +242,7 @@ fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, Setting
         points: vec![SweepPoint::default()],
         queries: Vec::new(),
         is_drawn: family.is_drawn,
+        noun: family.instances,
     })
 }
 

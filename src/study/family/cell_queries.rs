@@ -523,6 +523,10 @@ impl Family for Posed {
         self.ends.clone()
     }
 
+    fn instances(&self) -> Option<&'static str> {
+        self.drawn_scene.is_some().then_some("cells")
+    }
+
     fn cells(&self) -> u64 {
         u64::from(self.read.samples)
     }

@@ -67,6 +67,11 @@ pub trait Family: Send + Sync {
         self.queries().to_vec()
     }
 
+    /// The noun for its instances, in the plural, where the settings make them others than the registry says.
+    fn instances(&self) -> Option<&'static str> {
+        None
+    }
+
     /// Whether starts or goals are drawn with each instance.
     fn draws_ends(&self) -> bool {
         false
