@@ -74,7 +74,9 @@ fn meanings(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
 /// Under how much the headline claims were judged, and the command that does it again.
 pub fn evidence(verdicts: &Verdicts) -> String {
     let again = format!("`replan repro {}` computes it again.", verdicts.paper);
-    let Some(explored) = &verdicts.explored else { return format!("Judged under the defaults alone; {again}") };
+    let Some(explored) = &verdicts.explored else {
+        return format!("Judged under the defaults alone; {again}");
+    };
     let seed = if explored.second_seed { "with a second seed" } else { "without a second seed" };
     format!("Judged under {} interpretations, {seed}; {again}", explored.interpretations)
 }
@@ -116,6 +118,10 @@ fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     }
     sizes.sort_by(f64::total_cmp);
     counts.sort_unstable();
-    let n = if counts.len() == 1 { counts[0].to_string() } else { format!("{} to {}", counts[0], counts.last()?) };
+    let n = if counts.len() == 1 {
+        counts[0].to_string()
+    } else {
+        format!("{} to {}", counts[0], counts.last()?)
+    };
     Some(format!("{} to {}{words} (n = {n})", number(sizes.first()?), number(sizes.last()?)))
 }
