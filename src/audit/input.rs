@@ -22,7 +22,7 @@ pub struct Input {
     cells: BTreeMap<String, Quoted>,
 }
 
-/// A check asked of numbers by name.
+/// A check of numbers that are named.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Relation {
     /// The check's name.
@@ -71,7 +71,7 @@ impl Input {
         self.samples.push(sample::of_meaning(name, meaning, sample::number(meaning), numbers));
     }
 
-    /// The cells of this name: one that was named, or `table/row/column`, of which a table may have several.
+    /// The cells of this name: one under `cells`, or all at `table/row/column`.
     pub fn cells(&self, name: &str) -> Vec<Quoted> {
         if let Some(cell) = self.cells.get(name) {
             return vec![cell.clone()];

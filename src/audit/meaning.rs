@@ -102,7 +102,7 @@ pub enum Divisor {
 pub struct Meaning {
     /// The kind of number.
     pub kind: Kind,
-    /// How many values, or trials of a share; none if it is not said.
+    /// How many values, or trials of a share; `None` if no annotation gives it.
     pub n: Option<Count>,
     /// Values behind it are multiples of this.
     pub grain: Option<Exact>,

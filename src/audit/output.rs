@@ -87,7 +87,8 @@ fn is_multiple(table: &Table, at: usize) -> bool {
     reader::are_multiples(&brackets.collect::<Vec<_>>())
 }
 
-/// Columns and samples that no check looked at, with what to write so that one does; and, if no check was asked at all, that.
+/// Columns and samples that no check looked at, each with the annotation that would change that. If no check ran at all, that
+/// too.
 pub fn unseen(source: &str, report: &Report) -> Vec<String> {
     let line = |unseen: &Unseen| {
         format!("{source}:{}: {}: no check looked at it; {}", unseen.place, unseen.name, unseen.advice)
@@ -149,7 +150,7 @@ pub fn guesses(source: &str, input: &Input) -> Vec<String> {
     guessed.collect()
 }
 
-/// The whole report, with the header of every table of which a column was guessed.
+/// The whole report, with the header of every table that has a guessed column.
 pub fn json(source: &str, input: &Input, report: &Report) -> Value {
     let findings: Vec<Value> = report.findings.iter().map(finding).collect();
     let checks: Vec<Value> = report

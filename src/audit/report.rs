@@ -109,7 +109,7 @@ pub struct Options {
     pub skips_power: bool,
     /// Whether certificates are left out, which take most of the memory: some kilobytes a finding.
     pub skips_certificates: bool,
-    /// The search for data behind what is possible; none if it is not asked for.
+    /// The effort of the search for data behind what is possible; `None` for no search.
     pub witness: Option<Budget>,
 }
 

@@ -1,7 +1,7 @@
 //! Samples: the values behind printed statistics, and what is known of them.
 //!
-//! A share k of n is the mean of n values that are 0 or the whole; a mean over seeds is one of S values that are shares of
-//! T trials each. So everything that is asked of means, deviations and quantiles is asked of samples alone.
+//! A share k of n is the mean of n values that are 0 or the whole. A mean over seeds is one of S values that are shares of
+//! T trials each. So every check of means, deviations and quantiles is one of samples.
 
 use super::meaning::{Count, Divisor, Kind, Meaning};
 use super::statistic::Statistic;

@@ -1,4 +1,4 @@
-//! Tables as they are printed: cells as strings with their places, and what each column is said to be.
+//! Tables as they are printed: cells as strings with their places, and the meaning of each column.
 
 use super::meaning::{Kind, Meaning};
 use proofs::exact::Print;
@@ -59,7 +59,7 @@ pub struct Cell {
     pub k_of_n: Option<[u64; 2]>,
 }
 
-/// A column with what it is said, or guessed, to be.
+/// A column with its meaning, written or guessed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
     /// Its name, without the annotation.

@@ -49,7 +49,7 @@ pub struct Study {
     pub contenders: Vec<Contender>,
     /// Factors that the paper varies.
     pub sweeps: Vec<Sweep>,
-    /// The choices of its paper that touch what it runs or what is said of it, but for those that it leaves out.
+    /// The choices of its paper that touch what it runs or how it is judged, but for those that it leaves out.
     pub choices: Vec<Choice>,
     /// The choices that touch what it runs and that it leaves out.
     pub leaves_out: Vec<String>,
@@ -118,7 +118,7 @@ pub fn sweeps_of(name: &str) -> String {
     format!("sweeps of {name}")
 }
 
-/// What stands beside whatever shows these contenders, of which a study says that they are recorded; none if there are none.
+/// The remark beside whatever shows `labels`, the contenders that a study marks as recorded; `None` if there are none.
 pub fn recorded_mark<'a>(labels: impl Iterator<Item = &'a str>) -> Option<String> {
     let labels: Vec<&str> = labels.collect();
     (!labels.is_empty())

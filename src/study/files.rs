@@ -1,4 +1,4 @@
-//! The kinds of TOML file that replan reads from a paper's folder and from `data/`, and how one is told from another.
+//! The kinds of TOML file that replan reads from a paper's folder and from `data/`, and how it recognises each.
 
 use super::StudyError;
 use super::family::{cell_queries, plane_queries};
@@ -69,7 +69,7 @@ pub const STUDY: &str = "study";
 /// What a file is called that is of no kind of ours.
 pub const FOREIGN: &str = "file of something else";
 
-/// Files of a paper's folder that are no studies: the paper itself, and what an independent judge is asked.
+/// Files of a paper's folder that are no studies: the paper itself, and the questions to an independent judge.
 const NO_STUDIES: [&str; 2] = ["paper.toml", "crosscheck.toml"];
 
 /// The TOML files in `folder` besides those of `NO_STUDIES` and hidden ones, in the order of their names.

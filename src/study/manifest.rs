@@ -44,7 +44,7 @@ pub struct Manifest {
     pub spec: String,
     /// One hash of everything below that trials depend on.
     pub depends: String,
-    /// The contenders whose trials are bound to a clock: they were recorded, and no run repeats them unless asked.
+    /// The contenders whose trials are bound to a clock: they were recorded, and a run repeats them only on request.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub recorded: Vec<String>,
     /// Where the records come from, if no run of ours made them: the file, and SHA-256 of it.
@@ -60,7 +60,7 @@ pub struct Manifest {
     pub shard: Option<Shard>,
     /// SHA-256 of every input file.
     pub inputs: BTreeMap<String, String>,
-    /// Where and by what clocks were read.
+    /// Where clocks were read, and which.
     #[serde(default, rename = "session")]
     pub sessions: Vec<Session>,
     /// What each problem group depends on, at each point of the sweeps over it.

@@ -16,7 +16,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The parts of a run, all of which may be put together.
+/// The parts of a run that are fit to be put together.
 pub struct Parts<'a> {
     plan: &'a Plan,
     folder: &'a Path,

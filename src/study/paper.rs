@@ -49,7 +49,7 @@ struct PaperSpec {
     /// What its chapter of the report shows.
     #[serde(default)]
     report: ReportSpec,
-    /// How many numbered things the paper has, each of which then needs a row in the inventory; none if absent.
+    /// How many numbered things the paper has, each with a row in the inventory; none if absent.
     #[serde(default)]
     prints: Prints,
     /// What it leaves open: each choice once, for all studies that it touches.
@@ -157,7 +157,7 @@ pub struct Prints {
     /// Equations.
     #[schemars(range(max = 1000))]
     pub equations: u32,
-    /// Numbers in its result sections, tables and captions, each of which the inventory then lists where it is printed.
+    /// Numbers in its result sections, tables and captions; the inventory lists each where it is printed.
     #[schemars(range(max = 10_000))]
     pub numbers: u32,
 }
@@ -214,7 +214,7 @@ fn first_places<'a>(ids: impl Iterator<Item = (usize, &'a String)>) -> BTreeMap<
     places
 }
 
-/// Holds files beside the studies against what they are taken for; what is wrong in one that a study names was told already.
+/// Checks files beside the studies as the kinds that they are taken for, but for those with a fault that a study reported.
 fn check_others(others: &[(PathBuf, &'static str)], faults: &mut Faults) {
     for (path, kind) in others.iter().filter(|(_, kind)| *kind != files::FOREIGN) {
         if !faults.are_in(path) {

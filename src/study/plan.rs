@@ -29,7 +29,7 @@ pub struct Plan {
     pub quick: bool,
     /// The root of every seed, if it is not the studies' own.
     pub seed: Option<u64>,
-    /// The options that were asked for, if any were.
+    /// The options of `--with`, if there were any.
     pub with: Option<String>,
     /// How many units each shard runs.
     pub units: Vec<usize>,
@@ -78,7 +78,7 @@ pub struct PlannedStudy {
     pub cost_ns: BTreeMap<String, u64>,
 }
 
-/// What is asked of a plan.
+/// The run that a plan is wanted for.
 #[derive(Debug, Clone)]
 pub struct Wanted {
     /// The paper, as the command line named it.
@@ -89,7 +89,7 @@ pub struct Wanted {
     pub quick: bool,
     /// The root of every seed, if it is not the studies' own.
     pub seed: Option<u64>,
-    /// The options asked for.
+    /// The options of `--with`.
     pub with: Option<String>,
     /// The round of an exploration or a confirmation.
     pub round: Option<PlannedRound>,
@@ -270,7 +270,7 @@ impl Plan {
         costs
     }
 
-    /// Refuses a plan of another run than is asked for.
+    /// Refuses a plan of another run than `wanted`.
     fn check(
         &self,
         path: &Path,

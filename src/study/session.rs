@@ -250,7 +250,7 @@ pub fn read_clock(study: &Study, options: &Options<'_>) -> Result<u32, StudyErro
     Ok(number)
 }
 
-/// The stored times, with their sessions, if no trial ran again and they are as many as are asked for.
+/// The stored times, with their sessions, if no trial ran again and they are as many as the study wants.
 fn kept_times(
     study: &Study,
     stored: Option<&(Manifest, Records)>,
@@ -357,7 +357,7 @@ pub fn run_one(
     Ok((batch, before))
 }
 
-/// What is said of a trial that is not among `all` of the study's.
+/// The error about a trial that is not among `all` of the study's.
 fn unknown_trial(study: &str, trial: &str, all: &[String]) -> StudyError {
     let near = did_you_mean(trial, all.iter().map(String::as_str));
     let hint = format!("its first one is `{study}/{}`", all.first().map_or("", String::as_str));

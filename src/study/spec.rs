@@ -149,7 +149,7 @@ pub struct ChoiceSpec {
     pub id: Spanned<String>,
     /// What the paper leaves open, and why the default was taken.
     pub why: String,
-    /// The option taken unless asked otherwise.
+    /// The option taken unless another is named.
     pub default: Spanned<String>,
     /// The default was chosen so that the claims in `fitted_to` hold: for each setting of the other choices the options
     /// count with which most of them do.
@@ -196,7 +196,7 @@ pub struct OptionSpec {
     pub probe: bool,
     /// The number that it stands for, where the choice has `bounds`.
     pub value: Option<f64>,
-    /// The options of other choices, by the choice's name, with one of which alone it is explored; with all, if none are named.
+    /// Options of other choices, by the choice's name: it is explored only with these. With all, if none are named.
     #[serde(default)]
     pub only_with: BTreeMap<String, Vec<String>>,
     /// Why it cannot be run: claims on studies that inherit the choice then stay open.

@@ -135,7 +135,7 @@ impl AnyAngle {
             turn_deg,
             length,
         };
-        // The turn sum alone is asked first: that search keeps much less.
+        // The search without a length keeps much less, so it runs first.
         let alone = shortest_polyline(&query(Interval::new(0.0, length.high)))?;
         if alone.length >= length.low { Some(alone) } else { shortest_polyline(&query(length)) }
     }

@@ -32,7 +32,7 @@ pub(super) struct Moment {
     numbers: Vec<Quoted>,
     n: u64,
     grain: Exact,
-    /// What is said of the values beside …
+    /// The bounds that an annotation gives to the values …
     ends: [Option<Exact>; 2],
     /// … and which numbers are the least and the greatest.
     printed_ends: [Option<usize>; 2],
@@ -156,7 +156,7 @@ impl Squares {
         is_decided.then_some(false)
     }
 
-    /// The plausible ones, of which none is met, for the proof; none if they are too many to write down.
+    /// The plausible sums of squares, for the proof; `None` if they are too many to write down. No sample attains any of them.
     fn gaps(&self) -> Option<BTreeSet<i128>> {
         let all: Vec<(i128, i128)> = self.plausible().collect();
         let is_short = all.iter().all(|(first, last)| last - first < 2 * GAPS);
@@ -178,7 +178,7 @@ impl Moment {
         Some((first, last))
     }
 
-    /// The ends that no value passes, in grains: what is said, and what the printed ends allow at most.
+    /// The bounds of the values, in grains: those that an annotation gives, and those that the printed ends allow at most.
     fn ends(&self, prints: &[Print]) -> Option<Ends> {
         let grains = |end: Option<Exact>| end.map_or(Some(None), |end| Some(Some(div(end, self.grain)?)));
         let printed = |at: Option<usize>| {

@@ -1,8 +1,8 @@
 //! The checks: one a file, each with its example, premises and source.
 //!
 //! A check turns samples, tables and relations into [`Test`]s. A test knows the printed numbers that it is about and decides
-//! whether any data can print them; everything else (readings of digits, power, mend, ranking) is asked by
-//! [`report`](super::report) in one way for all.
+//! whether any data can print them. [`report`](super::report) does the rest in one way for all: how digits are read, power, mend
+//! and ranking.
 
 use super::input::{Input, Relation};
 use super::table::{Fault, Quoted};

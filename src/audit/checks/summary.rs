@@ -269,7 +269,7 @@ fn forms(table: &Table, at: usize, word: Word) -> Option<Vec<Form>> {
     Some(forms.to_vec())
 }
 
-/// Whether a column holds quotients, of which the mean may be geometric, or a quotient of means.
+/// Whether a column holds quotients: their mean may be geometric, or a quotient of means.
 fn is_quotient(table: &Table, at: usize) -> bool {
     let Column { name, meaning, .. } = &table.columns[at];
     let name = name.to_lowercase();

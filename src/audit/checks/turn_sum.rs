@@ -31,7 +31,7 @@ struct TurnSum {
     /// The turn sum, then the length.
     numbers: [Quoted; 2],
     displacement: Cell,
-    /// The sums in multiples of 45° by length, since they are asked for again and again.
+    /// The sums by length, in multiples of 45°: many tests need the same ones.
     sums: RefCell<BTreeMap<String, Option<BTreeSet<u32>>>>,
     steps: std::cell::Cell<u64>,
 }

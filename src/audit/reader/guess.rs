@@ -25,7 +25,7 @@ pub fn annotation(name: &str, unit: &str, texts: &[&str]) -> String {
         }
     };
     let numbers = read.iter().filter(is_number).count();
-    // A column with a few faulty numbers is one of numbers, so that they are told.
+    // A column with a few faulty numbers is one of numbers, so that its faults are reported.
     if numbers == 0 || 2 * numbers < filled {
         return "label".to_owned();
     }

@@ -78,7 +78,7 @@ struct Raw {
     rows: Vec<(usize, Vec<String>)>,
 }
 
-/// The most faults that are told.
+/// Faults reported of one file, at most.
 const FAULTS: usize = 50;
 
 /// Reads a text.
@@ -251,7 +251,7 @@ fn check_references(columns: &[Column], line: usize, faults: &mut Vec<Fault>) {
     }
 }
 
-/// Reads a cell by what its column is.
+/// Reads a cell as its column's kind demands.
 fn cell(text: &str, column: &Column, place: Place) -> Result<Cell, String> {
     let (plain, is_bold) = cells::plain(text);
     let mut cell = Cell { place, text: plain, is_bold, value: None, spread: None, k_of_n: None };

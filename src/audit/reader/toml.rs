@@ -14,7 +14,7 @@ use toml::{Spanned, Value};
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Document {
-    /// Said of the whole file; not used.
+    /// A remark on the whole file; not used.
     #[serde(default, rename = "about")]
     _about: String,
     rounding: Option<Spanned<String>>,
@@ -112,7 +112,7 @@ fn raw_of(table: &TableText, place: Place, faults: &mut Vec<Fault>) -> Option<Ra
     }
 }
 
-/// How digits end where nothing else is said; unknown words are faults at the place that `line` gives.
+/// How digits end where no annotation says otherwise; unknown words are faults at the place that `line` gives.
 fn digits_of(
     rounding: Option<&Spanned<String>>,
     line: impl Fn(usize) -> Place,

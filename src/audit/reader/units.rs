@@ -6,7 +6,7 @@ use crate::meaning::Kind;
 use crate::table::{Cell, Column, Fault, named_by};
 use proofs::printed::Printed;
 
-/// Refuses columns of which cells have other units than their header or each other, and sums of columns in different units:
+/// Refuses columns whose cells have other units than their header or each other, and sums of columns in different units:
 /// such numbers do not compare.
 pub(super) fn check(columns: &[Column], rows: &[Vec<Cell>], faults: &mut Vec<Fault>) {
     for (at, column) in columns.iter().enumerate() {
@@ -41,7 +41,7 @@ pub(super) fn check(columns: &[Column], rows: &[Vec<Cell>], faults: &mut Vec<Fau
     }
 }
 
-/// Refuses shares of which some are in per cent and others of 1: `4.2%` above `0.042`.
+/// Refuses columns that mix shares in per cent with shares of 1: `4.2%` above `0.042`.
 fn percents(at: usize, column: &Column, rows: &[Vec<Cell>], faults: &mut Vec<Fault>) {
     let Kind::Share { whole } = column.meaning.kind else { return };
     let cells = || rows.iter().filter_map(|row| row.get(at).filter(|cell| cell.value.is_some()));

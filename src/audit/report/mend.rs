@@ -1,7 +1,7 @@
 //! The least change that mends a finding, and findings of one cause.
 //!
 //! A mean that no n values have makes its deviation impossible too, and its place among quantiles. A reader wants the cause
-//! once: a finding that a smaller one's mend mends as well follows from it, and is told with it.
+//! once. A finding that the mend of a smaller one mends as well follows from it, and is reported beside it.
 
 use super::effort::Effort;
 use super::{Class, Finding};
@@ -77,7 +77,7 @@ pub(super) struct Refusal {
     pub(super) finding: usize,
     /// The test.
     pub(super) test: Box<dyn Test>,
-    /// Whether the author asked for it by a relation, so that it is told by itself in any case.
+    /// Whether the author wrote the relation that it breaks: it is then reported by itself in any case.
     pub(super) is_asked: bool,
 }
 

@@ -39,7 +39,7 @@ impl Power {
     }
 }
 
-/// In words: what share of which prints is refused, and why these.
+/// In words: the share of refused prints, the prints that were tried, and why these.
 impl fmt::Display for Power {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { low, high, tried, refused, why, is_beyond } = self;

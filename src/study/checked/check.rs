@@ -228,7 +228,7 @@ impl Study {
             let accepts = |key: &&String| group.family.settings.has(key);
             let lacks = |key: &String| !group.settings.table().contains_key(key);
             if unfilled.iter().filter(accepts).any(lacks) {
-                // That the setting is missing follows from what was said of the sweep.
+                // The missing setting follows from the fault of the sweep, which is reported already.
                 group.points.clear();
             }
         }
@@ -246,8 +246,8 @@ impl Study {
         before.iter().filter(|other| other.key == sweep.key).all(goes_with)
     }
 
-    /// Whether each label of a sweep over problems is that of a group; what is not goes to `faults`. That there is no label was
-    /// said when the sweep was read.
+    /// Whether each label of a sweep over problems is that of a group; others go to `faults`. An empty list of labels
+    /// was reported when the sweep was read.
     fn names_groups(&self, sweep: &Sweep, patterns: &[String], faults: &mut Faults) -> bool {
         let mut all = !patterns.is_empty();
         for (place, pattern) in patterns.iter().enumerate() {
@@ -344,7 +344,7 @@ fn keep<T>(faults: &mut Faults, result: Result<T, StudyError>) -> Result<Option<
     }
 }
 
-/// Queries are told apart by their names in the keys of records.
+/// Refuses queries of one name: keys of records distinguish them by it.
 fn check_query_names(families: &[(&Group, Arc<dyn Family>)], faults: &mut Faults) {
     for (group, family) in families {
         let names = family.queries().iter().map(|query| query.name.as_str());

@@ -140,7 +140,7 @@ impl Study {
         choice.options.values().any(|option| !self.what_sets(option).is_empty())
     }
 
-    /// Takes over those of the paper's `choices` that touch what it runs or what is said of it, but for those that it leaves out.
+    /// Takes over those of the paper's `choices` that touch what it runs or how it is judged, but for those that it leaves out.
     pub(super) fn inherit(
         &mut self,
         choices: &[Choice],

@@ -101,7 +101,7 @@ struct Conditioned {
     shared: Table,
     /// The corner rule of all of them.
     corner_rule: String,
-    /// The planner whose record is asked for.
+    /// The planner whose record decides.
     planner: String,
     /// Its settings.
     #[schemars(with = "AnyTable")]

@@ -158,7 +158,11 @@ impl SpaceLimits {
     }
 }
 
-/// The place within the limits of each axis, all of which lie in `whole`; an axis without limits has all of it.
+/// The place within the limits of `axes`: each has its name, its limits and the widest that are accepted, which stand in for
+/// absent ones.
+///
+/// # Errors
+/// Limits out of order or wider than the widest.
 fn within(
     settings: &Settings,
     key: &str,
@@ -193,10 +197,10 @@ pub(super) struct Ends {
 }
 
 impl Ends {
-    /// So many queries, one if it is not said, from `start` to `goal`; `error_at` makes an error about `goal` or `queries`.
+    /// `count` queries, one if it is absent, from `start` to `goal`; `error_at` makes an error about `goal` or `queries`.
     ///
     /// # Errors
-    /// A goal that cannot but be the start; several queries of which nothing is drawn.
+    /// A goal that cannot but be the start; several queries between fixed ends.
     pub(super) fn new(
         start: Place,
         goal: Place,

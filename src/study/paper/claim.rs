@@ -30,7 +30,7 @@ pub(super) struct ClaimSpec {
     /// Whether it is one of the few claims that say what the paper is about.
     #[serde(default)]
     pub(super) headline: bool,
-    /// What the paper leaves out, if that makes it untestable; checks then only show what can be shown.
+    /// What the paper leaves out, if the claim cannot be tested without it; checks then only show what can be shown.
     pub(super) untestable: Option<String>,
     /// Why it must hold whatever the paper says, if it must: it is then asserted, and no evidence for anything.
     pub(super) theorem: Option<String>,
@@ -51,13 +51,13 @@ pub(super) struct ClaimSpec {
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, AnyTable>")]
     pub(super) rule: BTreeMap<String, Spanned<Table>>,
-    /// The claims all of which the sentence says.
+    /// The claims that the sentence makes together.
     #[serde(default)]
     pub(super) all_of: Vec<Spanned<String>>,
-    /// The claims some one of which the sentence says.
+    /// The claims that make the sentence true if one of them holds.
     #[serde(default)]
     pub(super) any_of: Vec<Spanned<String>>,
-    /// The claims one of which the sentence means, without saying which.
+    /// The meanings that the sentence may have, each a claim; the paper does not say which it has.
     #[serde(default)]
     pub(super) means_one_of: Vec<Spanned<String>>,
 }
@@ -90,11 +90,11 @@ pub struct Claim {
     pub digits: Option<Digits>,
     /// Whether it is one of the few claims that say what the paper is about.
     pub headline: bool,
-    /// What the paper leaves out, if that makes it untestable; checks then only show what can be shown.
+    /// What the paper leaves out, if the claim cannot be tested without it; checks then only show what can be shown.
     pub untestable: Option<String>,
     /// Why it must hold whatever the paper says, if it must: it is then asserted, and no evidence for anything.
     pub theorem: Option<String>,
-    /// Two claims of which the first prints more than the second by its number, which the paper does not print itself.
+    /// Two claims: the first prints more than the second by the claim's number, which the paper does not print itself.
     pub difference: Option<[String; 2]>,
     /// What was changed in how it is judged after a run had been seen, and why.
     pub changed_after_run: Option<String>,
@@ -285,7 +285,7 @@ pub fn printed_by(id: &str) -> String {
     format!("printed by {id}")
 }
 
-/// Refuses what the claim `id` is said to print unless it is a number.
+/// Refuses what the claim `id` prints unless it is a number.
 pub(super) fn check_printed(
     document: &Arc<Document>,
     id: &str,

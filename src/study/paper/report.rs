@@ -35,7 +35,7 @@ pub const FORMS: [&str; 8] =
 /// The form that asks what a number is over interpretations.
 pub const OVER_INTERPRETATIONS: &str = "percents";
 
-/// `text` with every `{claim}` or `{claim:form}` replaced by what `with` says of the claim in that form.
+/// `text` with every `{claim}` or `{claim:form}` replaced by `with` of claim and form.
 pub fn filled(text: &str, mut with: impl FnMut(&str, &str) -> String) -> String {
     let mut pieces = text.split('{');
     let mut whole = pieces.next().unwrap_or_default().to_owned();

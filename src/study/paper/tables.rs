@@ -1,8 +1,9 @@
 //! The paper's own tables: what they print, and the claims that their cells are.
 //!
-//! Every number of a cell is a claim called `table.row.column`. A row with two such cells or more is one called `table.row`, whose
-//! parts are its cells; a cell that is untestable is no part of it and counts by itself. Claims that are made here are as those that
-//! are written: nothing above this floor tells them apart.
+//! Every number of a cell is a claim called `table.row.column`. A row with two such cells or more is one called `table.row`,
+//! whose
+//! parts are its cells; a cell that is not testable is no part of it and counts by itself. Claims made here look like
+//! written ones: nothing above this floor distinguishes them.
 
 use super::claim::{Claim, Parts, TestRole, Written, check_printed, name_cells};
 use super::columns::{NOT_PRINTED, columns, differences};
@@ -48,7 +49,7 @@ pub struct PrintedCell {
     pub printed: String,
     /// The claim that it is, if it is one.
     pub claim: Option<String>,
-    /// The trials of which the first stands beside it; what its claim found if `None`.
+    /// Selects trials; the first of them is shown beside it. `None` shows what its claim found.
     pub beside: Option<Settings>,
 }
 
@@ -64,7 +65,7 @@ impl PrintedTable {
     }
 }
 
-/// A cell with all that is said about it.
+/// A cell with the table, row and column that give its settings.
 struct Cell<'a> {
     document: &'a Arc<Document>,
     /// The table and its number, from 0.
@@ -373,7 +374,7 @@ impl Cell<'_> {
         self.row.0.cell.get(self.column.2).unwrap_or(&NOTHING)
     }
 
-    /// What is said of how it is judged, the nearest first.
+    /// Where settings of its tests may stand, the nearest first.
     fn layers(&self) -> [Layer<'_>; 4] {
         let number = self.table.1.to_string();
         let index = self.row.1.to_string();
@@ -441,7 +442,7 @@ impl Cell<'_> {
         }
     }
 
-    /// The trials of which the first stands beside it.
+    /// Selects trials; the first of them is shown beside it.
     fn beside(&self) -> Option<Settings> {
         let table = self.table.0;
         let row = self.row.0;
@@ -481,8 +482,8 @@ fn of_parts(document: &Arc<Document>, layers: &[Layer<'_>]) -> Vec<Part> {
     said.map(|layer| part(document, &layer.steps, Some("of"))).collect()
 }
 
-/// Rules and criteria with their settings: those that the nearest layer names which names any, each with what the others say of it.
-/// What is untestable is held against no criterion but those that it names itself.
+/// Rules and criteria with their settings: those of the nearest layer that names any. The other layers' settings lie under them.
+/// A cell that is not testable has no criteria but those that it names itself.
 fn tests_of(
     document: &Arc<Document>,
     layers: &[Layer<'_>],

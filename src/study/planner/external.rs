@@ -112,7 +112,7 @@ impl External {
         Ok(Self { program, version, files, any_angle, install, idle, queries })
     }
 
-    /// A process that has said `hello`.
+    /// A process that has sent `hello`.
     fn process(&self) -> Result<Process, String> {
         if let Some(idle) = self.idle.lock().expect("no thread panics with the list").pop() {
             return Ok(idle);

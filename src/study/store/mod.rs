@@ -264,7 +264,7 @@ pub fn finish_put(
     }
 }
 
-/// Refuses records of `study` in `folder` of which some file is gone or has not its hash among `hashes`.
+/// Refuses records of `study` in `folder` if a file is gone or does not have its hash in `hashes`.
 ///
 /// # Errors
 /// [`StudyError::Touched`].

@@ -1,4 +1,4 @@
-//! Traces that are read when they are asked for: the group of the file that holds them, and no other.
+//! Traces that are read on demand: the group of the file that holds them, and no other.
 
 use super::read::{Instances, Stored};
 use super::traces::{groups, read_group};

@@ -146,7 +146,7 @@ impl Task for FormulaError {
     fn run(&self, unit: &Unit<'_>) -> Batch {
         let mut row = super::labelled_row(unit, LABEL);
         let preprocessing = unit.family.prepare(unit.seed);
-        // Stored units are known by what was prepared for them: without this row every run would measure anew.
+        // Stored units are found by the inputs of their preprocessing: without this row every run would measure anew.
         let preprocessing_row = super::preprocessing_row(unit, preprocessing.as_ref());
         match preprocessing {
             Err(invalid) => (row.status, row.reason) = (Status::InvalidProblem, Some(invalid.0)),

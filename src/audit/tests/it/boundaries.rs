@@ -18,7 +18,7 @@ fn input(check: &str, keys: &str) -> String {
     }
 }
 
-/// A check, an input and what is said of it.
+/// A check, an input and its class.
 const LINES: [(&str, &str, Class); 27] = [
     ("order", r#"sample: mean = "0.7"; min = "1.0""#, Class::Impossible),
     ("order", r#"sample: mean = "1.0"; min = "1.0""#, Class::Possible),

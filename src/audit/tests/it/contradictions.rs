@@ -1,4 +1,4 @@
-//! Annotations that contradict each other or themselves, and what is said of them.
+//! Annotations that contradict each other or themselves, and their messages.
 
 use crate::said::refused;
 use replan_audit::reader::{Format, read};

@@ -47,7 +47,7 @@ fn a_share_without_its_first_0_is_read_and_one_without_its_last_digits_is_asked_
     );
 }
 
-/// Cells of a column, each with what is said of it.
+/// Cells of a column, each with the message about it.
 const CELLS: [(&str, &str, &str); 22] = [
     ("success [% of 30]", "91.1*", "`91.1*` has the mark `*` behind it"),
     ("success [% of 30]", "91.1†", "`91.1†` has the mark `†` behind it"),

@@ -23,7 +23,7 @@ fn false_alarms(report: &Report) -> Vec<&Finding> {
     report.findings.iter().filter(is_wrong).collect()
 }
 
-/// How often each check was asked of the inputs of these seeds, none of which may be refused.
+/// How often each check ran on the inputs of these seeds; it may refuse none of them.
 fn asked_of_possible(seeds: std::ops::Range<u64>) -> BTreeMap<&'static str, usize> {
     let options = Options { skips_power: true, ..Options::default() };
     let mut asked = BTreeMap::new();
@@ -210,7 +210,7 @@ fn no_mutated_input_panics_and_every_fault_has_its_line() {
     assert!(read_ones > all / 12 && faulty > all / 12, "{read_ones} read and {faulty} faulty of {all}");
 }
 
-/// Wrong input, and how what is said of it begins.
+/// Wrong input, and how its message begins.
 const WRONG: [(&str, Format, &str); 23] = [
     ("a,b [% of 5]\n1,20\n2\n", Format::Csv, "3: 1 cells, where the header has 2"),
     ("a,b [% of 5]\nx,\"1,234\"\n", Format::Csv, "2:2: column `b`: `1,234` may have a thousands separator"),

@@ -191,7 +191,7 @@ impl Sheet {
     }
 }
 
-/// Moves to one of eight neighbours, of which the number of straight and diagonal ones, the displacement and the turns are told.
+/// Moves to one of eight neighbours. Printed of them: the straight and the diagonal ones, the displacement and the turns.
 struct Walk {
     moves: Vec<[i128; 2]>,
 }
