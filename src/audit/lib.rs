@@ -22,13 +22,13 @@
 //! [`report`] asks them all, with power and mends; [`certificate`] and [`witness`] are what a finding rests on; [`coverage`]
 //! looks for numbers that no macro backs. What a column can be is [`meaning::ITEMS`]. The mathematics is the package `proofs`.
 
-mod asked;
 pub mod certificate;
 pub mod checks;
 pub mod claims;
 pub mod coverage;
 pub mod input;
 pub mod meaning;
+mod named_check;
 pub mod octile_turns;
 pub mod output;
 pub mod reader;

@@ -191,8 +191,8 @@ fn current(macros: &str) -> Result<String, String> {
             fs::read_to_string(&path).map_err(|error| format!("{path}: {error}"))
         }
         Ok(checked) => {
-            let said = String::from_utf8_lossy(&checked.stderr);
-            Err(said.lines().last().unwrap_or_default().trim_start_matches("replan: ").to_owned())
+            let message = String::from_utf8_lossy(&checked.stderr);
+            Err(message.lines().last().unwrap_or_default().trim_start_matches("replan: ").to_owned())
         }
         Err(error) => Err(format!("`{}`, which checks them, cannot be run: {error}", replan.display())),
     }

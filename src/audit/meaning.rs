@@ -178,8 +178,8 @@ impl Meaning {
         for item in annotation.split(',').map(str::trim).filter(|item| !item.is_empty()) {
             let mut alone = Self::default();
             alone.take(item)?;
-            for (other, said) in &known {
-                if let Some(what) = contradiction::of_items(said, &alone) {
+            for (other, earlier) in &known {
+                if let Some(what) = contradiction::of_items(earlier, &alone) {
                     return Err(format!("`{other}` and `{item}` contradict each other: both say {what}"));
                 }
             }

@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 /// A finding in one line: place, class, name, what was found, and how far to trust it.
 pub fn line(source: &str, finding: &Finding) -> String {
     let mut line =
-        format!("{source}:{}: {}: {}: {}", finding.place, finding.class.name(), finding.name, finding.said);
+        format!("{source}:{}: {}: {}: {}", finding.place, finding.class.name(), finding.name, finding.text);
     let mut notes = vec![finding.check.to_owned()];
     if let Some(power) = finding.power {
         notes.push(power.to_string());
@@ -196,7 +196,7 @@ fn finding(finding: &Finding) -> Value {
         "line": finding.place.line,
         "cell": finding.place.cell,
         "name": finding.name,
-        "said": finding.said,
+        "said": finding.text,
         "premises": finding.premises,
         "readings": finding.readings,
         "power": finding.power.map(|power| json!({

@@ -54,22 +54,22 @@ impl Sample {
         if self.is_binary() {
             return format!("{n}, each 0 or {}", self.most.map_or_else(String::new, |most| most.to_string()));
         }
-        let mut said = n;
+        let mut text = n;
         if let Some(grain) = self.grain {
             let whole_ones = if grain == whole(1) {
                 ", each a whole number".to_owned()
             } else {
                 format!(", each a multiple of {grain}")
             };
-            said += &whole_ones;
+            text += &whole_ones;
         }
         match (self.least, self.most) {
-            (Some(least), Some(most)) => said += &format!(", from {least} to {most}"),
-            (Some(least), None) => said += &format!(", at least {least}"),
-            (None, Some(most)) => said += &format!(", at most {most}"),
+            (Some(least), Some(most)) => text += &format!(", from {least} to {most}"),
+            (Some(least), None) => text += &format!(", at least {least}"),
+            (None, Some(most)) => text += &format!(", at most {most}"),
             (None, None) => {}
         }
-        said
+        text
     }
 }
 

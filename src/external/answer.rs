@@ -76,7 +76,7 @@ pub struct Space<'a> {
     /// The local paths of a cell with the end that was requested.
     lines: Option<Lines>,
     scratch: Scratch,
-    asked: QuestionCounts,
+    questions: QuestionCounts,
 }
 
 impl<'a> Space<'a> {
@@ -89,12 +89,12 @@ impl<'a> Space<'a> {
             }
             Local::Joints(_) | Local::Plane(_) => None,
         });
-        Self { world, any_angle, lines, scratch: Scratch::default(), asked: QuestionCounts::default() }
+        Self { world, any_angle, lines, scratch: Scratch::default(), questions: QuestionCounts::default() }
     }
 
     /// How many questions were answered.
     pub fn question_counts(&self) -> QuestionCounts {
-        self.asked
+        self.questions
     }
 
     /// How many numbers make a configuration.
@@ -123,11 +123,11 @@ impl<'a> Space<'a> {
     /// [`Unanswered`].
     pub fn answer_while(&mut self, ask: &Ask, goes_on: &dyn Fn() -> bool) -> Result<Answer, Unanswered> {
         let Ask { id, valid, motion, fractions, fk, ik } = ask;
-        self.asked.batches += 1;
-        self.asked.valid += count(valid.as_ref());
-        self.asked.motion += count(motion.as_ref());
-        self.asked.fk += count(fk.as_ref());
-        self.asked.ik += count(ik.as_ref());
+        self.questions.batches += 1;
+        self.questions.valid += count(valid.as_ref());
+        self.questions.motion += count(motion.as_ref());
+        self.questions.fk += count(fk.as_ref());
+        self.questions.ik += count(ik.as_ref());
         let all = count(valid.as_ref()) + count(motion.as_ref()) + count(fk.as_ref()) + count(ik.as_ref());
         if all > MOST_QUESTIONS {
             let why = format!("the planner asks {all} questions at once; {MOST_QUESTIONS} are accepted");
@@ -185,12 +185,13 @@ impl<'a> Space<'a> {
     ///
     /// # Errors
     /// As [`is_valid`](Self::is_valid).
-    fn are_valid(&self, asked: &[Vec<f64>]) -> Result<Vec<bool>, String> {
+    fn are_valid(&self, configurations: &[Vec<f64>]) -> Result<Vec<bool>, String> {
         if let Some(lines) = &self.lines {
-            let states = asked.iter().map(|at| self.check(at).map(|()| joints(at).unwrap_or_default()));
+            let states =
+                configurations.iter().map(|at| self.check(at).map(|()| joints(at).unwrap_or_default()));
             return Ok(lines.cell().are_free(&states.collect::<Result<Vec<_>, _>>()?));
         }
-        asked.iter().map(|at| self.is_valid(at)).collect()
+        configurations.iter().map(|at| self.is_valid(at)).collect()
     }
 
     /// Whether the motion between two configurations is free, both ends included.
@@ -331,8 +332,8 @@ impl<'a> Space<'a> {
 }
 
 /// How many questions a list holds.
-fn count<T>(asked: Option<&Vec<T>>) -> u64 {
-    asked.map_or(0, |all| all.len() as u64)
+fn count<T>(questions: Option<&Vec<T>>) -> u64 {
+    questions.map_or(0, |all| all.len() as u64)
 }
 
 /// Half a degree.

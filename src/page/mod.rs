@@ -118,8 +118,8 @@ fn in_order<T: Sync, U: Send>(
 
 /// The page of a paper whose run cannot be shown, for the reason `why`.
 pub fn unread(id: &str, title: &str, why: &str) -> String {
-    let said = format!("<p class=\"state\">Nothing is shown: {}.</p>", escaped(why.trim_end_matches('.')));
-    format!("{}{said}<main><h1>{}</h1></main></body></html>\n", opening(id, title), escaped(title))
+    let notice = format!("<p class=\"state\">Nothing is shown: {}.</p>", escaped(why.trim_end_matches('.')));
+    format!("{}{notice}<main><h1>{}</h1></main></body></html>\n", opening(id, title), escaped(title))
 }
 
 /// A paper's line of the index.

@@ -41,9 +41,9 @@ impl Headline<'_> {
     /// The verdict with the counts over interpretations, where they were explored.
     pub fn verdict(&self) -> String {
         let verdict = self.judged.verdict_said();
-        let beside = self.judged.said.as_deref().filter(|said| !said.starts_with("meanings: "));
-        match beside.and_then(|said| said.split("; ").next()) {
-            Some(said) => format!("{verdict}, {said}"),
+        let beside = self.judged.said.as_deref().filter(|counts| !counts.starts_with("meanings: "));
+        match beside.and_then(|counts| counts.split("; ").next()) {
+            Some(counts) => format!("{verdict}, {counts}"),
             None => verdict,
         }
     }

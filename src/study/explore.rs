@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn an_option_is_asked_with_those_alone_that_it_names() {
+    fn an_option_is_explored_only_with_those_that_it_names() {
         let only = |choice: &mut Choice, id: &str| {
             let only_with = [(id.to_owned(), vec!["1".to_owned()])].into();
             let paper = Some("section 1".to_owned());

@@ -325,7 +325,7 @@ impl MadeBy {
 
     /// What is true of the program and of the working tree that `folder` lies in.
     fn found(folder: &Path) -> Self {
-        let said = |program: &str, arguments: &[&str]| {
+        let output_of = |program: &str, arguments: &[&str]| {
             let output = Command::new(program).args(arguments).current_dir(folder).output().ok()?;
             let text = String::from_utf8(output.stdout).ok()?.trim().to_owned();
             output.status.success().then_some(text)
@@ -339,9 +339,9 @@ impl MadeBy {
         status.extend(outputs.iter().map(String::as_str));
         Self {
             replan: env!("CARGO_PKG_VERSION").to_owned(),
-            git: said("git", &["rev-parse", "HEAD"]),
-            clean: said("git", &status).map(|text| text.is_empty()),
-            rustc: said("rustc", &["--version"]),
+            git: output_of("git", &["rev-parse", "HEAD"]),
+            clean: output_of("git", &status).map(|text| text.is_empty()),
+            rustc: output_of("rustc", &["--version"]),
             lock: fs::read(folder.join("Cargo.lock")).ok().map(|bytes| sha256(&bytes)),
             cpu,
         }

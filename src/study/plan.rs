@@ -278,7 +278,8 @@ impl Plan {
         studies: &[(BuiltStudy<'_>, Manifest)],
     ) -> Result<(), StudyError> {
         let mut other = Differences(Vec::new());
-        let mut differs = |what: &str, planned: String, asked: String| other.note(what, &planned, &asked);
+        let mut differs =
+            |what: &str, planned: String, requested: String| other.note(what, &planned, &requested);
         let shown = |with: &Option<String>| with.clone().unwrap_or_else(|| "the default".to_owned());
         let names = |names: &mut dyn Iterator<Item = &str>| names.collect::<Vec<_>>().join(", ");
         differs("command", command(self.round.as_ref()), command(wanted.round.as_ref()));

@@ -109,8 +109,8 @@ impl AnyAngle {
     fn polyline(&self, prints: &[Print]) -> Option<Option<Polyline>> {
         let [turn_deg, length] = [prints[0], prints[1]].map(|print| print.printed.interval(print.digits));
         // Mending asks about many prints, each a search; power takes what searches there are.
-        let is_asked = prints[1].printed == self.numbers[1].print.printed;
-        if !is_asked || length.high > distance(self.ends[0], self.ends[1]) + BEYOND {
+        let is_as_printed = prints[1].printed == self.numbers[1].print.printed;
+        if !is_as_printed || length.high > distance(self.ends[0], self.ends[1]) + BEYOND {
             return None;
         }
         let key = format!("{turn_deg:?} {length:?}");

@@ -20,7 +20,7 @@ pub fn digits(numbers: &[Quoted]) -> String {
             ways.push((way(number), &number.name));
         }
     }
-    let mut said = match ways.as_slice() {
+    let mut text = match ways.as_slice() {
         [] => String::new(),
         [(way, _)] => format!("digits end {way}"),
         several => {
@@ -34,11 +34,11 @@ pub fn digits(numbers: &[Quoted]) -> String {
         .find(|printed| printed.as_typed().decimals() < printed.decimals());
     if let Some((printed, digits)) = widened.and_then(|printed| Some((printed, printed.significant()?))) {
         let full = printed.as_read();
-        said += &format!(
+        text += &format!(
             "; {digits} digits count and zeros at the end are left out, so that {printed} is read as {full}"
         );
     }
-    said
+    text
 }
 
 /// Gives every number in columns that `is_meant` picks.

@@ -142,8 +142,8 @@ impl Squares {
         let mut is_decided = true;
         for (first, last) in self.plausible() {
             for squares in (first..=last).step_by(2) {
-                let asked = SumQuery { n: self.n, sum: self.sum, squares, ends: self.ends };
-                match is_met(asked, steps) {
+                let query = SumQuery { n: self.n, sum: self.sum, squares, ends: self.ends };
+                match is_met(query, steps) {
                     Some(true) => return Some(true),
                     Some(false) => *steps = steps.saturating_sub(1),
                     None => is_decided = false,
@@ -255,13 +255,13 @@ impl Test for Moment {
                 self.between(prints)
             );
         }
-        let mut said =
+        let mut text =
             format!("{}{} have no mean {mean} with {what} {spread}", self.values, self.between(prints));
         if let Some(least) = self.least_deviation(prints[1]) {
-            said +=
+            text +=
                 &format!("; with this mean the least is {}", shown(least, spread.decimals() as usize + 2));
         }
-        said
+        text
     }
 
     fn premises(&self) -> Vec<String> {
@@ -330,11 +330,11 @@ impl Test for Moment {
                 for sum in (first..=last).step_by(2) {
                     let moments = self.moments(ends, squares.sum, sum);
                     is_all &= moments.search(budget, &mut |vector| {
-                        let said = counted(vector, |value| {
+                        let text = counted(vector, |value| {
                             mul(self.grain, whole(value)).map_or_else(String::new, spelled)
                         });
-                        if !vectors.contains(&said) {
-                            vectors.push(said);
+                        if !vectors.contains(&text) {
+                            vectors.push(text);
                         }
                         vectors.len() < most
                     });

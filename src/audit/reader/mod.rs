@@ -284,8 +284,8 @@ fn of_fraction(
         (_, Kind::Share { whole: 0 }) if percent.is_some() => {
             Err(format!("is a count and a percentage; say `% of {n}` in the header"))
         }
-        (Some(Count::Number(said)), Kind::Share { .. }) if *said != n => {
-            Err(format!("is of {n}, and the header says of {said}; one of both is accepted"))
+        (Some(Count::Number(header_n)), Kind::Share { .. }) if *header_n != n => {
+            Err(format!("is of {n}, and the header says of {header_n}; one of both is accepted"))
         }
         (_, Kind::Share { whole: 0 }) => Ok(k.to_string().parse().ok()),
         (_, Kind::Share { .. }) => Ok(percent),

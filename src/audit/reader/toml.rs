@@ -1,9 +1,9 @@
 //! TOML with tables, cells, samples and relations between them.
 
 use super::Raw;
-use crate::asked;
 use crate::input::Input;
 use crate::meaning::{self, Meaning};
+use crate::named_check;
 use crate::statistic::Statistic;
 use crate::table::{Fault, Place};
 use proofs::printed::Digits;
@@ -81,7 +81,7 @@ pub fn read(text: &str, faults: &mut Vec<Fault>) -> Option<Input> {
     }
     for relation in document.relation {
         let place = line(relation.span().start);
-        match asked::read(placed(relation.into_inner()), digits, place) {
+        match named_check::read(placed(relation.into_inner()), digits, place) {
             Ok(relation) => input.relations.push(relation),
             Err(fault) => faults.push(fault),
         }

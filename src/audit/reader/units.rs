@@ -15,15 +15,15 @@ pub(super) fn check(columns: &[Column], rows: &[Vec<Cell>], faults: &mut Vec<Fau
         }
         let first = |at: usize| rows.iter().filter_map(|row| row.get(at)).find(|cell| cell.value.is_some());
         let unit = |at: usize, cell: &Cell| {
-            let said = columns[at].meaning.unit.clone();
-            said.unwrap_or_else(|| cells::unit(&cell.text).1.to_owned())
+            let written = columns[at].meaning.unit.clone();
+            written.unwrap_or_else(|| cells::unit(&cell.text).1.to_owned())
         };
         for name in &column.meaning.sum {
             let Some(part) = named_by(columns, at, name) else { continue };
             let (Some(total), Some(of)) = (first(at), first(part)) else { continue };
             let [own, other] = [unit(at, total), unit(part, of)];
-            let is_said = columns[at].meaning.unit.is_some() || columns[part].meaning.unit.is_some();
-            let is_half = is_said && (own.is_empty() || other.is_empty());
+            let is_written = columns[at].meaning.unit.is_some() || columns[part].meaning.unit.is_some();
+            let is_half = is_written && (own.is_empty() || other.is_empty());
             if own != other && !is_half {
                 let message = format!(
                     "column `{}`: `{}` is the sum of numbers such as `{}`, in {} and in {}; one unit is accepted in both",

@@ -78,7 +78,7 @@ pub(super) struct Refusal {
     /// The test.
     pub(super) test: Box<dyn Test>,
     /// Whether the author wrote the relation that it breaks: it is then reported by itself in any case.
-    pub(super) is_asked: bool,
+    pub(super) is_written: bool,
 }
 
 /// Takes out findings that follow from smaller ones and tells them with these; gives the checks of those taken out.
@@ -90,7 +90,7 @@ pub(super) fn one_a_cause(
     refusals.sort_by_key(size);
     let mut mended: BTreeMap<(Place, String), (Printed, usize)> = BTreeMap::new();
     let mut taken = BTreeSet::new();
-    for Refusal { finding, test, is_asked } in &refusals {
+    for Refusal { finding, test, is_written } in &refusals {
         let mut prints: Vec<Print> = test.numbers().iter().map(|number| number.print).collect();
         let mut cause = None;
         for (print, number) in prints.iter_mut().zip(test.numbers()) {
@@ -98,10 +98,10 @@ pub(super) fn one_a_cause(
                 (print.printed, cause) = (*to, cause.or(Some(*by)));
             }
         }
-        if let Some(cause) = cause.filter(|_| !is_asked && test.is_possible(&prints) == Some(true)) {
+        if let Some(cause) = cause.filter(|_| !is_written && test.is_possible(&prints) == Some(true)) {
             let Finding { check, name, .. } = &findings[*finding];
-            let told = format!("{check} of {name}");
-            findings[cause].follows.push(told);
+            let consequence = format!("{check} of {name}");
+            findings[cause].follows.push(consequence);
             taken.insert(*finding);
         } else if let Some(Mend { name, place, to, .. }) = &findings[*finding].mend {
             mended.entry((*place, name.clone())).or_insert((*to, *finding));

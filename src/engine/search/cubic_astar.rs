@@ -78,11 +78,11 @@ impl Steps {
 
     /// Those of a node's neighbours, one bit each, to which a move is allowed.
     #[inline(always)]
-    fn kept(&self, mut asked: u32, is_allowed: impl Fn(i32) -> bool) -> u32 {
-        let mut kept = asked;
-        while asked != 0 {
-            let bit = asked.trailing_zeros();
-            asked &= asked - 1;
+    fn kept(&self, mut wanted: u32, is_allowed: impl Fn(i32) -> bool) -> u32 {
+        let mut kept = wanted;
+        while wanted != 0 {
+            let bit = wanted.trailing_zeros();
+            wanted &= wanted - 1;
             kept &= !(u32::from(!is_allowed(self.each[bit as usize].0)) << bit);
         }
         kept

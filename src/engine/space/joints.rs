@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_that_folds_onto_itself_is_told_unless_nobody_asks() {
+    fn a_robot_that_folds_onto_itself_is_reported_unless_nobody_asks() {
         let mut folded = [0.0; 7];
         (folded[1], folded[3], folded[5]) = (0.0, 2.4, 2.4);
         let refusal = JointSpace::new(seven(), Vec::new(), &SelfContact::Apart, 0.05).refusal(&folded);

@@ -335,8 +335,8 @@ impl SweepCurves {
             trials.iter().filter_map(point).collect()
         };
         let curves: Vec<_> = self.rows.iter().map(curve).collect();
-        let asked = self.read.printed_ratio.as_ref().filter(|printed| printed.metric == metric.name);
-        let printed = asked.map(|PrintedRatio { ratio, .. }| {
+        let own = self.read.printed_ratio.as_ref().filter(|printed| printed.metric == metric.name);
+        let printed = own.map(|PrintedRatio { ratio, .. }| {
             let line = curves[0].iter().map(|[x, y]| [*x, y * ratio]).collect::<Vec<_>>();
             (line, format!("printed: {ratio} times {}", self.rows[0].contender))
         });

@@ -212,10 +212,10 @@ fn cross([x, y]: [f64; 2], [along_x, along_y]: [Interval; 2]) -> Vec<[f64; 2]> {
 /// The title with who fails: failures are at infinity and show nowhere else.
 fn title(title: &str, series: &[(&String, Vec<[f64; 2]>)]) -> String {
     let failed = |all: &[[f64; 2]]| all.iter().filter(|point| point[1].is_infinite()).count();
-    let said = series.iter().filter(|(_, all)| failed(all) > 0);
-    let said: Vec<String> =
-        said.map(|(label, all)| format!("{label} fails in {} of {}", failed(all), all.len())).collect();
-    if said.is_empty() { title.to_owned() } else { format!("{title}; {}", said.join(", ")) }
+    let failing = series.iter().filter(|(_, all)| failed(all) > 0);
+    let failing: Vec<String> =
+        failing.map(|(label, all)| format!("{label} fails in {} of {}", failed(all), all.len())).collect();
+    if failing.is_empty() { title.to_owned() } else { format!("{title}; {}", failing.join(", ")) }
 }
 
 /// Points of the contender at place `index`: colours come round after seven, darker, and the marker moves on by one.

@@ -283,12 +283,12 @@ impl Study {
     /// Refuses a sweep over a setting that contenders differ in: it would make them one.
     fn check_what_sweep_hides(&self, sweep: &Sweep, faults: &mut Faults) {
         let stages = self.contenders.iter().flat_map(|own| own.stages.iter().map(move |stage| (own, stage)));
-        let said: Vec<_> = stages
+        let values: Vec<_> = stages
             .filter(|(_, stage)| sweep.entry() == Some(stage.entry.name))
             .filter_map(|(own, stage)| Some((own, stage.settings.table().get(&sweep.key)?)))
             .collect();
-        let Some((first, value)) = said.first() else { return };
-        if let Some((other, another)) = said.iter().find(|(_, other)| other != value) {
+        let Some((first, value)) = values.first() else { return };
+        if let Some((other, another)) = values.iter().find(|(_, other)| other != value) {
             let message = format!(
                 "sweep `{}` would hide that contender `{}` says {value} and contender `{}` {another}; a setting that \
                  contenders agree on is accepted",
@@ -358,11 +358,11 @@ fn check_query_names(families: &[(&Group, Arc<dyn Family>)], faults: &mut Faults
 fn check_extent(
     contender: &Contender,
     sweep: &SweepPoint,
-    asked: Option<Extent>,
+    wanted: Option<Extent>,
     families: &[(&Group, Arc<dyn Family>)],
 ) -> Result<(), SettingsError> {
     for (group, family) in families {
-        let lack = asked.zip(family.extent()).and_then(|(asked, built)| built.lacks(&asked));
+        let lack = wanted.zip(family.extent()).and_then(|(wanted, built)| built.lacks(&wanted));
         let Some(lack) = lack else { continue };
         let at = name::sweep(&sweep.key);
         let swept = if at.is_empty() { at } else { format!(" at {at}") };

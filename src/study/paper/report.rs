@@ -98,9 +98,9 @@ mod tests {
 
     #[test]
     fn places_are_filled_and_all_else_is_kept() {
-        let said =
+        let text =
             filled("of {a.b} we find {a.b:percent}, {c:n}.", |claim, form| format!("<{claim}|{form}>"));
-        assert_eq!(said, "of <a.b|> we find <a.b|percent>, <c|n>.");
+        assert_eq!(text, "of <a.b|> we find <a.b|percent>, <c|n>.");
         assert_eq!(filled("nothing to fill", |_, _| String::new()), "nothing to fill");
     }
 }

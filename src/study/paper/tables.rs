@@ -296,8 +296,8 @@ impl TableSpec {
         let place = steps.join(".");
         let whole = [&steps[..], &["whole".to_owned()]].concat();
         let layers = [layer!(own, whole), Layer { of: &self.of, ..layer!(NOTHING, steps[..2]) }];
-        let mut asked = tests_of(document, &layers, own.untestable.is_some());
-        for (_, _, settings) in &mut asked {
+        let mut tests = tests_of(document, &layers, own.untestable.is_some());
+        for (_, _, settings) in &mut tests {
             fill(settings, &[("{row}", &row.id)]);
             settings.change(|table| {
                 name_cells(table, ids);
@@ -322,7 +322,7 @@ impl TableSpec {
             difference: None,
             changed_after_run: own.changed_after_run.clone().or_else(|| self.changed_after_run.clone()),
             holds_when: own.holds_when.clone(),
-            asked,
+            tests,
             parts: Parts::Cells(parts),
             written: Written {
                 own: format!("{place}.whole"),
@@ -399,11 +399,11 @@ impl Cell<'_> {
         let untestable = own.untestable.as_ref().or(row.untestable.as_ref());
         let untestable = untestable.or(column.untestable.as_ref()).or(table.untestable.as_ref()).cloned();
         let layers = self.layers();
-        let mut asked = tests_of(self.document, &layers, untestable.is_some());
-        for (_, _, settings) in &mut asked {
+        let mut tests = tests_of(self.document, &layers, untestable.is_some());
+        for (_, _, settings) in &mut tests {
             fill(settings, &[("{row}", &row.id), ("{column}", self.column.2)]);
         }
-        if asked.is_empty() && untestable.is_none() && !self.document.is_part("table") {
+        if tests.is_empty() && untestable.is_none() && !self.document.is_part("table") {
             let message = format!(
                 "column `{}` of table `{}`: its cells are printed, and nothing says how they are judged; `check`, `rule`, `untestable` \
                  with what the paper leaves out, or `none` with what else they are is needed",
@@ -430,7 +430,7 @@ impl Cell<'_> {
             difference: None,
             changed_after_run: own.changed_after_run.clone().or_else(|| table.changed_after_run.clone()),
             holds_when: own.holds_when.clone(),
-            asked,
+            tests,
             parts: Parts::None,
             written: Written {
                 own: format!("{row_at}.cell.{}", self.column.2),
@@ -478,8 +478,8 @@ fn laid_under(layers: &[Layer<'_>]) -> Table {
 
 /// Where the layers say it.
 fn of_parts(document: &Arc<Document>, layers: &[Layer<'_>]) -> Vec<Part> {
-    let said = layers.iter().filter(|layer| !layer.of.is_empty());
-    said.map(|layer| part(document, &layer.steps, Some("of"))).collect()
+    let naming = layers.iter().filter(|layer| !layer.of.is_empty());
+    naming.map(|layer| part(document, &layer.steps, Some("of"))).collect()
 }
 
 /// Rules and criteria with their settings: those of the nearest layer that names any. The other layers' settings lie under them.

@@ -105,13 +105,13 @@ pub fn unpanicked<T>(read: impl FnOnce() -> T + UnwindSafe) -> Option<T> {
     static READING: AtomicUsize = AtomicUsize::new(0);
     static QUIET: Once = Once::new();
     QUIET.call_once(|| {
-        let told = panic::take_hook();
+        let hook = panic::take_hook();
         panic::set_hook(Box::new(move |info| {
             // The standard library's own lines are where polars asks for a slice or a capacity that there is not.
             let is_theirs = |file: &str| file.contains("polars") || file.contains("/rustc/");
             let is_theirs = info.location().is_some_and(|at| is_theirs(at.file()));
             if READING.load(Ordering::SeqCst) == 0 || !is_theirs {
-                told(info);
+                hook(info);
             }
         }));
     });

@@ -58,13 +58,13 @@ impl Extent {
     pub fn lacks(&self, wanted: &Self) -> Option<String> {
         let samples = self.samples;
         if wanted.samples > samples {
-            let asked = wanted.samples;
-            return Some(format!("{asked} samples are requested; the roadmap was built with {samples}"));
+            let requested = wanted.samples;
+            return Some(format!("{requested} samples are requested; the roadmap was built with {samples}"));
         }
         let lacks = |wanted: Option<f64>, built: Option<f64>, unit: &str| {
-            let (asked, built) = wanted.zip(built).filter(|(asked, built)| asked > built)?;
+            let (requested, built) = wanted.zip(built).filter(|(requested, built)| requested > built)?;
             Some(format!(
-                "neighbours up to {asked} {unit} are requested; the roadmap was built up to {built} {unit}"
+                "neighbours up to {requested} {unit} are requested; the roadmap was built up to {built} {unit}"
             ))
         };
         let in_mm = lacks(wanted.radius_mm, self.radius_mm, "mm");
