@@ -12,13 +12,13 @@ use toml::Value;
 /// Everything that was read.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Input {
-    /// The tables.
+    /// The tables, in the order of the file.
     pub tables: Vec<Table>,
     /// Samples that were written down as such.
     pub samples: Vec<Sample>,
     /// Relations between printed numbers.
     pub relations: Vec<Relation>,
-    /// Cells by name.
+    /// Single numbers that relations name, by their names.
     cells: BTreeMap<String, Quoted>,
 }
 

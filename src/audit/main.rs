@@ -1,7 +1,7 @@
 //! The program `replan-audit`, which `replan audit` runs: is this table possible?
 //!
-//! Exit codes: 0 done; 1 the system refused; 2 wrong words on the command line or wrong input; 3 something is impossible under
-//! the premises named, or a text has numbers or macros to look at.
+//! Exit codes: 0 done; 1 the system refused; 2 wrong words on the command line or wrong input; 3 findings. A finding is
+//! something that is impossible under the premises named, or a number or macro of a text to look at.
 
 use clap::Parser;
 use replan_audit::input::Input;

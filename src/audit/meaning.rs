@@ -92,7 +92,7 @@ pub enum Divisor {
     Sample,
     /// By n.
     Population,
-    /// Either.
+    /// By n − 1 or by n: the table does not say.
     #[default]
     Either,
 }

@@ -53,7 +53,7 @@ impl Class {
 /// What a check found in one place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
-    /// The check.
+    /// The check's name in the registry.
     pub check: &'static str,
     /// What it is.
     pub class: Class,

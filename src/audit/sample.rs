@@ -15,7 +15,7 @@ pub struct Sample {
     pub name: String,
     /// `table/column`, where statistics stand in rows.
     pub path: String,
-    /// How many values; none if it is not known.
+    /// How many values; `None` if it is not known.
     pub n: Option<u64>,
     /// Values are multiples of this.
     pub grain: Option<Exact>,

@@ -248,8 +248,8 @@ impl Study {
         })
     }
 
-    /// The points of the sweeps that trials on `groups` can have and that meet what one of `texts` asks: each is a condition
-    /// (`samples<=1400`), or several joined by commas that are met together; a point's own name is one.
+    /// The points of the sweeps that trials on `groups` can have and that meet one of `texts`. A text is a condition
+    /// (`samples<=1400`), several joined by commas that are met together, or a point's own name.
     ///
     /// # Errors
     /// A text that no point meets, by its place, in words.
@@ -286,7 +286,7 @@ impl Study {
         self.contenders.iter().map(|contender| contender.label.clone()).collect()
     }
 
-    /// Why there is no query called `name` in the problem groups `labels`; none if there is one, or if some group's queries are not known.
+    /// Why there is no query called `name` in the problem groups `labels`; `None` if there is one, or if some group's queries are not known.
     pub fn lacks_query(&self, labels: &[&str], name: &str) -> Option<String> {
         let groups = || self.groups.iter().filter(|group| labels.contains(&group.label.as_str()));
         let known: BTreeSet<&str> = groups().flat_map(|group| &group.queries).map(String::as_str).collect();

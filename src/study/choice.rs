@@ -11,7 +11,7 @@ use toml::Table;
 /// Something that the paper leaves open.
 #[derive(Debug, Clone)]
 pub struct Choice {
-    /// Its name.
+    /// Its name in specs, columns and on the command line.
     pub id: String,
     /// What the paper leaves open, and why the default was taken.
     pub why: String,

@@ -76,7 +76,7 @@ pub enum StudyError {
     UnknownTrial {
         /// The study.
         study: String,
-        /// The name.
+        /// The name that was given, without the study's.
         trial: String,
         /// Which of its trials may have been meant.
         near: String,

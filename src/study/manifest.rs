@@ -28,7 +28,7 @@ use std::sync::OnceLock;
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
-    /// The study.
+    /// The study's name, without the paper's.
     pub study: String,
     /// The command that made the records.
     pub command: String,

@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// A plan.
+/// How a run is cut into shards, and what it depends on, as the plan's file holds it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plan {
@@ -52,7 +52,7 @@ pub struct Plan {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlannedRound {
-    /// The command.
+    /// The command that runs it: `explore` or `confirm`.
     pub command: String,
     /// The name of the round, which is that of the plan's folder within the folder of all parts.
     pub name: String,
@@ -64,7 +64,7 @@ pub struct PlannedRound {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlannedStudy {
-    /// Its name.
+    /// The study's name, without the paper's.
     pub name: String,
     /// The root of its seeds.
     pub seed: u64,
@@ -113,7 +113,7 @@ pub enum State {
 /// One shard's state and about how many of its units are done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Progressed {
-    /// The state.
+    /// Whether it is done, at work, stopped or waiting.
     pub state: State,
     /// Units that are done.
     pub units: usize,

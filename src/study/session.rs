@@ -125,7 +125,7 @@ impl Report {
 /// Trials of one status that a reader may not have expected.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UnexpectedStatus {
-    /// The status.
+    /// How they ended.
     pub status: Status,
     /// How many there are.
     pub count: usize,
@@ -289,8 +289,9 @@ fn times_beside(
     Ok([old.times.clone(), built.time(number, options.stop, options.progress)?].concat())
 }
 
-/// Whether the clock was read for as many instances, repeats and seeds as `study` asks for: interpretations are then as good as new ones
-/// where no trial ran again, whatever else of the spec has changed.
+/// Whether the clock was read for as many instances, repeats and seeds as `study` asks for. Interpretations are then as good as
+/// new
+/// ones where no trial ran again, whatever else of the spec has changed.
 fn is_timed_as(study: &Study, times: &[Timing]) -> bool {
     let Some(timing) = study.timing else { return times.is_empty() };
     let most = |of: fn(&Timing) -> u32| times.iter().map(|time| of(time) + 1).max().unwrap_or(0);

@@ -99,8 +99,16 @@ fn what_stands_below_a_figure_says_of_how_many() {
         let is_reported = says("{n}")
             || says("{interpretations}")
             || entry.statistic.starts_with("One ")
+            || entry.statistic.starts_with("Single trials")
             || says("Every pair");
         assert!(is_reported, "{}: {}", entry.name, entry.statistic);
+        let words = entry.statistic.split_whitespace().count();
+        assert!(
+            words <= 20,
+            "{}: {words} words leave a caption little room: {}",
+            entry.name,
+            entry.statistic
+        );
     }
 }
 

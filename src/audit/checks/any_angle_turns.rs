@@ -104,7 +104,7 @@ fn placed(from: [Exact; 2], grid: Option<[Exact; 2]>) -> Option<(Cell, [i32; 2])
 }
 
 impl AnyAngle {
-    /// A polyline with both; none if there is none. The outer none is for lengths that are not looked at.
+    /// A polyline with both; `None` if there is none. The outer none is for lengths that are not looked at.
     #[expect(clippy::option_option, reason = "none found and not looked for are different answers")]
     fn polyline(&self, prints: &[Print]) -> Option<Option<Polyline>> {
         let [turn_deg, length] = [prints[0], prints[1]].map(|print| print.printed.interval(print.digits));

@@ -137,7 +137,7 @@ impl Squares {
         })
     }
 
-    /// Whether values have one of them; none if `steps` do not suffice.
+    /// Whether values have one of them; `None` if `steps` do not suffice.
     fn is_met(&self, steps: &mut u64) -> Option<bool> {
         let mut is_decided = true;
         for (first, last) in self.plausible() {
@@ -189,7 +189,7 @@ impl Moment {
         Some([least.into_iter().flatten().max(), most.into_iter().flatten().min()])
     }
 
-    /// What sums of squares the deviation asks for, by sum; none if there are too many sums or digits.
+    /// What sums of squares the deviation asks for, by sum; `None` if there are too many sums or digits.
     fn squares(&self, prints: &[Print]) -> Option<Vec<Squares>> {
         let ends = self.ends(prints)?;
         let (first, last) = self.sums(prints[1], ends)?;

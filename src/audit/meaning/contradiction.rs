@@ -9,7 +9,7 @@ fn differ<T: PartialEq>(a: &T, b: &T, unset: &T) -> bool {
     a != unset && b != unset && a != b
 }
 
-/// What two meanings of the same values say differently; none if they can both hold.
+/// What two meanings of the same values say differently; `None` if they can both hold.
 pub fn of_values(a: &Meaning, b: &Meaning) -> Option<&'static str> {
     let unset = Meaning::default();
     [
@@ -25,7 +25,7 @@ pub fn of_values(a: &Meaning, b: &Meaning) -> Option<&'static str> {
     .find_map(|(is_contrary, what)| is_contrary.then_some(what))
 }
 
-/// What two items of one annotation say differently; none if they can both hold.
+/// What two items of one annotation say differently; `None` if they can both hold.
 pub(super) fn of_items(a: &Meaning, b: &Meaning) -> Option<&'static str> {
     let unset = Meaning::default();
     let step =
@@ -52,13 +52,13 @@ pub(super) fn of_items(a: &Meaning, b: &Meaning) -> Option<&'static str> {
     of_values(a, b).or(contrary)
 }
 
-/// Why ends of values exclude each other, in words; none if they do not.
+/// Why ends of values exclude each other, in words; `None` if they do not.
 pub fn of_ends(least: Option<Exact>, most: Option<Exact>) -> Option<String> {
     let (least, most) = least.zip(most).filter(|(least, most)| least > most)?;
     Some(format!("least={least} is above most={most}, so that no value is allowed; least is at most most"))
 }
 
-/// Why an annotation as a whole holds of no values, in words; none if it may.
+/// Why an annotation as a whole holds of no values, in words; `None` if it may.
 pub(super) fn of_whole(meaning: &Meaning) -> Option<String> {
     let is_share = matches!(meaning.kind, Kind::Share { .. });
     if is_share && (meaning.grain.is_some() || meaning.least.is_some() || meaning.most.is_some()) {

@@ -23,14 +23,14 @@ pub struct Mend {
     pub from: Printed,
     /// As it would have to be.
     pub to: Printed,
-    /// Whether the order of the rows by that column changes with it; none where there is no column.
+    /// Whether the order of the rows by that column changes with it; `None` where there is no column.
     pub changes_ranking: Option<bool>,
 }
 
 /// How many changed prints are tried for a mend.
 const MENDS: i64 = 2000;
 
-/// The least change, in units of the last place, of one number of a test that refuses `prints`; none if the effort does not
+/// The least change, in units of the last place, of one number of a test that refuses `prints`; `None` if the effort does not
 /// suffice.
 pub(super) fn least(input: &Input, test: &dyn Test, prints: &[Print], effort: &Effort) -> Option<Mend> {
     let tries = MENDS / (2 * prints.len().max(1) as i64);
@@ -73,15 +73,15 @@ fn changes_ranking(
 
 /// A test that refuses what is printed, and the finding that says so, by its index.
 pub(super) struct Refusal {
-    /// The finding.
+    /// The finding's place in the list of findings.
     pub(super) finding: usize,
-    /// The test.
+    /// The test that refuses.
     pub(super) test: Box<dyn Test>,
     /// Whether the author wrote the relation that it breaks: it is then reported by itself in any case.
     pub(super) is_written: bool,
 }
 
-/// Takes out findings that follow from smaller ones and tells them with these; gives the checks of those taken out.
+/// Takes out findings that follow from smaller ones and names them in these; gives the checks of those taken out.
 pub(super) fn one_a_cause(
     findings: &mut Vec<Finding>,
     mut refusals: Vec<Refusal>,

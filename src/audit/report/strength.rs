@@ -55,7 +55,7 @@ impl fmt::Display for Power {
     }
 }
 
-/// How much of what could be printed instead of the first number the test refuses; none if the effort does not suffice.
+/// How much of what could be printed instead of the first number the test refuses; `None` if the effort does not suffice.
 pub(super) fn power(test: &dyn Test, prints: &[Print], most: i128, effort: &Effort) -> Option<Power> {
     let first = prints[0].printed;
     let (low, high, why) = window(test, first)?;

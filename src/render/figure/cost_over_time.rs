@@ -17,8 +17,7 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "cost_over_time",
     about: "cost of the best path found so far by planners from outside, over time: medians with intervals, failures infinite",
-    statistic: "Medians over all queries with 95 % bootstrap intervals over instances. A query without a path costs infinitely much, so a \
-                curve begins where half of the queries have one; {n}.",
+    statistic: "Medians over queries with 95 % bootstrap intervals over instances. No path costs infinitely much; {n}.",
     settings: Accepted::shape::<Read>(),
     example: r#"
 problems = "cell"

@@ -22,7 +22,7 @@ use study::record::{Row, Status};
 pub static ENTRY: Entry = Entry {
     name: "polyhedra",
     about: "tip paths, or the whole arm along its path, among solid polyhedra; one row a contender, one panel a view",
-    statistic: "One stored trial a panel.",
+    statistic: "Single trials.",
     settings: Accepted::shape::<Read>(),
     example: r#"
 problem = "E1"

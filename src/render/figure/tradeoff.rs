@@ -21,7 +21,7 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "tradeoff",
     about: "one metric against another, a point a contender: means with intervals both ways, or all trials and their medians",
-    statistic: "Means over instances that every contender solves, changes of means over pairs, or medians. Failures are infinite and not drawn; {n}.",
+    statistic: "Means over instances that every contender solves; {n}.",
     settings: Accepted::shape::<Tradeoff>(),
     example: r#"
 x = "opened"
@@ -185,6 +185,13 @@ impl Ready {
 }
 
 impl Kind for Ready {
+    fn statistic(&self) -> Option<&'static str> {
+        if self.read.trials {
+            return Some("Failures are infinite and not drawn; {n}.");
+        }
+        self.read.against.as_ref().map(|_| "Mean changes over pairs; {n}.")
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let panels = &self.read.panels;
         let sheet = |pt| Sheet::new(Width::Double, self.read.panels.len(), pt);

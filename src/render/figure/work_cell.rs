@@ -19,7 +19,7 @@ use study::key::InstanceKey;
 pub static ENTRY: Entry = Entry {
     name: "work_cell",
     about: "a work cell from two sides: its robot at several poses, or the ways of its tool by contenders on one query",
-    statistic: "One stored trial a way.",
+    statistic: "Single trials.",
     settings: Accepted::shape::<WorkCell>(),
     example: r#"
 problems = "cell"

@@ -156,7 +156,7 @@ struct CellQueries {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "a file of groups, or how many queries are drawn, is accepted")]
 enum Queries {
-    /// A file.
+    /// From this file of groups.
     File(String),
     /// So many are drawn.
     Drawn(#[schemars(range(max = 10_000))] NonZeroU32),

@@ -103,7 +103,7 @@ struct Conditioned {
     corner_rule: String,
     /// The planner whose record decides.
     planner: String,
-    /// Its settings.
+    /// The planner's settings.
     #[schemars(with = "AnyTable")]
     planner_settings: Table,
     /// Columns of the record with the least and the greatest value that are accepted.
@@ -120,7 +120,7 @@ struct Conditioned {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ConditionedFamily {
-    /// The family, by name.
+    /// The family's name in the registry.
     family: String,
     /// Its settings besides the shared ones.
     #[schemars(with = "AnyTable")]

@@ -1,7 +1,8 @@
 //! Starts and goals that are written in settings, or drawn with each instance.
 //!
-//! A family says how a point is drawn within limits and whether it is free; here it is decided how often that is tried, that a
-//! goal is never the start, and that each query draws from a stream of its own: one more query moves no other, and none moves
+//! A family says how a point is drawn within limits and whether it is free. This module decides how often that is tried and that
+//! a
+//! goal is never the start. Each query draws from a stream of its own: one more query moves no other, and none moves
 //! what else is drawn with the instance.
 
 use super::Query;
@@ -36,7 +37,7 @@ pub(super) enum Anywhere {
     Drawn,
 }
 
-/// An end in the plane.
+/// A start or goal in the plane: `[x, y]`, drawn, or drawn within limits.
 pub(super) type PlaneEnd<T> = End<[T; 2], PlaneLimits<T>>;
 
 /// Limits in the plane; a coordinate without a limit is drawn from all that there are.

@@ -11,7 +11,7 @@ use toml::Table;
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ClaimSpec {
-    /// Its name.
+    /// Its name, without the paper's.
     pub(super) id: Spanned<String>,
     /// Where it stands in the paper.
     pub(super) at: String,
@@ -72,7 +72,7 @@ impl ClaimSpec {
 /// What the paper says.
 #[derive(Debug, Clone)]
 pub struct Claim {
-    /// Its name.
+    /// Its name, without the paper's.
     pub id: String,
     /// Where it stands in the paper.
     pub at: String,
@@ -159,7 +159,7 @@ impl TestRole {
 /// The claims that a claim is made of; they count with it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Parts {
-    /// None.
+    /// It stands by itself.
     None,
     /// A sentence that says all of them.
     AllOf(Vec<String>),

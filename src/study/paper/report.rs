@@ -27,8 +27,8 @@ pub struct ReportSpec {
 pub const FIGURES: usize = 6;
 
 /// The forms in which a place can ask for what was found: with one decimal, as a percentage, in words with
-/// a direction, the ends of the interval, the
-/// number of instances, the class, and the least and the greatest percentage over the interpretations that count.
+/// a direction, the ends of the interval, the number of instances and the verdict. The last one is the least and the greatest
+/// percentage over the interpretations that count.
 pub const FORMS: [&str; 8] =
     ["tenths", "percent", "effect", "low", "high", "n", "verdict", OVER_INTERPRETATIONS];
 

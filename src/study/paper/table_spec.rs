@@ -58,10 +58,10 @@ pub(super) struct TableSpec {
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, Vec<AnyTable>>")]
     pub(super) shows: BTreeMap<String, Vec<Spanned<Table>>>,
-    /// Its columns.
+    /// Its columns from the left, but for the rows' names.
     #[serde(rename = "column")]
     pub(super) columns: Vec<ColumnSpec>,
-    /// Its rows.
+    /// Its rows from the top, each with the numbers that it prints.
     #[serde(rename = "row")]
     pub(super) rows: Vec<RowSpec>,
 }

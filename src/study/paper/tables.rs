@@ -29,7 +29,7 @@ pub struct PrintedTable {
     pub decimals: usize,
     /// The heads of its columns.
     pub columns: Vec<String>,
-    /// Its rows.
+    /// Its rows from the top.
     pub rows: Vec<PrintedRow>,
 }
 
@@ -54,7 +54,7 @@ pub struct PrintedCell {
 }
 
 impl PrintedTable {
-    /// Its cells.
+    /// Its cells, row by row.
     pub fn cells(&self) -> impl Iterator<Item = &PrintedCell> {
         self.rows.iter().flat_map(|row| &row.cells)
     }

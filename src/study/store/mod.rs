@@ -35,7 +35,7 @@ use std::path::{Path, PathBuf};
 pub struct Records {
     /// Preprocessed objects, trials and traces.
     pub batch: Batch,
-    /// Times.
+    /// Readings of the clock, of all sessions.
     pub times: Vec<Timing>,
 }
 
