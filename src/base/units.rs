@@ -5,8 +5,9 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 /// How near to a multiple of an eighth of a turn an angle is that was rounded to two digits behind the point.
 const ROUNDED_RAD: f64 = 2e-3;
 
-/// Of angles in degrees the first that seems to be in radians, by its number, and the question about it: a multiple of an eighth of a
-/// turn as it is written in radians, among angles none beyond a turn in radians.
+/// The first of `angles_deg` that seems to be in radians, by its number, with the message about the key `key`.
+///
+/// It is a multiple of an eighth of a turn as it is written in radians, and no angle is beyond a turn in radians.
 pub fn seems_in_radians(key: &str, angles_deg: &[f64]) -> Option<(usize, String)> {
     let is_eighth = |angle: &f64| {
         let eighths = (angle / FRAC_PI_4).round();

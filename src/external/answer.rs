@@ -308,7 +308,7 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// The length of a path in the world's unit, also where joints go straight and the tool does not: there the tool's way is
+    /// The length of a path in the world's unit, also where joints go straight and the tool does not. There the tool's way is
     /// measured at steps of at most half a degree of any joint, which makes it shorter by less than a part in ten thousand.
     pub fn length(&self, path: &[Vec<f64>]) -> Option<f64> {
         self.cost(path).or_else(|| self.cost_of_steps(path))

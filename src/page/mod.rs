@@ -60,8 +60,9 @@ pub struct Page {
     pub rest: Option<Vec<u8>>,
 }
 
-/// The page of the paper of `evidence` with what is `stored` of its interpretations and `figures` as they were drawn, SVG by the name of
-/// each; `rest` is the name of the file for what does not fit, and `has_index` says whether the index of all papers lies beside the page.
+/// The page of the paper of `evidence` with what is `stored` of its interpretations and `figures` as they were drawn, SVG by the
+/// name of each. `rest` is the name of the file for what does not fit, and `has_index` says whether the index of all papers lies
+/// beside the page.
 ///
 /// # Errors
 /// [`PageError`].

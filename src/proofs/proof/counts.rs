@@ -7,8 +7,8 @@ use crate::form::Form;
 use crate::fvalues::{CountBound, astar_count_bound};
 use crate::lattice::Octile;
 
-/// Whether a printed count is at most what A* with the Euclidean heuristic can close and open on any map on which its path
-/// has the moves of `optimum`; `applies` picks the bound that the number is under, if it is under either.
+/// Whether a printed count is at most what A* with the Euclidean heuristic can close and open on any map on which its path has
+/// the moves of `optimum`. `applies` picks the bound that the number is under, if it is under either.
 pub fn count_bound(
     print: Print,
     ends: Ends,

@@ -109,7 +109,7 @@ fn both_impossible(
     (true, vec![alone, format!("{name} angles: no polyline has {both}, {ends}")])
 }
 
-/// How long a polyline through cell centres with the printed turn sum is at least, beside another printed length; refused if
+/// How long a polyline through cell centres with the printed turn sum is at least, beside another printed length. Refused if
 /// `is_shorter` says that the path is claimed to be shorter than that, and it cannot be.
 pub fn turn_needs_length(search: &Search<'_>, beside: Print, is_shorter: bool) -> Proof {
     let mut because = Vec::new();

@@ -50,8 +50,8 @@ struct Tradeoff {
     contenders: Vec<String>,
     /// The panels, in their order.
     panels: Vec<PanelSpec>,
-    /// Changes in per cent of both metrics against this contender, paired over the problems that both solve, in place of means:
-    /// intervals of means hold what differs from problem to problem, which is no matter between contenders.
+    /// Changes in per cent of both metrics against this contender, paired over the problems that both solve, in place of means.
+    /// Intervals of means hold what differs from problem to problem, which is no matter between contenders.
     against: Option<String>,
     /// Every trial as a point and medians, failures infinite, on a logarithmic axis, in place of means.
     #[serde(default)]

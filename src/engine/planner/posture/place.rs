@@ -39,8 +39,8 @@ impl Place {
 
     /// No point of a rod is farther than this from where it is at either end, while the joints turn evenly from `before`.
     ///
-    /// A point of the arm leaves the straight line between its ends by at most an eighth of its greatest second derivative,
-    /// which is the square of all turns together times the arm's length; points of a rod lie between its ends.
+    /// A point of the arm leaves the straight line between its ends by at most an eighth of its greatest second derivative, which
+    /// is the square of all turns together times the arm's length. Points of a rod lie between its ends.
     pub(super) fn moved_cm(&self, before: &Self, arm: &CarriedArm) -> f64 {
         let ends = self.rods.iter().zip(&before.rods).flat_map(|(now, then)| {
             [(now.segment.a, then.segment.a), (now.segment.b, then.segment.b)].map(|(a, b)| (a - b).norm())

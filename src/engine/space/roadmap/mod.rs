@@ -1,9 +1,9 @@
 //! Probabilistic roadmaps: samples in the order they were drawn, and the local paths between them.
 //!
-//! A roadmap is built once. Its first N samples are a roadmap too, and so are its edges up to any smaller radius; both are
-//! read off, nothing is built again. (Where so many nearest samples are neighbours, a part keeps the edges among its own.) A query adds its own start and goal and nothing else. What was found out about a
-//! pair of configurations is remembered, so that queries, sizes and contenders share it; it
-//! depends on the pair alone.
+//! A roadmap is built once. Its first N samples are a roadmap too, and so are its edges up to any smaller radius: both are read
+//! off, and nothing is built again. (Where so many nearest samples are neighbours, a part keeps the edges among its own.) A query
+//! adds its own start and goal and nothing else. What was found out about a pair of configurations is remembered, so that
+//! queries, sizes and contenders share it; it depends on the pair alone.
 
 mod local;
 mod near;
