@@ -140,7 +140,7 @@ fn covered(text: &Path, macros: &Path) -> Result<(), Failure> {
     let current = current(&given);
     let mut listed = String::new();
     if let Err(why) = &current {
-        listed += &format!("{}:1: whether its values are stale cannot be told; {why}\n", macros.display());
+        listed += &format!("{}:1: whether its values are stale is unknown; {why}\n", macros.display());
     }
     let written = read(text)?;
     let unread = included(&written, macros);

@@ -274,8 +274,8 @@ impl<'a> Space<'a> {
             let tip = world.rules().arm.forward([*q1, *q2]);
             return Ok(Pose { position: vec![tip.x, tip.y], rotation: None });
         }
-        let (arm, scale) = self.arm().ok_or("fk is asked for, and this world has no arm")?;
-        let q = joints(q).ok_or_else(|| format!("fk is asked for {} angles; 6 are accepted", q.len()))?;
+        let (arm, scale) = self.arm().ok_or("fk needs an arm, and this world has none")?;
+        let q = joints(q).ok_or_else(|| format!("fk is given {} angles; 6 are accepted", q.len()))?;
         Ok(pose(&arm.chain().forward(&q), scale))
     }
 
@@ -286,9 +286,9 @@ impl<'a> Space<'a> {
             return Ok(found
                 .map_or_else(|_| Vec::new(), |both| vec![both.negative.to_vec(), both.positive.to_vec()]));
         }
-        let (arm, scale) = self.arm().ok_or("ik is asked for, and this world has no arm")?;
+        let (arm, scale) = self.arm().ok_or("ik needs an arm, and this world has none")?;
         let ([x, y, z], Some(rows)) = (pose.position.as_slice(), pose.rotation) else {
-            return Err("ik is asked for a pose without three coordinates and a rotation".to_owned());
+            return Err("ik is given a pose without three coordinates and a rotation".to_owned());
         };
         let rotation = Matrix3::from_fn(|i, j| rows[i][j]);
         let target = Frame { origin: Vec3::new(*x, *y, *z) / scale, rotation };

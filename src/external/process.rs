@@ -125,7 +125,7 @@ impl Process {
         let count = written.clone();
         let tail = Arc::clone(&log);
         let most = program.limits.output_mb << 20;
-        let piped = "its pipes were asked for";
+        let piped = "its pipes were requested";
         thread::spawn(move || write_lines(stdin.expect(piped), &lines));
         thread::spawn(move || read_lines(stdout.expect(piped), &sender, &count, most));
         thread::spawn(move || read_log(stderr.expect(piped), &tail));

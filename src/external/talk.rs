@@ -136,7 +136,7 @@ pub fn greet(process: &mut Process, program: &Program) -> Result<Hello, String> 
         Ok(None) => {
             let seconds = program.hello_s;
             let hint = if process.is_silent() { SILENT } else { "" };
-            return Err(with_log(process, &format!("the planner said no `hello` within {seconds} s{hint}")));
+            return Err(with_log(process, &format!("the planner sent no `hello` within {seconds} s{hint}")));
         }
         Err(why) => return Err(with_log(process, &why)),
     };
@@ -251,7 +251,7 @@ impl Conversation<'_, '_> {
         if id == current {
             Ok(())
         } else {
-            Err(format!("the planner answers query {id}; it was asked query {current}"))
+            Err(format!("the planner answers query {id}; its query is {current}"))
         }
     }
 

@@ -174,7 +174,7 @@ const WRONG: [(&str, &str, &str); 13] = [
     (
         "\"6.5\"]",
         "\"N/A\"], cell.bends.headline = true",
-        "11:110: table `t`: row `astar0`, column `bends`: the cell is no claim, so that nothing is said of it",
+        "11:110: table `t`: row `astar0`, column `bends`: the cell is no claim, so nothing is set for it",
     ),
     (
         "\"23.5\", \"120\", \"60.0\", \"6.5\"]",

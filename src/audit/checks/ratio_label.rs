@@ -19,7 +19,7 @@ pub static ENTRY: Entry = Entry {
     tests,
     relation: Some(FromRelation {
         keys: &[
-            ("ratio", "The sample, by its name, whose values are said to be ratios."),
+            ("ratio", "The sample, by its name, whose values the table calls ratios."),
             ("of", "The sample, by its name, of what is divided."),
             ("over", "The sample, by its name, of what it is divided by."),
         ],

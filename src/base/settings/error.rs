@@ -219,7 +219,7 @@ impl Faults {
     /// If there is no value and nothing was added that says why.
     pub fn or<T>(self, value: Option<T>) -> Result<T, SettingsError> {
         self.done()?;
-        Ok(value.expect("what is missing was told as a fault"))
+        Ok(value.expect("what is missing was reported as a fault"))
     }
 
     /// Says that something called `name` is there but could not be read, for a reason that was added: that the name is not

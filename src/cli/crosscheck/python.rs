@@ -110,7 +110,7 @@ impl Judge {
             Some(0) => Ok(true),
             Some(DIFFERS) => Ok(false),
             _ => {
-                let message = format!("the judge ended with {status}; what it said stands above");
+                let message = format!("the judge ended with {status}; its messages stand above");
                 Err(Failure::new(1, message))
             }
         }

@@ -240,7 +240,7 @@ struct Rejection {
 
 impl Rejection {
     fn accepts(&self, world: &World) -> bool {
-        let [query] = &self.queries[..] else { unreachable!("one query was asked for") };
+        let [query] = &self.queries[..] else { unreachable!("one query was wanted") };
         let request = Request {
             world,
             start: &query.start,

@@ -263,10 +263,7 @@ impl TableSpec {
             let cell = row.printed.iter().zip(columns(self)).find(|(_, (.., own))| own == id);
             let message = match cell {
                 Some((printed, (column, ..))) if !self.is_claim(column, printed) => {
-                    format!(
-                        "row `{}`, column `{id}`: the cell is no claim, so that nothing is said of it",
-                        row.id
-                    )
+                    format!("row `{}`, column `{id}`: the cell is no claim, so nothing is set for it", row.id)
                 }
                 None if !ids.contains(&id.as_str()) => none_called("column", id, ids.iter().copied()),
                 _ => continue,

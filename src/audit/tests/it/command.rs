@@ -229,7 +229,7 @@ fn macros_of_which_nobody_can_tell_whether_they_are_stale_do_not_pass() {
         (FIRST, false, "not current: numbers.tex\n"),
     ] {
         let output = covered(&bench, first, 45, is_current);
-        let text = format!("numbers.tex:1: whether its values are stale cannot be told; {why}");
+        let text = format!("numbers.tex:1: whether its values are stale is unknown; {why}");
         assert!(output.code == Some(3) && output.out.starts_with(&text), "{}", output.out);
         assert_eq!(output.out.lines().count(), 1);
     }

@@ -23,10 +23,7 @@ impl<F: Fn(u32, [i32; 2]) -> bool> Successors for Hops<F> {
 
     fn kept(&mut self, cell: u32, dx: i32, reach: i32, free: u64) -> u64 {
         let [expected, before] = self.1;
-        assert!(
-            expected == cell as i32 && dx < before,
-            "{cell} is told and its columns are asked from the right"
-        );
+        assert!(expected == cell as i32 && dx < before, "column {dx} of cell {cell} comes out of order");
         self.1[1] = dx;
         let is_kept = |bit: &i32| free >> bit & 1 == 1 && self.0(cell, [dx, reach - bit]);
         (0..=2 * reach).filter(is_kept).fold(0, |kept, bit| kept | 1 << bit)
