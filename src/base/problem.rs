@@ -10,8 +10,8 @@
 //! A problem has `box` (`position`, `orientation_euler_xyz` about fixed axes, `half_extents`), `cylinder` and `sphere` lists,
 //! `start`, `goals` and whether it is `valid`.
 //!
-//! A key that is neither read nor in the
-//! table of ignored keys is refused if it may be an obstacle or is nearly one that is read, and noted otherwise.
+//! A key that is neither read nor in the table of ignored keys is refused if it may be an obstacle or is nearly one that is read,
+//! and noted otherwise.
 //!
 //! Source: `resources/problem_tar_to_pkl_json.py` of `KavrakiLab/vamp`, which writes the second form and skips what is not valid.
 

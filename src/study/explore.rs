@@ -21,8 +21,7 @@ pub struct Interpretations {
 }
 
 /// The interpretations of `choices`: `sample` settings drawn from `seed` with equal chance for every voting option. Each setting
-/// of
-/// the choices that are not fitted stands with every option of those that are.
+/// of the choices that are not fitted stands with every option of those that are.
 ///
 /// Contenders with an entry in `departures` have trials that count under these interpretations only.
 ///

@@ -290,8 +290,7 @@ fn times_beside(
 }
 
 /// Whether the clock was read for as many instances, repeats and seeds as `study` asks for. Interpretations are then as good as
-/// new
-/// ones where no trial ran again, whatever else of the spec has changed.
+/// new ones where no trial ran again, whatever else of the spec has changed.
 fn is_timed_as(study: &Study, times: &[Timing]) -> bool {
     let Some(timing) = study.timing else { return times.is_empty() };
     let most = |of: fn(&Timing) -> u32| times.iter().map(|time| of(time) + 1).max().unwrap_or(0);

@@ -80,10 +80,8 @@ pub struct ProblemsSpec {
     #[schemars(range(min = 1, max = 1_000_000))]
     pub instances: Option<u32>,
     /// What its instances are called. Groups of one paper whose instances have one name get the same seeds, instance by instance,
-    /// and
-    /// so do the points of a sweep over the group: their settings can then be compared in pairs. The study, the label and the
-    /// point of
-    /// the sweep if absent.
+    /// and so do the points of a sweep over the group: their settings can then be compared in pairs. The study, the label and the
+    /// point of the sweep if absent.
     pub shared_instances: Option<String>,
     /// The family's settings.
     #[schemars(with = "AnyTable")]

@@ -1,9 +1,8 @@
 //! Starts and goals that are written in settings, or drawn with each instance.
 //!
 //! A family says how a point is drawn within limits and whether it is free. This module decides how often that is tried and that
-//! a
-//! goal is never the start. Each query draws from a stream of its own: one more query moves no other, and none moves
-//! what else is drawn with the instance.
+//! a goal is never the start. Each query draws from a stream of its own: one more query moves no other, and none moves what else
+//! is drawn with the instance.
 
 use super::Query;
 use base::seed::{self, Stream};

@@ -1,10 +1,9 @@
 //! A `MovingAI` map with the queries of a scenario file.
 //!
-//! Queries are named after their line in the file. The optimal length that the file prints for each stands in every
-//! trial's row, so that a check can hold both the verifier and the planners to it. A query whose start or goal is
-//! blocked (water, say) is an invalid problem, and its trials are rows with that status. A query without a path, according to the
-//! file,
-//! is posed like any other, with no optimal length.
+//! Queries are named after their line in the file. The optimal length that the file prints for each stands in every trial's row,
+//! so that a check can hold both the verifier and the planners to it. A query whose start or goal is blocked (water, say) is an
+//! invalid problem, and its trials are rows with that status. A query without a path, according to the file, is posed like any
+//! other, with no optimal length.
 
 use super::{Entry, Family, Query};
 use crate::StudyError;

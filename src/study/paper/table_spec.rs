@@ -98,8 +98,7 @@ pub(super) struct ColumnSpec {
     /// What its cells are if they are no claims.
     pub(super) none: Option<String>,
     /// Two columns: the first has more than the second by the numbers of this one, a column that the paper does not print. Rows
-    /// have
-    /// no cell for it, and a table of its own shows it.
+    /// have no cell for it, and a table of its own shows it.
     pub(super) difference: Option<[Spanned<String>; 2]>,
     /// What the paper leaves out, if its cells cannot be tested without it.
     pub(super) untestable: Option<String>,

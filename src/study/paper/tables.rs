@@ -1,8 +1,7 @@
 //! The paper's own tables: what they print, and the claims that their cells are.
 //!
 //! Every number of a cell is a claim called `table.row.column`. A row with two such cells or more is one called `table.row`,
-//! whose
-//! parts are its cells; a cell that is not testable is no part of it and counts by itself. Claims made here look like
+//! whose parts are its cells; a cell that is not testable is no part of it and counts by itself. Claims made here look like
 //! written ones: nothing above this floor distinguishes them.
 
 use super::claim::{Claim, Parts, TestRole, Written, check_printed, name_cells};
