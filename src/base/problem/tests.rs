@@ -173,7 +173,7 @@ fn numbers_go_to_the_joints_that_the_file_names_and_other_robots_are_refused() {
         match (read(&text, None, 0), expected) {
             (Ok(problem), Ok(start)) => assert_eq!(problem.start.joints, start, "{before}"),
             (Err(error), Err(expected)) => {
-                assert!(error.contains(expected), "should say {expected}\nsays {error}")
+                assert!(error.contains(expected), "should say {expected}\nsays {error}");
             }
             (found, expected) => panic!("{before}: should be {expected:?}\nis {found:?}"),
         }
@@ -251,7 +251,7 @@ fn every_key_of_a_problem_is_read_ignored_for_a_reason_noted_or_refused() {
                 assert_eq!(problem.is_valid, !to.contains("false"), "{to}");
             }
             (Err(error), Err(expected)) => {
-                assert!(error.contains(expected), "should say {expected}\nsays {error}")
+                assert!(error.contains(expected), "should say {expected}\nsays {error}");
             }
             (found, expected) => panic!("{to}: should be {expected:?}\nis {found:?}"),
         }
