@@ -42,14 +42,17 @@ impl Headline<'_> {
     /// The verdict with the counts over interpretations, where they were explored, or with how many meanings have which verdict.
     pub fn verdict(&self, verdicts: &Verdicts) -> String {
         let verdict = self.judged.verdict_said();
-        let beside = match self.judged.said.as_deref() {
-            Some(counts) if counts.starts_with("meanings: ") => meanings(self.judged, verdicts),
-            Some(counts) => counts.split("; ").next().map(str::to_owned),
-            None => None,
-        };
-        match beside {
+        match self.beside(verdicts) {
             Some(counts) => format!("{verdict}, {counts}"),
             None => verdict,
+        }
+    }
+
+    /// The counts over interpretations, or how many meanings have which verdict.
+    pub fn beside(&self, verdicts: &Verdicts) -> Option<String> {
+        match self.judged.said.as_deref()? {
+            counts if counts.starts_with("meanings: ") => meanings(self.judged, verdicts),
+            counts => counts.split("; ").next().map(str::to_owned),
         }
     }
 }
