@@ -43,7 +43,7 @@ impl Headline<'_> {
     pub fn verdict(&self, verdicts: &Verdicts) -> String {
         let verdict = self.judged.verdict_said();
         match self.beside(verdicts) {
-            Some(said) => format!("{verdict}, {said}"),
+            Some(counts) => format!("{verdict}, {counts}"),
             None => verdict,
         }
     }
@@ -51,8 +51,8 @@ impl Headline<'_> {
     /// The counts over interpretations, or how many meanings have which verdict.
     pub fn beside(&self, verdicts: &Verdicts) -> Option<String> {
         match self.judged.said.as_deref()? {
-            said if said.starts_with("meanings: ") => meanings(self.judged, verdicts),
-            said => said.split("; ").next().map(str::to_owned),
+            counts if counts.starts_with("meanings: ") => meanings(self.judged, verdicts),
+            counts => counts.split("; ").next().map(str::to_owned),
         }
     }
 }
@@ -61,13 +61,13 @@ impl Headline<'_> {
 fn meanings(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     let parts = verdicts.claims.iter().filter(|part| part.part_of.as_ref() == Some(&judged.claim));
     let mut counts: Vec<(String, usize)> = Vec::new();
-    for said in parts.map(ClaimVerdict::verdict_said) {
-        match counts.iter_mut().find(|(known, _)| *known == said) {
+    for verdict in parts.map(ClaimVerdict::verdict_said) {
+        match counts.iter_mut().find(|(known, _)| *known == verdict) {
             Some((_, count)) => *count += 1,
-            None => counts.push((said, 1)),
+            None => counts.push((verdict, 1)),
         }
     }
-    let of_each: Vec<String> = counts.iter().map(|(said, count)| format!("{count} {said}")).collect();
+    let of_each: Vec<String> = counts.iter().map(|(verdict, count)| format!("{count} {verdict}")).collect();
     (counts.len() > 1).then(|| format!("by meaning: {}", of_each.join(", ")))
 }
 

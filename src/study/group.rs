@@ -77,7 +77,7 @@ impl Group {
         }
     }
 
-    /// Whether its family can be built from `settings`; what is wrong with a file is told elsewhere.
+    /// Builds its family from `settings`, to find faults. Those of a file that they name are reported elsewhere.
     ///
     /// # Errors
     /// Those of the settings.

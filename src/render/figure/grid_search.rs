@@ -21,7 +21,7 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "grid_search",
     about: "searches on grid maps: opened cells of each side, then or by moments, paths, bends; one panel a trial or moment",
-    statistic: "One stored trial a panel.",
+    statistic: "Single trials.",
     settings: Accepted::shape::<GridSearch>(),
     example: r#"
 problems = ["W1"]

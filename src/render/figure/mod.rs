@@ -169,7 +169,7 @@ pub fn caption(spec: &FigureSpec, run: &Run<'_>, paper: &Paper, verdicts: &Verdi
     let settings = spec.settings.as_ref().map(base::settings::Spanned::get_ref);
     let Trials { instances, solved, all } = trials(run, settings);
     let unit = unit(run.study);
-    let n = format!("n = {instances} {unit}, {solved} of {all} trials solved");
+    let n = format!("n = {instances} {unit}, {solved}/{all} trials solved");
     let interpretations = verdicts.explored.as_ref().map_or(0, |explored| explored.interpretations);
     let statistic = own.unwrap_or(entry.statistic);
     let statistic = statistic

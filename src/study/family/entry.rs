@@ -9,7 +9,7 @@ use engine::space::roadmap::Extent;
 use engine::space::{World, WorldKind};
 use std::path::PathBuf;
 
-/// One question asked of a preprocessed object.
+/// One query of a preprocessed object.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Query {
     /// Its name within the instance; empty where an instance has one query only.
