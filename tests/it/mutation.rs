@@ -96,6 +96,33 @@ fn no_damaged_spec_robot_scene_or_map_panics_and_every_refusal_says_where() {
 }
 
 #[test]
+fn an_option_renamed_where_a_choice_declares_it_is_refused_wherever_it_is_named() {
+    let subject = Subject::of_committed_papers();
+    let file = subject.find("fu2018/paper.toml");
+    let text = String::from_utf8(subject.bytes(file).to_vec()).unwrap();
+    let mut is_inline = false;
+    let mut refused = 0;
+    for line in text.lines() {
+        let renamed = match line.strip_prefix("[choice.option.") {
+            Some(rest) => format!("[choice.option.renamed_{rest}"),
+            None if is_inline && line.contains(" = { ") => match line.strip_prefix('"') {
+                Some(rest) => format!("\"renamed_{rest}"),
+                None => format!("renamed_{line}"),
+            },
+            None => {
+                is_inline = line == "[choice.option]" || is_inline && !line.starts_with('[');
+                continue;
+            }
+        };
+        match fault(|| subject.read(file, text.replacen(line, &renamed, 1).as_bytes())) {
+            Ok(is_accepted) => refused += u32::from(!is_accepted),
+            Err(what) => panic!("{renamed}: {what}"),
+        }
+    }
+    assert!(refused >= 10, "{refused} renamed options were refused: fu2018 has ten choices");
+}
+
+#[test]
 fn sizes_that_cannot_be_meant_are_refused_with_their_limit() {
     let subject = Subject::of_committed_papers();
     for (file, from, to, said) in [
