@@ -77,6 +77,10 @@ fn one_bit_of_a_manifest_flipped_anywhere_is_noticed() {
         tried += 1;
     }
     assert!(tried > 100, "{tried}");
+    fs::write(&path, b"").unwrap();
+    assert_eq!(bench.run(&["run", "./mini"]).code, Some(2));
+    assert_eq!(fs::read(&path).unwrap(), b"", "an emptied manifest was written over");
+    fs::write(&path, &whole).unwrap();
     // Even where it names the machine: nothing else is held against that.
     let at = text.find("rustc = ").unwrap() + 12;
     flip(&bench, "draws.manifest.toml", at);

@@ -10,6 +10,7 @@ use crate::paper::Bench;
 use scripts::{CASES, Case, PRELUDE, SHORTER, SILENT};
 use std::collections::BTreeMap;
 use std::fs;
+use std::process::Command;
 use study::record::Row;
 use study::reuse;
 
@@ -122,19 +123,33 @@ fn soon(is_so: impl Fn() -> bool) -> bool {
 fn replan_interrupted_or_killed_takes_its_planners_with_it() {
     let hang = "hello; query; (sleep 770011) & trap '' TERM INT; while :; do sleep 770012; done";
     let case = Case { name: "hang-on", script: hang, status: "", reason: "" };
-    for (signal, code) in [("INT", Some(130)), ("TERM", Some(130)), ("KILL", None)] {
+    for (signals, code) in
+        [(&["INT"][..], Some(130)), (&["INT", "INT"], Some(130)), (&["TERM"], Some(130)), (&["KILL"], None)]
+    {
         let bench = bench(&[&case]);
         bench.edit("outside/study.toml", "time_s = 0.5", "time_s = 600.0");
         let mut run = bench.command(&["run", "./outside", "--trust"]).spawn().unwrap();
-        assert!(soon(|| alive("sleep 770012").len() == 1), "{signal}: the planner was not seen");
-        let kill =
-            std::process::Command::new("kill").args([&format!("-{signal}"), &run.id().to_string()]).status();
-        assert!(kill.unwrap().success());
-        assert!(soon(|| run_has_ended(run.id())), "{signal}: replan goes on");
-        assert_eq!(run.wait().unwrap().code(), code, "{signal}");
+        assert!(soon(|| alive("sleep 770012").len() == 1), "{signals:?}: the planner was not seen");
+        for signal in signals {
+            let kill = Command::new("kill").args([&format!("-{signal}"), &run.id().to_string()]).status();
+            assert!(kill.unwrap().success());
+        }
+        assert!(soon(|| run_has_ended(run.id())), "{signals:?}: replan goes on");
+        assert_eq!(run.wait().unwrap().code(), code, "{signals:?}");
         let is_gone = || alive("sleep 77001").is_empty() && alive("hang-on.sh").is_empty();
-        assert!(soon(is_gone), "{signal}: left alone: {:?}", alive("sleep 77001"));
+        assert!(soon(is_gone), "{signals:?}: left alone: {:?}", alive("sleep 77001"));
     }
+}
+
+#[test]
+fn a_planner_that_kills_replan_does_not_outlive_it() {
+    let script = "hello; query; (setsid sleep 770021) & sleep 0.1; kill -9 $PPID; sleep 770022";
+    let bench = bench(&[&Case { name: "kills-its-parent", script, status: "", reason: "" }]);
+    bench.edit("outside/study.toml", "time_s = 0.5", "time_s = 600.0");
+    let run = bench.command(&["run", "./outside", "--trust"]).status().unwrap();
+    assert_eq!(run.code(), None, "replan was not killed");
+    let is_gone = || alive("sleep 77002").is_empty() && alive("kills-its-parent.sh").is_empty();
+    assert!(soon(is_gone), "left alone: {:?}", alive("sleep 77002"));
 }
 
 /// Whether the process has ended, though nobody has waited for it.

@@ -3,7 +3,7 @@
 
 use super::damage::{flipped, misshapen};
 use super::subject::validate;
-use super::{cases, fault, is_located};
+use super::{cases, count, fault, is_located};
 use crate::external::law;
 use crate::paper::Bench;
 use base::grid::{parse_movingai_map, parse_scenarios, parse_text_map, read_map};
@@ -17,6 +17,7 @@ use external::message::FromPlanner;
 use external::{Space, read_message};
 use rand::RngExt as _;
 use std::cell::Cell;
+use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::fs;
 use std::path::Path;
@@ -279,11 +280,12 @@ fn no_damaged_file_of_another_program_or_line_of_a_planner_panics_hangs_or_is_re
         let is_sound = outcome.is_ok() || door.name == "planner";
         assert!(is_sound, "{}: {outcome:?}", door.name);
     }
-    let all = cases() - cases() / super::SPECS_OF;
-    let mut accepted = 0;
+    let cases = cases(|all| all - all / super::SPECS_OF);
+    let all = count(&cases);
+    let mut tally: BTreeMap<&str, [u64; 2]> = BTreeMap::new();
     let mut faults = Vec::new();
     answers.set(0);
-    for case in 0..all {
+    for case in cases {
         let mut stream = seed::stream(seed::derive(2027, &["doors", &case.to_string()]));
         let kind = &doors[[0, 0, 0, 0, 0, 0, 1, 1, 1, 2][stream.random_range(0..10)]];
         let door = &kind[stream.random_range(0..kind.len())];
@@ -297,12 +299,18 @@ fn no_damaged_file_of_another_program_or_line_of_a_planner_panics_hangs_or_is_re
             }
         };
         let found = fault(work).and_then(|is_accepted| wrong.take().map_or(Ok(is_accepted), Err));
+        let [read, accepted] = tally.entry(door.name).or_default();
+        *read += 1;
         match found {
-            Ok(is_accepted) => accepted += u64::from(is_accepted),
+            Ok(is_accepted) => *accepted += u64::from(is_accepted),
             Err(what) => faults.push(format!("case {case}, {}: {what}", door.name)),
         }
     }
-    println!("{all} cases, {accepted} accepted, {} answered", answers.get());
+    let accepted: u64 = tally.values().map(|[_, accepted]| accepted).sum();
+    println!(
+        "{all} cases, {accepted} accepted, {} answered, by door [read, accepted]: {tally:?}",
+        answers.get()
+    );
     assert!(faults.is_empty(), "{} of {all} cases:\n{}", faults.len(), faults.join("\n"));
     assert!((all / 10..all * 9 / 10).contains(&accepted), "{accepted} of {all} were accepted");
     assert!(u64::from(answers.get()) > all / 100, "{} of {all} lines were answered", answers.get());
