@@ -207,6 +207,26 @@ fn recorded_trials_are_kept_by_fresh_and_run_again_by_record_or_where_a_file_cha
 }
 
 #[test]
+fn recorded_trials_outlive_a_damaged_file_that_is_not_theirs() {
+    let good = CASES.iter().find(|case| case.name == "good").unwrap();
+    let bench = bench(&[good]);
+    bench.done(&["run", "./outside", "--trust"]);
+    let clock = |bench: &Bench| rows(bench)["good"].value("solve_wall_ns").unwrap();
+    let first = clock(&bench);
+    for (part, is_kept) in [("preprocessing", true), ("trials", false)] {
+        let file = format!("target/replan/outside/data/runs/outside/study.{part}.parquet");
+        let mut bytes = fs::read(bench.at(&file)).unwrap();
+        bytes[20] ^= 1;
+        bench.write(&file, &bytes);
+        assert_eq!(bench.run(&["run", "./outside", "--trust"]).code, Some(2));
+        bench.done(&["run", "./outside", "--trust", "--replace-damaged"]);
+        assert_eq!(rows(&bench).len(), 2, "{part}");
+        assert_eq!(clock(&bench) == first, is_kept, "{part}");
+        assert_eq!(fs::read(bench.at(&format!("{file}.damaged-1"))).unwrap(), bytes);
+    }
+}
+
+#[test]
 fn without_its_program_a_run_says_what_to_install_and_stored_trials_stay_readable() {
     let bench = bench(&[]);
     let program = "[\"./outside/planner\"]";
