@@ -11,7 +11,7 @@ mod plane;
 #[cfg(test)]
 mod tests;
 
-pub use local::{Local, joints};
+pub use local::{Local, MotionScratch, joints};
 pub use near::Near;
 pub use plane::PlaneMap;
 

@@ -1,0 +1,110 @@
+//! Planners that sample, around a wall whose shortest path is known.
+
+use super::super::{Build, Ending, Plan, Planner, Request, find};
+use crate::geometry::planar::ConvexPolygon;
+use crate::space::World;
+use crate::space::roadmap::{Counted, Local, Near, PlaneMap, Roadmap};
+use base::settings::Settings;
+
+/// Over both upper corners of the wall: two legs of 65 mm and its width.
+const SHORTEST_MM: f64 = 140.0;
+
+/// A square of 100 mm with a wall from below.
+fn world() -> World {
+    let corners = [[45.0, 0.0], [55.0, 0.0], [55.0, 80.0], [45.0, 80.0]];
+    let wall = ConvexPolygon::new(corners.map(Into::into).to_vec()).expect("a wall is convex");
+    let local = Local::Plane(PlaneMap::new([100.0, 100.0], vec![wall]));
+    World::Roadmap(Box::new(Roadmap::build(local, Vec::new(), Near::Places(0.0), Counted::Accepted)))
+}
+
+fn planner(name: &str, settings: &str) -> Box<dyn Planner> {
+    let Build::Planner(build) = find(name).unwrap().build else { panic!("{name} is a planner") };
+    build(&Settings::composed("a test", settings.parse().unwrap())).unwrap()
+}
+
+fn plan(planner: &dyn Planner, world: &World, seed: u64) -> Plan {
+    let (start, goal) = ([20.0, 20.0], [80.0, 20.0]);
+    let request = Request { world, start: &start, goal: &goal, expansions: 100_000, seed, trace: true };
+    planner.plan(&request).unwrap()
+}
+
+const CONNECT: &str = "range = 20\nbalance = 1\nfirst = 'start'\niterations = 5000\nnodes = 5000\n";
+
+#[test]
+fn the_same_seed_gives_the_same_tree_and_another_one_only_where_samples_are_random() {
+    let world = world();
+    for (sampler, depends) in [("halton", false), ("seeded", true)] {
+        let planner = planner("rrt_connect", &format!("{CONNECT}sampler = '{sampler}'"));
+        assert_eq!(planner.draws(), depends);
+        let [one, again, other] = [1, 1, 2].map(|seed| plan(planner.as_ref(), &world, seed));
+        assert_eq!((one.ending, &one), (Ending::Solved, &again));
+        assert_eq!(one != other, depends, "{sampler}");
+    }
+}
+
+#[test]
+fn a_dynamic_domain_spares_motions_that_would_fail() {
+    let world = world();
+    let domain = "dynamic_domain = { radius = 20, alpha = 0.1, least_radius = 5 }\n";
+    let motions = |domain: &str| -> f64 {
+        let planner = planner("rrt_connect", &format!("{CONNECT}{domain}sampler = 'seeded'"));
+        let counted = |seed| plan(planner.as_ref(), &world, seed).counts["motions"].as_f64();
+        (0..40).map(counted).sum()
+    };
+    let [with, without] = [domain, ""].map(motions);
+    assert!(with < without, "{with} motions with a dynamic domain, {without} without");
+}
+
+#[test]
+fn limits_end_a_search_without_a_path() {
+    let world = world();
+    for limits in ["iterations = 1\nnodes = 5000", "iterations = 5000\nnodes = 3"] {
+        let settings = format!("range = 1\nfirst = 'goal'\nsampler = 'halton'\n{limits}");
+        let plan = plan(planner("rrt_connect", &settings).as_ref(), &world, 1);
+        assert_eq!((plan.ending, plan.path.len(), plan.cost), (Ending::BudgetSpent, 0, None), "{limits}");
+    }
+}
+
+#[test]
+fn planners_that_go_on_come_near_the_shortest_path_and_each_path_they_note_is_shorter() {
+    let world = world();
+    for (name, settings) in [
+        ("rrt_star", "range = 20\nsampler = 'seeded'\ngoal_share = 0.05\niterations = 3000\ninformed = true"),
+        (
+            "rrt_star",
+            "range = 20\nsampler = 'halton'\ngoal_share = 0.05\niterations = 3000\ninformed = false",
+        ),
+        ("prm_star", "sampler = 'halton'\niterations = 1500\ngrowth = 1.5"),
+    ] {
+        let planner = planner(name, settings);
+        for seed in 0..3 {
+            let plan = plan(planner.as_ref(), &world, seed);
+            let cost = plan.cost.unwrap();
+            assert!((SHORTEST_MM..1.05 * SHORTEST_MM).contains(&cost), "{name}, seed {seed}: {cost} mm");
+            let incumbents = &plan.traces[0].values;
+            let noted: Vec<[f64; 2]> = incumbents.chunks(2).map(|pair| [pair[0], pair[1]]).collect();
+            assert!(noted.len() > 1, "{name}, seed {seed}: {noted:?}");
+            assert!(noted.windows(2).all(|pair| pair[0][0] <= pair[1][0] && pair[0][1] > pair[1][1]));
+            assert!(
+                (noted[noted.len() - 1][1] - cost).abs() < 1e-9,
+                "{name}, seed {seed}: {noted:?}, {cost}"
+            );
+            assert_eq!(plan.counts["incumbents"].as_f64(), noted.len() as f64);
+        }
+    }
+}
+
+#[test]
+fn informed_samples_shorten_the_path_more_than_samples_from_everywhere() {
+    let world = world();
+    let mean = |informed: bool| {
+        let settings = format!(
+            "range = 20\nsampler = 'seeded'\ngoal_share = 0.05\niterations = 800\ninformed = {informed}"
+        );
+        let planner = planner("rrt_star", &settings);
+        (0..10).map(|seed| plan(planner.as_ref(), &world, seed).cost.unwrap_or(f64::INFINITY)).sum::<f64>()
+            / 10.0
+    };
+    let [informed, even] = [mean(true), mean(false)];
+    assert!(informed < even, "{informed} mm with informed samples, {even} mm without");
+}
