@@ -95,7 +95,7 @@ impl Roadmap {
         };
         let rules = Rules { stop: Stop::GoalPopped, max_expansions: u64::MAX };
         let report = Search::new(Heap::new(Ties::Fifo)).run(terms, 0, |node| node == 1, rules, &mut ());
-        if let Outcome::Solved(route) = report.outcome { Some(route.nodes.to_vec()) } else { None }
+        if let Outcome::Solved(route) = report.outcome { Some(route.nodes) } else { None }
     }
 }
 

@@ -1,8 +1,8 @@
 //! RRT, which ends with its first path.
 //!
 //! # Source
-//! LaValle, *Rapidly-Exploring Random Trees: A New Tool for Path Planning*, TR 98-11, Iowa State University (1998); the goal as a sample
-//! now and then as in LaValle & Kuffner, *Int. J. Robotics Research* 20(5), 378 (2001).
+//! `LaValle`, *Rapidly-Exploring Random Trees: A New Tool for Path Planning*, TR 98-11, Iowa State University (1998); the goal as a sample
+//! now and then as in `LaValle` & Kuffner, *Int. J. Robotics Research* 20(5), 378 (2001).
 
 use super::sampled::{COLUMNS, Found, extended, plan, posed};
 use super::{Build, Entry, Invalid, Plan, Planner, Request};

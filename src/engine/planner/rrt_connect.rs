@@ -1,7 +1,7 @@
 //! RRT-Connect with VAMP's settings: balanced trees, dynamic domain, a Halton sequence.
 //!
 //! # Source
-//! Kuffner & LaValle, *RRT-Connect: An Efficient Approach to Single-Query Path Planning*, ICRA 2000; the balance of trees as in VAMP
+//! Kuffner & `LaValle`, *RRT-Connect: An Efficient Approach to Single-Query Path Planning*, ICRA 2000; the balance of trees as in VAMP
 //! (Thomason, Kingston & Kavraki, *Motions in Microseconds via Vectorized Sampling-Based Planning*, ICRA 2024); the dynamic domain as in
 //! Yershova et al., ICRA 2005, and Jaillet et al., IROS 2005 (adaptive radius).
 

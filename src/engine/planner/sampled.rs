@@ -6,9 +6,9 @@ use crate::sampling::{Motions, Tree};
 use crate::shorten::path_length;
 use crate::space::roadmap::Local;
 
-/// What every planner that samples counts.
+/// What every planner that samples counts; `joint_length_rad` is the verifier's, beside a length that the planner measures.
 pub(super) const COLUMNS: &[&str] =
-    &["iterations", "tree_nodes", "motions", "motion_states", "initial_length_rad"];
+    &["iterations", "tree_nodes", "motions", "motion_states", "initial_length_rad", "joint_length_rad"];
 
 /// What those count besides that go on after a first path.
 pub(super) const IMPROVING_COLUMNS: &[&str] = &[
@@ -17,6 +17,7 @@ pub(super) const IMPROVING_COLUMNS: &[&str] = &[
     "motions",
     "motion_states",
     "initial_length_rad",
+    "joint_length_rad",
     "first_iterations",
     "first_length_rad",
     "incumbents",

@@ -13,7 +13,7 @@ pub struct Motions<'a> {
     limits: Vec<[f64; 2]>,
     turn_on: Vec<bool>,
     scratch: MotionScratch,
-    motions: u64,
+    tried: u64,
 }
 
 impl<'a> Motions<'a> {
@@ -24,7 +24,7 @@ impl<'a> Motions<'a> {
             turn_on: local.turn_on(),
             local,
             scratch: MotionScratch::default(),
-            motions: 0,
+            tried: 0,
         }
     }
 
@@ -40,7 +40,7 @@ impl<'a> Motions<'a> {
 
     /// How many motions were checked.
     pub fn motions(&self) -> u64 {
-        self.motions
+        self.tried
     }
 
     /// How many configurations were checked for contact.
@@ -79,7 +79,7 @@ impl<'a> Motions<'a> {
 
     /// Whether the straight motion between two configurations, of which the first is free, is free.
     pub fn goes(&mut self, from: &[f64], to: &[f64]) -> bool {
-        self.motions += 1;
+        self.tried += 1;
         self.local.goes([from, to], 1.0, &mut self.scratch)
     }
 

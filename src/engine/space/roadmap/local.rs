@@ -119,9 +119,8 @@ impl Local {
 
     /// The least and the greatest value of each number of a configuration; one turn for joints that turn without end.
     pub fn limits(&self) -> Vec<[f64; 2]> {
-        let turn = |joint: &Joint| match joint.is_endless() {
-            true => [-PI, PI],
-            false => [joint.lower_rad, joint.upper_rad],
+        let turn = |joint: &Joint| {
+            if joint.is_endless() { [-PI, PI] } else { [joint.lower_rad, joint.upper_rad] }
         };
         match self {
             Self::Arm(lines) => lines.cell().robot().arm().chain().joints().iter().map(turn).collect(),
