@@ -138,28 +138,3 @@ fn few_configurations_are_left_to_the_scalar_code() {
     }
     assert!(doubts < 10, "{doubts} of 4000 configurations in doubt");
 }
-
-/// What is thinner than a step may stand between two configurations that are checked; a finer look meets it.
-#[test]
-fn a_motion_that_slips_past_something_thin_is_refused_by_a_finer_look() {
-    let thin = Solid {
-        name: "thin".to_owned(),
-        pose: Pose { origin_m: [1.5, 0.0, 0.3], ..Pose::IDENTITY },
-        form: Form::Sphere(0.001),
-    };
-    let space = JointSpace::new(of_spheres(), vec![thin], &SelfContact::Unchecked, 0.2);
-    let (mut slipped, mut met) = (0, 0);
-    for case in 0..200 {
-        let mut from = vec![0.0; 7];
-        (from[1], from[6]) = (1.2, 0.001 * f64::from(case));
-        let mut to = from.clone();
-        to[1] = 1.6;
-        let mut memory = MotionMemory::default();
-        let mut goes = |finer| space.goes([&from, &to], finer, &mut memory, &mut 0);
-        let [coarse, fine] = [goes(1.0), goes(4.0)];
-        assert!(coarse || !fine, "case {case}: what a coarse look meets a finer one meets as well");
-        slipped += u32::from(coarse && !fine);
-        met += u32::from(!coarse);
-    }
-    assert!(slipped > 0 && met > 0, "one-sided sample: {slipped} slipped, {met} met");
-}
