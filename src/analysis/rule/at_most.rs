@@ -14,8 +14,8 @@ pub static ENTRY: Entry = Entry {
     revision: |_| 1,
     settings: Accepted::shape::<Settings>(),
     example: r#"
-limit = 100_000
-says = "at most 100 000 iterations by default"
+limit = 1_000_000
+says = "at most 1 000 000 iterations, as the script sets them"
 "#,
     build: |context| {
         let Settings { limit, says } = context.settings.read()?;

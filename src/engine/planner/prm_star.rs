@@ -4,7 +4,7 @@
 //! Karaman & Frazzoli, *Int. J. Robotics Research* 30(7), 846 (2011), algorithm 4 with k-nearest neighbours, one sample at a time.
 
 use super::rrt_star::neighbour_count;
-use super::sampled::{Found, IMPROVING_COLUMNS, local, plan, posed};
+use super::sampled::{Found, IMPROVING_COLUMNS, local, planned};
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::sampling::{Draw, DrawSetting, Motions, Tree};
 use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, SideInputs, Stop, Ties, Update, sum};
@@ -109,7 +109,7 @@ impl PrmStar {
         let mut due = 1.0;
         while found.iterations < limit {
             found.iterations += 1;
-            let sample = draw.next(motions.limits());
+            let sample = motions.sample(&mut draw);
             if local(request).refusal(&sample).is_none() {
                 map.add(motions, &sample);
             }
@@ -135,9 +135,7 @@ impl PrmStar {
 
 impl Planner for PrmStar {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
-        let mut motions = posed(request)?;
-        let found = self.search(&mut motions, request);
-        Ok(plan(request, &motions, found, true))
+        planned(request, true, |motions| self.search(motions, request))
     }
 
     fn is_optimal(&self) -> bool {

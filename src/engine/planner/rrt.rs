@@ -4,7 +4,7 @@
 //! `LaValle`, *Rapidly-Exploring Random Trees: A New Tool for Path Planning*, TR 98-11, Iowa State University (1998); the goal as a sample
 //! now and then as in `LaValle` & Kuffner, *Int. J. Robotics Research* 20(5), 378 (2001).
 
-use super::sampled::{COLUMNS, Found, extended, plan, posed};
+use super::sampled::{COLUMNS, Found, extended, planned};
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::sampling::{Draw, DrawSetting, Motions, Tree};
 use crate::space::WorldKind;
@@ -48,17 +48,16 @@ struct Rrt {
     iterations: u64,
 }
 
-impl Planner for Rrt {
-    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
-        let mut motions = posed(request)?;
+impl Rrt {
+    fn search(&self, motions: &mut Motions<'_>, request: &Request<'_>) -> Found {
         let mut found = Found::default();
         let mut draw = Draw::new(self.sampler, request.seed);
-        let mut tree = Tree::new(&motions, request.start);
+        let mut tree = Tree::new(motions, request.start);
         while found.path.is_empty() && found.iterations < self.iterations.min(request.expansions) {
             found.iterations += 1;
-            let sample = sample(&mut draw, &motions, request.goal, self.goal_share);
+            let sample = sample(&mut draw, motions, request.goal, self.goal_share);
             let near = tree.nearest(&sample).0;
-            let Some(step) = extended(&mut motions, &tree, near, &sample, self.range) else { continue };
+            let Some(step) = extended(motions, &tree, near, &sample, self.range) else { continue };
             let node = tree.add(&step, near);
             if motions.distance(&step, request.goal) <= self.range && motions.goes(&step, request.goal) {
                 let mut path = tree.path(node);
@@ -70,7 +69,13 @@ impl Planner for Rrt {
             }
         }
         found.nodes = tree.count();
-        Ok(plan(request, &motions, found, false))
+        found
+    }
+}
+
+impl Planner for Rrt {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        planned(request, false, |motions| self.search(motions, request))
     }
 
     fn is_optimal(&self) -> bool {
@@ -91,5 +96,5 @@ pub(super) fn sample(draw: &mut Draw, motions: &Motions<'_>, goal: &[f64], goal_
     if goal_share > 0.0 && draw.share() < goal_share {
         return goal.to_vec();
     }
-    draw.next(motions.limits())
+    motions.sample(draw)
 }

@@ -5,7 +5,7 @@
 //! (Thomason, Kingston & Kavraki, *Motions in Microseconds via Vectorized Sampling-Based Planning*, ICRA 2024); the dynamic domain as in
 //! Yershova et al., ICRA 2005, and Jaillet et al., IROS 2005 (adaptive radius).
 
-use super::sampled::{COLUMNS, Found, extended, plan, posed};
+use super::sampled::{COLUMNS, Found, extended, planned};
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::sampling::{Draw, DrawSetting, Motions, Tree};
 use crate::space::WorldKind;
@@ -130,7 +130,7 @@ impl RrtConnect {
             if self.balance.is_none_or(|ratio| (size - other).abs() / size < ratio) {
                 own = 1 - own;
             }
-            let sample = draw.next(motions.limits());
+            let sample = motions.sample(&mut draw);
             if let Some(met) = self.grow(motions, &mut sides, own, &sample) {
                 let path = joined(&sides, own, met);
                 if motions.refused_leg(&path).is_none() {
@@ -193,9 +193,7 @@ fn joined(sides: &[Side; 2], own: usize, [last, target]: [u32; 2]) -> Vec<Vec<f6
 
 impl Planner for RrtConnect {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
-        let mut motions = posed(request)?;
-        let found = self.search(&mut motions, request);
-        Ok(plan(request, &motions, found, false))
+        planned(request, false, |motions| self.search(motions, request))
     }
 
     fn is_optimal(&self) -> bool {
@@ -208,5 +206,28 @@ impl Planner for RrtConnect {
 
     fn draws(&self) -> bool {
         self.sampler == DrawSetting::Seeded
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_radius_of_a_node_is_set_by_its_first_failed_step_and_then_follows_its_steps() {
+        let domain = DynamicDomain { radius: 4.0, alpha: 0.5, least_radius: 1.5 };
+        let after = |steps: &[bool]| {
+            steps.iter().fold(f64::INFINITY, |radius, is_free| domain.after(radius, *is_free))
+        };
+        for (steps, radius) in [
+            (&[true, true][..], f64::INFINITY),
+            (&[true, false], 4.0),
+            (&[false, true], 6.0),
+            (&[false, false], 2.0),
+            (&[false, false, false], 1.5),
+            (&[false, false, false, true], 2.25),
+        ] {
+            assert_eq!(after(steps), radius, "{steps:?}");
+        }
     }
 }

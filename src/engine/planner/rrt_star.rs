@@ -9,7 +9,7 @@
 //! Barfoot, *Informed RRT\**, IROS 2014.
 
 use super::rrt::sample;
-use super::sampled::{Found, IMPROVING_COLUMNS, extended, plan, posed};
+use super::sampled::{Found, IMPROVING_COLUMNS, extended, planned};
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::sampling::{Draw, DrawSetting, Motions, Tree};
 use crate::space::WorldKind;
@@ -101,8 +101,28 @@ impl Costs {
     }
 }
 
-/// A sample evenly from the ellipsoid about start and goal of what is on no way longer than `length`; `None` outside the limits.
+/// How often an informed sample is drawn again that is outside the limits or the ellipsoid.
+const TRIES: u32 = 1000;
+
+/// A sample evenly from what is within the limits and on no way from start to goal that is longer than `length`.
+///
+/// The ellipsoid and the limits take turns as what is drawn from; a draw that is in both is the sample. So neither an ellipsoid much
+/// larger than the limits nor one much smaller takes many draws.
 fn informed(draw: &mut Draw, motions: &Motions<'_>, request: &Request<'_>, length: f64) -> Option<Vec<f64>> {
+    let way = |at: &Vec<f64>| motions.distance(request.start, at) + motions.distance(at, request.goal);
+    (0..TRIES).find_map(|_| {
+        in_ellipsoid(draw, motions, request, length)
+            .or_else(|| Some(motions.sample(draw)).filter(|sample| way(sample) <= length))
+    })
+}
+
+/// A sample evenly from the ellipsoid about start and goal of what is on no way longer than `length`; `None` outside the limits.
+fn in_ellipsoid(
+    draw: &mut Draw,
+    motions: &Motions<'_>,
+    request: &Request<'_>,
+    length: f64,
+) -> Option<Vec<f64>> {
     let along = motions.change(request.start, request.goal);
     let least = along.iter().map(|by| by * by).sum::<f64>().sqrt();
     let narrow = (length * length - least * least).max(0.0).sqrt();
@@ -119,7 +139,7 @@ fn informed(draw: &mut Draw, motions: &Motions<'_>, request: &Request<'_>, lengt
         ball.iter_mut().zip(&normal).for_each(|(part, by)| *part -= across * by);
     }
     let middle = request.start.iter().zip(&along).map(|(start, by)| start + 0.5 * by);
-    let sample: Vec<f64> = middle.zip(ball).map(|(middle, by)| middle + by).collect();
+    let sample = motions.settled(middle.zip(ball).map(|(middle, by)| middle + by).collect());
     let limits = motions.limits().iter().zip(motions.turn_on());
     let is_within = sample
         .iter()
@@ -140,7 +160,7 @@ impl RrtStar {
             let length = found.incumbents.last().map(|(_, length)| *length);
             let sample = match length {
                 Some(length) if self.informed => informed(&mut draw, motions, request, length),
-                Some(_) => Some(draw.next(motions.limits())),
+                Some(_) => Some(motions.sample(&mut draw)),
                 None => Some(sample(&mut draw, motions, request.goal, self.goal_share)),
             };
             let Some(sample) = sample else { continue };
@@ -200,9 +220,7 @@ fn insert(motions: &mut Motions<'_>, costs: &mut Costs, nearest: u32, config: &[
 
 impl Planner for RrtStar {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
-        let mut motions = posed(request)?;
-        let found = self.search(&mut motions, request);
-        Ok(plan(request, &motions, found, true))
+        planned(request, true, |motions| self.search(motions, request))
     }
 
     fn is_optimal(&self) -> bool {
@@ -215,5 +233,44 @@ impl Planner for RrtStar {
 
     fn draws(&self) -> bool {
         self.sampler == DrawSetting::Seeded || self.goal_share > 0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::World;
+    use crate::space::roadmap::{Counted, Local, Near, PlaneMap, Roadmap};
+
+    #[test]
+    fn informed_samples_are_even_within_the_limits_and_on_no_longer_way() {
+        let local = Local::Plane(PlaneMap::new([100.0, 100.0], Vec::new()));
+        let roadmap = Roadmap::build(local, Vec::new(), Near::Places(0.0), Counted::Accepted);
+        let world = World::Roadmap(Box::new(roadmap));
+        let (start, goal) = ([20.0, 5.0], [80.0, 20.0]);
+        let request =
+            Request { world: &world, start: &start, goal: &goal, expansions: 1, seed: 1, trace: false };
+        let motions = Motions::new(super::super::sampled::local(&request));
+        // From a sliver of the square to nearly all of it.
+        for length in [62.5, 70.0, 100.0, 140.0] {
+            let mut draw = Draw::new(DrawSetting::Seeded, 11);
+            let way = |at: &[f64]| motions.distance(&start, at) + motions.distance(at, &goal);
+            let is_within =
+                |at: &Vec<f64>| at.iter().all(|x| (0.0..=100.0).contains(x)) && way(at) <= length + 0.2;
+            let samples: Vec<_> =
+                (0..4000).filter_map(|_| informed(&mut draw, &motions, &request, length)).collect();
+            assert_eq!(samples.len(), 4000, "seed 11, {length} mm: each draw gives one");
+            assert!(samples.iter().all(is_within), "seed 11, {length} mm");
+            let everywhere = std::iter::repeat_with(|| motions.sample(&mut draw));
+            let kept: Vec<_> = everywhere.filter(|at| way(at) <= length).take(4000).collect();
+            for (axis, middle) in [(0, 50.0), (1, 12.5), (1, 40.0)] {
+                let below = |points: &[Vec<f64>]| points.iter().filter(|at| at[axis] < middle).count();
+                let [below, known] = [&samples, &kept].map(|points| below(points));
+                assert!(
+                    below.abs_diff(known) < 160,
+                    "seed 11, {length} mm: {below} and {known} below {middle}"
+                );
+            }
+        }
     }
 }

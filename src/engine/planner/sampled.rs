@@ -44,8 +44,25 @@ impl Found {
     }
 }
 
+/// The plan of what `search` finds; where the start is the goal, nothing is searched.
+pub(super) fn planned(
+    request: &Request<'_>,
+    improves: bool,
+    search: impl FnOnce(&mut Motions<'_>) -> Found,
+) -> Result<Plan, Invalid> {
+    let mut motions = posed(request)?;
+    let found = if request.start == request.goal {
+        let mut found = Found { path: vec![request.start.to_vec(); 2], ..Found::default() };
+        found.note(0.0);
+        found
+    } else {
+        search(&mut motions)
+    };
+    Ok(plan(request, &motions, found, improves))
+}
+
 /// The space of a request, whose ends the robot can be at.
-pub(super) fn posed<'a>(request: &Request<'a>) -> Result<Motions<'a>, Invalid> {
+fn posed<'a>(request: &Request<'a>) -> Result<Motions<'a>, Invalid> {
     let local = local(request);
     for (what, end) in [("start", request.start), ("goal", request.goal)] {
         if let Some(refusal) = local.refusal(end) {
@@ -67,7 +84,7 @@ pub(super) fn claimed(local: &Local, path: &[Vec<f64>]) -> Option<f64> {
 }
 
 /// The plan of what was found; without a path the budget is spent.
-pub(super) fn plan(request: &Request<'_>, motions: &Motions<'_>, found: Found, improves: bool) -> Plan {
+fn plan(request: &Request<'_>, motions: &Motions<'_>, found: Found, improves: bool) -> Plan {
     let local = local(request);
     let is_solved = !found.path.is_empty();
     let mut counts = Counts::from([

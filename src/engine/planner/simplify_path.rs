@@ -70,8 +70,9 @@ impl Stage for SimplifyPath {
         let reduce = self.reduce.unwrap_or(Reduce { tries: 0, empty_tries: 0, range_share: 0.0 });
         let rounds = (self.rounds, &self.operations[..]);
         let short = simplify(&mut motions, &mut draw, plan.path.clone(), rounds, (&bspline, &reduce));
-        // What a finer look refuses is no path; the one that it came from is.
-        if motions.refused_leg(&short).is_none() {
+        // What a finer look refuses is no path, and rounding in the plane may lengthen one; the one that it came from stays then.
+        let is_longer = motions.length(&short) > motions.length(&plan.path);
+        if !is_longer && motions.refused_leg(&short).is_none() {
             plan.path = short;
         }
         plan.cost = claimed(local, &plan.path);

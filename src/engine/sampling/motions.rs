@@ -1,12 +1,13 @@
 //! A robot's configurations as a space: distances, points between, and which straight motions are free.
 
+use super::Draw;
 use crate::space::roadmap::{Local, MotionScratch};
 use std::f64::consts::TAU;
 
 /// How many times as often a path is checked as the motions that it is made of.
 const FINER: f64 = 4.0;
 
-/// The space of a query, which counts what is asked of it.
+/// The space of a query, which counts its checks.
 #[derive(Debug)]
 pub struct Motions<'a> {
     local: &'a Local,
@@ -31,6 +32,16 @@ impl<'a> Motions<'a> {
     /// The least and the greatest value of each coordinate.
     pub fn limits(&self) -> &[[f64; 2]] {
         &self.limits
+    }
+
+    /// The next sample within the limits.
+    pub fn sample(&self, draw: &mut Draw) -> Vec<f64> {
+        self.settled(draw.next(&self.limits))
+    }
+
+    /// A computed configuration as planners may use it: in the plane, the nearest point of the raster.
+    pub fn settled(&self, config: Vec<f64>) -> Vec<f64> {
+        self.local.settled(config)
     }
 
     /// Which coordinates are angles that whole turns part from themselves.
@@ -68,7 +79,7 @@ impl<'a> Motions<'a> {
 
     /// The configuration at a share of the way.
     pub fn between(&self, from: &[f64], to: &[f64], share: f64) -> Vec<f64> {
-        from.iter().zip(self.change(from, to)).map(|(a, by)| a + by * share).collect()
+        self.settled(from.iter().zip(self.change(from, to)).map(|(a, by)| a + by * share).collect())
     }
 
     /// `to`, or what is `range` on the way to it if that is farther.
@@ -77,7 +88,12 @@ impl<'a> Motions<'a> {
         if distance < range { to.to_vec() } else { self.between(from, to, range / distance) }
     }
 
-    /// Whether the straight motion between two configurations, of which the first is free, is free.
+    /// Whether a motion passes the configuration in the middle of its ends.
+    pub fn pass_middles(&self) -> bool {
+        matches!(self.local, Local::Joints(_))
+    }
+
+    /// Whether the straight motion from a free configuration to another is free.
     pub fn goes(&mut self, from: &[f64], to: &[f64]) -> bool {
         self.tried += 1;
         self.local.goes([from, to], 1.0, &mut self.scratch)

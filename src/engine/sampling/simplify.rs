@@ -121,12 +121,20 @@ fn leave_out(motions: &mut Motions<'_>, draw: &mut Draw, path: &mut Vec<Vec<f64>
     changed
 }
 
+/// The middle of a leg, or its first end where the motions over the middle are others than the leg's and not free: middles are rounded
+/// in the plane, and a tool that goes straight does not pass the middle of the joints' change.
+fn halfway(motions: &mut Motions<'_>, [from, to]: [&Vec<f64>; 2]) -> Vec<f64> {
+    let middle = motions.between(from, to, 0.5);
+    let is_free = motions.pass_middles() || motions.goes(from, &middle) && motions.goes(&middle, to);
+    if is_free { middle } else { from.clone() }
+}
+
 fn cut_corners(motions: &mut Motions<'_>, path: &mut Vec<Vec<f64>>, rule: &BSpline) -> bool {
     let mut changed = false;
     for _ in 0..rule.rounds {
         let mut halved = vec![path[0].clone()];
         for leg in path.windows(2) {
-            halved.push(motions.between(&leg[0], &leg[1], 0.5));
+            halved.push(halfway(motions, [&leg[0], &leg[1]]));
             halved.push(leg[1].clone());
         }
         *path = halved;
@@ -148,5 +156,6 @@ fn cut_corners(motions: &mut Motions<'_>, path: &mut Vec<Vec<f64>>, rule: &BSpli
             break;
         }
     }
+    path.dedup();
     changed
 }

@@ -283,7 +283,10 @@ impl Family for Set {
     }
 
     fn cells(&self) -> u64 {
-        1
+        let obstacles = self
+            .problem(0)
+            .map_or(0, |problem| under(&self.support).into_iter().chain(problem.obstacles).count());
+        (self.robot.solids.len() + obstacles) as u64
     }
 
     fn notes(&self) -> Vec<String> {
@@ -321,7 +324,7 @@ impl Family for Absent {
     }
 
     fn cells(&self) -> u64 {
-        1
+        0
     }
 
     fn notes(&self) -> Vec<String> {

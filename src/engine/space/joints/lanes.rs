@@ -76,7 +76,7 @@ enum StillForm {
     Within(f32),
 }
 
-/// Two links of which some spheres must not touch, by their numbers.
+/// Two links, by their numbers, some of whose spheres must not touch.
 #[derive(Debug, Clone)]
 struct LinkPair {
     links: [usize; 2],

@@ -138,3 +138,26 @@ fn few_configurations_are_left_to_the_scalar_code() {
     }
     assert!(doubts < 10, "{doubts} of 4000 configurations in doubt");
 }
+
+/// What is thinner than a step may stand between two configurations that are checked; a finer look meets it.
+#[test]
+fn a_motion_that_slips_past_something_thin_is_refused_by_a_finer_look() {
+    let thin = Solid {
+        name: "thin".to_owned(),
+        pose: Pose { origin_m: [1.1, 0.0, 0.4], ..Pose::IDENTITY },
+        form: Form::Sphere(0.001),
+    };
+    let space = JointSpace::new(of_spheres(), vec![thin], &SelfContact::Unchecked, 0.2);
+    let mut slipped = 0;
+    for case in 0..40 {
+        let mut from = [0.0; 7];
+        from[1] = 0.6 + 0.005 * f64::from(case);
+        let mut to = from;
+        to[1] += 1.6;
+        let mut memory = MotionMemory::default();
+        let mut goes = |finer| space.goes([&from, &to], finer, &mut memory, &mut 0);
+        slipped += u32::from(goes(1.0));
+        assert!(!goes(4.0), "case {case}: the arm passes what is thin");
+    }
+    assert!((10..35).contains(&slipped), "one-sided sample: {slipped} of 40 slipped");
+}

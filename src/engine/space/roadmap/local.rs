@@ -1,6 +1,6 @@
 //! What a roadmap stands on: configurations, their places, and local paths between them.
 
-use super::plane::PlaneMap;
+use super::plane::{PlaneMap, RASTER_MM};
 use crate::kinematics::{AXES, Joint, Joints};
 use crate::space::cell::{Lines, Path, Pose, Rejection, Scratch};
 use crate::space::{JointSpace, MotionMemory};
@@ -140,6 +140,16 @@ impl Local {
             Self::Arm(_) | Self::Plane(_) => {
                 self.refusal(to).is_none()
                     && self.join(&self.node(from), &self.node(to), &mut scratch.paths).is_ok()
+            }
+        }
+    }
+
+    /// A computed configuration as planners may use it: in the plane, the nearest point of the raster.
+    pub fn settled(&self, config: Vec<f64>) -> Vec<f64> {
+        match self {
+            Self::Arm(_) | Self::Joints(_) => config,
+            Self::Plane(_) => {
+                config.into_iter().map(|value| (value / RASTER_MM).round() * RASTER_MM).collect()
             }
         }
     }

@@ -13,7 +13,7 @@ mod tests;
 
 pub use local::{Local, MotionScratch, joints};
 pub use near::Near;
-pub use plane::PlaneMap;
+pub use plane::{PlaneMap, RASTER_MM};
 
 use super::cell::{Rejection, Scratch};
 use local::Node;
