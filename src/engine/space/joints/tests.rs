@@ -59,7 +59,7 @@ fn a_robot_that_folds_onto_itself_is_told_unless_nobody_asks() {
     assert!(JointSpace::new(seven(), Vec::new(), &SelfContact::Unchecked, 0.05).is_free(&folded));
 }
 
-/// The arm of seven joints, the last of which slides and the first of which turns on, with four spheres a link.
+/// The arm of seven joints with four spheres a link; its first joint turns on and its last slides.
 fn of_spheres() -> Robot {
     let robot = seven();
     let sphere = |(link, rod): &(usize, Solid)| {

@@ -129,8 +129,8 @@ impl Local {
         }
     }
 
-    /// Whether the local path between two configurations, at the first of which the robot can be, can be executed; a robot of any number of
-    /// joints is checked `finer` times as often as its step says.
+    /// Whether the local path from a configuration where the robot can be to another can be executed; a robot of any number of joints is
+    /// checked `finer` times as often as its step says.
     pub fn goes(&self, [from, to]: [&[f64]; 2], finer: f64, scratch: &mut MotionScratch) -> bool {
         match self {
             Self::Joints(space) => {
