@@ -174,6 +174,15 @@ impl Node {
         matches!(self.data, Data::List(_))
     }
 
+    /// Whether it holds nothing: no element, no key, no word.
+    pub fn is_empty(&self) -> bool {
+        match &self.data {
+            Data::Word(word) => word.is_empty(),
+            Data::List(elements) => elements.is_empty(),
+            Data::Table(entries) => entries.is_empty(),
+        }
+    }
+
     /// Whether it is a table or a list that holds one.
     pub fn has_tables(&self) -> bool {
         let is_table = |element: &Self| matches!(element.data, Data::Table(_));

@@ -270,7 +270,7 @@ impl From<StudyError> for Failure {
         let code = match &error {
             StudyError::Interrupted { .. } => 130,
             StudyError::Io { .. } | StudyError::Busy { .. } => 1,
-            StudyError::Lacks { .. } => 4,
+            StudyError::Lacks { .. } | StudyError::LacksFiles { .. } => 4,
             _ => 2,
         };
         Self { is_touched: matches!(error, StudyError::Touched(_)), ..Self::new(code, error.to_string()) }

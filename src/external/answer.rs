@@ -5,7 +5,7 @@
 //! it ends in the configuration requested, whatever a study's paths may end in.
 
 use super::clear;
-use super::describe::{RASTER_MM, pose};
+use super::describe::pose;
 use super::message::{Answer, Ask};
 use super::world::Pose;
 use base::grid::{CornerRule, corners_see};
@@ -13,7 +13,7 @@ use engine::geometry::{Frame, Segment, Vec2, Vec3};
 use engine::kinematics::{Arm, Joints};
 use engine::shorten::path_length;
 use engine::space::cell::{EdgeEnd, LineRules, Lines, Path, Scratch};
-use engine::space::roadmap::{Local, joints};
+use engine::space::roadmap::{Local, RASTER_MM, joints};
 use engine::space::{LatticeWorld, World};
 use nalgebra::Matrix3;
 

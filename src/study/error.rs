@@ -71,6 +71,18 @@ pub enum StudyError {
         /// What is missing, and what helps.
         lacks: String,
     },
+    /// A problem group needs files that are not there.
+    #[error(
+        "study `{study}`: problems `{group}` cannot be posed: {lacks}; stored trials stay readable without it"
+    )]
+    LacksFiles {
+        /// The study.
+        study: String,
+        /// The problem group.
+        group: String,
+        /// What is missing, and what helps.
+        lacks: String,
+    },
     /// The study has no trial of this name.
     #[error("study `{study}` has no trial `{trial}`{near}; {hint}")]
     UnknownTrial {

@@ -162,13 +162,15 @@ impl<'a> BuiltStudy<'a> {
             names.push(&at);
         }
         names.push(&number);
+        let family = self.families[interpretation][place].as_ref();
+        let is_numbered = family.numbers_instances();
         Unit {
             terms: &self.terms,
             group,
-            family: self.families[interpretation][place].as_ref(),
+            family,
             point: &self.points[interpretation],
             entrants: self.entrants[interpretation].iter().collect(),
-            seed: seed::derive(self.study.seed, &names),
+            seed: if is_numbered { key.instance.into() } else { seed::derive(self.study.seed, &names) },
             key: Arc::new(key),
             keeps_all: false,
         }
@@ -222,10 +224,10 @@ impl<'a> BuiltStudy<'a> {
         files.map(hash).collect()
     }
 
-    /// That every program is there whose trials are not `done` and not in `parts`.
+    /// That every program and every archive is there whose trials are not `done` and not in `parts`.
     ///
     /// # Errors
-    /// [`StudyError::Lacks`] for the first that is not.
+    /// [`StudyError::Lacks`] or [`StudyError::LacksFiles`] for the first that is not.
     pub fn check_programs(
         &self,
         only: Option<&BTreeSet<usize>>,
@@ -241,6 +243,10 @@ impl<'a> BuiltStudy<'a> {
                 parts.get(&index).is_some_and(|part| part.contenders.contains(&entrant.label))
             };
             for entrant in unit.entrants.iter().filter(|entrant| !stored(entrant)) {
+                if let Some(lacks) = unit.family.lacks() {
+                    let (study, group) = (self.study.name.clone(), unit.group.label.clone());
+                    return Err(StudyError::LacksFiles { study, group, lacks });
+                }
                 if let Some(lacks) = entrant.pipeline.planner.lacks() {
                     let study = self.study.name.clone();
                     let contender = entrant.contender.label.clone();

@@ -198,7 +198,7 @@ impl Reader<'_> {
     }
 
     /// The pose, which is noted if its quaternion was not of length 1.
-    fn unit(self, (pose, was_rounded): (Pose, bool)) -> Pose {
+    pub(super) fn unit(self, (pose, was_rounded): (Pose, bool)) -> Pose {
         if was_rounded {
             self.note("quaternions of few digits were made those of length 1".to_owned());
         }

@@ -72,6 +72,16 @@ pub trait Family: Send + Sync {
         None
     }
 
+    /// Whether it holds a problem for each instance: the seed of an instance is then its number.
+    fn numbers_instances(&self) -> bool {
+        false
+    }
+
+    /// What must be installed before its problems can be posed; `None` if nothing must.
+    fn lacks(&self) -> Option<String> {
+        None
+    }
+
     /// Whether starts or goals are drawn with each instance.
     fn draws_ends(&self) -> bool {
         false

@@ -11,6 +11,7 @@ mod ends;
 mod entry;
 mod grid_map;
 mod input;
+mod joint_problems;
 mod joint_queries;
 mod movingai;
 mod overlay;
@@ -31,6 +32,7 @@ pub static REGISTRY: &[&Entry] = &[
     &cell_queries::ENTRY,
     &conditioned::ENTRY,
     &grid_map::ENTRY,
+    &joint_problems::ENTRY,
     &joint_queries::ENTRY,
     &movingai::ENTRY,
     &plane_queries::ENTRY,

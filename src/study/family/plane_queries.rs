@@ -13,7 +13,7 @@ use engine::geometry::planar::ConvexPolygon;
 use engine::kinematics::FARTHEST_MM;
 use engine::planner::{Invalid, Trace};
 use engine::space::WorldKind;
-use engine::space::roadmap::{Counted, Extent, Local, Near, PlaneMap, Sample};
+use engine::space::roadmap::{Counted, Extent, Local, Near, PlaneMap, RASTER_MM, Sample};
 use rand::RngExt as _;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -67,9 +67,6 @@ radius_mm = 220
         Ok::<Box<dyn Family>, StudyError>(Box::new(drawn))
     },
 };
-
-/// Samples lie on this raster, on which the verifier is exact.
-const RASTER_MM: f64 = 1.0 / 16.0;
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -7,7 +7,7 @@ use super::{cases, count, fault, is_located};
 use crate::external::law;
 use crate::paper::Bench;
 use base::grid::{parse_movingai_map, parse_scenarios, parse_text_map, read_map};
-use base::problem::{Expected, parse_problem};
+use base::problem::{Expected, ProblemFile};
 use base::robot::{Robot, parse_srdf, parse_urdf, read_urdf};
 use base::seed::{self, Stream};
 use base::settings::Document;
@@ -200,7 +200,8 @@ fn files<'a>(folder: &'a Path, robots: &'a [Robot; 2]) -> Vec<Door<'a>> {
     let problem = move |document: &Arc<Document>| {
         let joints = panda.joints.iter().map(|joint| joint.name.as_str()).collect();
         let expected = Expected { robot: &panda.name, joints };
-        parse_problem(document, None, 0, Some(&expected)).map(drop).map_err(|error| shown(&error))
+        let file = ProblemFile::parse(document.clone()).map_err(|error| shown(&error))?;
+        file.problem(None, 0, Some(&expected)).map(drop).map_err(|error| shown(&error))
     };
     let robot = move |document: &Arc<Document>| parse_urdf(document).map(drop).map_err(|error| shown(&error));
     let map = move |path: &Path| read_map(path).map(drop).map_err(|error| shown(&error));

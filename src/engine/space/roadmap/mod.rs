@@ -11,9 +11,9 @@ mod plane;
 #[cfg(test)]
 mod tests;
 
-pub use local::{Local, joints};
+pub use local::{Local, MotionScratch, joints};
 pub use near::Near;
-pub use plane::PlaneMap;
+pub use plane::{PlaneMap, RASTER_MM};
 
 use super::cell::{Rejection, Scratch};
 use local::Node;
