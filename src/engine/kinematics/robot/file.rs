@@ -188,7 +188,7 @@ fn tool_length_m(source: &Source, length_mm: &Spanned<f64>) -> Result<f64, Setti
         let message = format!("tool.length_mm is {found}; accepted: 0 (no tool) or more");
         return Err(source.fault(&length_mm.span(), message));
     }
-    // Tools of so few millimetres are none, and few tools are longer in metres.
+    // No tool is shorter than 2 mm, and few are longer than 2 m.
     if (f64::MIN_POSITIVE..2.0).contains(&found) {
         let message = format!("tool.length_mm is {found}; {}", in_metres(found, "is it"));
         return Err(source.fault(&length_mm.span(), message));
@@ -196,15 +196,15 @@ fn tool_length_m(source: &Source, length_mm: &Spanned<f64>) -> Result<f64, Setti
     Ok(1e-3 * found)
 }
 
-/// The longest link of an arm, and the body around it, are longer.
+/// The longest link of an arm and its body are longer.
 const SHORT_MM: f64 = 10.0;
 
-/// The end of the question about a length that seems to be in metres.
+/// Asks whether a length is in metres, for the end of a message.
 fn in_metres(found: f64, asked: &str) -> String {
     format!("{asked} in metres? millimetres are accepted ({found} m is {} mm)", found * 1e3)
 }
 
-/// The question about a body whose capsules along links are all smaller than an arm.
+/// Asks whether a body is in metres: none of its capsules on links reaches as far as an arm does.
 fn body_in_metres(source: &Source, entry: &BodyEntry) -> Option<SettingsError> {
     let size = |capsule: &Spanned<CapsuleEntry>| {
         let CapsuleEntry { from_mm, to_mm, radius_mm, .. } = capsule.get_ref();
