@@ -1,11 +1,17 @@
 //! Files of planning problems as benchmarks share them: solids around a robot, a start, and goals, all in metres and radians.
 //!
-//! Two forms are read, in YAML or JSON. Robometrics: problem sets by name, each a list of problems with `obstacles` (`cuboid` with
-//! `dims` and `pose`, `cylinder` with `radius`, `height` and `pose`, `sphere` with `radius` and `position` or `pose`), `start` and
-//! `goal_ik`; a pose is x, y, z and the quaternion w, x, y, z. VAMP's `MotionBenchMaker` problems: the sets stand under `problems`,
-//! beside the name of the `robot` and those of its `joints`; a problem has `box` (`position`, `orientation_euler_xyz` about fixed axes,
-//! `half_extents`), `cylinder` and `sphere` lists, `start`, `goals` and whether it is `valid`. A key that is neither read nor in the
-//! table of ignored keys is refused if it may be an obstacle or is nearly one that is read, and noted otherwise.
+//! Two forms are read, in YAML or JSON.
+//!
+//! Robometrics: problem sets by name, each a list of problems with `obstacles`, `start` and `goal_ik`. Obstacles are `cuboid` with
+//! `dims` and `pose`, `cylinder` with `radius`, `height` and `pose`, `sphere` with `radius` and `position` or `pose`. A pose is
+//! x, y, z and the quaternion w, x, y, z.
+//!
+//! VAMP's `MotionBenchMaker` problems: the sets stand under `problems`, beside the name of the `robot` and those of its `joints`.
+//! A problem has `box` (`position`, `orientation_euler_xyz` about fixed axes, `half_extents`), `cylinder` and `sphere` lists,
+//! `start`, `goals` and whether it is `valid`.
+//!
+//! A key that is neither read nor in the table of ignored keys is refused if it may be an obstacle or is nearly one that is read,
+//! and noted otherwise.
 //!
 //! Source: `resources/problem_tar_to_pkl_json.py` of `KavrakiLab/vamp`, which writes the second form and skips what is not valid.
 

@@ -257,11 +257,14 @@ mod tests {
     #[test]
     fn what_is_deep_or_long_is_refused_with_a_short_message() {
         for opening in ["- ", "{a: ", "["] {
-            let said = refusal(opening.repeat(100_000));
-            assert!(said.starts_with("deep.yaml:1:") && said.len() < 1000, "{opening}: {said:.1000}");
+            let message = refusal(opening.repeat(100_000));
+            assert!(
+                message.starts_with("deep.yaml:1:") && message.len() < 1000,
+                "{opening}: {message:.1000}"
+            );
         }
         let long = "x".repeat(1000);
-        let said = refusal(format!("{long}: 1\n{long}: 2\n"));
-        assert!(said.contains("is given twice") && said.len() < 500, "{said:.1000}");
+        let message = refusal(format!("{long}: 1\n{long}: 2\n"));
+        assert!(message.contains("is given twice") && message.len() < 500, "{message:.1000}");
     }
 }

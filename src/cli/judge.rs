@@ -96,11 +96,11 @@ pub fn must_hold(verdicts: &Verdicts) -> Result<(), Failure> {
 /// Refuses verdicts that rest on an exploration that is gone.
 fn check_explorations(stored: &Verdicts, places: &Places) -> Result<(), Failure> {
     let Some(explored) = &stored.explored else { return Ok(()) };
-    for (is_told, path, command) in [
+    for (is_used, path, command) in [
         (explored.interpretations > 0, Exploration::first(&places.runs), "explore"),
         (explored.second_seed, Exploration::second(&places.runs), "confirm"),
     ] {
-        if is_told && !path.exists() {
+        if is_used && !path.exists() {
             let path = path.display();
             let paper = &stored.paper;
             let message = format!(

@@ -119,15 +119,15 @@ impl Process {
         let stdout = child.stdout.take();
         let stderr = child.stderr.take();
         let (to, lines) = channel();
-        let (said, from) = sync_channel(WAITING_LINES);
+        let (sender, from) = sync_channel(WAITING_LINES);
         let written = Arc::new(AtomicU64::new(0));
         let log = Arc::default();
         let count = written.clone();
         let tail = Arc::clone(&log);
         let most = program.limits.output_mb << 20;
-        let piped = "its pipes were asked for";
+        let piped = "its pipes were requested";
         thread::spawn(move || write_lines(stdin.expect(piped), &lines));
-        thread::spawn(move || read_lines(stdout.expect(piped), &said, &count, most));
+        thread::spawn(move || read_lines(stdout.expect(piped), &sender, &count, most));
         thread::spawn(move || read_log(stderr.expect(piped), &tail));
         Ok(Self { child, mark, to: Some(to), from, written, log, hello: None })
     }
@@ -285,7 +285,7 @@ fn write_lines(mut stdin: ChildStdin, lines: &Receiver<String>) {
     }
 }
 
-fn read_lines(stdout: ChildStdout, said: &SyncSender<PlannerOutput>, written: &AtomicU64, most: u64) {
+fn read_lines(stdout: ChildStdout, sender: &SyncSender<PlannerOutput>, written: &AtomicU64, most: u64) {
     let mut reader = BufReader::new(stdout);
     let mut line = Vec::new();
     loop {
@@ -300,17 +300,17 @@ fn read_lines(stdout: ChildStdout, said: &SyncSender<PlannerOutput>, written: &A
         line.extend_from_slice(&chunk[..used]);
         reader.consume(used);
         if written.fetch_add(used as u64, Ordering::Relaxed) + used as u64 > most {
-            let _ = said.send(PlannerOutput::Flood);
+            let _ = sender.send(PlannerOutput::Flood);
             return;
         }
         if end.is_some() {
             let whole = std::mem::take(&mut line);
-            if !whole.trim_ascii().is_empty() && said.send(PlannerOutput::Line(whole)).is_err() {
+            if !whole.trim_ascii().is_empty() && sender.send(PlannerOutput::Line(whole)).is_err() {
                 return;
             }
         }
     }
-    let _ = said.send(PlannerOutput::End);
+    let _ = sender.send(PlannerOutput::End);
 }
 
 fn read_log(mut stderr: ChildStderr, log: &Mutex<VecDeque<u8>>) {

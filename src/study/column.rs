@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 /// What a column holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// A count.
+    /// A whole number of 0 or more.
     Count,
     /// A measured quantity.
     Real,
@@ -16,7 +16,7 @@ pub enum Kind {
 /// A column of numbers.
 #[derive(Debug)]
 pub struct Column {
-    /// Its name.
+    /// Its name in records, which ends in the unit of a measured quantity.
     pub name: &'static str,
     /// What it holds.
     pub kind: Kind,

@@ -122,9 +122,9 @@ impl Keeps {
 /// What of a run is stored, by the number of the unit.
 #[derive(Default)]
 pub struct Reusable {
-    /// Units of which everything is stored.
+    /// Units that are stored whole.
     pub units: BTreeMap<usize, Batch>,
-    /// Units of which some contenders' trials are.
+    /// Units with the trials of some contenders only.
     pub parts: BTreeMap<usize, Part>,
     /// The contenders of each of these units whose traces are stored; of all in a task that does without contenders.
     pub traces: BTreeMap<usize, Option<BTreeSet<Text>>>,
@@ -166,7 +166,7 @@ impl Reusable {
         found
     }
 
-    /// Notes what is stored of a unit of which `same` of so many contenders have not changed.
+    /// Notes what is stored of a unit; of its so many `contenders` those in `same` have not changed.
     fn put(
         &mut self,
         built: &BuiltStudy<'_>,
@@ -191,7 +191,7 @@ impl Reusable {
         }
     }
 
-    /// How many trials are stored of units of which others are not.
+    /// How many trials are stored of units that are not stored whole.
     pub fn kept(&self) -> usize {
         self.parts.values().map(|part| part.stored.rows.len()).sum()
     }

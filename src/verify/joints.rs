@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn paths_that_are_not_what_was_asked_are_refused() {
+    fn paths_that_are_not_what_was_wanted_are_refused() {
         assert!(judged(&[], &[0.0, 2.5]).unwrap_err().contains("joint 1 is outside its limits at 2.0"));
         assert_eq!(
             judged(&[ball(0.0, 0.5)], &[0.0, 1.0]).unwrap_err(),

@@ -173,8 +173,8 @@ impl Toy {
     }
 }
 
-pub fn pair(verdict: &str, said: &str) -> (String, String) {
-    (verdict.to_owned(), said.to_owned())
+pub fn pair(verdict: &str, counts: &str) -> (String, String) {
+    (verdict.to_owned(), counts.to_owned())
 }
 
 /// What stands beside a claim that the weight turns.
@@ -255,7 +255,7 @@ fn a_sentence_that_repeats_a_number_which_the_study_was_fitted_to_is_fitted() {
 }
 
 #[test]
-fn where_nothing_is_compatible_all_voting_readings_are_judged_and_it_is_said() {
+fn where_nothing_is_compatible_all_voting_options_are_judged_and_this_is_reported() {
     let toy = Toy::new(&[CITED, FITTED, ("printed = \"4\"", "printed = \"7\"")]);
     toy.0.done(&["confirm", "./toy"]);
     assert_eq!(toy.class_and_across("fewer").1, ON_HURRY);
@@ -313,8 +313,8 @@ fn a_calibration_claim_takes_the_best_fit_of_all_and_does_not_vote_where_the_oth
 fn what_changed_after_an_exploration_is_stale_and_judged_under_the_default_alone() {
     let toy = Toy::new(&[]);
     toy.0.edit("toy/paper.toml", "printed = \"24\"", "printed = \"23\"");
-    let said = toy.0.done(&["judge", "./toy"]);
-    assert!(said.contains("1 claim is judged under the default interpretation alone"), "{said}");
+    let output = toy.0.done(&["judge", "./toy"]);
+    assert!(output.contains("1 claim is judged under the default interpretation alone"), "{output}");
     assert_eq!(toy.claim("witness").across, None);
     assert!(toy.claim("fewer").across.is_some());
     toy.0.edit("toy/draws.toml", "expansions = 10_000", "expansions = 9_999");
@@ -339,9 +339,13 @@ fn an_exploration_that_was_edited_is_refused_until_it_is_made_again() {
         packed.write_all(wrong.as_bytes()).unwrap();
         fs::write(&path, packed.finish().unwrap()).unwrap();
         for (command, code) in [(&["judge", "./toy", "--check"][..], 3), (&["judge", "./toy"], 2)] {
-            let said = toy.0.run(command);
-            assert_eq!(said.code, Some(code), "{}", said.err);
-            assert!(said.err.contains("explored.toml.gz: is not what replan wrote: edited"), "{}", said.err);
+            let output = toy.0.run(command);
+            assert_eq!(output.code, Some(code), "{}", output.err);
+            assert!(
+                output.err.contains("explored.toml.gz: is not what replan wrote: edited"),
+                "{}",
+                output.err
+            );
         }
     }
     fs::write(&path, whole).unwrap();
@@ -353,8 +357,8 @@ fn exploring_once_more_runs_nothing_and_writes_the_same_bytes() {
     let toy = Toy::new(&[CITED]);
     let path = toy.0.at(RUNS).join("explored.toml.gz");
     let before = fs::read(&path).unwrap();
-    let said = toy.0.run(&["explore", "./toy"]);
-    assert!(!said.err.contains("trials:"), "{}", said.err);
+    let output = toy.0.run(&["explore", "./toy"]);
+    assert!(!output.err.contains("trials:"), "{}", output.err);
     assert!(fs::read(&path).unwrap() == before, "another exploration");
 }
 
@@ -362,22 +366,26 @@ fn exploring_once_more_runs_nothing_and_writes_the_same_bytes() {
 fn a_budget_without_room_and_votes_without_sources_are_refused_where_they_stand() {
     let toy = Toy::new(&[]);
     toy.0.edit("toy/paper.toml", "trials = 100_000", "trials = 10");
-    let said = toy.0.run(&["explore", "./toy"]);
-    assert_eq!(said.code, Some(2));
-    assert!(said.err.contains("./toy/paper.toml:7:10: the defaults and every other option"), "{}", said.err);
+    let output = toy.0.run(&["explore", "./toy"]);
+    assert_eq!(output.code, Some(2));
+    assert!(
+        output.err.contains("./toy/paper.toml:7:10: the defaults and every other option"),
+        "{}",
+        output.err
+    );
     toy.0.edit("toy/paper.toml", "paper = \"section 1: the weight is three\"", "");
     toy.0.edit("toy/paper.toml", "[choice.option.none]", "[choice.option.none]\npractice = \"x\"");
-    let said = toy.0.run(&["check", "./toy"]);
-    assert!(said.err.contains("the default `three` needs `paper` or `practice`"), "{}", said.err);
+    let output = toy.0.run(&["check", "./toy"]);
+    assert!(output.err.contains("the default `three` needs `paper` or `practice`"), "{}", output.err);
 }
 
 #[test]
 fn a_finding_that_asks_alone_gets_the_least_and_the_greatest_number_over_readings() {
-    let asked = "[explore]\nsample = 20";
+    let explored = "[explore]\nsample = 20";
     let report = "[report]\nfindings = [\"{fewer:percents}\"]\n\n[explore]\nsample = 20";
     let hurried = "[choice.option.none]\nstage.astar = { weight = 0 }";
     let voting = "[choice.option.none]\npaper = \"section 1\"\nstage.astar = { weight = 0 }";
-    let toy = Toy::new(&[(asked, report), (hurried, voting)]);
+    let toy = Toy::new(&[(explored, report), (hurried, voting)]);
     let own = &toy.stored("explored.toml.gz").claims["fewer"];
     let numbers: Vec<f64> = own.results.iter().skip(1).filter_map(|result| result.value).collect();
     let default = toy.claim("fewer").ours().unwrap().value;

@@ -364,8 +364,8 @@ fn stages_keep_ends_and_truth_without_lengthening() {
             better += usize::from(follows || now < before - 1e-9);
         }
         let is_off = is_among(OFF, entry, settings) || COUNTING.contains(&entry.name);
-        let is_as_told = if is_off { better == 0 } else { better * 4 > solved };
-        assert!(is_as_told, "{name}: {better} paths of {solved} were tidied");
+        let is_as_expected = if is_off { better == 0 } else { better * 4 > solved };
+        assert!(is_as_expected, "{name}: {better} paths of {solved} were tidied");
     }
     let excepted = [names(DRIFT), FOLLOWING.iter().copied().collect(), names(CUT_IN)];
     assert_eq!([drifted, gave_up, cut_in], excepted, "an exception that nothing needs is to be taken out");

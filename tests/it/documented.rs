@@ -208,15 +208,15 @@ fn builds_somewhere(
     build: &dyn Fn(&Context<'_>) -> Result<(), SettingsError>,
 ) {
     let settings = example(item);
-    let mut said = BTreeSet::new();
+    let mut errors = BTreeSet::new();
     let builds = papers.iter().any(|paper| {
         let point = Interpretation::new(&paper.choices, &BTreeMap::new()).unwrap();
         paper.claims.iter().any(|claim| {
             let context = Context { claim, settings: &settings, paper, point: &point };
-            build(&context).map_err(|error| said.insert(error.to_string())).is_ok()
+            build(&context).map_err(|error| errors.insert(error.to_string())).is_ok()
         })
     });
-    assert!(builds, "{}: {said:?}", item.name);
+    assert!(builds, "{}: {errors:?}", item.name);
 }
 
 #[test]
@@ -238,14 +238,14 @@ fn every_example_of_a_figure_builds_in_a_committed_paper() {
     for item in catalogue::figures() {
         let entry = figure::find(item.name).unwrap();
         let settings = example(&item);
-        let mut said = BTreeSet::new();
+        let mut errors = BTreeSet::new();
         let builds = papers.iter().any(|paper| {
             paper.studies.iter().any(|study| {
                 let built = (entry.build)(&settings, study, paper);
-                built.map_err(|error| said.insert(error.to_string())).is_ok()
+                built.map_err(|error| errors.insert(error.to_string())).is_ok()
             })
         });
-        assert!(builds, "{}: {said:?}", item.name);
+        assert!(builds, "{}: {errors:?}", item.name);
     }
 }
 

@@ -198,10 +198,10 @@ fn without_its_program_a_run_says_what_to_install_and_stored_trials_stay_readabl
     let study =
         STUDY.to_owned() + &contender("theirs", program, "[]").replace("a shell", "pip install theirs");
     bench.write("outside/study.toml", study.as_bytes());
-    let said = bench.run(&["run", "./outside", "--trust"]);
-    assert_eq!(said.code, Some(4), "{}", said.err);
+    let output = bench.run(&["run", "./outside", "--trust"]);
+    assert_eq!(output.code, Some(4), "{}", output.err);
     let lacks = "contender `theirs` cannot run: there is no program `./outside/planner`; to install: pip install theirs";
-    assert!(said.err.contains(lacks), "{}", said.err);
+    assert!(output.err.contains(lacks), "{}", output.err);
     let good = CASES.iter().find(|case| case.name == "good").unwrap();
     bench.write("outside/planner", format!("{PRELUDE}{}\n", good.script).as_bytes());
     let mut mode = fs::metadata(bench.at("outside/planner")).unwrap().permissions();
@@ -236,13 +236,18 @@ fn conformance_keeps_count_of_what_is_broken_and_its_exit_code_says_so() {
             "BROKEN  query 1 ends in time: 2 s were not enough; it wrote nothing: an output that is buffered",
         ),
     ] {
-        let said = bench.run(&["conformance", "--", "sh", &format!("outside/{name}.sh")]);
-        assert!(said.out.contains(broken), "{name}: should say {broken}\nsays {}{}", said.out, said.err);
-        assert_eq!(said.code, Some(3), "{name}: {}", said.err);
+        let output = bench.run(&["conformance", "--", "sh", &format!("outside/{name}.sh")]);
+        assert!(
+            output.out.contains(broken),
+            "{name}: should say {broken}\nsays {}{}",
+            output.out,
+            output.err
+        );
+        assert_eq!(output.code, Some(3), "{name}: {}", output.err);
     }
     let honest = r#"hello; query; printf '{"type":"result","id":%s,"status":"no_path"}\n' "$id"; query"#;
     bench.write("outside/honest.sh", format!("{PRELUDE}{honest}\n").as_bytes());
-    let said = bench.run(&["conformance", "--", "sh", "outside/honest.sh"]);
-    assert!(said.out.contains("BROKEN  some query is solved: none was"), "{}", said.out);
+    let output = bench.run(&["conformance", "--", "sh", "outside/honest.sh"]);
+    assert!(output.out.contains("BROKEN  some query is solved: none was"), "{}", output.out);
     assert_eq!(bench.run(&["conformance", "--", "./no/such/planner"]).code, Some(4));
 }

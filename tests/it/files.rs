@@ -136,8 +136,11 @@ fn joints_move_as_their_urdf_file_means_and_go_where_the_problem_file_names_them
         groups += &joint_group(arm.name);
     }
     bench.write("files/arms.toml", study(&groups, &format!("{STRAIGHT}\n{ON_A_ROADMAP}")).as_bytes());
-    let said = bench.done(&["check", "./files"]);
-    assert!(said.contains("invalid.json: the set calls problem 0 invalid; it is counted as such"), "{said}");
+    let output = bench.done(&["check", "./files"]);
+    assert!(
+        output.contains("invalid.json: the set calls problem 0 invalid; it is counted as such"),
+        "{output}"
+    );
     bench.done(&["run", "./files"]);
     let (_, records) = reuse::stored(&bench.at("target/replan/files/data/runs/files"), "arms").unwrap();
     for arm in ARMS {
@@ -155,7 +158,7 @@ fn joints_move_as_their_urdf_file_means_and_go_where_the_problem_file_names_them
                 let most = if arm.low == "continuous" { 180.0 } else { 720.0 };
                 assert!((travel_deg - 1e-9..most).contains(&longer_deg), "{}: {longer_deg}", arm.name);
             }
-            Err(said) => assert!(reason.starts_with(said), "{}: {reason}", arm.name),
+            Err(output) => assert!(reason.starts_with(output), "{}: {reason}", arm.name),
         }
     }
 }
@@ -203,11 +206,11 @@ fn an_srdf_file_decides_which_links_are_held_against_each_other() {
     };
     srdf(&[["foot", "shin"], ["shin", "hand"]]);
     let refused = bench.run(&["check", "./files"]).err;
-    let said = "the goal cannot be posed: parts `foot` and `hand` are in contact";
-    assert!(refused.contains(said), "should say {said}\nsays {refused}");
+    let expected = "the goal cannot be posed: parts `foot` and `hand` are in contact";
+    assert!(refused.contains(expected), "should say {expected}\nsays {refused}");
     srdf(&[["foot", "shin"], ["hand", "foot"], ["tail", "foot"]]);
-    let said = bench.done(&["check", "./files"]);
-    assert!(said.contains("fold.srdf: no solid stands for the links `tail` of its pairs"), "{said}");
+    let expected = bench.done(&["check", "./files"]);
+    assert!(expected.contains("fold.srdf: no solid stands for the links `tail` of its pairs"), "{expected}");
     bench.edit("files/arms.toml", "self_collision = true", "self_collision = false");
     let refused = bench.run(&["check", "./files"]).err;
     assert!(refused.contains("srdf says which links may touch, and self_collision is false"), "{refused}");
@@ -248,8 +251,8 @@ fn a_goal_that_is_the_start_and_one_without_a_way_are_queries_like_any_other_in_
         "files/grids.toml",
         study(HERE, "label = \"A*\"\nplanner = \"astar\"\nsettings = { weight = 1 }").as_bytes(),
     );
-    let said = bench.done(&["check", "./files"]);
-    assert!(said.contains("room.scen: 1 of its queries have no path, it says"), "{said}");
+    let output = bench.done(&["check", "./files"]);
+    assert!(output.contains("room.scen: 1 of its queries have no path, it says"), "{output}");
     bench.done(&["run", "./files"]);
     let (_, records) = reuse::stored(&bench.at("target/replan/files/data/runs/files"), "grids").unwrap();
     let rows = records.batch.rows;

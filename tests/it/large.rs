@@ -43,9 +43,9 @@ fn a_study_beyond_the_limits_is_refused_by_every_command_that_runs_and_runs_wher
         ] {
             let refused = bench.run(command);
             assert_eq!(refused.code, Some(2), "{to}: {command:?}: {}{}", refused.out, refused.err);
-            let is_told =
+            let is_reported =
                 refused.err.contains(excess) && refused.err.contains("`--allow-large` accepts that");
-            assert!(is_told, "{to}: {command:?}: {}", refused.err);
+            assert!(is_reported, "{to}: {command:?}: {}", refused.err);
         }
         assert!(!bench.at("target").exists() && !bench.at("parts").exists(), "{to}: something was written");
         bench.done(&["check", "./mini", "--allow-large"]);

@@ -87,7 +87,7 @@ fn no_damaged_spec_robot_scene_or_map_panics_and_every_refusal_says_where() {
 #[test]
 fn sizes_that_cannot_be_meant_are_refused_with_their_limit() {
     let subject = Subject::of_committed_papers();
-    for (file, from, to, said) in [
+    for (file, from, to, expected) in [
         (
             "zhang/ensemble.toml",
             "instances = 200",
@@ -131,7 +131,7 @@ fn sizes_that_cannot_be_meant_are_refused_with_their_limit() {
         assert!(text.contains(from), "{file} does not hold `{from}`");
         let refused = fault(|| {
             let refused = subject.read(index, text.replacen(from, to, 1).as_bytes());
-            assert!(refused.as_ref().is_err_and(|e| e.contains(said)), "{to}: {refused:?}");
+            assert!(refused.as_ref().is_err_and(|e| e.contains(expected)), "{to}: {refused:?}");
             refused
         });
         assert_eq!(refused, Ok(false), "{to}");

@@ -22,7 +22,7 @@ pub struct FileMap {
 /// The map in the file at `path`: an image (`.png`, `.pgm`), a ROS map (`.yaml`), a Moving AI map (`.map`), or a text map.
 ///
 /// # Errors
-/// [`GridError::InFile`] or [`GridError::Told`] around what is wrong.
+/// [`GridError::InFile`] or [`GridError::Reported`] around what is wrong.
 pub fn read_map(path: &Path) -> Result<FileMap, GridError> {
     let ending = path.extension().map(|end| end.to_string_lossy().to_lowercase()).unwrap_or_default();
     let alone = |grid: Grid2| FileMap { grid, files: vec![path.to_owned()], notes: Vec::new() };
@@ -49,7 +49,7 @@ pub fn read_map(path: &Path) -> Result<FileMap, GridError> {
 
 /// The ROS map whose YAML file is at `path`, and both of its files.
 fn read_ros_map(path: &Path) -> Result<FileMap, GridError> {
-    let head = Head::read(path).map_err(|error| GridError::Told { said: error.to_string() })?;
+    let head = Head::read(path).map_err(|error| GridError::Reported { message: error.to_string() })?;
     let image = Image::open(&head.image)?;
     let grid = grid(&head.image, &image, |pixel| head.is_free(pixel.bright_with_opacity))?;
     let notes = head.notes(&image);
@@ -178,9 +178,9 @@ mod tests {
             let kept = read(&head.replace("negate: 0", &format!("negate: {word}"))).unwrap();
             assert_eq!(free(&kept.grid), free(&grid), "{word}");
         }
-        for (from, to, said) in WRONG_HEADS {
+        for (from, to, expected) in WRONG_HEADS {
             let error = read(&head.replace(from, to)).unwrap_err();
-            assert!(error.contains(said), "should say {said}\nsays {error}");
+            assert!(error.contains(expected), "should say {expected}\nsays {error}");
         }
     }
 

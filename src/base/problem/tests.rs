@@ -60,8 +60,8 @@ fn both_forms_of_a_problem_read_the_same() {
 #[test]
 fn obstacles_of_a_kind_that_is_not_known_are_not_passed_over() {
     let error = read(&VAMP.replacen("\"sphere\":", "\"capsule\":", 1), None, 0).unwrap_err();
-    let said = "p.json:5:18: obstacles are `capsule`; box, cylinder, sphere are accepted";
-    assert!(error.contains(said), "should say {said}\nsays {error}");
+    let expected = "p.json:5:18: obstacles are `capsule`; box, cylinder, sphere are accepted";
+    assert!(error.contains(expected), "should say {expected}\nsays {error}");
     let kept = VAMP.replacen("\"index\": 1", "\"valid\": true, \"tags\": [1, 2]", 1);
     let kept = read(&kept, None, 0).unwrap();
     assert_eq!((kept.obstacles.len(), kept.notes), (3, vec!["`tags` is not known and not used".to_owned()]));
@@ -130,19 +130,19 @@ const WRONG: &[(&str, &str, &str)] = &[
 ];
 
 #[test]
-fn what_is_wrong_with_a_problem_is_told_at_its_place() {
-    for (from, to, said) in WRONG {
+fn what_is_wrong_with_a_problem_is_reported_at_its_place() {
+    for (from, to, expected) in WRONG {
         let text = ROBOMETRICS.replace("- - [0.1, 0.2]", "- [0.1, 0.2]");
         assert!(text.contains(*from), "{from}");
         let error = read(&text.replace(*from, to), None, 1).unwrap_err();
-        assert!(error.contains(said), "{to}: should say {said}\nsays {error}");
+        assert!(error.contains(expected), "{to}: should say {expected}\nsays {error}");
     }
-    for (set, index, said) in [
+    for (set, index, expected) in [
         (Some("shelf"), 0, "p.json:1:1: there is no `shelf`; found are `shelf_panda`"),
         (None, 2, "p.json:2:3: problem 2 is requested; the set has 2, counted from 0"),
     ] {
         let error = read(ROBOMETRICS, set, index).unwrap_err();
-        assert!(error.contains(said), "should say {said}\nsays {error}");
+        assert!(error.contains(expected), "should say {expected}\nsays {error}");
     }
 }
 
@@ -168,12 +168,14 @@ const NAMED: &[(&str, Result<[f64; 2], &str>)] = &[
 
 #[test]
 fn numbers_go_to_the_joints_that_the_file_names_and_other_robots_are_refused() {
-    for (before, said) in NAMED {
+    for (before, expected) in NAMED {
         let text = VAMP.replacen("\"robot\": \"panda\",", &format!("{before}           "), 1);
-        match (read(&text, None, 0), said) {
+        match (read(&text, None, 0), expected) {
             (Ok(problem), Ok(start)) => assert_eq!(problem.start.joints, start, "{before}"),
-            (Err(error), Err(said)) => assert!(error.contains(said), "should say {said}\nsays {error}"),
-            (found, said) => panic!("{before}: should be {said:?}\nis {found:?}"),
+            (Err(error), Err(expected)) => {
+                assert!(error.contains(expected), "should say {expected}\nsays {error}");
+            }
+            (found, expected) => panic!("{before}: should be {expected:?}\nis {found:?}"),
         }
     }
 }
@@ -241,15 +243,17 @@ const KEYS: &[(&str, &str, Result<&[&str], &str>)] = &[
 
 #[test]
 fn every_key_of_a_problem_is_read_ignored_for_a_reason_noted_or_refused() {
-    for (from, to, said) in KEYS {
+    for (from, to, expected) in KEYS {
         assert!(VAMP.contains(from), "{from}");
-        match (read(&VAMP.replacen(from, to, 1), None, 0), said) {
+        match (read(&VAMP.replacen(from, to, 1), None, 0), expected) {
             (Ok(problem), Ok(notes)) => {
                 assert_eq!(problem.notes, *notes, "{to}");
                 assert_eq!(problem.is_valid, !to.contains("false"), "{to}");
             }
-            (Err(error), Err(said)) => assert!(error.contains(said), "should say {said}\nsays {error}"),
-            (found, said) => panic!("{to}: should be {said:?}\nis {found:?}"),
+            (Err(error), Err(expected)) => {
+                assert!(error.contains(expected), "should say {expected}\nsays {error}");
+            }
+            (found, expected) => panic!("{to}: should be {expected:?}\nis {found:?}"),
         }
     }
 }

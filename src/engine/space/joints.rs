@@ -1,9 +1,9 @@
 //! A robot of any number of joints among convex solids: where it can be, and which straight motions it can make.
 //!
-//! Solids are points and a radius ([`Rounded`]); a cylinder is a prism around it. Touching is contact. Links that a joint joins are
-//! never held against each other, unless an SRDF file says which links may touch. A motion straight in joint space is checked at both
-//! ends and wherever the joint that moves most has gone one more step; a metre of a joint that slides counts as a radian, and a joint
-//! that turns without end goes the shorter way round.
+//! Solids are points and a radius ([`Rounded`]); a cylinder is a prism around it. Touching is contact. Links that a joint joins
+//! are never held against each other, unless an SRDF file says which links may touch. A motion straight in joint space is checked
+//! at both ends and wherever the joint that moves most has gone one more step. A metre of a joint that slides counts as a radian,
+//! and a joint that turns without end goes the shorter way round.
 
 use crate::geometry::{Frame, Placed, Rounded, Vec3, intersects_placed_placed};
 use crate::kinematics::open_chain::OpenChain;
@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_that_folds_onto_itself_is_told_unless_nobody_asks() {
+    fn a_robot_that_folds_onto_itself_is_reported_unless_nobody_asks() {
         let mut folded = [0.0; 7];
         (folded[1], folded[3], folded[5]) = (0.0, 2.4, 2.4);
         let refusal = JointSpace::new(seven(), Vec::new(), &SelfContact::Apart, 0.05).refusal(&folded);

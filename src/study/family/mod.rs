@@ -1,7 +1,7 @@
 //! Problem families: one a file, all in [`REGISTRY`].
 //!
-//! A family poses problems: it draws what is to be prepared from a seed, and names the queries that are asked of
-//! it. Its settings come from the study, with the interpretation's options laid on top.
+//! A family poses problems: it draws what is to be prepared from a seed, and names its queries. Its settings come from the study,
+//! with the interpretation's options laid on top.
 
 mod arm_workspace;
 pub(super) mod cell_queries;

@@ -123,7 +123,7 @@ pub const MAP_FILE: Accepted = Accepted::shape::<MapFile>();
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct MapFile {
-    /// Its name.
+    /// The map's name, for readers.
     #[expect(dead_code, reason = "a map says its name to readers")]
     name: String,
     /// How wide and how high the plane is.

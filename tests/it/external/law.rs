@@ -184,7 +184,7 @@ fn refusal(
 
 #[test]
 fn what_motion_accepts_the_verifier_accepts() {
-    let mut asked = 0;
+    let mut tried = 0;
     for sample in SAMPLES {
         let mut accepted = 0;
         let mut drawn = 0;
@@ -216,7 +216,7 @@ fn what_motion_accepts_the_verifier_accepts() {
             "{what}: a one-sided sample, {share}"
         );
         assert!(refused.is_empty(), "{what}: {} of {accepted} refused; {}", refused.len(), refused[0]);
-        asked += drawn;
+        tried += drawn;
     }
-    assert!(asked as usize >= thoroughly(100_000), "{asked} motions");
+    assert!(tried as usize >= thoroughly(100_000), "{tried} motions");
 }

@@ -34,7 +34,7 @@ pub const SILENT: Case = case(
     "silent",
     "echo 'still loading' >&2; sleep 100",
     "crashed",
-    "the planner said no `hello` within 10 s; it wrote nothing: an output that is buffered must be flushed after each line; its \
+    "the planner sent no `hello` within 10 s; it wrote nothing: an output that is buffered must be flushed after each line; its \
      log ends: still loading",
 );
 
@@ -179,12 +179,7 @@ pub const CASES: &[Case] = &[
         "crashed",
         "does not plan in worlds of kind grid",
     ),
-    case(
-        "other-id",
-        "hello; query; id=77; straight; query",
-        "crashed",
-        "answers query 77; it was asked query",
-    ),
+    case("other-id", "hello; query; id=77; straight; query", "crashed", "answers query 77; its query is"),
     case(
         "flood",
         "hello; query; yes '{}' | tr -d '\\n' & sleep 100",

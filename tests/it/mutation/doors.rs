@@ -256,15 +256,15 @@ fn specs(paper: &Path) -> Vec<Door<'_>> {
 }
 
 /// What was wrong with a case beside what [`fault`] finds: a refusal without a place, or a long one.
-fn told(door: &Door<'_>, message: &str) -> Result<(), String> {
+fn reported(door: &Door<'_>, message: &str) -> Result<(), String> {
     let most = if ends(door.name, "toml") { MOST_FAULTS * LONGEST_MESSAGE } else { LONGEST_MESSAGE };
     let is_file = door.name != "planner";
     // An image has no lines, and a part of a map's head is missing nowhere.
-    let is_told =
+    let is_reported =
         if is_file { message.contains(door.name) || is_located(message) } else { message.len() > 10 };
     match () {
         () if message.len() > most => Err(format!("it was refused in {} bytes", message.len())),
-        () if !is_told => Err(format!("it was refused without a place: {message}")),
+        () if !is_reported => Err(format!("it was refused without a place: {message}")),
         () => Ok(()),
     }
 }
@@ -298,7 +298,7 @@ fn no_damaged_file_of_another_program_or_line_of_a_planner_panics_hangs_or_is_re
         let work = || match (door.read)(&bytes) {
             Ok(()) => Ok(()),
             Err(message) => {
-                wrong.set(told(door, &message).err());
+                wrong.set(reported(door, &message).err());
                 Err("file.toml:1: judged by `told`".to_owned())
             }
         };

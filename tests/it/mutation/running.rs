@@ -38,10 +38,10 @@ fn ended(mut run: Command) -> Result<bool, String> {
         return Err("it did not end".to_owned());
     };
     let code = status.code();
-    let mut said = String::new();
-    child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
-    let is_fit = matches!(code, Some(0 | 2)) && !said.contains("panicked");
-    if is_fit { Ok(code == Some(0)) } else { Err(format!("it ended with {code:?}: {said}")) }
+    let mut text = String::new();
+    child.stderr.take().unwrap().read_to_string(&mut text).unwrap();
+    let is_fit = matches!(code, Some(0 | 2)) && !text.contains("panicked");
+    if is_fit { Ok(code == Some(0)) } else { Err(format!("it ended with {code:?}: {text}")) }
 }
 
 /// The TOML files of a paper that say what runs, with where numbers stand in them.

@@ -330,7 +330,7 @@ fn self_pair(
     let found = [first, second].map(|name| faults.keep(index(name)));
     faults.done()?;
     let [first, second] = [first, second].map(Spanned::get_ref);
-    let found = found.map(|index| index.expect("a name that is unknown was told"));
+    let found = found.map(|index| index.expect("a name that is unknown was reported"));
     if found[0] == found[1] || parts[found[0]].link == parts[found[1]].link {
         let message =
             format!("self_pairs joins `{first}` and `{second}`; accepted: capsules on two different links");

@@ -9,7 +9,7 @@ use crate::{
     },
 };
 use base::settings::{Faults, SettingsError, Spanned};
-use base::units::asked_in_degrees;
+use base::units::seems_in_radians;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -101,8 +101,8 @@ fn other_units(source: &Source, entries: &[Spanned<JointEntry>]) -> Vec<Settings
         [("alpha_deg", |joint| joint.alpha_deg), ("offset_deg", |joint| joint.offset_deg)];
     for (key, of) in turns {
         let angles: Vec<f64> = entries.iter().map(|entry| of(entry.get_ref())).collect();
-        let asked = asked_in_degrees(key, &angles);
-        faults.extend(asked.map(|(index, message)| fault_at(source, index, key, message)));
+        let in_radians = seems_in_radians(key, &angles);
+        faults.extend(in_radians.map(|(index, message)| fault_at(source, index, key, message)));
     }
     faults
 }

@@ -104,12 +104,15 @@ fn a_wrong_scene_says_which_obstacle_where_and_what_is_accepted() {
 
 #[test]
 fn a_value_of_the_wrong_kind_hides_no_fault_of_another_obstacle() {
-    let told = refusal(
+    let message = refusal(
         "[[box]]\nname = 'b'\nmin_mm = [0, 0, '0']\nmax_mm = [1, 2, 3]\n\
          [[box]]\nname = 'c'\nmin_mm = [0, 5, 7]\nmax_mm = [300, 2, 3]\n",
     );
-    let lines: Vec<&str> = told.lines().filter(|line| line.starts_with("s.toml:")).collect();
+    let lines: Vec<&str> = message.lines().filter(|line| line.starts_with("s.toml:")).collect();
     let parts =
         ["s.toml:4:17: `min_mm[2]` is \"0\"", "s.toml:9:16: obstacle `c`: `max_mm[1]`", "s.toml:9:19: "];
-    assert!(lines.len() == 3 && lines.iter().zip(parts).all(|(line, part)| line.starts_with(part)), "{told}");
+    assert!(
+        lines.len() == 3 && lines.iter().zip(parts).all(|(line, part)| line.starts_with(part)),
+        "{message}"
+    );
 }
