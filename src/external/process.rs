@@ -264,9 +264,17 @@ fn no_message(line: &str, error: &serde_json::Error) -> String {
     let why = match number {
         Some(number) => format!("JSON has no number `{number}`, at column {}", column + 1),
         // The library repeats names as long as they are.
-        None => around(&error.to_string(), 0),
+        None => around(&in_words(&error.to_string()), 0),
     };
     format!("the planner wrote `{}`, which is no message: {why}", around(line, column))
+}
+
+/// A message of the JSON library, with words for Rust's types of numbers.
+fn in_words(said: &str) -> String {
+    let whole = "expected a whole number of 0 or more";
+    said.replace("expected u64", whole)
+        .replace("expected u32", whole)
+        .replace("expected f64", "expected a number")
 }
 
 fn write_lines(mut stdin: ChildStdin, lines: &Receiver<String>) {

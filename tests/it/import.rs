@@ -10,7 +10,7 @@ use study::parquet::FrameReader;
 pub const LOG: &str = include_str!("import/benchmark.log");
 
 /// Two rows as pandas 3 writes them, with a column of categories, one of dates, and numbers of single precision and of 8 bits.
-const SNAPPY: &[u8] = include_bytes!("import/pandas.snappy.parquet");
+pub const SNAPPY: &[u8] = include_bytes!("import/pandas.snappy.parquet");
 /// The same, packed by gzip.
 const GZIP: &[u8] = include_bytes!("import/pandas.gzip.parquet");
 
@@ -96,6 +96,26 @@ fn a_parquet_file_of_pandas_is_read_but_for_columns_of_dates_and_one_that_is_cut
         "{}",
         output.err
     );
+}
+
+#[test]
+fn a_parquet_file_that_claims_more_values_than_it_has_rows_is_refused() {
+    let bench = Bench::empty();
+    let file = bench.at("results.parquet");
+    let mut claims = 0;
+    // The number -1 in place of each byte of the first pages and of the end of the pages, where columns are described.
+    for at in (0..400).chain(900..1000) {
+        let mut bytes = SNAPPY.to_vec();
+        bytes[at] = 1;
+        fs::write(&file, bytes).unwrap();
+        if let Err(error) = Table::read_parquet(&file) {
+            let message = error.to_string();
+            assert!(message.contains("results.parquet: is no Parquet file that can be read"), "{message}");
+            claims +=
+                u32::from(message.contains("a column or page claims -1 values or bytes; at most 2 can be"));
+        }
+    }
+    assert!(claims >= 7, "{claims} of six pages and a column");
 }
 
 #[test]

@@ -168,6 +168,8 @@ mod tests {
         };
         let FileMap { grid, files, .. } = read(head).unwrap();
         assert_eq!((free(&grid), files.len()), (vec![[0, 0], [2, 0], [0, 1]], 2), "205 is unknown to ROS");
+        let marked = read(&format!("\u{feff}{}", head.replace('\n', "\r\n"))).unwrap();
+        assert_eq!(free(&marked.grid), free(&grid), "a byte-order mark, and ends of lines of another system");
         for word in ["1", "true", "Yes", "on", "'1'", "\"true\""] {
             let negated = read(&head.replace("negate: 0", &format!("negate: {word}"))).unwrap();
             assert_eq!(free(&negated.grid), vec![[2, 1]], "{word}");

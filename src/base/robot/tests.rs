@@ -273,6 +273,11 @@ const RIGHT: &[(&str, &str)] = &[
     ("package://two/meshes", "model://two/meshes"),
     ("package://two/meshes", "meshes"),
     (
+        "<link name=\"base\">",
+        "<link name=\"world\"/><joint name=\"stand\" type=\"fixed\"><parent link=\"world\"/><child link=\"base\"/></joint>\
+         <link name=\"base\">",
+    ),
+    (
         "<link name=\"tool\"/>",
         "<link name=\"tool\"><visual/><inertial/></link><transmission name=\"t\"/><gazebo/>",
     ),

@@ -243,7 +243,25 @@ pub const CASES: &[Case] = &[
         "rejected",
         "not from start to goal",
     ),
+    case(
+        "from-elsewhere",
+        r#"hello; query; result "[[1,1],$goal]"; query"#,
+        "rejected",
+        "the path goes from [1, 1] to [299, 200], not from start to goal",
+    ),
     case("nowhere", "hello; query; result '[]'; query", "rejected", "the path is empty"),
+    case(
+        "standing-still",
+        r#"hello; query; result "[$start,$start,$goal]"; query"#,
+        "rejected",
+        "the path stands still at [0, 1]",
+    ),
+    case(
+        "id-in-parts",
+        "hello; query; id=$id.0; straight; query",
+        "crashed",
+        "expected a whole number of 0 or more",
+    ),
     case(
         "through-a-wall",
         r#"hello; query; result "[$start,[0,0],[299,0],$goal]"; query"#,

@@ -1,10 +1,11 @@
 //! Files of other programs and lines of planners, damaged, each read by its own reader: problem sets, robots, meshes, maps, scenarios,
-//! and messages with the answers to their questions. What is refused names its file and a place, in a message that is not long.
+//! tables of results, and messages with the answers to their questions. What is refused names its file and a place, in a message that is not long.
 
 use super::damage::{flipped, misshapen};
 use super::subject::validate;
 use super::{cases, count, fault, is_located};
 use crate::external::law;
+use crate::import::SNAPPY;
 use crate::paper::Bench;
 use base::grid::{parse_movingai_map, parse_scenarios, parse_text_map, read_map};
 use base::problem::{Expected, ProblemFile};
@@ -23,6 +24,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 use study::Inputs;
+use study::elsewhere::Table;
 use study::paper::Paper;
 
 /// No message of one fault is longer, in bytes.
@@ -211,6 +213,7 @@ fn files<'a>(folder: &'a Path, robots: &'a [Robot; 2]) -> Vec<Door<'a>> {
     let grid = parse_movingai_map(&String::from_utf8(stored("maps/movingai_sample.map")).unwrap()).unwrap();
     let mesh =
         move |_: &Path| read_urdf(&folder.join("meshed.urdf")).map(drop).map_err(|error| shown(&error));
+    let table = |path: &Path| Table::read_parquet(path).map(drop).map_err(|error| error.to_string());
     fs::write(folder.join("mesh.stl"), MESH).unwrap();
     let mut doors = vec![
         document("problems.json", named.replacen('{', &head, 1), problem),
@@ -231,10 +234,13 @@ fn files<'a>(folder: &'a Path, robots: &'a [Robot; 2]) -> Vec<Door<'a>> {
         file(folder, "room.png", png(png::ColorType::Grayscale, 1), map),
         file(folder, "clear.png", png(png::ColorType::Rgba, 4), map),
         file(folder, "room.yaml", HEAD, map),
+        file(folder, "results.parquet", SNAPPY, table),
     ];
     for door in &mut doors {
         if ends(door.name, "png") {
             door.damage = damaged_png;
+        } else if ends(door.name, "parquet") {
+            door.damage = |stream, bytes| flipped(stream, bytes.to_vec());
         }
     }
     doors

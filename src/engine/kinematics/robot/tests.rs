@@ -145,6 +145,15 @@ fn rows_in_metres_and_limits_in_radians_are_queried() {
     let turns = message(&scaled(["alpha_deg", "offset_deg"], 1_f64.to_radians())).unwrap_err();
     let expected = "alpha_deg is -1.5707963267948966; is it in radians? degrees are accepted (-1.5707963267948966 rad is -90.0°)";
     assert!(turns.starts_with("up6.toml:") && turns.contains(expected), "{turns}");
+    let tool = message(&FILE.replacen("length_mm = 150", "length_mm = 0.15", 1)).unwrap_err();
+    let expected = "tool.length_mm is 0.15; is it in metres? millimetres are accepted (0.15 m is 150 mm)";
+    assert!(tool.starts_with("up6.toml:") && tool.contains(expected), "{tool}");
+    let bodies = &FILE[FILE.find("[[body]]").unwrap()..];
+    let thin = "[[body]]\nname = 'thin'\nself_pairs = []\n[[body.capsule]]\nname = 'arm'\nlink = 2\nfrom_mm = [-0.57, 0, 0]\n\
+        to_mm = [0, 0, 0]\nradius_mm = 0.09\n";
+    let body = message(&FILE.replacen(bodies, thin, 1)).unwrap_err();
+    let expected = "no capsule of body `thin` reaches farther than 0.57 mm; are lengths in metres?";
+    assert!(body.starts_with("up6.toml:") && body.contains(expected), "{body}");
     assert!(
         message(&scaled(["a_mm", "d_mm"], 0.1)).is_ok_and(|robot| robot.notes().is_empty()),
         "a small arm"
