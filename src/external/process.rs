@@ -12,7 +12,7 @@ use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, Stdio};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, SyncSender, channel, sync_channel};
 use std::sync::{Arc, Mutex};
-use std::thread;
+use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
 /// Reads a clock: nanoseconds since some moment.
@@ -89,6 +89,8 @@ pub struct Process {
     from: Receiver<PlannerOutput>,
     written: Arc<AtomicU64>,
     log: Arc<Mutex<VecDeque<u8>>>,
+    /// Reads the log until nothing can write to it any more.
+    logging: JoinHandle<()>,
     /// Its greeting, once it has.
     pub hello: Option<Hello>,
 }
@@ -128,8 +130,8 @@ impl Process {
         let piped = "its pipes were requested";
         thread::spawn(move || write_lines(stdin.expect(piped), &lines));
         thread::spawn(move || read_lines(stdout.expect(piped), &sender, &count, most));
-        thread::spawn(move || read_log(stderr.expect(piped), &tail));
-        Ok(Self { child, mark, to: Some(to), from, written, log, hello: None })
+        let logging = thread::spawn(move || read_log(stderr.expect(piped), &tail));
+        Ok(Self { child, mark, to: Some(to), from, written, log, logging, hello: None })
     }
 
     /// Hands a message over; a planner that does not read it keeps nobody waiting.
@@ -200,16 +202,17 @@ impl Process {
         one_line(String::from_utf8_lossy(&[a, b].concat()).trim())
     }
 
-    /// How it ended, once it has, after a moment in which its log arrives.
+    /// How it ended, once it has and its log has arrived; a child of its own may keep the log open, which is not waited for.
     pub(super) fn ended(&mut self) -> Option<String> {
-        for _ in 0..20 {
-            if let Ok(Some(status)) = self.child.try_wait() {
-                thread::sleep(Duration::from_millis(10));
-                return Some(status.to_string());
+        let mut status = None;
+        for _ in 0..40 {
+            status = status.or_else(|| self.child.try_wait().ok().flatten());
+            if status.is_some() && self.logging.is_finished() {
+                break;
             }
             thread::sleep(Duration::from_millis(5));
         }
-        None
+        status.map(|status| status.to_string())
     }
 
     /// Ends it as a planner expects: `quit`, a moment, then SIGTERM and SIGKILL to all that is left. Whether it ended by itself.
