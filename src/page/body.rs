@@ -150,7 +150,7 @@ impl Body<'_> {
             return lines;
         }
         let evidence = evidence(self.verdicts);
-        format!("<ul class=\"headlines\">\n{lines}</ul>\n<p>{}</p>\n", escaped(&evidence))
+        format!("<ul class=\"headlines\">\n{lines}</ul>\n<p>{}</p>\n", self.prose_html(&evidence))
     }
 
     fn navigation(&self, is_without_curves: bool) -> String {

@@ -88,10 +88,7 @@ pub static COLUMNS: &[Column] = &[
     count("questions_motion", "motions that it asked about"),
     count("questions_fk", "postures whose tip it asked for"),
     count("questions_ik", "poses whose postures it asked for"),
-    count(
-        "incumbents",
-        "paths that it found one after another, each better, or handed over before its result",
-    ),
+    count("incumbents", "paths that it handed over before its result"),
     count("is_cut_off", "1 if its time ran out and its last incumbent was taken, else 0"),
     count("promises_determinism", "1 if it promised equal results for equal queries and seeds, else 0"),
     real("solve_wall_ns", "from the query to its end by replan's clock, answers to questions included"),

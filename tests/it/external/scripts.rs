@@ -284,7 +284,7 @@ pub const CASES: &[Case] = &[
         "question-about-an-arm",
         r#"hello; query; echo '{"type":"ask","id":1,"fk":[[1,2]]}'; query"#,
         "crashed",
-        "this world has no arm",
+        "needs an arm, and this world has none",
     ),
     case(
         "cut-off",
