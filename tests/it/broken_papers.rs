@@ -80,7 +80,7 @@ const BROKEN: [(&str, &str, &[Mistake]); 10] = [
         ],
     ),
     (
-        "numbers as unreported, out of range and missing",
+        "numbers as text, out of range and missing",
         "grid",
         &[
             ("compare.toml", "seed = 1\n", "", "compare.toml:1:1: missing key `seed`"),

@@ -93,7 +93,7 @@ nodes = 1000
     assert!(solved.counts["iterations"].as_f64() > 0.0, "the ball is in the way: {:?}", solved.counts);
     assert_eq!(plan(0).unwrap(), solved);
     let refused = plan(1).unwrap_err().0;
-    assert!(refused.contains("the start cannot be posed: part `upper"), "{refused}");
+    assert!(refused.contains("the start cannot be posed: part `lower"), "{refused}");
 }
 
 #[test]
