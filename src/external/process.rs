@@ -273,9 +273,10 @@ fn no_message(line: &str, error: &serde_json::Error) -> String {
 }
 
 /// A message of the JSON library, with words for Rust's types of numbers.
-fn in_words(said: &str) -> String {
+fn in_words(message: &str) -> String {
     let whole = "expected a whole number of 0 or more";
-    said.replace("expected u64", whole)
+    message
+        .replace("expected u64", whole)
         .replace("expected u32", whole)
         .replace("expected f64", "expected a number")
 }

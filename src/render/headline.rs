@@ -71,14 +71,14 @@ fn meanings(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     (counts.len() > 1).then(|| format!("by meaning: {}", of_each.join(", ")))
 }
 
-/// Under how much the headline claims were judged, and the command that does it again.
+/// How much was explored, and the command that does it again. A headline names the choices that were not varied for it.
 pub fn evidence(verdicts: &Verdicts) -> String {
     let again = format!("`replan repro {}` computes it again.", verdicts.paper);
     let Some(explored) = &verdicts.explored else {
-        return format!("Judged under the defaults alone; {again}");
+        return format!("Judged under the defaults alone. {again}");
     };
-    let seed = if explored.second_seed { "with a second seed" } else { "without a second seed" };
-    format!("Judged under {} interpretations, {seed}; {again}", explored.interpretations)
+    let seed = if explored.second_seed { "and a second seed" } else { "but no second seed" };
+    format!("Explored: {} interpretations, {seed}. {again}", explored.interpretations)
 }
 
 /// Our number beside a claim, or those of its parts where they measure the same.

@@ -256,7 +256,7 @@ impl Spec {
             }
             _ => {
                 let message = format!(
-                    "`{}` is judged with no such `srdf`; accepted: a file of rows (.toml), or a URDF file with `srdf`",
+                    "`{}` with this `srdf` is not judged; accepted: a file of rows (.toml) without `srdf`, or a URDF file with it",
                     robot.file
                 );
                 return Err(wrong("file", message));

@@ -93,7 +93,7 @@ fn the_ur5_and_the_puma_at_zero_are_where_their_tables_add_up_to() {
 }
 
 /// Rows of an arm in degrees and millimetres: alpha, a, d, offset.
-type Rows = [[f64; 4]; AXES];
+pub type Rows = [[f64; 4]; AXES];
 
 /// Source: "DH Parameters for calculations of kinematics and dynamics", Universal Robots.
 const UR10E: Rows = [
@@ -115,7 +115,8 @@ const IRB120: Rows = [
     [0.0, 0.0, 72.0, 180.0],
 ];
 
-fn joints_of(rows: &Rows) -> [Joint; AXES] {
+/// The joints of these rows, each free to turn half a turn either way.
+pub fn joints_of(rows: &Rows) -> [Joint; AXES] {
     rows.map(|[alpha_deg, a_mm, d_mm, offset_deg]| Joint {
         alpha_rad: alpha_deg.to_radians(),
         a_m: a_mm * 1e-3,

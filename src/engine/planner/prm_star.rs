@@ -4,8 +4,8 @@
 //! Karaman & Frazzoli, *Int. J. Robotics Research* 30(7), 846 (2011), algorithm 4 with k-nearest neighbours, one sample at a time.
 
 use super::rrt_star::neighbour_count;
-use super::sampled::{Found, IMPROVING_COLUMNS, local, planned};
-use super::{Build, Entry, Invalid, Plan, Planner, Request};
+use super::sampled::{IMPROVING_COLUMNS, Progress, SampledPlanner, SampledSearch, local};
+use super::{Build, Entry, Request};
 use crate::sampling::{Draw, DrawSetting, Motions, Tree};
 use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, SideInputs, Stop, Ties, Update, sum};
 use crate::space::WorldKind;
@@ -27,8 +27,8 @@ iterations = 1_000
 growth = 1.1
 "#,
     build: Build::Planner(|settings| {
-        let read: PrmStar = settings.read()?;
-        Ok(Box::new(read))
+        let search: PrmStar = settings.read()?;
+        Ok(Box::new(SampledPlanner(search)))
     }),
 };
 
@@ -99,9 +99,11 @@ impl Roadmap {
     }
 }
 
-impl PrmStar {
-    fn search(&self, motions: &mut Motions<'_>, request: &Request<'_>) -> Found {
-        let mut found = Found::default();
+impl SampledSearch for PrmStar {
+    const IMPROVES: bool = true;
+
+    fn search(&self, motions: &mut Motions<'_>, request: &Request<'_>) -> Progress {
+        let mut found = Progress::default();
         let mut draw = Draw::new(self.sampler, request.seed);
         let mut map = Roadmap { nodes: Tree::new(motions, request.start), links: vec![Vec::new()] };
         map.add(motions, request.goal);
@@ -130,20 +132,6 @@ impl PrmStar {
         }
         found.nodes = map.links.len();
         found
-    }
-}
-
-impl Planner for PrmStar {
-    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
-        planned(request, true, |motions| self.search(motions, request))
-    }
-
-    fn is_optimal(&self) -> bool {
-        false
-    }
-
-    fn is_complete(&self) -> bool {
-        false
     }
 
     fn draws(&self) -> bool {

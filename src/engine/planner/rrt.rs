@@ -4,8 +4,8 @@
 //! `LaValle`, *Rapidly-Exploring Random Trees: A New Tool for Path Planning*, TR 98-11, Iowa State University (1998); the goal as a sample
 //! now and then as in `LaValle` & Kuffner, *Int. J. Robotics Research* 20(5), 378 (2001).
 
-use super::sampled::{COLUMNS, Found, extended, planned};
-use super::{Build, Entry, Invalid, Plan, Planner, Request};
+use super::sampled::{COLUMNS, Progress, SampledPlanner, SampledSearch, extended};
+use super::{Build, Entry, Request};
 use crate::sampling::{Draw, DrawSetting, Motions, Tree};
 use crate::space::WorldKind;
 use base::settings::Accepted;
@@ -27,8 +27,8 @@ goal_share = 0.05
 iterations = 100_000
 "#,
     build: Build::Planner(|settings| {
-        let read: Rrt = settings.read()?;
-        Ok(Box::new(read))
+        let search: Rrt = settings.read()?;
+        Ok(Box::new(SampledPlanner(search)))
     }),
 };
 
@@ -48,9 +48,11 @@ struct Rrt {
     iterations: u64,
 }
 
-impl Rrt {
-    fn search(&self, motions: &mut Motions<'_>, request: &Request<'_>) -> Found {
-        let mut found = Found::default();
+impl SampledSearch for Rrt {
+    const IMPROVES: bool = false;
+
+    fn search(&self, motions: &mut Motions<'_>, request: &Request<'_>) -> Progress {
+        let mut found = Progress::default();
         let mut draw = Draw::new(self.sampler, request.seed);
         let mut tree = Tree::new(motions, request.start);
         while found.path.is_empty() && found.iterations < self.iterations.min(request.expansions) {
@@ -70,20 +72,6 @@ impl Rrt {
         }
         found.nodes = tree.count();
         found
-    }
-}
-
-impl Planner for Rrt {
-    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
-        planned(request, false, |motions| self.search(motions, request))
-    }
-
-    fn is_optimal(&self) -> bool {
-        false
-    }
-
-    fn is_complete(&self) -> bool {
-        false
     }
 
     fn draws(&self) -> bool {

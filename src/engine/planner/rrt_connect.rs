@@ -5,8 +5,8 @@
 //! (Thomason, Kingston & Kavraki, *Motions in Microseconds via Vectorized Sampling-Based Planning*, ICRA 2024); the dynamic domain as in
 //! Yershova et al., ICRA 2005, and Jaillet et al., IROS 2005 (adaptive radius).
 
-use super::sampled::{COLUMNS, Found, extended, planned};
-use super::{Build, Entry, Invalid, Plan, Planner, Request};
+use super::sampled::{COLUMNS, Progress, SampledPlanner, SampledSearch, extended};
+use super::{Build, Entry, Request};
 use crate::sampling::{Draw, DrawSetting, Motions, Tree};
 use crate::space::WorldKind;
 use base::settings::Accepted;
@@ -31,8 +31,8 @@ iterations = 100_000
 nodes = 100_000
 "#,
     build: Build::Planner(|settings| {
-        let read: RrtConnect = settings.read()?;
-        Ok(Box::new(read))
+        let search: RrtConnect = settings.read()?;
+        Ok(Box::new(SampledPlanner(search)))
     }),
 };
 
@@ -111,9 +111,11 @@ impl DynamicDomain {
     }
 }
 
-impl RrtConnect {
-    fn search(&self, motions: &mut Motions<'_>, request: &Request<'_>) -> Found {
-        let mut found = Found::default();
+impl SampledSearch for RrtConnect {
+    const IMPROVES: bool = false;
+
+    fn search(&self, motions: &mut Motions<'_>, request: &Request<'_>) -> Progress {
+        let mut found = Progress::default();
         let straight = vec![request.start.to_vec(), request.goal.to_vec()];
         if motions.goes(request.start, request.goal) && motions.refused_leg(&straight).is_none() {
             found.path = straight;
@@ -143,6 +145,12 @@ impl RrtConnect {
         found
     }
 
+    fn draws(&self) -> bool {
+        self.sampler == DrawSetting::Seeded
+    }
+}
+
+impl RrtConnect {
     /// Grows one tree to a sample and then to the other tree; gives a node of each where they meet, the own first.
     fn grow(
         &self,
@@ -189,24 +197,6 @@ fn joined(sides: &[Side; 2], own: usize, [last, target]: [u32; 2]) -> Vec<Vec<f6
         path.reverse();
     }
     path
-}
-
-impl Planner for RrtConnect {
-    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
-        planned(request, false, |motions| self.search(motions, request))
-    }
-
-    fn is_optimal(&self) -> bool {
-        false
-    }
-
-    fn is_complete(&self) -> bool {
-        false
-    }
-
-    fn draws(&self) -> bool {
-        self.sampler == DrawSetting::Seeded
-    }
 }
 
 #[cfg(test)]

@@ -9,8 +9,8 @@
 //! Barfoot, *Informed RRT\**, IROS 2014.
 
 use super::rrt::sample;
-use super::sampled::{Found, IMPROVING_COLUMNS, extended, planned};
-use super::{Build, Entry, Invalid, Plan, Planner, Request};
+use super::sampled::{IMPROVING_COLUMNS, Progress, SampledPlanner, SampledSearch, extended};
+use super::{Build, Entry, Request};
 use crate::sampling::{Draw, DrawSetting, Motions, Tree};
 use crate::space::WorldKind;
 use base::settings::Accepted;
@@ -33,12 +33,12 @@ iterations = 1_000
 informed = true
 "#,
     build: Build::Planner(|settings| {
-        let read: RrtStar = settings.read()?;
-        if read.informed && read.sampler == DrawSetting::Halton {
+        let search: RrtStar = settings.read()?;
+        if search.informed && search.sampler == DrawSetting::Halton {
             let message = "informed samples are random; sampler = \"seeded\" is accepted";
             return Err(settings.error_at("sampler", message));
         }
-        Ok(Box::new(read))
+        Ok(Box::new(SampledPlanner(search)))
     }),
 };
 
@@ -148,9 +148,11 @@ fn in_ellipsoid(
     is_within.then_some(sample)
 }
 
-impl RrtStar {
-    fn search(&self, motions: &mut Motions<'_>, request: &Request<'_>) -> Found {
-        let mut found = Found::default();
+impl SampledSearch for RrtStar {
+    const IMPROVES: bool = true;
+
+    fn search(&self, motions: &mut Motions<'_>, request: &Request<'_>) -> Progress {
+        let mut found = Progress::default();
         let mut draw = Draw::new(self.sampler, request.seed);
         let mut costs = Costs::new(Tree::new(motions, request.start));
         // Nodes from which a free motion leads to the goal, each with its length.
@@ -191,6 +193,10 @@ impl RrtStar {
         found.nodes = costs.tree.count();
         found
     }
+
+    fn draws(&self) -> bool {
+        self.sampler == DrawSetting::Seeded || self.goal_share > 0.0
+    }
 }
 
 /// Adds a node under the cheapest neighbour and offers it to the others.
@@ -216,24 +222,6 @@ fn insert(motions: &mut Motions<'_>, costs: &mut Costs, nearest: u32, config: &[
         }
     }
     node
-}
-
-impl Planner for RrtStar {
-    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
-        planned(request, true, |motions| self.search(motions, request))
-    }
-
-    fn is_optimal(&self) -> bool {
-        false
-    }
-
-    fn is_complete(&self) -> bool {
-        false
-    }
-
-    fn draws(&self) -> bool {
-        self.sampler == DrawSetting::Seeded || self.goal_share > 0.0
-    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! What planners that sample share: their ends, their counts, and the length that they claim.
 
 use super::roadmap::roadmap;
-use super::{Counts, Ending, Invalid, Plan, Request, Trace, Value};
+use super::{Counts, Ending, Invalid, Plan, Planner, Request, Trace, Value};
 use crate::sampling::{Motions, Tree};
 use crate::shorten::path_length;
 use crate::space::roadmap::Local;
@@ -23,9 +23,9 @@ pub(super) const IMPROVING_COLUMNS: &[&str] = &[
     "incumbents",
 ];
 
-/// What a planner found by when.
+/// What a search found by when.
 #[derive(Debug, Default)]
-pub(super) struct Found {
+pub(super) struct Progress {
     pub(super) path: Vec<Vec<f64>>,
     pub(super) iterations: u64,
     pub(super) nodes: usize,
@@ -33,7 +33,7 @@ pub(super) struct Found {
     pub(super) incumbents: Vec<(u64, f64)>,
 }
 
-impl Found {
+impl Progress {
     /// Notes a path of this length if it is the shortest so far.
     pub(super) fn note(&mut self, length: f64) -> bool {
         let is_shorter = self.incumbents.last().is_none_or(|(_, known)| length < *known);
@@ -44,21 +44,45 @@ impl Found {
     }
 }
 
-/// The plan of what `search` finds; where the start is the goal, nothing is searched.
-pub(super) fn planned(
-    request: &Request<'_>,
-    improves: bool,
-    search: impl FnOnce(&mut Motions<'_>) -> Found,
-) -> Result<Plan, Invalid> {
-    let mut motions = posed(request)?;
-    let found = if request.start == request.goal {
-        let mut found = Found { path: vec![request.start.to_vec(); 2], ..Found::default() };
-        found.note(0.0);
-        found
-    } else {
-        search(&mut motions)
-    };
-    Ok(plan(request, &motions, found, improves))
+/// A search by samples.
+pub(super) trait SampledSearch: Send + Sync {
+    /// Whether it goes on after a first path, for shorter ones.
+    const IMPROVES: bool;
+
+    /// What it finds between a start and a goal that are apart.
+    fn search(&self, motions: &mut Motions<'_>, request: &Request<'_>) -> Progress;
+
+    /// Whether the trial's seed decides anything.
+    fn draws(&self) -> bool;
+}
+
+/// The planner of a search by samples; where the start is the goal, nothing is searched.
+pub(super) struct SampledPlanner<S>(pub(super) S);
+
+impl<S: SampledSearch> Planner for SampledPlanner<S> {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        let mut motions = posed(request)?;
+        let found = if request.start == request.goal {
+            let mut found = Progress { path: vec![request.start.to_vec(); 2], ..Progress::default() };
+            found.note(0.0);
+            found
+        } else {
+            self.0.search(&mut motions, request)
+        };
+        Ok(plan(request, &motions, found, S::IMPROVES))
+    }
+
+    fn is_optimal(&self) -> bool {
+        false
+    }
+
+    fn is_complete(&self) -> bool {
+        false
+    }
+
+    fn draws(&self) -> bool {
+        self.0.draws()
+    }
 }
 
 /// The space of a request, whose ends the robot can be at.
@@ -84,7 +108,7 @@ pub(super) fn claimed(local: &Local, path: &[Vec<f64>]) -> Option<f64> {
 }
 
 /// The plan of what was found; without a path the budget is spent.
-fn plan(request: &Request<'_>, motions: &Motions<'_>, found: Found, improves: bool) -> Plan {
+fn plan(request: &Request<'_>, motions: &Motions<'_>, found: Progress, improves: bool) -> Plan {
     let local = local(request);
     let is_solved = !found.path.is_empty();
     let mut counts = Counts::from([

@@ -164,8 +164,9 @@ impl ArmPlane {
         let place = ask::place(scene, &row.key.contender);
         let line = Line::through(path.clone(), series_stroke(place)).labelled(row.key.contender.to_string());
         panel.add(if self.nodes { line.marked(series_marker(place)) } else { line });
-        let hits = row.value("unsafe_hops").filter(|_| self.stations > 0).unwrap_or(0.0) as usize;
-        for [lower, upper] in nearest_arms(scene, row, &stations).into_iter().take(hits) {
+        // Where no hop was judged it is unknown whether the arm hits, and none is drawn.
+        let Some(hits) = row.value("unsafe_hops").filter(|_| self.stations > 0) else { return };
+        for [lower, upper] in nearest_arms(scene, row, &stations).into_iter().take(hits as usize) {
             let arm = [lower.a, lower.b, upper.b].map(|joint| [joint.x, joint.y]).to_vec();
             panel.add(Line::through(arm, Stroke::solid(VERMILLION, 1.4)).labelled("arm where it hits"));
         }

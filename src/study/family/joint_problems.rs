@@ -119,6 +119,12 @@ fn unposed() -> [Query; 1] {
     [Query { name: String::new(), start: Vec::new(), goal: Vec::new() }]
 }
 
+/// The query of a problem, without a name: where it has several goals, the first is planned for.
+fn query(problem: &Problem) -> Vec<Query> {
+    let first = queries(problem).into_iter().next();
+    first.map(|query| Query { name: String::new(), ..query }).into_iter().collect()
+}
+
 fn build(settings: &Settings, inputs: &Inputs) -> Result<Box<dyn Family>, SettingsError> {
     let read: JointProblems = settings.read()?;
     let support = support(settings, &read.support)?;
@@ -253,9 +259,8 @@ impl Family for Set {
         if !problem.is_valid {
             return Err(Invalid("the problem set calls this problem invalid".to_owned()));
         }
-        let queries = self.queries_for(seed);
         let space = self.space(&problem);
-        let traces = picture::traces(&space, self.support.floor_m(), &queries);
+        let traces = picture::traces(&space, self.support.floor_m(), &query(&problem));
         let local = Local::Joints(Box::new(space));
         let near = Near::Places(0.0);
         let preprocessing = nested_roadmap::prepare(local, Vec::new(), 0, near, Counted::Accepted);
@@ -267,10 +272,8 @@ impl Family for Set {
     }
 
     fn queries_for(&self, seed: u64) -> Vec<Query> {
-        let posed = self.problem(seed).map(|problem| queries(&problem));
-        // Where a problem has several goals the first is planned for, as a query of no name.
-        let first = posed.ok().and_then(|queries| queries.into_iter().next());
-        first.map_or_else(|| self.queries.to_vec(), |query| vec![Query { name: String::new(), ..query }])
+        let posed = self.problem(seed).map(|problem| query(&problem));
+        posed.ok().filter(|queries| !queries.is_empty()).unwrap_or_else(|| self.queries.to_vec())
     }
 
     fn draws_ends(&self) -> bool {

@@ -1,11 +1,8 @@
 //! Arms by their published tables.
 
 use crate::geometry::Frame;
-use crate::kinematics::{AXES, Arm, Chain, Joint};
-use std::f64::consts::PI;
-
-/// `alpha` in degrees, `a` and `d` in millimetres, offset in degrees.
-pub type Table = [[f64; 4]; AXES];
+pub use crate::kinematics::tests::{Rows as Table, joints_of as joints};
+use crate::kinematics::{Arm, Chain};
 
 /// Corke's Robotics Toolbox, `models/DH/Puma560.py`, without its base height.
 pub const PUMA: Table = [
@@ -101,18 +98,6 @@ const fn moved_d(mut table: Table, row: usize, to: usize, d_mm: f64) -> Table {
     table[to][2] += table[row][2] - d_mm;
     table[row][2] = d_mm;
     table
-}
-
-pub fn joints(table: &Table) -> [Joint; AXES] {
-    table.map(|[alpha_deg, a_mm, d_mm, offset_deg]| Joint {
-        alpha_rad: alpha_deg.to_radians(),
-        a_m: a_mm * 1e-3,
-        d_m: d_mm * 1e-3,
-        offset_rad: offset_deg.to_radians(),
-        lower_rad: -PI,
-        upper_rad: PI,
-        speed_rad_s: 1.0,
-    })
 }
 
 /// The arm with these rows and the solver that fits, on a floor of its own.
