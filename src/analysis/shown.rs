@@ -47,7 +47,8 @@ pub fn of_all(
 
 /// By how many per cent the mean changes against the other contender's: the reduction with its sign turned.
 pub fn change_percent(of: &Selection<'_>, evidence: &Evidence<'_>, names: &[&str]) -> Option<Estimate> {
-    of_all(OverallStatistic::ReductionPercent, of, evidence, names).map(turned)
+    let found = of_all(OverallStatistic::ReductionPercent, of, evidence, names)?;
+    Some(Estimate { value: 0.0 - found.value, interval: turned(found.interval), ..found })
 }
 
 /// The mean of each of the selection's contenders over the instances that all of them solve, and how many these are; the stream of
