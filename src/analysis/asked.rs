@@ -52,9 +52,9 @@ pub fn asked<'a>(
     claim: &'a Claim,
     point: &'a Interpretation,
 ) -> impl Iterator<Item = Result<Asked<'a>, SettingsError>> {
-    claim.tests().map(move |(role, name, settings)| {
-        Asked::new(role, name, Context { claim, settings, paper, point })
-    })
+    claim
+        .tests()
+        .map(move |(role, name, settings)| Asked::new(role, name, Context { claim, settings, paper, point }))
 }
 
 impl<'a> Asked<'a> {
@@ -109,7 +109,8 @@ impl<'a> Asked<'a> {
     /// Its numbers under the evidence's interpretation; with a hash of what they rest on only if `is_hashed`.
     pub fn numbers(&self, evidence: &Evidence<'_>, is_hashed: bool) -> Numbers {
         let of = &*self.criterion;
-        let stored = || of.studies().iter().filter_map(|study| evidence.run(&study.name)).map(Run::sessions).min();
+        let stored =
+            || of.studies().iter().filter_map(|study| evidence.run(&study.name)).map(Run::sessions).min();
         let sessions = if of.is_clock() { stored().unwrap_or(0) } else { 0 };
         let others = (2..=sessions).map(|session| of.numbers(&evidence.in_session(session as u32)));
         let hash = || sha256(of.results(evidence).as_bytes())[..16].to_owned();

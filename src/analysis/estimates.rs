@@ -9,7 +9,7 @@ use super::number::{Ends, Number, Numbers};
 use super::verdict::Together;
 use base::hash::sha256;
 use base::settings::SettingsError;
-use polars::prelude::{Column, DataFrame, NamedFrom as _, PolarsResult, Series};
+use polars::prelude::{ChunkedArray, Column, DataFrame, NamedFrom as _, PolarsResult, Series};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use stats::interval::Interval;
@@ -91,6 +91,8 @@ pub struct About {
     pub against: String,
     /// The metric.
     pub metric: String,
+    /// The metric's unit; empty for counts.
+    pub unit: String,
     /// The queries.
     pub query: String,
     /// The points of the sweeps.
@@ -105,6 +107,7 @@ impl About {
         let first = selections.first();
         let joined = |all: Option<&Vec<String>>| all.map_or_else(String::new, |all| all.join(", "));
         let points = first.and_then(|of| of.sweep.as_ref()).map(|all| all.iter().map(name::sweep).collect());
+        let metric = first.and_then(|of| of.metric);
         Self {
             claim: claim.id.clone(),
             statistic: asked.statistic().to_owned(),
@@ -112,12 +115,12 @@ impl About {
             groups: joined(first.map(|of| &of.groups)),
             contender: joined(first.map(|of| &of.contenders)),
             against: first.and_then(|of| of.against.clone()).unwrap_or_default(),
-            metric: first.and_then(|of| of.metric).map_or_else(String::new, |metric| metric.name.to_owned()),
+            metric: metric.map_or_else(String::new, |metric| metric.name.to_owned()),
+            unit: metric.map_or_else(String::new, |metric| metric.unit.to_owned()),
             query: joined(first.and_then(|of| of.query.as_ref())),
             sweep: joined(points.as_ref()),
         }
     }
-
 }
 
 /// The numbers of every question that decides a claim, under the evidence's interpretation.
@@ -130,9 +133,9 @@ pub fn measured(evidence: &Evidence<'_>) -> Result<Measured, SettingsError> {
         for one in asked(evidence.paper, claim, &evidence.point) {
             let one = one?;
             let question = one.question().filter(|_| !one.is_shown());
-            found.extend(question.map(|question| {
-                (question, (About::new(claim, &one), one.numbers(evidence, true)))
-            }));
+            found.extend(
+                question.map(|question| (question, (About::new(claim, &one), one.numbers(evidence, true)))),
+            );
         }
         Ok(found)
     };
@@ -194,6 +197,11 @@ impl Estimates {
         folder.join("estimates.parquet")
     }
 
+    /// Those of `paper` if nothing was explored.
+    pub fn none(paper: &Paper) -> Self {
+        Self { paper: paper.id.clone(), ..Self::default() }
+    }
+
     /// What is stored of `paper` in `folder`, if anything is.
     ///
     /// # Errors
@@ -201,16 +209,19 @@ impl Estimates {
     pub fn read(paper: &Paper, folder: &Path) -> Result<Self, StudyError> {
         let path = Self::path(folder);
         if !path.exists() {
-            return Ok(Self { paper: paper.id.clone(), ..Self::default() });
+            return Ok(Self::none(paper));
         }
         let touched = |reason: String| {
             StudyError::Touched(format!("{}: {reason}; explore and confirm the paper again", path.display()))
         };
         let bytes = fs::read(&path).map_err(StudyError::io(&path, "reading the file"))?;
         if !is_sealed(&bytes) {
-            return Err(touched("is not what replan wrote: damaged, edited, or of another version".to_owned()));
+            return Err(touched(
+                "is not what replan wrote: damaged, edited, or of another version".to_owned(),
+            ));
         }
-        let found = Self::from_bytes(bytes).map_err(|reason| touched(format!("cannot be understood: {reason}")))?;
+        let found =
+            Self::from_bytes(bytes).map_err(|reason| touched(format!("cannot be understood: {reason}")))?;
         if found.paper != paper.id {
             return Err(touched(format!("is of the paper `{}`, not of `{}`", found.paper, paper.id)));
         }
@@ -228,7 +239,8 @@ impl Estimates {
     /// It as a sealed Parquet file.
     fn bytes(&self) -> Vec<u8> {
         let head = serde_json::to_string(self).expect("texts, numbers and tables of them");
-        let entries = vec![(HEAD.to_owned(), head), ("seal".to_owned(), format!("{SEAL}{}", "0".repeat(HASH)))];
+        let entries =
+            vec![(HEAD.to_owned(), head), ("seal".to_owned(), format!("{SEAL}{}", "0".repeat(HASH)))];
         let mut bytes = Vec::new();
         write_frame(&mut bytes, frame(self), entries).expect("columns of equal length are written to memory");
         let at = seal_of(&bytes).expect("it was written");
@@ -284,7 +296,7 @@ struct Row {
     number: Number,
 }
 
-const TEXTS: [Lens<String>; 12] = [
+const TEXTS: [Lens<String>; 13] = [
     ("question", |row| &mut row.of.question),
     ("claim", |row| &mut row.of.about.claim),
     ("statistic", |row| &mut row.of.about.statistic),
@@ -293,6 +305,7 @@ const TEXTS: [Lens<String>; 12] = [
     ("contender", |row| &mut row.of.about.contender),
     ("against", |row| &mut row.of.about.against),
     ("metric", |row| &mut row.of.about.metric),
+    ("unit", |row| &mut row.of.about.unit),
     ("query", |row| &mut row.of.about.query),
     ("sweep", |row| &mut row.of.about.sweep),
     ("trials", |row| &mut row.of.numbers.trials),
@@ -345,13 +358,19 @@ const FACTS: [Lens<bool>; 6] = [
 fn rows(of: &Estimates) -> Vec<Row> {
     let mut rows = Vec::new();
     let seeds = [(false, &of.first), (true, &of.second)].into_iter();
-    let all = seeds.flat_map(|(is_second, of)| of.iter().flat_map(move |of| of.answers.iter().map(move |one| (is_second, one))));
+    let all = seeds.flat_map(|(is_second, of)| {
+        of.iter().flat_map(move |of| of.answers.iter().map(move |one| (is_second, one)))
+    });
     for (answer, (is_second, one)) in all.enumerate() {
         let numbers = Numbers { by_session: Vec::new(), ..one.numbers.clone() };
         let of = Answer { numbers, ..one.clone() };
         for (session, numbers) in one.numbers.by_session.iter().enumerate() {
-            let row = |number: &Number| {
-                Row { is_second, answer, of: of.clone(), session: session + 1, number: number.clone() }
+            let row = |number: &Number| Row {
+                is_second,
+                answer,
+                of: of.clone(),
+                session: session + 1,
+                number: number.clone(),
             };
             rows.extend(numbers.iter().map(row));
         }
@@ -408,7 +427,7 @@ fn answers(frame: &DataFrame) -> PolarsResult<[Vec<Answer>; 2]> {
     let mut rows = vec![Row::default(); frame.height()];
     for (name, of) in TEXTS {
         let cells = frame.column(name)?.str()?.iter();
-        rows.iter_mut().zip(cells).for_each(|(row, cell)| *of(row) = cell.unwrap_or_default().to_owned());
+        rows.iter_mut().zip(cells).for_each(|(row, cell)| cell.unwrap_or_default().clone_into(of(row)));
     }
     for (name, of) in COUNTS {
         let cells = frame.column(name)?.u64()?.iter();
@@ -438,10 +457,10 @@ fn answers(frame: &DataFrame) -> PolarsResult<[Vec<Answer>; 2]> {
     let (places, values) = (frame.column("interpretations")?.list()?, frame.column("values")?.list()?);
     for (at, row) in rows.iter_mut().enumerate() {
         let (places, values) = (places.get_as_series(at), values.get_as_series(at));
-        for place in places.as_ref().map(Series::u64).transpose()?.into_iter().flat_map(|list| list.iter()) {
+        for place in places.as_ref().map(Series::u64).transpose()?.into_iter().flat_map(ChunkedArray::iter) {
             row.of.places.push(place.unwrap_or_default() as usize);
         }
-        for value in values.as_ref().map(Series::f64).transpose()?.into_iter().flat_map(|list| list.iter()) {
+        for value in values.as_ref().map(Series::f64).transpose()?.into_iter().flat_map(ChunkedArray::iter) {
             row.number.values.push(value.unwrap_or_default());
         }
     }
@@ -458,4 +477,76 @@ fn answers(frame: &DataFrame) -> PolarsResult<[Vec<Answer>; 2]> {
         last.numbers.by_session[session - 1].push(number);
     }
     Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Estimates with every kind of number, on both seeds.
+    fn stored() -> Estimates {
+        let whole = Number {
+            value: Some(0.1),
+            interval: Some(Interval::new(f64::NEG_INFINITY, 0.3)),
+            ..Number::default()
+        };
+        let part = Number {
+            part: "cell 1".to_owned(),
+            ends: Ends::Most,
+            drawn: Some(7),
+            is_exact: true,
+            values: vec![1.0, f64::INFINITY],
+            ..Number::default()
+        };
+        let numbers = Numbers {
+            by_session: vec![vec![whole.clone(), part], vec![whole]],
+            sessions: 2,
+            is_covered: true,
+            refused: 0.25,
+            trials: "ab".to_owned(),
+            ..Numbers::default()
+        };
+        let about = About { claim: "fewer".to_owned(), ..About::default() };
+        let measured: Measured = [("q".to_owned(), (about, numbers))].into();
+        let other: Measured = [(
+            "q".to_owned(),
+            (About::default(), Numbers { by_session: vec![vec![Number::default()]], ..Numbers::default() }),
+        )]
+        .into();
+        let options = BTreeMap::from([("ties".to_owned(), "fifo".to_owned())]);
+        let mut first = Explored {
+            trials: 3,
+            interpretations: vec![BTreeMap::new(), options.clone(), options],
+            ..Explored::default()
+        };
+        first.add([(0, &measured), (1, &other), (2, &measured)], false);
+        first.add([(0, &other)], true);
+        let mut second = Explored { interpretations: vec![BTreeMap::new()], ..Explored::default() };
+        second.add([(0, &other)], false);
+        Estimates { paper: "toy".to_owned(), first: Some(first), second: Some(second) }
+    }
+
+    #[test]
+    fn estimates_are_read_as_they_were_written_and_equal_numbers_are_stored_once() {
+        let stored = stored();
+        let first = stored.first.as_ref().unwrap();
+        let places: Vec<&[usize]> = first.answers.iter().map(|answer| &*answer.places).collect();
+        assert_eq!(places, [&[0, 2][..], &[1], &[0]]);
+        assert_eq!(first.answers_with_more().collect::<Vec<_>>(), [0]);
+        assert_eq!(first.places()[&("q", false, 2)], 0);
+        assert!(Estimates::from_bytes(stored.bytes()).unwrap() == stored);
+        assert!(stored.bytes() == stored.bytes(), "the same estimates give other bytes");
+    }
+
+    #[test]
+    fn any_flipped_bit_of_a_file_of_estimates_is_seen() {
+        let whole = stored().bytes();
+        assert!(is_sealed(&whole));
+        for at in (0..whole.len()).step_by(7) {
+            let mut bytes = whole.clone();
+            bytes[at] ^= 4;
+            assert!(!is_sealed(&bytes), "byte {at}");
+        }
+        assert!(!is_sealed(&whole[..whole.len() - 1]) && !is_sealed(b""));
+    }
 }

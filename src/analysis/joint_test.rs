@@ -136,7 +136,8 @@ mod tests {
         let (mut refused, mut seen, mut cells_seen) = (0, 0, 0);
         for _ in 0..400 {
             let theirs = mean_row(&correlated(&mut stream, 100));
-            let test = JointTest::new(Products::new(&correlated(&mut stream, 200), 3), 100, &[0.005; 3]).unwrap();
+            let test =
+                JointTest::new(Products::new(&correlated(&mut stream, 200), 3), 100, &[0.005; 3]).unwrap();
             let apart: Vec<f64> = theirs.iter().zip(&test.means).map(|(own, mean)| own - mean).collect();
             refused += u32::from(test.probability(test.statistic(&apart)) < 0.05);
             // The second cell less the first is off by half a unit; each cell by itself hides it.

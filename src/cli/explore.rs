@@ -88,7 +88,8 @@ pub fn explore(
     let found = unless_planned(explorer.explore(&points, &budget, trials, &verdicts))?;
     let Some(explored) = found.map(|found| Explored { command, ..found }) else { return Ok(()) };
     let trials = explored.trials;
-    let stored = Estimates::read(&paper, &places.runs)?;
+    // What is damaged is made again, and what was found on the second seed is gone with it.
+    let stored = Estimates::read(&paper, &places.runs).unwrap_or_else(|_| Estimates::none(&paper));
     Estimates { first: Some(explored), ..stored }.write(&places.runs)?;
     verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?);
     say!(

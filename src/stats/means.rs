@@ -39,7 +39,12 @@ pub fn predicted_mean(values: &[f64], printed_of: usize, plan: Resampling) -> Op
 }
 
 /// [`predicted_mean`] of a mean and a standard deviation of so many `units` that are taken to be normal.
-pub fn predicted_normal([value, deviation]: [f64; 2], units: usize, printed_of: usize, level: f64) -> Interval {
+pub fn predicted_normal(
+    [value, deviation]: [f64; 2],
+    units: usize,
+    printed_of: usize,
+    level: f64,
+) -> Interval {
     let error = deviation * (1.0 / printed_of as f64 + 1.0 / units as f64).sqrt();
     let half = student_multiplier(level, (units - 1) as f64) * error;
     Interval::new(value - half, value + half)

@@ -242,7 +242,10 @@ impl Interpretation {
     /// What the options let claims mean, whatever ran: the metrics of names and how printed digits end.
     pub fn meaning(&self) -> String {
         let options = self.changes.iter().map(|change| &change.option).filter(|option| option.sets_claims());
-        options.map(|option| format!("{:?} {:?}\n", option.metric, option.digits)).collect()
+        options
+            .map(|option| format!("{:?} {:?}\n", option.metric, option.digits))
+            .collect::<Vec<_>>()
+            .concat()
     }
 
     /// How printed digits end, if an option says so.

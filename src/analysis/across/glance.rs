@@ -81,7 +81,8 @@ fn weighed<'e>(
     polylines: &Polylines,
     answer: &impl Fn(usize, &str) -> Option<(usize, &'e Numbers)>,
 ) -> Result<Vec<Option<Glance>>, SettingsError> {
-    let none = Numbers { by_session: vec![Vec::new()], is_covered: true, is_posed: true, ..Numbers::default() };
+    let none =
+        Numbers { by_session: vec![Vec::new()], is_covered: true, is_posed: true, ..Numbers::default() };
     let mut built: BTreeMap<Meaning, Vec<(Option<String>, Asked<'_>)>> = BTreeMap::new();
     let mut known: BTreeMap<(Meaning, Vec<usize>), Glance> = BTreeMap::new();
     let mut all = Vec::new();
@@ -92,7 +93,8 @@ fn weighed<'e>(
         };
         let meaning = (point.meaning(), claim.is_meant(point));
         if !built.contains_key(&meaning) {
-            let decides = asked(paper, claim, point).filter(|one| one.as_ref().map_or(true, |one| !one.is_shown()));
+            let decides =
+                asked(paper, claim, point).filter(|one| one.as_ref().map_or(true, |one| !one.is_shown()));
             let built_now = decides.map(|one| one.map(|one| (one.question(), one)));
             built.insert(meaning.clone(), built_now.collect::<Result<_, SettingsError>>()?);
         }

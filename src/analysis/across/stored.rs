@@ -10,13 +10,14 @@ use super::super::verdict::Together;
 use super::glance::{Glance, Glances, Sight, glances};
 use base::hash::sha256;
 use base::settings::SettingsError;
+use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use study::explore::stamp;
 use study::paper::Paper;
 use study::{Interpretation, Study};
 
 /// Interpretations of a paper under which its claims were judged.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Exploration {
     /// How many trials it took.
     pub trials: u64,
@@ -31,7 +32,7 @@ pub struct Exploration {
 }
 
 /// A claim with all that was found about it.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct ExploredClaim {
     /// The studies that it looks at.
     pub studies: BTreeSet<String>,
@@ -61,7 +62,7 @@ pub fn met_exactly(paper: &Paper) -> String {
 }
 
 /// What was found about a claim under some interpretations.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ExploredResult {
     /// The interpretations, by their places.
     pub interpretations: Vec<usize>,
@@ -117,8 +118,11 @@ impl Exploration {
         };
         let first = under(&points, false)?;
         let again: BTreeSet<usize> = stored.answers_with_more().collect();
-        let with_more: Vec<Option<Interpretation>> =
-            points.into_iter().enumerate().map(|(place, point)| point.filter(|_| again.contains(&place))).collect();
+        let with_more: Vec<Option<Interpretation>> = points
+            .into_iter()
+            .enumerate()
+            .map(|(place, point)| point.filter(|_| again.contains(&place)))
+            .collect();
         let more = under(&with_more, true)?.into_iter().enumerate();
         let more = more.filter(|(place, _)| again.contains(place)).collect();
         let together = if stored.meant == met_exactly(paper) { stored.together.clone() } else { Vec::new() };

@@ -6,8 +6,8 @@ use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric::Metric;
-use crate::analysis::outcome::Outcome;
 use crate::analysis::number::{Number, whole};
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Case, Instance, Selection, cases, most_cases};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{Share, plan, too_few};
@@ -142,9 +142,11 @@ impl Criterion for Equals<'_> {
         let refused = cases(&instances).filter(|case| case.row.status == Status::Rejected).count();
         let share = Share::new(&counts, most_cases(&instances), self.plan);
         let percent = Some(100.0 * (sums[0] / sums[1] - 1.0)).filter(|percent| percent.is_finite());
-        let apart = Number { part: APART.to_owned(), value: percent, greatest: Some(worst), ..Number::default() };
+        let apart =
+            Number { part: APART.to_owned(), value: percent, greatest: Some(worst), ..Number::default() };
         let drawn = self.of.drawn(&instances);
-        let whole = Number { unended: unknown, above: broken, refused, drawn, ..Number::of_cases(&instances) };
+        let whole =
+            Number { unended: unknown, above: broken, refused, drawn, ..Number::of_cases(&instances) };
         vec![whole.of_share(&counts, share), apart]
     }
 
@@ -167,9 +169,7 @@ impl Criterion for Equals<'_> {
             vec![format!("{}: {metric} is {truth} on {same} of {all} trials{apart}", self.of.description())];
         let refused = found.refused;
         because.extend((refused > 0).then(|| format!("{refused} of these paths the verifier refuses")));
-        because.extend(
-            censored::outside_in_words(&self.of, found.outside).filter(|_| self.truth.is_none()),
-        );
+        because.extend(censored::outside_in_words(&self.of, found.outside).filter(|_| self.truth.is_none()));
         let ours = Share::of(found).map(|share| {
             let what = format!("trials on which {metric} is {truth}");
             share.estimate(&what).of_cases([same as usize, all as usize])

@@ -372,8 +372,7 @@ impl Criterion for Attained<'_> {
         let value = |part: &&Number| part.value.unwrap_or_default();
         let count = |parts: &[&Number]| parts.iter().map(|part| part.n).sum::<usize>();
         let all = count(&eligible);
-        let met: Vec<&Number> =
-            eligible.iter().copied().filter(|part| self.is_met(value(part))).collect();
+        let met: Vec<&Number> = eligible.iter().copied().filter(|part| self.is_met(value(part))).collect();
         let given: Vec<&str> = self.given.iter().map(|given| given.claim).collect();
         let condition =
             if given.is_empty() { String::new() } else { format!(" on which {} hold", given.join(", ")) };

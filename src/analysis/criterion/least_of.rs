@@ -208,20 +208,15 @@ impl<'a> LeastOf<'a> {
         format!("{lower} against {higher}, {problem}")
     }
 
-    /// The problem and the pair that a comparison is of.
-    fn place(&self, compared: &Number) -> Option<(&String, usize)> {
-        let mut all =
-            self.of.groups.iter().flat_map(|group| (0..self.pairs.len()).map(move |index| (group, index)));
-        all.find(|(group, index)| self.name(group, *index) == compared.part)
+    /// The problem and the pair that each comparison is of, by its name.
+    fn places(&self) -> BTreeMap<String, (&String, usize)> {
+        let of_group = |group| (0..self.pairs.len()).map(move |index| (group, index));
+        let all = self.of.groups.iter().flat_map(of_group);
+        all.map(|(group, index)| (self.name(group, index), (group, index))).collect()
     }
 
     /// The median of one side over the other's, its interval from the ends of both.
-    fn compare(
-        &self,
-        sides: &BTreeMap<(usize, &str), Side>,
-        problem: &str,
-        index: usize,
-    ) -> Option<Number> {
+    fn compare(&self, sides: &BTreeMap<(usize, &str), Side>, problem: &str, index: usize) -> Option<Number> {
         let (lower, higher) = &self.pairs[index];
         let (one, other) = (sides.get(&(0, lower.as_str()))?, sides.get(&(1, higher.as_str()))?);
         let [from, to] = [one.interval, other.interval];
@@ -268,8 +263,10 @@ impl<'a> LeastOf<'a> {
 
     /// What set inclusion says of the comparisons, where it says anything.
     fn theorem(&self, all: &[&Number]) -> Option<String> {
-        let kinds: Vec<Inclusion> =
-            all.iter().filter_map(|one| self.place(one)).map(|(_, index)| self.inclusions[index]).collect();
+        let places = self.places();
+        let kinds =
+            all.iter().filter_map(|one| places.get(&one.part)).map(|(_, index)| self.inclusions[*index]);
+        let kinds: Vec<Inclusion> = kinds.collect();
         let count = |kind| kinds.iter().filter(|own| **own == kind).count();
         let (longer, shorter) = (count(Inclusion::NeverLonger), count(Inclusion::NeverShorter));
         let equal = count(Inclusion::Equal);
@@ -379,7 +376,8 @@ impl Criterion for LeastOf<'_> {
     }
 
     fn show(&self, evidence: &Evidence<'_>, numbers: &[Number], found: &mut CriterionResult) {
-        let shown = shown(&compared(numbers, Ends::Measured)).and_then(|one| self.place(one));
+        let places = self.places();
+        let shown = shown(&compared(numbers, Ends::Measured)).and_then(|one| places.get(&one.part).copied());
         let Some(((problem, index), run)) = shown.zip(self.of.run(evidence)) else { return };
         let first = self.of.rows(run, problem, &self.pairs[index].0).into_iter().next();
         found.trial = first.map(|row| run.trial(row));

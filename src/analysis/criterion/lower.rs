@@ -5,8 +5,8 @@ use super::{Criterion, Entry, without};
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::outcome::Outcome;
 use crate::analysis::number::{Ends, Number, ended, parts, whole};
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Case, Instance, Selection, is_unended};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{
@@ -104,7 +104,12 @@ impl<'a> Lower<'a> {
     }
 
     /// The change over instances in a sentence, with how many of all cases go which way.
-    fn sentence(&self, metric: &str, (value, Interval { low, high }): (f64, Interval), all: &Number) -> String {
+    fn sentence(
+        &self,
+        metric: &str,
+        (value, Interval { low, high }): (f64, Interval),
+        all: &Number,
+    ) -> String {
         let &Number { below, equal, above, n, .. } = all;
         format!(
             "{}: {metric} changes by {value:.2} % on the whole (95 % interval {low:.2} to {high:.2}, {} over {n} instances); lower on \
@@ -130,7 +135,9 @@ impl<'a> Lower<'a> {
         CriterionResult {
             outcome: Some(found),
             ours: Some(Estimate::new(value, interval, what, all.n).of_cases(all.cases())),
-            because: std::iter::once(self.sentence(metric, (value, interval), all)).chain(tied(all)).collect(),
+            because: std::iter::once(self.sentence(metric, (value, interval), all))
+                .chain(tied(all))
+                .collect(),
             limits: vec![0.0, if self.way == Way::Higher { self.by_percent } else { 0.0 - self.by_percent }],
             units: "instances",
             needs: needs(all.n),
@@ -189,7 +196,8 @@ impl<'a> Lower<'a> {
 
     /// What is found along the sweep if cases without an end ended so, and at how many points on the claim's side.
     fn all_along(&self, numbers: &[Number], ends: Ends) -> Option<(Outcome, usize)> {
-        let band: Vec<Interval> = parts(numbers, ends).into_iter().filter_map(|point| point.interval).collect();
+        let band: Vec<Interval> =
+            parts(numbers, ends).into_iter().filter_map(|point| point.interval).collect();
         (!band.is_empty()).then(|| all_along(self.way, &band))
     }
 
@@ -232,7 +240,8 @@ impl<'a> Lower<'a> {
     /// The trial that speaks least for the claim where along the sweep it is least.
     fn shown_along(&self, evidence: &Evidence<'_>, numbers: &[Number]) -> Option<String> {
         let points = parts(numbers, Ends::Measured);
-        let point = self.of.sweep_points().into_iter().nth(self.least(&points)).filter(|_| !points.is_empty())?;
+        let point =
+            self.of.sweep_points().into_iter().nth(self.least(&points)).filter(|_| !points.is_empty())?;
         let sign = if self.way == Way::Higher { 1.0 } else { -1.0 };
         let against = |case: &Case<'_>| case.row.key.sweep.has(&point).then(|| sign * solved_more(case));
         selection::least(&self.of, evidence, &self.of.instances(evidence), against)

@@ -5,8 +5,8 @@ use crate::analysis::context::Context;
 use crate::analysis::criterion_result::{CriterionResult, refused_beyond};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
-use crate::analysis::outcome::Outcome;
 use crate::analysis::number::{Ends, Number, whole};
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Case, Instance, Selection, by_instance};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_INSTANCES, LEVEL, mean, needs, plan, standard_deviation};
@@ -26,7 +26,8 @@ pub static ENTRY: Entry = Entry {
     revision: |_| 1,
     question: |settings| {
         // A mean of few is resampled, and takes the instances one by one.
-        let few = settings.get("instances").and_then(Value::as_integer).is_some_and(|n| n < FEWEST_NORMAL as i64);
+        let few =
+            settings.get("instances").and_then(Value::as_integer).is_some_and(|n| n < FEWEST_NORMAL as i64);
         without(settings, &["instances"]);
         Some(if few { "means of few 1" } else { "means 1" })
     },
@@ -93,7 +94,12 @@ impl<'a> MeanOf<'a> {
     }
 
     /// The mean number of each instance that has one, as `number` takes it of a case, as all of them together.
-    fn means(&self, instances: &[Instance<'_>], ends: Ends, number: impl Fn(&Case<'_>) -> Option<f64>) -> Number {
+    fn means(
+        &self,
+        instances: &[Instance<'_>],
+        ends: Ends,
+        number: impl Fn(&Case<'_>) -> Option<f64>,
+    ) -> Number {
         let numbers = by_instance(instances, number);
         let values: Vec<f64> = numbers.iter().filter_map(|numbers| mean(numbers)).collect();
         let first = values.first().copied();
@@ -103,7 +109,7 @@ impl<'a> MeanOf<'a> {
         let (deviation, greatest) = (standard_deviation(&values), values.iter().copied().reduce(farther));
         let is_few = n.min(self.instances) < FEWEST_NORMAL;
         let values = if is_few { values } else { Vec::new() };
-        Number { ends, value, n, deviation, greatest, is_agreed, values, ..Number::default() }
+        Number { ends, value, is_agreed, n, greatest, deviation, values, ..Number::default() }
     }
 
     /// Where a mean of as many instances as are printed lies.
@@ -147,7 +153,7 @@ impl Criterion for MeanOf<'_> {
     fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
         let instances = self.of.instances(evidence);
         let cases = Number::of_cases(&instances);
-        let Number { value, n, deviation, greatest, is_agreed, values, .. } =
+        let Number { value, is_agreed, n, greatest, deviation, values, .. } =
             self.means(&instances, Ends::Measured, |case| self.number(case));
         let far = greatest.map_or(0.0, f64::abs) * n as f64;
         let least = if self.of.against.is_some() { -far } else { 0.0 };
@@ -156,7 +162,7 @@ impl Criterion for MeanOf<'_> {
             let number = |case: &Case<'_>| if case.is_unended() { Some(end) } else { self.number(case) };
             self.means(&instances, ends, number)
         });
-        let all = Number { value, n, deviation, greatest, is_agreed, values, ..cases };
+        let all = Number { value, is_agreed, n, greatest, deviation, values, ..cases };
         std::iter::once(all).chain(ended).collect()
     }
 

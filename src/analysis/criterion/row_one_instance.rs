@@ -4,8 +4,8 @@ use super::{Criterion, Entry, without};
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::outcome::Outcome;
 use crate::analysis::number::{Ends, Number, parts, whole};
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Case, Instance, Selection};
 use crate::analysis::selection_spec::{Labels, SelectionSpec};
 use crate::analysis::statistic::InstanceStatistic;
@@ -257,8 +257,12 @@ impl Criterion for RowOneInstance<'_> {
         let is_counted = self.rows.iter().all(|row| matches!(row.cells, Cells::Sweep(_)));
         let cells = |ends: Ends| {
             let cells = self.cells(&drawn, ends == Ends::Most).into_iter().enumerate();
-            let of_cell = move |(cell, values): (usize, Vec<f64>)| {
-                Number { part: format!("cell {}", cell + 1), ends, n: values.len(), values, ..Number::default() }
+            let of_cell = move |(cell, values): (usize, Vec<f64>)| Number {
+                part: format!("cell {}", cell + 1),
+                ends,
+                n: values.len(),
+                values,
+                ..Number::default()
             };
             cells.map(of_cell).collect::<Vec<_>>()
         };

@@ -176,9 +176,8 @@ impl<'a> TableMeans<'a> {
     fn means(row: &[Cell<'a>], evidence: &Evidence<'_>) -> Vec<Number> {
         let units = Self::units(row, evidence);
         let first = units.first();
-        let is_exact = |cell: &usize| {
-            units.iter().all(|unit| first.is_some_and(|first| unit[*cell] == first[*cell]))
-        };
+        let is_exact =
+            |cell: &usize| units.iter().all(|unit| first.is_some_and(|first| unit[*cell] == first[*cell]));
         let moving: Vec<usize> = (0..row.len()).filter(|cell| !is_exact(cell)).collect();
         let instances: Vec<Vec<f64>> =
             units.iter().map(|unit| moving.iter().map(|cell| unit[*cell]).collect()).collect();
@@ -327,7 +326,8 @@ impl Criterion for TableMeans<'_> {
         let all = whole(numbers);
         let Some(rows) = self.row_results(numbers) else {
             let widest = self.rows.iter().map(Vec::len).max().unwrap_or(0);
-            return CriterionResult::too_few(all.ran, all.ran, widest + FEWEST_NORMAL).hanging_on(all.unended);
+            return CriterionResult::too_few(all.ran, all.ran, widest + FEWEST_NORMAL)
+                .hanging_on(all.unended);
         };
         let p = combined(&rows.iter().map(|row| row.p).collect::<Vec<_>>());
         let is_kept = self.judged(p) >= self.refused_below;

@@ -5,8 +5,8 @@ use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
-use crate::analysis::outcome::Outcome;
 use crate::analysis::number::{Ends, Number, ended, whole};
+use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Case, Instance, Selection, by_instance, cases};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_INSTANCES, needs, plan};
@@ -87,9 +87,8 @@ impl<'a> Trend<'a> {
             let place = case.row.value(&self.over).filter(|_| case.is_unended());
             self.point(case).or_else(|| place.map(|x| (x, if (x > middle) == rising { most } else { least })))
         };
-        let slope = |rising: bool| {
-            pooled::slope(&by_instance(instances, |case| number(case, rising)), self.plan)
-        };
+        let slope =
+            |rising: bool| pooled::slope(&by_instance(instances, |case| number(case, rising)), self.plan);
         [true, false].into_iter().filter_map(slope).map(|found| found.interval).collect()
     }
 
@@ -172,8 +171,7 @@ impl Criterion for Trend<'_> {
 
     fn show(&self, evidence: &Evidence<'_>, _: &[Number], found: &mut CriterionResult) {
         let outcome = found.outcome.filter(|_| found.ours.is_some());
-        found.trial =
-            outcome.and_then(|outcome| self.shown(evidence, &self.of.instances(evidence), outcome));
+        found.trial = outcome.and_then(|outcome| self.shown(evidence, &self.of.instances(evidence), outcome));
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {
