@@ -1,7 +1,7 @@
 """Papers, studies and stored trials as numpy arrays."""
 
-import json
 import itertools
+import json
 import operator
 import tomllib
 from collections.abc import Iterator
@@ -312,9 +312,7 @@ def keys_of(table: Table) -> list[tuple]:
 class Paper:
     """A paper's claims and studies."""
 
-    def __init__(
-        self, folder: Path, runs: Path, metrics: list[Metric], explored: Path | None = None
-    ) -> None:
+    def __init__(self, folder: Path, runs: Path, metrics: list[Metric], explored: Path | None = None) -> None:
         """Read the specs; `explored` has what the numbers of explorations amount to."""
         self.explored = explored
         self.id = runs.name

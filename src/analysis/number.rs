@@ -5,7 +5,6 @@
 
 use super::censored::{outside, refused};
 use super::selection::{Instance, censored, solved, unended};
-use super::statistic::Share;
 use stats::bootstrap::Estimate;
 use stats::interval::Interval;
 
@@ -111,14 +110,6 @@ impl Number {
     pub fn estimated(self, found: Option<Estimate>) -> Self {
         let Some(Estimate { value, interval, is_agreed, units, .. }) = found else { return self };
         Self { value: Some(value), interval: Some(interval), is_agreed, n: units, ..self }
-    }
-
-    /// It with the share that hits and chances by instance have, if there is one.
-    #[must_use]
-    pub fn of_share(self, counts: &[[f64; 2]], share: Option<Share>) -> Self {
-        let [hits, chances] = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
-        let Some(Share { value, interval, is_exact, is_agreed, instances }) = share else { return self };
-        Self { value: Some(value), interval, is_exact, is_agreed, n: instances, hits, chances, ..self }
     }
 
     /// A value with its interval if cases without an end had given this.

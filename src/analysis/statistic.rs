@@ -305,6 +305,13 @@ impl Share {
         (chances > 0.0).then(|| Self { value: hits / chances, interval, is_exact, is_agreed, instances })
     }
 
+    /// `number` with this share of the hits and chances by instance, if there is one.
+    pub fn counted(share: Option<Self>, counts: &[[f64; 2]], number: Number) -> Number {
+        let [hits, chances] = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
+        let Some(Self { value, interval, is_exact, is_agreed, instances }) = share else { return number };
+        Number { value: Some(value), interval, is_exact, is_agreed, n: instances, hits, chances, ..number }
+    }
+
     /// That which a number has.
     pub fn of(number: &Number) -> Option<Self> {
         let &Number { value, interval, is_exact, is_agreed, n, .. } = number;

@@ -156,7 +156,7 @@ fn polylines_that_were_found_are_kept_and_not_searched_for_again() {
     let cache = toy.0.at("target/replan/cache/polylines.json");
     let class = || {
         toy.0.done(&["explore", "./toy"]);
-        toy.first().claims["row"].results[0].outcome.polarity()
+        toy.claim("row").outcome.polarity()
     };
     assert_eq!(class(), Polarity::Open);
     // What was kept is believed: an exploration that searched anew would find the path.

@@ -147,7 +147,7 @@ impl Criterion for Equals<'_> {
         let drawn = self.of.drawn(&instances);
         let whole =
             Number { unended: unknown, above: broken, refused, drawn, ..Number::of_cases(&instances) };
-        vec![whole.of_share(&counts, share), apart]
+        vec![Share::counted(share, &counts, whole), apart]
     }
 
     fn weigh(&self, numbers: &[Number]) -> CriterionResult {

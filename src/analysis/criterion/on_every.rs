@@ -180,7 +180,7 @@ impl Criterion for OnEvery<'_> {
             drawn: self.of.drawn(&instances),
             ..Number::of_cases(&instances)
         };
-        vec![whole.of_share(&counts, Share::new(&counts, most_cases(&instances), self.plan))]
+        vec![Share::counted(Share::new(&counts, most_cases(&instances), self.plan), &counts, whole)]
     }
 
     fn weigh(&self, numbers: &[Number]) -> CriterionResult {

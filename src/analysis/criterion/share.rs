@@ -345,7 +345,8 @@ impl Criterion for Counted<'_> {
         let instances = self.of.instances(evidence);
         let unended = cases(&instances).filter(|case| self.is_unknown(case)).count();
         let (counts, share) = self.share(&instances, None);
-        let mut numbers = vec![Number { unended, ..Number::of_cases(&instances) }.of_share(&counts, share)];
+        let mut numbers =
+            vec![Share::counted(share, &counts, Number { unended, ..Number::of_cases(&instances) })];
         if unended > 0 && self.settings.hits != Hits::Events {
             let interval = |is_hit| self.share(&instances, Some(is_hit)).1.and_then(|share| share.interval);
             if let Some((none, all)) = interval(false).zip(interval(true)) {
