@@ -342,7 +342,7 @@ fn a_changed_margin_printed_number_or_criterion_of_the_same_numbers_needs_no_tri
     toy.0.edit("toy/paper.toml", lower, within);
     toy.0.done(&["judge", "./toy"]);
     assert_eq!(toy.verdicts().explored.unwrap().stale, [""; 0]);
-    assert_eq!(toy.class_and_across("fewer"), pair("reproduced", "same under all 4"));
+    assert_eq!(toy.class_and_across("fewer"), pair("reproduced", "same under all 6"));
     assert!(fs::read(toy.0.at(RUNS).join("estimates.parquet")).unwrap() == file, "it was explored again");
     toy.0.done(&["judge", "./toy", "--check"]);
 }
