@@ -18,6 +18,8 @@ use study::runner::BuiltStudy;
 use study::store::Records;
 
 const SIZES: [usize; 3] = [100, 1_000, 10_000];
+/// Each interpretation names an option of every choice: ten times the choices are a hundred times the names.
+const CHOICES: [usize; 3] = [10, 100, 1_000];
 const GROUPS: usize = 20;
 
 fn study(groups: usize) -> String {
@@ -114,14 +116,14 @@ fn exponent(points: &[(usize, f64)]) -> f64 {
 
 fn main() {
     let most = std::env::var("REPLAN_GROWTH").map_or(usize::MAX, |most| most.parse().unwrap());
-    let kinds: [(&str, fn(usize) -> [f64; 2]); 3] = [
-        ("claims", |size| seconds(&claims(size), 1, GROUPS)),
-        ("choices", |size| seconds(&choices(size), 1, 1)),
-        ("studies", |size| seconds("", size, 1)),
+    let kinds: [(&str, [usize; 3], fn(usize) -> [f64; 2]); 3] = [
+        ("claims", SIZES, |size| seconds(&claims(size), 1, GROUPS)),
+        ("choices", CHOICES, |size| seconds(&choices(size), 1, 1)),
+        ("studies", SIZES, |size| seconds("", size, 1)),
     ];
-    for (kind, of) in kinds {
+    for (kind, sizes, of) in kinds {
         let measured: Vec<(usize, [f64; 2])> =
-            SIZES.into_iter().filter(|size| *size <= most).map(|size| (size, of(size))).collect();
+            sizes.into_iter().filter(|size| *size <= most).map(|size| (size, of(size))).collect();
         for (at, what) in ["read", "judge"].into_iter().enumerate() {
             let points: Vec<(usize, f64)> = measured.iter().map(|(size, times)| (*size, times[at])).collect();
             let times: Vec<String> =

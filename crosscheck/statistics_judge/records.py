@@ -34,6 +34,7 @@ class Metric:
     name: str
     column: str
     scale: float
+    at_most: str | None
     better: str
     clock: bool
     status: bool
@@ -235,7 +236,12 @@ class Study:
         if metric.status:
             return np.isin(self.status, ["solved", "rejected"]).astype(np.float64) * metric.scale
         if not metric.clock:
-            return self.column(metric.column) * metric.scale
+            values = self.column(metric.column)
+            if metric.at_most is not None:
+                most = self.column(metric.at_most)
+                unknown = np.isnan(values) | np.isnan(most)
+                values = np.where(unknown, np.nan, values <= most * (1 + 1e-9))
+            return values * metric.scale
         known = self._clocked.get(session)
         if known is None:
             times = self.clock.get(session, {})

@@ -1,15 +1,20 @@
 """What stands in words beside a class that hangs on an interpretation."""
 
-# From so many options on that have all of their results, these are counted and not listed.
+# From so many options on that have all of their results on one side, these are counted while others are left to list.
 MANY = 5
 
 
 def shares(split: dict[str, list[int]]) -> str:
     """Under how many of its results each option is asked for."""
-    looked = {option: own for option, own in split.items() if sum(own)}
-    parted = {option: own for option, own in looked.items() if own[1]}
-    whole = len(looked) - len(parted)
-    is_short = whole >= MANY and bool(parted)
-    listed = parted if is_short else looked
+    listed = {option: own for option, own in split.items() if sum(own)}
+    sides = [
+        (sum(own[lacking] == 0 for own in listed.values()), lacking, word)
+        for lacking, word in ((1, "all"), (0, "none"))
+    ]
+    counted = []
+    for count, lacking, word in sorted(sides, key=lambda side: -side[0]):
+        if MANY <= count < len(listed):
+            listed = {option: own for option, own in listed.items() if own[lacking]}
+            counted.append(f"{word} under each of {count} more")
     each = ", ".join(f"{option} {own[0]} of {sum(own)}" for option, own in listed.items())
-    return f"{each}; all under each of {whole} more" if is_short else each
+    return f"{each}; {', '.join(counted)}" if counted else each

@@ -266,9 +266,11 @@ def test_a_contender_departs_where_an_option_of_its_own_is_not_the_default() -> 
     assert [departs(study, one["label"]) for one in contenders] == [False, True, False]
 
 
-def test_many_options_that_have_all_of_their_results_are_counted() -> None:
+def test_many_options_with_all_of_their_results_on_one_side_are_counted() -> None:
     few = {"a": [1, 0], "b": [2, 1], "c": [0, 0]}
     assert shares(few) == "a 1 of 1, b 2 of 3"
     many = {**{name: [1, 0] for name in "defgh"}, "b": [2, 1]}
     assert shares(many) == "b 2 of 3; all under each of 5 more"
+    both = {**many, **{name: [0, 2] for name in "ijklmn"}}
+    assert shares(both) == "b 2 of 3; none under each of 6 more, all under each of 5 more"
     assert shares({name: [1, 0] for name in "defgh"}) == "d 1 of 1, e 1 of 1, f 1 of 1, g 1 of 1, h 1 of 1"

@@ -141,6 +141,7 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
         withdrawn: Vec::new(),
         claims,
         together,
+        replies: paper.replies.clone(),
     })
 }
 

@@ -47,6 +47,7 @@ fn heads(stored: &Verdicts, now: &Verdicts) -> Vec<String> {
         unlike("seal of the history", &stored.history, &now.history),
         unlike("remarks on the history", &stored.remarks, &now.remarks),
         unlike("withdrawn claims", &stored.withdrawn, &now.withdrawn),
+        unlike("replies", &stored.replies, &now.replies),
     ];
     let other = now.records.iter().filter(|(study, hash)| stored.records.get(*study) != Some(hash));
     let other = other.map(|(study, _)| format!("records of study `{study}`: judged before from others"));

@@ -5,6 +5,7 @@
 //! is the same as long as its hash is ([`meaning`](super::meaning)), whatever it is called. Its data were seen if records of a
 //! study that it asks had been stored before it changed.
 
+use super::citation::{citation, version};
 use super::meaning::{DIGITS, FORM, meanings};
 use super::verdict::{ClaimVerdict, Verdicts};
 use base::hash::sha256;
@@ -234,6 +235,13 @@ impl History {
             let known = self.claims.get(&judged.claim);
             judged.changes = known.map_or_else(Vec::new, |known| known.changes.clone());
         }
+    }
+
+    /// The text that cites `judged`, one of `verdicts`; `None` if claims or records changed since it was judged.
+    pub fn citation(&self, verdicts: &Verdicts, judged: &ClaimVerdict) -> Option<String> {
+        let is_current = self.seal().is_some() && self.seal() == verdicts.history.as_deref();
+        let known = self.claims.get(&judged.claim).filter(|_| is_current)?;
+        Some(citation(verdicts, judged, &version(verdicts, judged, &known.stated.0)))
     }
 
     /// The seal of the last entry; `None` if there are no entries.

@@ -31,14 +31,16 @@ const GIVEN: &str = "given";
 /// The keys of words that are shown and decide nothing.
 const WORD_KEYS: [&str; 3] = ["chosen", "label", "premises"];
 
-/// What every claim of `paper` means, by id: the hash, and behind it the studies whose trials the claim and its parts ask.
+/// What every claim of `paper` means, by id, as [`meaning`].
 pub fn meanings(paper: &Paper) -> BTreeMap<String, Vec<String>> {
-    let meaning = |claim: &Claim| {
-        let parts = claim.parts.ids().iter().filter_map(|id| paper.claim(id));
-        let studies: BTreeSet<&str> = parts.chain([claim]).flat_map(Claim::studies).collect();
-        std::iter::once(hash(paper, claim)).chain(studies.into_iter().map(str::to_owned)).collect()
-    };
-    paper.claims.iter().map(|claim| (claim.id.clone(), meaning(claim))).collect()
+    paper.claims.iter().map(|claim| (claim.id.clone(), meaning(paper, claim))).collect()
+}
+
+/// What `claim` means: the hash, and behind it the studies whose trials the claim and its parts ask.
+pub fn meaning(paper: &Paper, claim: &Claim) -> Vec<String> {
+    let parts = claim.parts.ids().iter().filter_map(|id| paper.claim(id));
+    let studies: BTreeSet<&str> = parts.chain([claim]).flat_map(Claim::studies).collect();
+    std::iter::once(hash(paper, claim)).chain(studies.into_iter().map(str::to_owned)).collect()
 }
 
 /// One hash of the claims of `paper`, by their ids and what they mean.

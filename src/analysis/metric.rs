@@ -42,21 +42,21 @@ pub struct Metric {
     pub column: &'static str,
     /// By how much the column is multiplied to give the unit.
     pub scale: f64,
+    /// The column that it is held against: the metric is 1 where it is at most as large (to 1e-9 of it), otherwise 0.
+    pub at_most: Option<&'static str>,
 }
 
 /// What is read from the trial's status in place of a column: 1 where a path came back, refused or not, otherwise 0.
 const STATUS: &str = "status";
 
 const fn metric(name: &'static str, label: &'static str, unit: &'static str, better: Better) -> Metric {
-    Metric { name, label, unit, better, column: name, scale: 1.0 }
+    Metric { name, label, unit, better, column: name, scale: 1.0, at_most: None }
 }
 
 /// Every metric, in the order of their names.
 pub static METRICS: &[Metric] = &[
     metric("adjustments", "Adjustments", "", Better::Neither),
-    metric("attainable_hit_share_percent", "Attainable targets met", "%", Better::Neither),
     metric("bends", "Bends", "", Better::Lower),
-    metric("candidates", "Pairs tried one by one", "", Better::Neither),
     metric("checked_states", "Configurations checked by the query", "", Better::Lower),
     metric("closed", "Closed nodes", "", Better::Lower),
     metric("components", "Connected components", "", Better::Neither),
@@ -67,8 +67,12 @@ pub static METRICS: &[Metric] = &[
     Metric { column: STATUS, ..metric("found", "Path found", "", Better::Higher) },
     metric("generated", "Generated successors", "", Better::Lower),
     metric("goal_links", "Neighbours of the goal", "", Better::Neither),
-    metric("hit_share_percent", "Targets met", "%", Better::Neither),
     metric("hops", "Hops", "", Better::Lower),
+    Metric {
+        column: "path_cost_cells",
+        at_most: Some("shortest_path_cells"),
+        ..metric("is_shortest", "Shortest path found", "", Better::Higher)
+    },
     metric("is_unsafe", "Paths that hit an obstacle", "", Better::Lower),
     metric("joint1_travel_deg", "Travel of joint 1", "°", Better::Lower),
     metric("joint2_travel_deg", "Travel of joint 2", "°", Better::Lower),
@@ -86,9 +90,6 @@ pub static METRICS: &[Metric] = &[
     metric("opened_distinct", "Opened nodes, each once", "", Better::Lower),
     metric("optimal_cost_cells", "Optimal cost", "cells", Better::Neither),
     metric("optimal_length_cm", "Optimal length", "cm", Better::Neither),
-    metric("pairs", "Pairs", "", Better::Neither),
-    metric("pairs_on_fives", "Pairs on multiples of 5", "", Better::Neither),
-    metric("pairs_on_fives_tried", "Of so many", "", Better::Neither),
     metric("path_cost_cells", "Path cost", "cells", Better::Lower),
     metric("path_length_cm", "Path length", "cm", Better::Lower),
     metric("path_length_mm", "Path length", "mm", Better::Lower),
@@ -99,6 +100,7 @@ pub static METRICS: &[Metric] = &[
         better: Better::Lower,
         column: clock::COLUMN,
         scale: 1e-6,
+        at_most: None,
     },
     Metric {
         name: "plan_time_us",
@@ -107,6 +109,7 @@ pub static METRICS: &[Metric] = &[
         better: Better::Lower,
         column: clock::COLUMN,
         scale: 1e-3,
+        at_most: None,
     },
     metric("posture_jitter_rad", "Posture jitter", "rad", Better::Lower),
     metric("printed_optimal_cells", "Printed optimal cost", "cells", Better::Neither),
@@ -126,11 +129,9 @@ pub static METRICS: &[Metric] = &[
         better: Better::Lower,
         column: "solve_wall_ns",
         scale: 1e-6,
+        at_most: None,
     },
     metric("start_links", "Neighbours of the start", "", Better::Neither),
-    metric("targets", "Targets", "", Better::Neither),
-    metric("targets_attainable", "Attainable targets", "", Better::Neither),
-    metric("targets_hit", "Targets met by a pair", "", Better::Neither),
     metric("tip_jitter_cm", "Tip jitter", "cm", Better::Lower),
     metric("turn_exterior_deg", "Turn sum, exterior angles", "°", Better::Lower),
     metric("turn_interior_deg", "Turn sum, interior angles", "°", Better::Lower),
@@ -152,6 +153,9 @@ impl Metric {
     /// What its numbers mean: what the column says that it is read from.
     pub fn meaning(&self) -> &'static str {
         match column::find(self.column) {
+            Some(_) if self.at_most.is_some() => {
+                "1 where the path is as short as any between corners of cells, otherwise 0"
+            }
             Some(column) => column.about,
             None if self.is_clock() => clock::ABOUT,
             None => "1 where a path came back, refused or not, otherwise 0",
@@ -160,7 +164,12 @@ impl Metric {
 
     /// Whether a study whose records have these columns gives it.
     pub fn is_produced(&self, columns: &BTreeSet<&str>) -> bool {
-        self.is_status() || columns.contains(self.column)
+        self.is_status() || self.is_read_from(columns)
+    }
+
+    /// Whether it is read from some of these columns.
+    pub fn is_read_from(&self, columns: &BTreeSet<&str>) -> bool {
+        columns.contains(self.column) && self.at_most.is_none_or(|other| columns.contains(other))
     }
 
     /// Whether it is read from the trial's status: 1 where a path came back, refused or not, otherwise 0.
@@ -174,13 +183,19 @@ impl Metric {
         wall_ns: impl Fn(&Row) -> Option<f64> + 'r,
     ) -> impl Fn(&Row) -> Option<f64> + 'r {
         let place = column::place(self.column);
+        let other = self.at_most.and_then(column::place);
+        let number = |row: &Row, place: u16| row.values.at(place).map(Value::as_f64);
         move |row| {
             let raw = if self.is_clock() {
                 wall_ns(row)
             } else if self.is_status() {
                 Some(f64::from(u8::from(matches!(row.status, Status::Solved | Status::Rejected))))
             } else {
-                row.values.at(place?).map(Value::as_f64)
+                number(row, place?)
+            };
+            let raw = match other {
+                Some(other) => raw.zip(number(row, other)).map(|(own, most)| is_at_most(own, most)),
+                None => raw,
             };
             raw.map(|value| value * self.scale)
         }
@@ -192,9 +207,23 @@ impl Metric {
     }
 }
 
+/// 1 if `own` is at most `most`, up to rounding, otherwise 0.
+fn is_at_most(own: f64, most: f64) -> f64 {
+    f64::from(u8::from(own <= most * (1.0 + 1e-9)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_path_is_shortest_up_to_rounding_alone() {
+        let shortest = 2.0_f64.sqrt();
+        assert_eq!(
+            [shortest, shortest + 1e-12, shortest + 1e-6].map(|own| is_at_most(own, shortest)),
+            [1.0, 1.0, 0.0]
+        );
+    }
 
     #[test]
     fn metrics_are_in_order_and_read_columns_that_exist() {

@@ -10,6 +10,7 @@ pub mod across;
 pub mod agreement;
 pub mod asked;
 mod censored;
+pub mod citation;
 pub mod claims;
 pub mod compare;
 pub mod context;

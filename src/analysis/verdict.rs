@@ -5,6 +5,7 @@ use super::verdict_rule::{Chosen, Verdict};
 use serde::{Deserialize, Serialize};
 use stats::interval::Interval;
 use std::collections::BTreeMap;
+use study::paper::Reply;
 
 /// Our number beside the printed one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -364,6 +365,9 @@ pub struct Verdicts {
     /// Which claims hold jointly: sets none of which lies within another, the largest first.
     #[serde(default, rename = "together")]
     pub together: Vec<Together>,
+    /// What authors and others reply.
+    #[serde(default, rename = "reply", skip_serializing_if = "Vec::is_empty")]
+    pub replies: Vec<Reply>,
 }
 
 impl Verdicts {
@@ -378,6 +382,11 @@ impl Verdicts {
     /// The claim called `id`.
     pub fn claim(&self, id: &str) -> Option<&ClaimVerdict> {
         self.claims.iter().find(|judged| judged.claim == id)
+    }
+
+    /// The replies about the claim called `id`.
+    pub fn replies_to(&self, id: &str) -> impl Iterator<Item = &Reply> {
+        self.replies.iter().filter(move |reply| reply.claims.iter().any(|claim| claim == id))
     }
 }
 

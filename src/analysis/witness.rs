@@ -238,6 +238,10 @@ fn wanted_of(
 
 impl Wanted {
     fn value(&self, numbers: &BTreeMap<&str, Option<Counts>>) -> Option<f64> {
+        if self.metric.at_most.is_some() {
+            // The verifier knows the other column, the planner does not.
+            return None;
+        }
         let of = |label: &str| {
             let value = numbers.get(label)?.as_ref()?.get(self.metric.column)?;
             Some(Value::as_f64(*value) * self.metric.scale)

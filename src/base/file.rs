@@ -16,7 +16,7 @@ pub const MOST_BYTES: u64 = 1 << 29;
 /// # Errors
 /// What the system refuses; something that is no regular file; one that is larger than [`MOST_BYTES`].
 pub fn read(path: &Path) -> io::Result<Vec<u8>> {
-    // Asked before it is opened: opening a pipe waits for who writes into it.
+    // Checked before it is opened: opening a pipe waits for who writes into it.
     let found = std::fs::metadata(path)?;
     if !found.is_file() && !found.is_dir() {
         return Err(Error::other("it is a device, a pipe or a socket; a regular file is accepted"));

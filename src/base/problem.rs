@@ -98,8 +98,10 @@ pub fn parse_problem(
 /// Scenes and requests of `MoveIt` hold half a problem each.
 fn refuse_moveit(reader: Reader<'_>, root: &Node) -> Result<(), SettingsError> {
     let has = |key: &str| root.keys().any(|known| known == key);
+    let world = reader.yaml.find(root, "world")?;
+    let has_objects = world.is_some_and(|world| world.keys().any(|key| key == "collision_objects"));
     let found = match () {
-        () if has("world") && (has("robot_model_name") || has("robot_state")) => "scene",
+        () if has_objects || has("world") && (has("robot_model_name") || has("robot_state")) => "scene",
         () if has("goal_constraints") || has("start_state") => "request",
         () => return Ok(()),
     };
@@ -110,7 +112,7 @@ fn refuse_moveit(reader: Reader<'_>, root: &Node) -> Result<(), SettingsError> {
     Err(reader.fault(root, message))
 }
 
-/// Refuses problems for another robot. Names that differ in case and punctuation alone, or of which one is a part of the other, are one.
+/// Refuses problems for another robot. Names that differ in case and punctuation alone, or contain each other, are one.
 fn check_robot(reader: Reader<'_>, root: &Node, robot: &str) -> Result<(), SettingsError> {
     let Some(node) = reader.yaml.find(root, "robot")? else { return Ok(()) };
     let plain = |name: &str| name.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase();

@@ -11,7 +11,7 @@ pub const FAR_RAD: f64 = 4.0 * std::f64::consts::PI;
 
 /// How far the length of a quaternion may be from 1: two digits that are written by hand.
 const UNIT: f64 = 1e-2;
-/// Beyond this its digits are few enough to be told of.
+/// Beyond this its digits are few enough for a message.
 const ROUNDED: f64 = 1e-4;
 
 /// A place and an orientation.

@@ -8,6 +8,8 @@ use std::fmt::Debug;
 
 /// The most characters of a line that a message shows.
 const MOST_OF_LINE: usize = 200;
+/// The most characters of what a message says.
+const MOST_OF_MESSAGE: usize = 1500;
 /// The most characters of a word that a message shows.
 const MOST_OF_WORD: usize = 60;
 /// The most characters of a name: names of files are made of several.
@@ -102,11 +104,20 @@ pub fn fault_of_name(name: &str) -> Option<String> {
         .then(|| "holds a control character or the end of a line; text on one line is accepted".to_owned())
 }
 
+/// What a message says, which may hold names of others: visible, and its beginning if it is long.
+pub fn bounded(message: &str) -> Cow<'_, str> {
+    beginning(message, MOST_OF_MESSAGE)
+}
+
 /// A word as messages show it: visible, and its beginning if it is long.
 pub fn brief(word: &str) -> Cow<'_, str> {
-    match word.char_indices().nth(MOST_OF_WORD) {
-        Some((end, _)) => format!("{}…", visible(&word[..end])).into(),
-        None => visible(word),
+    beginning(word, MOST_OF_WORD)
+}
+
+fn beginning(text: &str, most: usize) -> Cow<'_, str> {
+    match text.char_indices().nth(most) {
+        Some((end, _)) => format!("{}…", visible(&text[..end])).into(),
+        None => visible(text),
     }
 }
 
@@ -118,6 +129,18 @@ pub fn around(line: &str, column: usize) -> String {
     let [before, after] =
         [first > 0, first + MOST_OF_LINE < count].map(|is_cut| if is_cut { "…" } else { "" });
     format!("{before}{}{after}", visible(&shown))
+}
+
+/// A word as a POSIX shell reads it.
+pub fn shell_word(word: &str) -> Cow<'_, str> {
+    let is_plain =
+        !word.is_empty() && word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./=,:".contains(c));
+    if is_plain { word.into() } else { format!("'{}'", word.replace('\'', r"'\''")).into() }
+}
+
+/// A command of replan with these arguments, as it can be pasted into a shell.
+pub fn command(arguments: &[String]) -> String {
+    arguments.iter().fold("replan".to_owned(), |line, word| line + " " + &shell_word(word))
 }
 
 /// A number as messages list it.

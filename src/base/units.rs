@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 /// How near to a multiple of an eighth of a turn an angle is that was rounded to two digits behind the point.
 const ROUNDED_RAD: f64 = 2e-3;
 
-/// Of angles in degrees the first that seems to be in radians, by its number, and what is asked about it: a multiple of an eighth of a
-/// turn as it is written in radians, among angles of which none is beyond a turn in radians.
+/// Of angles in degrees the first that seems to be in radians, by its number, and the question about it: a multiple of an eighth of a
+/// turn as it is written in radians, among angles none beyond a turn in radians.
 pub fn asked_in_degrees(key: &str, angles_deg: &[f64]) -> Option<(usize, String)> {
     let is_eighth = |angle: &f64| {
         let eighths = (angle / FRAC_PI_4).round();

@@ -4,7 +4,11 @@ use crate::settings::{Document, SettingsError, did_you_mean};
 use crate::solid::Source;
 use crate::text::brief;
 use saphyr_parser::{Event, Parser, ScanError};
+use std::collections::BTreeSet;
 use std::ops::Range;
+
+/// How many lists and tables may stand in each other: dropping a value takes stack for each.
+const DEEPEST: usize = 64;
 
 /// A value and where it stands.
 #[derive(Debug, Clone)]
@@ -37,22 +41,29 @@ impl Yaml<'_> {
         let scan = |error: ScanError| {
             fault(error.marker().index(), &format!("this is neither YAML nor JSON: {}", error.info()))
         };
-        let mut open: Vec<(Node, Option<String>)> = Vec::new();
+        let mut open: Vec<Open> = Vec::new();
         for event in Parser::new_from_str(text) {
             let (event, span) = event.map_err(scan)?;
             let index = span.start.index();
             let node = |data| Node { at: places.byte(index), data };
+            let begun = match event {
+                Event::SequenceStart(..) => Some(Data::List(Vec::new())),
+                Event::MappingStart(..) => Some(Data::Table(Vec::new())),
+                _ => None,
+            };
+            if let Some(data) = begun {
+                if open.len() == DEEPEST {
+                    return Err(fault(
+                        index,
+                        &format!("this stands in {DEEPEST} lists and tables; less are accepted"),
+                    ));
+                }
+                open.push(Open { node: node(data), key: None, names: BTreeSet::new() });
+                continue;
+            }
             let done = match event {
                 Event::Scalar(word, ..) => node(Data::Word(word.into_owned())),
-                Event::SequenceStart(..) => {
-                    open.push((node(Data::List(Vec::new())), None));
-                    continue;
-                }
-                Event::MappingStart(..) => {
-                    open.push((node(Data::Table(Vec::new())), None));
-                    continue;
-                }
-                Event::SequenceEnd | Event::MappingEnd => open.pop().expect("what ends has begun").0,
+                Event::SequenceEnd | Event::MappingEnd => open.pop().expect("what ends has begun").node,
                 Event::Alias(_) => {
                     return Err(fault(index, "this is a YAML alias; values written out are accepted"));
                 }
@@ -60,9 +71,9 @@ impl Yaml<'_> {
             };
             match open.last_mut() {
                 None => return Ok(done),
-                Some(holder) => put(holder, done).map_err(|twice| {
-                    Source(document)
-                        .fault(&twice.at, format!("`{}` is given twice; once is accepted", twice.key))
+                Some(holder) => holder.put(done).map_err(|twice| {
+                    let message = format!("`{}` is given twice; once is accepted", brief(&twice.key));
+                    Source(document).fault(&twice.at, message)
                 })?,
             }
         }
@@ -190,21 +201,30 @@ struct Twice {
     at: Range<usize>,
 }
 
-/// Puts a value where it belongs: into a list, or as a key or what stands under the key before it into a table.
-fn put((holder, key): &mut (Node, Option<String>), value: Node) -> Result<(), Twice> {
-    match &mut holder.data {
-        Data::List(elements) => elements.push(value),
-        Data::Table(entries) => match (key.take(), value.data) {
-            (Some(name), _) if entries.iter().any(|(known, _)| *known == name) => {
-                return Err(Twice { key: name, at: value.at });
-            }
-            (Some(name), data) => entries.push((name, Node { at: value.at, data })),
-            (None, Data::Word(name)) => *key = Some(name),
-            (None, _) => *key = Some(String::new()),
-        },
-        Data::Word(_) => unreachable!("a word holds nothing"),
+/// A list or table that has not ended.
+struct Open {
+    node: Node,
+    /// The key under which the next value stands.
+    key: Option<String>,
+    /// The keys that a table has already.
+    names: BTreeSet<String>,
+}
+
+impl Open {
+    /// Puts a value where it belongs: into a list, or as a key or the value of the key before it into a table.
+    fn put(&mut self, value: Node) -> Result<(), Twice> {
+        match &mut self.node.data {
+            Data::List(elements) => elements.push(value),
+            Data::Table(entries) => match (self.key.take(), value.data) {
+                (Some(key), _) if !self.names.insert(key.clone()) => return Err(Twice { key, at: value.at }),
+                (Some(key), data) => entries.push((key, Node { at: value.at, data })),
+                (None, Data::Word(key)) => self.key = Some(key),
+                (None, _) => self.key = Some(String::new()),
+            },
+            Data::Word(_) => unreachable!("a word holds nothing"),
+        }
+        Ok(())
     }
-    Ok(())
 }
 
 /// From the characters that the parser counts to bytes.
@@ -221,5 +241,27 @@ impl Places {
     fn byte(&self, index: usize) -> Range<usize> {
         let at = self.bytes.as_ref().map_or(index, |bytes| bytes.get(index).copied().unwrap_or(usize::MAX));
         at..at
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    fn refusal(text: String) -> String {
+        let document = Document::new(Path::new("deep.yaml"), text);
+        Yaml::parse(&document).map_or_else(|error| error.to_string(), |_| String::new())
+    }
+
+    #[test]
+    fn what_is_deep_or_long_is_refused_with_a_short_message() {
+        for opening in ["- ", "{a: ", "["] {
+            let said = refusal(opening.repeat(100_000));
+            assert!(said.starts_with("deep.yaml:1:") && said.len() < 1000, "{opening}: {said:.1000}");
+        }
+        let long = "x".repeat(1000);
+        let said = refusal(format!("{long}: 1\n{long}: 2\n"));
+        assert!(said.contains("is given twice") && said.len() < 500, "{said:.1000}");
     }
 }

@@ -98,7 +98,7 @@ fn notes(paper: &Paper, places: &Places) -> BTreeSet<String> {
     let mut notes = BTreeSet::new();
     for study in &paper.studies {
         let point = default_point(paper).for_trials(&study.choices);
-        // A family that cannot be built was told of before.
+        // A family that cannot be built was reported before.
         let families = study.posed().filter_map(|(group, at)| group.family(at, &point, &places.inputs).ok());
         notes.extend(families.flat_map(|family| family.notes()));
     }

@@ -2,6 +2,7 @@
 
 use super::places::stored_run;
 use super::progress::doing;
+use super::verdicts::COLUMNS;
 use super::{Failure, command_line};
 use crate::analysis::agreement::Agreement;
 use crate::analysis::compare::{CompareOptions, Comparison, Gate, Outcome, Sides, StoredRun, compare};
@@ -18,7 +19,7 @@ use study::store::write_whole;
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Compare {
-    /// A stored run: a paper's name, the folder of an earlier `--out`, or a folder of records
+    /// A paper's name, a folder that holds a paper.toml, or a stored run: an earlier `--out` or its records
     first: String,
     /// The run to compare with
     #[arg(required_unless_present = "contenders", conflicts_with = "contenders")]
@@ -56,6 +57,7 @@ pub struct Compare {
 }
 
 const EXAMPLES: &str = "Examples:
+  replan repro zhang --seed 9        a run to compare with, in target/replan/zhang-seed-9
   replan compare zhang target/replan/zhang-seed-9
   replan compare zhang --contenders 'A*' 'Improved A*' --study ensemble
   replan compare zhang ../their/zhang --verdicts
@@ -119,7 +121,7 @@ impl Compare {
                 serde_json::to_string_pretty(found).expect("a comparison is texts and numbers") + "\n"
             }
             () if self.markdown => comparison::markdown(found),
-            () => comparison::text(found),
+            () => comparison::text(found, COLUMNS),
         };
         say!("{}", text.trim_end());
     }

@@ -83,7 +83,7 @@ pub fn confirm(
     let (trials, interpretations) = (second.trials, second.interpretations.len());
     let stored = Estimates::read(&paper, &places.runs)?;
     Estimates { second: Some(second), ..stored }.write(&places.runs)?;
-    verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?);
+    verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?, which);
     say!(
         "{} on the second seed, {} besides the default; what was found is in {}",
         counted(trials as usize, ["trial", "trials"]),
@@ -93,7 +93,7 @@ pub fn confirm(
     Ok(())
 }
 
-/// Refuses a paper of which a study has no second seed.
+/// Refuses a paper in which a study has no second seed.
 fn check_seeds(paper: &Paper) -> Result<(), Failure> {
     let without: Vec<&str> = paper
         .studies

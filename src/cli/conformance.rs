@@ -203,5 +203,5 @@ fn refusal(world: &World, query: &Posed, talk: &Talk) -> Option<String> {
     }
 }
 
-/// A planner from outside of which nothing is asked but how its paths are verified.
+/// A planner from outside, used only for how its paths are verified.
 const NOBODY: &str = "command = [\"none\"]\nfiles = []\nversion = \"\"\ntime_s = 1.0\nmemory_mb = 16\noutput_mb = 1\ninstall = \"\"\n";

@@ -133,7 +133,7 @@ fn programs(study: &Study) -> Vec<Table> {
     own.chain(swept).chain(laid).collect()
 }
 
-/// The hash of what is said of a program, and of every file that is named there.
+/// The hash of the description of a program, and of every file that is named there.
 fn hash(program: &Table) -> String {
     let mut text = program.to_string();
     for name in program.values().flat_map(words) {

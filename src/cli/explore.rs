@@ -18,7 +18,7 @@ use study::shard;
 /// Explores a paper's choices: runs what each study says under the defaults, every other option by itself and a sample of
 /// their product, within the paper's budget of trials, and judges every claim under each.
 ///
-/// What was run stays below target/replan/explore/, so that a command that was stopped goes on from there; what was found is
+/// What was run stays below target/replan/explore/, or scratch/ below --out, so that a command that was stopped goes on from there; what was found is
 /// stored beside the default run, which must be there.
 ///
 /// Example: replan explore zhang
@@ -91,7 +91,7 @@ pub fn explore(
     // What is damaged is made again, and what was found on the second seed is gone with it.
     let stored = Estimates::read(&paper, &places.runs).unwrap_or_else(|_| Estimates::none(&paper));
     Estimates { first: Some(explored), ..stored }.write(&places.runs)?;
-    verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?);
+    verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?, which);
     say!(
         "{} under {}; what was found is in {}",
         counted(trials as usize, ["trial", "trials"]),

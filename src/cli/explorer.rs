@@ -63,7 +63,7 @@ pub fn budget(paper: &Paper) -> Result<ExploreSpec, Failure> {
 
 /// Where the trials of `command` are kept: they are large, and what was found in them is not.
 pub fn scratch(places: &Places, paper: &Paper, command: &str) -> PathBuf {
-    places.home.join("target/replan").join(command).join(&paper.id)
+    places.scratch.join(command).join(&paper.id)
 }
 
 /// The claims' verdicts by the stored default run.
@@ -82,7 +82,7 @@ impl<'p> Explorer<'p> {
         Self { paper, places, threads, folder, second_seed: false, rounds: None }
     }
 
-    /// The points that the budget has room for, and how many trials they take, which is told: all that must be, and drawn ones
+    /// The points that the budget has room for, and how many trials they take, which is printed: all that must be, and drawn ones
     /// in order.
     pub fn affordable(&self, budget: &ExploreSpec) -> Result<(Vec<Interpretation>, u64), Failure> {
         let paper = self.paper;
@@ -259,7 +259,7 @@ impl<'p> Explorer<'p> {
         Ok(found)
     }
 
-    /// What every claim asks under each of `points` of what runs in `round`, and which claims hold jointly there.
+    /// What every claim measures under each of `points` in the trials of `round`, and which claims hold jointly there.
     pub fn look(
         &self,
         points: &[Interpretation],

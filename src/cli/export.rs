@@ -17,7 +17,7 @@ use study::store::{Staged, check_records, csv};
 /// Exports a stored run.
 #[derive(Args)]
 pub struct Export {
-    /// A stored run: a paper's name, the folder of an earlier `--out`, or a folder of records
+    /// A paper's name, a folder that holds a paper.toml, or a stored run: an earlier `--out` or its records
     pub paper: String,
     /// The same as `--to csv`
     #[arg(long)]
@@ -48,7 +48,7 @@ pub enum Format {
 /// The kinds of record that are exported; traces are lists of numbers without a table's shape.
 const PARTS: [&str; 3] = ["trials", "preprocessing", "times"];
 
-/// Refuses a folder of which some record is gone or is not what its manifest names.
+/// Refuses a folder in which some record is gone or is not what its manifest names.
 pub(super) fn check_stored(folder: &Path) -> Result<(), Failure> {
     for study in stored_studies(folder) {
         check_records(folder, &study, &Manifest::read(folder, &study)?.files)?;
@@ -62,7 +62,7 @@ impl Export {
     /// # Errors
     /// No sound run is stored there, a file cannot be written, or `replan-export` is missing.
     pub fn run(self) -> Result<(), Failure> {
-        if self.format() == Format::Csv { self.write_csv() } else { become_program("replan-export") }
+        if self.format() == Format::Csv { self.write(stage_csv) } else { become_program("replan-export") }
     }
 
     /// The format.
@@ -70,38 +70,44 @@ impl Export {
         self.to.unwrap_or(Format::Csv)
     }
 
-    /// The folder of the stored run, whose records are those that their manifests name, and the folder to write into.
+    /// Writes what `stage` makes of the stored run: it takes the folder to write into, the folder of the run and the run, and says
+    /// what it staged.
     ///
     /// # Errors
-    /// No run is stored there, or one of its files is damaged.
-    pub fn places(&self) -> Result<[PathBuf; 2], Failure> {
+    /// No run is stored there, one of its files is damaged, those of `stage`, and those of the file system.
+    pub fn write(
+        &self,
+        stage: impl FnOnce(&mut Staged, &Path, &Path, &StoredRun) -> Stage,
+    ) -> Result<(), Failure> {
+        doing(&format!("{}: reading its records and computing their statistics", self.paper));
         let folder = stored_run(&self.paper)?;
         check_stored(&folder)?;
         let name = folder.file_name().unwrap_or_default();
         let out = self.out.clone().unwrap_or_else(|| PathBuf::from("target/replan/export").join(name));
-        Ok([folder, out])
-    }
-
-    /// Writes comma-separated values.
-    ///
-    /// # Errors
-    /// As [`places`](Self::places), and those of the file system.
-    pub fn write_csv(&self) -> Result<(), Failure> {
-        doing(&format!("{}: reading its records and computing their statistics", self.paper));
-        let [folder, out] = self.places()?;
         let mut staged = Staged::default();
-        let cells = cells(&StoredRun::read(&folder, &self.paper)?);
-        for study in stored_studies(&folder) {
-            doing(&format!("{}/{study}: writing its records", self.paper));
-            let manifest = Manifest::read(&folder, &study)?;
-            for part in PARTS {
-                let text = csv(&folder, &study, part, &manifest.files)?;
-                staged.add(&out.join(format!("{study}.{part}.csv")), text.as_bytes())?;
-            }
-        }
-        staged.add(&out.join("statistics.csv"), cells_csv(&cells).as_bytes())?;
+        let what = stage(&mut staged, &out, &folder, &StoredRun::read(&folder, &self.paper)?)?;
         staged.put()?;
-        say!("trials and {} statistics are in {}", cells.len(), out.display());
+        say!("{what} in {}", out.display());
         Ok(())
     }
+}
+
+/// What was staged, as `3 traces are`.
+pub type Stage = Result<String, Failure>;
+
+/// Stages comma-separated values.
+///
+/// # Errors
+/// A damaged file, or the file system.
+pub fn stage_csv(staged: &mut Staged, out: &Path, folder: &Path, run: &StoredRun) -> Stage {
+    for (study, (manifest, _)) in &run.studies {
+        doing(&format!("{}/{study}: writing its records", run.name));
+        for part in PARTS {
+            let text = csv(folder, study, part, &manifest.files)?;
+            staged.add(&out.join(format!("{study}.{part}.csv")), text.as_bytes())?;
+        }
+    }
+    let cells = cells(run);
+    staged.add(&out.join("statistics.csv"), cells_csv(&cells).as_bytes())?;
+    Ok(format!("trials and {} statistics are", cells.len()))
 }

@@ -2,7 +2,8 @@
 
 use super::places::Places;
 use super::progress::doing;
-use super::{Failure, How, Which, command_line, verdicts};
+use super::stamp::{Stamp, hash_of};
+use super::{Again, Failure, How, Which, command_line, verdicts};
 use crate::analysis::across::{self, Stored};
 use crate::analysis::claims;
 use crate::analysis::compare::stored_studies;
@@ -44,7 +45,7 @@ impl Judge {
         }
         let _lock = if places.runs.is_dir() { Some(Lock::take(&places.runs)?) } else { None };
         let judged = judge(&paper, point, &places)?;
-        verdicts::print(&judged);
+        verdicts::print(&judged, &self.which);
         must_hold(&judged)
     }
 }
@@ -148,6 +149,30 @@ pub fn judge(paper: &Paper, point: Interpretation, places: &Places) -> Result<Ve
     Ok(verdicts)
 }
 
+/// As [`judge`], but where nothing has changed that the verdicts rest on: then those that it wrote. Whoever calls it has just held
+/// the records to their manifests.
+pub fn judge_changes(
+    paper: &Paper,
+    point: &Interpretation,
+    places: &Places,
+    again: Again,
+) -> Result<Verdicts, Failure> {
+    let runs = &places.runs;
+    let beside = [Estimates::path(runs), History::path(runs)];
+    let stamp = || {
+        let hashes = beside.iter().map(|path| hash_of(path).unwrap_or_default());
+        let more: Vec<String> = hashes.chain([point.name().to_owned()]).collect();
+        Stamp::new("judged", paper, places, &more)
+    };
+    if !again.fresh && stamp()?.is_current() {
+        return Ok(Verdicts::read(runs)?);
+    }
+    let verdicts = judge(paper, point.clone(), places)?;
+    // The history may have an entry more.
+    stamp()?.keep([Verdicts::path(runs)]);
+    Ok(verdicts)
+}
+
 /// The verdicts by `evidence` with the history of their claims; across interpretations if it is a full run under the defaults and
 /// interpretations were explored.
 fn judged(evidence: &Evidence<'_>, places: &Places, history: &History) -> Result<Verdicts, Failure> {
@@ -168,7 +193,7 @@ fn judged(evidence: &Evidence<'_>, places: &Places, history: &History) -> Result
 
 /// Where polylines that were searched for are kept; a check searches for its own.
 pub fn polylines(places: &Places) -> std::path::PathBuf {
-    places.home.join("target/replan/cache/polylines.json")
+    places.scratch.join("cache/polylines.json")
 }
 
 /// The stored run of `paper`, to be judged under `point`.

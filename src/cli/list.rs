@@ -76,7 +76,7 @@ struct LoadedFiles {
 }
 
 impl LoadedFiles {
-    /// The papers and robots that can be read, if a kind that needs them is asked for, and how reading each went.
+    /// The papers and robots that can be read, if a kind that needs them is requested, and how reading each went.
     fn read(is_wanted: impl Fn(&[What]) -> bool) -> (Self, Vec<Result<(), Failure>>) {
         let papers = is_wanted(&[What::Papers, What::Studies, What::Choices]).then(loaded);
         let (papers, mut results) = papers.unwrap_or_default();
@@ -88,7 +88,7 @@ impl LoadedFiles {
 }
 
 impl LoadedFiles {
-    /// What is said of a paper or study by itself; none for what has one line only.
+    /// The text on a paper or study by itself; none for what has one line only.
     fn described(&self, what: What, name: &str) -> Result<Option<String>, Failure> {
         let find = |id: &str| self.papers.iter().find(|paper| paper.id == id);
         Ok(match (what, name.split_once('/')) {
@@ -206,7 +206,7 @@ fn about(robot: &Robot) -> String {
     format!("{}; bodies: {}", robot.arm().solver(), bodies.join(", "))
 }
 
-/// What is said of the robot in `file`: one of URDF goes by the name of its file, since the same robot may be written in rows too.
+/// The text on the robot in `file`: one of URDF goes by the name of its file, since the same robot may be written in rows too.
 fn described(file: &Path) -> Result<(String, String), Failure> {
     let wrong = |error: &dyn std::fmt::Display| Failure::input(error.to_string());
     let Some(name) = file.file_name().filter(|_| is_urdf(file)) else {

@@ -34,7 +34,7 @@ impl Merge {
         let Some(round) = &plan.round else { return self.merge_run(&plan) };
         let which = Which { paper: plan.paper.clone(), out: self.out.clone() };
         // The findings bear the command that would have made them on one machine.
-        let command = format!("replan {}", plan.unsharded(self.out.as_deref()).join(" "));
+        let command = base::text::command(&plan.unsharded(self.out.as_deref()));
         let rounds = Some(Rounds::new(&plan, &self.parts));
         match round.command.as_str() {
             "explore" => explore(&which, None, rounds, (command, self.consent)),
@@ -54,8 +54,8 @@ impl Merge {
         let lock = Lock::take(runs)?;
         History::note(&paper, lock.folder(), &command_line())?;
         if sharded.runs.iter().any(|(study, _)| study.timing.is_some()) {
-            let command = plan.unsharded(Some(out));
-            say!("no clock was read; one machine reads it: replan {}", command.join(" "));
+            let command = base::text::command(&plan.unsharded(Some(out)));
+            say!("no clock was read; one machine reads it: {command}");
         }
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! The command line: one subcommand a file.
 //!
 //! Exit codes: 0 done; 1 the system refused (disk, permissions, a busy folder); 2 wrong words on the command line or
-//! wrong input files; 3 a check said no: something is not as stored, is worse than a gate allows, is judged otherwise, is impossible, or an independent judge
+//! wrong input files; 3 a check failed: something is not as stored, is worse than a gate allows, is judged otherwise, is impossible, or an independent judge
 //! disagrees; 4 a tool is missing: Python or the network for `crosscheck`, `replan-audit`, `replan-export`, a planner from outside; 130 interrupted, and what was done is kept.
 //!
 //! A stored file that is edited, damaged, gone, or of a spec that has changed is the answer that a check gives: code 3 under
@@ -37,7 +37,6 @@ mod conformance;
 mod consent;
 pub mod crosscheck;
 mod described;
-mod drawn;
 mod example;
 mod explain;
 mod explore;
@@ -64,6 +63,7 @@ mod schema;
 mod shard;
 mod sharded;
 mod show;
+mod stamp;
 mod status;
 mod summary;
 mod trial;
@@ -71,6 +71,7 @@ mod verdicts;
 mod witness;
 
 use base::settings::SettingsError;
+use base::text::shell_word;
 use clap::{Args, Parser, Subcommand};
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -179,6 +180,14 @@ struct How {
     threads: Option<u32>,
 }
 
+impl Which {
+    /// The command `name` on the same paper, as it is typed.
+    fn command(&self, name: &str) -> String {
+        let out = self.out.as_ref().map(|out| format!(" --out {}", shell_word(&out.to_string_lossy())));
+        format!("replan {name} {}{}", shell_word(&self.paper), out.unwrap_or_default())
+    }
+}
+
 impl How {
     /// As the specs say.
     fn plain(threads: Option<u32>) -> Self {
@@ -223,7 +232,7 @@ impl Failure {
 
     /// Prints it as the command called `program` does, and gives its exit code.
     pub fn end(&self, program: &str) -> ExitCode {
-        // A reader that closed the pipe early (head) is no failure of ours, and cannot be told anything.
+        // A reader that closed the pipe early (head) is no failure of ours, and gets no message.
         let _ = writeln!(io::stderr(), "{program}: {}", base::text::shown(&self.message));
         ExitCode::from(self.code)
     }
@@ -292,7 +301,7 @@ impl From<io::Error> for Failure {
     }
 }
 
-/// Success if all of `results` are; otherwise the one failure, or every failure told and the worst code with `what`.
+/// Success if all of `results` are; otherwise the one failure, or every failure printed and the worst code with `what`.
 fn all(results: Vec<Result<(), Failure>>, what: &str) -> Result<(), Failure> {
     let count = results.len();
     let mut failures: Vec<Failure> = results.into_iter().filter_map(Result::err).collect();
@@ -359,10 +368,5 @@ fn renamed(words: impl Iterator<Item = String>) -> Option<String> {
 /// The command line as it would be typed for the same results: what only talks, and the trust that people give, is left out.
 fn command_line() -> String {
     let words = std::env::args().skip(1).filter(|word| word != "--why" && word != "--trust");
-    let quoted = words.map(|word| {
-        let is_plain =
-            !word.is_empty() && word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./=,".contains(c));
-        if is_plain { word } else { format!("'{}'", word.replace('\'', r"'\''")) }
-    });
-    std::iter::once("replan".to_owned()).chain(quoted).collect::<Vec<_>>().join(" ")
+    base::text::command(&words.collect::<Vec<_>>())
 }

@@ -17,7 +17,7 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 use study::StudyError;
 use study::manifest::Manifest;
-use study::paper::Paper;
+use study::paper::{Paper, is_day};
 use study::store::Staged;
 
 /// Writes a pack.
@@ -42,11 +42,7 @@ const SUMS: &str = "SHA256SUMS";
 const METADATA: &str = "ro-crate-metadata.json";
 
 fn day(text: &str) -> Result<String, String> {
-    let parts: Vec<&str> = text.split('-').collect();
-    let lengths: Vec<usize> = parts.iter().map(|part| part.len()).collect();
-    let number = |at: usize| parts[at].parse::<u32>().unwrap_or(0);
-    let is_day = lengths == [4, 2, 2] && (1..=12).contains(&number(1)) && (1..=31).contains(&number(2));
-    if is_day { Ok(text.to_owned()) } else { Err("a day as 2026-01-31 is accepted".to_owned()) }
+    if is_day(text) { Ok(text.to_owned()) } else { Err("a day as 2026-01-31 is accepted".to_owned()) }
 }
 
 impl Pack {
@@ -65,7 +61,7 @@ impl Pack {
         super::export::check_stored(&places.runs)?;
         doing(&format!("{}: writing its page", paper.id));
         let page = tempfolder(&self.to)?;
-        let written = report::write(&places, &page).map_err(|(_, failure)| failure).map(drop);
+        let written = report::write(&places, &page, false).1;
         let files = written.and_then(|()| files(&paper, &places, &page));
         // What is left of it does no harm but taking room.
         let _ = fs::remove_dir_all(&page);

@@ -6,6 +6,7 @@
 use super::{Failure, How, Which};
 use crate::analysis::compare::stored_studies;
 use base::settings::{did_you_mean, none_called};
+use base::text::shell_word;
 use std::collections::BTreeMap;
 use std::fs;
 use std::iter;
@@ -17,6 +18,9 @@ use study::{Inputs, Interpretation, Study};
 const EXPERIMENTS: &str = "experiments";
 /// Where everything goes that is not committed.
 const TARGET: &str = "target/replan";
+
+/// The folder below `--out` for what saves time alone. It is not called as that of a project is, so that `--out` names none.
+const SCRATCH: &str = "scratch";
 
 /// Where stored runs lie below a root, a folder a paper.
 const RUNS: &str = "data/runs";
@@ -34,6 +38,8 @@ pub struct Places {
     pub plots: PathBuf,
     /// The report that holds its chapter.
     pub report: PathBuf,
+    /// Where what saves time alone is kept: below `--out`, if that is given.
+    pub scratch: PathBuf,
     /// Where input files are looked for.
     pub inputs: Inputs,
 }
@@ -60,11 +66,16 @@ impl Places {
             (None, "") => committed,
             (None, variant) => home.join(TARGET).join(format!("{id}-{variant}")),
         };
+        let scratch = match &which.out {
+            Some(out) if resolved(out) != resolved(&home) => out.join(SCRATCH),
+            _ => home.join(TARGET),
+        };
         let root = if root == Path::new(".") { PathBuf::new() } else { root };
         Ok(Self {
             runs: root.join(RUNS).join(&id),
             plots: root.join("plots").join(&id),
             report: root.join("paper_repro.md"),
+            scratch,
             inputs: Inputs { roots: vec![folder.clone(), home.clone()] },
             home,
             folder,
@@ -77,15 +88,43 @@ impl Places {
     pub fn report_lock(&self) -> PathBuf {
         self.runs.parent().unwrap_or(Path::new("")).join(".lock")
     }
+
+    /// As [`find`](Self::find), where `which` may also name a stored run of a paper of the project.
+    ///
+    /// # Errors
+    /// If it names neither.
+    pub fn stored(which: &Which) -> Result<Self, Failure> {
+        Self::find(which, "").or_else(|unknown| {
+            let runs = match &which.out {
+                None => stored_run(&which.paper).ok(),
+                Some(_) => None,
+            };
+            let Some(runs) = runs else { return Err(unknown) };
+            let paper = paper_id(&runs)?;
+            let root = runs.ancestors().nth(3).filter(|root| root.join(RUNS).join(&paper) == runs);
+            let Some(root) = root else { return Err(unknown) };
+            Self::find(&Which { paper, out: Some(root.to_owned()) }, "")
+        })
+    }
+
+    /// The records of a paper, or a stored run, that `which` names.
+    ///
+    /// # Errors
+    /// If it names neither.
+    pub fn runs(which: &Which) -> Result<PathBuf, Failure> {
+        Self::find(which, "").map(|places| places.runs).or_else(|unknown| match &which.out {
+            None => stored_run(&which.paper).map_err(|_| unknown),
+            Some(_) => Err(unknown),
+        })
+    }
 }
 
-/// The folder of records that `given` means: itself, that of the one paper below it, or that of a paper of the project.
+/// The folder of records that `given` means: itself, that of the one paper below it, or that of a paper.
 ///
 /// # Errors
 /// If there is none, or there are several.
 pub fn stored_run(given: &str) -> Result<PathBuf, Failure> {
     let folder = Path::new(given);
-    let named = home(None)?.join(RUNS).join(given);
     let is_run = |folder: &Path| !stored_studies(folder).is_empty();
     let below: Vec<PathBuf> = fs::read_dir(folder.join(RUNS))
         .into_iter()
@@ -97,8 +136,15 @@ pub fn stored_run(given: &str) -> Result<PathBuf, Failure> {
     match &below[..] {
         _ if is_run(folder) => Ok(folder.to_owned()),
         [one] => Ok(one.clone()),
-        [] if is_run(&named) => Ok(named),
-        [] => Err(no_run(given)),
+        [] => match Places::find(&Which { paper: given.to_owned(), out: None }, "") {
+            Ok(places) if is_run(&places.runs) => Ok(places.runs),
+            Ok(places) => Err(Failure::input(format!(
+                "{}: no stored run; `replan repro {}` makes it",
+                places.runs.display(),
+                shell_word(given)
+            ))),
+            Err(_) => Err(no_run(given)),
+        },
         several => Err(Failure::input(format!(
             "`{given}` holds the runs of {} papers; name one of their folders, as {}",
             several.len(),
@@ -222,7 +268,7 @@ impl How {
         parts.join("-")
     }
 
-    /// The paper with its studies cut down and reseeded as asked.
+    /// The paper with its studies cut down and reseeded as requested.
     pub fn apply(&self, mut paper: Paper) -> Paper {
         let change = |mut study: Study| {
             study.seed = self.seed.unwrap_or(study.seed);
@@ -232,7 +278,7 @@ impl How {
         paper
     }
 
-    /// The interpretations to run, of which the first is the one that claims are judged under.
+    /// The interpretations to run; the first is the one that claims are judged under.
     ///
     /// # Errors
     /// An unknown option, or one that cannot be run.
@@ -244,7 +290,7 @@ impl How {
         }
     }
 
-    /// That every study has the options asked for: before anything is written.
+    /// That every study has the requested options: before anything is written.
     ///
     /// # Errors
     /// Those of [`interpretations`](Self::interpretations).

@@ -53,7 +53,7 @@ pub fn doing(what: &str) {
     let _ = writeln!(std::io::stderr(), "{} …", shown(what));
 }
 
-/// How often it is said how far units are, where there is no terminal for a bar.
+/// How often it prints how far units are, where there is no terminal for a bar.
 const SAID_EVERY_S: u64 = 10;
 
 /// Ends the command here if Ctrl-C was pressed; `kept` says what is not lost.
@@ -75,7 +75,7 @@ pub struct Bar {
 struct Pass {
     what: String,
     bar: ProgressBar,
-    /// When it was last said how far it is, in seconds since it began.
+    /// When it last printed how far it is, in seconds since it began.
     said_s: u64,
 }
 

@@ -54,7 +54,7 @@ impl Render {
 /// What should be on disk.
 struct Drawn {
     outputs: Outputs,
-    /// The paper's chapter, unless only one figure was asked for.
+    /// The paper's chapter, unless only one figure was requested.
     chapter: Option<Chapter>,
 }
 
@@ -65,7 +65,7 @@ pub fn write(paper: &Paper, places: &Places, stop: &AtomicBool) -> Result<Output
     Ok(drawn.outputs)
 }
 
-/// Refuses `outputs` of which figures are missing, each with its reason.
+/// Refuses `outputs` with figures missing, each with its reason.
 pub fn all_drawn(outputs: &Outputs) -> Result<(), Failure> {
     if outputs.undrawn.is_empty() {
         return Ok(());

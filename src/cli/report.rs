@@ -6,8 +6,9 @@ use super::{Failure, How, Which};
 use crate::analysis::across::Stored;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::history::History;
-use crate::page;
+use crate::page::{self, IndexLine};
 use crate::render::output::Output;
+use crate::render::prose::prose;
 use crate::render::state;
 use clap::Args;
 use std::fs;
@@ -23,7 +24,7 @@ use study::store::write_whole;
 /// Example: replan report zhang --open
 #[derive(Args)]
 pub struct Report {
-    /// A paper's name, or a folder that holds a paper.toml; every paper of the project if absent
+    /// A paper's name, a folder that holds a paper.toml, or a stored run; every paper of the project if absent
     paper: Option<String>,
     /// Read the run below this folder instead of the committed places
     #[arg(long, value_name = "DIR")]
@@ -51,16 +52,17 @@ impl Report {
         let mut failed = None;
         for paper in &papers {
             let which = Which { paper: paper.clone(), out: self.out.clone() };
-            match write(&Places::find(&which, "")?, &folder) {
-                Ok(line) => listed.push(line),
-                Err((line, failure)) => {
+            let has_index = self.paper.is_none() || folder.join("index.html").is_file();
+            match write(&Places::stored(&which)?, &folder, has_index) {
+                (line, Ok(())) => listed.extend(line),
+                (line, Err(failure)) => {
                     listed.extend(line);
                     failed = Some(failed.unwrap_or(failure));
                 }
             }
         }
         let shown = match (&self.paper, &listed[..]) {
-            (Some(_), [[id, ..]]) => folder.join(format!("{id}.html")),
+            (Some(_), [line]) => folder.join(format!("{}.html", line.id)),
             _ => folder.join("index.html"),
         };
         if self.paper.is_none() {
@@ -72,38 +74,51 @@ impl Report {
     }
 }
 
-/// Writes the page of the paper at `places` into `folder`; gives its line of the index. What cannot be shown is said in the
+/// Writes the page of the paper at `places` into `folder`; gives its line of the index. What cannot be shown stands in the
 /// page's first line, and is a failure all the same.
-pub(super) fn write(places: &Places, folder: &Path) -> Result<[String; 3], (Option<[String; 3]>, Failure)> {
+pub(super) fn write(
+    places: &Places,
+    folder: &Path,
+    has_index: bool,
+) -> (Option<IndexLine>, Result<(), Failure>) {
     let how = How { quick: false, seed: None, with: None, threads: None };
-    let paper = super::load::load(places, &how).map_err(|failure| (None, failure))?;
+    let paper = match super::load::load(places, &how) {
+        Ok(paper) => paper,
+        Err(failure) => return (None, Err(failure)),
+    };
     let file = folder.join(format!("{}.html", paper.id));
-    let line = |said: String| [paper.id.clone(), paper.source.title.clone(), said];
-    let (spent_ns, made) = timed(|| made(&paper, places, folder));
+    let line = |finding: String, counts: String| {
+        Some(IndexLine { id: paper.id.clone(), title: paper.source.title.clone(), finding, counts })
+    };
+    let (spent_ns, made) = timed(|| made(&paper, places, folder, has_index));
     match made {
-        Ok(Made { said, sizes }) => {
+        Ok(Made { finding, counts, sizes }) => {
             say!("{}: {sizes} in {:.1} s", paper.id, spent_ns as f64 / 1e9);
-            Ok(line(said))
+            (line(finding, counts), Ok(()))
         }
         Err(failure) => {
             let why = page::unread(&paper.id, &paper.source.title, &failure.message);
             match write_whole(&file, why.as_bytes()) {
-                Ok(()) => Err((Some(line(format!("Nothing is shown: {}", failure.message))), failure)),
-                Err(error) => Err((None, error.into())),
+                Ok(()) => {
+                    (line(String::new(), format!("Nothing is shown: {}", failure.message)), Err(failure))
+                }
+                Err(error) => (None, Err(error.into())),
             }
         }
     }
 }
 
-/// What is said of a page that was written.
+/// The summary of a page that was written.
 struct Made {
+    /// The finding; empty if the run is not the study's own.
+    finding: String,
     /// What its first line says, if anything, and how many claims have each verdict.
-    said: String,
+    counts: String,
     /// How large it is, and what lies beside it.
     sizes: String,
 }
 
-fn made(paper: &Paper, places: &Places, folder: &Path) -> Result<Made, Failure> {
+fn made(paper: &Paper, places: &Places, folder: &Path, has_index: bool) -> Result<Made, Failure> {
     let verdicts = History::verdicts(&places.runs)?;
     let point = Interpretation::new(&paper.choices, &verdicts.interpretation).map_err(|message| {
         Failure::input(format!("the stored verdicts are of other interpretations ({message}); judge again"))
@@ -113,7 +128,7 @@ fn made(paper: &Paper, places: &Places, folder: &Path) -> Result<Made, Failure> 
     let figures = figures(paper, &places.plots);
     let rest = format!("{}-replays.zip", paper.id);
     let stored = Stored::read(paper, &places.runs, evidence.polylines())?;
-    let made = page::page(&evidence, &verdicts, &stored, &figures, &places.inputs, &rest);
+    let made = page::page(&evidence, &verdicts, &stored, &figures, &places.inputs, &rest, has_index);
     evidence.traces_read()?;
     let made = made?;
     write_whole(&folder.join(format!("{}.html", paper.id)), made.html.as_bytes())?;
@@ -123,9 +138,11 @@ fn made(paper: &Paper, places: &Places, folder: &Path) -> Result<Made, Failure> 
         write_whole(&folder.join(&rest), bytes)?;
     }
     let beside = beside.map_or_else(String::new, |size| format!(", and {size:.2} MB of replays in {rest}"));
-    let said: Vec<String> =
-        state(&evidence, &verdicts).into_iter().chain([verdicts.counts().verdicts()]).collect();
-    Ok(Made { said: said.join(" "), sizes: format!("{size:.2} MB{beside}") })
+    let state = state(&evidence, &verdicts);
+    let finding = paper.report.finding.as_ref().filter(|_| state.is_empty());
+    let finding = finding.map_or_else(String::new, |finding| prose(finding, &verdicts));
+    let counts: Vec<String> = state.into_iter().chain([verdicts.counts().verdicts()]).collect();
+    Ok(Made { finding, counts: counts.join(" "), sizes: format!("{size:.2} MB{beside}") })
 }
 
 /// The figures of `paper` as they were drawn into `folder`; what is not there is not shown, and the page says so in its place.

@@ -2,16 +2,16 @@
 
 use super::consent::Consent;
 use super::counted;
-use super::drawn::Drawn;
 use super::load::load;
 use super::places::Places;
 use super::progress::{safe_point, stop_flag};
 use super::run::run_studies;
+use super::stamp::Stamp;
 use super::summary::summary;
 use super::{Again, Failure, How, Which, findings, trial, verdicts};
 use super::{judge, render};
 use crate::analysis::verdict::Verdicts;
-use crate::render::output::Outputs;
+use crate::render::output::{CROSSCHECK, Outputs};
 use clap::Args;
 use std::sync::atomic::AtomicBool;
 use study::lock::Lock;
@@ -65,24 +65,17 @@ impl Repro {
         }
         safe_point(stop, "the records are kept")?;
         let point = self.how.interpretation(&paper.choices)?;
-        let judged = judge::judge(&paper, point, &places)?;
+        let judged = judge::judge_changes(&paper, &point, &places, self.again)?;
         if self.all {
-            verdicts::print(&judged);
+            verdicts::print(&judged, &self.which);
         } else {
-            findings::print(&paper, &judged);
+            findings::print(&paper, &judged, &self.which);
         }
         let outputs = draw(&paper, &places, &judged, self.again, stop)?;
         // What is not stored in its usual place is not what `show` reads.
-        if !self.all
-            && !self.how.quick
-            && self.how.with.is_none()
-            && self.how.seed.is_none()
-            && self.which.out.is_none()
-        {
-            let id = &self.which.paper;
-            say!(
-                "why: replan show {id} CLAIM; all claims: replan show {id}; one page: replan report {id} --open"
-            );
+        if !self.all && !self.how.quick && self.how.with.is_none() && self.how.seed.is_none() {
+            let [show, report] = ["show", "report"].map(|name| self.which.command(name));
+            say!("why: {show} CLAIM; all claims: {show}; one page: {report} --open");
         }
         say!(
             "records and verdicts are in {}\nfigures and tables are in {}\nthe report is {}",
@@ -103,12 +96,17 @@ fn draw(
     again: Again,
     stop: &AtomicBool,
 ) -> Result<Outputs, Failure> {
-    let drawn = Drawn::new(paper, places, judged)?;
-    if !again.fresh && drawn.is_current(places) {
+    // The chapter leads to the cross-check where there is one.
+    let crosscheck = places.plots.join(CROSSCHECK).is_file().to_string();
+    let stamp = Stamp::new("drawn", paper, places, &[judged.text(), crosscheck])?;
+    if !again.fresh && stamp.is_current() {
         say!("nothing to draw: figures, tables and the report are as they were drawn from this");
         return Ok(Outputs::default());
     }
     let outputs = render::write(paper, places, stop)?;
-    drawn.keep(places, &outputs);
+    if outputs.undrawn.is_empty() {
+        let files = outputs.files.iter().map(|output| places.plots.join(&output.name));
+        stamp.keep(files.chain([places.report.clone()]));
+    }
     Ok(outputs)
 }

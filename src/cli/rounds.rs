@@ -130,11 +130,11 @@ impl Rounds {
         if is_new {
             let shard = format!("K/{}", self.shards);
             return Err(Halt::Planned(format!(
-                "round `{}`: {} units under {} interpretations are left to run, and then to merge: replan {}",
+                "round `{}`: {} units under {} interpretations are left to run, and then to merge: {}",
                 round.name(),
                 plan.units.iter().sum::<usize>(),
                 interpretations,
-                plan.arguments(&folder, &shard).join(" ")
+                base::text::command(&plan.arguments(&folder, &shard))
             )));
         }
         Ok(sharded.put_together(&plan, &folder, &to.join(round.name()))?)

@@ -7,6 +7,7 @@ use super::rounds::Round;
 use super::run::check_is_run;
 use super::sharded::Sharded;
 use super::{Failure, How, confirm, explore};
+use base::text::shell_word;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use study::manifest::MadeBy;
@@ -129,7 +130,7 @@ impl Shard {
         merge.extend(self.merge.iter().flat_map(|out| ["--out".to_owned(), shown(out)]));
         let in_shell = |word: &String| {
             // The script itself fills the number in.
-            if word.starts_with(number) { format!("\"{word}\"") } else { quoted(word) }
+            if word.starts_with(number) { format!("\"{word}\"") } else { shell_word(word).into_owned() }
         };
         let words = |words: &[String]| match self.engine {
             Engine::Hyperqueue => serde_json::to_string(words).expect("words are texts"),
@@ -137,7 +138,7 @@ impl Shard {
         };
         let word = |word: String| match self.engine {
             Engine::Hyperqueue => serde_json::to_string(&word).expect("a word is a text"),
-            Engine::Slurm | Engine::Parallel => quoted(&word),
+            Engine::Slurm | Engine::Parallel => shell_word(&word).into_owned(),
         };
         let pairs = [
             ("@NAME@", sharded_name(&self.paper)),
@@ -165,11 +166,4 @@ fn sharded_name(paper: &str) -> String {
         .file_name()
         .map_or_else(|| paper.to_owned(), |name| name.to_string_lossy().into_owned());
     study::slug(&name)
-}
-
-/// A word as a shell reads it.
-fn quoted(word: &str) -> String {
-    let is_plain =
-        !word.is_empty() && word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./=,:".contains(c));
-    if is_plain { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
 }

@@ -75,7 +75,7 @@ impl Sharded {
         Self { places: places.clone(), how, runs, claims, named: named.to_owned(), round: Some(round) }
     }
 
-    /// What is asked of a plan that cuts it into so many shards.
+    /// The options of a plan that cuts it into so many shards.
     pub fn wanted(&self, shards: usize) -> Wanted {
         let How { quick, seed, with, .. } = self.how.clone();
         let paper = self.named.clone();

@@ -1,47 +1,98 @@
-//! `replan show`: one claim with its evidence.
+//! `replan show`: one claim with its evidence, or the claims that hold some words.
 
 use super::places::Places;
-use super::verdicts::{COLUMNS, print};
+use super::verdicts::{COLUMNS, coloured, print};
 use super::{Failure, Which, export::check_stored};
 use crate::analysis::history::History;
-use crate::analysis::verdict::{ClaimVerdict, CriterionFinding};
-use crate::render::prose::wrapped;
+use crate::analysis::verdict::{ClaimVerdict, CriterionFinding, Verdicts};
+use crate::render::prose::{plain, wrapped};
 use crate::render::report::across_lines;
 use crate::render::tables::short;
-use base::settings::none_called;
+use base::settings::did_you_mean;
 use clap::Args;
 use std::path::PathBuf;
+use study::paper::Reply;
 
-/// Shows what was found about a claim.
-///
-/// Example: replan show zhang t1.improved.cost
+/// Shows a claim with its evidence, or the claims whose names or sentences hold some words.
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Show {
-    /// A paper's name, or a folder that holds a paper.toml
+    /// A paper's name, a folder that holds a paper.toml, or a stored run
     paper: String,
-    /// The claim; lists all claims if absent
-    claim: Option<String>,
+    /// A claim, or words to search for; lists all claims if absent
+    #[arg(value_name = "CLAIM OR WORDS")]
+    words: Vec<String>,
     /// Read from this folder instead of the committed places
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
 
+const EXAMPLES: &str = "Examples:
+  replan show zhang t1.improved.cost
+  replan show zhang bidirectional nodes";
+
 impl Show {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
-        let places = Places::find(&Which { paper: self.paper, out: self.out }, "")?;
-        let verdicts = History::verdicts(&places.runs)?;
-        check_stored(&places.runs)?;
-        let Some(id) = self.claim else {
-            print(&verdicts);
+        let which = Which { paper: self.paper, out: self.out };
+        let runs = Places::runs(&which)?;
+        let verdicts = History::verdicts(&runs)?;
+        check_stored(&runs)?;
+        if self.words.is_empty() {
+            print(&verdicts, &which);
             return Ok(());
+        }
+        let words = self.words.join(" ");
+        let found = match verdicts.claim(&words) {
+            Some(judged) => vec![judged],
+            None => holding(&verdicts, &words),
         };
-        let claims = || verdicts.claims.iter().map(|judged| judged.claim.as_str());
-        let judged =
-            verdicts.claim(&id).ok_or_else(|| Failure::input(none_called("claim", &id, claims())))?;
-        say!("{}", shown(judged).trim_end());
+        match &found[..] {
+            [] => return Err(none_holds(&verdicts, &words, &which)),
+            [judged] => {
+                let citation = History::read(&runs)?.citation(&verdicts, judged);
+                let replies = verdicts.replies_to(&judged.claim).map(Reply::line);
+                let cite = citation.map(|citation| format!("cite as: {citation}"));
+                let more = replies.chain(cite).map(|line| wrapped("  ", &line, 4, COLUMNS) + "\n");
+                say!("{}{}", shown(judged), more.collect::<String>().trim_end());
+            }
+            several => {
+                let lines: String = several.iter().map(|judged| line(judged)).collect();
+                let count = several.len();
+                say!("{lines}{count} claims hold “{words}”; one in full: {} CLAIM", which.command("show"));
+            }
+        }
         Ok(())
     }
+}
+
+/// The claims whose id, place or sentence holds every one of `words`, in any case.
+fn holding<'v>(verdicts: &'v Verdicts, words: &str) -> Vec<&'v ClaimVerdict> {
+    let words = words.to_lowercase();
+    let holds = |judged: &&ClaimVerdict| {
+        let texts = [Some(&judged.claim), Some(&judged.at), judged.says.as_ref(), judged.quote.as_ref()];
+        let text = texts.into_iter().flatten().map(|text| text.to_lowercase()).collect::<Vec<_>>().join(" ");
+        words.split_whitespace().all(|word| text.contains(word))
+    };
+    verdicts.claims.iter().filter(holds).collect()
+}
+
+fn none_holds(verdicts: &Verdicts, words: &str, which: &Which) -> Failure {
+    let claims = verdicts.claims.iter().map(|judged| judged.claim.as_str());
+    Failure::input(format!(
+        "no claim is called `{words}` or holds it{}; `{}` lists all {}",
+        did_you_mean(words, claims),
+        which.command("show"),
+        verdicts.claims.len()
+    ))
+}
+
+/// A claim with its verdict, and what the paper says.
+fn line(judged: &ClaimVerdict) -> String {
+    let verdict = coloured(judged.verdict, &judged.verdict_said());
+    let says = judged.says.as_ref().or(judged.quote.as_ref());
+    let says = says.map_or_else(|| judged.at.clone(), |says| format!("{}: {says}", judged.at));
+    format!("{}  {verdict}\n{}\n", judged.claim, plain("  ", &says, 4, COLUMNS))
 }
 
 /// Everything that is known of a claim.

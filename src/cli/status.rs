@@ -91,7 +91,8 @@ fn progress_text(found: &ShardProgress, plan: &Plan, all: &Path, folder: &Path) 
     );
     if found.done.len() == found.shards {
         let out = if plan.round.is_some() { "" } else { " --out DIR" };
-        return text + &format!("\nput together by: replan merge {}{out}", all.display());
+        let merge = base::text::command(&["merge".to_owned(), all.display().to_string()]);
+        return text + &format!("\nput together by: {merge}{out}");
     }
     text += &format!("\nabout {} of one core left", duration(found.core_seconds_left));
     if !found.running.is_empty() {
@@ -100,7 +101,7 @@ fn progress_text(found: &ShardProgress, plan: &Plan, all: &Path, folder: &Path) 
     }
     if let Some(first) = found.stopped.first() {
         let shard = format!("{first}/{}", plan.shards);
-        text += &format!("\nto go on: replan {}", plan.arguments(folder, &shard).join(" "));
+        text += &format!("\nto go on: {}", base::text::command(&plan.arguments(folder, &shard)));
     }
     text
 }

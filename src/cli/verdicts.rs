@@ -1,17 +1,18 @@
 //! The verdict table on the terminal.
 
+use super::Which;
 use crate::analysis::verdict::{ClaimVerdict, Verdicts};
 use crate::analysis::verdict_rule::{Column, Verdict};
-use crate::render::prose::wrapped;
+use crate::render::prose::{columns, wrapped};
 use crate::render::tables::short;
 use std::io::IsTerminal as _;
 
 /// What is printed fits terminals of so many columns.
 pub const COLUMNS: usize = 100;
 
-/// Prints every claim's verdict, and how many there are of each.
-pub fn print(verdicts: &Verdicts) {
-    say!("{}", table(verdicts).trim_end());
+/// Prints every claim's verdict, and how many there are of each; `which` is the paper as it was named.
+pub(super) fn print(verdicts: &Verdicts, which: &Which) {
+    say!("{}", table(verdicts, which).trim_end());
 }
 
 /// `word` in the colour of `verdict`, on a terminal alone.
@@ -24,29 +25,24 @@ pub fn coloured(verdict: Verdict, word: &str) -> String {
 }
 
 /// The table as text, within [`COLUMNS`].
-fn table(verdicts: &Verdicts) -> String {
+fn table(verdicts: &Verdicts, which: &Which) -> String {
     let head = ["claim", "printed", "ours", "solved", "verdict"].map(str::to_owned);
-    let rows: Vec<[String; 5]> = verdicts.claims.iter().map(cells).collect();
-    let width = |at: usize, most: usize| {
-        let widths = rows.iter().chain([&head]).map(|row| row[at].chars().count());
-        widths.filter(|width| *width <= most).max().unwrap_or(0)
-    };
-    let widths = [width(0, 30), width(1, 14), width(2, 26), width(3, 9)];
-    let mut text = line(&head, widths);
-    for (judged, mut row) in verdicts.claims.iter().zip(rows) {
-        row[4] = coloured(judged.verdict, &row[4]);
-        text += &line(&row, widths);
+    let rows: Vec<[String; 5]> = [head].into_iter().chain(verdicts.claims.iter().map(cells)).collect();
+    let lines = columns(&rows, [30, 14, 26, 9, COLUMNS]);
+    let mut text = lines[0].clone();
+    for (judged, line) in verdicts.claims.iter().zip(&lines[1..]) {
+        text += line;
         let what = judged.ours().map(|ours| ours.what.clone());
         let what: Vec<String> = what.into_iter().chain(judged.beside()).collect();
         if !what.is_empty() {
             text += &(wrapped("   ", &what.join("; "), 4, COLUMNS) + "\n");
         }
     }
-    text + &tallied(verdicts)
+    text + &tallied(verdicts, which)
 }
 
 /// How many there are of each verdict, and what is to be known of them as a whole.
-pub fn tallied(verdicts: &Verdicts) -> String {
+pub(super) fn tallied(verdicts: &Verdicts, which: &Which) -> String {
     let mut text = String::new();
     let counts = verdicts.counts();
     let of_each = counts.verdicts();
@@ -56,7 +52,7 @@ pub fn tallied(verdicts: &Verdicts) -> String {
     for said in [Some(of_each), counts.parts, counts.asserted, quick].into_iter().flatten() {
         text += &(wrapped("", &said, 2, COLUMNS) + "\n");
     }
-    for said in explored(verdicts).into_iter().chain(verdicts.changed()) {
+    for said in explored(verdicts, which).into_iter().chain(verdicts.changed()) {
         text += &(wrapped("", &said, 2, COLUMNS) + "\n");
     }
     text
@@ -66,16 +62,17 @@ pub fn tallied(verdicts: &Verdicts) -> String {
 const NAMED: usize = 6;
 
 /// What is to be known of interpretations and the second seed as a whole.
-fn explored(verdicts: &Verdicts) -> Vec<String> {
+fn explored(verdicts: &Verdicts, which: &Which) -> Vec<String> {
     let Some(explored) = &verdicts.explored else { return Vec::new() };
     let stale = |claims: &[String], what: &str, command: &str| {
+        let command = which.command(command);
         let verb = if claims.len() == 1 { "is" } else { "are" };
         let names: Vec<String> = claims.iter().take(NAMED).map(|id| format!("`{id}`")).collect();
         let more = claims.len().saturating_sub(NAMED);
         let more = if more > 0 { format!(" and {more} more claims") } else { String::new() };
         (!claims.is_empty()).then(|| {
             format!(
-                "{}{more} {verb} {what}: what they ask is not among the estimates, or what their studies run has changed since; {command} again",
+                "{}{more} {verb} {what}: what they ask is not among the estimates, or what their studies run has changed since; run `{command}` again",
                 names.join(", ")
             )
         })
@@ -83,11 +80,8 @@ fn explored(verdicts: &Verdicts) -> Vec<String> {
     let compatible = explored.none_compatible.then(|| {
         "no voting interpretation agrees with all that the studies were calibrated to, so that all of them are judged".to_owned()
     });
-    let paper = &verdicts.paper;
-    let explore = format!("replan explore {paper}");
-    let interpretations = stale(&explored.stale, "judged under the default interpretation alone", &explore);
-    let confirm = format!("replan confirm {paper}");
-    let second = stale(&explored.second_stale, "without a second seed", &confirm);
+    let interpretations = stale(&explored.stale, "judged under the default interpretation alone", "explore");
+    let second = stale(&explored.second_stale, "without a second seed", "confirm");
     let refused = (!explored.refused.is_empty()).then(|| {
         format!(
             "the verifier refuses many paths under {}: where the paper calls its paths free, `refused_above_percent` in [explore] sets \
@@ -106,24 +100,13 @@ fn cells(judged: &ClaimVerdict) -> [String; 5] {
     let ours = judged.ours();
     let solved =
         ours.and_then(|ours| ours.solved).map_or_else(dash, |[solved, all]| format!("{solved}/{all}"));
-    [judged.claim.clone(), printed, ours.map_or_else(dash, short), solved, judged.word().to_owned()]
-}
-
-/// The cells below one another; those after one that is too wide for its column stand on a line of their own.
-fn line(cells: &[String; 5], widths: [usize; 4]) -> String {
-    let mut text = String::new();
-    let mut place = 0;
-    let mut at = 0;
-    for (cell, width) in cells.iter().zip(widths.into_iter().chain([0])) {
-        if at > 0 && at + 2 > place {
-            text += "\n";
-            at = 0;
-        }
-        text += &format!("{}{cell}", " ".repeat(place - at));
-        at = place + cell.chars().count();
-        place += width + 2;
-    }
-    text + "\n"
+    [
+        judged.claim.clone(),
+        printed,
+        ours.map_or_else(dash, short),
+        solved,
+        coloured(judged.verdict, judged.word()),
+    ]
 }
 
 fn colour(verdict: Verdict) -> u8 {

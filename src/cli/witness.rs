@@ -104,7 +104,7 @@ impl Witness {
         self.with.clone().filter(|with| with != "any")
     }
 
-    /// What was asked, in words.
+    /// The question, in words.
     fn request(&self) -> String {
         let also: Vec<String> = self.also.iter().map(|also| format!(", {also}")).collect();
         let also = also.concat();

@@ -12,6 +12,4 @@ pub mod space;
 pub mod search;
 pub mod shorten;
 
-pub mod length_inversion;
-
 pub mod planner;

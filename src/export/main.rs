@@ -13,8 +13,8 @@ use benchmark::experiments;
 use clap::Parser;
 use replan::analysis::compare::StoredRun;
 use replan::cli::Failure;
-use replan::cli::export::{Export, Format};
-use std::io::{self, Write as _};
+use replan::cli::export::{Export, Format, Stage, stage_csv};
+use std::path::Path;
 use std::process::ExitCode;
 use study::store::Staged;
 
@@ -26,39 +26,30 @@ struct Cli {
 }
 
 fn main() -> ExitCode {
-    match run(&Cli::parse().export) {
+    let export = Cli::parse().export;
+    match export.write(|staged, out, folder, run| stage(export.format(), staged, out, folder, run)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.end("replan-export"),
     }
 }
 
-fn run(export: &Export) -> Result<(), Failure> {
-    if export.format() == Format::Csv {
-        return export.write_csv();
-    }
-    let [folder, out] = export.places()?;
-    let run = StoredRun::read(&folder, &export.paper)?;
-    let mut staged = Staged::default();
-    let what = match export.format() {
-        Format::Csv => unreachable!("it was written above"),
-        Format::Parquet => frames::stage(&mut staged, &out, &folder, &run)?,
+fn stage(format: Format, staged: &mut Staged, out: &Path, folder: &Path, run: &StoredRun) -> Stage {
+    match format {
+        Format::Csv => stage_csv(staged, out, folder, run),
+        Format::Parquet => frames::stage(staged, out, folder, run),
         Format::OmplLog => {
-            let all = experiments(&run)?;
+            let all = experiments(run)?;
             for experiment in &all {
                 staged.add(&out.join(experiment.file()), log::text(experiment).as_bytes())?;
             }
-            format!("{} benchmark logs are", all.len())
+            Ok(format!("{} benchmark logs are", all.len()))
         }
         Format::PlannerArena => {
-            let all = experiments(&run)?;
+            let all = experiments(run)?;
             let bytes = arena::database(&all).map_err(|error| Failure::input(format!("SQLite: {error}")))?;
             staged.add(&out.join("plannerarena.db"), &bytes)?;
-            format!("plannerarena.db with {} experiments is", all.len())
+            Ok(format!("plannerarena.db with {} experiments is", all.len()))
         }
-        Format::Posthoc => posthoc::stage(&mut staged, &out, &folder, &run)?,
-    };
-    staged.put()?;
-    // A reader that closed the pipe early needs no answer.
-    let _ = writeln!(io::stdout(), "{what} in {}", out.display());
-    Ok(())
+        Format::Posthoc => posthoc::stage(staged, out, folder, run),
+    }
 }

@@ -2,7 +2,7 @@
 //!
 //! **What `motion` accepts, the verifier accepts**: exactly, but in an arm's cell for contacts thinner than the engine's own checks
 //! can see (`space::cell::line` says how thin). A motion is answered as a leg of a path by itself:
-//! it ends in the configuration asked for, whatever a study's paths may end in.
+//! it ends in the configuration requested, whatever a study's paths may end in.
 
 use super::clear;
 use super::describe::{RASTER_MM, pose};
@@ -69,11 +69,11 @@ pub struct QuestionCounts {
     pub ik: u64,
 }
 
-/// A world that is asked about.
+/// A world under question.
 pub struct Space<'a> {
     world: &'a World,
     any_angle: bool,
-    /// The local paths of a cell with the end that was asked for.
+    /// The local paths of a cell with the end that was requested.
     lines: Option<Lines>,
     scratch: Scratch,
     asked: QuestionCounts,

@@ -147,7 +147,7 @@ fn cell(lines: &Lines) -> Cell {
     }
 }
 
-/// `frame` with its origin in units of which `scale` make a metre.
+/// `frame` with its origin in units, `scale` to the metre.
 pub(super) fn pose(frame: &Frame, scale: f64) -> Pose {
     let row = |i: usize| [0, 1, 2].map(|j| frame.rotation[(i, j)]);
     Pose { position: (frame.origin * scale).iter().copied().collect(), rotation: Some([0, 1, 2].map(row)) }

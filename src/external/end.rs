@@ -1,11 +1,15 @@
 //! Ends a planner with every process that it started, also those that made a session of their own.
 //!
-//! Its processes are found in `/proc`: children of children, members of its process group, and whoever inherited the mark that
+//! Its processes are found in `/proc` (elsewhere its group alone is ended): children of children, members of its process group, and whoever inherited the mark that
 //! its environment bears. One that cleared its environment, left the group and outlived its parents became a child of replan, and
 //! is ended with the last planner at work. All are stopped before any is killed: who is stopped does not fork.
 
 use super::interrupt::{MARK, is_guard, planners};
-use rustix::process::{Pid, Signal, WaitOptions, getpgrp, getpid, kill_process, kill_process_group, waitpid};
+use rustix::io::Errno;
+use rustix::process::{
+    Pid, Signal, WaitOptions, getpgrp, getpid, kill_process, kill_process_group, test_kill_process,
+    test_kill_process_group, waitpid,
+};
 use std::collections::BTreeSet;
 use std::fs;
 use std::process::Child;
@@ -52,6 +56,11 @@ pub fn end_planners() -> Vec<i32> {
     planners().iter().flat_map(|(mark, root)| kill_all(*root, mark)).collect()
 }
 
+/// Whether a process of this number lives.
+pub fn is_living(pid: i32) -> bool {
+    Pid::from_raw(pid).is_some_and(|pid| test_kill_process(pid) != Err(Errno::SRCH))
+}
+
 /// The numbers of processes in a message.
 pub fn listed(processes: &[i32]) -> String {
     processes.iter().map(i32::to_string).collect::<Vec<_>>().join(", ")
@@ -93,7 +102,7 @@ fn signal(pids: &[i32], signal: Signal) {
 
 /// The living processes that belong to the planner `root`.
 pub(super) fn members(root: i32, mark: &str) -> Vec<i32> {
-    let all = living();
+    let all = living(root);
     let wanted = format!("{MARK}={mark}");
     let is_marked = |pid: i32| {
         let environment = fs::read(format!("/proc/{pid}/environ")).unwrap_or_default();
@@ -121,10 +130,20 @@ pub(super) fn members(root: i32, mark: &str) -> Vec<i32> {
     }
 }
 
-fn living() -> Vec<Seen> {
-    let entries = fs::read_dir("/proc").into_iter().flatten().flatten();
-    let pids = entries.filter_map(|entry| entry.file_name().to_str()?.parse::<i32>().ok());
+/// All processes; without `/proc` the group of `root` alone.
+fn living(root: i32) -> Vec<Seen> {
+    let Ok(entries) = fs::read_dir("/proc") else { return group(root) };
+    let pids = entries.flatten().filter_map(|entry| entry.file_name().to_str()?.parse::<i32>().ok());
     pids.filter_map(seen).collect()
+}
+
+/// The process group of the planner `root`, by its leader, as long as anybody is in it.
+fn group(root: i32) -> Vec<Seen> {
+    let Some(leader) = Pid::from_raw(root) else { return Vec::new() };
+    // A leader that has ended stays in its group until it is waited for.
+    let _ = waitpid(Some(leader), WaitOptions::NOHANG);
+    let is_left = test_kill_process_group(leader).is_ok();
+    is_left.then_some(Seen { pid: root, parent: 0, group: root }).into_iter().collect()
 }
 
 /// `/proc/PID/stat`: the name stands in brackets and may hold anything; state, parent and group follow. Zombies are dead.
@@ -135,4 +154,28 @@ fn seen(pid: i32) -> Option<Seen> {
     let parent = rest.next()?.parse().ok()?;
     let group = rest.next()?.parse().ok()?;
     (!["Z", "X"].contains(&state)).then_some(Seen { pid, parent, group })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::os::unix::process::CommandExt as _;
+    use std::process::Command;
+
+    #[test]
+    fn without_proc_a_group_is_seen_until_its_last_process_is_killed() {
+        let mut command = Command::new("sh");
+        let mut child = command.args(["-c", "sleep 100 & exit 0"]).process_group(0).spawn().unwrap();
+        let root = child.id() as i32;
+        sleep(ROUND);
+        assert_eq!(group(root).len(), 1, "its background process is in the group");
+        kill_process_group(Pid::from_raw(root).unwrap(), Signal::KILL).unwrap();
+        let is_over = (0..500).any(|_| {
+            sleep(ROUND);
+            group(root).is_empty()
+        });
+        assert!(is_over && !is_living(root));
+        assert!(child.wait().is_err(), "it was waited for with its group");
+        assert!(is_living(std::process::id() as i32));
+    }
 }

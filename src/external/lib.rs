@@ -18,7 +18,7 @@ pub mod world;
 
 pub use answer::{MOST_QUESTIONS, QuestionCounts, Space, Unanswered};
 pub use describe::describe;
-pub use end::{end_planners, listed};
+pub use end::{end_planners, is_living, listed};
 pub use interrupt::{interrupt, is_interrupted};
-pub use process::{Clock, Process, Program, Start};
+pub use process::{Clock, Process, Program, Start, read_message};
 pub use talk::{COUNTERS, End, Query, Talk, greet, solve};

@@ -73,8 +73,8 @@ pub enum Start {
 /// What came from a planner.
 #[derive(Debug)]
 pub(super) enum PlannerOutput {
-    /// A line.
-    Line(String),
+    /// A line that is not empty.
+    Line(Vec<u8>),
     /// More than it may write for one query.
     Flood,
     /// Its output ended.
@@ -89,7 +89,7 @@ pub struct Process {
     from: Receiver<PlannerOutput>,
     written: Arc<AtomicU64>,
     log: Arc<Mutex<VecDeque<u8>>>,
-    /// What it said of itself, once it has.
+    /// Its greeting, once it has.
     pub hello: Option<Hello>,
 }
 
@@ -144,10 +144,13 @@ impl Process {
     /// From now on its output counts from 0.
     ///
     /// # Errors
-    /// A sentence: it has written something already that nobody asked for.
+    /// A sentence: it has written something already that nobody requested.
     pub(super) fn begin(&mut self) -> Result<(), String> {
         if let Ok(PlannerOutput::Line(line)) = self.from.recv_timeout(EARLY) {
-            return Err(format!("the planner wrote `{}` before it had a query", around(&line, 0)));
+            return Err(format!(
+                "the planner wrote `{}` before it had a query",
+                around(&String::from_utf8_lossy(&line), 0)
+            ));
         }
         self.written.store(0, Ordering::Relaxed);
         Ok(())
@@ -168,7 +171,7 @@ impl Process {
             }
             Err(RecvTimeoutError::Timeout) => return Ok(None),
         };
-        serde_json::from_str(&line).map(Some).map_err(|error| no_message(&line, &error))
+        read_message(&line).map(Some)
     }
 
     /// Whether it has written nothing since its output counts from 0.
@@ -234,6 +237,24 @@ impl Drop for Process {
     }
 }
 
+/// The message in a line that a planner wrote; a byte-order mark before it is none of it.
+///
+/// # Errors
+/// A sentence: what is wrong and where.
+pub fn read_message(line: &[u8]) -> Result<FromPlanner, String> {
+    let line = line.strip_prefix("\u{feff}".as_bytes()).unwrap_or(line).trim_ascii();
+    let text = std::str::from_utf8(line).map_err(|error| {
+        let (at, shown) = (error.valid_up_to(), String::from_utf8_lossy(line));
+        let column = shown.char_indices().take_while(|(begin, _)| *begin < at).count();
+        format!(
+            "the planner wrote `{}`, which is no message: byte {} is not UTF-8",
+            around(&shown, column),
+            at + 1
+        )
+    })?;
+    serde_json::from_str(text).map_err(|error| no_message(text, &error))
+}
+
 /// What is wrong with a line, shown around its place; numbers that other languages write and JSON has none of by name.
 fn no_message(line: &str, error: &serde_json::Error) -> String {
     let column = error.column().saturating_sub(1);
@@ -242,7 +263,8 @@ fn no_message(line: &str, error: &serde_json::Error) -> String {
         ["NaN", "-Infinity", "Infinity", "-nan", "nan", "-inf", "inf"].into_iter().find(|n| at.contains(n));
     let why = match number {
         Some(number) => format!("JSON has no number `{number}`, at column {}", column + 1),
-        None => error.to_string(),
+        // The library repeats names as long as they are.
+        None => around(&error.to_string(), 0),
     };
     format!("the planner wrote `{}`, which is no message: {why}", around(line, column))
 }
@@ -274,9 +296,8 @@ fn read_lines(stdout: ChildStdout, said: &SyncSender<PlannerOutput>, written: &A
             return;
         }
         if end.is_some() {
-            let text = String::from_utf8_lossy(&line).trim_start_matches('\u{feff}').trim().to_owned();
-            line.clear();
-            if !text.is_empty() && said.send(PlannerOutput::Line(text)).is_err() {
+            let whole = std::mem::take(&mut line);
+            if !whole.trim_ascii().is_empty() && said.send(PlannerOutput::Line(whole)).is_err() {
                 return;
             }
         }

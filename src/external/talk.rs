@@ -42,7 +42,7 @@ pub enum End {
     Broken(String),
 }
 
-/// What was said.
+/// The message.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Talk {
     /// How it ended.
@@ -97,7 +97,7 @@ impl Talk {
     }
 }
 
-/// What is asked of a planner.
+/// A query to a planner.
 #[derive(Debug)]
 pub struct Query<'a> {
     /// The number of the query.
@@ -115,7 +115,7 @@ pub struct Query<'a> {
 /// Waits for a planner's first line.
 ///
 /// # Errors
-/// A sentence: it said nothing in time, or something else.
+/// A sentence: it sent nothing in time, or something else.
 pub fn greet(process: &mut Process, program: &Program) -> Result<Hello, String> {
     let mut looks = (program.hello_s / LOOK_S).ceil() as u64;
     let mut first = process.next(LOOK);
@@ -151,7 +151,7 @@ fn with_log(process: &mut Process, why: &str) -> String {
     if log.is_empty() { format!("{why}{ended}") } else { format!("{why}{ended}; its log ends: {log}") }
 }
 
-/// Poses `query` to a planner that has said `hello`, and answers its questions until it is done.
+/// Poses `query` to a planner that has sent `hello`, and answers its questions until it is done.
 pub fn solve(
     process: &mut Process,
     query: Query<'_>,

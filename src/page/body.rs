@@ -2,7 +2,7 @@
 //! is drawn.
 
 use super::html::{escaped, prose as inline};
-use super::interpretations;
+use super::{interpretations, replies};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::outcome::Outcome;
 use crate::analysis::tabulated::{grid, table_caption};
@@ -21,10 +21,23 @@ pub struct Body<'a> {
     pub evidence: &'a Evidence<'a>,
     /// What was found.
     pub verdicts: &'a Verdicts,
-    /// The trials of which there is a replay.
+    /// The trials that have a replay.
     pub replayed: &'a [&'a str],
     /// How many interpretations can be looked at.
     pub explored: usize,
+    /// Whether the index of all papers lies beside the page.
+    pub has_index: bool,
+}
+
+/// Where replays are drawn.
+const REPLAYS: &str = "<p>Stored trials, step by step; contenders on one problem stand side by side. \
+    Arrow keys step, the space bar plays.</p>\n<div id=\"player\"></div>\n";
+
+/// A part of the page that folds.
+fn part(id: &str, title: &str, text: &str) -> String {
+    format!(
+        "<section id=\"{id}\"><details open><summary><h2>{title}</h2></summary>\n{text}</details></section>\n"
+    )
 }
 
 /// A verdict or an outcome, by its name, as a word on its colour.
@@ -42,16 +55,18 @@ impl Body<'_> {
         let mut text: String = said.collect();
         text += &self.head(state.is_empty());
         text += &self.navigation(is_without_curves);
-        text += &self.claims();
+        text += &part("claims", "Claims", &self.claims());
         if self.has_tables() {
-            text += &self.tables()?;
+            text += &part("tables", "The paper's tables beside ours", &self.tables()?);
         }
         if !is_without_curves {
-            text += "<section id=\"curves\"><h2>Curves</h2></section>\n";
+            text += &part("curves", "Curves", "");
         }
-        text += &self.replays();
+        if !self.replayed.is_empty() {
+            text += &part("replays", "Replays", REPLAYS);
+        }
         if self.has_figures() {
-            text += &self.figures();
+            text += &part("figures", "Figures", &self.figures());
         }
         Ok(text + "</main>\n")
     }
@@ -86,7 +101,23 @@ impl Body<'_> {
                     .map(|said| format!("<p><strong>{}</strong></p>\n", self.prose_html(said))),
             );
         }
+        let badges: Vec<String> = counts
+            .of_each
+            .iter()
+            .map(|(count, verdict)| badge(verdict.name(), &format!("{count} {}", verdict.name())))
+            .collect();
+        text += &format!("<p>{}: {}.</p>\n", counts.whole, badges.join(" "));
         text += &self.headlines();
+        text +=
+            "<details><summary>What these words mean, and what is counted</summary><dl class=\"words\">\n";
+        text.extend(counts.of_each.iter().map(|(_, verdict)| {
+            let word = badge(verdict.name(), verdict.name());
+            format!("<dt>{word}</dt><dd>{}</dd>\n", escaped(verdict.about()))
+        }));
+        text += "</dl>";
+        let beside = counts.parts.into_iter().chain(counts.asserted);
+        text.extend(beside.map(|said| format!("<p>{}.</p>", escaped(&said))));
+        text += "</details>\n";
         if is_own && !paper.report.findings.is_empty() {
             text += "<details><summary>More findings, with numbers</summary><ul>\n";
             text.extend(
@@ -94,15 +125,7 @@ impl Body<'_> {
             );
             text += "</ul></details>\n";
         }
-        let of_each = counts.of_each.iter();
-        let badges: Vec<String> = of_each
-            .map(|(count, verdict)| badge(verdict.name(), &format!("{count} {}", verdict.name())))
-            .collect();
-        text += &format!("<p>{}: {}.", counts.whole, badges.join(" "));
-        text.extend(
-            counts.parts.into_iter().chain(counts.asserted).map(|said| format!(" {}.", escaped(&said))),
-        );
-        text + "</p></header>\n"
+        text + "</header>\n"
     }
 
     /// The headline claims, each with its verdict, and with our number where it has one.
@@ -118,7 +141,7 @@ impl Body<'_> {
             )
         };
         let lines: String = headlines(self.evidence.paper, self.verdicts).iter().map(line).collect();
-        if lines.is_empty() { lines } else { format!("<ul>\n{lines}</ul>\n") }
+        if lines.is_empty() { lines } else { format!("<ul class=\"headlines\">\n{lines}</ul>\n") }
     }
 
     fn navigation(&self, is_without_curves: bool) -> String {
@@ -131,7 +154,10 @@ impl Body<'_> {
             ("figures", "Figures", self.has_figures()),
         ];
         let link = |(to, name, _): &(&str, &str, bool)| format!("<a href=\"#{to}\">{name}</a>");
-        let links: Vec<String> = parts.iter().filter(|(.., is_there)| *is_there).map(link).collect();
+        let mut links: Vec<String> = parts.iter().filter(|(.., is_there)| *is_there).map(link).collect();
+        if self.has_index {
+            links.push("<a href=\"index.html\">All papers</a>".to_owned());
+        }
         format!("<nav aria-label=\"parts of this page\">{}</nav>\n", links.join(" "))
     }
 
@@ -139,7 +165,7 @@ impl Body<'_> {
         let verdicts: String = Verdict::ALL.iter().map(|verdict| option(verdict.name())).collect();
         let outcomes: String = Outcome::ALL.iter().map(|outcome| option(outcome.name())).collect();
         let mut text = format!(
-            "<section id=\"claims\"><h2>Claims</h2>\n<form class=\"filter\" id=\"filter\" role=\"search\">\
+            "<form class=\"filter\" id=\"filter\" role=\"search\">\
              <label>words <input type=\"search\" name=\"words\"></label>\
              <label>verdict <select name=\"class\"><option value=\"\">any</option>{verdicts}</select></label>\
              <label>hangs on <select name=\"hangs\"><option value=\"\">anything</option></select></label>\
@@ -164,7 +190,7 @@ impl Body<'_> {
         }
         text += "</tr></thead>\n";
         text.extend(self.verdicts.claims.iter().map(|judged| self.claim(judged)));
-        text + "</table></div></section>\n"
+        text + "</table></div>\n"
     }
 
     /// A claim's line, and below it the evidence that opens.
@@ -182,13 +208,14 @@ impl Body<'_> {
         let second = judged.second.map_or_else(String::new, |outcome| {
             format!("<div class=\"second\">second seed: {}</div>", badge(outcome.name(), outcome.name()))
         });
+        let reply = replies::mark(self.verdicts, judged);
         let rank = Verdict::ALL.iter().position(|verdict| *verdict == judged.verdict).unwrap_or(0);
         let part = if judged.part_of.is_some() { " data-part" } else { "" };
         format!(
             "<tbody id=\"claim={id}\" data-class=\"{}\" data-rank=\"{rank}\" \
              data-hangs=\"{}\"{part}>\
              <tr><th scope=\"row\"><button type=\"button\" class=\"open\" aria-expanded=\"false\">{}</button></th>\
-             <td>{}: {}</td><td>{}</td><td>{}{second}</td><td class=\"interpretations\">{}</td>\
+             <td>{}: {}</td><td>{}</td><td>{}{second}{reply}</td><td class=\"interpretations\">{}</td>\
              <td class=\"under\"></td></tr>\n\
              <tr class=\"evidence\" hidden><td colspan=\"6\">{}</td></tr></tbody>\n",
             escaped(judged.verdict.name()),
@@ -215,6 +242,7 @@ impl Body<'_> {
         text += &line("a part of", &whole);
         text += &line("must hold", &judged.theorem);
         text += &line("changed after a run", &judged.changed());
+        text += &replies::lines(self.evidence.paper, self.verdicts, judged);
         text + &judged.findings.iter().map(|finding| self.finding(finding)).collect::<String>()
     }
 
@@ -263,7 +291,7 @@ impl Body<'_> {
 
     fn tables(&self) -> Result<String, RenderError> {
         let paper = self.evidence.paper;
-        let mut text = "<section id=\"tables\"><h2>The paper's tables beside ours</h2>\n".to_owned();
+        let mut text = String::new();
         for table in paper.tables.iter().filter(|table| table.has_claims()) {
             text += &self.table(table)?;
         }
@@ -292,7 +320,7 @@ impl Body<'_> {
             }
             text += "</table></div>\n";
         }
-        Ok(text + "</section>\n")
+        Ok(text)
     }
 
     /// One of the paper's tables: in each cell what it printed, ours, and the verdict as a word on its colour.
@@ -316,17 +344,8 @@ impl Body<'_> {
         Ok(text + &format!("<p class=\"note\">{}</p>\n", escaped(&table.notes.join(" "))))
     }
 
-    fn replays(&self) -> String {
-        if self.replayed.is_empty() {
-            return String::new();
-        }
-        "<section id=\"replays\"><h2>Replays</h2>\n<p>Stored trials, step by step; contenders on one problem stand side by side. \
-         Arrow keys step, the space bar plays.</p>\n<div id=\"player\"></div></section>\n"
-            .to_owned()
-    }
-
     fn figures(&self) -> String {
-        let mut text = "<section id=\"figures\"><h2>Figures</h2>\n".to_owned();
+        let mut text = String::new();
         for run in self.evidence.runs() {
             for figure in &run.study.figures {
                 let id = escaped(figure.id.get_ref());
@@ -336,7 +355,7 @@ impl Body<'_> {
                 );
             }
         }
-        text + "</section>\n"
+        text
     }
 }
 

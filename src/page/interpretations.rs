@@ -5,7 +5,7 @@ use crate::analysis::across::by_interpretation::{ExploredChoice, ExploredOption,
 use crate::analysis::verdict::Verdicts;
 use study::paper::Paper;
 
-/// The interpretations of `paper`, of which `explored` can be looked at; empty if it leaves nothing open.
+/// The interpretations of `paper`; `explored` of them can be looked at; empty if it leaves nothing open.
 pub fn section(paper: &Paper, verdicts: &Verdicts, explored: usize) -> String {
     let choices = explored_choices(paper);
     if choices.is_empty() {

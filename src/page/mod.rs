@@ -11,6 +11,7 @@ mod html;
 mod interpretations;
 mod packed;
 mod replay;
+mod replies;
 
 use crate::analysis::across::Stored;
 use crate::analysis::across::by_interpretation::by_interpretation;
@@ -60,7 +61,7 @@ pub struct Page {
 }
 
 /// The page of the paper of `evidence` with what is `stored` of its interpretations and `figures` as they were drawn, SVG by the name of
-/// each; `rest` is the name of the file for what does not fit.
+/// each; `rest` is the name of the file for what does not fit, and `has_index` says whether the index of all papers lies beside the page.
 ///
 /// # Errors
 /// [`PageError`].
@@ -71,6 +72,7 @@ pub fn page(
     figures: &[Output],
     inputs: &Inputs,
     rest: &str,
+    has_index: bool,
 ) -> Result<Page, PageError> {
     let explored = by_interpretation(evidence.paper, verdicts, stored);
     let replays = replay::all(evidence, verdicts, inputs)?;
@@ -78,7 +80,7 @@ pub fn page(
     let named: Vec<&str> =
         replays.iter().flat_map(|replay| replay.trials.iter().map(String::as_str)).collect();
     let looked_at = explored.as_ref().map_or(0, |explored| explored.interpretations.len());
-    let body = Body { evidence, verdicts, replayed: &named, explored: looked_at };
+    let body = Body { evidence, verdicts, replayed: &named, explored: looked_at, has_index };
     let mut text = opening(&evidence.paper.id, &evidence.paper.source.title);
     text += &body.html(&state(evidence, verdicts), curves.is_empty())?;
     let mut packs = Vec::new();
@@ -120,18 +122,31 @@ pub fn unread(id: &str, title: &str, why: &str) -> String {
     format!("{}{said}<main><h1>{}</h1></main></body></html>\n", opening(id, title), escaped(title))
 }
 
-/// The page that leads to those of `papers`, each with its title and what is said of it.
-pub fn index(papers: &[[String; 3]]) -> String {
-    let row = |[id, title, said]: &[String; 3]| {
+/// A paper's line of the index.
+pub struct IndexLine {
+    /// Its name.
+    pub id: String,
+    /// Its title.
+    pub title: String,
+    /// What was found, in a sentence or two.
+    pub finding: String,
+    /// What its page begins with, and how many claims have each verdict.
+    pub counts: String,
+}
+
+/// The page that leads to those of `papers`.
+pub fn index(papers: &[IndexLine]) -> String {
+    let row = |IndexLine { id, title, finding, counts }: &IndexLine| {
         format!(
-            "<tr><td><a href=\"{0}.html\">{0}</a></td><td>{1}</td><td>{2}</td></tr>\n",
+            "<tr><td><a href=\"{0}.html\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td></tr>\n",
             escaped(id),
             escaped(title),
-            escaped(said)
+            escaped(finding),
+            escaped(counts)
         )
     };
     let rows: String = papers.iter().map(row).collect();
-    let head = "<thead><tr><th>paper</th><th>title</th><th>sentences and rows</th></tr></thead>";
+    let head = "<thead><tr><th>paper</th><th>title</th><th>what was found</th><th>sentences and rows</th></tr></thead>";
     format!(
         "{}<main><h1>What the papers claim and what we found</h1><div class=\"wide\"><table class=\"plain index\">{head}<tbody>\n{rows}</tbody></table></div></main></body></html>\n",
         opening("replan", "What the papers claim and what we found")

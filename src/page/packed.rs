@@ -50,7 +50,7 @@ pub struct Pack {
 }
 
 impl Pack {
-    /// For a page of at most `limit` bytes of which `taken` are spoken for.
+    /// For a page of at most `limit` bytes, `taken` of them spoken for.
     pub fn new(limit: usize, taken: usize) -> Self {
         // What stands around the packed things takes a little as well.
         Self { room: limit.saturating_sub(taken + limit / 50), rest: Vec::new() }

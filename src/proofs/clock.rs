@@ -70,7 +70,7 @@ mod tests {
         assert_eq!(tick.count(printed("11.9063"), Digits::Truncated), None);
         assert_eq!(tick.count(printed("11.9100"), Digits::Unknown), None);
         let times = [printed("11.9063"), printed("10.0625")];
-        // Four decimals: 64 ticks a second, of which 16 (2, 6, 10, …) are ties and may print either way.
+        // Four decimals: 64 ticks a second; 16 of them (2, 6, 10, …) are ties and may print either way.
         assert_eq!(tick.share_of_prints(4, Digits::Truncated), 64.0 / 1e4);
         assert_eq!(tick.share_of_prints(4, Digits::Rounded), 80.0 / 1e4);
         assert_eq!(tick.chance(&times, Digits::Truncated), 0.0064 * 0.0064);

@@ -1,6 +1,6 @@
 //! Exact arithmetic on printed numbers: rationals of 128-bit integers and the spans of values that print alike.
 //!
-//! Every operation is checked: where 128 bits do not suffice it gives `None`, and whoever asked says that the number was
+//! Every operation is checked: where 128 bits do not suffice it gives `None`, and the caller says that the number was
 //! not checked. Nothing is decided by a float.
 
 use super::printed::{Digits, Printed};

@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_8, SQRT_2};
 pub struct Formula {
     /// Its name in claims.
     pub name: &'static str,
-    /// What is asked of it.
+    /// The question to it.
     pub about: &'static str,
     /// What it is evaluated with, each above 0.
     pub takes: &'static [&'static str],

@@ -295,7 +295,7 @@ mod tests {
                 "{text} contradicts six digits without zeros"
             );
         }
-        // Next to 9.99999 stands 10, of which one decimal fewer counts.
+        // Next to 9.99999 stands 10, with one decimal fewer.
         let next = printed("9.99999").with_zeros_left_out(6).unwrap().with_units(1_000_000).unwrap();
         assert_eq!((next.to_string(), next.decimals()), ("10".to_owned(), 4));
     }

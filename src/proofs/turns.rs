@@ -7,9 +7,9 @@
 //! Polylines are put together from two halves, one from a start and one from a goal, each with at most half
 //! of the greatest turn, that meet in the bend between them. A half is found best-first over labels (cell,
 //! direction of arrival, turn so far); two labels alike in all three differ only in length, so the shorter one
-//! serves, unless a least length is asked for too: then labels of different length are kept. The estimate is
+//! serves, unless a least length is requested too: then labels of different length are kept. The estimate is
 //! the least length on which the missing turn, or more, can still be had. Cells outside the ellipse
-//! `|start cell| + |cell goal| ≤ longest` cannot serve. Turns and lengths are told apart to 1e-7, and both
+//! `|start cell| + |cell goal| ≤ longest` cannot serve. Turns and lengths are distinguished to 1e-7, and both
 //! windows are widened by 1e-5 on either side in return: widening can only admit more polylines, so what is
 //! not found does not exist.
 
@@ -48,7 +48,7 @@ impl Convention {
     }
 }
 
-/// Which polylines are asked for.
+/// Which polylines are requested.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TurnQuery {
     /// Columns and rows; cells run from `[0, 0]`.
@@ -67,7 +67,7 @@ pub struct TurnQuery {
     pub length: Interval,
 }
 
-/// The text of this module, so that an answer that is kept can be told from one that other code would give.
+/// The text of this module, so that an answer that is kept is distinct from one that other code would give.
 pub const SOURCE: [&str; 4] = [
     include_str!("turns.rs"),
     include_str!("turns/half.rs"),
@@ -82,7 +82,7 @@ pub struct Polyline {
     pub cells: Vec<Cell>,
     /// Length, cells.
     pub length: f64,
-    /// Turn sum in the convention asked for, degrees.
+    /// Turn sum in the requested convention, degrees.
     pub turn_deg: f64,
 }
 
@@ -147,7 +147,7 @@ fn shortest_within(query: &TurnQuery) -> Option<Polyline> {
     })
 }
 
-/// Every pair of halves that meet in one cell, bend there, and together have the length and turn asked for.
+/// Every pair of halves that meet in one cell, bend there, and together have the requested length and turn.
 fn meetings<'a>(query: &TurnQuery, forward: &'a Half, backward: &'a Half) -> Vec<(&'a Label, &'a Label)> {
     let mut pairs = Vec::new();
     for (cell, direction) in forward.states() {
@@ -165,7 +165,7 @@ fn meetings<'a>(query: &TurnQuery, forward: &'a Half, backward: &'a Half) -> Vec
     pairs
 }
 
-/// Adds the pairs of two lists, each by rising turn, that have the length and turn asked for.
+/// Adds the pairs of two lists, each by rising turn, that have the requested length and turn.
 fn pair_up<'a>(
     query: &TurnQuery,
     bend_deg: f64,

@@ -354,7 +354,7 @@ impl Canvas {
     ///
     /// # Errors
     /// [`RenderError::MissingGlyph`] if a text holds a character that the font lacks;
-    /// [`RenderError::TextTooSmall`] if plotters was told to set one too small; the errors of rasterising ([`RenderError::Svg`], [`RenderError::Size`], [`RenderError::Png`]).
+    /// [`RenderError::TextTooSmall`] if plotters would set one too small; the errors of rasterising ([`RenderError::Svg`], [`RenderError::Size`], [`RenderError::Png`]).
     pub fn finish(self, provenance: &Provenance) -> Result<Figure, RenderError> {
         let flaws = self.flaws();
         if let Some(error) = self.refused {

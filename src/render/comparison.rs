@@ -7,10 +7,10 @@ use super::chart::{Axis, Panel, Sheet};
 use super::prose;
 use super::style::{INK, Stroke, Width, series_color, series_marker};
 use super::vector::{Figure, Provenance};
-use crate::analysis::compare::{Cell, Change, Comparison, Measured, Outcome, Passed};
+use crate::analysis::compare::{Cell, Change, Comparison, Measured, Outcome, Passed, SOLVED, Solved, Word};
 use study::store::quoted;
 
-/// A table of texts, to be written in several ways.
+/// A table of texts.
 struct Table {
     title: String,
     head: Vec<&'static str>,
@@ -26,33 +26,102 @@ wins,ties,losses,word\n";
 const CELLS: &str = "study,interpretation,group,contender,sweep,metric,unit,trials,solved,instances,measured,mean,mean_low,mean_high,\
 median,median_low,median_high\n";
 
-/// The comparison as aligned text.
-pub fn text(of: &Comparison) -> String {
-    let aligned = |table: &Table| {
-        let cells = |column: usize| table.rows.iter().map(move |row| row[column].chars().count());
-        let widths: Vec<usize> = (0..table.head.len())
-            .map(|column| cells(column).max().unwrap_or(0).max(table.head[column].chars().count()))
-            .collect();
-        let line = |cells: &mut dyn Iterator<Item = &str>| {
-            let cells = cells.zip(&widths).map(|(cell, width)| format!("{cell:<width$}"));
-            format!("  {}\n", cells.collect::<Vec<_>>().join("  ").trim_end())
-        };
-        let rows: String = table.rows.iter().map(|row| line(&mut row.iter().map(String::as_str))).collect();
-        format!("{}\n{}{rows}", table.title, line(&mut table.head.iter().copied()))
-    };
-    written(of, aligned, "")
+/// What the words of a comparison mean.
+const WORDS: [&str; 3] = [
+    "Change: of the mean over pairs that both sides solved, with its 95 % interval over instances.",
+    "Better, equal, worse: pairs in which the second side is better, neither is, or the first is.",
+    "Verdict: better or worse where the interval excludes no change; open where it holds it, or instances are too few.",
+];
+
+/// The comparison as text of at most so many columns, a block a contender.
+pub fn text(of: &Comparison, columns: usize) -> String {
+    let paragraph = |text: &str| prose::plain("", text, 2, columns) + "\n";
+    let mut parts = vec![paragraph(&format!("From {} to {}", of.sides[0], of.sides[1]))];
+    parts.push(of.notes.iter().map(|note| paragraph(note)).collect());
+    parts.extend(of.solved.iter().map(|solved| block(of, solved, columns)));
+    let only = of.only.iter().map(|only| {
+        let side = &of.sides[only.side];
+        paragraph(&format!("only in {side}: {}: {}, {} trials", only.study, only.what, only.trials))
+    });
+    parts.push(only.collect());
+    parts.push(of.gates.iter().map(|gate| paragraph(&gate_line(gate))).collect());
+    if !of.changes.is_empty() {
+        parts.push(WORDS.iter().map(|word| paragraph(word)).collect());
+    }
+    parts.retain(|part| !part.is_empty());
+    parts.join("\n")
+}
+
+/// What has changed of one contender: how many problems are solved, a line a metric that differs, and those that are equal.
+fn block(of: &Comparison, solved: &Solved, columns: usize) -> String {
+    let mut text = prose::plain("", &format!("{}: {}", solved.study, solved.contender), 2, columns) + "\n";
+    let lost = solved.lost.as_ref().map_or_else(String::new, |lost| format!(", as {lost}"));
+    let counts = format!(
+        "solved by both {}, by the first alone {}{lost}, by the second alone {}, by neither {}",
+        solved.both, solved.first_only, solved.second_only, solved.neither
+    );
+    text += &(prose::plain("  ", &counts, 4, columns) + "\n");
+    let own = |change: &&Change| change.study == solved.study && change.contender == solved.contender;
+    let (equal, other): (Vec<&Change>, Vec<&Change>) =
+        of.changes.iter().filter(own).partition(|change| change.word == Word::Equal);
+    if !other.is_empty() {
+        let head =
+            ["metric", "before", "after", "change", "better/equal/worse", "verdict"].map(str::to_owned);
+        let rows: Vec<[String; 6]> = [head].into_iter().chain(other.into_iter().map(cells)).collect();
+        let lines = prose::columns(&rows, [20, 8, 8, 26, 18, 8]);
+        text.extend(lines.iter().map(|line| format!("  {line}")));
+    }
+    if !equal.is_empty() {
+        let names: Vec<&str> = equal.iter().map(|change| change.metric.as_str()).collect();
+        text += &(prose::plain("  equal in every pair: ", &names.join(", "), 4, columns) + "\n");
+    }
+    text
+}
+
+/// A change in the columns of a terminal.
+fn cells(change: &Change) -> [String; 6] {
+    let dash = || "–".to_owned();
+    let [before, after] = change.means.map_or_else(|| [dash(), dash()], |means| means.map(short));
+    let unit = if change.metric == SOLVED { "points" } else { change.unit.as_str() };
+    let percent = change.mean_change_percent.filter(|_| change.metric != SOLVED).map(|change| (change, "%"));
+    let of_mean = percent.or(change.mean_change.map(|change| (change, unit)));
+    let of_mean = of_mean.map_or_else(dash, |(change, unit)| format!("{} {unit}", to_interval(change)));
+    let pairs = format!("{}/{}/{}", change.wins, change.ties, change.losses);
+    let word = change.word.name().to_owned();
+    [change.metric.clone(), before, after, of_mean.trim_end().to_owned(), pairs, word]
+}
+
+/// A change and its interval with the digits that the interval leaves certain.
+fn to_interval(of: Measured) -> String {
+    let ends = of.interval.filter(|[low, high]| low.is_finite() && high.is_finite() && low < high);
+    let Some([low, high]) = ends else { return with_interval(of) };
+    let decimals = (1.0 - libm::log10((high - low) / 2.0).floor()).clamp(0.0, 6.0) as usize;
+    format!("{:+.decimals$} [{low:.decimals$}, {high:.decimals$}]", of.value)
 }
 
 /// The comparison as Markdown.
 pub fn markdown(of: &Comparison) -> String {
-    let tabled = |table: &Table| {
-        let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
-        let head = line(table.head.iter().map(|name| (*name).to_owned()).collect());
-        let rule = line(vec!["---".to_owned(); table.head.len()]);
-        let escaped = |row: &Vec<String>| line(row.iter().map(|cell| prose::markdown(cell)).collect());
-        format!("### {}\n\n{head}{rule}{}", table.title, table.rows.iter().map(escaped).collect::<String>())
+    let lines = |lines: &mut dyn Iterator<Item = String>| {
+        lines.fold(String::new(), |text, line| format!("{text}- {line}\n"))
     };
-    written(of, tabled, "- ")
+    let mut parts = vec![format!("From {} to {}\n", of.sides[0], of.sides[1])];
+    parts.push(lines(&mut of.notes.iter().cloned()));
+    parts.extend(
+        [solved(of), changes(of), only(of)].iter().filter(|table| !table.rows.is_empty()).map(tabled),
+    );
+    parts.push(lines(&mut of.gates.iter().map(gate_line)));
+    parts.push(lines(&mut WORDS.map(str::to_owned).into_iter()));
+    parts.retain(|part| !part.is_empty());
+    parts.join("\n")
+}
+
+/// A table in Markdown.
+fn tabled(table: &Table) -> String {
+    let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
+    let head = line(table.head.iter().map(|name| (*name).to_owned()).collect());
+    let rule = line(vec!["---".to_owned(); table.head.len()]);
+    let escaped = |row: &Vec<String>| line(row.iter().map(|cell| prose::markdown(cell)).collect());
+    format!("### {}\n\n{head}{rule}{}", table.title, table.rows.iter().map(escaped).collect::<String>())
 }
 
 /// The changes as comma-separated values under a head; what is not known is empty.
@@ -132,7 +201,7 @@ pub fn figure(of: &Comparison, from: &Provenance) -> Result<Figure, RenderError>
         let changes: Vec<&Change> = of.changes.iter().filter(|change| change.study == study).collect();
         let names = changes.iter().map(|change| format!("{}: {}", change.contender, change.metric));
         let percent = |change: &Change| match change.metric.as_str() {
-            crate::analysis::compare::SOLVED => change.mean_change,
+            SOLVED => change.mean_change,
             _ => change.mean_change_percent,
         };
         let title = format!("{study}: change of the mean");
@@ -183,22 +252,8 @@ fn panel(
     panel
 }
 
-/// All of a comparison, table by table as `table` writes one, with `bullet` before each line that stands alone.
-fn written(of: &Comparison, table: impl Fn(&Table) -> String, bullet: &str) -> String {
-    let mut parts = vec![format!("From {} to {}\n", of.sides[0], of.sides[1])];
-    let lines = |lines: &mut dyn Iterator<Item = String>| {
-        lines.fold(String::new(), |text, line| text + bullet + &line + "\n")
-    };
-    parts.push(lines(&mut of.notes.iter().cloned()));
-    parts.extend([solved(of), changes(of)].iter().filter(|table| !table.rows.is_empty()).map(&table));
-    parts.extend([only(of)].iter().filter(|table| !table.rows.is_empty()).map(&table));
-    parts.push(lines(&mut of.gates.iter().map(gate_line)));
-    parts.retain(|part| !part.is_empty());
-    parts.join("\n")
-}
-
 fn solved(of: &Comparison) -> Table {
-    let row = |solved: &crate::analysis::compare::Solved| {
+    let row = |solved: &Solved| {
         let counts =
             [solved.both, solved.first_only, solved.second_only, solved.neither].map(|n| n.to_string());
         let lost = solved.lost.clone().unwrap_or_default();
@@ -252,9 +307,9 @@ fn changes(of: &Comparison) -> Table {
             "change",
             "change, %",
             "median change",
-            "improvement, %",
+            "second better, %",
             "better / equal / worse",
-            "is",
+            "verdict",
         ],
         rows: of.changes.iter().map(row).collect(),
     }

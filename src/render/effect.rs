@@ -19,7 +19,7 @@ pub struct Effect {
 }
 
 impl Effect {
-    /// That of an estimate, by what it measures.
+    /// That of an estimate, from the name of its measure.
     pub fn new(estimate: &Estimate) -> Self {
         let what = estimate.what.as_str();
         let change = what.strip_prefix("change of ").and_then(|rest| rest.split_once(" in %"));
@@ -53,8 +53,11 @@ impl Effect {
     fn scaled(estimate: &Estimate, scale: impl Fn(f64) -> f64, words: String) -> Self {
         let [low, high] = estimate.interval.unwrap_or([estimate.value; 2]).map(&scale);
         let half = (high - low).abs() / 2.0;
-        let decimals = if half > 0.0 { (-libm::log10(half)).ceil().clamp(0.0, 2.0) as usize } else { 0 };
-        Self { size: scale(estimate.value), decimals, words }
+        let size = scale(estimate.value);
+        let is_whole = words == " %" && (size == 0.0 || size == 100.0);
+        let is_exact = half == 0.0 || is_whole;
+        let decimals = if is_exact { 0 } else { (-libm::log10(half)).ceil().clamp(0.0, 2.0) as usize };
+        Self { size, decimals, words }
     }
 }
 
@@ -90,6 +93,7 @@ mod tests {
             (-62.7, [-64.4, -61.1], "change of turn sum, exterior angles in %, 95 %", "63 % less turn sum"),
             (0.9169, [0.9153, 0.9185], "ratio of the means of path length, bootstrap 95 %", "8.3 % shorter"),
             (0.534, [0.498, 0.569], "share of trials solved, 95 %", "53 %"),
+            (1.0, [0.994, 1.0], "share of instances, 95 %", "100 %"),
             (18.15, [14.4, 21.9], "least mean difference in points, at samples=1500", "18 points more"),
         ] {
             let estimate = Estimate { interval: Some(interval), ..Estimate::bare(value, what, 9) };

@@ -92,7 +92,7 @@ struct PathWriter {
 }
 
 impl PathWriter {
-    /// Adds a command and the points it goes through, the last of which the pen stays at.
+    /// Adds a command and the points it goes through; the pen stays at the last.
     fn go<const N: usize>(&mut self, command: char, points: [[f32; 2]; N]) {
         let [x, y] = self.pen;
         self.last_line = None;

@@ -40,7 +40,7 @@ pub enum RenderError {
         /// Why.
         source: Box<RenderError>,
     },
-    /// Drawing was asked to stop.
+    /// Drawing was interrupted.
     #[error(
         "interrupted while drawing; records and verdicts are kept, and `replan render` goes on from there"
     )]
@@ -54,7 +54,7 @@ pub enum RenderError {
     /// A text size below what a printed page can carry.
     #[error("text of {found_pt} pt is too small to print; at least {least_pt} pt is accepted")]
     TextTooSmall {
-        /// The size that was asked for.
+        /// The size that was requested.
         found_pt: f64,
         /// The least size that is accepted.
         least_pt: f64,

@@ -176,7 +176,7 @@ pub fn stale(folder: &Path, outputs: &[Output]) -> Vec<PathBuf> {
     outputs.iter().filter(|output| !is_stale(output)).map(|output| folder.join(&output.name)).collect()
 }
 
-/// The files in `folder` that are not among `outputs` and of which neither the report at `path`, outside the chapter of `paper`,
+/// The files in `folder` that are not among `outputs`, and that neither the report at `path`, outside the chapter of `paper`,
 /// nor a file that stands beside the chapter speaks: what an earlier state of the paper left behind.
 ///
 /// # Errors

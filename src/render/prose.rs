@@ -8,7 +8,7 @@ use study::paper::{OVER_INTERPRETATIONS, filled};
 /// Paragraphs and lists are broken into lines of so many characters.
 pub const COLUMNS: usize = 120;
 
-/// `text` with every `{claim}` replaced by our number beside that claim, and every `{claim:form}` by what the form asks for; a
+/// `text` with every `{claim}` replaced by our number beside that claim, and every `{claim:form}` by the text that the form names; a
 /// dash where there is none.
 pub fn prose(text: &str, verdicts: &Verdicts) -> String {
     filled(text, |claim, form| {
@@ -98,7 +98,33 @@ pub fn plain(first: &str, text: &str, indent: usize, columns: usize) -> String {
     broken(first, text, [indent, columns], |_| false)
 }
 
-/// The words on lines, none of which begins with a word that `stays` with the one before.
+/// `rows` as lines: each column is as wide as its widest cell of at most so many characters. What
+/// follows a wider cell stands on a line of its own.
+pub fn columns<const N: usize>(rows: &[[String; N]], most: [usize; N]) -> Vec<String> {
+    let width = |at: usize| {
+        rows.iter().map(|row| row[at].chars().count()).filter(|&wide| wide <= most[at]).max().unwrap_or(0)
+    };
+    let mut places = [0; N];
+    for at in 1..N {
+        places[at] = places[at - 1] + width(at - 1) + 2;
+    }
+    let line = |row: &[String; N]| {
+        let mut text = String::new();
+        let mut at = 0;
+        for (cell, place) in row.iter().zip(places) {
+            if at > 0 && at + 2 > place {
+                text += "\n";
+                at = 0;
+            }
+            text += &format!("{}{cell}", " ".repeat(place - at));
+            at = place + cell.chars().count();
+        }
+        text + "\n"
+    };
+    rows.iter().map(line).collect()
+}
+
+/// The words on lines; none begins with a word that `stays` with the one before.
 fn broken(first: &str, text: &str, [indent, columns]: [usize; 2], stays: fn(&str) -> bool) -> String {
     let mut lines = Vec::new();
     let mut line = first.to_owned();

@@ -4,6 +4,7 @@ mod chapter;
 mod chapters;
 mod details;
 mod interpretations;
+mod replies;
 
 pub use chapter::{Chapter, Page, unread};
 pub use interpretations::across_lines;
@@ -66,7 +67,7 @@ pub fn read(path: &Path) -> Result<String, StudyError> {
     })
 }
 
-/// What is said of the report at `path` in which something stands that `replan` did not write there.
+/// The message about the report at `path` in which something stands that `replan` did not write there.
 fn touched(path: &Path, what: &str) -> StudyError {
     let aside = "mend it, move it away, or write elsewhere with --out";
     StudyError::Touched(format!("{}: {what}; {aside}", path.display()))
@@ -108,7 +109,7 @@ pub fn besides(path: &Path, name: &str) -> Result<String, StudyError> {
     text.map_err(|error| touched(path, &error.to_string()))
 }
 
-/// The overview, of which `before` is the former text, with what was found in the paper `name`.
+/// The overview, `before` its former text, with what was found in the paper `name`.
 fn overview(before: &str, name: &str, chapter: &Chapter) -> String {
     let (found, rows) = before.split_once(ALL).unwrap_or((before, ""));
     let parts = found.split("### [").skip(1).filter_map(|part| Some((part.split_once(']')?.0, part.trim())));

@@ -18,15 +18,16 @@ use study::paper::results::{ResultsSpec, Show};
 pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
     let mut faults = Faults::default();
     for table in &paper.results {
-        // A study that is not there is told by the paper's own check.
+        // A study that is not there is reported by the paper's own check.
         let Some(study) = paper.study(table.study.get_ref()) else { continue };
         let [counted, preprocessing] = [study.columns(), study.preprocessing_columns()];
         for cell in &table.cells {
             let columns = if cell.show == Show::Preprocessing { &preprocessing } else { &counted };
             let name = cell.metric.get_ref();
-            if !metric::find(name).is_some_and(|metric| columns.contains(metric.column)) {
+            let is_given = |metric: &metric::Metric| metric.is_read_from(columns);
+            if !metric::find(name).is_some_and(is_given) {
                 let known: Vec<&str> =
-                    metric::METRICS.iter().filter(|m| columns.contains(m.column)).map(|m| m.name).collect();
+                    metric::METRICS.iter().filter(|m| is_given(m)).map(|m| m.name).collect();
                 let message = format!(
                     "study `{}` does not produce the metric `{name}`; it produces {}",
                     table.study.get_ref(),

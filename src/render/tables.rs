@@ -293,6 +293,7 @@ mod tests {
                 withdrawn: Vec::new(),
                 claims: Vec::new(),
                 together: Vec::new(),
+                replies: Vec::new(),
             };
             let evidence = Evidence::read(&paper, Interpretation::default(), root).unwrap();
             let text = numbers(&evidence, &verdicts).unwrap();

@@ -11,7 +11,7 @@ use super::summary;
 use crate::interval::Interval;
 use base::seed;
 
-/// Fewest instances on either side of which a mean is taken to be normal; below, a bootstrap stands for the distribution.
+/// Fewest instances on either side whose mean is taken to be normal; below, a bootstrap stands for the distribution.
 pub const FEWEST_NORMAL: usize = 30;
 
 /// The mean of `values`, with the interval in which the mean of `printed_of` more instances lies with probability `plan.level`.

@@ -101,7 +101,7 @@ pub fn agreed_between(values: &[f64], [least, most]: [f64; 2], level: f64) -> Op
 /// The interval of the ratio of two sums, `[above, below]` of each instance, where every instance has the same ratio; none for other
 /// instances, for fewer than two, or without anything below.
 ///
-/// As in [`mean_of_agreed`] a part m of all instances may differ. A ratio has no end above, so that something must be said of those:
+/// As in [`mean_of_agreed`] a part m of all instances may differ. A ratio has no end above, so those need a word:
 /// in them the number above is off by no more than the larger of the instance's two numbers. A ratio v then lies within
 /// v ± m·max(1, |v|), as much wider as the largest instance has below over the mean one, and not below 0 if no number is. Ratios that
 /// rounding alone parts agree.

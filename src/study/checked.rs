@@ -161,14 +161,9 @@ impl Study {
 
     /// `interpretations` of the paper as trials of the study see them: those that run the same trials appear once.
     pub fn as_trials_see(&self, interpretations: &[Interpretation]) -> Vec<Interpretation> {
-        let mut seen: Vec<Interpretation> = Vec::new();
-        for one in interpretations {
-            let one = one.for_trials(&self.choices);
-            if !seen.contains(&one) {
-                seen.push(one);
-            }
-        }
-        seen
+        let mut seen = BTreeSet::new();
+        let as_seen = interpretations.iter().map(|one| one.for_trials(&self.choices));
+        as_seen.filter(|one| seen.insert(one.key(&self.choices))).collect()
     }
 
     /// The study on its second seed, if it has one; no clock is read and nothing is kept for figures.

@@ -4,7 +4,7 @@ use super::key::InterpretationKey;
 use super::name;
 use super::spec::{BoundsSpec, ChoiceSpec, Digits, OptionSpec, ROBOT_WITH, SCENE_WITH};
 use base::settings::{Document, Place, Settings, SettingsError, did_you_mean, none_called};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use toml::Table;
 
@@ -168,10 +168,9 @@ impl Interpretation {
     /// # Errors
     /// A message that names the unknown choice or option and those that exist, or an option that cannot be run.
     pub fn new(choices: &[Choice], other: &BTreeMap<String, String>) -> Result<Self, String> {
-        for id in other.keys() {
-            if !choices.iter().any(|choice| choice.id == *id) {
-                return Err(none_called("choice", id, choices.iter().map(|choice| choice.id.as_str())));
-            }
+        let ids: BTreeSet<&str> = choices.iter().map(|choice| choice.id.as_str()).collect();
+        if let Some(id) = other.keys().find(|id| !ids.contains(id.as_str())) {
+            return Err(none_called("choice", id, choices.iter().map(|choice| choice.id.as_str())));
         }
         let mut interpretation = Self::default();
         let mut differs = Vec::new();
@@ -196,10 +195,7 @@ impl Interpretation {
     /// If one of `choices` lacks the option that is taken of it.
     #[must_use]
     pub fn within(&self, choices: &[Choice]) -> Self {
-        let is_had = |id: &String| choices.iter().any(|choice| choice.id == *id);
-        let options = self.options.iter().filter(|(id, _)| is_had(id));
-        Self::new(choices, &options.map(|(id, option)| (id.clone(), option.clone())).collect())
-            .expect("a study inherits the choices of its paper as they are")
+        self.with_options_of(choices.iter(), choices)
     }
 
     /// Its name in records.
@@ -218,9 +214,14 @@ impl Interpretation {
     /// As [`within`](Self::within).
     #[must_use]
     pub fn for_trials(&self, choices: &[Choice]) -> Self {
-        let mut moving = self.within(choices).options;
-        moving.retain(|id, _| choices.iter().any(|choice| choice.id == *id && choice.touches_trials));
-        Self::new(choices, &moving).expect("the options were just found")
+        self.with_options_of(choices.iter().filter(|choice| choice.touches_trials), choices)
+    }
+
+    /// The interpretation of `choices` that takes the same option of each of `some`.
+    fn with_options_of<'c>(&self, some: impl Iterator<Item = &'c Choice>, choices: &[Choice]) -> Self {
+        let options = some.filter_map(|choice| self.options.get_key_value(&choice.id));
+        Self::new(choices, &options.map(|(id, option)| (id.clone(), option.clone())).collect())
+            .expect("a study inherits the choices of its paper as they are")
     }
 
     /// Whether each option stands with those of other choices that it names; of choices that are not here it asks nothing.

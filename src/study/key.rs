@@ -207,7 +207,7 @@ pub struct TrialKey {
     pub contender: Text,
     /// The sweeps' values: those over the problem's settings first.
     pub sweep: SweepKey,
-    /// Which of the contender's seeds; which finding of a variant, counted from 1.
+    /// Which of the contender's seeds.
     pub repeat: u32,
 }
 

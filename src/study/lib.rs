@@ -24,7 +24,6 @@ pub mod planner;
 pub mod contender;
 pub mod preprocessing;
 
-pub mod endpoint_variants;
 pub mod family;
 mod group;
 pub mod verification;

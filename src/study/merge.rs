@@ -251,7 +251,7 @@ fn reasons(plan: &Plan, number: usize, expected: &Manifest, found: &Manifest) ->
 fn how_to_run(plan: &Plan, folder: &Path, missing: &BTreeSet<usize>) -> String {
     let shards: Vec<String> = missing.iter().map(|number| format!("{number}/{}", plan.shards)).collect();
     let shard = if let [one] = &shards[..] { one.clone() } else { format!("K/{}", plan.shards) };
-    let command = format!("replan {}", plan.arguments(folder, &shard).join(" "));
+    let command = base::text::command(&plan.arguments(folder, &shard));
     match &shards[..] {
         [_] => format!("to run it: {command}"),
         several => format!("to run them: {command}, for each of {}", several.join(", ")),

@@ -7,6 +7,7 @@ mod claim;
 mod columns;
 mod ids;
 mod inventory;
+mod reply;
 mod report;
 pub mod results;
 mod rules;
@@ -17,8 +18,10 @@ pub use self::claim::{Claim, Parts, TestRole, cells_named, printed_by};
 use self::claim::{ClaimSpec, claim};
 pub use self::rules::names_of;
 pub use inventory::{InventoryRow, NumbersRow};
+pub use reply::{Reply, is_day};
 pub use report::{FIGURES, OVER_INTERPRETATIONS, ReportSpec, filled};
 
+use self::reply::ReplySpec;
 use self::results::ResultsSpec;
 use self::table_spec::TableSpec;
 pub use self::tables::{PrintedCell, PrintedRow, PrintedTable};
@@ -70,6 +73,9 @@ struct PaperSpec {
     /// Tables of our results.
     #[serde(default)]
     results: Vec<ResultsSpec>,
+    /// What authors and others reply to verdicts: it stands beside them.
+    #[serde(default, rename = "reply")]
+    replies: Vec<ReplySpec>,
     /// The series, of those that figures have, that a contender is drawn as wherever it is drawn, by its label.
     #[serde(default)]
     series: BTreeMap<String, usize>,
@@ -183,6 +189,8 @@ pub struct Paper {
     pub cells: Vec<String>,
     /// Tables of our own results.
     pub results: Vec<ResultsSpec>,
+    /// What authors and others reply to verdicts.
+    pub replies: Vec<Reply>,
     /// The series, of those that figures have, that a contender is drawn as wherever it is drawn, by its label.
     pub series: BTreeMap<String, usize>,
     /// Its studies, in the order of their names.
@@ -326,7 +334,7 @@ impl Paper {
         let parts = parts.flat_map(|(place, ids)| ids.iter().map(move |part| (place, part)));
         let wholes = first_places(parts);
         let absolute = fs::canonicalize(folder).map_err(StudyError::io(folder, "opening the folder"))?;
-        let paper = Self {
+        let mut paper = Self {
             id: absolute.file_name().unwrap_or_default().to_string_lossy().into_owned(),
             folder: folder.to_owned(),
             source: spec.source,
@@ -339,6 +347,7 @@ impl Paper {
             tables,
             cells,
             results: spec.results,
+            replies: Vec::new(),
             series: spec.series,
             studies,
             others,
@@ -346,6 +355,7 @@ impl Paper {
             places,
             wholes,
         };
+        paper.read_replies(&spec.replies, faults);
         paper.check(&spec.claims, &spec.tables, faults);
         Ok(paper)
     }

@@ -4,7 +4,8 @@
 //! alone, and a first build takes a sixth less.
 
 use polars::prelude::{
-    ArrowSchema, Column, CompatLevel, DataFrame, PolarsResult, Schema, SchemaExt as _, Series,
+    ArrowDataType, ArrowField, ArrowSchema, Column, CompatLevel, DataFrame, PolarsResult, Schema,
+    SchemaExt as _, Series,
 };
 use polars::utils::accumulate_dataframes_vertical;
 use polars_parquet::read::{
@@ -109,6 +110,21 @@ impl<R: Read + Seek> FrameReader<R> {
         Ok(Self { file, metadata, schema })
     }
 
+    /// Leaves out columns of other types than texts, numbers and booleans, and gives their names. Texts that are stored once each and
+    /// numbered, as pandas stores categories, are texts.
+    pub fn leave_out_others(&mut self) -> Vec<String> {
+        let mut others = Vec::new();
+        let mut left = ArrowSchema::default();
+        for (name, field) in self.schema.iter() {
+            match plain(&field.dtype) {
+                Some(dtype) => drop(left.insert(name.clone(), ArrowField::new(name.clone(), dtype, true))),
+                None => others.push(name.to_string()),
+            }
+        }
+        self.schema = left;
+        others
+    }
+
     /// How many rows each group has.
     pub fn groups(&self) -> impl Iterator<Item = usize> {
         self.metadata.row_groups.iter().map(RowGroupMetadata::num_rows)
@@ -175,6 +191,24 @@ impl<R: Read + Seek> FrameReader<R> {
             Ok(Series::try_from((field, arrays))?.into())
         });
         DataFrame::new(group.num_rows(), columns.collect::<PolarsResult<Vec<Column>>>()?)
+    }
+}
+
+/// The type that values of the type `dtype` are read as; `None` if they are neither texts nor numbers nor booleans.
+fn plain(dtype: &ArrowDataType) -> Option<ArrowDataType> {
+    use ArrowDataType as Type;
+    match dtype {
+        Type::Dictionary(_, values, _) => plain(values),
+        Type::Utf8 | Type::LargeUtf8 | Type::Utf8View => Some(Type::Utf8View),
+        Type::Int8 | Type::Int16 | Type::UInt8 | Type::UInt16 => Some(Type::Int32),
+        Type::Boolean
+        | Type::Int32
+        | Type::Int64
+        | Type::UInt32
+        | Type::UInt64
+        | Type::Float32
+        | Type::Float64 => Some(dtype.clone()),
+        _ => None,
     }
 }
 

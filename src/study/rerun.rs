@@ -49,10 +49,9 @@ pub fn rerun(
     let wanted = sample(study, &rows, count);
     let mut units = built.units();
     for unit in &mut units {
-        unit.wanted = wanted.get(&unit.key).cloned();
         unit.entrants.retain(|entrant| !entrant.contender.is_recorded());
     }
-    units.retain(|unit| unit.wanted.is_some());
+    units.retain(|unit| wanted.contains_key(&unit.key));
     let pool = super::session::pool(Some(threads));
     let again = pool.install(|| units.par_iter().map(|unit| built.run_unit(unit)).collect::<Vec<_>>());
     let stored: BTreeMap<&TrialKey, &Row> = records.batch.rows.iter().map(|row| (&row.key, row)).collect();

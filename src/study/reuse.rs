@@ -38,8 +38,6 @@ pub struct Before {
 pub struct Damage {
     /// The new names of the files.
     pub aside: Vec<PathBuf>,
-    /// Whether anything was: a file that is gone leaves none to set aside.
-    pub is_any: bool,
     /// Whether trials must run again to have all that was lost.
     pub is_of_trials: bool,
 }
@@ -80,10 +78,7 @@ impl Before {
         }
         let Ok(before) = before else {
             aside.extend(set_records_aside(folder, study)?);
-            return Ok(Self {
-                damage: Damage { aside, is_any: true, is_of_trials: true },
-                ..Self::default()
-            });
+            return Ok(Self { damage: Damage { aside, is_of_trials: true }, ..Self::default() });
         };
         let (records, damaged) = salvaged(folder, study, &before.files);
         aside.extend(set_parts_aside(folder, study, &damaged)?);
@@ -95,12 +90,7 @@ impl Before {
         };
         let is_of_trials = damaged.iter().any(|part| *part != "times");
         let why = manifest.differs_from(&before);
-        Ok(Self {
-            stored: Some((before, records)),
-            kept,
-            why,
-            damage: Damage { aside, is_any: true, is_of_trials },
-        })
+        Ok(Self { stored: Some((before, records)), kept, why, damage: Damage { aside, is_of_trials } })
     }
 }
 

@@ -171,7 +171,6 @@ impl<'a> BuiltStudy<'a> {
             seed: seed::derive(self.study.seed, &names),
             key: Arc::new(key),
             keeps_all: false,
-            wanted: None,
         }
     }
 

@@ -10,8 +10,8 @@ use super::reuse::{self, Before, Damage, Gathered, Keeps, Reusable, moved};
 use super::runner::{BuiltStudy, Progress, SESSION};
 use super::shard::Portion;
 use super::store::{
-    Columns, GROUP_VALUES, Journal, Records, Staged, Traces, finish_put, open_traces, remove_temporaries,
-    stage_records,
+    Columns, GROUP_VALUES, Journal, Records, Staged, Traces, finish_put, open_traces, read_endings,
+    remove_temporaries, stage_records,
 };
 use super::unit::Unit;
 use super::{Inputs, StudyError};
@@ -58,6 +58,17 @@ pub struct Options<'a> {
 }
 
 impl Options<'_> {
+    /// The stored run in `folder` that is as `manifest` has it, with its trials but without their numbers: nothing of it runs again.
+    /// `None` also if it is damaged.
+    fn current(&self, folder: &Path, manifest: &Manifest) -> Option<(Manifest, Vec<Row>)> {
+        if self.again.fresh || self.again.record {
+            return None;
+        }
+        let before = Manifest::read(folder, &manifest.study).ok().filter(|before| manifest.is_as(before))?;
+        let rows = read_endings(folder, &manifest.study, &before.files).ok()?;
+        Some((before, rows))
+    }
+
     /// What of the run that `manifest` describes is stored and need not run again.
     fn reusable(
         &self,
@@ -133,10 +144,10 @@ struct Counts {
 }
 
 impl Report {
-    fn new(manifest: Manifest, counts: &Counts, batch: &Batch, names: &Names, why: Vec<String>) -> Self {
+    fn new(manifest: Manifest, counts: &Counts, rows: &[Row], names: &Names, why: Vec<String>) -> Self {
         let Counts { resumed, units, reused, kept } = *counts;
-        let trials = batch.rows.len();
-        let odd = UnexpectedStatus::among(&batch.rows, names);
+        let trials = rows.len();
+        let odd = UnexpectedStatus::among(rows, names);
         Self {
             manifest,
             trials,
@@ -180,19 +191,19 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
         Some(Manifest::read_left(path)?.files)
     });
     remove_temporaries(folder, &study.name);
+    let units = only.map_or_else(|| built.units().len(), BTreeSet::len);
+    let open_journal = || Journal::open(&Journal::path(folder, &study.name), &manifest.depends);
+    if let Some((before, rows)) = options.current(folder, &manifest) {
+        let (journal, done) = open_journal()?;
+        journal.remove()?;
+        let counts = Counts { resumed: done.len(), units, reused: units, kept: 0 };
+        let why = manifest.differs_from(&before);
+        return Ok(Report::new(before, &counts, &rows, built.names(), why));
+    }
     let Before { stored, kept, why, damage } =
         Before::read(folder, &manifest, options.again.replaces_damaged)?;
-    let (journal, mut done) = Journal::open(&Journal::path(folder, &study.name), &manifest.depends)?;
+    let (journal, mut done) = open_journal()?;
     let resumed = done.len();
-    let units = only.map_or_else(|| built.units().len(), BTreeSet::len);
-    let is_current = |(before, _): &&(Manifest, Records)| {
-        !options.again.fresh && !options.again.record && !damage.is_any && manifest.is_as(before)
-    };
-    if let Some((before, records)) = stored.as_ref().filter(is_current) {
-        journal.remove()?;
-        let counts = Counts { resumed, units, reused: units, kept: 0 };
-        return Ok(Report::new(before.clone(), &counts, &records.batch, built.names(), why));
-    }
     let found = options.reusable(&built, &manifest, stored.as_ref(), &damage);
     let counts = Counts { resumed, units, reused: found.units.len(), kept: found.kept() };
     done = found.units.into_iter().chain(done).collect();
@@ -214,7 +225,7 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let new = &records.batch;
     let names = built.names();
     let moved = stored.map_or_else(Vec::new, |(was, old)| moved(&manifest, &was, &old.batch, new, names));
-    Ok(Report { moved, aside: damage.aside, ..Report::new(manifest, &counts, new, names, why) })
+    Ok(Report { moved, aside: damage.aside, ..Report::new(manifest, &counts, &new.rows, names, why) })
 }
 
 /// Reads the clock of a stored run once more, in a session of its own beside those that are stored; the session's number.
@@ -327,21 +338,13 @@ pub fn run_one(
     let built = BuiltStudy::new(study, points, inputs)?;
     let units = built.units();
     let names = built.names();
-    // What a task finds may have rows of its own, below a trial's name.
-    let is_below = |name: &str| trial.strip_prefix(name).is_some_and(|rest| rest.starts_with('/'));
-    let find = |is_it: &dyn Fn(&str) -> bool| {
-        let mut all =
-            units.iter().flat_map(|unit| built.trials(unit).into_iter().map(move |key| (unit, key)));
-        all.find(|(_, key)| is_it(&names.trial(key)))
-    };
     let unknown = || {
         let all = units.iter().flat_map(|unit| built.trials(unit)).map(|key| names.trial(&key));
         unknown_trial(&study.name, trial, &all.collect::<Vec<String>>())
     };
-    let owner = find(&|name| name == trial).or_else(|| find(&is_below));
-    let (unit, key) = owner.ok_or_else(unknown)?;
-    let mut batch =
-        built.run_unit(&Unit { keeps_all: true, wanted: Some(BTreeSet::from([key])), ..unit.clone() });
+    let is_it = |unit: &&Unit<'_>| built.trials(unit).iter().any(|key| names.trial(key) == trial);
+    let unit = units.iter().find(is_it).ok_or_else(unknown)?;
+    let mut batch = built.run_unit(&Unit { keeps_all: true, ..unit.clone() });
     batch.rows.retain(|row| names.trial(&row.key) == trial);
     batch.kept.retain(|kept| names.owner(&kept.of) == trial);
     let before = if Manifest::path(folder, &study.name).exists() {
@@ -351,9 +354,6 @@ pub fn run_one(
     } else {
         None
     };
-    if batch.rows.is_empty() && before.is_none() {
-        return Err(unknown());
-    }
     Ok((batch, before))
 }
 

@@ -8,7 +8,6 @@ use super::key::{InstanceKey, Text, TrialKey};
 use super::name::Names;
 use super::spec::{BudgetSpec, TrialsSpec};
 use base::seed;
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// What all units of a study share.
@@ -46,8 +45,6 @@ pub struct Unit<'a> {
     pub seed: u64,
     /// Keeps every trace, whatever the study asks for.
     pub keeps_all: bool,
-    /// The trials that are asked for, if not all; a task whose trials share little may leave out others.
-    pub wanted: Option<BTreeSet<TrialKey>>,
 }
 
 /// A contender at one point of the sweeps over contenders, ready to run.
@@ -82,11 +79,6 @@ impl Unit<'_> {
             sweep: self.key.sweep.and(&entrant.sweep.key),
             repeat,
         }
-    }
-
-    /// Whether a trial is asked for whose key `is_it`.
-    pub fn is_wanted(&self, is_it: impl Fn(&TrialKey) -> bool) -> bool {
-        self.wanted.as_ref().is_none_or(|wanted| wanted.iter().any(is_it))
     }
 
     /// Whether traces of this unit (of `contender`'s seed number `repeat`, if given) are kept.

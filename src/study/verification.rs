@@ -191,15 +191,17 @@ fn outcome(request: &Request<'_>, plan: &Plan, refusal: Option<String>) -> (Stat
     }
 }
 
-/// What is measured of an accepted path on a lattice.
+/// What is measured of an accepted path on a lattice: each column and its value.
+pub const MEASURES: [(&str, fn(&[Vec<f64>]) -> Value); 4] = [
+    ("path_cost_cells", |path| Value::Real(path_length(path))),
+    ("turn_exterior_deg", |path| Value::Real(turn_sum_deg(path, TurnAngle::Exterior))),
+    ("turn_interior_deg", |path| Value::Real(turn_sum_deg(path, TurnAngle::Interior))),
+    ("bends", |path| Value::Count(bends(path).len().saturating_sub(2) as u64)),
+];
+
+/// All of [`MEASURES`] of `path`.
 pub fn measured(path: &[Vec<f64>]) -> Counts {
-    let inner = bends(path).len().saturating_sub(2);
-    Counts::from([
-        ("path_cost_cells", Value::Real(path_length(path))),
-        ("turn_exterior_deg", Value::Real(turn_sum_deg(path, TurnAngle::Exterior))),
-        ("turn_interior_deg", Value::Real(turn_sum_deg(path, TurnAngle::Interior))),
-        ("bends", Value::Count(inner as u64)),
-    ])
+    MEASURES.into_iter().map(|(name, value)| (name, value(path))).collect()
 }
 
 /// Why `plan` contradicts its own ending; `None` if it does not, or counts no expansions.

@@ -46,7 +46,7 @@ pub struct Motion {
 }
 
 impl Case {
-    /// The case of a robot, of which these pairs of solids must stay apart, among obstacles.
+    /// The case of a robot among obstacles, with the pairs of solids that must stay apart.
     ///
     /// # Errors
     /// If points enclose nothing.

@@ -62,6 +62,75 @@ fn a_comparison_leaves_as_text_markdown_csv_json_and_a_figure() {
 }
 
 #[test]
+fn a_comparison_fits_a_hundred_columns_and_explains_its_words() {
+    let bench = runs();
+    for arguments in [
+        &["compare", "a", "worse"][..],
+        &["compare", "a", "b", "--gate", "expansions +2%"],
+        &["compare", "a", "--contenders", "A*", "Two-sided"],
+    ] {
+        let text = bench.done(arguments);
+        let widest = text.lines().max_by_key(|line| line.chars().count()).unwrap();
+        assert!(widest.chars().count() <= 100, "{widest}");
+        assert!(
+            text.contains("\nVerdict: better or worse where the interval excludes no change; open"),
+            "{text}"
+        );
+    }
+    let text = bench.done(&["compare", "a", "worse"]);
+    let worse = text.lines().find(|line| line.starts_with("  expansions ")).unwrap();
+    assert!(worse.contains(" +") && worse.contains(" %  ") && worse.ends_with("  worse"), "{worse}");
+    assert!(text.contains("  equal in every pair: solved, "), "{text}");
+}
+
+#[test]
+fn a_run_is_named_alike_wherever_one_is_read() {
+    let bench = Bench::new();
+    fs::create_dir(bench.at("experiments")).unwrap();
+    fs::rename(bench.at("mini"), bench.at("experiments/mini")).unwrap();
+    let none = bench.run(&["export", "mini", "--csv"]);
+    let missing = "data/runs/mini: no stored run; `replan repro mini` makes it";
+    assert!(none.code == Some(2) && none.err.contains(missing), "{}", none.err);
+    bench.done(&["repro", "mini"]);
+    for name in ["mini", "experiments/mini", "./experiments/mini", "data/runs/mini"] {
+        let shown = bench.done(&["show", name, "nodes"]);
+        assert!(shown.starts_with("nodes: "), "{name}: {shown}");
+        bench.done(&["export", name, "--csv", "--out", "csv"]);
+        let compared = bench.done(&["compare", name, "mini", "--study", "room"]);
+        assert!(compared.contains("  equal in every pair: solved, "), "{name}: {compared}");
+        assert_eq!(bench.done(&["report", name, "--to", "pages"]).lines().last(), Some("pages/mini.html"));
+    }
+    // A paper of one's own, and the folder of an earlier `--out`.
+    fs::create_dir(bench.at("own")).unwrap();
+    fs::rename(bench.at("experiments/mini"), bench.at("own/mini")).unwrap();
+    bench.done(&["repro", "own/mini"]);
+    bench.done(&["repro", "own/mini", "--out", "kept"]);
+    for name in ["own/mini", "kept", "kept/data/runs/mini"] {
+        assert!(bench.done(&["show", name, "nodes"]).starts_with("nodes: "));
+        bench.done(&["export", name, "--csv", "--out", "csv"]);
+        bench.done(&["compare", name, name]);
+    }
+}
+
+#[test]
+fn show_searches_names_and_sentences_of_claims() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini", "--out", "a"]);
+    let one = bench.done(&["show", "./mini", "FEWER", "sides", "--out", "a"]);
+    assert!(one.starts_with("nodes: ") && one.contains("  says: two sides open fewer nodes\n"), "{one}");
+    let several = bench.done(&["show", "a", "o"]);
+    assert!(several.contains("cost  ") && several.contains("\n  section 1: two sides open"), "{several}");
+    assert!(several.ends_with("2 claims hold “o”; one in full: replan show a CLAIM\n"), "{several}");
+    let none = bench.run(&["show", "a", "nodess"]);
+    assert_eq!(none.code, Some(2));
+    assert!(
+        none.err.contains("no claim is called `nodess` or holds it (did you mean `nodes`?)"),
+        "{}",
+        none.err
+    );
+}
+
+#[test]
 fn an_export_holds_every_trial_and_what_they_come_to() {
     let bench = runs();
     bench.done(&["export", "a", "--csv", "--out", "csv"]);

@@ -275,6 +275,36 @@ fn a_figure_that_cannot_be_drawn_costs_that_figure_alone() {
 }
 
 #[test]
+fn claims_are_judged_again_only_where_something_changed() {
+    let bench = Bench::new();
+    let judges = |arguments: &[&str]| {
+        let said = bench.run(arguments);
+        assert_eq!(said.code, Some(0), "{}", said.err);
+        said.doing.iter().any(|line| line.starts_with("mini: judging "))
+    };
+    let is_judged = || judges(&["repro", "./mini"]);
+    assert!(is_judged());
+    let path = bench.at("target/replan/mini/data/runs/mini/verdicts.toml");
+    let verdicts = fs::read(&path).unwrap();
+    assert!(!is_judged() && fs::read(&path).unwrap() == verdicts);
+    // Verdicts that were edited, or that a changed claim or changed records make old, are judged again.
+    fs::write(&path, b"paper = 'mini'\n").unwrap();
+    assert!(is_judged() && fs::read(&path).unwrap() == verdicts && !is_judged());
+    bench.edit("mini/paper.toml", "two sides open fewer nodes", "two sides open no more nodes");
+    assert!(is_judged() && !is_judged());
+    bench.edit("mini/draws.toml", "blocked_share = 0.3", "blocked_share = 0.2");
+    assert!(is_judged() && !is_judged());
+    // So is what an exploration has joined: one that cannot be read is noticed.
+    let explored = path.with_file_name("estimates.parquet");
+    fs::write(&explored, b"torn").unwrap();
+    assert!(bench.run(&["repro", "./mini"]).err.contains("estimates.parquet"));
+    fs::remove_file(&explored).unwrap();
+    assert!(!is_judged());
+    // `judge` believes no stamp, nor does `--fresh`.
+    assert!(judges(&["judge", "./mini"]) && judges(&["repro", "./mini", "--fresh"]));
+}
+
+#[test]
 fn what_is_drawn_is_drawn_again_only_where_something_changed() {
     let bench = Bench::new();
     let is_drawn = || !bench.done(&["repro", "./mini"]).contains("\nnothing to draw: ");

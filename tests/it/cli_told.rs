@@ -51,7 +51,7 @@ fn a_name_that_is_nearly_right_is_answered_with_the_right_one() {
         (&["compare", "mini", "mini", "--metric", "opend"], "opened"),
         (&["compare", "mini", "mini", "--gate", "expansion +2%"], "expansions"),
         (&["compare", "mini", "--contenders", "A*", "Two-side"], "Two-sided"),
-        (&["show", "mini", "node"], "nodes"),
+        (&["show", "mini", "nodse"], "nodes"),
         (&["list", "studies", "mini/drawn"], "mini/draws"),
         (&["list", "studies", "draws"], "mini/draws"),
     ] {

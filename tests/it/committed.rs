@@ -98,10 +98,10 @@ fn every_stored_trial_has_the_row_of_what_was_prepared_by_which_it_is_found_agai
 }
 
 #[test]
-fn stored_trials_and_single_variants_are_found_by_their_names() {
+fn stored_trials_of_contenders_and_of_tasks_are_found_by_their_names() {
     for (paper, trial) in [
         ("planar", "readings/case-1/a-star-8"),
-        ("planar", "null/workspace/circles-8-cm"),
+        ("tang2023", "formula/solids/0/printed-distance"),
         ("zhang", "readings/w1/a-star"),
     ] {
         let mut replan = Command::new(env!("CARGO_BIN_EXE_replan"));

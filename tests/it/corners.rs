@@ -1,7 +1,7 @@
 //! Lattices whose vertices are corners of cells: planners of both kinds of lattice, and the laws of their lengths.
 
 use crate::worlds::{Case, worlds};
-use base::grid::parse_text_map;
+use base::grid::{corners_see, parse_text_map};
 use base::settings::Settings;
 use engine::planner::{self, Build, Ending, Plan, Planner, Request, Stage};
 use engine::space::{LatticeWorld, World, WorldKind};
@@ -96,6 +96,42 @@ fn no_path_is_shorter_than_the_visibility_graphs_nor_theta_stars_longer_than_the
         }
     }
     assert!(longer[0] > 3 && longer[1] >= longer[0] && longer[3] > 40, "{longer:?}");
+}
+
+#[test]
+fn every_closed_vertex_is_traced_with_a_parent_that_sees_it() {
+    let sight = "line_of_sight = 'exact_interior'\nties = 'smaller_g'";
+    let all = [
+        planner("theta_star", sight),
+        planner("lazy_theta_star", sight),
+        planner("ap_theta_star", "ties = 'smaller_g'"),
+        planner("visibility_astar", "ties = 'larger_g'\nvertices = 'all'"),
+        planner("field_dstar", "ties = 'larger_g'"),
+        planner("astar", "ties = 'larger_g'"),
+    ];
+    let mut far = [0; 6];
+    for case in worlds(WorldKind::CornerLattice) {
+        let cells = case.world.as_lattice().unwrap().cells();
+        for (count, planner) in far.iter_mut().zip(&all) {
+            let plan = planner.plan(&Request { trace: true, ..request(case) }).unwrap();
+            let trace = |name: &str| plan.traces.iter().find(|trace| trace.name == name).unwrap();
+            let at = |row: &[f64]| [row[0] as i32, row[1] as i32];
+            let closed: Vec<[i32; 2]> = trace("closings").values.chunks(5).map(at).collect();
+            let parents: Vec<[i32; 2]> = trace("parents").values.chunks(2).map(at).collect();
+            assert_eq!(closed.len(), parents.len(), "{}", case.name);
+            for (place, (node, parent)) in closed.iter().zip(&parents).enumerate() {
+                if place == 0 {
+                    assert_eq!(node, parent, "{}: the start is its own parent", case.name);
+                    continue;
+                }
+                assert!(closed[..place].contains(parent), "{}: {node:?} under {parent:?}", case.name);
+                assert!(corners_see(cells, *parent, *node), "{}: {node:?} under {parent:?}", case.name);
+                let apart = [0, 1].map(|axis: usize| (node[axis] - parent[axis]).abs());
+                *count += u32::from(apart[0].max(apart[1]) > 1);
+            }
+        }
+    }
+    assert!(far[..4].iter().all(|count| *count > 50) && far[4..] == [0, 0], "{far:?}");
 }
 
 #[test]

@@ -191,7 +191,7 @@ fn the_judge_of_statistics_is_told_metrics_and_papers() {
     let asked: serde_json::Value = serde_json::from_str(&asked).unwrap();
     let metric = asked["metrics"].as_array().unwrap().iter().find(|metric| metric["name"] == "plan_time_ms");
     let expected = serde_json::json!({
-        "name": "plan_time_ms", "column": "plan_wall_ns", "scale": 1e-6, "better": "lower", "clock": true, "status": false,
+        "name": "plan_time_ms", "column": "plan_wall_ns", "scale": 1e-6, "better": "lower", "clock": true, "status": false, "at_most": null,
     });
     assert_eq!(metric, Some(&expected));
     assert_eq!(asked["papers"].as_array().unwrap().len(), 1, "{asked}");

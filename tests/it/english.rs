@@ -5,7 +5,7 @@
 
 use crate::paper::Bench;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Words of one sentence at most.
 const LONGEST: usize = 35;
@@ -38,12 +38,8 @@ impl Sentence {
 
     /// The dropped phrases in it.
     fn dropped(&self) -> Vec<&'static str> {
-        let lower = self.text().to_lowercase();
-        let words: Vec<&str> =
-            lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
-        let spaced = format!(" {} ", words.join(" "));
-        let mut found: Vec<&str> =
-            DROPPED.into_iter().filter(|phrase| spaced.contains(&format!(" {phrase} "))).collect();
+        let spaced = spaced(&self.text());
+        let mut found: Vec<&str> = dropped(&spaced).collect();
         if self.is_whole && self.words[0] == "What" && !self.text().ends_with('?') {
             found.push("What … is");
         }
@@ -53,6 +49,19 @@ impl Sentence {
         }
         found
     }
+}
+
+/// The words of a text in small letters, one space around each.
+fn spaced(text: &str) -> String {
+    let lower = text.to_lowercase();
+    let words: Vec<&str> =
+        lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    format!(" {} ", words.join(" "))
+}
+
+/// The dropped phrases among spaced words.
+fn dropped(spaced: &str) -> impl Iterator<Item = &'static str> {
+    DROPPED.into_iter().filter(move |phrase| spaced.contains(&format!(" {phrase} ")))
 }
 
 /// The text with one word for each stretch of inline code, and links and emphasis as they are read.
@@ -184,6 +193,60 @@ fn every_page_is_written_in_short_plain_sentences() {
     }
     assert!(pages.len() > 10 && count > 500, "{} pages, {count} sentences", pages.len());
     assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+/// Folders of `src` whose comments keep to the field's words.
+const PLAIN: [&str; 9] = ["base", "cli", "engine", "external", "page", "proofs", "render", "stats", "verify"];
+
+/// The comments of a file of Rust, each with the number of its first line.
+fn comments(text: &str) -> Vec<(usize, String)> {
+    let mut found: Vec<(usize, String)> = Vec::new();
+    let mut goes_on = false;
+    for (line, number) in text.lines().zip(1..) {
+        let comment = line.trim_start().strip_prefix("//");
+        let Some(words) = comment.map(|comment| comment.trim_start_matches(['/', '!'])) else {
+            goes_on = false;
+            continue;
+        };
+        match found.last_mut().filter(|_| goes_on) {
+            Some((_, text)) => *text += words,
+            None => found.push((number, words.to_owned())),
+        }
+        goes_on = true;
+    }
+    found
+}
+
+#[test]
+fn comments_keep_to_the_fields_words() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut open: Vec<PathBuf> = PLAIN.iter().map(|folder| root.join("src").join(folder)).collect();
+    let mut found = Vec::new();
+    let mut count = 0;
+    while let Some(path) = open.pop() {
+        if path.is_dir() {
+            open.extend(fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().path()));
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            let comments = comments(&fs::read_to_string(&path).unwrap());
+            count += comments.len();
+            for (line, text) in comments {
+                let spaced = spaced(&read_aloud(&text));
+                found.extend(dropped(&spaced).map(|phrase| format!("{}:{line}: “{phrase}”", path.display())));
+            }
+        }
+    }
+    assert!(count > 3_000, "{count} comments");
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn comments_are_read_line_by_line_and_code_in_them_is_not() {
+    let text = "/// A number,\n/// all of\n/// which `asked` holds.\nlet a = 1; // said\n//! It was told.\n";
+    let found = comments(text);
+    let numbers: Vec<usize> = found.iter().map(|(number, _)| *number).collect();
+    assert_eq!(numbers, [1, 5]);
+    let phrases = |at: usize| dropped(&spaced(&read_aloud(&found[at].1))).collect::<Vec<_>>();
+    assert_eq!([phrases(0), phrases(1)], [["of which"], ["told"]]);
 }
 
 #[test]

@@ -210,3 +210,32 @@ fn noise_among_a_hundred_readings_does_not_turn_a_verdict() {
     let second = toy.second();
     assert_eq!((second.interpretations.len(), against(&second)), (1 + flips, 0), "each was asked once more");
 }
+
+/// The commands that a text advises to run again.
+fn advised(text: &str) -> Vec<String> {
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let each = text.split("run `replan ").skip(1).filter_map(|rest| rest.split_once("` again"));
+    each.map(|(command, _)| command.to_owned()).collect()
+}
+
+#[test]
+fn the_advice_after_a_changed_claim_works_as_it_is_printed() {
+    let toy = Toy::new(&[CITED]);
+    fs::create_dir(toy.0.at("own")).unwrap();
+    fs::rename(toy.0.at("toy"), toy.0.at("own/toy")).unwrap();
+    assert_eq!(advised(&toy.0.done(&["confirm", "own/toy"])), Vec::<String>::new());
+    toy.0.edit(
+        "own/toy/paper.toml",
+        "metric = \"expansions\", contender = \"A*\", against",
+        "metric = \"opened\", contender = \"A*\", against",
+    );
+    let mut said = toy.0.done(&["repro", "own/toy"]);
+    let mut ran = Vec::new();
+    while let Some(command) = advised(&said).into_iter().next() {
+        assert!(!ran.contains(&command), "`{command}` changes nothing: {said}");
+        said = toy.0.done(&command.split(' ').collect::<Vec<_>>());
+        ran.push(command);
+    }
+    assert_eq!(ran, ["explore own/toy", "confirm own/toy"]);
+    assert_ne!(toy.class_and_across("fewer").1, "");
+}

@@ -1,7 +1,7 @@
 //! Planners from outside: whatever one does is the outcome of its own trial and of no other.
 
 mod arm;
-mod law;
+pub mod law;
 mod marks;
 mod scripts;
 mod trust;
@@ -102,6 +102,9 @@ fn every_way_to_misbehave_is_the_status_of_one_row_and_costs_no_other_trial() {
     }
     assert_eq!(rows["cut-off"].value("is_cut_off"), Some(1.0));
     assert_eq!(rows["good"].value("is_cut_off"), Some(0.0));
+    let named = String::from_utf8_lossy(&run.stderr).into_owned();
+    let is_over = || alive("fork-chain.sh on").is_empty();
+    assert!(soon(is_over) || named.contains("could not be ended"), "a chain of forks goes on: {named}");
     for seconds in ["sleep 1001", "sleep 1002", "sleep 1003", "sleep 1004"] {
         assert_eq!(alive(seconds), [""; 0], "left alone");
     }

@@ -3,10 +3,16 @@
 use crate::paper::Bench;
 use polars::prelude::DataFrame;
 use std::fs;
+use study::elsewhere::Table;
 use study::parquet::FrameReader;
 
 /// A benchmark log as OMPL 1.6 writes it, with a run that timed out, an approximate solution, and progress over time.
 pub const LOG: &str = include_str!("import/benchmark.log");
+
+/// Two rows as pandas 3 writes them, with a column of categories, one of dates, and numbers of single precision and of 8 bits.
+const SNAPPY: &[u8] = include_bytes!("import/pandas.snappy.parquet");
+/// The same, packed by gzip.
+const GZIP: &[u8] = include_bytes!("import/pandas.gzip.parquet");
 
 const COLUMNS: &str = "group = { is = \"maps\" }\ninstance = \"map\"\ncontender = { column = \"planner\" }\n\
                        [status]\ncolumn = \"ok\"\nmeans = { solved = [\"1\"], no_path = [\"0\"] }\n\
@@ -51,6 +57,41 @@ fn rows_of_a_table_become_trials_of_unknown_seed_whose_instances_are_paired_by_n
     let file = "there/results.trials.parquet";
     bench.done(&["import", file, "--from", "parquet", "--columns", "again.toml", "--out", "again"]);
     assert!(trials(&bench, "again/results-trials.trials.parquet").equals_missing(&frame));
+}
+
+#[test]
+fn a_parquet_file_of_pandas_is_read_but_for_columns_of_dates_and_one_that_is_cut_off_is_refused() {
+    let bench = Bench::empty();
+    let columns = "group = { column = \"suite\" }\ninstance = \"map\"\ncontender = { column = \"planner\" }\n\
+                   [status]\ncolumn = \"ok\"\nmeans = { solved = [\"true\"], no_path = [\"false\"] }\n\
+                   [metric]\npath_length_cm = { column = \"length_cm\" }\nexpansions = { column = \"expanded\" }\n";
+    bench.write("columns.toml", columns.as_bytes());
+    let import = |bytes: &[u8]| {
+        bench.write("results.parquet", bytes);
+        let from =
+            ["import", "results.parquet", "--from", "parquet", "--columns", "columns.toml", "--out", "there"];
+        bench.run(&from)
+    };
+    for bytes in [SNAPPY, GZIP] {
+        let said = import(bytes);
+        assert_eq!(said.code, Some(0), "{}", said.err);
+        let frame = trials(&bench, "there/results.trials.parquet");
+        assert_eq!(cells(&frame, "contender"), ["A*", "Ours"]);
+        assert_eq!(cells(&frame, "status"), ["solved", "no_path"]);
+        assert_eq!(cells(&frame, "expansions"), ["3", "null"]);
+        let lengths = frame.column("path_length_cm").unwrap().f64().unwrap();
+        assert_eq!(lengths.get(0), Some(0.123_456_79), "in the digits of single precision");
+        fs::remove_dir_all(bench.at("there")).unwrap();
+    }
+    for end in (0..SNAPPY.len()).step_by(5) {
+        bench.write("cut.parquet", &SNAPPY[..end]);
+        let error = Table::read_parquet(&bench.at("cut.parquet")).unwrap_err().to_string();
+        assert!(error.contains("cut.parquet: is no Parquet file that can be read"), "{end} bytes: {error}");
+    }
+    bench.edit("columns.toml", "column = \"suite\"", "column = \"day\"");
+    let said = import(SNAPPY);
+    assert_eq!(said.code, Some(2));
+    assert!(said.err.contains("column `day` holds neither texts nor numbers nor booleans"), "{}", said.err);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Studies that ask for more than people mean by accident are refused before anything runs, unless people say that they mean it.
 
 use crate::paper::{Bench, committed};
+use base::settings::Settings;
 use std::path::Path;
 use study::Inputs;
 use study::paper::Paper;
@@ -53,4 +54,23 @@ fn a_study_beyond_the_limits_is_refused_by_every_command_that_runs_and_runs_wher
     bench.edit("mini/draws.toml", "problems = 2\nrepeats = 2", "problems = 24\nrepeats = 100_000");
     bench.edit("mini/draws.toml", "[quick]", "[quick]\ntiming = { problems = 1, repeats = 1 }");
     bench.done(&["repro", "./mini", "--quick"]);
+}
+
+#[test]
+fn the_lattices_of_arms_and_among_polyhedra_count_as_work() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let inputs = Inputs { roots: vec![root.to_owned()] };
+    for (family, over, cells) in [
+        ("arm_workspace", "x_cm = [-50, 50]\ny_cm = [0, 50]\nstep_cm = 0.5", 201 * 101),
+        ("random_polyhedra", "side_cm = 100\nstep_cm = 0.5", 201 * 201 * 201),
+        ("polyhedra_scene", "step_cm = 5", 1000),
+        ("joint_queries", "samples = 4000", 4000),
+    ] {
+        let entry = study::family::find(family).unwrap();
+        let settings = Settings::composed("the example", toml::from_str(entry.example).unwrap());
+        let settings = settings.overlaid(&toml::from_str(over).unwrap(), "the test");
+        let built = (entry.build)(&settings, &inputs).unwrap_or_else(|error| panic!("{family}: {error}"));
+        let is_so = if family == "polyhedra_scene" { built.cells() > cells } else { built.cells() == cells };
+        assert!(is_so, "{family}: {} cells", built.cells());
+    }
 }

@@ -6,6 +6,7 @@
 //! ([`running`]). `REPLAN_MUTATIONS` sets how many cases there are.
 
 mod damage;
+mod doors;
 mod running;
 mod stored;
 mod subject;
@@ -17,6 +18,9 @@ use subject::Subject;
 
 /// Cases, unless `REPLAN_MUTATIONS` says otherwise.
 const CASES: u64 = 3000;
+
+/// One case in so many damages a committed paper, which takes thousands of times longer than all else that is damaged.
+const SPECS_OF: u64 = 10;
 
 /// One case may take this long; the longest of a hundred thousand took a tenth of it.
 const LONGEST_S: f64 = 20.0;
@@ -65,7 +69,7 @@ fn no_damaged_spec_robot_scene_or_map_panics_and_every_refusal_says_where() {
     let subject = Subject::of_committed_papers();
     let mut faults = Vec::new();
     let mut accepted = 0;
-    let all = cases();
+    let all = cases() / SPECS_OF;
     for case in 0..all {
         let mut stream = seed::stream(seed::derive(2024, &["mutation", &case.to_string()]));
         let file = stream.random_range(0..subject.files());

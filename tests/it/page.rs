@@ -152,6 +152,7 @@ fn replays_change_from_step_to_step_in_wide_and_narrow_windows() {
     let replays = [
         ("zhang", "witness/w1/a-star", [1, 8, 16]),
         ("planar", "methods/case-1/a-star-8", [0, 10, 20]),
+        ("theta", "replays/40-20/theta-star", [1, 40, 367]),
         ("gallery", "puma560/cell/0/high/shortest", [0, 30, 60]),
     ];
     for [width, height] in [[1280, 800], [390, 844]] {

@@ -96,17 +96,21 @@ fn whether_a_cost_below_the_straight_line_is_possible_is_answered_within_three_c
     let report = read(&root().join("paper_repro.md"));
     // First click: what was found in the paper. Second: the printed number's verdict.
     let found = report.split("### [zhang](#zhang)").nth(1).unwrap().split("###").next().unwrap();
-    let line = found.lines().find(|line| line.contains("straight line")).unwrap();
-    assert!(line.contains("printed 13.40") && line.ends_with("**impossible**"), "{line}");
+    assert!(found.contains("Four printed entries cannot be true"), "{found}");
     let chapter = report.split("<a id=\"zhang\"></a>").nth(1).unwrap();
-    assert!(chapter.contains("13.40 is less than the straight line"), "{chapter}");
     let target = "plots/zhang/details.md#t1.improved.cost";
-    let class = format!("[impossible]({target})");
-    assert!(chapter.contains(&class), "{class}");
+    assert!(
+        chapter
+            .replace('\n', " ")
+            .contains(&format!("13.40 is less than the straight line ([`t1.improved.cost`]({target}))")),
+        "{chapter}"
+    );
     let evidence = read(&root().join("plots/zhang/details.md"));
     let evidence = evidence.split("<a id=\"t1.improved.cost\"></a>").nth(1).unwrap();
     let evidence = evidence.split("<a id=").next().unwrap();
-    assert!(evidence.contains("straight_line") && evidence.contains("13.6015"), "{evidence}");
+    for part in ["impossible", "straight_line", "13.6015"] {
+        assert!(evidence.contains(part), "{part}: {evidence}");
+    }
 }
 
 #[test]
@@ -313,9 +317,7 @@ fn one_claim_is_shown_with_its_evidence_within_100_columns() {
     bench.done(&["repro", "./mini"]);
     let said = bench.done(&["show", "./mini", "nodes"]);
     assert!(said.starts_with("nodes: reproduced\n") && said.contains("trial: draws/"), "{said}");
-    let wrong = bench.run(&["show", "./mini", "node"]);
-    assert_eq!(wrong.code, Some(2));
-    assert!(wrong.err.contains("there is no claim `node` (did you mean `nodes`?)"), "{}", wrong.err);
+    assert_eq!(bench.done(&["show", "./mini", "node"]), said);
     for (arguments, least) in [(&["show", "zhang"][..], 120), (&["show", "zhang", "t1.improved.cost"], 10)] {
         let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_replan"));
         let out = program.args(arguments).current_dir(root()).output().unwrap().stdout;
@@ -341,6 +343,6 @@ fn repro_ends_with_the_finding_and_its_headline_claims_within_a_screen() {
     assert!(lines.iter().any(|line| line.starts_with("why: replan show ./mini CLAIM; ")), "{said}");
     let verdict = bench.done(&["show", "./mini", "nodes"]);
     let at = lines.iter().position(|line| is_claim(line, "nodes")).unwrap();
-    let word = lines[at - 1].rsplit("  ").next().unwrap();
-    assert!(verdict.contains(word), "{word}: {verdict}");
+    let word = lines[at - 1].split("  ").next().unwrap();
+    assert!(!word.is_empty() && verdict.contains(word), "{word}: {verdict}");
 }

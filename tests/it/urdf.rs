@@ -2,14 +2,16 @@
 
 use crate::paper::Bench;
 use base::robot::read_urdf;
+use base::settings::Settings;
 use engine::geometry::Frame;
 use engine::kinematics::open_chain::OpenChain;
 use engine::kinematics::{AXES, Robot};
 use nalgebra::Matrix4;
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-use study::reuse;
+use study::{Inputs, family, reuse};
 use verify::joints;
 
 fn root() -> &'static Path {
@@ -216,5 +218,50 @@ fn in_a_cell_a_joint_that_turns_without_end_takes_the_shorter_way_round() {
         } else {
             assert_ne!(tool.status.name(), "solved", "the joints arrive a turn from the goal");
         }
+    }
+}
+
+#[test]
+fn an_srdf_file_decides_which_links_of_a_six_axis_robot_are_held_against_each_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let srdf = folder.path().join("ur5.srdf");
+    let urdf = root().join("data/robots/ur5.urdf");
+    let read = read_urdf(&urdf).unwrap();
+    let held = |robot: &Robot| -> BTreeSet<[String; 2]> {
+        let pairs = robot.bodies()[0].self_pairs().iter();
+        pairs.map(|pair| pair.map(|part| read.owners[part].clone())).collect()
+    };
+    let pairs = (0..read.owners.len()).flat_map(|b| (0..b).map(move |a| [a, b]));
+    let apart = pairs.filter(|pair| read.solids[pair[0]].0 != read.solids[pair[1]].0);
+    let all: BTreeSet<[String; 2]> = apart.map(|pair| pair.map(|part| read.owners[part].clone())).collect();
+    let plain = held(&Robot::load(&urdf).unwrap());
+    let listed: BTreeSet<[String; 2]> = plain.iter().skip(1).cloned().collect();
+    let line = |[a, b]: &[String; 2]| {
+        format!("<disable_collisions link1=\"{b}\" link2=\"{a}\" reason=\"Never\"/>\n")
+    };
+    let lines: String = listed.iter().map(line).collect();
+    fs::write(&srdf, format!("<robot name=\"ur5\">\n{lines}</robot>\n")).unwrap();
+    let robot = Robot::load_with_srdf(&urdf, &srdf).unwrap();
+    assert_eq!(held(&robot), all.difference(&listed).cloned().collect());
+    assert!(held(&robot) != plain && robot.files().contains(&srdf));
+    let built = |changes: &str| {
+        let entry = family::find("cell_queries").unwrap();
+        let settings = Settings::composed("the cell", toml::from_str(entry.example).unwrap());
+        let changes = format!("queries = 2\nsrdf = 'ur5.srdf'\n{changes}");
+        let settings = settings.overlaid(&toml::from_str(&changes).unwrap(), "the test");
+        let inputs = Inputs { roots: vec![root().to_owned(), folder.path().to_owned()] };
+        (entry.build)(&settings, &inputs).map_err(|error| error.to_string())
+    };
+    let family = built("robot = 'data/robots/ur5.urdf'").unwrap();
+    assert!(family.inputs().contains(&srdf), "{:?}", family.inputs());
+    for (changes, said) in [
+        ("", "srdf is given, and the robot is no URDF file as it is"),
+        (
+            "robot = 'data/robots/ur5.urdf'\nself_collision = false",
+            "srdf says which links may touch, and self_collision",
+        ),
+    ] {
+        let refused = built(changes).err().unwrap();
+        assert!(refused.contains(said), "should say {said}\nsays {refused}");
     }
 }

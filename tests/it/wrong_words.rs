@@ -61,7 +61,7 @@ pub const WRONG: &[Wrong] = &[
         "draws",
         "weight = 1,",
         "wait = 1,",
-        "mini/draws.toml:24:14: unknown key `wait`; accepted: `heuristic`, `neighbours`, `ties`, `weight`",
+        "mini/draws.toml:24:14: unknown key `wait`; accepted: `equal_ways`, `heuristic`, `neighbours`, `ties`, `weight`",
     ),
     wrong(
         "draws",

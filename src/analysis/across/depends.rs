@@ -170,18 +170,51 @@ impl<'a> Sides<'a> {
 /// How often one side, and the other, comes out under an option of a choice.
 type Split<'a> = BTreeMap<&'a str, [usize; 2]>;
 
-/// Under how many of its results each option is on the first side.
+/// Under how many of its results each option is on the first side. Of five options or more with all of their results on one side the
+/// number stands, while others are left to list.
 fn shares(split: &Split<'_>) -> String {
-    const MANY: usize = 4;
-    let listed = |options: &[(&&str, &[usize; 2])]| -> String {
-        let each =
-            options.iter().map(|(option, [asked, others])| format!("{option} {asked} of {}", asked + others));
-        each.collect::<Vec<String>>().join(", ")
-    };
-    let looked: Vec<_> = split.iter().filter(|(_, counts)| counts.iter().sum::<usize>() > 0).collect();
-    let (whole, parted): (Vec<_>, Vec<_>) = looked.iter().partition(|(_, [_, others])| *others == 0);
-    if whole.len() > MANY && !parted.is_empty() {
-        return format!("{}; all under each of {} more", listed(&parted), whole.len());
+    const MANY: usize = 5;
+    let mut listed: Vec<_> = split.iter().filter(|(_, counts)| counts.iter().sum::<usize>() > 0).collect();
+    let mut counted = Vec::new();
+    let sides = [(1, "all"), (0, "none")].map(|(lacking, word)| {
+        let count = listed.iter().filter(|(_, counts)| counts[lacking] == 0).count();
+        (count, lacking, word)
+    });
+    let larger_first = if sides[0].0 >= sides[1].0 { [0, 1] } else { [1, 0] };
+    for (count, lacking, word) in larger_first.map(|side| sides[side]) {
+        if count >= MANY && count < listed.len() {
+            listed.retain(|(_, counts)| counts[lacking] > 0);
+            counted.push(format!("{word} under each of {count} more"));
+        }
     }
-    listed(&looked)
+    let each = listed.iter().map(|(option, [own, others])| format!("{option} {own} of {}", own + others));
+    let each = each.collect::<Vec<String>>().join(", ");
+    if counted.is_empty() { each } else { format!("{each}; {}", counted.join(", ")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_options_with_all_of_their_results_on_one_side_are_counted() {
+        let with = |names: &'static str, counts: [usize; 2]| -> Split<'static> {
+            names.split(' ').map(|name| (name, counts)).collect()
+        };
+        let parted = with("b", [2, 1]);
+        let all = with("d e f g h", [1, 0]);
+        let none = with("i j k l m n", [0, 2]);
+        let join = |parts: &[&Split<'static>]| -> String {
+            shares(
+                &parts.iter().flat_map(|part| part.iter().map(|(name, counts)| (*name, *counts))).collect(),
+            )
+        };
+        assert_eq!(join(&[&parted, &with("a", [1, 0]), &with("c", [0, 0])]), "a 1 of 1, b 2 of 3");
+        assert_eq!(join(&[&parted, &all]), "b 2 of 3; all under each of 5 more");
+        let both = "b 2 of 3; none under each of 6 more, all under each of 5 more";
+        assert_eq!(join(&[&parted, &all, &none]), both);
+        let alone = "d 1 of 1, e 1 of 1, f 1 of 1, g 1 of 1, h 1 of 1";
+        assert_eq!(join(&[&all]), alone);
+        assert_eq!(join(&[&all, &none]), format!("{alone}; none under each of 6 more"));
+    }
 }

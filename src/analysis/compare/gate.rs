@@ -191,7 +191,7 @@ mod tests {
                 "expansion +2%",
                 "`expansion` is no metric that can be compared (did you mean `expansions`?); solved, ",
             ),
-            ("candidates +2%", "(neither way of it is better)"),
+            ("components +2%", "(neither way of it is better)"),
         ] {
             let error = read(text).unwrap_err();
             assert!(error.contains(complaint), "{text}: {error}");

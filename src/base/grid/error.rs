@@ -13,9 +13,9 @@ pub enum GridError {
         "a grid of {width} × {height} cells; each side may have 1 to {MAX_SIDE_CELLS} cells, and all may have {MAX_CELLS}"
     )]
     Size {
-        /// Columns asked for.
+        /// Columns requested.
         width: u32,
-        /// Rows asked for.
+        /// Rows requested.
         height: u32,
     },
     /// A side of a lattice in space is zero or too long, or the nodes are too many.
@@ -76,7 +76,7 @@ pub enum GridError {
         /// The system's reason.
         reason: String,
     },
-    /// What stands beside a map, such as the YAML file of an image, is wrong, which is told with its place.
+    /// What stands beside a map, such as the YAML file of an image, is wrong, at its place.
     #[error("{said}")]
     Told {
         /// The place and what is wrong.

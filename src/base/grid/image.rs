@@ -2,7 +2,7 @@
 //!
 //! Source of PGM: <https://netpbm.sourceforge.net/doc/pgm.html>.
 
-use super::GridError;
+use super::{GridError, check_size};
 use std::io::{BufReader, Cursor};
 use std::path::Path;
 
@@ -87,7 +87,7 @@ fn read(bytes: Vec<u8>) -> Read {
     match bytes.get(..2) {
         Some(b"P2") => pgm(&bytes, true),
         Some(b"P5") => pgm(&bytes, false),
-        Some(b"\x89P") => png(bytes).map_err(|error| format!("the PNG image is damaged: {error}")),
+        Some(b"\x89P") => png(bytes),
         _ => {
             let found =
                 OTHERS.iter().find(|(begin, _)| bytes.starts_with(begin)).map_or("no image", |other| other.1);
@@ -96,13 +96,17 @@ fn read(bytes: Vec<u8>) -> Read {
     }
 }
 
-fn png(bytes: Vec<u8>) -> Result<Image, png::DecodingError> {
+fn png(bytes: Vec<u8>) -> Read {
+    let damaged = |error: png::DecodingError| format!("the PNG image is damaged: {error}");
     let mut decoder = png::Decoder::new(BufReader::new(Cursor::new(bytes)));
     decoder.set_transformations(png::Transformations::EXPAND);
-    let mut reader = decoder.read_info()?;
+    let mut reader = decoder.read_info().map_err(damaged)?;
+    let (width, height) = reader.info().size();
+    check_size(width, height).map_err(|error| format!("the PNG image is {error}"))?;
     let has_palette = reader.info().color_type == png::ColorType::Indexed;
-    let mut bytes = vec![0; reader.output_buffer_size().ok_or(png::DecodingError::LimitsExceeded)?];
-    let frame = reader.next_frame(&mut bytes)?;
+    let size = reader.output_buffer_size().ok_or(png::DecodingError::LimitsExceeded).map_err(damaged)?;
+    let mut bytes = vec![0; size];
+    let frame = reader.next_frame(&mut bytes).map_err(damaged)?;
     bytes.truncate(frame.buffer_size());
     let (samples, full) = if frame.bit_depth == png::BitDepth::Sixteen {
         (wide(&bytes), u16::MAX)
@@ -178,7 +182,7 @@ fn word<'b>(rest: &mut &'b [u8]) -> Option<&'b [u8]> {
 mod tests {
     use super::*;
 
-    /// An image, and the brightnesses of its pixels or what is said of it.
+    /// An image, and the brightnesses of its pixels or the message about it.
     const IMAGES: &[(&[u8], Result<&[f64], &str>)] = &[
         (b"P5\n# by hand\n2 1\n255\n\x00\xff", Ok(&[0.0, 1.0])),
         (b"P5 2 1 65535\n\x80\x00\xff\xff", Ok(&[32768.0 / 65535.0, 1.0])),

@@ -4,7 +4,7 @@
 //! `y · width + x`, a `u32`; cell (0, 0) is the lower left one. Map files list their highest row first (text maps)
 //! or count y downwards (`MovingAI`); both readers turn that into y up and nothing later needs to know.
 //!
-//! The order of neighbours is written once, as [`DIRECTIONS`]; every mask follows it, and every search that is not told
+//! The order of neighbours is written once, as [`DIRECTIONS`]; every mask follows it, and every search without orders
 //! another [`NeighbourOrder`].
 //! Costs belong to the search floor.
 
@@ -22,6 +22,7 @@ mod order;
 mod picture;
 mod random;
 mod ros;
+mod seen_corners;
 mod sight;
 mod text;
 
@@ -37,6 +38,7 @@ pub use offsets::Offsets;
 pub use order::NeighbourOrder;
 pub use picture::{FileMap, read_map};
 pub use random::{Blocking, bars, blocked_cells, independent_cells, rectangles};
+pub use seen_corners::seen_corners;
 pub use sight::Sight;
 pub use text::{parse_text_map, read_text_map, to_text_map};
 
@@ -57,17 +59,23 @@ pub struct Grid2 {
     blocked: Vec<bool>,
 }
 
+/// Refuses a grid of this size, before anything of its size is made.
+fn check_size(width: u32, height: u32) -> Result<(), GridError> {
+    let accepted = 1..=MAX_SIDE_CELLS;
+    let cells = u64::from(width) * u64::from(height);
+    if !accepted.contains(&width) || !accepted.contains(&height) || cells > u64::from(MAX_CELLS) {
+        return Err(GridError::Size { width, height });
+    }
+    Ok(())
+}
+
 impl Grid2 {
     /// A grid whose cells are all free.
     ///
     /// # Errors
     /// [`GridError::Size`] unless both sides lie in 1..=[`MAX_SIDE_CELLS`] and their product is at most [`MAX_CELLS`].
     pub fn new(width: u32, height: u32) -> Result<Self, GridError> {
-        let accepted = 1..=MAX_SIDE_CELLS;
-        let cells = u64::from(width) * u64::from(height);
-        if !accepted.contains(&width) || !accepted.contains(&height) || cells > u64::from(MAX_CELLS) {
-            return Err(GridError::Size { width, height });
-        }
+        check_size(width, height)?;
         Ok(Self { width, height, blocked: vec![false; width as usize * height as usize] })
     }
 

@@ -2,7 +2,7 @@
 //!
 //! The files count y downwards from the top row; cells here have y up, and [`Scenario`] is already turned. Letters:
 //! `.` and `G` are ground and `S` is swamp, all passable; `@`, `O` (out of bounds) and `T` (trees) are blocked. `W`
-//! is water: it may be crossed by what starts in it but not entered from ground, so for a walker on ground it is
+//! is water: it may be crossed by anything that starts in it but not entered from ground, so for a walker on ground it is
 //! blocked, and a scenario that starts in water starts in a blocked cell.
 //!
 //! Source: N. Sturtevant, *Benchmarks for Grid-Based Pathfinding*, IEEE T-CIAIG 4(2), 2012, and the format page of
@@ -98,7 +98,7 @@ pub fn read_movingai_map(path: &Path) -> Result<Grid2, GridError> {
 /// The queries of a `.scen` text for `grid`, in the order of the file.
 ///
 /// A text without a version line is of version 0, whose lines name no map size. Whether start and goal are free
-/// is not asked here.
+/// is not checked here.
 ///
 /// # Errors
 /// [`GridError::Text`] on an unknown version, a wrong number of fields, a field that does not parse, a map size

@@ -109,7 +109,7 @@ mod tests {
         }
     }
 
-    /// A change of the head of a ROS map, and what must be said of it.
+    /// A change of the head of a ROS map, and the message about it.
     const WRONG_HEADS: &[(&str, &str, &str)] = &[
         ("room.png", "hall.png", "/room.yaml:1:8: there is no image `hall.png`; looked for /hall.png"),
         (
@@ -182,7 +182,7 @@ mod tests {
         }
     }
 
-    /// The YAML file of a map of one row of three pixels, of which the middle one may be free or not, and that it is free.
+    /// The YAML file of a map of one row of three pixels, whose middle one may be free or not, and that it is free.
     fn middle_is_free(colour: png::ColorType, middle: &[u8], negate: bool) -> (bool, Vec<String>) {
         let folder = tempfile::tempdir().unwrap();
         let white = vec![255; middle.len()];

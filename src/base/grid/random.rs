@@ -34,10 +34,9 @@ pub fn blocked_cells(
 ) -> Result<Grid2, GridError> {
     let [width, height] = size_cells;
     let mut grid = Grid2::new(width, height)?;
-    let is_inner = |at: u32, side: u32| border_cells <= at && at + border_cells < side;
-    let mut inner: Vec<u32> = (0..grid.cell_count())
-        .filter(|cell| is_inner(cell % width, width) && is_inner(cell / width, height))
-        .collect();
+    let inner_of = |side: u32| border_cells..side.saturating_sub(border_cells);
+    let row = |y: u32| inner_of(width).map(move |x| y * width + x);
+    let mut inner: Vec<u32> = inner_of(height).flat_map(row).collect();
     match blocking {
         Blocking::Independent(share) => {
             for cell in inner {

@@ -6,7 +6,7 @@
 
 use super::Grid2;
 
-/// Which cells a segment is said to enter.
+/// Which cells a segment counts as entering.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sight {
     /// Cells whose interior the segment crosses. Where it passes exactly through the corner between two cells,
@@ -28,7 +28,7 @@ impl Sight {
         self.all_cells(grid.xy(from), grid.xy(to), |[x, y]| grid.is_free_xy(x, y))
     }
 
-    /// Whether `accept` holds for every cell entered between the centres of `from` and `to`, asked in order from
+    /// Whether `accept` holds for every cell entered between the centres of `from` and `to`, called in order from
     /// `from` on and not beyond the first refusal.
     pub fn all_cells(self, from: [i32; 2], to: [i32; 2], accept: impl FnMut([i32; 2]) -> bool) -> bool {
         match self {

@@ -15,7 +15,7 @@ const GOALS: [&str; 3] = ["goals", "goal_ik", "goal"];
 /// Two rotations of one solid are the same if they take no axis further apart than this.
 const SAME: f64 = 1e-2;
 
-/// The file, and what is told of it.
+/// The file, and the notes on it.
 #[derive(Clone, Copy)]
 pub(super) struct Reader<'a> {
     pub(super) yaml: Yaml<'a>,

@@ -83,7 +83,7 @@ fn a_quaternion_with_its_real_part_last_turns_as_one_with_its_real_part_first() 
     );
 }
 
-/// A change of the file, and what must be said of it.
+/// A change of the file, and the message about it.
 const WRONG: &[(&str, &str, &str)] = &[
     (
         "0.7071067811865476]",
@@ -146,7 +146,7 @@ fn what_is_wrong_with_a_problem_is_told_at_its_place() {
     }
 }
 
-/// What stands before the problems of VAMP's form, and the start in the order of the chain or what must be said of it.
+/// What stands before the problems of VAMP's form, and the start in the order of the chain or the message about it.
 const NAMED: &[(&str, Result<[f64; 2], &str>)] = &[
     ("", Ok([0.0, 1.5])),
     (r#""robot": "Panda-Arm", "joints": ["turn", "lift"],"#, Ok([1.5, 0.0])),
@@ -178,7 +178,7 @@ fn numbers_go_to_the_joints_that_the_file_names_and_other_robots_are_refused() {
     }
 }
 
-/// A change of the file in VAMP's form, and what must be said of it; nothing if it is taken, and then its notes.
+/// A change of the file in VAMP's form, and the message about it; nothing if it is taken, and then its notes.
 const KEYS: &[(&str, &str, Result<&[&str], &str>)] = &[
     ("\"index\": 1", "\"valid\": false, \"index\": 1", Ok(&[])),
     ("\"index\": 1", "\"valid\": 7", Err("valid is `7`; true or false, yes or no, 1 or 0 is accepted")),
@@ -219,6 +219,11 @@ const KEYS: &[(&str, &str, Result<&[&str], &str>)] = &[
     (
         "{\"robot\": \"panda\", \"problems\":",
         "{\"world\": {}, \"robot_model_name\": \"panda\", \"problems\":",
+        Err("this is a MoveIt scene"),
+    ),
+    (
+        "{\"robot\": \"panda\", \"problems\":",
+        "{\"world\": {\"collision_objects\": []}, \"problems\":",
         Err("this is a MoveIt scene"),
     ),
     (

@@ -73,7 +73,7 @@ fn welded_links_are_one_and_everything_is_placed_in_the_frame_of_its_joint() {
     assert_eq!(robot.files.len(), 1);
 }
 
-/// A change of the file, and what must be said of it.
+/// A change of the file, and the message about it.
 const WRONG: &[(&str, &str, &str)] = &[
     ("</robot>", "</robo>", "/two.urdf:27:1: this is no XML: expected 'robot' tag, not 'robo' at 27:1"),
     (

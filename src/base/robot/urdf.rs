@@ -2,7 +2,7 @@
 //!
 //! Read are `link` with its `collision` solids (boxes, cylinders, spheres; a mesh is taken for the convex hull of its STL vertices)
 //! and `joint` (`revolute`, `continuous`, `prismatic`, `fixed`). What else the format has is in the table of ignored keys; what it does
-//! not have is noted. Every fault is told at its place.
+//! not have is noted. Every fault is reported at its place.
 //!
 //! Source: the XML format of wiki.ros.org/urdf/XML (link, joint).
 

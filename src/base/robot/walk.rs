@@ -53,8 +53,10 @@ impl<'a, 'input> Walk<'_, 'a, 'input> {
         let (moving, links) = self.tree.welded(link, pose)?;
         for (name, pose, _) in &links {
             self.passed.insert(name);
-            for collision in elements(self.tree.links[name], "collision") {
-                let solid = self.solid(name, *pose, collision)?;
+            for (before, collision) in elements(self.tree.links[name], "collision").enumerate() {
+                let solid_name =
+                    if before == 0 { (*name).to_owned() } else { format!("{name} {}", before + 1) };
+                let solid = self.solid(solid_name, *pose, collision)?;
                 self.robot.solids.push((self.robot.joints.len(), solid));
                 self.robot.owners.push((*name).to_owned());
             }
@@ -123,11 +125,14 @@ impl<'a, 'input> Walk<'_, 'a, 'input> {
         Ok(Joint { name: name.to_owned(), kind, before, axis: axis.map(|x| x / length), limits, speed })
     }
 
-    fn solid(&mut self, link: &str, pose: Pose, collision: Node<'a, 'input>) -> Result<Solid, SettingsError> {
+    fn solid(
+        &mut self,
+        name: String,
+        pose: Pose,
+        collision: Node<'a, 'input>,
+    ) -> Result<Solid, SettingsError> {
         let tree = self.tree;
         let xml = self.tree.xml;
-        let count = self.robot.owners.iter().filter(|owner| *owner == link).count();
-        let name = if count == 0 { link.to_owned() } else { format!("{link} {}", count + 1) };
         let pose = pose.then(&tree.origin(collision)?);
         let geometry = xml.element(collision, "geometry")?;
         let Some(shape) = geometry.children().find(Node::is_element) else {

@@ -5,7 +5,7 @@ use super::reader::{self, Refused};
 use super::validate::{Fault, faults};
 use super::{Faults, SettingsError, schema_of};
 use crate::file;
-use crate::text::{around, visible};
+use crate::text::{around, bounded};
 use schemars::JsonSchema;
 use self_cell::self_cell;
 use serde::de::DeserializeOwned;
@@ -167,7 +167,7 @@ impl Document {
             column: column + 1,
             with: Vec::new(),
             about: Box::default(),
-            message: visible(&message.into()).into_owned(),
+            message: bounded(&message.into()).into_owned(),
             excerpt: around(line, column).into(),
         }
     }

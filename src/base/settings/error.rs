@@ -11,7 +11,7 @@ pub enum SettingsError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         reason: String,
     },
     /// The file is read, but a value in it is not what was expected.
@@ -99,7 +99,7 @@ impl SettingsError {
     }
 
     /// The same, as a fault of the name `word`, which was looked up and not found. Where something of the name could not be
-    /// read ([`Faults::unread`]), nothing is said of it. A fault may be of several names.
+    /// read ([`Faults::unread`]), it gets no message. A fault may be of several names.
     #[must_use]
     pub fn about(mut self, word: &str) -> Self {
         if let Self::At { about, .. } = &mut self {
@@ -109,7 +109,7 @@ impl SettingsError {
         self
     }
 
-    /// Whether it is told at a place in `path`, or at no place.
+    /// Whether it is reported at a place in `path`, or at no place.
     pub fn is_in(&self, path: &Path) -> bool {
         match self {
             Self::Unreadable { path: own, .. } | Self::At { path: own, .. } => own == path,
@@ -185,7 +185,7 @@ pub struct Faults {
 }
 
 impl Faults {
-    /// Adds what is wrong. What is wrong under several interpretations is told once, with what they have in common.
+    /// Adds what is wrong. What is wrong under several interpretations is reported once, with what they have in common.
     pub fn add(&mut self, error: SettingsError) {
         for fault in error.each() {
             match self.found.iter_mut().find(|known| fault.repeats(known)) {

@@ -17,7 +17,7 @@ impl Document {
     }
 }
 
-/// Whether `value` is a table or list of which `node` knows something.
+/// Whether `value` is a table or list that `node` knows in part.
 fn is_like(node: Node<'_>, value: &Spanned<DeValue<'_>>) -> bool {
     let branches = node.branches();
     if !branches.is_empty() {

@@ -1,4 +1,4 @@
-//! Where tables and values of settings stand, and what an error about them is told at.
+//! Where tables and values of settings stand, and the place of an error about them.
 
 use super::document::{inner, part_of, span_of};
 use super::{Document, SettingsError};
@@ -83,7 +83,7 @@ impl Place {
     }
 }
 
-/// What an error about settings is told at.
+/// The place of an error about settings.
 #[derive(Clone, Copy)]
 pub(super) enum Sought<'a> {
     /// The value that a path leads to.

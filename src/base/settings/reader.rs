@@ -58,7 +58,7 @@ thread_local! {
     static PLACE: Cell<Option<Range<usize>>> = const { Cell::new(None) };
 }
 
-/// Where the value stands that was asked for under [`WITH_PLACE`] last: serde has no other way for it that is not compiled
+/// Where the value stands that was requested under [`WITH_PLACE`] last: serde has no other way for it that is not compiled
 /// again for every type.
 pub(super) fn take_place() -> Range<usize> {
     PLACE.take().unwrap_or_default()

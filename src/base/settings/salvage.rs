@@ -53,7 +53,7 @@ impl Document {
 impl Settings {
     /// What `build` finds wrong with what `schema` accepts of these settings, where it does not accept all.
     ///
-    /// What it does not accept is taken from `example`, as that has it and with its numbers doubled: what is said both times does not
+    /// What it does not accept is taken from `example`, as that has it and with its numbers doubled: a message of both times does not
     /// hang on it.
     pub fn faults_beside(
         &self,

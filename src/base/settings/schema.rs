@@ -137,7 +137,7 @@ impl<'a> Node<'a> {
         (said("minItems").unwrap_or(0), said("maxItems").unwrap_or(u64::MAX))
     }
 
-    /// What is accepted of a number, none of which may be further from 0 than `furthest`, in words.
+    /// What is accepted of a number at most `furthest` away from 0, in words.
     pub(super) fn accepted_within(self, furthest: f64) -> String {
         self.number("a number", furthest)
     }

@@ -28,7 +28,7 @@ impl<T> Spanned<T> {
         &self.value
     }
 
-    /// Another value that is told at the same place.
+    /// Another value that is reported at the same place.
     pub fn with<U>(&self, value: U) -> Spanned<U> {
         Spanned { span: self.span(), value }
     }

@@ -91,7 +91,7 @@ impl Settings {
         Self { table, origin: Origin::Composed(origin.into()), filled: Vec::new() }
     }
 
-    /// Settings put together from `layers` of `document`, the one whose values win first. A fault is told in the first layer that
+    /// Settings put together from `layers` of `document`, the one whose values win first. A fault is reported in the first layer that
     /// has what is wrong, and at `span` if none has.
     pub fn layered(document: &Arc<Document>, span: Range<usize>, layers: Vec<Part>, table: Table) -> Self {
         let origin = Origin::Layered { document: document.clone(), span, layers };
@@ -121,7 +121,7 @@ impl Settings {
         &self.table
     }
 
-    /// Settings that `whose` puts together from parts of `whole`, which lie there under `keys`: what is wrong is told at the first of
+    /// Settings that `whose` puts together from parts of `whole`, which lie there under `keys`: what is wrong is reported at the first of
     /// them that has it.
     pub fn of_parts(whole: &Self, keys: &[&str], whose: impl Into<String>, table: Table) -> Self {
         let keys = keys.iter().map(|key| (*key).to_owned()).collect();
@@ -129,7 +129,7 @@ impl Settings {
         Self { table, origin, filled: Vec::new() }
     }
 
-    /// What was accepted of `whole`, under `kept`, and something else for the rest: what is wrong with the rest is told at no place.
+    /// What was accepted of `whole`, under `kept`, and something else for the rest: what is wrong with the rest is reported at no place.
     pub(super) fn remains(whole: &Self, kept: BTreeSet<String>, table: Table) -> Self {
         Self { table, origin: Origin::Remains { whole: Box::new(whole.clone()), kept }, filled: Vec::new() }
     }
@@ -140,7 +140,7 @@ impl Settings {
         self.overlaid_from(over, by, Vec::new())
     }
 
-    /// The same with a table that stands at `places`: what is wrong with its values is told there.
+    /// The same with a table that stands at `places`: what is wrong with its values is reported there.
     #[must_use]
     pub fn overlaid_from(&self, over: &Table, by: &str, places: Vec<Place>) -> Self {
         if over.iter().all(|(key, value)| self.table.get(key) == Some(value)) {
@@ -254,7 +254,7 @@ impl Settings {
                 document.error(table.map_or_else(|| span.clone(), |table| sought.near(table)), message)
             }
             Origin::Absent { document, span, whose } => {
-                // That the table itself could not be read was said already.
+                // That the table itself could not be read is reported already.
                 document.error(span.clone(), format!("{whose}: {message}")).about("settings")
             }
             Origin::Overlaid { under, over } => {

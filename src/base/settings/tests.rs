@@ -207,7 +207,7 @@ fn faults_of(text: &str) -> Vec<(usize, usize, String)> {
     errors.into_iter().map(place).collect()
 }
 
-/// What is written; the line and the column of what is said of it; what is said.
+/// What is written; the line and the column of the message about it; the message.
 const FAULTS: &[(&str, usize, usize, &str)] = &[
     (
         "name = 'x'",

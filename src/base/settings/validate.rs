@@ -10,7 +10,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// The largest number, either way, that is accepted where none is said: a thousand kilometres in millimetres.
+/// The largest number, either way, that is accepted where no other is given: a thousand kilometres in millimetres.
 const LARGEST: f64 = 1e9;
 
 /// The keys whose values are names: they stand in tables, in messages and in names of files.

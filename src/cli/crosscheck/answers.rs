@@ -1,6 +1,6 @@
 //! Our answers to the questions that Python posed, as Parquet files beside them.
 //!
-//! `scene.questions.parquet` has one row a configuration: `q1`, `q2`, …, radians, and whether `frames` and `limits` are asked for.
+//! `scene.questions.parquet` has one row a configuration: `q1`, `q2`, …, radians, and whether `frames` and `limits` are requested.
 //! Beside it are written
 //!
 //! - `replan.gaps.parquet`: a row a configuration, a column a pair, metres: at most 0 in contact;
@@ -51,7 +51,7 @@ pub fn answer(subject: &dyn Subject, folder: &Path) -> Result<(), Failure> {
     write(folder, "planners", checked.len(), vec![free, of_scene])
 }
 
-/// What was asked.
+/// The questions.
 struct Questions {
     q_rad: Vec<Vec<f64>>,
     frames: Vec<bool>,

@@ -44,7 +44,7 @@ struct SpecFile {
     workspaces: Vec<Spanned<WorkspaceEntry>>,
 }
 
-/// How many configurations of each kind are asked about.
+/// How many configurations of each kind are looked at.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[expect(dead_code, reason = "Python draws by them")]
@@ -52,10 +52,10 @@ struct Sizes {
     /// Drawn evenly.
     #[schemars(range(max = 1_000_000))]
     random: u32,
-    /// Of these, how many are also asked for their frames.
+    /// Of these, how many are also requested with their frames.
     #[schemars(range(max = 1_000_000))]
     random_frames: u32,
-    /// Of these, how many are also asked for their distances.
+    /// Of these, how many are also requested with their distances.
     #[schemars(range(max = 1_000_000))]
     random_distances: u32,
     /// Within a millimetre of contact.
@@ -174,7 +174,7 @@ enum AngleUnit {
     Rad,
 }
 
-/// What a path is said to be free of.
+/// What a path counts as free of.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum Freedom {

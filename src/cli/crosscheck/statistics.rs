@@ -1,7 +1,7 @@
 //! `replan crosscheck --statistics`: estimates, intervals, outcomes and verdicts before a judge in Python.
 //!
-//! The judge is given what metrics mean, where papers lie and what the numbers of explorations amount to, whose trials are not kept; nothing
-//! else of what is computed here.
+//! The judge knows what metrics mean, where papers lie and what the numbers of explorations amount to, whose trials are not kept;
+//! nothing else of what is computed here.
 
 use super::super::judge::polylines;
 use super::super::load::load;
@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use study::store::write_whole;
 
-/// What the judge is asked, below the folder of cross-checks.
+/// The judge's questions, below the folder of cross-checks.
 const REQUEST: &str = "statistics.json";
 
 /// Has the statistics of one paper, or of all, computed again; of the runs below `out` if that is given.
@@ -73,6 +73,7 @@ fn request_json(places: &[Places], explored: &[PathBuf]) -> Value {
             "name": metric.name,
             "column": metric.column,
             "scale": metric.scale,
+            "at_most": metric.at_most,
             "better": metric.better.name(),
             "clock": metric.is_clock(),
             "status": metric.is_status(),

@@ -11,7 +11,7 @@ use super::{Frame, Vec3};
 /// How near two solids may be without touching: what rounding leaves of a distance, metres.
 const TOUCH_M: f64 = 1e-9;
 
-/// Rounds before two solids that cannot be told apart count as touching.
+/// Rounds before two solids that cannot be distinguished count as touching.
 const ROUNDS: usize = 64;
 
 /// All points within a radius of the convex hull of points.
@@ -24,7 +24,7 @@ pub struct Rounded {
 }
 
 impl Rounded {
-    /// The solid of these points, of which there must be at least one.
+    /// The solid of these points, at least one.
     pub fn new(points: Vec<Vec3>, radius: f64) -> Self {
         let low = points.iter().copied().reduce(|a, b| a.inf(&b)).unwrap_or_default();
         let high = points.iter().copied().reduce(|a, b| a.sup(&b)).unwrap_or_default();

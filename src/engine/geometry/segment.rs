@@ -88,7 +88,7 @@ fn shares_segment_segment(p: &Segment, q: &Segment) -> (f64, f64) {
     (s, t)
 }
 
-/// The nearest points of two segments, either of which may be a point.
+/// The nearest points of two segments; either may be a point.
 ///
 /// When the segments are parallel and overlap, one of the many nearest pairs is returned.
 ///
@@ -107,7 +107,7 @@ pub fn squared_distance_segment_segment(p: &Segment, q: &Segment) -> f64 {
     (p.at(s) - q.at(t)).norm_squared()
 }
 
-/// The distance between two segments, either of which may be a point.
+/// The distance between two segments; either may be a point.
 #[inline]
 pub fn distance_segment_segment(p: &Segment, q: &Segment) -> f64 {
     squared_distance_segment_segment(p, q).sqrt()

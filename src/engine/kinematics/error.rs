@@ -45,7 +45,7 @@ pub enum KinematicsError {
     /// No solver has this name.
     #[error("solver `{found}` does not exist; the solvers are {known}")]
     UnknownSolver {
-        /// The name asked for.
+        /// The requested name.
         found: String,
         /// All names.
         known: String,
@@ -93,7 +93,7 @@ pub enum KinematicsError {
 }
 
 impl KinematicsError {
-    /// A refusal of a joint, counted from 0, for a quantity in metres or radians, told in the units of robot
+    /// A refusal of a joint, counted from 0, for a quantity in metres or radians, in the units of robot
     /// files.
     pub(super) fn joint(index: usize, key: &'static str, found_si: f64, accepted: &str) -> Self {
         let found = match key {
@@ -106,7 +106,7 @@ impl KinematicsError {
         Self::Joint { joint: index + 1, key, found, accepted: accepted.to_owned() }
     }
 
-    /// The same, with more to be said of what is accepted.
+    /// The same, with more on what is accepted.
     pub(super) fn with_accepted(self, more: &str) -> Self {
         match self {
             Self::Joint { joint, key, found, accepted } => {

@@ -127,10 +127,6 @@ impl Planner for Timed {
         Ok(plan)
     }
 
-    fn is_optimal(&self) -> bool {
-        false
-    }
-
     fn is_complete(&self) -> bool {
         self.settings.branching != Some(BranchingSetting::Four)
     }

@@ -5,7 +5,7 @@ use super::one_side::{Found, OneSided};
 use super::pool::Pool;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
-    Combined, Estimate, GridGraph, Heap, Observer, Octile, Report, Rules, Search, SideInputs, Stop,
+    Combined, Estimate, GridGraph, Heap, Observer, Octile, Report, Rules, Search, SideInputs, Stop, Update,
     euclidean_to, falling, octile_to, weighted,
 };
 use crate::space::WorldKind;
@@ -52,6 +52,8 @@ struct Astar {
     /// The order in which neighbours are generated; it decides among the first opened of equal f.
     #[serde(default)]
     neighbours: NeighbourOrder,
+    /// Of two equally long ways to an open node, the one that is kept; `first` if absent.
+    equal_ways: Option<EqualWays>,
     /// The distance to the goal that h is; `euclidean` if absent.
     heuristic: Option<Heuristic>,
     #[serde(skip)]
@@ -80,6 +82,16 @@ enum Heuristic {
     Euclidean,
     /// The shortest path by the eight moves, were no cell blocked.
     Octile,
+}
+
+/// Which of two equally long ways is kept.
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+enum EqualWays {
+    /// The one that was found first.
+    First,
+    /// The one that was found last.
+    Last,
 }
 
 #[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
@@ -134,7 +146,7 @@ impl Astar {
             graph: &mut GridGraph::in_order(posed.world.moves(), self.neighbours),
             estimate,
             observer,
-            update: UPDATE,
+            update: Update { take_equal: self.equal_ways == Some(EqualWays::Last), ..UPDATE },
         };
         let rules = Rules { stop: Stop::GoalPopped, max_expansions: expansions };
         let mut search = self.pool.any(|| Search::new(Heap::new(self.ties.into())));

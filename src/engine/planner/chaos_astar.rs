@@ -237,14 +237,6 @@ impl Planner for Ready {
         Ok(plan)
     }
 
-    fn is_optimal(&self) -> bool {
-        false
-    }
-
-    fn is_complete(&self) -> bool {
-        false
-    }
-
     fn steps(&self) -> Option<&[[i32; 2]]> {
         Some(self.offsets.steps())
     }

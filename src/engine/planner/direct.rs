@@ -38,8 +38,4 @@ impl Planner for Direct {
     fn is_optimal(&self) -> bool {
         true
     }
-
-    fn is_complete(&self) -> bool {
-        false
-    }
 }

@@ -85,7 +85,7 @@ pub struct Plan {
     pub cost: Option<f64>,
     /// What was counted.
     pub counts: Counts,
-    /// What figures need, if the request asked for it.
+    /// What figures need, if the request has it.
     pub traces: Vec<Trace>,
     /// Why it ended so, where the ending alone does not say it; of a path, what should be known if it is refused.
     pub reason: Option<String>,
@@ -105,10 +105,14 @@ pub trait Planner: Send + Sync {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid>;
 
     /// Whether a solved plan has the least cost there is in the world's graph.
-    fn is_optimal(&self) -> bool;
+    fn is_optimal(&self) -> bool {
+        false
+    }
 
     /// Whether [`Ending::NoPath`] proves that the world's graph has no path.
-    fn is_complete(&self) -> bool;
+    fn is_complete(&self) -> bool {
+        false
+    }
 
     /// Whether what it returns depends on the request's seed: only then does it run on several.
     fn draws(&self) -> bool {

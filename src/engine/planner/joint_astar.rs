@@ -233,14 +233,6 @@ impl Planner for JointAstar {
         };
         Ok(joint_plan(arm, ending, &trail, counts, request.trace))
     }
-
-    fn is_optimal(&self) -> bool {
-        false
-    }
-
-    fn is_complete(&self) -> bool {
-        false
-    }
 }
 
 /// The plan along `trail`; its cost is the length of the tip's path.

@@ -2,7 +2,7 @@
 //!
 //! It expands what [`jps`](super::jps) expands, in the same order, and looks distances up instead of scanning for them.
 //! Every corner rule is supported. The table ([`JumpTable`]) takes 16 bytes for each cell; `preprocessing_bytes` counts them.
-//! It belongs to the world and is made when it is first asked for, so that all contenders share it. No clock reading
+//! It belongs to the world and is made when it is first needed, so that all contenders share it. No clock reading
 //! counts it: a study plans every query once before it times it. With `preparation = "each_query"` every query makes
 //! the table anew: in a study that has both contenders, the difference of their clock readings is the cost of
 //! preprocessing.

@@ -195,12 +195,4 @@ impl Planner for Keynode {
         ]);
         Ok(plan(walked.ending, &walked.points, counts))
     }
-
-    fn is_optimal(&self) -> bool {
-        false
-    }
-
-    fn is_complete(&self) -> bool {
-        false
-    }
 }

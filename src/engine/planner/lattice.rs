@@ -125,7 +125,7 @@ pub(super) fn lattice(world: &World) -> &LatticeWorld {
 
 /// What a better way changes in Zhang's flow chart and in every textbook: g of an open node is lowered, a closed
 /// node stays closed.
-pub(super) const UPDATE: Update = Update { lower_open: true, reopen_closed: false };
+pub(super) const UPDATE: Update = Update { lower_open: true, reopen_closed: false, take_equal: false };
 
 /// The plan that a search's outcome amounts to.
 pub(super) fn plan<C: Cost>(

@@ -204,10 +204,6 @@ impl Planner for Lattice26 {
     fn is_optimal(&self) -> bool {
         true
     }
-
-    fn is_complete(&self) -> bool {
-        false
-    }
 }
 
 /// A search's counters by column.

@@ -1,8 +1,8 @@
 //! What planners share that search a lattice from its start alone: who watches, and what comes of it.
 
 use super::lattice::{self, Posed};
-use super::{Plan, Request, Value};
-use crate::search::{Closings, Cost, Observer, Report, VisitOrder};
+use super::{Plan, Planner, Request, Value};
+use crate::search::{Closings, Cost, Observer, Parents, Report, VisitOrder};
 
 /// What a search found.
 pub(super) struct Found<C> {
@@ -21,23 +21,29 @@ impl<C> From<Report<C>> for Found<C> {
 }
 
 /// A search of a lattice from its start.
-pub(super) trait OneSided {
+pub(super) trait OneSided: Planner {
     /// What a step costs.
     type Cost: Cost;
 
     /// What it finds of the posed query; `observer` watches.
     fn search<O: Observer>(&self, posed: &Posed<'_>, expansions: u64, observer: &mut O) -> Found<Self::Cost>;
 
-    /// The plan that this amounts to, with the traces of what was opened and closed if the request asks for them.
+    /// The plan that this amounts to, with the traces of what was opened and closed if the request asks for them, and over which
+    /// parents where they may be far.
     fn planned(&self, request: &Request<'_>, posed: &Posed<'_>) -> Plan {
         let grid = posed.world.grid();
         let mut traces = Vec::new();
         let found = if request.trace {
             let closings = Closings::default();
-            let mut watching = (VisitOrder::default(), closings.one_side(0));
+            let (mut visits, mut parents) = (VisitOrder::default(), Parents::default());
+            let mut watching = ((&mut visits, closings.one_side(0)), &mut parents);
             let found = self.search(posed, request.expansions, &mut watching);
-            traces.push(lattice::cells(grid, "opened_start_side", &watching.0.opened));
+            traces.push(lattice::cells(grid, "opened_start_side", &visits.opened));
             traces.push(lattice::closings(grid, closings));
+            if self.is_any_angle() || posed.world.cornered().is_some() {
+                // Elsewhere, parents are neighbours, which closings show.
+                traces.push(lattice::cells(grid, "parents", &parents.closed));
+            }
             found
         } else {
             self.search(posed, request.expansions, &mut ())

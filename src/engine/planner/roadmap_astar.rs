@@ -217,7 +217,7 @@ impl Planner for RoadmapAstar {
             found.is_ok().then_some(Shot { goal, cost: 1.0 })
         };
         let rules = Rules { stop: Stop::GoalPopped, max_expansions: request.expansions };
-        let update = Update { lower_open: true, reopen_closed: false };
+        let update = Update::default();
         let terms = SideInputs { graph: &mut part, estimate: &estimate, observer: &mut lists, update };
         let report =
             Search::new(Heap::new(Ties::Fifo)).run(terms, start, |node| node == goal, rules, &mut shoot);
@@ -242,10 +242,6 @@ impl Planner for RoadmapAstar {
     fn is_optimal(&self) -> bool {
         let searches_alone = self.goal_shot == ShotSetting::Never && self.path == PathSetting::Parents;
         searches_alone && self.nearest.is_none() && matches!(self.cost, CostSetting::Length)
-    }
-
-    fn is_complete(&self) -> bool {
-        false
     }
 
     fn asks(&self) -> Option<Extent> {

@@ -72,7 +72,7 @@ pub(super) enum OpenSetting {
 
 impl From<OpenSetting> for Update {
     fn from(setting: OpenSetting) -> Self {
-        Self { lower_open: setting == OpenSetting::Lowered, reopen_closed: false }
+        Self { lower_open: setting == OpenSetting::Lowered, ..Self::default() }
     }
 }
 

@@ -1,6 +1,6 @@
 //! A\* on the visibility graph of a map: start, goal and corners of blocked cells, joined where they see each other.
 //!
-//! Edges are found when a vertex is expanded, by a look at every other one.
+//! Edges are found when a vertex is expanded, all at once; each other vertex counts as looked at.
 
 use super::corners;
 use super::lattice::{Posed, TiesSetting, UPDATE};
@@ -11,7 +11,7 @@ use crate::search::{
     Combined, Cornered, Graph, Heap, Observer, Rules, Search, SideInputs, Stop, euclidean_to, sum,
 };
 use crate::space::WorldKind;
-use base::grid::corners_see;
+use base::grid::seen_corners;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -77,7 +77,24 @@ struct Visible<'a> {
     on: Cornered<'a>,
     /// With the goal.
     vertices: Vec<u32>,
+    /// Where each corner stands among them, or [`NONE`].
+    places: Vec<u32>,
     sight_checks: u64,
+    /// The places of those that the vertex in hand sees.
+    seen: Vec<u32>,
+}
+
+/// No vertex.
+const NONE: u32 = u32::MAX;
+
+impl<'a> Visible<'a> {
+    fn new(on: Cornered<'a>, vertices: Vec<u32>) -> Self {
+        let mut places = vec![NONE; on.grid.cell_count() as usize];
+        for (place, vertex) in (0..).zip(&vertices) {
+            places[*vertex as usize] = place;
+        }
+        Self { on, vertices, places, sight_checks: 0, seen: Vec::new() }
+    }
 }
 
 impl Graph for Visible<'_> {
@@ -88,12 +105,18 @@ impl Graph for Visible<'_> {
     }
 
     fn successors(&mut self, node: u32, mut visit: impl FnMut(u32, f64)) {
-        let at = self.on.grid.xy(node);
-        for &to in self.vertices.iter().filter(|to| **to != node) {
-            self.sight_checks += 1;
-            if corners_see(self.on.cells, at, self.on.grid.xy(to)) {
-                visit(to, euclidean_to(self.on.grid, to)(node));
-            }
+        let Self { on, vertices, places, seen, .. } = self;
+        let is_own = places[node as usize] != NONE;
+        self.sight_checks += vertices.len() as u64 - u64::from(is_own);
+        seen.clear();
+        seen_corners(on.cells, on.grid.xy(node), |[x, y]| {
+            let corner = on.grid.cell(x, y).expect("a corner that is seen lies on the map");
+            seen.extend(Some(places[corner as usize]).filter(|place| *place != NONE));
+        });
+        // In the order of vertices, which decides among equal ones.
+        seen.sort_unstable();
+        for to in seen.iter().map(|place| vertices[*place as usize]) {
+            visit(to, euclidean_to(on.grid, to)(node));
         }
     }
 }
@@ -109,7 +132,7 @@ impl OneSided for VisibilityAstar {
             vertices.push(goal);
         }
         let estimate = Combined { h: euclidean_to(on.grid, goal), combine: sum };
-        let mut graph = Visible { on, vertices, sight_checks: 0 };
+        let mut graph = Visible::new(on, vertices);
         let mut search = self.pool.any(|| Search::new(Heap::new(self.ties.into())));
         let terms = SideInputs { graph: &mut graph, estimate: &estimate, observer, update: UPDATE };
         let rules = Rules { stop: Stop::GoalPopped, max_expansions: expansions };

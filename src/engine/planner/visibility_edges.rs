@@ -148,12 +148,4 @@ impl Planner for Visibility {
         ]);
         Ok(plan(ending, &points, counts))
     }
-
-    fn is_optimal(&self) -> bool {
-        false
-    }
-
-    fn is_complete(&self) -> bool {
-        false
-    }
 }

@@ -114,7 +114,7 @@ impl<Q: Frontier> AnyAngle<Q> {
         let outcome = loop {
             let Some(offer) = self.side.best() else { break Outcome::NoPath };
             if rules.when == When::Taken {
-                sight_checks += self.look(on, rules.branching, offer.node);
+                sight_checks += self.look(on, rules.branching, offer.node, terms.observer);
             }
             if offer.node == ends[1] {
                 break self.solved(ends[1]);
@@ -134,7 +134,13 @@ impl<Q: Frontier> AnyAngle<Q> {
 
     /// Hangs the open `node` under the closed neighbour over which it is reached at least cost, if its parent does not see
     /// it; how many lines of sight were looked at.
-    fn look<S: Fn(u32, u32) -> bool>(&mut self, on: &Sighted<'_, S>, branching: Branching, node: u32) -> u64 {
+    fn look<S: Fn(u32, u32) -> bool>(
+        &mut self,
+        on: &Sighted<'_, S>,
+        branching: Branching,
+        node: u32,
+        observer: &mut impl Observer,
+    ) -> u64 {
         let Some(parent) = self.side.parent(node) else { return 0 };
         if !(on.sees)(parent, node) {
             let mut best: Option<(u32, f64)> = None;
@@ -146,7 +152,7 @@ impl<Q: Frontier> AnyAngle<Q> {
                 }
             });
             let (from, g) = best.expect("the node from which it was generated is a closed neighbour");
-            self.side.hang(node, from, g);
+            self.side.hang(node, from, g, observer);
         }
         1
     }

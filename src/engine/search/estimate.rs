@@ -6,7 +6,7 @@ use std::f64::consts::SQRT_2;
 
 /// The key by which open nodes are ordered.
 pub trait Estimate<C> {
-    /// The heuristic of `node`; asked once for each node that a search opens.
+    /// The heuristic of `node`; called once for each node that a search opens.
     fn h(&self, node: u32) -> f64;
 
     /// The key of a node with heuristic `h` when the way to it costs `g`.
@@ -103,6 +103,11 @@ impl ScaledOctile {
     /// The estimate towards `target`, a cell of a grid with `width` columns, or h = 0 (Dijkstra's order) without.
     pub fn new(width: u32, target: Option<u32>) -> Self {
         Self { width, target: target.map(|cell| [cell % width, cell / width]) }
+    }
+
+    /// `cost` in these units.
+    pub fn scaled(cost: Octile) -> u32 {
+        Self::STRAIGHT * cost.straight + Self::DIAGONAL * cost.diagonal
     }
 
     /// The octile distance over `[dx, dy]` in these units.

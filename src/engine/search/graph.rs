@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 /// What can be reached from a node in one step.
 ///
-/// A rule may change as it is asked (a neighbourhood redrawn at each expansion), hence `&mut self`. A graph given
+/// A rule may change as it is called (a neighbourhood redrawn at each expansion), hence `&mut self`. A graph given
 /// to the bidirectional driver must hold every step in both directions at the same cost.
 pub trait Graph {
     /// What steps cost.

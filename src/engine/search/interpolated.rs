@@ -169,7 +169,7 @@ fn reached<Q: Frontier>(side: &Side<f64, Q>, on: &Cornered<'_>, [node, to]: [u32
     ways.into_iter().flatten().fold(g + cost, f64::min)
 }
 
-/// The least cost of a way over the edge between a corner straight ahead and one diagonally ahead, by what both cost.
+/// The least cost of a way over the edge between a corner straight ahead and one diagonally ahead, from the cost of both.
 fn over_edge(straight: f64, diagonal: f64) -> f64 {
     let falls = straight - diagonal;
     if falls <= 0.0 {

@@ -8,9 +8,7 @@
 //! whose ways leave the moves of the grid.
 //! Between corners of cells, [`AngleRanges`] hands on what each sees and [`Interpolated`] costs along edges.
 //! [`OctileAstar`] is the declared specialisation for 8-connected grids, [`LatticeAstar`] the one for neighbourhoods of any
-//! size, [`CubicAstar`] the one for cubic lattices with 26 neighbours, [`FirstWayAstar`] the one for the lengths of an A*
-//! that never lowers open nodes there, [`ManyGrids`] the one for the costs on many such grids at once; tests hold each
-//! equal to the general form.
+//! size, [`CubicAstar`] the one for cubic lattices with 26 neighbours; tests hold each equal to the general form.
 //!
 //! # Counters
 //! A node is **generated** each time it is produced as a successor, whatever becomes of it; **opened** when it
@@ -38,14 +36,11 @@ mod buckets;
 mod cost;
 mod cubic_astar;
 mod estimate;
-mod first_way;
-mod first_way_back;
 mod frontier;
 mod graph;
 mod interpolated;
 mod jump;
 mod lattice_astar;
-mod many;
 mod neighbourhood;
 mod node_lists;
 mod observe;
@@ -65,16 +60,13 @@ pub use buckets::Buckets;
 pub use cost::{Cost, Octile, quantised};
 pub use cubic_astar::{CubicAstar, CubicQuery};
 pub use estimate::{Combined, Estimate, ScaledOctile, euclidean_to, falling, octile_to, sum, weighted};
-pub use first_way::FirstWayAstar;
-pub use first_way_back::{FirstWayBack, Unsettled};
 pub use frontier::{Best, Frontier, Heap, Offer, Ties};
 pub use graph::{Graph, GridGraph, LatticeGraph};
 pub use interpolated::{Field, Interpolated};
 pub use jump::JumpSearch;
 pub use lattice_astar::{LatticeAstar, LatticeQuery};
-pub use many::{GridSet, ManyGrids};
 pub use neighbourhood::{ColumnGraph, Successors};
-pub use observe::{Closing, Closings, ListScans, Lists, Observer, OneSide, Place, VisitOrder};
+pub use observe::{Closing, Closings, ListScans, Lists, Observer, OneSide, Parents, Place, VisitOrder};
 pub use octile::{OctileAstar, SearchError};
 pub use one_way::{BeforeExpansion, Rules, Search, Shot, Stop};
 pub use side::{SideInputs, Update};

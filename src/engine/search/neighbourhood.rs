@@ -9,7 +9,7 @@ pub(super) const MOST_ROWS: usize = (2 * MAX_REACH_CELLS as usize + 1).div_ceil(
 
 /// Which of the free cells of a neighbourhood are successors.
 pub trait Successors {
-    /// Tells that `cell` is expanded; the columns of its neighbourhood are asked for next, from the right to the left.
+    /// Tells that `cell` is expanded; the columns of its neighbourhood are requested next, from the right to the left.
     fn expands(&mut self, cell: u32) {
         let _ = cell;
     }

@@ -1,12 +1,18 @@
 //! Watching a search without changing it.
 
 use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
 
-/// Told what a search does. Every method does nothing unless written, and `()` watches nothing at no cost.
+/// Follows what a search does. Every method does nothing unless written, and `()` watches nothing at no cost.
 pub trait Observer {
     /// `node` entered OPEN for the first time.
     fn opened(&mut self, node: u32) {
         let _ = node;
+    }
+
+    /// `node` is reached over `parent` from now on.
+    fn reached(&mut self, node: u32, parent: u32) {
+        let _ = (node, parent);
     }
 
     /// `node` was taken from OPEN and closed.
@@ -63,6 +69,24 @@ impl Observer for VisitOrder {
 
     fn closed(&mut self, node: u32) {
         self.closed.push(node);
+    }
+}
+
+/// The parent that each node had when it was closed, for figures.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Parents {
+    now: BTreeMap<u32, u32>,
+    /// Parents in the order in which nodes were closed; the root is its own.
+    pub closed: Vec<u32>,
+}
+
+impl Observer for Parents {
+    fn reached(&mut self, node: u32, parent: u32) {
+        self.now.insert(node, parent);
+    }
+
+    fn closed(&mut self, node: u32) {
+        self.closed.push(self.now.get(&node).copied().unwrap_or(node));
     }
 }
 
@@ -143,6 +167,10 @@ impl<O: Observer + ?Sized> Observer for &mut O {
         (**self).opened(node);
     }
 
+    fn reached(&mut self, node: u32, parent: u32) {
+        (**self).reached(node, parent);
+    }
+
     fn closed(&mut self, node: u32) {
         (**self).closed(node);
     }
@@ -160,6 +188,11 @@ impl<A: Observer, B: Observer> Observer for (A, B) {
     fn opened(&mut self, node: u32) {
         self.0.opened(node);
         self.1.opened(node);
+    }
+
+    fn reached(&mut self, node: u32, parent: u32) {
+        self.0.reached(node, parent);
+        self.1.reached(node, parent);
     }
 
     fn closed(&mut self, node: u32) {

@@ -14,8 +14,6 @@
 //! Costs are ordered in units of 985 and 1393, which is exact while ways to one cell differ by less than 985 in
 //! their diagonal moves ([`ScaledOctile`]).
 
-mod flood;
-
 use super::buckets::Buckets;
 use super::cost::{Cost, Octile};
 use super::estimate::ScaledOctile;

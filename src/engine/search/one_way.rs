@@ -34,7 +34,7 @@ impl Default for Rules {
     }
 }
 
-/// Asked for each node that was just closed, before it is expanded; may end the search with a path.
+/// Called for each node that was just closed, before it is expanded; may end the search with a path.
 pub trait BeforeExpansion<C> {
     /// A direct way from `node`, reached at cost `g`, to a goal, or `None` to go on.
     fn shoot(&mut self, node: u32, g: C) -> Option<Shot<C>>;
@@ -76,7 +76,7 @@ impl<C: Cost, Q: Frontier> Search<C, Q> {
     /// Searches from `start` until a node for which `is_goal` holds is reached under `rules`.
     ///
     /// A goal that is never met (`|_| false`) makes this an exact single-source search over everything reachable,
-    /// read off with [`g`](Self::g) afterwards; its outcome is [`Outcome::NoPath`]. `before` is asked once for each
+    /// read off with [`g`](Self::g) afterwards; its outcome is [`Outcome::NoPath`]. `before` is called once for each
     /// expansion that the budget allows.
     pub fn run<G, E, O>(
         &mut self,

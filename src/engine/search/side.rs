@@ -16,12 +16,14 @@ pub struct Update {
     pub lower_open: bool,
     /// Whether a closed node takes it and returns to OPEN.
     pub reopen_closed: bool,
+    /// Whether an open node that may take a better way takes one that is as good, too.
+    pub take_equal: bool,
 }
 
 impl Default for Update {
     /// Open nodes are lowered, closed nodes stay closed.
     fn default() -> Self {
-        Self { lower_open: true, reopen_closed: false }
+        Self { lower_open: true, reopen_closed: false, take_equal: false }
     }
 }
 
@@ -119,7 +121,7 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
         observer.closed(node);
     }
 
-    /// Generates the successors of `node` and deals with each; `each` is told of every one after that, and says whether to
+    /// Generates the successors of `node` and deals with each; `each` is called with every one after that, and says whether to
     /// go on.
     pub(super) fn expand<G, E, O>(
         &mut self,
@@ -192,7 +194,8 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
     }
 
     /// Gives an open node another parent, and the cost of the way over it; its place in OPEN stays.
-    pub(super) fn hang(&mut self, node: u32, parent: u32, g: C) {
+    pub(super) fn hang(&mut self, node: u32, parent: u32, g: C, observer: &mut impl Observer) {
+        observer.reached(node, parent);
         let record = &mut self.records[node as usize];
         (record.parent, record.g) = (parent, g);
     }
@@ -224,6 +227,7 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
         }
         let is_taken = match place {
             Place::Unseen => true,
+            Place::Open if update.take_equal => update.lower_open && !record.g.is_below(g),
             Place::Open => update.lower_open && g.is_below(record.g),
             Place::Closed => update.reopen_closed && g.is_below(record.g),
         };
@@ -261,6 +265,9 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
                 self.open += 1;
                 observer.opened(node);
             }
+        }
+        if parent != NONE {
+            observer.reached(node, parent);
         }
         self.stamp += 1;
         (record.g, record.parent, record.stamp) = (g, parent, self.stamp);

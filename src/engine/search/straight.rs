@@ -1,4 +1,4 @@
-//! Ways told apart by how far they turn where they are equally long.
+//! Ways distinguished by how far they turn where they are equally long.
 
 use super::cost::{Cost, quantised};
 use super::graph::Graph;

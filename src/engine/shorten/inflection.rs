@@ -9,10 +9,10 @@ pub fn bends<P: AsRef<[f64]>>(points: &[P]) -> Vec<usize> {
     let last = points.len().saturating_sub(1);
     let is_bend = |i: usize| {
         let [before, at, after] = [i - 1, i, i + 1].map(|i| points[i].as_ref());
-        let (u, v) = (leg(before, at), leg(at, after));
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        let along = dot(&u, &v);
-        along <= 0.0 || along * along != dot(&u, &u) * dot(&v, &v)
+        let (u, v) = ([before, at], [at, after]);
+        let dot = |a: [&[f64]; 2], b: [&[f64]; 2]| leg(a).zip(leg(b)).map(|(a, b)| a * b).sum::<f64>();
+        let along = dot(u, v);
+        along <= 0.0 || along * along != dot(u, u) * dot(v, v)
     };
     (0..points.len()).filter(|&i| i == 0 || i == last || is_bend(i)).collect()
 }
@@ -21,7 +21,7 @@ pub fn bends<P: AsRef<[f64]>>(points: &[P]) -> Vec<usize> {
 ///
 /// From the goal backwards: a node that `can_join` its grandfather loses its father and tries the next
 /// grandfather; at the first one that it cannot join, its father is the next node to try from. `can_join(i, j)` is
-/// asked with `i > j`.
+/// called with `i > j`.
 ///
 /// # Source
 /// Zhang & Zhang, *Path Planning for Mobile Robots Based on Improved A-star Algorithm*, section 2.4.

@@ -14,18 +14,18 @@ pub enum TurnAngle {
 
 /// The length of the polyline through `points`, in their unit; 0 for fewer than two.
 pub fn path_length<P: AsRef<[f64]>>(points: &[P]) -> f64 {
-    points.windows(2).map(|pair| norm(&leg(pair[0].as_ref(), pair[1].as_ref()))).sum()
+    points.windows(2).map(|pair| norm(leg([pair[0].as_ref(), pair[1].as_ref()]))).sum()
 }
 
 /// The sum of the angles at all bends of the polyline through `points`, in degrees. Repeated points are passed
 /// over; two legs bend if they turn by at least 1e-9 rad.
 pub fn turn_sum_deg<P: AsRef<[f64]>>(points: &[P], angle: TurnAngle) -> f64 {
-    let legs: Vec<Vec<f64>> = points
-        .windows(2)
-        .map(|pair| leg(pair[0].as_ref(), pair[1].as_ref()))
-        .filter(|leg| norm(leg) > 0.0)
-        .collect();
-    let turns = legs.windows(2).map(|pair| angle_between(&pair[0], &pair[1]));
+    let mut before = None;
+    let legs = points.windows(2).map(|pair| [pair[0].as_ref(), pair[1].as_ref()]);
+    let turns = legs.filter(|ends| norm(leg(*ends)) > 0.0).filter_map(|ends| {
+        let before = before.replace(ends)?;
+        Some(angle_between(before, ends))
+    });
     turns
         .filter(|&turn_rad| turn_rad >= STRAIGHT_RAD)
         .map(f64::to_degrees)
@@ -36,19 +36,19 @@ pub fn turn_sum_deg<P: AsRef<[f64]>>(points: &[P], angle: TurnAngle) -> f64 {
         .sum()
 }
 
-pub(super) fn leg(from: &[f64], to: &[f64]) -> Vec<f64> {
-    from.iter().zip(to).map(|(from, to)| to - from).collect()
+/// The vector from the first to the second of two points.
+pub(super) fn leg([from, to]: [&[f64]; 2]) -> impl Iterator<Item = f64> + Clone {
+    from.iter().zip(to).map(|(from, to)| to - from)
 }
 
-fn norm(vector: &[f64]) -> f64 {
-    vector.iter().map(|x| x * x).sum::<f64>().sqrt()
+fn norm(vector: impl Iterator<Item = f64>) -> f64 {
+    vector.map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// Kahan's formula, accurate for small and for large angles; in 0..=π.
-fn angle_between(u: &[f64], v: &[f64]) -> f64 {
-    let (of_u, of_v) = (norm(u), norm(v));
-    let scaled =
-        |sign: f64| norm(&u.iter().zip(v).map(|(u, v)| u * of_v + sign * v * of_u).collect::<Vec<_>>());
+/// The angle between two legs by Kahan's formula, accurate for small and for large angles; in 0..=π.
+fn angle_between(u: [&[f64]; 2], v: [&[f64]; 2]) -> f64 {
+    let [of_u, of_v] = [u, v].map(|ends| norm(leg(ends)));
+    let scaled = |sign: f64| norm(leg(u).zip(leg(v)).map(|(u, v)| u * of_v + sign * v * of_u));
     2.0 * libm::atan2(scaled(-1.0), scaled(1.0))
 }
 

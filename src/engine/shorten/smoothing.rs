@@ -2,7 +2,7 @@
 
 /// The nodes of a path of `count` nodes that are kept, as indices in path order.
 ///
-/// A node is dropped if the one after it is seen from the last node kept, else it is kept. `is_seen(i, j)` is asked once for every
+/// A node is dropped if the one after it is seen from the last node kept, else it is kept. `is_seen(i, j)` is called once for every
 /// j from 2 on, with i < j.
 ///
 /// # Source

@@ -12,7 +12,7 @@ pub enum Resume {
 /// The nodes of a path of `count` nodes that are kept, as indices in path order.
 ///
 /// From a node on, the following ones are joined to it one after another until one cannot be; the last that could
-/// be is kept. `can_join(i, j)` is asked with `i < j`, for rising j, and never for neighbours on the path.
+/// be is kept. `can_join(i, j)` is called with `i < j`, for rising j, and never for neighbours on the path.
 ///
 /// # Source
 /// Tang, Zhou & Xu, *Obstacle avoidance path planning of 6-DOF robotic arm based on improved A\* algorithm and
@@ -45,7 +45,7 @@ mod tests {
 
     #[test]
     fn a_stretch_ends_before_the_first_node_that_cannot_be_joined() {
-        // From 0 nodes 2 and 3 are joined, 4 is not; 5 would be, but is never asked for.
+        // From 0 nodes 2 and 3 are joined, 4 is not; 5 would be, but is never tried.
         let joins = [(0, 2), (0, 3), (0, 5), (3, 5), (3, 6), (4, 6)];
         let can = |i, j| joins.contains(&(i, j));
         assert_eq!(stepwise_straightening(7, Resume::LastJoined, can), [0, 3, 6]);

@@ -140,7 +140,7 @@ impl JointSpace {
         Placed { solid, frame: &frames[*link] }
     }
 
-    /// The first part and obstacle in contact. What is welded to the base stands as it does, and is not asked.
+    /// The first part and obstacle in contact. What is welded to the base stands as it does, and is not checked.
     fn touched(&self, frames: &[Frame]) -> Option<(usize, usize)> {
         let moving = (0..self.parts.len()).filter(|part| self.parts[*part].0 > 0);
         moving.into_iter().find_map(|part| {

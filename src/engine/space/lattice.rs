@@ -1,6 +1,6 @@
 //! The lattice of square cells: a map, its corner rule, the moves that both leave, and where its jump points are.
 //!
-//! What searches by jump points prepare for a map ([`JumpLines`], [`JumpTable`]) is made when it is first asked for, is
+//! What searches by jump points prepare for a map ([`JumpLines`], [`JumpTable`]) is made when it is first needed, is
 //! shared by all contenders, and goes when the world goes.
 
 mod lines;

@@ -8,7 +8,7 @@ use base::units::asked_in_degrees;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// What is said where a scene of an arm has no such table.
+/// The message where a scene of an arm has no such table.
 const MISSING: &str = "a scene of an arm says where its base stands and what is under it: a table `[support]` with \
                        `under = \"floor\"`, `\"pedestal\"` or `\"nothing\"` is accepted";
 
@@ -110,7 +110,7 @@ fn frame(base_mm: [f64; 3], yaw_deg: f64) -> Frame {
 }
 
 impl Support {
-    /// What is said of a scene that an arm is put into and that has no support.
+    /// The message about a scene that an arm is put into and that has no support.
     ///
     /// # Errors
     /// A sentence, if there is none.

@@ -89,7 +89,7 @@ fn lane(case: &Case<'_>, family: &dyn Family, row: &Row) -> Option<Lane> {
     let way = ["tip_path", "raw_path"].iter().find_map(|name| kept(name)).filter(|way| way.width == 3);
     let way = way.or_else(|| kept("path").filter(|way| way.width == 3));
     let way: Vec<[f64; 3]> = way.map(in_mm).unwrap_or_default();
-    // Of one that found no path that is said, beside the others.
+    // One that found no path is named beside the others.
     if stances.is_empty() && way.is_empty() && row.is_solved() {
         return None;
     }

@@ -1,5 +1,6 @@
 //! Replays: what was stored of trials on one problem, side by side and in step.
 
+mod any_angle;
 mod arm;
 mod grid;
 mod plane;
@@ -29,6 +30,7 @@ pub struct Replay {
 #[derive(Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 enum Shown {
+    AnyAngle(any_angle::Scene),
     Grid(grid::Scene),
     Plane(plane::Scene),
     Arm(arm::Scene),
@@ -73,7 +75,7 @@ pub fn all(evidence: &Evidence<'_>, verdicts: &Verdicts, inputs: &Inputs) -> Res
     Ok(ranked.into_iter().map(|(.., replay)| replay).collect())
 }
 
-/// The problems of which something was kept under the interpretation that claims are judged under, in the order of groups and draws.
+/// The problems with traces kept under the interpretation that claims are judged under, in the order of groups and draws.
 fn cases<'r>(run: &'r Run<'r>) -> Vec<Case<'r>> {
     let mut cases = Vec::new();
     for group in &run.study.groups {
@@ -93,7 +95,8 @@ fn cases<'r>(run: &'r Run<'r>) -> Vec<Case<'r>> {
 }
 
 fn replay(evidence: &Evidence<'_>, case: &Case<'_>, inputs: &Inputs) -> Result<Option<Replay>, PageError> {
-    let scene = match grid::scene(case).map(Shown::Grid).or_else(|| plane::scene(case).map(Shown::Plane)) {
+    let searched = any_angle::scene(case).map(Shown::AnyAngle).or_else(|| grid::scene(case).map(Shown::Grid));
+    let scene = match searched.or_else(|| plane::scene(case).map(Shown::Plane)) {
         Some(scene) => Some(scene),
         None => arm::scene(evidence, case, inputs)?.map(Shown::Arm),
     };

@@ -1,3 +1,5 @@
+import { land } from "./land.js";
+
 // The table of claims: words, verdicts and interpretations to filter by, heads to sort by, lines that open.
 export function claims() {
   const table = document.getElementById("claimed");
@@ -59,7 +61,7 @@ export function claims() {
     if (line) {
       line.hidden = false;
       open(line, true);
-      line.scrollIntoView({ block: "start" });
+      land(line);
     }
   };
   addEventListener("hashchange", follow);

@@ -5,7 +5,7 @@ import { unpackJson } from "./unpack.js";
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00"];
 
 export async function curves(packed) {
-  const place = document.getElementById("curves");
+  const place = document.querySelector("#curves > details");
   for (const element of packed) {
     const data = await unpackJson(element);
     const figure = place.appendChild(document.createElement("figure"));

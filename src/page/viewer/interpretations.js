@@ -1,5 +1,6 @@
 // The interpretations that were explored: choose one and see each claim's outcome under it; open a claim and see what each option does to
 // it. Classes, effects and what counts are as analysis stored them.
+import { land } from "./land.js";
 import { unpackJson } from "./unpack.js";
 
 const EFFECTS = { turns: "turns it", opens: "opens or decides it", number: "changes results, not which way it speaks" };
@@ -50,7 +51,7 @@ export async function interpretations(packed) {
     if (!hash.has("interpretation")) return;
     put(Object.fromEntries(hash.get("interpretation").split(",").filter(Boolean).map((pair) => pair.split(":"))));
     show();
-    document.getElementById("interpretations").scrollIntoView();
+    land(document.getElementById("interpretations"));
   };
 }
 
@@ -129,7 +130,7 @@ function whatOptionsDo(line, data, choose) {
   const loud = claim.options.filter(isLoud).sort((a, b) => order.indexOf(a.effect) - order.indexOf(b.effect));
   const quiet = claim.options.filter((one) => one.effect !== "none" && !isLoud(one));
   if (loud.length) place.append(element("p", "what an option does that alone departs from the defaults:"), tableOf(loud, found, link, data));
-  if (quiet.length) place.append(listOf("the outcome stays, the results change:", quiet, (one) => [link(one), aside(found(one))]));
+  if (quiet.length) place.append(folded(`the outcome stays under ${quiet.length} options that change the results`, quiet, (one) => [link(one), aside(found(one))]));
   const names = (wanted) => data.choices.filter((choice) => choice.options.every((option) => option.name === choice.default || wanted(choice.id, option.name))).map((choice) => choice.id);
   const seen = (choice, option) => claim.options.find((one) => one.choice === choice && one.option === option);
   const still = names((choice, option) => seen(choice, option)?.effect === "none");
@@ -157,10 +158,12 @@ function tableOf(options, found, link, data) {
   return wide;
 }
 
-function listOf(title, options, of) {
-  const line = element("p", title);
-  for (const one of options) line.append(" ", ...of(one), one === options.at(-1) ? "" : ",");
-  return line;
+function folded(title, options, of) {
+  const fold = element("details");
+  const line = element("p");
+  for (const one of options) line.append(...of(one), one === options.at(-1) ? "" : ", ");
+  fold.append(element("summary", title), line);
+  return fold;
 }
 
 function aside(result) {

@@ -1,10 +1,12 @@
 // Plays replays: a list to choose from, a slider, play, speed. What is drawn is up to the kind of scene.
+import { anyAngle } from "./any_angle.js";
 import { arm } from "./arm.js";
 import { grid } from "./grid.js";
+import { land, unfold } from "./land.js";
 import { plane } from "./plane.js";
 import { unpackJson } from "./unpack.js";
 
-const KINDS = { arm, grid, plane };
+const KINDS = { any_angle: anyAngle, arm, grid, plane };
 
 export function player(packed) {
   const place = document.getElementById("player");
@@ -79,7 +81,7 @@ export function player(packed) {
     const file = event.target.files[0];
     try {
       put(JSON.parse(await file.text()));
-      place.scrollIntoView();
+      land(place);
     } catch (error) {
       said.textContent = `${file.name} is no replay: ${error.message}`;
     }
@@ -95,6 +97,7 @@ export function player(packed) {
 
   return async (trial, asked) => {
     seen.disconnect();
+    unfold(place);
     for (const [index, element] of packed.entries()) {
       const replay = await unpackJson(element);
       if (!replay.trials.includes(trial)) continue;
@@ -102,10 +105,10 @@ export function player(packed) {
       put(replay);
       slider.value = asked.get("step") ?? "0";
       draw();
-      place.scrollIntoView();
+      land(place);
       return;
     }
     said.textContent = `the replay of ${trial} is not in this page`;
-    place.scrollIntoView();
+    land(place);
   };
 }

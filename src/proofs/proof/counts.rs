@@ -63,7 +63,7 @@ pub fn percentage(print: Print, [before, after]: [Print; 2]) -> Option<Proof> {
 }
 
 /// Whether a printed time, the last of `times`, is a whole number of ticks, and how likely it is of random digits that all of
-/// `times` are; `chosen` says how the tick came to be asked about. Nothing is refused.
+/// `times` are; `chosen` says how the tick came into question. Nothing is refused.
 pub fn clock_ticks(tick: Tick, times: &[Print], chosen: &str) -> Proof {
     let spelled = format!("{}/{} s", tick.numerator, tick.denominator);
     let digits = times[times.len() - 1].digits;

@@ -55,7 +55,12 @@ impl Search<'_> {
     fn premises(&self, sums: &str) -> Vec<String> {
         let Ends { start, goal, .. } = self.ends;
         let path = "whose bends are cell centres";
-        vec![format!("the path is a polyline from cell {start:?} to cell {goal:?} {path}"), sums.to_owned()]
+        let heading = "the first move turns from no heading: the paper names none";
+        vec![
+            format!("the path is a polyline from cell {start:?} to cell {goal:?} {path}"),
+            sums.to_owned(),
+            heading.to_owned(),
+        ]
     }
 }
 

@@ -1,7 +1,7 @@
 //! The canvas as a backend of the crate plotters, which draws the panels of charts.
 //!
 //! One backend unit is a hundredth of a point, as fine as the canvas writes, so nothing is coarser for going
-//! through plotters' whole numbers. What plotters' styles cannot say is said by the pen: how lines are broken.
+//! through plotters' whole numbers. What plotters' styles cannot say, the pen does: how lines are broken.
 
 use super::{Align, Canvas, Rect, Stand, Type};
 use crate::render::RenderError;

@@ -99,7 +99,7 @@ fn passes([from, to]: [[f64; 2]; 2], room: Rect) -> bool {
     low <= high
 }
 
-/// Places for names, of which one each is to be taken.
+/// Places for names, one to be taken for each.
 struct Choice<'p> {
     places: &'p [Vec<Placed>],
     /// What each place costs by itself.

@@ -9,9 +9,10 @@ use crate::render::chart::marks::{Cells, Line, Note, Points, Shape};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
 use crate::render::style::{
     BLACK, BLUE, Fill, GREEN, GREY, INK, Marker, ORANGE, Rgb, SKY, Stroke, TextSize, VERMILLION, WHITE,
-    Width, YELLOW, series_stroke,
+    Width, YELLOW, series_marker, series_stroke,
 };
 use base::settings::Accepted;
+use engine::geometry::planar::{Segment2, distance_segment_segment};
 use engine::planner::Trace;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -54,6 +55,9 @@ struct ArmPlane {
     #[serde(default)]
     #[schemars(range(max = 1000))]
     stations: usize,
+    /// Whether a marker stands on each node of the paths.
+    #[serde(default)]
+    nodes: bool,
     /// Whether both postures at the goal of each problem are shown instead, without obstacles.
     #[serde(default)]
     postures: bool,
@@ -68,7 +72,7 @@ struct PanelSetting {
     problem: String,
     /// What stands above it; the problem group if absent.
     title: Option<String>,
-    /// Whether its points are coloured by what they are.
+    /// Whether its points are coloured by kind.
     #[serde(default)]
     zones: bool,
     /// Whose paths, of the first seed.
@@ -157,9 +161,50 @@ impl ArmPlane {
         }
         let path: Vec<[f64; 2]> = stations.iter().map(|station| [station[4], station[5]]).collect();
         ask::add_ends(panel, &path, 3.0, [(Marker::Circle, GREEN), (Marker::Diamond, GREEN)]);
-        let stroke = series_stroke(ask::place(scene, &row.key.contender));
-        panel.add(Line::through(path, stroke).labelled(row.key.contender.to_string()));
+        let place = ask::place(scene, &row.key.contender);
+        let line = Line::through(path.clone(), series_stroke(place)).labelled(row.key.contender.to_string());
+        panel.add(if self.nodes { line.marked(series_marker(place)) } else { line });
+        let hits = row.value("unsafe_hops").filter(|_| self.stations > 0).unwrap_or(0.0) as usize;
+        for [lower, upper] in nearest_arms(scene, row, &stations).into_iter().take(hits) {
+            let arm = [lower.a, lower.b, upper.b].map(|joint| [joint.x, joint.y]).to_vec();
+            panel.add(Line::through(arm, Stroke::solid(VERMILLION, 1.4)).labelled("arm where it hits"));
+        }
     }
+}
+
+/// The arm, its joints turning evenly, where it comes nearest to an obstacle on each hop; the nearest first.
+fn nearest_arms(scene: &Scene<'_>, row: &Row, stations: &[&[f64]]) -> Vec<[Segment2; 2]> {
+    let outline = |index: usize| scene.run.trace(&row.key.on, &format!("obstacle_{index}"));
+    let outlines: Vec<Vec<[f64; 2]>> = (1..).map_while(outline).map(ask::points).collect();
+    let sides = outlines.iter().flat_map(|corners| {
+        let next = corners.iter().cycle().skip(1);
+        corners.iter().zip(next).map(|(from, to)| Segment2::new((*from).into(), (*to).into()))
+    });
+    let sides: Vec<Segment2> = sides.collect();
+    let clearance = |links: &[Segment2; 2]| {
+        let pairs = links.iter().flat_map(|link| sides.iter().map(move |side| (link, side)));
+        pairs.map(|(link, side)| distance_segment_segment(link, side)).fold(f64::INFINITY, f64::min)
+    };
+    let nearest = |hop: &[&[f64]]| {
+        let arms = (0..=MOMENTS).map(|moment| links(hop[0], hop[1], moment));
+        arms.map(|links| (clearance(&links), links)).min_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    let mut arms: Vec<(f64, [Segment2; 2])> = stations.windows(2).filter_map(nearest).collect();
+    arms.sort_by(|a, b| a.0.total_cmp(&b.0));
+    arms.into_iter().map(|(_, links)| links).collect()
+}
+
+/// At how many moments of a hop the arm is set beside obstacles.
+const MOMENTS: usize = 32;
+
+/// Both links at a moment between two stations, its joints turning evenly.
+fn links(from: &[f64], to: &[f64], moment: usize) -> [Segment2; 2] {
+    let share = moment as f64 / MOMENTS as f64;
+    let [q1, q2] = [0, 1].map(|joint: usize| (from[joint] + share * (to[joint] - from[joint])).to_radians());
+    let (l1, l2) = (libm::hypot(from[2], from[3]), libm::hypot(from[4] - from[2], from[5] - from[3]));
+    let elbow = [l1 * libm::cos(q1), l1 * libm::sin(q1)];
+    let tip = [elbow[0] + l2 * libm::cos(q1 + q2), elbow[1] + l2 * libm::sin(q1 + q2)];
+    [[[0.0, 0.0], elbow], [elbow, tip]].map(|[a, b]| Segment2::new(a.into(), b.into()))
 }
 
 /// `count` of the stations, the ends among them.
@@ -177,7 +222,9 @@ fn title(problem: &str, rows: &[&Row]) -> String {
             let length =
                 row.value("path_length_cm").map_or_else(|| "no path".to_owned(), |l| format!("{l:.4} cm"));
             let hits = match row.value("unsafe_hops") {
-                Some(hops) if hops > 0.0 => format!(", {hops:.0} of its hops hit"),
+                Some(hops) if hops > 0.0 => {
+                    format!(", {hops:.0} of its hops hit, {} cm deep", ask::number(row, "deepest_cm", 3))
+                }
                 _ => String::new(),
             };
             format!("{problem}, {}: {length}{hits}", row.key.contender)
@@ -212,7 +259,8 @@ fn obstacle(outline: &Trace, is_filled: bool) -> Shape {
         corners: ask::points(outline),
         fill: is_filled.then(|| Fill::sheer(BLUE.mixed(BLACK, 0.3), 0.45)),
         stroke: Some(Stroke::solid(INK, 0.7)),
-        label: "obstacle".to_owned(),
+        // Where zones show what lies in it, they name it.
+        label: if is_filled { "obstacle".to_owned() } else { String::new() },
     }
 }
 

@@ -5,6 +5,7 @@ use crate::analysis::evidence::Run;
 use crate::analysis::metric::{self, Metric};
 use crate::analysis::selection::Selection;
 use crate::analysis::shown::Savings;
+use crate::analysis::statistic::{Estimate, Interval};
 use crate::render::RenderError;
 use crate::render::chart::Panel;
 use crate::render::chart::marks::Points;
@@ -93,13 +94,19 @@ pub(super) fn points(trace: &Trace) -> Vec<[f64; 2]> {
     trace.values.chunks(trace.width).map(|point| [point[0], point[1]]).collect()
 }
 
-/// Marks the first of `points` as the start and the last as the goal, each as said.
+/// Marks the first of `points` as the start and the last as the goal, each as named.
 pub(super) fn add_ends(panel: &mut Panel, points: &[[f64; 2]], radius_pt: f64, looks: [(Marker, Rgb); 2]) {
     let ends = [("start", points.first()), ("goal", points.last())];
     for ((label, at), (marker, color)) in ends.into_iter().zip(looks) {
         let at = at.into_iter().copied().collect();
         panel.add(Points::unlabelled(at, marker, radius_pt, color).labelled(label));
     }
+}
+
+/// The bar of a difference between two contenders: its interval, or the value alone where they differ on no instance.
+pub(super) fn bar(difference: &Estimate) -> Interval {
+    let Estimate { value, interval, is_agreed, .. } = *difference;
+    if is_agreed && value == 0.0 { Interval::new(value, value) } else { interval }
 }
 
 /// The point of the sweeps that people write as `text`.
@@ -186,7 +193,7 @@ pub(super) fn trial<'s>(
     })
 }
 
-/// The first trial of `contender` on `problems`, at one point of the sweeps if one is asked for.
+/// The first trial of `contender` on `problems`, at one point of the sweeps if one is requested.
 ///
 /// # Errors
 /// [`RenderError::NotStored`] if there is none.

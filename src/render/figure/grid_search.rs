@@ -14,6 +14,7 @@ use engine::planner::Trace;
 use engine::shorten::bends;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use study::paper::Claim;
 use study::record::Row;
 
 /// The registry's entry.
@@ -26,14 +27,20 @@ pub static ENTRY: Entry = Entry {
 problems = ["W1"]
 contenders = ["A*", "Improved A*"]
 "#,
-    build: |settings, study, _paper| {
+    build: |settings, study, paper| {
         let read: GridSearch = settings.read()?;
         ask::known(settings, study, &read.problems, &read.contenders)?;
         if read.moments.iter().any(|share| !(0.0..=1.0).contains(share)) {
             let message = "shares of opened cells from 0 to 1 are accepted, one a panel";
             return Err(settings.error_at("moments", message));
         }
-        Ok(Box::new(read))
+        let mut printed = Vec::new();
+        for (index, row) in read.printed.iter().enumerate() {
+            ask::all_printed(settings, paper, &format!("printed.{index}"), row)?;
+            let cells = row.iter().filter_map(|id| paper.claim(id)).map(cell);
+            printed.push(cells.collect::<Vec<_>>().join(", "));
+        }
+        Ok(Box::new(Ready { read, printed }))
     },
 };
 
@@ -47,6 +54,9 @@ struct GridSearch {
     /// Shares of all opened cells: one panel each, about what was opened by then, instead of one at the end.
     #[serde(default)]
     moments: Vec<f64>,
+    /// Claims of each contender, in their order, whose printed numbers stand beside ours.
+    #[serde(default)]
+    printed: Vec<Vec<String>>,
     /// Shows, in place of opened cells, how the path was tidied: bends before and after, refused lines of sight.
     #[serde(default)]
     tidying: bool,
@@ -55,33 +65,52 @@ struct GridSearch {
     part: bool,
 }
 
+struct Ready {
+    read: GridSearch,
+    /// What the paper prints of each contender.
+    printed: Vec<String>,
+}
+
+/// What a claim prints, with its unit.
+fn cell(claim: &Claim) -> String {
+    let printed = claim.printed.as_deref().unwrap_or_default();
+    match claim.unit.as_deref() {
+        Some("°") => format!("{printed}°"),
+        Some(unit) => format!("{printed} {unit}"),
+        None => printed.to_owned(),
+    }
+}
+
 /// Cells opened from the start's side, from the goal's, from both, and blocked ones.
 const START_SIDE: Rgb = SKY.mixed(WHITE, 0.6);
 const GOAL_SIDE: Rgb = ORANGE.mixed(WHITE, 0.2);
 const BOTH_SIDES: Rgb = PURPLE.mixed(BLACK, 0.15);
 const BLOCKED: Rgb = BLACK.mixed(WHITE, 0.25);
 
-impl Kind for GridSearch {
+impl Kind for Ready {
     fn shown(&self) -> Vec<Shown<'_>> {
-        self.problems.iter().flat_map(|problem| Shown::first(problem, &self.contenders)).collect()
+        let read = &self.read;
+        read.problems.iter().flat_map(|problem| Shown::first(problem, &read.contenders)).collect()
     }
 
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let mut panels = Vec::new();
-        for problem in &self.problems {
+        let read = &self.read;
+        for problem in &read.problems {
             let map = |contender: &String| Map::new(scene, ask::trial(scene, problem, 0, None, contender)?);
-            let maps = self.contenders.iter().map(map).collect::<Result<Vec<_>, _>>()?;
+            let maps = read.contenders.iter().map(map).collect::<Result<Vec<_>, _>>()?;
             // One part for all contenders, so that their panels show the same.
-            let part: Vec<[f64; 2]> = maps.iter().filter(|_| self.part).flat_map(Map::opened).collect();
-            for map in maps {
-                match (&self.moments[..], self.tidying) {
+            let part: Vec<[f64; 2]> = maps.iter().filter(|_| read.part).flat_map(Map::opened).collect();
+            for (place, map) in maps.iter().enumerate() {
+                let printed = self.printed.get(place).map(String::as_str);
+                match (&read.moments[..], read.tidying) {
                     ([], true) => panels.push(map.tidied(problem)),
-                    ([], false) => panels.push(map.searched(&part)),
+                    ([], false) => panels.push(map.searched(&part, printed)),
                     (moments, _) => panels.extend(moments.iter().map(|share| map.moment(*share))),
                 }
             }
         }
-        let height = if self.moments.is_empty() { 215.0 } else { 150.0 };
+        let height = if read.moments.is_empty() { 215.0 } else { 150.0 };
         Sheet::new(Width::Double, panels.len(), height).with(panels)
     }
 }
@@ -117,13 +146,14 @@ impl<'a> Map<'a> {
         sides.concat().into_iter().map(|[x, y]| [x + 0.5, y + 0.5]).collect()
     }
 
-    /// All that was opened and the paths, on the part of the map about `part`, or on all of it.
-    fn searched(&self, part: &[[f64; 2]]) -> Result<Panel, RenderError> {
+    /// All that was opened and the paths, on the part of the map about `part`, or on all of it; the title with what is printed.
+    fn searched(&self, part: &[[f64; 2]], printed: Option<&str>) -> Result<Panel, RenderError> {
         let number = |column: &str, decimals| ask::number(self.row, column, decimals);
         // Four digits behind the point: 14.6569 was printed as 14.65, and 14.66 would look like another number.
         let title = format!(
-            "{}: cost {}, turns {}°, opened {}",
+            "{}: {}{} cells, {}°, {} nodes opened",
             self.row.key.contender,
+            printed.map_or_else(String::new, |printed| format!("printed {printed}; ours ")),
             number("path_cost_cells", 4),
             number("turn_exterior_deg", 2),
             number("opened", 0)

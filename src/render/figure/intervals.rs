@@ -23,7 +23,7 @@ use study::paper::Paper;
 pub static ENTRY: Entry = Entry {
     name: "intervals",
     about: "shares solved, their differences from one group, or reductions, by problem group or contender, with intervals",
-    statistic: "Means over instances with 95 % bootstrap intervals; where all instances agree, the bar bounds one more. Reductions count trials that both solve; {n}.",
+    statistic: "Means over instances with 95 % bootstrap intervals; where all instances agree, the bar bounds one more; a reduction of nothing on every instance has none. Reductions count trials that both solve; {n}.",
     settings: Accepted::shape::<Read>(),
     example: r#"
 problems = ["cell"]
@@ -58,7 +58,7 @@ struct PanelSpec {
     /// What stands above it.
     #[serde(default)]
     title: String,
-    /// The metric of which reductions are shown; shares of solved queries if absent.
+    /// The metric whose reductions are shown; shares of solved queries if absent.
     metric: Option<String>,
     /// The problem groups of a reduction, taken together.
     #[serde(default)]
@@ -164,7 +164,8 @@ impl Intervals {
             let ends = found
                 .iter()
                 .filter_map(|(_, _, e)| e.as_ref())
-                .flat_map(|e| [e.interval.low, e.interval.high]);
+                .map(ask::bar)
+                .flat_map(|bar| [bar.low, bar.high]);
             return Ok(Axis::over("reduction (%)", ends.chain(what.printed.iter().copied()).chain([0.0])));
         }
         match &spec.against {
@@ -179,7 +180,8 @@ impl Intervals {
         let found = self.found(scene, index);
         let is_first = index.is_multiple_of(self.columns());
         let shown = names.iter().map(|name| if is_first { name.as_str() } else { "" });
-        let mut panel = Panel::new(&spec.title, self.axis(index, &found)?, Axis::names("", shown).reversed());
+        let title = titled(&spec.title, what, &found);
+        let mut panel = Panel::new(title, self.axis(index, &found)?, Axis::names("", shown).reversed());
         if spec.against.is_some() {
             let zero = vec![[0.0, -0.5], [0.0, names.len() as f64 - 0.5]];
             panel.add(Line::through(zero, Stroke::solid(INK, 0.6)));
@@ -188,9 +190,10 @@ impl Intervals {
             let Some(estimate) = estimate else { continue };
             let place = self.contenders.iter().position(|label| label == *contender).unwrap_or(0);
             let index = if self.is_by_group() { ask::series(scene, contender, place) } else { 0 };
+            let bar = if what.metric.is_some() { ask::bar(estimate) } else { estimate.interval };
             panel.add(Interval {
                 row: *at,
-                values: [estimate.interval.low, estimate.value, estimate.interval.high],
+                values: [bar.low, estimate.value, bar.high],
                 marker: series_marker(index),
                 color: series_color(index),
                 label: if self.is_by_group() { (*contender).clone() } else { String::new() },
@@ -203,6 +206,16 @@ impl Intervals {
 
     fn columns(&self) -> usize {
         self.read.columns.unwrap_or(self.read.panels.len())
+    }
+}
+
+/// The title of a panel; of reductions with the number of instances that they rest on, the least and the greatest of its rows.
+fn titled(title: &str, what: &What, found: &[(f64, &String, Option<Estimate>)]) -> String {
+    let units = || found.iter().filter_map(|(_, _, estimate)| Some(estimate.as_ref()?.units));
+    match (what.metric, units().min(), units().max()) {
+        (Some(_), Some(least), Some(most)) if least == most => format!("{title}, n = {least}"),
+        (Some(_), Some(least), Some(most)) => format!("{title}, n = {least} to {most}"),
+        _ => title.to_owned(),
     }
 }
 

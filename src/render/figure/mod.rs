@@ -6,7 +6,6 @@ mod arm_plane;
 mod ask;
 mod claims_by_choices;
 mod cost_over_time;
-mod endpoint_pairs;
 mod grid_search;
 mod instances;
 mod intervals;
@@ -106,7 +105,7 @@ pub struct CurveLine {
     pub is_printed: bool,
 }
 
-/// Trials of which a figure draws what was kept.
+/// Trials whose traces a figure draws.
 pub struct Shown<'a> {
     /// The problem group.
     pub problems: &'a str,
@@ -137,7 +136,7 @@ impl<'a> Shown<'a> {
     }
 }
 
-/// The problem groups of `study`, each with its instance, of which figures draw what was kept.
+/// The problem groups of `study`, each with its instance, whose traces figures draw.
 pub fn drawn(study: &Study, paper: &Paper) -> BTreeSet<(String, u32)> {
     let kinds = study.figures.iter().filter_map(|figure| build(figure, study, paper).ok());
     let shown = |kind: Box<dyn Kind>| -> Vec<(String, u32)> {
@@ -169,17 +168,19 @@ pub fn caption(spec: &FigureSpec, run: &Run<'_>, paper: &Paper, verdicts: &Verdi
     let own = build(spec, run.study, paper).ok().and_then(|kind| kind.statistic());
     let settings = spec.settings.as_ref().map(base::settings::Spanned::get_ref);
     let Trials { instances, solved, all } = trials(run, settings);
-    let n = format!("n = {instances} {}, {solved} of {all} trials solved", unit(run.study));
+    let unit = unit(run.study);
+    let n = format!("n = {instances} {unit}, {solved} of {all} trials solved");
     let interpretations = verdicts.explored.as_ref().map_or(0, |explored| explored.interpretations);
     let statistic = own.unwrap_or(entry.statistic);
     let statistic = statistic
+        .replace("instances", unit)
         .replace("{n}", &n)
         .replace("{interpretations}", &format!("n = {interpretations} interpretations"));
     format!("{} {statistic}", spec.caption)
 }
 
 /// The noun for the instances of `study`: that of its families if they agree.
-fn unit(study: &Study) -> &'static str {
+pub(crate) fn unit(study: &Study) -> &'static str {
     let nouns: BTreeSet<&str> = study.groups.iter().map(|group| group.family.instances).collect();
     match nouns.first() {
         Some(noun) if nouns.len() == 1 => noun,
@@ -192,7 +193,6 @@ pub static REGISTRY: &[&Entry] = &[
     &arm_plane::ENTRY,
     &claims_by_choices::ENTRY,
     &cost_over_time::ENTRY,
-    &endpoint_pairs::ENTRY,
     &grid_search::ENTRY,
     &instances::ENTRY,
     &intervals::ENTRY,

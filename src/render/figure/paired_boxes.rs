@@ -85,7 +85,7 @@ type ByQuery = Vec<(String, Vec<Spread>)>;
 type Savings = Vec<(String, Spread)>;
 
 impl PairedBoxes {
-    /// What is asked of the instances: every contender's metric on them, held against the first one's.
+    /// The question to the instances: every contender's metric on them, held against the first one's.
     fn selection<'s>(&self, scene: &Scene<'s>) -> Selection<'s> {
         let groups = std::slice::from_ref(&self.read.problems);
         Selection {
@@ -97,7 +97,7 @@ impl PairedBoxes {
         }
     }
 
-    /// What is shown of each query that is asked for.
+    /// What is shown of each query that is requested.
     fn values(&self, scene: &Scene<'_>) -> ByQuery {
         let mut values = spreads_by_query(&self.selection(scene), scene.evidence);
         values.retain(|(name, _)| self.read.queries.is_empty() || self.read.queries.contains(name));

@@ -253,7 +253,7 @@ fn paths(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, 
     let mut keys = Vec::new();
     let path = points(ask::trace(scene, &row.key, "path")?);
     let raw = scene.run.trace(&row.key, "raw_path").map(points);
-    // A path that was searched is told from the returned one only where straightening did something.
+    // A path that was searched differs from the returned one only where straightening did something.
     if let Some(raw) = raw.filter(|raw| (way(raw) - way(&path)).abs() > SEEN_CM) {
         let stroke = Stroke::solid(BLUE, 0.8);
         solids.polyline(raw, stroke);

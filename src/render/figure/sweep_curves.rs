@@ -4,7 +4,7 @@
 mod across;
 mod saving;
 
-use super::{CurveLine, Curves, Entry, Kind, Scene, ask};
+use super::{CurveLine, Curves, Entry, Kind, Scene, ask, unit};
 use crate::analysis::metric::Metric;
 use crate::analysis::shown;
 use crate::render::RenderError;
@@ -106,7 +106,7 @@ struct Read {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PrintedRatio {
-    /// Of which metric it is.
+    /// Its metric.
     metric: String,
     /// The ratio.
     ratio: f64,
@@ -256,13 +256,14 @@ impl SweepCurves {
             return Err(RenderError::NotStored { what });
         };
         let edges = self.over(&found.band).map(|(x, [low, high])| [x, *low, *high]).collect();
-        let label = format!("{}: mean of {} instances, 95 % band", row.contender, curves.instances.len());
+        let (count, unit) = (curves.instances.len(), unit(scene.run.study));
+        let label = format!("{}: mean of {count} {unit}, 95 % band", row.contender);
         panel.add(Band { edges, fill: Fill::sheer(series_color(index), 0.25), label: String::new() });
         let points = self.over(&found.mean).map(|(x, y)| [x, *y]).collect();
         panel.add(Line::through(points, series_stroke(index)).labelled(label));
         if let Some(range) = curves.one_more().filter(|_| !row.printed.is_empty()) {
             let edges = self.over(range).map(|(x, range)| [x, range.low, range.high]).collect();
-            let label = format!("{}: one more instance, 95 %", row.contender);
+            let label = format!("{}: one more {}, 95 %", row.contender, unit.trim_end_matches('s'));
             panel.add(Band { edges, fill: Fill::sheer(series_color(index), 0.1), label });
         }
         Ok(())
@@ -299,16 +300,20 @@ impl SweepCurves {
         let mut panel = self.panel(&row.contender)?;
         let thin = Stroke::solid(color.mixed(WHITE, 0.6), 0.35);
         for (instance, curve) in curves.instances.iter().take(DRAWN).enumerate() {
-            // Equal rows are moved apart by up to a point and a half, so that they can be told.
+            // Equal rows are moved apart by up to a point and a half, so that they can be seen.
             let shift = ((instance as f64 * 0.618_033_988_749_895).fract() - 0.5) * 3.0;
             let line = Line::through(
                 self.over(curve).map(|(x, y)| [x, (y + shift).clamp(0.0, 100.0)]).collect(),
                 thin,
             );
-            panel.add(line.labelled(if instance == 0 { "one roadmap (first 60)" } else { "" }));
+            let label = format!("one {} (first {DRAWN})", unit(scene.run.study).trim_end_matches('s'));
+            panel.add(line.labelled(if instance == 0 { label } else { String::new() }));
         }
         let means = self.over(curves.means()).map(|(x, y)| [x, y]).collect();
-        panel.add(Line::through(means, Stroke::solid(GREY, 1.8)).labelled("mean of all instances"));
+        panel.add(
+            Line::through(means, Stroke::solid(GREY, 1.8))
+                .labelled(format!("mean of all {}", unit(scene.run.study))),
+        );
         let printed = Points::unlabelled(row.printed.clone(), series_marker(0), 2.8, VERMILLION);
         panel.add(printed.labelled("printed"));
         Ok(panel)
@@ -364,7 +369,8 @@ impl Kind for SweepCurves {
             let curves = self.curves(scene, &row.contender);
             let found = curves.band(&["success_bands", &row.contender])?;
             let band = [0, 1].map(|end| found.band.iter().map(|ends| ends[end]).collect());
-            let label = format!("{}: mean of {} instances", row.contender, curves.instances.len());
+            let (count, unit) = (curves.instances.len(), unit(scene.run.study));
+            let label = format!("{}: mean of {count} {unit}", row.contender);
             let values = found.mean.into_iter().map(Some).collect();
             Some(CurveLine { label, of, values, band: Some(band), is_printed: false })
         };

@@ -1,11 +1,11 @@
 //! One metric against another, a point a contender: means over the same problems with intervals both ways, or every trial
 //! with the medians.
 
-use super::{Entry, Kind, Scene, ask};
+use super::{Entry, Kind, Scene, ask, unit};
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::Selection;
 use crate::analysis::shown::{change_percent, means_of_whole_instances, median_point};
-use crate::analysis::statistic::{Estimate, INTERVALS};
+use crate::analysis::statistic::{Estimate, Interval};
 use crate::render::RenderError;
 use crate::render::chart::labels::Labels;
 use crate::render::chart::marks::{Line, Points};
@@ -85,14 +85,17 @@ impl Ready {
             let of = move |(a, b): &(Estimate, Estimate)| [a.interval, b.interval][axis];
             points.iter().flatten().map(of).flat_map(|interval| [interval.low, interval.high])
         };
-        let title = format!("{}, {instances} maps", spec.title);
+        let title = format!("{}, {instances} {}", spec.title, unit(scene.run.study));
         let [x, y] = [0, 1].map(|axis| Axis::over(self.metrics[axis].title(), ends(axis)));
         let mut panel = Panel::new(title, x, y);
         for (contender, point) in self.read.contenders.iter().zip(&points) {
             let Some((a, b)) = point else { continue };
             let index = ask::place(scene, contender);
             let point = marked(vec![[a.value, b.value]], 3.0, index, 0.0);
-            panel.add(Line::through(cross(a, b), Stroke::solid(point.color, 0.9)));
+            panel.add(Line::through(
+                cross([a.value, b.value], [a.interval, b.interval]),
+                Stroke::solid(point.color, 0.9),
+            ));
             panel.add(point.labelled(contender));
         }
         panel
@@ -121,7 +124,7 @@ impl Ready {
         };
         let points: Vec<(String, Estimate, Estimate)> = others.filter_map(both).collect();
         let ends = |axis: usize| {
-            let of = move |(_, a, b): &(String, Estimate, Estimate)| [a.interval, b.interval][axis];
+            let of = move |(_, a, b): &(String, Estimate, Estimate)| ask::bar([a, b][axis]);
             points.iter().map(of).flat_map(|interval| [interval.low, interval.high]).chain([0.0])
         };
         let named = |axis: usize| format!("Change of {} (%)", self.metrics[axis].label.to_lowercase());
@@ -134,7 +137,7 @@ impl Ready {
         panel.add(marked(vec![[0.0, 0.0]], 3.0, ask::place(scene, base), 0.0));
         for (label, a, b) in &points {
             let point = marked(vec![[a.value, b.value]], 3.0, ask::place(scene, label), 0.0);
-            let line = cross(a, b);
+            let line = cross([a.value, b.value], [a, b].map(ask::bar));
             bars.extend([[line[0], line[1]], [line[3], line[4]]]);
             panel.add(Line::through(line, Stroke::solid(point.color, 0.9)));
             panel.add(Points { marker: Marker::Circle, ..point });
@@ -190,7 +193,7 @@ impl Kind for Ready {
         }
         if let Some(base) = &self.read.against {
             let note = format!(
-                "Changes of the mean against {base} over the maps that both solved, with 95 % intervals over pairs: {INTERVALS}."
+                "Changes of the mean against {base} over the maps that both solved, with 95 % intervals over pairs: bootstrap; what no map changes has none."
             );
             return sheet(190.0)
                 .noted(&note)
@@ -202,14 +205,8 @@ impl Kind for Ready {
 }
 
 /// Both intervals of a point, as a line with a gap.
-fn cross(a: &Estimate, b: &Estimate) -> Vec<[f64; 2]> {
-    vec![
-        [a.interval.low, b.value],
-        [a.interval.high, b.value],
-        [f64::NAN, f64::NAN],
-        [a.value, b.interval.low],
-        [a.value, b.interval.high],
-    ]
+fn cross([x, y]: [f64; 2], [along_x, along_y]: [Interval; 2]) -> Vec<[f64; 2]> {
+    vec![[along_x.low, y], [along_x.high, y], [f64::NAN, f64::NAN], [x, along_y.low], [x, along_y.high]]
 }
 
 /// The title with who fails: failures are at infinity and show nowhere else.

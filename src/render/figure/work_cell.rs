@@ -1,6 +1,6 @@
 //! A work cell from two sides: its robot at several poses, or the ways of its tool.
 
-use super::{Entry, Kind, Scene, Shown, ask};
+use super::{Entry, Kind, Scene, Shown, ask, unit};
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::{Key, Panel, Sheet, axis};
@@ -275,7 +275,7 @@ impl WorkCell {
         let row = ask::trial(scene, &self.problems, number, Some(&self.query), contender)?;
         let stops =
             ask::trace(scene, &row.key, "trajectory").or_else(|_| ask::trace(scene, &row.key, "way_mm"))?;
-        // The tip is the last of what is said of each stop.
+        // The tip is the last of the numbers of each stop.
         let points: Vec<[f64; 3]> = stops
             .values
             .chunks(stops.width)
@@ -304,9 +304,10 @@ impl WorkCell {
         let savings = ask::savings(scene, &self.problems, &self.query, &self.contenders);
         let (own, rank) = savings.rank(instance)?;
         Some(format!(
-            "saving {own:.1} %: {} of {} roadmaps save less, the median saves {:.1} %",
+            "saving {own:.1} %: {} of {} {} save less, the median saves {:.1} %",
             rank.below,
             rank.instances(),
+            unit(scene.run.study),
             savings.median?
         ))
     }

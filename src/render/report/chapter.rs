@@ -1,6 +1,7 @@
 //! A paper's chapter: what was found, its tables beside ours, figures, and claims that lead to their evidence.
 
-use super::{SECTIONS, Undrawn, anchor, begin_of_row, item, link, linked, paper_statement, paragraph, place};
+use super::replies::replies;
+use super::{SECTIONS, Undrawn, anchor, begin_of_row, item, link, linked, paragraph, place};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::{ClaimVerdict, Verdicts};
 use crate::analysis::verdict_rule::Column;
@@ -34,7 +35,7 @@ pub struct Page<'a> {
     pub plots: String,
     /// Figures that are missing there.
     pub undrawn: &'a [Undrawn],
-    /// Files there of which the report speaks: what an independent judge said of robots, scenes and paths.
+    /// Files there that the report links to: an independent judge's report on robots, scenes and paths.
     pub beside: Vec<&'static str>,
 }
 
@@ -85,6 +86,7 @@ impl Page<'_> {
             text += &(wrapped("", &findings.join(" "), 0, COLUMNS) + "\n\n");
         }
         self.headlines(&mut text);
+        text += &replies(self.verdicts, &self.details_file());
         self.tables(&mut text)?;
         self.figures(&mut text);
         self.claims(&mut text);
@@ -115,9 +117,9 @@ impl Page<'_> {
         text
     }
 
-    /// The headline claims: what the paper says, ours, and the verdict.
+    /// The headline claims, a line each: where the paper says it, ours, and the verdict.
     fn headlines(&self, text: &mut String) {
-        *text += "| claim | in the paper | ours | verdict |\n|---|---|---|---|\n";
+        *text += "| claim | at | ours | verdict |\n|---|---|---|---|\n";
         let details = self.details_file();
         for headline in headlines(self.evidence.paper, self.verdicts) {
             let verdict = headline.verdict();
@@ -125,8 +127,7 @@ impl Page<'_> {
             let says = link(judged, &markdown(&says), &details);
             let n = judged.ours().map_or_else(String::new, |ours| format!("; n = {}", ours.n));
             let ours = ours.map_or_else(|| "–".to_owned(), |ours| markdown(&(ours + &n)));
-            let stated = markdown(&format!("{}: {}", judged.at, paper_statement(judged)));
-            *text += &format!("| {says} | {stated} | {ours} | {} |\n", markdown(&verdict));
+            *text += &format!("| {says} | {} | {ours} | {} |\n", markdown(&judged.at), markdown(&verdict));
         }
         *text += "\n";
     }

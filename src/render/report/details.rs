@@ -1,21 +1,22 @@
 //! The details of a chapter: the evidence on each claim under an anchor, what holds together, interpretations, the inventory, studies. What two
-//! claims have in common is said once.
+//! claims have in common stands once.
 
 use super::chapter::Page;
 use super::interpretations::across_lines;
 use super::{SECTIONS, anchor, item, linked, links, paper_statement, paragraph, place};
+use crate::analysis::citation::version_in;
 use crate::analysis::verdict::{ClaimVerdict, CriterionFinding, Together, Verdicts};
 use crate::render::prose::{COLUMNS, markdown, wrapped};
 use crate::render::results;
 use crate::render::tables::{self, short};
 use std::collections::{BTreeMap, BTreeSet};
-use study::paper::{InventoryRow, cells_named};
+use study::paper::{InventoryRow, Paper, cells_named};
 use study::record::Status;
 use study::recorded_mark;
 
 /// How many sets of claims that hold together are listed with those that fail.
 const LISTED_SETS: usize = 5;
-/// What is shorter than this is said again where it holds again.
+/// What is shorter than this is repeated where it holds again.
 const SHORT: usize = 60;
 
 impl Page<'_> {
@@ -33,7 +34,7 @@ impl Page<'_> {
         text.extend(paper.source.notes.iter().map(|note| item(0, &markdown(note))));
         section(&mut text, 0);
         let mut known = BTreeMap::new();
-        text.extend(verdicts.claims.iter().map(|judged| evidence(judged, verdicts, &mut known)));
+        text.extend(verdicts.claims.iter().map(|judged| evidence(judged, paper, verdicts, &mut known)));
         section(&mut text, 1);
         self.together(&mut text);
         section(&mut text, 2);
@@ -240,9 +241,10 @@ fn together(set: &Together, with_fail: bool) -> String {
     text
 }
 
-/// What was found about one claim; `known` has the claims that said something first.
+/// What was found about one claim; `known` has the claims that stated something first.
 fn evidence<'a>(
     judged: &'a ClaimVerdict,
+    paper: &Paper,
     verdicts: &Verdicts,
     known: &mut BTreeMap<String, &'a str>,
 ) -> String {
@@ -256,7 +258,10 @@ fn evidence<'a>(
     if judged.changed().is_some() {
         about += ". [Changed after a run](#changes)";
     }
+    let version = version_in(paper, verdicts, judged);
+    about += &version.map_or_else(String::new, |version| format!(". Version `{version}`"));
     text += &(wrapped("", &about, 0, COLUMNS) + ".\n\n");
+    text.extend(verdicts.replies_to(&judged.claim).map(|reply| item(0, &markdown(&reply.line()))));
     let theorem = judged.theorem.iter().map(|theorem| format!("it must hold: {}", markdown(theorem)));
     let findings =
         judged.findings.iter().flat_map(|finding| finding_lines(finding, verdicts, known, &judged.claim));

@@ -1,4 +1,4 @@
-//! What interpretations do, as details show it: which vote and by what, which claims each moves.
+//! What interpretations do, as details show it: which vote and on what ground, which claims each moves.
 
 use super::chapter::Page;
 use super::{item, links, paragraph};
@@ -76,7 +76,7 @@ impl Page<'_> {
     }
 }
 
-/// Which options vote and by what, and which are probes.
+/// Which options vote and on what ground, and which are probes.
 fn votes(choice: &Choice) -> Vec<String> {
     let source = |name: &str, option: &OptionSpec| {
         let bounds = choice.bounds.as_ref().filter(|_| option.value.is_some());

@@ -39,7 +39,7 @@ pub(super) struct Item {
 /// How many faces are tried as cutting planes.
 const TRIES: usize = 24;
 
-/// `items` so that nothing is followed by what lies behind it, as seen from the direction `eye`.
+/// `items` so that nothing is followed by things that lie behind it, as seen from the direction `eye`.
 /// Points closer than `slack` to a plane count as lying in it.
 pub(super) fn back_to_front(items: Vec<Item>, eye: Vec3, slack: f64) -> Vec<Item> {
     let mut sorted = Vec::with_capacity(items.len());

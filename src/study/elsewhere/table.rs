@@ -2,10 +2,12 @@
 
 use crate::error::StudyError;
 use crate::parquet::FrameReader;
+use crate::store::{UNREADABLE, unpanicked};
 use base::hash::sha256;
 use base::text::decoded;
-use polars::prelude::{AnyValue, DataType};
+use polars::prelude::{AnyValue, PolarsError};
 use std::io::Cursor;
+use std::panic::AssertUnwindSafe;
 use std::path::{Path, PathBuf};
 
 /// Texts under heads.
@@ -17,13 +19,22 @@ pub struct Table {
     pub(super) unit: &'static str,
     /// The heads.
     pub(super) heads: Vec<String>,
+    /// The heads of columns whose cells are neither texts nor numbers nor booleans.
+    others: Vec<String>,
     /// The rows, each with its number in the file.
     pub(super) rows: Vec<(usize, Vec<String>)>,
 }
 
 impl Table {
     pub(super) fn new(path: &Path, bytes: &[u8], unit: &'static str) -> Self {
-        Self { path: path.to_owned(), hash: sha256(bytes), unit, heads: Vec::new(), rows: Vec::new() }
+        Self {
+            path: path.to_owned(),
+            hash: sha256(bytes),
+            unit,
+            heads: Vec::new(),
+            others: Vec::new(),
+            rows: Vec::new(),
+        }
     }
 
     /// The table in the file at `path`, comma-separated values under a line of heads.
@@ -53,29 +64,42 @@ impl Table {
         table.checked()
     }
 
-    /// The table in the Parquet file at `path`; of lists nothing is read.
+    /// The table in the Parquet file at `path`: its columns of texts, numbers and booleans.
     ///
     /// # Errors
     /// A file that cannot be read.
     pub fn read_parquet(path: &Path) -> Result<Self, StudyError> {
         let bytes = bytes(path)?;
         let mut table = Self::new(path, &bytes, "row");
-        let read = || FrameReader::open(Cursor::new(bytes))?.frame();
-        let frame =
-            read().map_err(|error| table.error(&format!("is no Parquet file that can be read ({error})")))?;
-        let plain = frame.columns().iter().filter(|column| !matches!(column.dtype(), DataType::List(_)));
-        let plain: Vec<_> = plain.collect();
-        table.heads = plain.iter().map(|column| column.name().to_string()).collect();
+        let read = || {
+            let mut reader = FrameReader::open(Cursor::new(bytes))?;
+            let others = reader.leave_out_others();
+            Ok::<_, PolarsError>((reader.frame()?, others))
+        };
+        let frame = match unpanicked(AssertUnwindSafe(read)) {
+            Some(Ok((frame, others))) => {
+                table.others = others;
+                frame
+            }
+            Some(Err(error)) => {
+                let packed = "columns packed by gzip, snappy, zstd or not at all are accepted";
+                return Err(table.error(&format!("{UNREADABLE} ({error}); {packed}")));
+            }
+            None => return Err(table.error(&format!("{UNREADABLE}: its lengths do not fit"))),
+        };
+        table.heads = frame.columns().iter().map(|column| column.name().to_string()).collect();
         let cell = |row: usize| {
-            move |column: &&polars::prelude::Column| match column.get(row) {
+            move |column: &polars::prelude::Column| match column.get(row) {
                 Ok(AnyValue::Null) | Err(_) => String::new(),
                 Ok(AnyValue::String(text)) => text.to_owned(),
+                Ok(AnyValue::Float32(real)) => real.to_string(),
                 Ok(AnyValue::Float64(real)) => real.to_string(),
                 Ok(other) => other.to_string(),
             }
         };
-        table.rows =
-            (0..frame.height()).map(|row| (row + 1, plain.iter().map(cell(row)).collect())).collect();
+        table.rows = (0..frame.height())
+            .map(|row| (row + 1, frame.columns().iter().map(cell(row)).collect()))
+            .collect();
         table.checked()
     }
 
@@ -92,6 +116,9 @@ impl Table {
         match (found.next(), found.next()) {
             (Some(place), None) => Ok(place),
             (Some(_), Some(_)) => Err(self.error(&format!("has two columns `{head}`"))),
+            (None, _) if self.others.iter().any(|other| other == head) => {
+                Err(self.error(&format!("column `{head}` holds neither texts nor numbers nor booleans")))
+            }
             (None, _) => {
                 let known = self.heads.iter().map(String::as_str);
                 Err(self.error(&base::settings::none_called("column", head, known)))

@@ -291,6 +291,10 @@ impl Family for Posed {
     fn draws_ends(&self) -> bool {
         self.ends.as_ref().is_some_and(Ends::are_drawn)
     }
+
+    fn cells(&self) -> u64 {
+        self.rules.lattice.size().into_iter().map(u64::from).product()
+    }
 }
 
 #[cfg(test)]

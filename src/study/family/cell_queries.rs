@@ -7,7 +7,7 @@ pub use groups::GROUPS_FILE;
 
 use super::drawn_scene::DrawnScene;
 use super::ends::{Ends, SpaceLimits, is_within};
-use super::input::{input, load_robot, load_scene};
+use super::input::{UNUSED_SRDF, input, load_robot, load_scene};
 use super::{ArmPlacement, Entry, Family, Query};
 use crate::preprocessing::Preprocessing;
 use crate::preprocessing::nested_roadmap::{self, Neighbours};
@@ -79,6 +79,8 @@ struct CellQueries {
     /// What is laid over the robot file: elements of lists go by their number from 0 or their `name`.
     #[schemars(with = "Option<AnyTable>")]
     robot_with: Option<Table>,
+    /// The SRDF file that says which links of a URDF robot may touch each other.
+    srdf: Option<String>,
     /// The scene file; with a table `[drawn]`, a scene is drawn with each instance, in which nothing stands in anything else and the
     /// arm can stand at every written start and goal.
     scene: String,
@@ -259,8 +261,13 @@ impl CellQueries {
     }
 
     /// The robot in `file`, with the tool that is asked for.
-    fn robot(&self, settings: &Settings, file: &Path) -> Result<Robot, SettingsError> {
-        let robot = load_robot(settings, file, self.robot_with.as_ref())?;
+    fn robot(&self, settings: &Settings, inputs: &Inputs, file: &Path) -> Result<Robot, SettingsError> {
+        if self.srdf.is_some() && !self.self_collision {
+            return Err(settings.error_at("srdf", UNUSED_SRDF));
+        }
+        let locate = |name| inputs.locate(name).map_err(|message| settings.error_at("srdf", message));
+        let srdf = self.srdf.as_deref().map(locate).transpose()?;
+        let robot = load_robot(settings, file, self.robot_with.as_ref(), srdf.as_deref())?;
         let Some(tool_mm) = self.tool_mm else { return Ok(robot) };
         robot
             .with_tool_length(tool_mm * 1e-3)
@@ -313,8 +320,8 @@ impl Posed {
         let radius_mm = radius_mm.map(|radius_mm| radius_mm * read.times());
         let near = Neighbours { radius_mm, radius_deg, nearest }.rule(settings)?;
         let mut faults = Faults::default();
-        let robot =
-            faults.keep(input(settings, inputs, "robot", &read.robot, |file| read.robot(settings, file)));
+        let robot = faults
+            .keep(input(settings, inputs, "robot", &read.robot, |file| read.robot(settings, inputs, file)));
         let scene = faults.keep(input(settings, inputs, "scene", &read.scene, |file| {
             load_scene(settings, file, read.scene_with.as_ref(), |document| {
                 let drawn = DrawnScene::read(document)?;

@@ -98,6 +98,13 @@ impl Place {
         }
     }
 
+    /// The same within the least and the greatest of these rows, where it is drawn; `None` if no row is left.
+    pub(super) fn in_rows(self, rows: [f64; 2]) -> Option<Self> {
+        let Self::Within(mut limits) = self else { return Some(self) };
+        limits[1] = [limits[1][0].max(rows[0]), limits[1][1].min(rows[1])];
+        (limits[1][0] <= limits[1][1]).then_some(Self::Within(limits))
+    }
+
     /// The point, if no other can be drawn.
     fn only(&self) -> Option<Vec<f64>> {
         match self {

@@ -81,9 +81,7 @@ pub trait Family: Send + Sync {
     }
 
     /// About how many cells, samples or the like an instance is made of.
-    fn cells(&self) -> u64 {
-        1
-    }
+    fn cells(&self) -> u64;
 
     /// How large its roadmaps are, if it poses problems on roadmaps.
     fn extent(&self) -> Option<Extent> {

@@ -47,7 +47,7 @@ corner_rule = "allow"
         }
         faults.done()?;
         let size = [map.grid.width(), map.grid.height()];
-        let ends = ends_on(settings, size, vertices, [&read.start, &read.goal], read.queries)?;
+        let ends = ends_on(settings, size, vertices, [&read.start, &read.goal], read.queries, 0)?;
         Ok::<Box<dyn Family>, StudyError>(Box::new(Posed { world, map, ends }))
     },
 };

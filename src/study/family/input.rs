@@ -9,6 +9,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use toml::Table;
 
+/// Why an SRDF file is refused that nothing looks at.
+pub(super) const UNUSED_SRDF: &str =
+    "srdf says which links may touch, and self_collision is false; true is accepted";
+
 /// Where the file is that the settings call `name` at `key`, and what `read` makes of it.
 ///
 /// # Errors
@@ -25,7 +29,8 @@ pub(super) fn input<T>(
     Ok((file, value))
 }
 
-/// The robot in `file`, which the settings name at `robot`, with what they have under `robot_with` laid over the file.
+/// The robot in `file`, which the settings name at `robot`, with what they have under `robot_with` laid over the file, and with
+/// what the SRDF file that they name at `srdf` says.
 ///
 /// # Errors
 /// What is wrong in the file, at its place there; what has no place there or is laid over it, at the key.
@@ -33,10 +38,18 @@ pub(super) fn load_robot(
     settings: &Settings,
     file: &Path,
     with: Option<&Table>,
+    srdf: Option<&Path>,
 ) -> Result<Robot, SettingsError> {
-    let loaded = match with {
-        None => Robot::load(file),
-        Some(with) => Robot::parse(overlaid(settings, ROBOT_WITH, with, file)?.text(), file),
+    let loaded = match (with, srdf) {
+        (None, None) => Robot::load(file),
+        (None, Some(srdf)) if file.extension().is_some_and(|end| end == "urdf") => {
+            Robot::load_with_srdf(file, srdf)
+        }
+        (_, Some(_)) => {
+            let message = "srdf is given, and the robot is no URDF file as it is; such a file without robot_with is accepted";
+            return Err(settings.error_at("srdf", message));
+        }
+        (Some(with), None) => Robot::parse(overlaid(settings, ROBOT_WITH, with, file)?.text(), file),
     };
     loaded.map_err(|error| match error {
         KinematicsError::File(fault) if with.is_some() => settings.error_at(ROBOT_WITH, fault.message()),

@@ -3,7 +3,7 @@
 mod picture;
 
 use super::ends::{Ends, SpaceLimits, is_within};
-use super::input::input;
+use super::input::{UNUSED_SRDF, input};
 use super::{ArmPlacement, Entry, Family, Query};
 use crate::preprocessing::Preprocessing;
 use crate::preprocessing::nested_roadmap::{self, Neighbours};
@@ -164,8 +164,7 @@ impl JointQueries {
             return Ok((None, if self.self_collision { SelfContact::Apart } else { SelfContact::Unchecked }));
         };
         if !self.self_collision {
-            let message = "srdf says which links may touch, and self_collision is false; true is accepted";
-            return Err(settings.error_at("srdf", message));
+            return Err(settings.error_at("srdf", UNUSED_SRDF));
         }
         let (file, may_touch) = input(settings, inputs, "srdf", srdf, |file| read_srdf(file, robot))?;
         Ok((Some(file), SelfContact::Except(may_touch)))
@@ -302,6 +301,10 @@ impl Family for Posed {
 
     fn check_ends(&self) -> Result<(), SettingsError> {
         self.ends.clone()
+    }
+
+    fn cells(&self) -> u64 {
+        u64::from(self.read.samples)
     }
 
     fn extent(&self) -> Option<Extent> {

@@ -180,8 +180,10 @@ impl SceneSettings {
                 return Err(settings.error_at(given, "robot and body are given together or not at all"));
             }
         };
-        input(settings, inputs, "robot", robot, |file| load_robot(settings, file, self.robot_with.as_ref()))
-            .map(Some)
+        input(settings, inputs, "robot", robot, |file| {
+            load_robot(settings, file, self.robot_with.as_ref(), None)
+        })
+        .map(Some)
     }
 }
 
@@ -257,6 +259,10 @@ impl Family for Posed {
             goal: self.near(&mut stream, &query.goal, radius),
         };
         self.queries.iter().map(&mut drawn).collect()
+    }
+
+    fn cells(&self) -> u64 {
+        self.world.grid().node_count() as u64
     }
 
     fn stance(&self, q_rad: &[f64]) -> Option<ArmPlacement> {

@@ -32,7 +32,19 @@ settings!(RandomCells {
     border_cells: Option<u32>,
     /// What the border is to the share; `spared` if absent.
     border: Option<BorderSetting>,
+    /// The rows that a start or goal that is drawn may lie in; `all` if absent.
+    end_rows: Option<EndRows>,
 });
+
+/// The rows that a start or goal that is drawn may lie in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum EndRows {
+    /// Those of the border too.
+    All,
+    /// Those inside the border.
+    Inside,
+}
 
 /// How cells are blocked.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -135,6 +147,10 @@ impl Obstacles for RandomCells {
         0
     }
 
+    fn rows_off(&self) -> u32 {
+        self.border_cells.filter(|_| self.end_rows == Some(EndRows::Inside)).unwrap_or(0)
+    }
+
     fn check(&self, settings: &Settings) -> Result<(), SettingsError> {
         let mut faults = Faults::default();
         faults.keep(self.check_border(settings));
@@ -153,10 +169,10 @@ mod tests {
     use crate::family::Family;
 
     fn build(more: &str) -> Result<Box<dyn Family>, String> {
-        let table = format!(
-            "size_cells = [30, 20]\nstart = [0, 0]\ngoal = {{ x = 29 }}\ncorner_rule = 'allow'\n{more}"
-        );
-        let settings = Settings::composed("a test", toml::from_str(&table).unwrap());
+        let table = format!("size_cells = [30, 20]\ngoal = {{ x = 29 }}\ncorner_rule = 'allow'\n{more}");
+        let mut table: toml::Table = toml::from_str(&table).unwrap();
+        table.entry("start").or_insert_with(|| toml::Value::from(vec![0, 0]));
+        let settings = Settings::composed("a test", table);
         (ENTRY.build)(&settings, &Inputs { roots: Vec::new() }).map_err(|e| e.to_string())
     }
 
@@ -204,6 +220,12 @@ mod tests {
         assert!(
             build("blocked_share = 0.7\nborder_cells = 2\nborder = 'counted'\nblocking = 'draws'").is_ok()
         );
+        // Draws that hit a cell again block less than their share: no number of them blocks every cell.
+        let error = build("blocked_share = 1.2\nblocking = 'draws'").err().unwrap_or_default();
+        assert!(error.contains("blocked_share is 1.2; 0 to below 1 is accepted"), "{error}");
+        let error = build("blocked_share = 0.1\nborder_cells = 9\nend_rows = 'inside'\nstart = { y = 2 }");
+        let error = error.err().unwrap_or_default();
+        assert!(error.contains("start has no row left inside the border"), "{error}");
         let at_corners =
             "size_cells = 3\nstart = [0, 0]\ngoal = [3, 4]\nblocked_share = 0.1\nvertices = 'corners'\n";
         let table = toml::from_str(&format!("{at_corners}corner_rule = 'forbid_any'")).unwrap();
@@ -215,6 +237,19 @@ mod tests {
         ] {
             assert!(error.contains(message), "{error}\nlacks\n{message}");
         }
+    }
+
+    #[test]
+    fn a_goal_inside_the_border_lies_in_no_row_of_it() {
+        let rows = |more: &str| {
+            let at_corners = "blocked_share = 0.2\nborder_cells = 4\nvertices = 'corners'";
+            let family = build(&format!("{at_corners}\n{more}")).unwrap();
+            let row = |seed: u64| family.queries_for(seed).remove(0).goal[1] as u32;
+            let rows: std::collections::BTreeSet<u32> = (0..200).map(row).collect();
+            [rows.first().copied(), rows.last().copied()]
+        };
+        assert_eq!(rows(""), [Some(0), Some(20)]);
+        assert_eq!(rows("end_rows = 'inside'"), [Some(4), Some(15)]);
     }
 
     #[test]

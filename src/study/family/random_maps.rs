@@ -52,6 +52,11 @@ pub(super) trait Obstacles: Framed {
     fn blocked(&self) -> u64;
 
     fn check(&self, settings: &Settings) -> Result<(), SettingsError>;
+
+    /// How many rows along each side a start or goal that is drawn keeps off.
+    fn rows_off(&self) -> u32 {
+        0
+    }
 }
 
 /// What maps of all kinds have.
@@ -135,16 +140,17 @@ pub(super) fn check_range(
     Err(settings.error_at(key, message))
 }
 
-/// Where queries on a map of this size start and end.
+/// Where queries on a map of this size start and end; those that are drawn keep off so many rows along each side.
 ///
 /// # Errors
-/// Ends and limits outside the map; those of [`Ends::new`].
+/// Ends and limits outside the map; limits that leave no row; those of [`Ends::new`].
 pub(super) fn ends_on(
     settings: &Settings,
     size_cells: [u32; 2],
     vertices: Vertices,
     [start, goal]: [&PlaneEnd<u32>; 2],
     queries: Option<NonZeroU32>,
+    rows_off: u32,
 ) -> Result<Ends, SettingsError> {
     let (more, all) = if vertices == Vertices::Corners { (1, "corners") } else { (0, "cells") };
     let [width, height] = size_cells.map(|side| side + more);
@@ -158,7 +164,11 @@ pub(super) fn ends_on(
         };
         faults.keep(match end {
             PlaneEnd::Written([x, y]) if *x >= width || *y >= height => Err(outside(x, y)),
-            end => end.place(settings, key, plane),
+            end => end.place(settings, key, plane).and_then(|place| {
+                let rows = [f64::from(rows_off), f64::from(size_cells[1]) - 1.0 - f64::from(rows_off)];
+                let nowhere = || settings.error_at(key, format!("{key} has no row left inside the border"));
+                if rows_off == 0 { Ok(place) } else { place.in_rows(rows).ok_or_else(nowhere) }
+            }),
         })
     });
     let (start, goal) = faults.or(start.zip(goal))?;
@@ -189,9 +199,10 @@ impl<O: Obstacles> RandomMaps<O> {
         let empty = Grid2::new(size_cells[0], size_cells[1])
             .map_err(|e| settings.error_at("size_cells", format!("size_cells: {e}")));
         let empty = faults.keep(empty);
-        let ends = empty
-            .as_ref()
-            .and_then(|_| faults.keep(ends_on(settings, size_cells, vertices, [start, goal], queries)));
+        let ends = empty.as_ref().and_then(|_| {
+            let ends = [start, goal];
+            faults.keep(ends_on(settings, size_cells, vertices, ends, queries, read.rows_off()))
+        });
         let (empty, ends) = faults.or(empty.zip(ends))?;
         // The last column and row of corners belong to the cells before them.
         let within = |at: f64, side: u32| (at as i32).min(side as i32 - 1);

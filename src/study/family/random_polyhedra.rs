@@ -264,6 +264,11 @@ impl Family for Drawn {
         &self.written
     }
 
+    fn cells(&self) -> u64 {
+        let nodes = (self.read.side_cm / self.read.step_cm + 1e-9).floor() + 1.0;
+        (nodes * nodes * nodes) as u64
+    }
+
     fn queries_for(&self, seed: u64) -> Vec<Query> {
         let Some(drawn) = self.read.drawn else { return self.written.clone() };
         // An environment that cannot be drawn is refused by `prepare`, with the reason; its query is never planned.

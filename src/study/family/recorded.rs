@@ -58,6 +58,10 @@ impl Family for Posed {
         &self.queries
     }
 
+    fn cells(&self) -> u64 {
+        2
+    }
+
     fn notes(&self) -> Vec<String> {
         vec![format!("an instance is a {} that others drew; trials were recorded elsewhere", self.unit)]
     }

@@ -102,7 +102,12 @@ impl Paper {
     }
 
     /// Every claim that is named exists, and so does some cell of a name that stands for several.
-    fn check_named(&self, names: &[Spanned<String>], claims: &BTreeSet<&str>, faults: &mut Faults) {
+    pub(super) fn check_named(
+        &self,
+        names: &[Spanned<String>],
+        claims: &BTreeSet<&str>,
+        faults: &mut Faults,
+    ) {
         let is_some = |name: &&Spanned<String>| {
             cells_named(name.get_ref(), &self.cells).iter().any(|id| id != name.get_ref())
         };

@@ -185,14 +185,6 @@ impl Planner for External {
         Ok(Plan { ending, path: talk.path, cost, counts, traces, reason })
     }
 
-    fn is_optimal(&self) -> bool {
-        false
-    }
-
-    fn is_complete(&self) -> bool {
-        false
-    }
-
     fn draws(&self) -> bool {
         true
     }

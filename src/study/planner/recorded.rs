@@ -55,14 +55,6 @@ impl Planner for Recorded {
         })
     }
 
-    fn is_optimal(&self) -> bool {
-        false
-    }
-
-    fn is_complete(&self) -> bool {
-        false
-    }
-
     fn draws(&self) -> bool {
         true
     }

@@ -13,13 +13,16 @@ mod traces;
 pub use journal::{Journal, journal_units};
 pub use pick::KeptTraces;
 pub use read::quoted;
+pub(crate) use read::{UNREADABLE, unpanicked};
 pub use traces::{GROUP_VALUES, TraceReader};
 
 use self::read::{Instances, Stored};
 use self::traces::TraceWriter;
+use super::column;
 use super::error::{REMEDY, StudyError};
 use super::key::{KeyColumns, SweepKey};
-use super::record::{Batch, Kept, Timing};
+use super::parquet::FrameReader;
+use super::record::{Batch, Kept, Row, Timing};
 use base::file::check_own;
 use base::hash::{Hasher, sha256};
 use std::collections::BTreeMap;
@@ -134,6 +137,22 @@ pub fn read_numbers(
     hashes: &BTreeMap<String, String>,
 ) -> Result<Records, StudyError> {
     read_parts(folder, study, hashes, false)
+}
+
+/// The trials of `study` in `folder` without their numbers, if every part of its records has its hash in `hashes`.
+///
+/// # Errors
+/// As [`read_records`].
+pub fn read_endings(
+    folder: &Path,
+    study: &str,
+    hashes: &BTreeMap<String, String>,
+) -> Result<Vec<Row>, StudyError> {
+    check_records(folder, study, hashes)?;
+    let path = part_path(folder, study, "trials");
+    let file = fs::File::open(&path).map_err(StudyError::io(&path, "opening the file"))?;
+    let read = || FrameReader::open(file)?.columns(|name| column::find(name).is_none());
+    Stored::read_by(path, read)?.guarded(|file| file.trials(&mut Instances::default()))
 }
 
 fn read_parts(
@@ -369,6 +388,7 @@ impl Staged {
         let mut name = path.file_name().unwrap_or_default().to_owned();
         name.push(format!(".{}{TEMPORARY}", std::process::id()));
         let temporary = folder.join(name);
+        remove_litter(path);
         self.files.push((temporary.clone(), path.to_owned()));
         // What was planted under the temporary name is replaced, not written through.
         let _ = fs::remove_file(&temporary);
@@ -438,6 +458,19 @@ pub fn write_first(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
     match linked {
         Err(error) if error.kind() == ErrorKind::AlreadyExists => Ok(()),
         other => other.map_err(StudyError::io(path, "writing the file")),
+    }
+}
+
+/// Removes what commands that were killed left half-written beside `path`: their processes live no more.
+fn remove_litter(path: &Path) {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let begin = format!("{}.", path.file_name().unwrap_or_default().to_string_lossy());
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let process = name.strip_prefix(&begin).and_then(|rest| rest.strip_suffix(TEMPORARY)?.parse().ok());
+        if process.is_some_and(|process| !external::is_living(process)) {
+            let _ = fs::remove_file(entry.path());
+        }
     }
 }
 

@@ -144,7 +144,7 @@ impl Task for FormulaError {
     }
 
     fn run(&self, unit: &Unit<'_>) -> Batch {
-        let mut row = super::variant_row(unit, LABEL);
+        let mut row = super::labelled_row(unit, LABEL);
         let preprocessing = unit.family.prepare(unit.seed);
         // Stored units are known by what was prepared for them: without this row every run would measure anew.
         let preprocessing_row = super::preprocessing_row(unit, preprocessing.as_ref());

@@ -1,8 +1,6 @@
 //! Tasks: what a study does with its problems and contenders; one a file, all in [`REGISTRY`].
 
 mod formula_error;
-mod identify_endpoints;
-mod null_rate;
 mod plan;
 
 use super::key::{SweepKey, TrialKey};
@@ -11,7 +9,6 @@ use super::record::{Batch, PreprocessingRow, Row, Status, Values};
 use super::unit::Unit;
 use base::settings::{Accepted, Settings, SettingsError};
 use engine::planner::{Invalid, Value};
-use engine::space::ArmRules;
 
 /// A task with its settings.
 pub trait Task: Send + Sync {
@@ -31,8 +28,7 @@ pub trait Task: Send + Sync {
 
     /// What names the unit's trials, in the order of records: one a query, entrant and repeat, or one a label of the task's own.
     fn trials(&self, unit: &Unit<'_>) -> Vec<TrialKey> {
-        let mut trials: Vec<TrialKey> =
-            self.labels().iter().map(|label| variant_key(unit, label, 0)).collect();
+        let mut trials: Vec<TrialKey> = self.labels().iter().map(|label| key(unit, label)).collect();
         if !trials.is_empty() {
             return trials;
         }
@@ -67,8 +63,7 @@ pub struct Entry {
 }
 
 /// Every task, in the order of their names.
-pub static REGISTRY: &[&Entry] =
-    &[&formula_error::ENTRY, &identify_endpoints::ENTRY, &null_rate::ENTRY, &plan::ENTRY];
+pub static REGISTRY: &[&Entry] = &[&formula_error::ENTRY, &plan::ENTRY];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {
@@ -98,38 +93,19 @@ fn named<'a>(values: impl IntoIterator<Item = (&'a &'static str, &'a Value)>) ->
     values.into_iter().map(|(name, value)| (*name, *value)).collect()
 }
 
-/// What names what a unit gives for the variant called `label`: its own row, or one of its findings, counted from 1.
-fn variant_key(unit: &Unit<'_>, label: &str, finding: u32) -> TrialKey {
+/// The key of the row that stands under `label`.
+fn key(unit: &Unit<'_>, label: &str) -> TrialKey {
     let on = unit.key.clone();
-    let sweep = SweepKey::default();
-    TrialKey { on, query: None, contender: label.into(), sweep, repeat: finding }
+    TrialKey { on, query: None, contender: label.into(), sweep: SweepKey::default(), repeat: 0 }
 }
 
-/// A row without values about the variant called `label`, which stands where a contender does.
-fn variant_row(unit: &Unit<'_>, label: &str) -> Row {
+/// A row without values that stands under `label`, where a contender does.
+fn labelled_row(unit: &Unit<'_>, label: &str) -> Row {
     Row {
-        key: variant_key(unit, label, 0),
+        key: key(unit, label),
         seed: Some(unit.seed),
         status: Status::Crashed,
         reason: None,
         values: Values::default(),
     }
-}
-
-/// Whether what the variant called `label` gives is asked for.
-fn is_variant_wanted(unit: &Unit<'_>, label: &str) -> bool {
-    unit.is_wanted(|trial| *trial.contender == *label)
-}
-
-/// The rules of the prepared arm; why there are none.
-fn arm_rules(preprocessing: Result<&Preprocessing, &Invalid>) -> Result<ArmRules, String> {
-    let arm = preprocessing.map_err(|invalid| invalid.0.clone())?.world.as_arm();
-    arm.map(|arm| *arm.rules()).ok_or_else(|| "this task needs the workspace of an arm".to_owned())
-}
-
-/// The row of a variant that cannot be tried.
-fn invalid_variant(unit: &Unit<'_>, label: &str, reason: &str) -> Row {
-    let mut row = variant_row(unit, label);
-    (row.status, row.reason) = (Status::InvalidProblem, Some(reason.to_owned()));
-    row
 }

@@ -11,41 +11,29 @@ use std::sync::atomic::AtomicBool;
 
 const PAPER: &str = "[source]\ntitle = 'a test'\n[prints]\nfigures = 0\ntables = 0\nequations = 0\n";
 
-/// A quarter of the reproduced workspace, one obstacle in each case.
-const WORKSPACE: &str = "
+/// Random segments beside two kinds of small solids.
+const STUDY: &str = "
 seed = 6
 paper = 'p'
 question = 'q'
+task = 'formula_error'
+[task_settings]
+samples = 20
+reach = 0.5
 [budget]
 expansions = 1000
 [quick]
 instances = 1
 [[problems]]
-label = 'w'
-family = 'arm_workspace'
-[problems.settings]
-links_cm = [15, 10]
-x_cm = [-25, 25]
-y_cm = [0, 25]
-step_cm = 1
-inner_radius_cm = 10
-elbow = 'negative_theta2'
-touching = 'collides'
-hop_check = 'end_points'
-corner_rule = 'allow'
-obstacle_diameter_cm = 6
-obstacle_shapes = ['circle']
-obstacles_cm = []
-";
-
-const CASES: &str = "
-cases = [
-  { obstacles_cm = [[3, 17]], hops = [14, 10] },
-  { obstacles_cm = [[15, 10]], hops = [12, 11] },
-]
-variants = [
-  { label = 'circles', shape = 'circle', diameter_cm = 6 },
-  { label = 'swept', shape = 'circle', diameter_cm = 6, hop_check = 'continuous' },
+label = 'boxes'
+family = 'random_polyhedra'
+instances = 3
+settings = { side_cm = 50, step_cm = 10, count = [1, 1], size_cm = [8, 20], shapes = ['box'], clear_cm = 1, queries = [{ start = [1, 1, 1], goal = [49, 49, 49] }] }
+[[problems]]
+label = 'wedges'
+family = 'random_polyhedra'
+instances = 3
+settings = { side_cm = 50, step_cm = 10, count = [1, 1], size_cm = [8, 20], shapes = ['wedge'], clear_cm = 1, queries = [{ start = [1, 1, 1], goal = [49, 49, 49] }] }
 ";
 
 /// Every file of facts that the study `p/s.toml` leaves when it runs on `threads`.
@@ -73,16 +61,20 @@ fn facts(folder: &Path, threads: usize) -> BTreeMap<String, Vec<u8>> {
     files.map(|name| (name.clone(), fs::read(out.join(name)).unwrap())).into()
 }
 
-/// A paper with one study, whose settings of quick runs are `quick`.
-fn with_quick(quick: &str) -> Result<Paper, String> {
+/// A folder with the paper `p` of one study.
+fn folder(study: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let workspace = WORKSPACE.replace("instances = 1\n", quick);
-    let study =
-        format!("task = 'identify_endpoints'\n{workspace}\n[task_settings]{CASES}]\nexcess_steps = 2.0\n");
     fs::create_dir(folder.path().join("p")).unwrap();
     fs::write(folder.path().join("p/paper.toml"), PAPER).unwrap();
     fs::write(folder.path().join("p/s.toml"), study).unwrap();
-    Paper::load(&folder.path().join("p"), &Inputs::default()).map_err(|e| e.to_string())
+    folder
+}
+
+/// The study whose settings of quick runs are `quick`.
+fn with_quick(quick: &str) -> Result<crate::Study, String> {
+    let folder = folder(&STUDY.replace("instances = 1\n", quick));
+    let paper = Paper::load(&folder.path().join("p"), &Inputs::default()).map_err(|e| e.to_string())?;
+    Ok(paper.studies.into_iter().next().unwrap())
 }
 
 #[test]
@@ -90,27 +82,26 @@ fn a_quick_run_alone_takes_the_budget_clock_and_task_settings_of_quick() {
     let quick = "instances = 1
 budget = { expansions = 7 }
 timing = { problems = 1, repeats = 1 }
-task_settings = { excess_steps = 0.5 }
+task_settings = { samples = 5 }
 [timing]
 problems = 3
 repeats = 4
 ";
     let shown = |study: &crate::Study| {
-        let excess = study.task_settings.table()["excess_steps"].as_float().unwrap();
-        (study.budget.expansions, study.timing.map(|timing| timing.repeats), excess)
+        let samples = study.task_settings.table()["samples"].as_integer().unwrap();
+        (study.budget.expansions, study.timing.map(|timing| timing.repeats), samples)
     };
-    let study = with_quick(quick).unwrap().studies.remove(0);
-    assert_eq!(shown(&study), (1000, Some(4), 2.0));
-    let variants = study.task_settings.table()["variants"].clone();
+    let study = with_quick(quick).unwrap();
+    assert_eq!(shown(&study), (1000, Some(4), 20));
     let study = study.quick();
-    assert_eq!(shown(&study), (7, Some(1), 0.5));
-    assert_eq!(study.task_settings.table()["variants"], variants);
+    assert_eq!(shown(&study), (7, Some(1), 5));
+    assert_eq!(study.task_settings.table()["reach"].as_float(), Some(0.5));
     // A study that reads no clock reads none in a quick run either.
     let untimed = with_quick(&quick.replace("[timing]\nproblems = 3\nrepeats = 4\n", "")).unwrap();
-    assert_eq!(shown(&untimed.studies.into_iter().next().unwrap().quick()), (7, None, 0.5));
+    assert_eq!(shown(&untimed.quick()), (7, None, 5));
     for (wrong, part) in [
         (quick.replace("expansions = 7", "expansions = 0"), "a whole number from 1 to"),
-        (quick.replace("excess_steps = 0.5", "variants = []"), "variants is empty; at least one is accepted"),
+        (quick.replace("samples = 5", "samples = 0"), "samples is 0; at least 1 is accepted"),
         (quick.replace("budget", "budgets"), "budgets"),
     ] {
         let error = with_quick(&wrong).unwrap_err();
@@ -118,111 +109,52 @@ repeats = 4
     }
 }
 
-/// A paper with one study of `task`, with shapes left open and open nodes never lowered among its variants.
-fn with_all_variants(task: &str) -> tempfile::TempDir {
-    let never = "{ label = 'never', shape = 'circle', diameter_cm = 6, open_node = 'never', ties = 'lifo' },";
-    let free = "{ label = 'free', shape = ['circle', 'triangle'], diameter_cm = 6 },";
-    let window = if task == "null_rate" { "window_cm = 2.0" } else { "" };
-    let settings = format!("{CASES}{never}\n{free}\n]\n{window}\nexcess_steps = 2.0\n");
-    let folder = tempfile::tempdir().unwrap();
-    fs::create_dir(folder.path().join("p")).unwrap();
-    fs::write(folder.path().join("p/paper.toml"), PAPER).unwrap();
-    let study = format!("task = '{task}'\n{WORKSPACE}\n[task_settings]{settings}");
-    fs::write(folder.path().join("p/s.toml"), study).unwrap();
-    folder
+#[test]
+fn a_task_gives_the_same_bytes_at_any_number_of_threads() {
+    let folder = folder(STUDY);
+    assert!(facts(folder.path(), 1) == facts(folder.path(), 2), "1 thread and 2 differ");
 }
 
 #[test]
-fn end_points_and_null_rate_are_the_same_bytes_at_any_number_of_threads() {
-    for task in ["identify_endpoints", "null_rate"] {
-        let folder = with_all_variants(task);
-        assert!(facts(folder.path(), 1) == facts(folder.path(), 2), "{task} differs between 1 thread and 2");
+fn single_trials_are_run_again_without_the_others_and_give_the_stored_rows() {
+    let folder = folder(STUDY);
+    facts(folder.path(), 2);
+    let inputs = Inputs { roots: vec![folder.path().join("p")] };
+    let paper = Paper::load(&folder.path().join("p"), &inputs).unwrap();
+    let study = &paper.studies[0];
+    let runs = folder.path().join("2");
+    let points = study.trial_interpretations().unwrap();
+    for trial in ["boxes/1/printed-distance", "wedges/2/printed-distance"] {
+        let (batch, stored) = run_one(study, &points, &inputs, &runs, trial).unwrap();
+        assert_eq!(batch.rows, [stored.expect("it was run")], "{trial}");
     }
-}
-
-#[test]
-fn single_variants_are_run_again_without_the_others_and_give_the_stored_rows() {
-    for (task, part, whole) in
-        [("identify_endpoints", "w/free/pair-0", "w/never"), ("null_rate", "w/free", "w/any-of-the-above")]
-    {
-        let folder = with_all_variants(task);
-        facts(folder.path(), 2);
-        let inputs = Inputs { roots: vec![folder.path().join("p")] };
-        let paper = Paper::load(&folder.path().join("p"), &inputs).unwrap();
-        let study = &paper.studies[0];
-        let runs = folder.path().join("2");
-        let points = study.trial_interpretations().unwrap();
-        for trial in ["w/swept", part, whole] {
-            let (batch, stored) = run_one(study, &points, &inputs, &runs, trial).unwrap();
-            assert_eq!(batch.rows, [stored.expect("it was run")], "{task}: {trial}");
-        }
-        for wrong in ["w/swe", "w/swept/x", "w/free/pair-9999"] {
-            let error = run_one(study, &points, &inputs, &runs, wrong).unwrap_err().to_string();
-            assert!(error.contains("its first one is `s/w/circles`"), "{wrong}: {error}");
-        }
-        let again = rerun(study, &inputs, &runs, 1, 1).unwrap();
-        let all = rerun(study, &inputs, &runs, 1_000, 1).unwrap();
-        assert!(again.differ.is_empty() && all.differ.is_empty(), "{task}: {again:?}, {all:?}");
-        assert!(again.trials > 0 && again.trials < all.trials, "{task}: {again:?}, {all:?}");
+    for wrong in ["boxes/1/printed", "boxes/3/printed-distance", "other/1/printed-distance"] {
+        let error = run_one(study, &points, &inputs, &runs, wrong).unwrap_err().to_string();
+        assert!(error.contains("its first one is `s/boxes/0/printed-distance`"), "{wrong}: {error}");
     }
+    let again = rerun(study, &inputs, &runs, 1, 1).unwrap();
+    let all = rerun(study, &inputs, &runs, 1_000, 1).unwrap();
+    assert!(again.differ.is_empty() && all.differ.is_empty(), "{again:?}, {all:?}");
+    assert!(again.trials > 0 && again.trials < all.trials, "{again:?}, {all:?}");
 }
 
 #[test]
 fn a_rerun_names_trials_that_come_out_otherwise_and_those_that_come_no_more() {
-    let folder = with_all_variants("null_rate");
+    let folder = folder(STUDY);
     facts(folder.path(), 2);
     let file = folder.path().join("p/s.toml");
-    let spec = fs::read_to_string(&file).unwrap();
-    for (edited, is_moved) in [
-        (spec.clone(), false),
-        (spec.replace("diameter_cm = 6", "diameter_cm = 9"), true),
-        (spec.replace("label = '", "label = 'other "), true),
+    for (edited, least) in [
+        (STUDY.to_owned(), 0),
+        (STUDY.replace("size_cm = [8, 20]", "size_cm = [9, 20]"), 2),
+        (STUDY.replace("label = '", "label = 'other "), 2),
     ] {
         fs::write(&file, edited).unwrap();
         let inputs = Inputs { roots: vec![folder.path().join("p")] };
         let paper = Paper::load(&folder.path().join("p"), &inputs).unwrap();
         let again = rerun(&paper.studies[0], &inputs, &folder.path().join("2"), 1_000, 1).unwrap();
-        let of_variants = again.differ.iter().filter(|name| !name.ends_with("above")).count();
-        assert!(if is_moved { of_variants >= 2 } else { again.differ.is_empty() }, "{again:?}");
+        let differ = again.differ.len();
+        assert!(if least == 0 { differ == 0 } else { differ >= least }, "{again:?}");
     }
-}
-
-#[test]
-fn variants_that_never_lower_open_nodes_alone_have_ties_and_need_an_excess() {
-    let check = |task: &str, variant: &str, close: &str| {
-        let folder = tempfile::tempdir().unwrap();
-        fs::create_dir(folder.path().join("p")).unwrap();
-        fs::write(folder.path().join("p/paper.toml"), PAPER).unwrap();
-        let variant = format!("{{ label = 'v', diameter_cm = 6, {variant} }}\n]\n");
-        let study = format!("task = '{task}'\n{WORKSPACE}\n[task_settings]{CASES}{variant}{close}");
-        fs::write(folder.path().join("p/s.toml"), study).unwrap();
-        Paper::load(&folder.path().join("p"), &Inputs::default()).map_err(|e| e.to_string())
-    };
-    let end_points = "excess_steps = 2.0\n";
-    let null = "window_cm = 2.0\n";
-    let both = format!("{null}{end_points}");
-    let never = "shape = 'circle', open_node = 'never', ties = 'lifo'";
-    for (task, close) in [("identify_endpoints", end_points), ("null_rate", &*both)] {
-        check(task, never, close).unwrap();
-        for (variant, part) in [
-            ("shape = 'circle', ties = 'lifo'", "variant `v` has ties"),
-            (
-                "shape = ['circle', 'triangle'], open_node = 'never'",
-                "variant `v` leaves shapes open; open nodes",
-            ),
-        ] {
-            let error = check(task, variant, close).unwrap_err();
-            assert!(error.contains(part), "{task}: {error}");
-        }
-    }
-    for (close, part) in [
-        (null.to_owned(), "variant `v` never lowers open nodes; excess_steps is needed"),
-        (format!("{null}excess_steps = -1.0\n"), "excess_steps is -1; 0 and more"),
-    ] {
-        let error = check("null_rate", never, &close).unwrap_err();
-        assert!(error.contains(part), "{error}");
-    }
-    check("null_rate", "shape = 'square'", null).unwrap();
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What the verifier knows of a map that is asked many queries: every cell's moves, and its distances from a few landmarks.
+//! What the verifier knows of a map with many queries: every cell's moves, and its distances from a few landmarks.
 //!
 //! By the triangle inequality, two cells are at least as far from each other as their distances from any landmark differ; the search
 //! for an optimum then looks where the optimum is, and finds the same.

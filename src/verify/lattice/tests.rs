@@ -47,7 +47,7 @@ fn passes(grid: &Grid2, rule: CornerRule, [x, y]: [i32; 2], is_rising: bool) -> 
     }
 }
 
-/// An answer of which the steps alone are judged.
+/// An answer whose steps alone are judged.
 fn answer(in_graph: bool, sight_corners: Option<CornerRule>) -> Answer<'static> {
     Answer { path: &[], cost: None, in_graph, optimal: false, sight_corners }
 }

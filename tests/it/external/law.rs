@@ -96,6 +96,11 @@ const SAMPLES: &[Sample] = &[
     },
 ];
 
+/// A world of every sample.
+pub fn worlds() -> Vec<World> {
+    SAMPLES.iter().map(|sample| world(sample, 0)).collect()
+}
+
 fn world(sample: &Sample, number: u64) -> World {
     let entry = family::find(sample.family).unwrap();
     let settings = Settings::composed("the law", toml::from_str(entry.example).unwrap());

@@ -49,6 +49,12 @@ pub const SHORTER: Case = case(
 /// The other cases, the sound ones among them.
 pub const CASES: &[Case] = &[
     case("good", "hello; while query; do straight; done", "solved", ""),
+    case(
+        "fork-chain",
+        r#"if [ "$1" = on ]; then sleep 0.02; setsid sh "$0" on & exit; fi; hello; query; setsid sh "$0" on & straight; query"#,
+        "solved",
+        "",
+    ),
     case("one-query-each", "seeding=process; hello; query; straight; query", "solved", ""),
     case(
         "no-path",

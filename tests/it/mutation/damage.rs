@@ -65,6 +65,28 @@ pub fn damaged(stream: &mut Stream, bytes: &[u8]) -> Vec<u8> {
     damaged
 }
 
+/// What opens a list, a table or an element in some form.
+const OPENINGS: [&str; 6] = ["[", "{\"a\":", "{a: ", "- ", "<link>", "[["];
+
+/// What no text begins with, or no text holds.
+const ODD_BYTES: [&[u8]; 5] = [b"\xff", b"\0", b"\xef\xbb\xbf", b"\xc3", b"\x1b[2J"];
+
+/// `bytes` with one damage of [`damaged`], or, once in ten times, with one of form and size: a long name, thousands of openings, keys or
+/// pieces, bytes of no text.
+pub fn misshapen(stream: &mut Stream, bytes: &[u8]) -> Vec<u8> {
+    let times = |stream: &mut Stream| [30, 300, 3000][stream.random_range(0..3)];
+    let at = stream.random_range(0..=bytes.len());
+    let new = match stream.random_range(0..50) {
+        0 => "x".repeat(times(stream)).into_bytes(),
+        1 => OPENINGS[stream.random_range(0..OPENINGS.len())].repeat(10 * times(stream)).into_bytes(),
+        2 => bytes[at..bytes.len().min(at + stream.random_range(1..40))].repeat(times(stream)),
+        3 => (0..times(stream)).flat_map(|key| format!("\"k{key}\": 0,\n").into_bytes()).collect(),
+        4 => ODD_BYTES[stream.random_range(0..ODD_BYTES.len())].to_vec(),
+        _ => return damaged(stream, bytes),
+    };
+    [&bytes[..at], &new, &bytes[at..]].concat()
+}
+
 /// Up to four bytes flipped, or bytes that no text has put in.
 pub fn flipped(stream: &mut Stream, mut bytes: Vec<u8>) -> Vec<u8> {
     for _ in 0..stream.random_range(1..=4) {

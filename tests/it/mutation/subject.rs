@@ -135,7 +135,7 @@ impl Drop for Swap<'_> {
 }
 
 /// What `check` looks at once a paper is loaded.
-fn validate(paper: &Paper) -> Result<(), String> {
+pub(super) fn validate(paper: &Paper) -> Result<(), String> {
     claims::validate(paper)
         .and_then(|()| figure::validate(paper))
         .and_then(|()| results::validate(paper))

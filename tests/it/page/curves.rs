@@ -23,6 +23,8 @@ fn success_curves_say_the_values_under_the_pointer() {
     browser.wait("return document.querySelectorAll('#curves .u-over').length >= 2");
     let legend = || -> BTreeMap<String, String> { serde_json::from_value(browser.run(LEGEND)).unwrap() };
     assert!(legend().values().all(|value| value.chars().all(|c| "-–".contains(c))), "{:?}", legend());
+    // A turn of the wheel, after which the page stays where it is put while other parts are drawn.
+    browser.scroll("nav", 1);
     browser.run("document.getElementById('success').scrollIntoView({ block: 'center' })");
     let width = browser.run("return document.getElementById('success').clientWidth").as_f64().unwrap();
     for samples in [300, 800, 1400] {
@@ -42,11 +44,11 @@ fn success_curves_say_the_values_under_the_pointer() {
         for (row, label) in [("original", "Original A*"), ("improved", "Improved A*")] {
             let judged = verdicts.claim(&format!("t2.{row}.{samples}")).unwrap();
             let ours = judged.ours().unwrap().value;
-            let found = value(&format!("{label}: mean of 200 instances"));
+            let found = value(&format!("{label}: mean of 200 roadmaps"));
             assert!((ours - found).abs() < 0.01, "{label}, {samples}: {found} on the page, {ours} as judged");
             let printed: f64 = judged.printed.as_ref().unwrap().parse().unwrap();
             assert_eq!(value(&format!("{label}: printed")), printed, "{label}, {samples}");
-            let band = &said[&format!("{label}: mean of 200 instances")];
+            let band = &said[&format!("{label}: mean of 200 roadmaps")];
             assert!(band.contains(" [") && band.ends_with(']'), "{band}");
         }
     }

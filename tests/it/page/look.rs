@@ -4,6 +4,7 @@ use super::driver::Browser;
 use super::page;
 use crate::paper::committed;
 use serde_json::{Value, json};
+use std::path::Path;
 
 /// How light the colour of an element is, from 0 to 1, as the mean of red, green and blue.
 fn lightness(browser: &Browser, property: &str) -> f64 {
@@ -80,9 +81,69 @@ fn everything_has_a_name_and_no_page_is_wider_than_a_narrow_screen() {
         assert_eq!(browser.run(NAMELESS), json!([]), "{name}");
         let width = browser.run("return document.documentElement.scrollWidth");
         assert!(width.as_u64().unwrap() <= 390, "{name} is {width} wide");
+        browser.run("document.querySelectorAll('details').forEach((part) => (part.open = true))");
+        let width = browser.run("return document.documentElement.scrollWidth");
+        assert!(width.as_u64().unwrap() <= 390, "{name} unfolded is {width} wide");
         let cut = "return [...document.querySelectorAll('caption span')].filter((text) => text.getBoundingClientRect().right > 390).length";
         assert_eq!(browser.run(cut), json!(0), "{name}: captions are cut off");
         browser.picture(&format!("{name}-390"));
         assert_eq!(browser.console(), Value::Array(Vec::new()), "{name}");
     }
+}
+
+/// Where the counts and the headline claims end, and how many of the page's parts are open.
+const FIRST_SCREEN: &str = "
+    const end = (element) => element.getBoundingClientRect().bottom;
+    const counts = [...document.querySelectorAll('header > p')].find((line) => line.querySelector('.class'));
+    return [end(counts), end(document.querySelector('header ul')), document.querySelectorAll('section > details[open]').length,
+        document.querySelectorAll('section > details').length]";
+
+#[test]
+fn the_first_screen_holds_headline_and_counts_and_a_narrow_one_folds_the_rest() {
+    for [width, height] in [[1400, 900], [390, 844]] {
+        let Some(browser) = Browser::open([width, height]) else { return };
+        for name in committed() {
+            browser.go(&page(&name), "");
+            let found: Vec<f64> = serde_json::from_value(browser.run(FIRST_SCREEN)).unwrap();
+            let [counts, headlines, open, all] = found[..] else { panic!("{name}: {found:?}") };
+            assert!(counts < f64::from(height) && all >= 1.0, "{name} at {width}: {found:?}");
+            if width < 600 {
+                assert!(open == 0.0, "{name} at {width}: {found:?}");
+            } else {
+                assert!(headlines < f64::from(height) && open == all, "{name} at {width}: {found:?}");
+            }
+            browser.picture(&format!("{name}-first-{width}"));
+        }
+    }
+}
+
+#[test]
+fn links_lead_to_what_they_name_just_below_the_menu() {
+    for [width, height] in [[1280, 800], [390, 844]] {
+        let Some(browser) = Browser::open([width, height]) else { return };
+        for name in ["zhang", "fu2018"] {
+            let file = page(name);
+            let links = links_of(&browser, &file);
+            assert!(links.len() > 8, "{links:?}");
+            for link in links {
+                browser.go(&file, "");
+                browser.run(&format!("document.querySelector('a[href=\"#{link}\"]').click()"));
+                let below = format!(
+                    "const gap = document.getElementById('{link}').getBoundingClientRect().top \
+                     - document.querySelector('nav').getBoundingClientRect().bottom; return gap > -1 && gap < 40"
+                );
+                browser.wait(&below);
+            }
+            assert_eq!(browser.console(), json!([]), "{name}");
+        }
+    }
+}
+
+/// What the menu and the headline claims link to in the page.
+fn links_of(browser: &Browser, file: &Path) -> Vec<String> {
+    browser.go(file, "");
+    let links = browser.run(
+        "return [...document.querySelectorAll('nav a, header li a')].map((link) => link.hash.slice(1)).filter(Boolean)",
+    );
+    serde_json::from_value(links).unwrap()
 }

@@ -105,10 +105,17 @@ fn the_index_says_of_each_paper_what_its_first_line_says() {
         fs::read_to_string(bench.at("pages/index.html")).unwrap()
     };
     assert!(index().contains("<td>Nothing is shown: "), "{}", index());
+    bench.edit(
+        "experiments/mini/paper.toml",
+        "authors = \"N. N.\"\n",
+        "[report]\nfinding = \"Two sides open fewer.\"\n",
+    );
     bench.done(&["repro", "mini"]);
-    assert!(index().contains("<td>2 sentences and rows: "), "{}", index());
+    assert!(index().contains("<td>Two sides open fewer.</td><td>2 sentences and rows: "), "{}", index());
     bench.edit("experiments/mini/paper.toml", "printed = [\"7.83\"]", "printed = [\"7.84\"]");
-    assert!(index().contains("<td>Stale: "), "{}", index());
+    assert!(index().contains("<td></td><td>Stale: "), "{}", index());
+    let page = fs::read_to_string(bench.at("pages/mini.html")).unwrap();
+    assert!(page.contains("<a href=\"index.html\">All papers</a></nav>"));
 }
 
 #[test]

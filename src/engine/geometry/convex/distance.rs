@@ -116,7 +116,7 @@ fn over_face(segment: &Segment, convex: &Convex, visible: u128, beyond: Option<&
     (best, false)
 }
 
-/// What is farther from a segment than a certain edge, told by extents along the line of their nearest points.
+/// What is farther from a segment than a certain edge, by extents along the line of their nearest points.
 struct Beyond {
     direction: Vec3,
     /// What lies below it along the direction is farther away than the edge.

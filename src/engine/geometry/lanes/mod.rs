@@ -29,7 +29,7 @@ use std::ops::{Add, Mul, Sub};
 /// How many cases are taken at once in f64.
 pub const LANES: usize = 4;
 
-/// How close a comparison of metres or radians may be before the scalar code is asked.
+/// How close a comparison of metres or radians may be before the scalar code decides.
 ///
 /// Away from singular poses (the inverse kinematics says which) lanes and scalar code differ by less than 1e-11.
 pub const SLACK: f64 = 1e-9;
@@ -58,7 +58,7 @@ pub type Rough<S> = f32x8<S>;
 /// Rough numbers of eight cases at rest.
 pub type RoughRow = [f32; ROUGH_LANES];
 
-/// The instructions that this machine has; in a test, those that it asked for.
+/// The instructions that this machine has; in a test, those that it set.
 pub fn level() -> Level {
     #[cfg(test)]
     if let Some(level) = tests::FORCED.get() {

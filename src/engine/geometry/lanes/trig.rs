@@ -72,7 +72,7 @@ pub fn sincos<S: Simd>(angle_rad: Lane<S>) -> (Lane<S>, Lane<S>) {
     (below.select(-s, s), behind.select(-c, c))
 }
 
-/// π / 2 in three parts, of which the first two have so few digits that their multiples are exact.
+/// π / 2 in three parts; the first two have so few digits that their multiples are exact.
 const ROUGH_QUARTER: [f32; 3] = [1.570_312_5, 4.837_513e-4, 7.549_79e-8];
 const ROUGH_SIN: [f32; 3] = [-1.951_529_6e-4, 8.332_161e-3, -1.666_665_5e-1];
 const ROUGH_COS: [f32; 3] = [2.443_315_7e-5, -1.388_731_6e-3, 4.166_664_6e-2];

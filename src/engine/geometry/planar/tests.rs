@@ -71,8 +71,8 @@ fn a_circle_missed_by_the_last_bit_is_missed_and_one_touched_is_touched() {
     assert!(!intersects_segment_circle(&slanted, &circle, Touch::Free));
 }
 
-/// The least distance along a finely divided segment, by closed point distances: slow and independent of
-/// which side anything is on.
+/// The least distance along a finely divided segment, by closed point distances: slow and independent of the
+/// side that anything is on.
 fn sampled(segment: &Segment2, distance: impl Fn(&Vec2) -> f64) -> f64 {
     let (mut low, mut high) = (0.0_f64, 1.0_f64);
     let at = |t: f64| distance(&(segment.a + (segment.b - segment.a) * t));

@@ -1,4 +1,4 @@
-//! Drawn pairs, a written share of which is parallel, touching or piercing.
+//! Drawn pairs, a written share of them parallel, touching or piercing.
 
 use crate::geometry::{Convex, Edge, Frame, OrientedBox, Segment, Vec3};
 use base::seed::Stream;

@@ -25,7 +25,7 @@ use std::{
 /// Which of the up to eight ways an arm takes to a pose: three signs.
 ///
 /// Two configurations on different branches are joined only through a singularity, so a motion along which
-/// the branch may not change can be refused by its ends alone. What the signs mean is told below for the closed forms; the
+/// the branch may not change can be refused by its ends alone. What the signs mean stands below for the closed forms; the
 /// search has one sign of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Branch(u8);

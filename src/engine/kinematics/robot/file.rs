@@ -150,7 +150,7 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<Robot, KinematicsError> {
         tool_length_m,
         bodies,
         files: Vec::new(),
-        enclosed: None,
+        notes: Vec::new(),
     })
 }
 

@@ -27,8 +27,8 @@ pub struct Robot {
     tool_length_m: f64,
     bodies: Vec<Body>,
     files: Vec<PathBuf>,
-    /// What capsules of ours stand for, if the file has other solids.
-    enclosed: Option<String>,
+    /// What a reader should know of how the files were taken: what capsules of ours stand for, say.
+    notes: Vec<String>,
 }
 
 /// Capsules that stand for an arm and its tool.
@@ -58,11 +58,22 @@ impl Robot {
     /// [`KinematicsError::File`], and [`KinematicsError::Axes`] unless six joints turn.
     pub fn load(path: &Path) -> Result<Self, KinematicsError> {
         if path.extension().is_some_and(|end| end == "urdf") {
-            return urdf::robot(&base::robot::read_urdf(path)?);
+            return urdf::robot(&base::robot::read_urdf(path)?, None);
         }
         let text = base::file::read_text(path)
             .map_err(|source| KinematicsError::Read { path: path.to_owned(), source })?;
         Self::parse(&text, path)
+    }
+
+    /// The robot in the URDF file at `path`, whose links may touch as the SRDF file at `srdf` says.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load), and what is wrong in the SRDF file, at its place.
+    pub fn load_with_srdf(path: &Path, srdf: &Path) -> Result<Self, KinematicsError> {
+        let read = base::robot::read_urdf(path)?;
+        let mut robot = urdf::robot(&read, Some(&base::robot::read_srdf(srdf, &read)?))?;
+        robot.files.push(srdf.to_owned());
+        Ok(robot)
     }
 
     /// The robot that `text` describes; `path` is where it came from, for messages.
@@ -70,7 +81,7 @@ impl Robot {
     /// # Errors
     /// [`KinematicsError::File`] with the line, what was found and what is accepted, for anything that is
     /// not TOML, not known, missing, not a finite number of the right sign, or contradictory, and for rows
-    /// that the solver asked for does not allow.
+    /// that the requested solver does not allow.
     pub fn parse(text: &str, path: &Path) -> Result<Self, KinematicsError> {
         file::parse(text, path)
     }
@@ -90,7 +101,7 @@ impl Robot {
     pub fn notes(&self) -> Vec<String> {
         let solver = self.arm.solver();
         let incomplete = (!solver.is_complete).then(|| solver.to_string());
-        self.enclosed.iter().cloned().chain(incomplete).collect()
+        self.notes.iter().cloned().chain(incomplete).collect()
     }
 
     /// The arm, with the tool.
@@ -133,7 +144,7 @@ impl Robot {
             tool_length_m,
             name: self.name.clone(),
             files: self.files.clone(),
-            enclosed: self.enclosed.clone(),
+            notes: self.notes.clone(),
         })
     }
 }

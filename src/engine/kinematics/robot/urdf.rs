@@ -3,15 +3,15 @@
 //! The rows are those of the common normals of neighbouring axes; where two are parallel, the normal through the frame before. What
 //! stands before the first axis is the base, what stands behind the last the flange. Each solid becomes the capsule around it:
 //! exactly for spheres, with round ends for cylinders, and for boxes and meshes the least one along the longest side, so that
-//! contact is never missed and sometimes seen too early. Two links that a joint joins are never held against each other, nor two
-//! parts that touch in every one of 200 configurations drawn from a written seed.
+//! contact is never missed and sometimes seen too early. Which links may touch, an SRDF file says; without one, two links that a joint
+//! joins are never held against each other, nor two parts that touch in every one of 200 configurations drawn from a written seed.
 
 use super::{Body, Part, Robot};
 use crate::geometry::{Capsule, Frame, Vec3};
 use crate::kinematics::open_chain::{OpenChain, frame};
 use crate::kinematics::serial::{AXES, Chain, Joint};
 use crate::kinematics::{Arm, KinematicsError};
-use base::robot::Kind;
+use base::robot::{Kind, MayTouch};
 use base::seed;
 use base::solid::{Form, Solid};
 use nalgebra::Matrix3;
@@ -23,8 +23,11 @@ const PARALLEL: f64 = 1e-9;
 /// Configurations in which two parts that always touch are found out.
 const DRAWS: usize = 200;
 
-/// The robot in a URDF file that was read.
-pub(super) fn robot(read: &base::robot::Robot) -> Result<Robot, KinematicsError> {
+/// The robot in a URDF file that was read, with what an SRDF file says of its links, if there is one.
+pub(super) fn robot(
+    read: &base::robot::Robot,
+    may_touch: Option<&MayTouch>,
+) -> Result<Robot, KinematicsError> {
     let open = OpenChain::new(read);
     let count = open.joints().len();
     if count != AXES {
@@ -52,7 +55,8 @@ pub(super) fn robot(read: &base::robot::Robot) -> Result<Robot, KinematicsError>
         Ok(Part { name: solid.name.clone(), link: *link, tool_share: None, self_only: *link == 0, capsule })
     });
     let parts: Vec<Part> = parts.collect::<Result<_, KinematicsError>>()?;
-    let self_pairs = self_pairs(&chain, &parts);
+    let self_pairs =
+        may_touch.map_or_else(|| self_pairs(&chain, &parts), |may_touch| listed_pairs(read, may_touch));
     let body = Body { name: "urdf".to_owned(), parts, self_pairs };
     Ok(Robot {
         name: read.name.clone(),
@@ -61,7 +65,10 @@ pub(super) fn robot(read: &base::robot::Robot) -> Result<Robot, KinematicsError>
         tool_length_m: 0.0,
         bodies: vec![body],
         files: read.files.clone(),
-        enclosed: enclosed(&read.solids),
+        notes: enclosed(&read.solids)
+            .into_iter()
+            .chain(may_touch.iter().flat_map(|file| file.notes.clone()))
+            .collect(),
     })
 }
 
@@ -204,6 +211,15 @@ fn around(points: Vec<Vec3>) -> (Vec<Vec3>, Vec3, Vec3, f64) {
     let off = |point: &Vec3| (point - middle - along * (point - middle).dot(&along)).norm();
     let radius = points.iter().map(off).fold(0.0, f64::max);
     (points, middle, along, radius)
+}
+
+/// The pairs of parts of different links that an SRDF file does not let touch.
+fn listed_pairs(read: &base::robot::Robot, may_touch: &MayTouch) -> Vec<[usize; 2]> {
+    let pairs = (0..read.solids.len()).flat_map(|b| (0..b).map(move |a| [a, b]));
+    let is_held = |[a, b]: &[usize; 2]| {
+        read.solids[*a].0 != read.solids[*b].0 && !may_touch.allows(&read.owners[*a], &read.owners[*b])
+    };
+    pairs.filter(is_held).collect()
 }
 
 fn self_pairs(chain: &Chain, parts: &[Part]) -> Vec<[usize; 2]> {

@@ -26,7 +26,7 @@ pub(super) struct States {
     known: Vec<Tile>,
 }
 
-/// The tiles around one state, each looked up once: a step's target is asked for 728 times, and there are 64 of them.
+/// The tiles around one state, each looked up once: a step's target is needed 728 times, and there are 64 of them.
 pub(super) struct Around {
     /// The tile that holds the least neighbour along every joint.
     least: Cell,

@@ -43,7 +43,7 @@ pub(super) fn search(posed: &Posed<'_>, cluster: bool, max_expansions: u64) -> W
         graph: &mut graph,
         estimate: &Combined { h, combine: sum },
         observer: &mut (),
-        update: Update { lower_open: true, reopen_closed: true },
+        update: Update { reopen_closed: true, ..Update::default() },
     };
     let rules = Rules { stop: Stop::GoalPopped, max_expansions };
     let mut search = Search::new(Heap::new(Ties::LargerG));

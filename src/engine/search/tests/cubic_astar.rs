@@ -35,7 +35,7 @@ impl Graph for Neighbours<'_> {
     }
 }
 
-/// A lattice of which a share is blocked, and two of its free nodes.
+/// A lattice with a share blocked, and two of its free nodes.
 fn lattice(seed: u64) -> (Grid3, [u32; 2]) {
     let mut stream = seed::stream(seed);
     let size: [u32; 3] = std::array::from_fn(|_| stream.random_range(1..14));

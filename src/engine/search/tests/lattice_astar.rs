@@ -3,6 +3,7 @@
 use super::*;
 use crate::space::{ArmRules, ArmWorld, HopRule, Obstacle, reproduced_rules};
 use base::grid::{Columns, Offsets};
+use std::collections::BTreeSet;
 
 const ORDERS: [Ties; 2] = [Ties::Fifo, Ties::Lifo];
 
@@ -74,7 +75,7 @@ impl Query<'_> {
             graph: &mut LatticeGraph::new(self.grid, self.offsets, self.spacing, may_hop),
             estimate: &Combined { h: self.h(), combine: sum },
             observer: &mut scans,
-            update: Update { lower_open: self.lower_open, reopen_closed: false },
+            update: Update { lower_open: self.lower_open, ..Update::default() },
         };
         let rules = Rules { stop: Stop::GoalPopped, max_expansions: self.max_expansions };
         let [start, goal] = self.ends;
@@ -175,12 +176,14 @@ impl Successors for ArmHops<'_> {
     }
 }
 
-fn workspace(hop: HopRule, corner_rule: CornerRule) -> ArmWorld {
+/// The obstacles of case 1.
+const CASE_1: [[f64; 2]; 4] = [[35.0, 18.0], [7.0, 35.0], [-13.0, 35.0], [-30.0, 20.0]];
+
+fn workspace(hop: HopRule, corner_rule: CornerRule, places: [[f64; 2]; 4]) -> ArmWorld {
     let disc = |at: [f64; 2]| {
         Obstacle::Circle(crate::geometry::planar::Circle::new(at.into(), 5.0).expect("a disc has a size"))
     };
-    let obstacles = [[35.0, 18.0], [7.0, 35.0], [-13.0, 35.0], [-30.0, 20.0]].map(disc);
-    ArmWorld::new(ArmRules { corner_rule, ..reproduced_rules(hop) }, obstacles.to_vec())
+    ArmWorld::new(ArmRules { corner_rule, ..reproduced_rules(hop) }, places.map(disc).to_vec())
 }
 
 const HOP_RULES: [HopRule; 3] = [HopRule::EndPoints, HopRule::Continuous, HopRule::TipLine];
@@ -191,7 +194,7 @@ fn an_arm_hops_a_column_at_a_time_as_it_does_one_by_one() {
     let mut refused = 0;
     for (hop, rule) in HOP_RULES.into_iter().flat_map(|hop| RULES.map(|rule| (hop, rule))) {
         // Two worlds, so that what one learns of its hops does not serve the other.
-        let [world, other] = [0, 1].map(|_| workspace(hop, rule));
+        let [world, other] = [0, 1].map(|_| workspace(hop, rule, CASE_1));
         let grid = world.grid();
         let seed = 7;
         let free: Vec<u32> = (0..grid.cell_count()).filter(|&cell| grid.is_free(cell)).collect();
@@ -222,6 +225,61 @@ fn an_arm_hops_a_column_at_a_time_as_it_does_one_by_one() {
         }
     }
     assert!(solved > 250 && refused > 100, "{solved} solved, {refused} with hops refused");
+}
+
+/// The directions of a neighbourhood's steps, each by its shortest step.
+fn directions(offsets: &Offsets) -> BTreeSet<[i32; 2]> {
+    let factor = |a: i32, b: i32| (1..=a.abs().max(b.abs())).rev().find(|f| a % f == 0 && b % f == 0);
+    offsets.steps().iter().map(|&[x, y]| [x, y].map(|part| part / factor(x, y).unwrap_or(1))).collect()
+}
+
+// A longer hop along a direction that hits nothing is a chain of its shortest hops, which are as long together and hit nothing.
+#[test]
+fn a_square_and_a_disc_with_as_many_points_give_paths_of_equal_length_where_hops_hit_nothing() {
+    let seed = 48;
+    let mut stream = seed::stream(seed);
+    let (mut solved, mut shorter) = (0, 0);
+    for (square, disc) in [(3, 4), (4, 5)] {
+        let both = [Offsets::square(square), Offsets::disc(disc)];
+        assert_eq!(both[0].steps().len(), both[1].steps().len());
+        assert_eq!(directions(&both[0]), directions(&both[1]), "square {square}, disc {disc}");
+        let mut searches = both
+            .each_ref()
+            .map(|offsets| LatticeAstar::new(offsets, Ties::Fifo).expect("first in first out"));
+        for draw in 0..24 {
+            let places = [0; 4].map(|_| [stream.random_range(-40.0..40.0), stream.random_range(10.0..45.0)]);
+            let [swept, jumping] =
+                [HopRule::TipLine, HopRule::EndPoints].map(|hop| workspace(hop, CornerRule::Allow, places));
+            let grid = swept.grid();
+            let free: Vec<u32> = (0..grid.cell_count()).filter(|&cell| grid.is_free(cell)).collect();
+            let ends = [0, 1].map(|_| free[stream.random_range(0..free.len())]);
+            let mut costs = |world: &ArmWorld| {
+                [0, 1].map(|of: usize| {
+                    let query = Query {
+                        grid,
+                        offsets: &both[of],
+                        spacing: 1.0,
+                        ends,
+                        lower_open: true,
+                        max_expansions: u64::MAX,
+                        weights: HEURISTICS[0],
+                    };
+                    let found = query.special(&mut searches[of], world.columns(), &mut ArmHops(world)).0;
+                    found.outcome.route().map(|route| route.cost)
+                })
+            };
+            let [of_square, of_disc] = costs(&swept).map(|cost| cost.unwrap_or(f64::INFINITY));
+            let said = format!("seed {seed}, draw {draw}, {ends:?}: square {of_square}, disc {of_disc}");
+            assert!(of_square == of_disc || (of_square - of_disc).abs() < 1e-9, "{said}");
+            let [of_square, of_disc] = costs(&jumping).map(|cost| cost.unwrap_or(f64::INFINITY));
+            solved += u32::from(of_disc.is_finite());
+            shorter += u32::from(of_square < of_disc - 1e-9);
+        }
+    }
+    assert!(
+        solved > 24 && shorter > 0,
+        "{solved} solved, the square shorter on {shorter} where hops may jump"
+    );
 }
 
 #[test]

@@ -3,10 +3,8 @@
 mod any_angle;
 mod bidirectional;
 mod cubic_astar;
-mod first_way;
 mod jump;
 mod lattice_astar;
-mod many;
 mod octile;
 mod one_way;
 mod parts;

@@ -44,9 +44,19 @@ fn nodes(report: &Report<f64>) -> &[u32] {
 fn an_open_node_takes_a_better_way_only_if_it_may() {
     // 3 is opened from 0 at cost 5, then offered from 1 at cost 2.
     let mut graph = Written::new(&[(0, 3, 5.0), (0, 1, 1.0), (1, 3, 1.0), (3, 4, 1.0)]);
-    let never = Update { lower_open: false, reopen_closed: false };
+    let never = Update { lower_open: false, ..Update::default() };
     assert_eq!(nodes(&run(&mut graph, |_| 0.0, 4, Update::default(), Rules::default())), [0, 1, 3, 4]);
     assert_eq!(nodes(&run(&mut graph, |_| 0.0, 4, never, Rules::default())), [0, 3, 4]);
+}
+
+#[test]
+fn of_equally_long_ways_to_an_open_node_the_last_is_taken_only_if_it_may_be() {
+    let mut graph = Written::new(&[(0, 1, 1.0), (0, 2, 1.0), (1, 3, 1.0), (2, 3, 1.0), (3, 4, 1.0)]);
+    let last = Update { take_equal: true, ..Update::default() };
+    let never = Update { lower_open: false, ..last };
+    for (update, path) in [(Update::default(), [0, 1, 3, 4]), (last, [0, 2, 3, 4]), (never, [0, 1, 3, 4])] {
+        assert_eq!(nodes(&run(&mut graph, |_| 0.0, 4, update, Rules::default())), path, "{update:?}");
+    }
 }
 
 #[test]
@@ -54,7 +64,7 @@ fn a_closed_node_reopens_only_if_it_may() {
     // Admissible but inconsistent: 1 looks far, so 2 is closed by its dear way before 1 is.
     let mut graph = Written::new(&[(0, 1, 1.0), (0, 2, 3.0), (1, 2, 1.0), (2, 3, 5.0)]);
     let h = |node: u32| [0.0, 5.5, 0.0, 0.0][node as usize];
-    let reopen = Update { lower_open: true, reopen_closed: true };
+    let reopen = Update { reopen_closed: true, ..Update::default() };
     let kept = run(&mut graph, h, 3, Update::default(), Rules::default());
     assert_eq!((nodes(&kept), kept.counters.expansions, kept.counters.closed), (&[0, 2, 3][..], 3, 3));
     let reopened = run(&mut graph, h, 3, reopen, Rules::default());

@@ -6,9 +6,9 @@ use std::sync::atomic::{AtomicU32, Ordering};
 const REACH: i32 = 6;
 const SIDE: usize = 2 * REACH as usize + 1;
 
-/// Whether hops are free, as far as it was asked.
+/// Whether hops are free, as far as it is known.
 ///
-/// What is kept is a function of the hop alone, so that it does not matter who asked first. Hops from one cell into one
+/// What is kept is a function of the hop alone, so that it does not matter who came first. Hops from one cell into one
 /// column share a word: bit `i` says that the hop `REACH - i` rows up is free, bit `16 + i` that this is known.
 #[derive(Debug)]
 pub(super) struct Hops(Vec<AtomicU32>);
@@ -19,7 +19,7 @@ impl Hops {
         Self((0..cells as usize * SIDE).map(|_| AtomicU32::new(0)).collect())
     }
 
-    /// What `find` says of the hop by `[dx, dy]` from `cell`; asked once.
+    /// What `find` says of the hop by `[dx, dy]` from `cell`; called once.
     pub(super) fn is_free(&self, cell: u32, [dx, dy]: [i32; 2], find: impl Fn([i32; 2]) -> bool) -> bool {
         if dx.abs().max(dy.abs()) > REACH {
             return find([dx, dy]);

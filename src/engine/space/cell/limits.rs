@@ -8,7 +8,7 @@ use crate::kinematics::serial::Joint;
 use crate::kinematics::{Joints, Missed};
 use std::f64::consts::{PI, TAU};
 
-/// The parts of a step at which limits and reach are asked where they are near; the verifier stops there too.
+/// The parts of a step at which limits and reach are checked where they are near; the verifier stops there too.
 pub(super) const PARTS: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// How far the elbow is from being stretched or folded before the wrist cannot leave its reach between two steps. A way of
@@ -46,7 +46,7 @@ impl Lines {
     /// Whether joints keep to their limits, and the wrist to its reach, between two steps; `target` is where the tool is after a
     /// part of the step.
     ///
-    /// A joint is asked about only if it is nearer to a limit than it turns in the step and may stray beside.
+    /// A joint is checked only if it is nearer to a limit than it turns in the step and may stray beside.
     ///
     /// # Errors
     /// [`Rejection::Limits`], or [`Rejection::Unreachable`] if the wrist cannot be there.

@@ -3,7 +3,7 @@
 //! The tool goes on a straight line, its orientation about one axis (slerp), both at even steps; the joints follow by
 //! inverse kinematics. At each step the configuration of the smallest change is taken; it is sought on the branch in hand, and
 //! on all only where another could be nearer. A path is refused for a change of branch, a pose out of reach or limits, a
-//! jump of a joint, a joint too fast under the tool's time law, an end in another configuration than the one asked
+//! jump of a joint, a joint too fast under the tool's time law, an end in another configuration than the one requested
 //! for, or a contact. Jumps are judged at the steps; limits and reach too and, where a joint is near a limit or the elbow all but
 //! stretched or folded, at every quarter of a step.
 //!
@@ -12,7 +12,7 @@
 //! then possible only where an axis end travels 2 % further than its chord. Where a thickened part is near an obstacle the
 //! step is halved, three times at most; what then slips is thinner than the way of a part in an eighth of a
 //! step (2.5 mm of the tool at 20 mm).
-//! Reach, asked at quarters where the elbow is all but stretched, may be left between two of those by what a quarter of a step
+//! Reach, checked at quarters where the elbow is all but stretched, may be left between two of those, as far as a quarter of a step
 //! bulges: a sixteenth of what a step does, some thousandths of a millimetre.
 //!
 //! # Source
@@ -92,7 +92,7 @@ impl Lines {
     }
 
     /// The least clearance at the steps of the local path between two configurations, 0 where it is in contact; `None` if the
-    /// joints cannot follow it or arrive in another configuration than the one asked for.
+    /// joints cannot follow it or arrive in another configuration than the one requested.
     pub fn clearance_m(&self, from: &Pose, to: &Pose, scratch: &mut Scratch) -> Option<f64> {
         if self.parts_branches(from, to) {
             return None;
@@ -166,7 +166,7 @@ impl Lines {
 
     /// Whether another branch offers a smaller change than `q`, of `branch`, does from `last`.
     ///
-    /// All branches are asked only where the elbow or the wrist the other way round could be as near.
+    /// All branches are tried only where the elbow or the wrist the other way round could be as near.
     #[inline]
     fn leaves_branch(&self, q: &Joints, last: &Joints, branch: Branch, target: &Frame) -> bool {
         let arm = self.cell.robot().arm();

@@ -8,7 +8,7 @@ use crate::geometry::Frame;
 use crate::kinematics::Joints;
 use crate::kinematics::ik::Branch;
 
-/// How far a configuration at the end of an edge may be from the one asked for: radians.
+/// How far a configuration at the end of an edge may be from the one requested: radians.
 pub(super) const SAME_RAD: f64 = 1e-6;
 
 /// Why there is no local path.

@@ -155,7 +155,7 @@ fn defined(arm: &crate::kinematics::Arm, a: &Pose, b: &Pose) -> Result<(), Rejec
         if q.iter().zip(&last).any(|(x, y)| (x - y).abs() > rules().jump_rad) {
             return Err(Rejection::Jump);
         }
-        // Limits are asked four times as often.
+        // Limits are checked four times as often.
         for quarters in 1..4 {
             let between = arm.inverse_on(&at(quarters), a.branch, &last);
             let is_within = between.is_some_and(|q| q.iter().zip(&last).all(|(x, y)| (x - y).abs() < PI));

@@ -134,7 +134,7 @@ impl CarriedArm {
     }
 
     /// For every obstacle within `reach` of a rod's surface, the floor last, the rod nearest to it, by the exact distance or by the
-    /// printed one, with what is remembered of a configuration near by. What the first joint alone moves keeps its distance to what
+    /// printed one, with what is remembered of a near configuration. What the first joint alone moves keeps its distance to what
     /// the base stands on and is not held against it.
     pub fn contacts_of(
         &self,

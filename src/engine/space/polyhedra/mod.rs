@@ -1,6 +1,6 @@
 //! A point among convex polyhedra, on a cubic lattice and off it; and, if there is one, the arm that carries it.
 //!
-//! Obstacles are closed unless asked otherwise: a point of a face is in contact, so that two boxes that touch leave no gap. What the
+//! Obstacles are closed unless set otherwise: a point of a face is in contact, so that two boxes that touch leave no gap. What the
 //! point must keep clear of are the obstacles grown by a margin, every plane moved out by it; the arm's rods must
 //! keep clear of the obstacles themselves. Lengths are centimetres.
 

@@ -167,7 +167,7 @@ impl Roadmap {
         Self { local, counted, samples, nodes, near, unit_mm, times: 1.0, numbers, links, tally, memory }
     }
 
-    /// Makes `unit_mm`, of which the radius is `times` as much, the distance that planners may take multiples of; without it that is
+    /// Makes `unit_mm`, the radius over `times`, the distance that planners may take multiples of; without it that is
     /// the radius.
     pub fn set_unit(&mut self, unit_mm: f64, times: f64) {
         self.unit_mm = unit_mm;
@@ -293,7 +293,7 @@ impl Roadmap {
         self.join_counted(a, b).0
     }
 
-    /// As [`join`](Self::join), with how many configurations were checked for contact when it was first asked.
+    /// As [`join`](Self::join), with how many configurations were checked for contact when it was first needed.
     pub fn join_counted(&self, a: u32, b: u32) -> (Result<(), Rejection>, u64) {
         let key = (a.min(b), a.max(b));
         let mut guard = self.remember();

@@ -16,7 +16,7 @@ pub enum Near {
     Places(f64),
     /// Those whose configurations are at most so far apart.
     Configurations(f64),
-    /// Two of which one is among the so many whose configurations are nearest to the other's; of equally far ones the one
+    /// Two, one of them among the so many whose configurations are nearest to the other's; of equally far ones the one
     /// drawn first.
     Nearest(usize),
 }

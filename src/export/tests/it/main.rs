@@ -2,11 +2,13 @@
 
 use polars::prelude::DataFrame;
 use rusqlite::Connection;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use study::elsewhere::{Imported, Mapping, Table};
 use study::parquet::FrameReader;
+use study::store::Staged;
 use tempfile::TempDir;
 
 fn root() -> PathBuf {
@@ -164,6 +166,42 @@ fn a_trace_for_posthoc_opens_and_expands_as_the_search_did() {
         }
         assert!(open.len() > 1, "{}", file.display());
     }
+}
+
+#[test]
+fn names_that_sql_or_a_log_could_take_for_more_come_back_as_they_are() {
+    let names = [
+        "Robert'); DROP TABLE runs;--",
+        "a \"quoted\" one; 2",
+        "na\u{ef}ve \u{540d}",
+        ".",
+        "3 planners",
+        "NULL",
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let rows = names.map(|name| format!("\"{}\",1\n", name.replace('"', "\"\"")));
+    fs::write(at("results.csv"), format!("planner,map\n{}", rows.concat())).unwrap();
+    let columns = "group = { is = \"maps'; --\" }\ninstance = \"map\"\ncontender = { column = \"planner\" }\n\
+                   [status]\ncolumn = \"map\"\nmeans = { solved = [\"1\"] }\n";
+    fs::write(at("columns.toml"), columns).unwrap();
+    let mapping = Mapping::read(&at("columns.toml")).unwrap();
+    let imported = Imported::new(&Table::read_csv(&at("results.csv")).unwrap(), &mapping).unwrap();
+    let mut staged = Staged::default();
+    imported.stage_alone(&mut staged, &at("run"), "results", "a test".to_owned()).unwrap();
+    staged.put().unwrap();
+    let run = at("run");
+    let out = exported(run.to_str().unwrap(), "planner-arena");
+    let arena = Connection::open(out.path().join("plannerarena.db")).unwrap();
+    let mut query = arena.prepare("SELECT name FROM plannerConfigs ORDER BY id").unwrap();
+    let found: Vec<String> = query.query_map([], |row| row.get(0)).unwrap().map(Result::unwrap).collect();
+    assert_eq!(found.into_iter().collect::<BTreeSet<_>>(), names.map(str::to_owned).into());
+    let group: String = arena.query_row("SELECT name FROM experiments", [], |row| row.get(0)).unwrap();
+    assert_eq!(group, "results/maps'; --");
+    let out = exported(run.to_str().unwrap(), "ompl-log");
+    let log = fs::read_dir(out.path()).unwrap().next().unwrap().unwrap().path();
+    let planners = parsed(&fs::read_to_string(log).unwrap());
+    assert_eq!(planners.into_keys().collect::<BTreeSet<_>>(), names.map(str::to_owned).into());
 }
 
 #[test]

@@ -96,7 +96,16 @@ fn a_listed_draw_is_what_a_search_finds() {
     for group in &study.groups {
         let listed = group.family(&group.points[0], &point, &inputs).unwrap();
         let mut table = group.settings.table().clone();
-        assert!(table.remove("found").is_some(), "{} lists no instances", group.label);
+        let read: Conditioned = group.settings.read().unwrap();
+        let list = root.join(read.found.as_deref().unwrap());
+        let listed_tries = found::read(&list, &read.fingerprint()).unwrap();
+        assert_eq!(
+            listed_tries.len(),
+            group.instances as usize,
+            "{}: its list is of another revision",
+            group.label
+        );
+        table.remove("found");
         let searched = (ENTRY.build)(&Settings::composed("searched", table), &inputs).unwrap();
         for instance in 0..3_u32 {
             let names = ["zhang", "conditioned", "problem", &group.label, &instance.to_string()];

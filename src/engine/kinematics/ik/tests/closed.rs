@@ -228,7 +228,7 @@ fn singular_poses_are_reached_to_a_nanometre() {
             reference[5] = q[5];
             let found = held(&arm, &q, &reference, &place);
             // At the edge of reach in two ways at once, rounding decides. So it does where one of them comes by chance: an elbow
-            // within a milliradian of the edge leaves some 1e-7 m, as much as a wrist of 1e-10 rad leaves undecided.
+            // within a milliradian of the edge leaves some 1e-7 m, as much as a wrist of 1e-10 rad leaves open.
             let [elbow, wrist] = arm.solver.folds_rad(&q).map(|fold| libm::sin(fold).abs() < 1e-3);
             let is_by_chance = kind & 3 != 3 && elbow && (wrist || kind >= 4);
             let is_twice_at_the_edge = kind & 2 != 0 && kind >= 4 || is_by_chance;

@@ -1,4 +1,4 @@
-//! The joints of a robot file: each number is told at its own key, and all that are wrong at once.
+//! The joints of a robot file: each fault is reported at its own key, and all that are wrong at once.
 
 use super::{Convention, RobotFile, Source};
 use crate::{
@@ -74,7 +74,7 @@ pub(super) fn joints(source: &Source, file: &RobotFile, faults: &mut Faults) -> 
 /// A key of a joint, and the number there.
 type Quantity = (&'static str, f64);
 
-/// What is said of an arm that is a thousandth of its size, or does not turn: it is written in metres or radians.
+/// The message about an arm that is a thousandth of its size, or does not turn: it is written in metres or radians.
 fn other_units(source: &Source, entries: &[Spanned<JointEntry>]) -> Vec<SettingsError> {
     // The longest link of an arm is longer, and some joint turns farther; metres and radians are less.
     const SHORT_MM: f64 = 10.0;

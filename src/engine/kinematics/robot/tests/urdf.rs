@@ -48,7 +48,7 @@ fn urdf(chain: &Chain, solids: &str) -> String {
 
 /// The arm, which stands at the origin without a tool, as a URDF file of it is read.
 pub fn read_back(arm: &Arm) -> Arm {
-    urdf::robot(&parsed(urdf(arm.chain(), BALL))).unwrap().arm().clone()
+    urdf::robot(&parsed(urdf(arm.chain(), BALL)), None).unwrap().arm().clone()
 }
 
 fn parsed(text: String) -> base::robot::Robot {
@@ -112,7 +112,7 @@ fn skew_axes_in_frames_of_any_kind_keep_their_kinematics_and_take_the_search() {
             );
         }
         let read = parsed(text + "</robot>");
-        let robot = urdf::robot(&read).unwrap();
+        let robot = urdf::robot(&read, None).unwrap();
         let open = OpenChain::new(&read);
         assert_eq!(robot.arm().solver().name, "numerical");
         assert!(robot.notes()[0].contains("by `numerical`, which may miss configurations"));
@@ -138,7 +138,7 @@ fn capsules_hold_the_solids_that_they_stand_for() {
             "<collision><origin xyz=\"0.01 0.02 0.03\" rpy=\"0.3 -0.2 0.1\"/><geometry>{form}</geometry></collision>"
         );
         let read = parsed(urdf(shipped("ur5").arm().chain(), &solids));
-        let robot = urdf::robot(&read).unwrap();
+        let robot = urdf::robot(&read, None).unwrap();
         let open = OpenChain::new(&read);
         assert_eq!(robot.notes().len(), usize::from(!form.contains("sphere")), "{form}: {:?}", robot.notes());
         let mut stream = seed::stream(4);

@@ -32,7 +32,7 @@ const ALL: u8 = u8::MAX;
 /// What is known of eight configurations: one bit each.
 #[derive(Debug, Clone, Copy, Default)]
 struct Known {
-    /// In contact, beyond limits or not there: nothing more is asked.
+    /// In contact, beyond limits or not there: nothing more is checked.
     shut: u8,
     /// In doubt.
     unsure: u8,
@@ -135,7 +135,7 @@ impl<'a> Crowd<'a> {
         Self { outline, known, placed: parts.clone(), boxes: parts, at_obstacles, pairs: Waiting::EMPTY }
     }
 
-    /// Looks at `states`, of which only those that `is_asked` are of interest.
+    /// Looks at those of `states` that `is_asked` names.
     #[inline(always)]
     fn look<S: Simd>(&mut self, simd: S, states: &[Joints], is_asked: impl Fn(&Joints) -> bool) {
         self.known.clear();
@@ -196,7 +196,7 @@ impl<'a> Crowd<'a> {
         for &obstacle in &outline.bounded {
             let corners = outline.boxes[obstacle].map(|corner| Point::splat_rough(simd, corner));
             for parts in outline.exposed.chunks(IN_A_ROW) {
-                // A byte a part: whether any is met is not asked of each, the answer is too often another one.
+                // A byte a part: whether any is met is not checked for each, the answer is too often another one.
                 let mut met = 0;
                 for (byte, part) in parts.iter().enumerate() {
                     met |= overlaps(load(simd, &self.boxes[*part]), corners) << (8 * byte);
@@ -265,7 +265,7 @@ fn own_gaps<S: Simd>(simd: S, outline: &Outline, group: &Group<2>) -> [u8; 2] {
 impl Cell {
     /// Whether the robot can be at each of `states`, as [`is_free`](Self::is_free) says of one.
     ///
-    /// Eight configurations are looked at at once; what lies within the error band is asked about again one at a time.
+    /// Eight configurations are looked at at once; what lies within the error band is checked again one at a time.
     pub fn are_free(&self, states: &[Joints]) -> Vec<bool> {
         let found = self.are_free_lanes(states);
         states.iter().zip(found).map(|(q, found)| found.unwrap_or_else(|| self.is_free(q))).collect()

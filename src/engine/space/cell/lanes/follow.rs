@@ -22,7 +22,7 @@ fn exceeds(value: f64, bound: f64) -> Option<bool> {
     }
 }
 
-/// [`Joint::nearest_allowed_copy`] of an angle known to less than [`SLACK`]; `None` if it cannot be told.
+/// [`Joint::nearest_allowed_copy`] of an angle known to less than [`SLACK`]; `None` if it is uncertain.
 #[inline]
 fn allowed_copy(joint: &Joint, angle_rad: f64, reference_rad: f64) -> Option<Result<f64, Rejection>> {
     let near = nearest_copy(angle_rad, reference_rad);
@@ -195,7 +195,7 @@ impl Lines {
         let poses = dispatch!(level(), simd => way.at_lanes(simd, shares));
         let arm = self.cell.robot().arm();
         let Some(found) = arm.solve_lanes(&poses, branch) else { return false };
-        // A joint that could go on only by a turn back is none of which a copy surely is the nearest.
+        // A joint that could go on only by a turn back has no copy that is surely the nearest.
         let keeps = |lane: usize| {
             let mut joints = arm.chain().joints().iter().enumerate();
             joints.all(|(i, joint)| {

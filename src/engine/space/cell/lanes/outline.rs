@@ -46,7 +46,7 @@ pub(in crate::space::cell) struct Outline {
     /// The same, eight obstacles a block: the least x, y and z, then the greatest.
     pub(super) bounds: Vec<[RoughRow; 6]>,
     pub(super) pairs: Vec<Pair>,
-    /// How close a comparison may be before the scalar code is asked.
+    /// How close a comparison may be before the scalar code decides.
     pub(super) band_m: f32,
 }
 

@@ -24,7 +24,7 @@ struct Stop {
     placed: Vec<Axis>,
     /// How far each part may stray from its place at the nearer end of the step.
     offsets: Vec<RoughRow>,
-    /// The steps of which both halves beside this stop are to be halved.
+    /// The steps whose halves beside this stop are to be halved.
     near: u64,
     /// The configurations, where they are not on a line.
     states: [Joints; ROUGH_LANES],

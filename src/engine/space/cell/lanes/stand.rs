@@ -17,7 +17,7 @@ pub(super) enum Look {
     Free,
     /// In contact; holds the rank of the first such configuration, counted from the middle outwards.
     Contact(usize),
-    /// Undecided: a comparison fell within its error band, or a solid has no lanes.
+    /// Open: a comparison fell within its error band, or a solid has no lanes.
     UnsettledPath,
 }
 

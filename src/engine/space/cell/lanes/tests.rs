@@ -15,7 +15,7 @@ use rand::RngExt as _;
 use std::collections::BTreeMap;
 use std::path::Path as FilePath;
 
-/// A cell with every kind of obstacle, two of which have no lanes, and a turned box.
+/// A cell with every kind of obstacle, two of them without lanes, and a turned box.
 fn mixed_cell(robot: &Robot) -> Cell {
     let text = "name = 'mixed'\n[support]\nunder = 'floor'\nbase_mm = [0, 0, 0]\nyaw_deg = 0\n[[box]]\nname = 'b'\nmin_mm = [600, -300, 0]\n\
                 max_mm = [900, 100, 700]\nyaw_deg = 30\n[[capsule]]\nname = 'c'\nfrom_mm = [-800, 500, 300]\n\
@@ -211,7 +211,7 @@ fn lanes_and_one_configuration_at_a_time_agree_on_every_motion() {
     let readings = [
         (rules(), 40_000),
         (LineRules { path: Path::Joints, ..rules() }, 20_000),
-        // Most of these are free or not by what is between their configurations.
+        // Most of these are free or not by the steps between their configurations.
         (LineRules { path: Path::Joints, step_rad: 0.4, ..rules() }, 10_000),
         (LineRules { speed: Some(speed), end: EdgeEnd::WholeTurns, ..rules() }, 20_000),
         (LineRules { end: EdgeEnd::PoseOnly, turn_rad: 1.5, ..rules() }, 10_000),
