@@ -117,6 +117,11 @@ impl Number {
         Self { ends, interval: Some(interval), ..Self::default() }
     }
 
+    /// Whether both numbers of every case are equal.
+    pub fn is_tied(&self) -> bool {
+        self.equal > 0 && self.below + self.above == 0
+    }
+
     /// The value with its interval.
     pub fn found(&self) -> Option<(f64, Interval)> {
         self.value.zip(self.interval)

@@ -55,6 +55,12 @@ pub fn too_few(drawn: Option<usize>) -> Option<usize> {
     drawn.and_then(needs)
 }
 
+/// What so many instances that all tie say: how many more might not.
+pub fn tied(instances: usize) -> Option<String> {
+    let bound = clopper_pearson(0, instances, LEVEL)?;
+    Some(format!("every case ties: at most {:.1} % of instances could differ (95 %)", 100.0 * bound.high))
+}
+
 /// A bootstrap as every verdict makes it, with the stream of instances that belongs to `names`.
 pub(super) fn plan(names: &[&str]) -> Resampling {
     Resampling { resamples: 2000, level: LEVEL, seed: seed::derive(0, names) }

@@ -10,7 +10,7 @@ use crate::analysis::verdict::{ClaimVerdict, CriterionFinding, Effect, Verdicts}
 use crate::analysis::verdict_rule::Verdict;
 use crate::render::RenderError;
 use crate::render::figure::caption;
-use crate::render::headline::{Headline, headlines};
+use crate::render::headline::{Headline, evidence, headlines};
 use crate::render::prose::prose;
 use crate::render::tables::{Beside, beside, short};
 use study::paper::PrintedTable;
@@ -134,14 +134,18 @@ impl Body<'_> {
             let ours = headline.ours.as_ref().map_or_else(String::new, |ours| format!(": {ours}"));
             format!(
                 "<li>{} <a href=\"#claim={}\">{}</a>{}</li>\n",
-                badge(headline.judged.word(), &headline.judged.verdict_said()),
+                badge(headline.judged.word(), &headline.verdict(self.verdicts)),
                 escaped(&headline.judged.claim),
                 escaped(&headline.says),
                 escaped(&ours)
             )
         };
         let lines: String = headlines(self.evidence.paper, self.verdicts).iter().map(line).collect();
-        if lines.is_empty() { lines } else { format!("<ul class=\"headlines\">\n{lines}</ul>\n") }
+        if lines.is_empty() {
+            return lines;
+        }
+        let evidence = evidence(self.verdicts);
+        format!("<ul class=\"headlines\">\n{lines}</ul>\n<p>{}</p>\n", escaped(&evidence))
     }
 
     fn navigation(&self, is_without_curves: bool) -> String {

@@ -19,7 +19,8 @@ pub struct Headline<'a> {
     pub judged: &'a ClaimVerdict,
     /// What the paper says.
     pub says: String,
-    /// Our number in words; `None` if there is none, or if the parts of the claim measure different things.
+    /// Our number in words with how many instances it rests on; `None` if there is none, or if the parts of the claim measure
+    /// different things.
     pub ours: Option<String>,
 }
 
@@ -38,15 +39,41 @@ pub fn headlines<'a>(paper: &'a Paper, verdicts: &'a Verdicts) -> Vec<Headline<'
 }
 
 impl Headline<'_> {
-    /// The verdict with the counts over interpretations, where they were explored.
-    pub fn verdict(&self) -> String {
+    /// The verdict with the counts over interpretations, where they were explored, or with how many meanings have which verdict.
+    pub fn verdict(&self, verdicts: &Verdicts) -> String {
         let verdict = self.judged.verdict_said();
-        let beside = self.judged.said.as_deref().filter(|said| !said.starts_with("meanings: "));
-        match beside.and_then(|said| said.split("; ").next()) {
+        let beside = match self.judged.said.as_deref() {
+            Some(said) if said.starts_with("meanings: ") => meanings(self.judged, verdicts),
+            Some(said) => said.split("; ").next().map(str::to_owned),
+            None => None,
+        };
+        match beside {
             Some(said) => format!("{verdict}, {said}"),
             None => verdict,
         }
     }
+}
+
+/// How many of the meanings of a sentence have each verdict, if they differ.
+fn meanings(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
+    let parts = verdicts.claims.iter().filter(|part| part.part_of.as_ref() == Some(&judged.claim));
+    let mut counts: Vec<(String, usize)> = Vec::new();
+    for said in parts.map(ClaimVerdict::verdict_said) {
+        match counts.iter_mut().find(|(known, _)| *known == said) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((said, 1)),
+        }
+    }
+    let of_each: Vec<String> = counts.iter().map(|(said, count)| format!("{count} {said}")).collect();
+    (counts.len() > 1).then(|| format!("by meaning: {}", of_each.join(", ")))
+}
+
+/// Under how much the headline claims were judged, and the command that does it again.
+pub fn evidence(verdicts: &Verdicts) -> String {
+    let again = format!("`replan repro {}` computes it again.", verdicts.paper);
+    let Some(explored) = &verdicts.explored else { return format!("Judged under the defaults alone; {again}") };
+    let seed = if explored.second_seed { "with a second seed" } else { "without a second seed" };
+    format!("Judged under {} interpretations, {seed}; {again}", explored.interpretations)
 }
 
 /// Our number beside a claim, or those of its parts where they measure the same.
@@ -59,7 +86,7 @@ fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
         let is_rank = ours.what.starts_with("the lesser rank");
         let letter = if ours.what.starts_with("p of") { "p = " } else { "" };
         let number = || effect(ours).unwrap_or_else(|| short(ours));
-        return (!is_rank).then(|| format!("{printed}{letter}{}{unit}", number()));
+        return (!is_rank).then(|| format!("{printed}{letter}{}{unit} (n = {})", number(), ours.n));
     }
     let parts = verdicts.claims.iter().filter(|part| part.part_of.as_ref() == Some(&judged.claim));
     let estimates: Vec<&Estimate> = parts.filter_map(ClaimVerdict::ours).collect();
@@ -75,9 +102,17 @@ fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     let decimals = effects.iter().map(|effect| effect.decimals).min()?;
     let mut sizes: Vec<f64> = effects.iter().map(|effect| effect.size).collect();
     let number = |size: &f64| format!("{size:.decimals$}");
+    let mut counts: Vec<usize> = estimates.iter().map(|estimate| estimate.n).collect();
+    if counts.iter().all(|n| *n == counts[0]) {
+        counts.truncate(1);
+    }
     if sizes.len() <= LISTED {
-        return Some(format!("{}{words}", sizes.iter().map(number).collect::<Vec<_>>().join(" / ")));
+        let joined = |all: Vec<String>| all.join(" / ");
+        let n = joined(counts.iter().map(ToString::to_string).collect());
+        return Some(format!("{}{words} (n = {n})", joined(sizes.iter().map(number).collect())));
     }
     sizes.sort_by(f64::total_cmp);
-    Some(format!("{} to {}{words}", number(sizes.first()?), number(sizes.last()?)))
+    counts.sort_unstable();
+    let n = if counts.len() == 1 { counts[0].to_string() } else { format!("{} to {}", counts[0], counts.last()?) };
+    Some(format!("{} to {}{words} (n = {n})", number(sizes.first()?), number(sizes.last()?)))
 }

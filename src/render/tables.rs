@@ -249,10 +249,10 @@ pub fn short(estimate: &Estimate) -> String {
     rounded(estimate, 1 + (-leading).clamp(1.0, 9.0) as usize)
 }
 
-/// The same with so many decimals where it has an interval.
+/// The same with so many decimals where it has an interval that is more than the number itself.
 fn rounded(estimate: &Estimate, decimals: usize) -> String {
     match estimate.interval {
-        Some([low, high]) => {
+        Some([low, high]) if low < high => {
             let coarse = |value: f64| {
                 let text = format!("{value:.decimals$}");
                 let is_zero = text.bytes().all(|byte| b"-0.".contains(&byte));
@@ -260,7 +260,7 @@ fn rounded(estimate: &Estimate, decimals: usize) -> String {
             };
             format!("{} [{}, {}]", coarse(estimate.value), coarse(low), coarse(high))
         }
-        None => number(estimate.value),
+        _ => number(estimate.value),
     }
 }
 
@@ -309,7 +309,8 @@ mod tests {
             (-0.0193, -0.0388, -0.0012, "-0.019 [-0.039, -0.001]"),
             (0.0, 0.0, 0.03, "0.000 [0.000, 0.030]"),
             (-0.001, -0.002, 18.0, "0.00 [0.00, 18.00]"),
-            (0.0, 0.0, 0.0, "0.00 [0.00, 0.00]"),
+            (0.0, 0.0, 0.0, "0"),
+            (1.42, 1.42, 1.42, "1.42"),
             (3e-9, 1e-9, 4e-9, "0.0000000030 [0.0000000010, 0.0000000040]"),
             (18.149, 14.3, 22.0, "18.15 [14.30, 22.00]"),
             (f64::INFINITY, 1.0, f64::INFINITY, "inf [1.00, inf]"),

@@ -10,7 +10,7 @@ use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Case, Instance, Selection, is_unended};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{
-    FEWEST_INSTANCES, LEVEL, OverallStatistic, how, narrows, needs, plan, turned,
+    FEWEST_INSTANCES, OverallStatistic, how, narrows, needs, plan, tied, turned,
 };
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, SettingsError};
@@ -20,7 +20,6 @@ use stats::bands::{Band, sup_t_between};
 use stats::bootstrap::Resampling;
 use stats::interval::Interval;
 use stats::paired::snapped;
-use stats::proportion::clopper_pearson;
 use study::key::SweepKey;
 use study::name;
 use study::record::Row;
@@ -128,7 +127,7 @@ impl<'a> Lower<'a> {
         else {
             return CriterionResult::too_few(all.measured, all.ran, FEWEST_INSTANCES);
         };
-        let found = self.found(interval, is_tied(all));
+        let found = self.found(interval, all.is_tied());
         // What fills in for those that are missing ties with nothing.
         let is_turned = ended(numbers).any(|filled| self.found(turned(filled), false) != found);
         let what = format!("change of {metric} in %, {} 95 % over instances", how(all.is_agreed));
@@ -136,7 +135,7 @@ impl<'a> Lower<'a> {
             outcome: Some(found),
             ours: Some(Estimate::new(value, interval, what, all.n).of_cases(all.cases())),
             because: std::iter::once(self.sentence(metric, (value, interval), all))
-                .chain(tied(all))
+                .chain(all.is_tied().then(|| tied(all.measured)).flatten())
                 .collect(),
             limits: vec![0.0, if self.way == Way::Higher { self.by_percent } else { 0.0 - self.by_percent }],
             units: "instances",
@@ -246,17 +245,6 @@ impl<'a> Lower<'a> {
         let against = |case: &Case<'_>| case.row.key.sweep.has(&point).then(|| sign * solved_more(case));
         selection::least(&self.of, evidence, &self.of.instances(evidence), against)
     }
-}
-
-/// Whether both numbers of every case are equal.
-fn is_tied(all: &Number) -> bool {
-    all.equal > 0 && all.below + all.above == 0
-}
-
-/// What is said of cases that all tie: the most instances on which they might not.
-fn tied(all: &Number) -> Option<String> {
-    let bound = clopper_pearson(0, all.measured, LEVEL).filter(|_| is_tied(all))?;
-    Some(format!("every case ties: at most {:.1} % of instances could differ (95 %)", 100.0 * bound.high))
 }
 
 /// By how many a case is solved more than by the other: 1, 0 or -1.

@@ -9,7 +9,7 @@ use crate::analysis::number::{Number, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Case, Instance, Selection, cases, most_cases};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{Share, plan, too_few};
+use crate::analysis::statistic::{Share, plan, tied, too_few};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -21,7 +21,8 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "on_every",
     about: "does it hold on every case that a contender is lower, within a bound, or solves what another solves?",
-    revision: |_| 4,
+    // Since 5, a few cases that all tie are too few.
+    revision: |settings| if settings.get("that").is_some_and(|that| that.as_str() == Some("lower")) { 5 } else { 4 },
     question: |_| Some("every case 1"),
     settings: Accepted::shape::<Settings>(),
     example: r#"
@@ -206,15 +207,17 @@ impl Criterion for OnEvery<'_> {
         let left = (unknown > 0).then(|| format!("{unknown} more cases have no number to compare"));
         let outside =
             censored::outside_in_words(&self.of, all.outside).filter(|_| self.that != Condition::Solved);
+        let tie = all.drawn.filter(|_| all.is_tied()).and_then(tied);
         let share = Share::of(all).map(|share| share.estimate(&format!("cases on which {}", self.claim())));
         CriterionResult {
             outcome: Some(outcome),
             ties: if outcome == Outcome::Open { equal } else { 0 },
             ours: share.map(|ours| ours.of_cases(all.cases())),
-            because: std::iter::once(because).chain(left).chain(outside).collect(),
+            because: std::iter::once(because).chain(tie).chain(left).chain(outside).collect(),
             units: "cases",
             censored: unknown,
-            needs: too_few(all.drawn).filter(|_| outcome == Outcome::Holds),
+            // One counterexample is enough; that the first few cases hold, or tie, is not.
+            needs: too_few(all.drawn).filter(|_| broken == 0 && outcome != Outcome::Open),
             ..CriterionResult::default()
         }
     }

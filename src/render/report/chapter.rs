@@ -6,7 +6,7 @@ use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::{ClaimVerdict, Verdicts};
 use crate::analysis::verdict_rule::Column;
 use crate::render::figure::caption;
-use crate::render::headline::{Headline, headlines};
+use crate::render::headline::{Headline, evidence, headlines};
 use crate::render::prose::{COLUMNS, markdown, prose, wrapped};
 use crate::render::tables;
 use crate::render::{RenderError, results, state};
@@ -111,10 +111,10 @@ impl Page<'_> {
         text.extend(first.map(|first| wrapped("", &first, 0, COLUMNS) + "\n\n"));
         for headline in headlines(paper, self.verdicts) {
             let ours = headline.ours.as_ref().map_or_else(String::new, |ours| format!(": {ours}"));
-            let verdict = headline.judged.verdict_said();
+            let verdict = headline.verdict(self.verdicts);
             text += &item(0, &format!("{}. **{}**", markdown(&(headline.says + &ours)), markdown(&verdict)));
         }
-        text
+        text + "\n" + &paragraph(&evidence(self.verdicts))
     }
 
     /// The headline claims, a line each: where the paper says it, ours, and the verdict.
@@ -122,14 +122,13 @@ impl Page<'_> {
         *text += "| claim | at | ours | verdict |\n|---|---|---|---|\n";
         let details = self.details_file();
         for headline in headlines(self.evidence.paper, self.verdicts) {
-            let verdict = headline.verdict();
+            let verdict = headline.verdict(self.verdicts);
             let Headline { judged, says, ours } = headline;
             let says = link(judged, &markdown(&says), &details);
-            let n = judged.ours().map_or_else(String::new, |ours| format!("; n = {}", ours.n));
-            let ours = ours.map_or_else(|| "–".to_owned(), |ours| markdown(&(ours + &n)));
+            let ours = ours.map_or_else(|| "–".to_owned(), |ours| markdown(&ours));
             *text += &format!("| {says} | {} | {ours} | {} |\n", markdown(&judged.at), markdown(&verdict));
         }
-        *text += "\n";
+        *text += &format!("\n{}", paragraph(&evidence(self.verdicts)));
     }
 
     /// The paper's tables that hold claims, and those of our results that the chapter shows.
