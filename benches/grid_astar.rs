@@ -291,8 +291,8 @@ fn compare_python(group: &mut BenchmarkGroup<'_, WallTime>, posed: &Posed) {
     const VENV: [&str; 3] = ["planners/venv", "grids.py", "`planners/python/install` makes it"];
     let truth = posed.octile(&mut OctileAstar::new(posed.lattice().moves()).unwrap());
     for (package, name) in [("networkx", "networkx"), ("pathfinding", "pathfinding_python")] {
-        if let Some((mut peer, told)) = Peer::start(VENV, &[], &posed.question(package)) {
-            assert_eq!(told, json!(truth), "{package}");
+        if let Some((mut peer, answer)) = Peer::start(VENV, &[], &posed.question(package)) {
+            assert_eq!(answer, json!(truth), "{package}");
             group.bench_function(name, |bencher| bencher.iter_custom(|rounds| peer.time(rounds)));
         }
     }

@@ -43,7 +43,7 @@ fn study(groups: usize) -> String {
 fn claims(count: usize) -> String {
     let claim = |index: usize| {
         let group = index % GROUPS;
-        let asked = if index % 40 < 20 {
+        let criterion = if index % 40 < 20 {
             format!(
                 "printed = \"{}\"\n[claim.check.exists]\nmetric = \"opened\"\ncontenders = [\"A\", \"B\"]\nin = [{{ study = \"s0\", problems \
                  = \"m{group}\" }}]\n",
@@ -55,7 +55,7 @@ fn claims(count: usize) -> String {
                  \"opened\" }}\n"
             )
         };
-        format!("[[claim]]\nid = \"c{index}\"\nat = \"row {index}\"\nsays = \"nodes\"\n{asked}")
+        format!("[[claim]]\nid = \"c{index}\"\nat = \"row {index}\"\nsays = \"nodes\"\n{criterion}")
     };
     (0..count).map(claim).collect()
 }

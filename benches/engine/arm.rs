@@ -201,16 +201,16 @@ fn mujoco(cell: &Cell, drawn: &[Joints]) -> Option<Peer> {
     const SCRIPT: [&str; 3] =
         ["crosscheck/venv", "mujoco_states.py", "`cargo run -- crosscheck fu2018` makes it"];
     const MODEL: &str = "crosscheck/fu2018/up6-in-cell/scene.xml";
-    let (peer, told) = Peer::start(SCRIPT, &[MODEL], &serde_json::json!(drawn))?;
-    let told: Vec<bool> = serde_json::from_value(told).expect("one answer a configuration");
+    let (peer, touching) = Peer::start(SCRIPT, &[MODEL], &serde_json::json!(drawn))?;
+    let touching: Vec<bool> = serde_json::from_value(touching).expect("one answer a configuration");
     let mut placed = Vec::new();
     let mut touches = |q: &Joints| {
         cell.place(q, &mut placed);
         cell.standing(&placed, |_| 0.0) == Standing::Contact
     };
-    let differ = drawn.iter().zip(&told).filter(|(q, told)| touches(q) != **told).count();
+    let differ = drawn.iter().zip(&touching).filter(|(q, touching)| touches(q) != **touching).count();
     println!("configuration: MuJoCo differs on {differ}");
-    assert!(told.len() == drawn.len() && differ < 10, "{differ} answers differ");
+    assert!(touching.len() == drawn.len() && differ < 10, "{differ} answers differ");
     Some(peer)
 }
 

@@ -40,7 +40,7 @@ fn questions(criterion: &mut Criterion) {
                 let query = Query { id: 1, seed: 0, world: data, start: &[3.0, 4.0], goal: &[4.0, 5.0] };
                 let mut space = Space::new(&world, false);
                 let talk = solve(&mut process, query, limits, &mut space, now_ns);
-                assert_eq!((&talk.end, talk.asked.batches), (&End::NoPath, BATCHES as u64));
+                assert_eq!((&talk.end, talk.questions.batches), (&End::NoPath, BATCHES as u64));
                 black_box(talk)
             });
         });

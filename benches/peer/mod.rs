@@ -54,8 +54,8 @@ impl Peer {
         let questions = child.stdin.take().expect("its input is ours");
         let answers = BufReader::new(child.stdout.take().expect("its output is ours"));
         let mut peer = Self { child, questions, answers };
-        let told = peer.ask(&question.to_string());
-        Some((peer, serde_json::from_str(&told).expect("answers in JSON")))
+        let answer = peer.ask(&question.to_string());
+        Some((peer, serde_json::from_str(&answer).expect("answers in JSON")))
     }
 
     fn ask(&mut self, question: &str) -> String {

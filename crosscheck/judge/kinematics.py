@@ -33,9 +33,7 @@ def frames(model: Model, q_rad: Numbers) -> Numbers:
     for row, angle in zip(model.rows, q_rad.T, strict=True):
         now = now @ moved(angle + row.offset_rad, row.alpha_rad, row.a_m, row.d_m)
         found.append(now)
-    tool = np.eye(4)
-    tool[2, 3] = model.tool_m
-    return np.stack([*found, now @ tool], axis=1)
+    return np.stack([*found, now @ model.tool()], axis=1)
 
 
 def jacobian(placed: Numbers, frame: int) -> Numbers:
@@ -99,6 +97,7 @@ def between(model: Model, straight: str, start: Numbers, end: Numbers, share: fl
         return straight_tool(model, start, end, share)
     if straight == "tip":
         return straight_tip(model, start, end, share)
+    end = np.where([row.is_endless for row in model.rows], continued(start, end), end)
     return start + (end - start) * share
 
 

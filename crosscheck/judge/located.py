@@ -108,6 +108,8 @@ def refused(
         schema = whole["$defs"][schema["$ref"].rsplit("/", 1)[1]]
     name = at[-1] if at else "the file"
     wanted = schema.get("type")
+    # What may be left out is of a type or null, which TOML has not.
+    wanted = wanted[0] if isinstance(wanted, list) else wanted
     if options := [option["const"] for option in schema.get("oneOf", [])]:
         if value not in options:
             yield at, f"`{name}` is {json.dumps(value)}; accepted: {', '.join(map(json.dumps, options))}"

@@ -10,7 +10,7 @@ meshes of eight vertices. Links and obstacles meet by masks, parts of the robot 
 from collections.abc import Iterable
 from xml.sax.saxutils import quoteattr
 
-from judge.robots import Model, Numbers, Part
+from judge.robots import Model, Numbers, Part, Row
 from judge.scenes import Still
 
 SEEN_M = 4e-3
@@ -62,14 +62,26 @@ def robot(model: Model) -> list[str]:
     for link, row in enumerate(model.rows, 1):
         lines += [
             f'    <body name="turned_{link}" axisangle="0 0 1 {number(row.offset_rad)}">',
-            f'      <joint name="joint_{link}" axis="0 0 1" range="{numbers(row.limits_rad)}"/>',
+            f'      <joint name="joint_{link}" axis="0 0 1"{limits(row)}/>',
             '      <inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>',
             f'    <body name="link_{link}" pos="{numbers((row.a_m, 0.0, row.d_m))}" '
             f'axisangle="1 0 0 {number(row.alpha_rad)}">',
             *geoms(model, link),
         ]
-    tool = f'    <body name="tool" pos="0 0 {number(model.tool_m)}"/>'
-    return [*lines, tool, "    " + "</body>" * (2 * len(model.rows) + 1)]
+    return [*lines, f'    <body name="tool" {tool_place(model)}/>', "    " + "</body>" * (2 * len(model.rows) + 1)]
+
+
+def limits(row: Row) -> str:
+    """The limits of a joint; one that turns without end has none."""
+    return "" if row.is_endless else f' range="{numbers(row.limits_rad)}"'
+
+
+def tool_place(model: Model) -> str:
+    """Where the tool is on the last link."""
+    if model.flange is None:
+        return f'pos="0 0 {number(model.tool_m)}"'
+    tool = model.tool()
+    return f'pos="{numbers(tool[:3, 3])}" xyaxes="{numbers(tool[:3, 0])} {numbers(tool[:3, 1])}"'
 
 
 def geoms(model: Model, link: int) -> list[str]:

@@ -47,7 +47,10 @@ def block(
 ) -> pa.Table:
     """Questions of one kind; flags are for all of them or one for each."""
     rows = len(q_rad)
-    columns: dict[str, Any] = {"kind": [kind] * rows, "path": np.full(rows, path, dtype=np.int64)}
+    columns: dict[str, Any] = {
+        "kind": pa.array([kind] * rows, pa.string()),
+        "path": np.full(rows, path, dtype=np.int64),
+    }
     columns |= {f"q{joint + 1}": np.ascontiguousarray(q_rad[:, joint]) for joint in range(q_rad.shape[1])}
     flags = {"frames": frames, "gaps": gaps, "limits": limits}
     return pa.table(columns | {name: np.full(rows, flag) for name, flag in flags.items()})

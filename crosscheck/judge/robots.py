@@ -27,6 +27,8 @@ class Row:
     d_m: float
     offset_rad: float
     limits_rad: tuple[float, float]
+    """Within these it is drawn; one that turns without end has no others."""
+    is_endless: bool = False
 
 
 @dataclass(frozen=True)
@@ -61,6 +63,14 @@ class Model:
     self_pairs: tuple[tuple[int, int], ...]
     stills: tuple[Still, ...]
     has_limits: bool = True
+    flange: Numbers | None = None
+    """The flange in the frame of the last link, where it is another; the tool is along its z."""
+
+    def tool(self) -> Numbers:
+        """The tool's frame in that of the last link."""
+        along = np.eye(4)
+        along[2, 3] = self.tool_m
+        return along if self.flange is None else self.flange @ along
 
     def pairs(self) -> tuple[Pair, ...]:
         """Exposed parts with each still thing, then the robot with itself."""

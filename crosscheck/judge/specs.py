@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 from judge.located import Fault, Key, Written
-from judge.robots import Model, read_robot
-from judge.scenes import read_cell, read_polyhedra
+from judge.robots import Model, Numbers, read_robot
+from judge.scenes import Still, read_cell, read_polyhedra
 from judge.stored import Stored, read_paths, read_workspace, slug
+from judge.urdf import BODY, read_urdf
 
 SPEC = "crosscheck.toml"
 SCHEMA = Path(__file__).parents[2] / "docs/schema/crosscheck.schema.json"
@@ -88,13 +89,23 @@ class Spec:
         file = self.located(scene["file"], ("scene", scene_index, "file"))
         base, stills = READERS[scene["format"]](file)
         file = self.located(robot["file"], ("robot", robot_index, "file"))
-        model = read_robot(file, robot["body"], name, base, stills)
+        model = self.model(robot_index, file, name, base, stills)
         entries = [
             entry["paths"]
             for entry in self.table.get("stored", [])
             if (entry["robot"], entry["scene"]) == (robot["label"], scene["label"])
         ]
         return self.with_paths(model, robot["straight"], entries)
+
+    def model(self, index: int, file: Path, name: str, base: Numbers, stills: tuple[Still, ...]) -> Model:
+        """The robot of this number: rows, or a URDF file with an SRDF file beside it."""
+        robot = self.table["robot"][index]
+        if file.suffix != ".urdf":
+            return read_robot(file, robot["body"], name, base, stills)
+        if "srdf" not in robot or robot["body"] != BODY:
+            raise self.fault(("robot", index), f"a URDF robot is judged with `srdf` and the body `{BODY}`")
+        srdf = self.located(robot["srdf"], ("robot", index, "srdf"))
+        return read_urdf(file, srdf, name, base, stills)
 
     def workspace_case(self, name: str, index: int) -> Case:
         """A planar arm as a study poses it."""

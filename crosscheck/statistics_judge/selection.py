@@ -154,6 +154,7 @@ DRAWN = frozenset(
     (
         "cell_queries",
         "conditioned",
+        "joint_problems",
         "joint_queries",
         "plane_queries",
         "random_bars",

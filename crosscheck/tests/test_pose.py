@@ -5,6 +5,7 @@ from pathlib import Path
 
 import mujoco
 import numpy as np
+import pyarrow as pa
 import pytest
 
 from judge.gaps import Gaps
@@ -15,7 +16,7 @@ from judge.model import compiled
 from judge.paths import PUSH_M, drawn_paths, pushed
 from judge.picture import View, png, scene_hash, shown_scene
 from judge.pose import pose_case
-from judge.questions import LIMIT, NEAR, NEAR_M, NEAREST_M, PIERCING, RANDOM, SINGULAR, questions
+from judge.questions import LIMIT, NEAR, NEAR_M, NEAREST_M, PIERCING, RANDOM, SINGULAR, block, questions
 from judge.report import Shown, picture
 from judge.robots import Model
 from judge.scenes import SHAPES, read_cell
@@ -294,3 +295,8 @@ def test_a_picture_that_cannot_be_drawn_is_not_passed_off_as_a_new_one(
 def test_a_stored_step_that_stands_still_is_left_out(up6: Case) -> None:
     path = Stored("p", np.array([[0.0] * 6, [0.0] * 6, [0.1] * 6]))
     assert len(refined(up6.model, "joints", path.stops_rad, 4, path.name)) == 5
+
+
+def test_a_kind_of_which_nothing_is_found_goes_with_the_others() -> None:
+    none, some = block("none", np.empty((0, 6))), block("some", np.zeros((1, 6)))
+    assert pa.concat_tables([none, some]).num_rows == 1

@@ -52,7 +52,7 @@ pub fn toml(table: &Table, number: usize) -> String {
     text
 }
 
-/// An id made of a label, told apart from those before.
+/// An id made of a label, with a number behind it if `ids` has it already.
 fn fresh(label: &str, ids: &mut BTreeSet<String>) -> String {
     let spelled = label.to_lowercase().replace('*', "_star").replace('+', "_plus");
     let lined: String = spelled.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();

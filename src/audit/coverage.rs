@@ -1,7 +1,7 @@
 //! Numbers in an author's LaTeX that no macro backs, and macros whose value is stale.
 //!
-//! A number counts if it stands in the text as such, in digits, in words, as an ordinal or as a fraction: not in a comment, a
-//! label, a citation, a file's name, a length such as `2pt`, or a sub- or superscript, and not as part of a word. One that is no
+//! A number counts if it stands in the text as such: in digits, in words, as an ordinal or as a fraction. Those in a comment, a
+//! label, a citation, a file's name, a length such as `2pt`, a sub- or superscript or a part of a word do not. One that is no
 //! result is excused by a comment on its line: `% typed: 2, twelve, 1/2`.
 
 mod scan;
@@ -114,7 +114,7 @@ fn differs(name: &str, value: &str, now: Option<&(String, usize)>) -> String {
     }
 }
 
-/// What the names of all macros of a file begin with, up to a capital letter: the paper's name; none if they share too little.
+/// What the names of all macros of a file begin with, up to a capital letter: the paper's name; `None` if they share too little.
 fn stem(known: &Macros) -> Option<String> {
     let (first, last) = (known.keys().next()?, known.keys().next_back()?);
     let shared = first.chars().zip(last.chars()).take_while(|(a, b)| a == b).count();

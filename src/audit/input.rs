@@ -12,17 +12,17 @@ use toml::Value;
 /// Everything that was read.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Input {
-    /// The tables.
+    /// The tables, in the order of the file.
     pub tables: Vec<Table>,
     /// Samples that were written down as such.
     pub samples: Vec<Sample>,
     /// Relations between printed numbers.
     pub relations: Vec<Relation>,
-    /// Cells by name.
+    /// Single numbers that relations name, by their names.
     cells: BTreeMap<String, Quoted>,
 }
 
-/// A check asked of numbers by name.
+/// A check of numbers that are named.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Relation {
     /// The check's name.
@@ -71,7 +71,7 @@ impl Input {
         self.samples.push(sample::of_meaning(name, meaning, sample::number(meaning), numbers));
     }
 
-    /// The cells of this name: one that was named, or `table/row/column`, of which a table may have several.
+    /// The cells of this name: one under `cells`, or all at `table/row/column`.
     pub fn cells(&self, name: &str) -> Vec<Quoted> {
         if let Some(cell) = self.cells.get(name) {
             return vec![cell.clone()];

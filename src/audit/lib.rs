@@ -18,17 +18,17 @@
 //! assert_eq!(finding.certificate.as_ref().map(|proof| &proof["steps"][0]["below"]), Some(&"83".into()));
 //! ```
 //!
-//! [`reader`] makes an [`input`] of CSV, Markdown, LaTeX or TOML; [`checks`] are one a file, each a question with its source;
-//! [`report`] asks them all, with power and mends; [`certificate`] and [`witness`] are what a finding rests on; [`coverage`]
+//! [`reader`] makes an [`input`] of CSV, Markdown, LaTeX or TOML. [`checks`] are one a file, each a question with its source, and
+//! [`report`] runs them all, with power and mends. [`certificate`] and [`witness`] are what a finding rests on. [`coverage`]
 //! looks for numbers that no macro backs. What a column can be is [`meaning::ITEMS`]. The mathematics is the package `proofs`.
 
-mod asked;
 pub mod certificate;
 pub mod checks;
 pub mod claims;
 pub mod coverage;
 pub mod input;
 pub mod meaning;
+mod named_check;
 pub mod octile_turns;
 pub mod output;
 pub mod reader;

@@ -1,7 +1,7 @@
 //! The program `replan-audit`, which `replan audit` runs: is this table possible?
 //!
-//! Exit codes: 0 done; 1 the system refused; 2 wrong words on the command line or wrong input; 3 something is impossible under
-//! the premises named, or a text has numbers or macros to look at.
+//! Exit codes: 0 done; 1 the system refused; 2 wrong words on the command line or wrong input; 3 findings. A finding is
+//! something that is impossible under the premises named, or a number or macro of a text to look at.
 
 use clap::Parser;
 use replan_audit::input::Input;
@@ -140,7 +140,7 @@ fn covered(text: &Path, macros: &Path) -> Result<(), Failure> {
     let current = current(&given);
     let mut listed = String::new();
     if let Err(why) = &current {
-        listed += &format!("{}:1: whether its values are stale cannot be told; {why}\n", macros.display());
+        listed += &format!("{}:1: whether its values are stale is unknown; {why}\n", macros.display());
     }
     let written = read(text)?;
     let unread = included(&written, macros);
@@ -191,8 +191,8 @@ fn current(macros: &str) -> Result<String, String> {
             fs::read_to_string(&path).map_err(|error| format!("{path}: {error}"))
         }
         Ok(checked) => {
-            let said = String::from_utf8_lossy(&checked.stderr);
-            Err(said.lines().last().unwrap_or_default().trim_start_matches("replan: ").to_owned())
+            let message = String::from_utf8_lossy(&checked.stderr);
+            Err(message.lines().last().unwrap_or_default().trim_start_matches("replan: ").to_owned())
         }
         Err(error) => Err(format!("`{}`, which checks them, cannot be run: {error}", replan.display())),
     }

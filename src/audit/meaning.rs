@@ -20,18 +20,21 @@ pub const ITEMS: &[(&str, &str)] = &[
     ("integers, tick=Q, binary", "each value behind it is whole, a multiple of Q (0.001, 1/64), or 0 or 1"),
     ("least=Q, most=Q", "no value behind it is below or above"),
     ("±sd, ±se", "what is printed after ± or in brackets"),
-    ("sample, population", "the deviation divides by n − 1, or by n; either, if neither is said"),
+    ("sample, population", "the deviation divides by n − 1, or by n; either, if neither is written"),
     ("seeds=S", "the mean over S seeds of a share of N trials each"),
     (
         "quantiles=linear",
-        "quantiles interpolate linearly, as numpy and pandas do; any usual rule, if it is not said",
+        "quantiles interpolate linearly, as numpy and pandas do; any usual rule, if it is not written",
     ),
     ("rounding=R", "how digits end: any, nearest, half up, half even, floor, ceiling, truncation"),
     (
         "digits=D",
         "D digits count, and zeros at the end of decimals are left out: with 6, 67.408 stands for 67.4080",
     ),
-    ("of=NAME", "statistics of the same NAME in a row belong together; the column's name, if it is not said"),
+    (
+        "of=NAME",
+        "statistics of the same NAME in a row belong together; the column's name, if it is not written",
+    ),
     ("parts=NAME", "shares of the whole called NAME, which sum to one"),
     ("sum=A+B", "for each problem, the sum of the columns A and B"),
     ("ratio=A/B", "for each problem, the quotient of the columns A and B"),
@@ -92,7 +95,7 @@ pub enum Divisor {
     Sample,
     /// By n.
     Population,
-    /// Either.
+    /// By n − 1 or by n: the table does not say.
     #[default]
     Either,
 }
@@ -102,7 +105,7 @@ pub enum Divisor {
 pub struct Meaning {
     /// The kind of number.
     pub kind: Kind,
-    /// How many values, or trials of a share; none if it is not said.
+    /// How many values, or trials of a share; `None` if no annotation gives it.
     pub n: Option<Count>,
     /// Values behind it are multiples of this.
     pub grain: Option<Exact>,
@@ -178,8 +181,8 @@ impl Meaning {
         for item in annotation.split(',').map(str::trim).filter(|item| !item.is_empty()) {
             let mut alone = Self::default();
             alone.take(item)?;
-            for (other, said) in &known {
-                if let Some(what) = contradiction::of_items(said, &alone) {
+            for (other, earlier) in &known {
+                if let Some(what) = contradiction::of_items(earlier, &alone) {
                     return Err(format!("`{other}` and `{item}` contradict each other: both say {what}"));
                 }
             }

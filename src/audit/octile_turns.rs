@@ -40,7 +40,7 @@ pub fn octile_turn_sums(moves: Octile, displacement: Cell, convention: Conventio
     (0..128).filter(|bit| arrived >> bit & 1 == 1).collect()
 }
 
-/// The moves left after `made` of which `diagonal` were diagonal; none if that is more than there are.
+/// The moves left after `made`, `diagonal` of these diagonal; `None` if that is more than there are.
 fn remaining(moves: Octile, made: u32, diagonal: u32) -> Option<Octile> {
     Some(Octile {
         straight: moves.straight.checked_sub(made - diagonal)?,

@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 /// A finding in one line: place, class, name, what was found, and how far to trust it.
 pub fn line(source: &str, finding: &Finding) -> String {
     let mut line =
-        format!("{source}:{}: {}: {}: {}", finding.place, finding.class.name(), finding.name, finding.said);
+        format!("{source}:{}: {}: {}: {}", finding.place, finding.class.name(), finding.name, finding.text);
     let mut notes = vec![finding.check.to_owned()];
     if let Some(power) = finding.power {
         notes.push(power.to_string());
@@ -87,7 +87,8 @@ fn is_multiple(table: &Table, at: usize) -> bool {
     reader::are_multiples(&brackets.collect::<Vec<_>>())
 }
 
-/// Columns and samples that no check looked at, with what to write so that one does; and, if no check was asked at all, that.
+/// Columns and samples that no check looked at, each with the annotation that would change that. If no check ran at all, that
+/// too.
 pub fn unseen(source: &str, report: &Report) -> Vec<String> {
     let line = |unseen: &Unseen| {
         format!("{source}:{}: {}: no check looked at it; {}", unseen.place, unseen.name, unseen.advice)
@@ -149,7 +150,7 @@ pub fn guesses(source: &str, input: &Input) -> Vec<String> {
     guessed.collect()
 }
 
-/// The whole report, with the header of every table of which a column was guessed.
+/// The whole report, with the header of every table that has a guessed column.
 pub fn json(source: &str, input: &Input, report: &Report) -> Value {
     let findings: Vec<Value> = report.findings.iter().map(finding).collect();
     let checks: Vec<Value> = report
@@ -195,7 +196,7 @@ fn finding(finding: &Finding) -> Value {
         "line": finding.place.line,
         "cell": finding.place.cell,
         "name": finding.name,
-        "said": finding.said,
+        "said": finding.text,
         "premises": finding.premises,
         "readings": finding.readings,
         "power": finding.power.map(|power| json!({

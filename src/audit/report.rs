@@ -11,9 +11,9 @@ pub use mend::Mend;
 pub use strength::Power;
 pub use unseen::Unseen;
 
-use super::asked;
 use super::checks::{Entry, Proof, REGISTRY, Test};
 use super::input::Input;
+use super::named_check;
 use super::table::{Fault, Place};
 use super::witness::{Budget, Witness};
 use doubt::{doubts, is_of_true_summary};
@@ -53,7 +53,7 @@ impl Class {
 /// What a check found in one place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
-    /// The check.
+    /// The check's name in the registry.
     pub check: &'static str,
     /// What it is.
     pub class: Class,
@@ -62,7 +62,7 @@ pub struct Finding {
     /// What the first number is called.
     pub name: String,
     /// What holds, with the numbers that show it.
-    pub said: String,
+    pub text: String,
     /// What it rests on.
     pub premises: Vec<String>,
     /// The readings of the digits, the same for all numbers involved, that allow it.
@@ -109,7 +109,7 @@ pub struct Options {
     pub skips_power: bool,
     /// Whether certificates are left out, which take most of the memory: some kilobytes a finding.
     pub skips_certificates: bool,
-    /// The search for data behind what is possible; none if it is not asked for.
+    /// The effort of the search for data behind what is possible; `None` for no search.
     pub witness: Option<Budget>,
 }
 
@@ -159,7 +159,7 @@ pub fn audit(input: &Input, options: &Options) -> Result<Report, Vec<Fault>> {
     }
     let mut faults = Vec::new();
     for relation in &input.relations {
-        match asked::test(relation, input) {
+        match named_check::test(relation, input) {
             Ok((entry, test)) => run.take(entry, test, true),
             Err(fault) => faults.push(fault),
         }
@@ -202,12 +202,12 @@ struct TestOutcome {
 }
 
 impl Run<'_> {
-    fn take(&mut self, entry: &'static Entry, boxed: Box<dyn Test>, is_asked: bool) {
+    fn take(&mut self, entry: &'static Entry, boxed: Box<dyn Test>, is_written: bool) {
         let test = boxed.as_ref();
         self.seen.take(test);
         let prints: Vec<Print> = test.numbers().iter().map(|number| number.print).collect();
         let answer = self.effort.decide(test, &prints);
-        if answer == Some(false) && !is_asked && is_of_true_summary(self.input, test) {
+        if answer == Some(false) && !is_written && is_of_true_summary(self.input, test) {
             return;
         }
         let readings = if test.is_about_digits() && answer.is_some() {
@@ -239,30 +239,30 @@ impl Run<'_> {
         });
         self.count(entry.name, class, power);
         if class != Class::Possible || self.options.keeps_possible || self.options.witness.is_some() {
-            let told = TestOutcome { class, answer, is_odd, readings, power, proof, slip };
-            self.add_finding(entry.name, test, &prints, told);
+            let outcome = TestOutcome { class, answer, is_odd, readings, power, proof, slip };
+            self.add_finding(entry.name, test, &prints, outcome);
         }
         if answer == Some(false) {
             let finding = self.report.findings.len() - 1;
-            self.refusals.push(Refusal { finding, test: boxed, is_asked });
+            self.refusals.push(Refusal { finding, test: boxed, is_written });
         }
     }
 
     /// Adds what was found about `test` to the findings.
-    fn add_finding(&mut self, check: &'static str, test: &dyn Test, prints: &[Print], told: TestOutcome) {
-        let TestOutcome { class, answer, is_odd, readings, power, proof, slip } = told;
+    fn add_finding(&mut self, check: &'static str, test: &dyn Test, prints: &[Print], outcome: TestOutcome) {
+        let TestOutcome { class, answer, is_odd, readings, power, proof, slip } = outcome;
         let first = &test.numbers()[0];
-        let mut said = match answer {
+        let mut text = match answer {
             Some(is_possible) => test.sentence(prints, is_possible),
             None if self.effort.is_spent(test) => format!("not decided: {}", effort::spent()),
             None => format!("not decided: {}", test.undecided(prints)),
         };
         if answer == Some(false) {
-            said += as_typed(test, prints);
+            text += as_typed(test, prints);
         }
-        said.extend(slip.map(|slip| format!("; {slip}")));
+        text.extend(slip.map(|slip| format!("; {slip}")));
         if is_odd {
-            said += &format!("; not if digits are rounded to nearest, only by: {}", listed(&readings));
+            text += &format!("; not if digits are rounded to nearest, only by: {}", listed(&readings));
         }
         let mut budget = self.options.witness.clone();
         let witness = match (answer, budget.as_mut()) {
@@ -282,7 +282,7 @@ impl Run<'_> {
             class,
             place: first.place,
             name: first.name.clone(),
-            said,
+            text,
             premises,
             readings,
             power,

@@ -1,7 +1,7 @@
 //! Samples: the values behind printed statistics, and what is known of them.
 //!
-//! A share k of n is the mean of n values that are 0 or the whole; a mean over seeds is one of S values that are shares of
-//! T trials each. So everything that is asked of means, deviations and quantiles is asked of samples alone.
+//! A share k of n is the mean of n values that are 0 or the whole. A mean over seeds is one of S values that are shares of
+//! T trials each. So every check of means, deviations and quantiles is one of samples.
 
 use super::meaning::{Count, Divisor, Kind, Meaning};
 use super::statistic::Statistic;
@@ -15,7 +15,7 @@ pub struct Sample {
     pub name: String,
     /// `table/column`, where statistics stand in rows.
     pub path: String,
-    /// How many values; none if it is not known.
+    /// How many values; `None` if it is not known.
     pub n: Option<u64>,
     /// Values are multiples of this.
     pub grain: Option<Exact>,
@@ -54,22 +54,22 @@ impl Sample {
         if self.is_binary() {
             return format!("{n}, each 0 or {}", self.most.map_or_else(String::new, |most| most.to_string()));
         }
-        let mut said = n;
+        let mut text = n;
         if let Some(grain) = self.grain {
             let whole_ones = if grain == whole(1) {
                 ", each a whole number".to_owned()
             } else {
                 format!(", each a multiple of {grain}")
             };
-            said += &whole_ones;
+            text += &whole_ones;
         }
         match (self.least, self.most) {
-            (Some(least), Some(most)) => said += &format!(", from {least} to {most}"),
-            (Some(least), None) => said += &format!(", at least {least}"),
-            (None, Some(most)) => said += &format!(", at most {most}"),
+            (Some(least), Some(most)) => text += &format!(", from {least} to {most}"),
+            (Some(least), None) => text += &format!(", at least {least}"),
+            (None, Some(most)) => text += &format!(", at most {most}"),
             (None, None) => {}
         }
-        said
+        text
     }
 }
 

@@ -1,4 +1,4 @@
-//! Tables as they are printed: cells as strings with their places, and what each column is said to be.
+//! Tables as they are printed: cells as strings with their places, and the meaning of each column.
 
 use super::meaning::{Kind, Meaning};
 use proofs::exact::Print;
@@ -59,20 +59,20 @@ pub struct Cell {
     pub k_of_n: Option<[u64; 2]>,
 }
 
-/// A column with what it is said, or guessed, to be.
+/// A column with its meaning, written or guessed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
     /// Its name, without the annotation.
     pub name: String,
     /// What it is.
     pub meaning: Meaning,
-    /// The annotation that says so; none if it was guessed.
+    /// The annotation that says so; `None` if it was guessed.
     pub written: Option<String>,
     /// The annotation that was written or guessed.
     pub annotation: String,
 }
 
-/// A table.
+/// A table with what its header says of its columns.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     /// Its name: the heading above it, or what the TOML calls it; may be empty.
@@ -81,14 +81,14 @@ pub struct Table {
     pub line: usize,
     /// What divides the cells of a line: a bar, a comma, a semicolon, a tab.
     pub mark: char,
-    /// Its columns.
+    /// Its columns from the left.
     pub columns: Vec<Column>,
     /// Its rows, each with as many cells as there are columns.
     pub rows: Vec<Vec<Cell>>,
 }
 
 impl Table {
-    /// The number in a cell with the reading of its digits; none if the cell holds none.
+    /// The number in a cell with the reading of its digits; `None` if the cell holds none.
     pub fn print(&self, row: usize, column: usize) -> Option<Print> {
         let value = self.rows.get(row)?.get(column)?.value?;
         Some(Print { printed: value, digits: self.columns[column].meaning.digits })
@@ -121,7 +121,7 @@ impl Table {
         }
     }
 
-    /// The columns of this name.
+    /// The places of all columns called `name`, from 0.
     pub fn columns_named<'a>(&'a self, name: &'a str) -> impl Iterator<Item = usize> + 'a {
         (0..self.columns.len()).filter(move |at| self.columns[*at].name == name)
     }

@@ -114,7 +114,7 @@ impl Moments {
         }
     }
 
-    /// Whether sum and sum of squares can still be met; none if 128 bits do not suffice.
+    /// Whether sum and sum of squares can still be met; `None` if 128 bits do not suffice.
     fn is_within_reach(&self) -> Option<bool> {
         let (least, most) = extremes(self.n, self.sum, [Some(self.least), Some(self.most)])?;
         Some(least <= self.squares && most.is_none_or(|most| self.squares <= most))

@@ -70,13 +70,13 @@ mod tests {
         std::fs::write(&file, "text").unwrap();
         assert_eq!(read_text(&file).unwrap(), "text");
         assert!(read(folder.path()).is_err(), "a folder");
-        let said = read(Path::new("/dev/zero")).unwrap_err().to_string();
-        assert_eq!(said, "it is a device, a pipe or a socket; a regular file is accepted");
+        let message = read(Path::new("/dev/zero")).unwrap_err().to_string();
+        assert_eq!(message, "it is a device, a pipe or a socket; a regular file is accepted");
     }
 
     #[test]
     fn what_never_ends_is_refused_with_what_is_accepted() {
-        let said = read_all(&mut io::repeat(0)).unwrap_err().to_string();
-        assert_eq!(said, "it holds more than 512 MiB; at most 512 MiB are accepted");
+        let message = read_all(&mut io::repeat(0)).unwrap_err().to_string();
+        assert_eq!(message, "it holds more than 512 MiB; at most 512 MiB are accepted");
     }
 }

@@ -1,15 +1,28 @@
 //! Files of planning problems as benchmarks share them: solids around a robot, a start, and goals, all in metres and radians.
 //!
-//! Two forms are read, in YAML or JSON. Robometrics: problem sets by name, each a list of problems with `obstacles` (`cuboid` with
-//! `dims` and `pose`, `cylinder` with `radius`, `height` and `pose`, `sphere` with `radius` and `position` or `pose`), `start` and
-//! `goal_ik`; a pose is x, y, z and the quaternion w, x, y, z. VAMP's `MotionBenchMaker` problems: the sets stand under `problems`,
-//! beside the name of the `robot` and those of its `joints`; a problem has `box` (`position`, `orientation_euler_xyz` about fixed axes,
-//! `half_extents`), `cylinder` and `sphere` lists, `start`, `goals` and whether it is `valid`. A key that is neither read nor in the
-//! table of ignored keys is refused if it may be an obstacle or is nearly one that is read, and noted otherwise.
+//! Two forms are read, in YAML or JSON.
+//!
+//! Robometrics: problem sets by name, each a list of problems with `obstacles`, `start` and `goal_ik`. Obstacles are `cuboid` with
+//! `dims` and `pose`, `cylinder` with `radius`, `height` and `pose`, `sphere` with `radius` and `position` or `pose`. A pose is
+//! x, y, z and the quaternion w, x, y, z.
+//!
+//! VAMP's `MotionBenchMaker` problems: the sets stand under `problems`, beside the name of the `robot` and those of its `joints`.
+//! A problem has `box` (`position`, `orientation_euler_xyz` about fixed axes, `half_extents`), `cylinder` and `sphere` lists,
+//! `start`, `goals` and whether it is `valid`.
+//!
+//! A key that is neither read nor in the table of ignored keys is refused if it may be an obstacle or is nearly one that is read,
+//! and noted otherwise.
+//!
+//! `MoveIt`'s scenes and requests are read in pairs ([`parse_moveit`]), a whole set at once by [`ProblemSet`].
 //!
 //! Source: `resources/problem_tar_to_pkl_json.py` of `KavrakiLab/vamp`, which writes the second form and skips what is not valid.
 
+mod moveit;
 mod reader;
+mod set;
+
+pub use moveit::parse_moveit;
+pub use set::ProblemSet;
 
 use crate::settings::{Document, SettingsError};
 use crate::solid::{Solid, Source};
@@ -17,6 +30,7 @@ use crate::yaml::{Node, Yaml};
 use reader::Reader;
 use std::cell::RefCell;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// One problem.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,48 +65,82 @@ pub struct Expected<'a> {
     pub joints: Vec<&'a str>,
 }
 
-/// The problem number `index`, from 0, of the set called `set` in `document`; of the only set, if none is named. Starts and goals are in
-/// the order of the robot's joints; without a robot nothing is checked of them.
-///
-/// # Errors
-/// The first fault at its place: no such set or problem, another robot or other joints, a value that is missing or of the wrong kind, a
-/// quaternion whose length is not 1, lengths that are not metres.
-pub fn parse_problem(
-    document: &Document,
-    set: Option<&str>,
-    index: usize,
-    expected: Option<&Expected<'_>>,
-) -> Result<Problem, SettingsError> {
-    let root = Yaml::parse(document)?;
-    let notes = RefCell::default();
-    let reader = Reader { yaml: Yaml(Source(document)), notes: &notes };
-    refuse_moveit(reader, &root)?;
-    let sets = reader.yaml.find(&root, "problems")?.unwrap_or(&root);
-    let mut order = expected.map(|expected| (0..expected.joints.len()).collect());
-    if !std::ptr::eq(sets, &raw const root) {
-        reader.rest(&root, &["problems", "robot", "joints"], false)?;
-        if let Some(expected) = expected {
-            check_robot(reader, &root, expected.robot)?;
-            order = named_order(reader, &root, expected)?.or(order);
+/// A problem file, parsed once.
+#[derive(Debug)]
+pub struct ProblemFile {
+    document: Arc<Document>,
+    root: Node,
+}
+
+impl ProblemFile {
+    /// The file that `document` is.
+    ///
+    /// # Errors
+    /// A syntax error; half a problem of `MoveIt`.
+    pub fn parse(document: Arc<Document>) -> Result<Self, SettingsError> {
+        let root = Yaml::parse(&document)?;
+        let notes = RefCell::default();
+        refuse_moveit(Reader { yaml: Yaml(Source(&document)), notes: &notes }, &root)?;
+        Ok(Self { document, root })
+    }
+
+    /// How many problems the set called `set` has, or the only one.
+    ///
+    /// # Errors
+    /// There is no such set, or there are several and none is named.
+    pub fn count(&self, set: Option<&str>) -> Result<usize, SettingsError> {
+        let notes = RefCell::default();
+        let reader = Reader { yaml: Yaml(Source(&self.document)), notes: &notes };
+        Ok(reader.yaml.list(self.chosen(reader, set)?)?.len())
+    }
+
+    fn chosen(&self, reader: Reader<'_>, set: Option<&str>) -> Result<&Node, SettingsError> {
+        let sets = reader.yaml.find(&self.root, "problems")?.unwrap_or(&self.root);
+        match (set, reader.yaml.table(sets)?) {
+            (Some(name), _) => reader.yaml.get(sets, name),
+            (None, [(_, only)]) => Ok(only),
+            (None, several) => {
+                let known: Vec<&str> = several.iter().map(|(name, _)| name.as_str()).collect();
+                let message =
+                    format!("the file holds the sets `{}`; the name of one is accepted", known.join("`, `"));
+                Err(reader.fault(sets, message))
+            }
         }
     }
-    let chosen = match (set, reader.yaml.table(sets)?) {
-        (Some(name), _) => reader.yaml.get(sets, name)?,
-        (None, [(_, only)]) => only,
-        (None, several) => {
-            let known: Vec<&str> = several.iter().map(|(name, _)| name.as_str()).collect();
-            let message =
-                format!("the file holds the sets `{}`; the name of one is accepted", known.join("`, `"));
-            return Err(reader.fault(sets, message));
+
+    /// The problem number `index`, from 0, of the set called `set`; of the only set, if none is named. Starts and goals are in
+    /// the order of the robot's joints; without a robot nothing is checked of them.
+    ///
+    /// # Errors
+    /// The first fault at its place: no such set or problem, another robot or other joints, a value that is missing or of the wrong kind, a
+    /// quaternion whose length is not 1, lengths that are not metres.
+    pub fn problem(
+        &self,
+        set: Option<&str>,
+        index: usize,
+        expected: Option<&Expected<'_>>,
+    ) -> Result<Problem, SettingsError> {
+        let Self { document, root } = self;
+        let notes = RefCell::default();
+        let reader = Reader { yaml: Yaml(Source(document)), notes: &notes };
+        let mut order = expected.map(|expected| (0..expected.joints.len()).collect());
+        if reader.yaml.find(root, "problems")?.is_some() {
+            reader.rest(root, &["problems", "robot", "joints"], false)?;
+            if let Some(expected) = expected {
+                check_robot(reader, root, "robot", expected.robot)?;
+                order = named_order(reader, root, expected)?.or(order);
+            }
         }
-    };
-    let problems = reader.yaml.list(chosen)?;
-    let Some(problem) = problems.get(index) else {
-        let message = format!("problem {index} is requested; the set has {}, counted from 0", problems.len());
-        return Err(reader.fault(chosen, message));
-    };
-    let problem = reader.problem(problem, order.as_deref())?;
-    Ok(Problem { notes: notes.into_inner().into_iter().collect(), ..problem })
+        let chosen = self.chosen(reader, set)?;
+        let problems = reader.yaml.list(chosen)?;
+        let Some(problem) = problems.get(index) else {
+            let message =
+                format!("problem {index} is requested; the set has {}, counted from 0", problems.len());
+            return Err(reader.fault(chosen, message));
+        };
+        let problem = reader.problem(problem, order.as_deref())?;
+        Ok(Problem { notes: notes.into_inner().into_iter().collect(), ..problem })
+    }
 }
 
 /// Scenes and requests of `MoveIt` hold half a problem each.
@@ -106,15 +154,15 @@ fn refuse_moveit(reader: Reader<'_>, root: &Node) -> Result<(), SettingsError> {
         () => return Ok(()),
     };
     let message = format!(
-        "this is a MoveIt {found}; problems in the form of VAMP's `problems.json` or of robometrics are accepted (VAMP's \
-         `problem_tar_to_pkl_json.py` makes the former from scenes and requests)"
+        "this is a MoveIt {found}; problems in the form of VAMP's `problems.json` or of robometrics are accepted (an \
+         archive of scenes and requests is read by the family `joint_problems`)"
     );
     Err(reader.fault(root, message))
 }
 
 /// Refuses problems for another robot. Names that differ in case and punctuation alone, or contain each other, are one.
-fn check_robot(reader: Reader<'_>, root: &Node, robot: &str) -> Result<(), SettingsError> {
-    let Some(node) = reader.yaml.find(root, "robot")? else { return Ok(()) };
+fn check_robot(reader: Reader<'_>, root: &Node, key: &str, robot: &str) -> Result<(), SettingsError> {
+    let Some(node) = reader.yaml.find(root, key)? else { return Ok(()) };
     let plain = |name: &str| name.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase();
     let found = reader.yaml.word(node)?;
     let [own, other] = [robot, found].map(plain);

@@ -112,6 +112,11 @@ pub struct Solid {
 /// Sides of the prism that stands for a cylinder.
 const SIDES: usize = 24;
 
+/// How far the corners are from the axis of the prism that stands for a cylinder of this radius.
+pub fn prism_radius_m(radius_m: f64) -> f64 {
+    radius_m / libm::cos(std::f64::consts::PI / SIDES as f64)
+}
+
 impl Solid {
     /// Points and a radius such that all within the radius of their hull is the solid: exactly for boxes, spheres and hulls; a
     /// cylinder is a prism of 24 sides around it, 0.9 % wider.
@@ -124,7 +129,7 @@ impl Solid {
             }
             Form::Cylinder(radius_m, length_m) => {
                 let half_turn = std::f64::consts::PI;
-                let wide = radius_m / libm::cos(half_turn / SIDES as f64);
+                let wide = prism_radius_m(*radius_m);
                 let rim = |side: usize| {
                     let (s, c) = libm::sincos(2.0 * half_turn * side as f64 / SIDES as f64);
                     signs.map(|sign| [wide * c, wide * s, 0.5 * sign * length_m])

@@ -5,9 +5,10 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 /// How near to a multiple of an eighth of a turn an angle is that was rounded to two digits behind the point.
 const ROUNDED_RAD: f64 = 2e-3;
 
-/// Of angles in degrees the first that seems to be in radians, by its number, and the question about it: a multiple of an eighth of a
-/// turn as it is written in radians, among angles none beyond a turn in radians.
-pub fn asked_in_degrees(key: &str, angles_deg: &[f64]) -> Option<(usize, String)> {
+/// The first of `angles_deg` that seems to be in radians, by its number, with the message about the key `key`.
+///
+/// It is a multiple of an eighth of a turn as it is written in radians, and no angle is beyond a turn in radians.
+pub fn seems_in_radians(key: &str, angles_deg: &[f64]) -> Option<(usize, String)> {
     let is_eighth = |angle: &f64| {
         let eighths = (angle / FRAC_PI_4).round();
         eighths != 0.0 && (angle - eighths * FRAC_PI_4).abs() < ROUNDED_RAD
@@ -27,7 +28,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn right_angles_in_radians_are_asked_about_and_small_angles_in_degrees_are_not() {
+    fn right_angles_in_radians_are_queried_and_small_angles_in_degrees_are_not() {
         for (text, index) in [
             ("0 1.5708 -1.5708", Some(1)),
             ("3.14", Some(0)),
@@ -39,9 +40,12 @@ mod tests {
             ("", None),
         ] {
             let angles: Vec<f64> = text.split_whitespace().map(|angle| angle.parse().unwrap()).collect();
-            assert_eq!(asked_in_degrees("alpha_deg", &angles).map(|asked| asked.0), index, "{text}");
+            assert_eq!(seems_in_radians("alpha_deg", &angles).map(|message| message.0), index, "{text}");
         }
-        let asked = asked_in_degrees("yaw_deg", &["1.5708".parse().unwrap()]).unwrap().1;
-        assert_eq!(asked, "yaw_deg is 1.5708; is it in radians? degrees are accepted (1.5708 rad is 90.0°)");
+        let message = seems_in_radians("yaw_deg", &["1.5708".parse().unwrap()]).unwrap().1;
+        assert_eq!(
+            message,
+            "yaw_deg is 1.5708; is it in radians? degrees are accepted (1.5708 rad is 90.0°)"
+        );
     }
 }

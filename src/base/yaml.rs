@@ -174,6 +174,15 @@ impl Node {
         matches!(self.data, Data::List(_))
     }
 
+    /// Whether it holds nothing: no element, no key, no word.
+    pub fn is_empty(&self) -> bool {
+        match &self.data {
+            Data::Word(word) => word.is_empty(),
+            Data::List(elements) => elements.is_empty(),
+            Data::Table(entries) => entries.is_empty(),
+        }
+    }
+
     /// Whether it is a table or a list that holds one.
     pub fn has_tables(&self) -> bool {
         let is_table = |element: &Self| matches!(element.data, Data::Table(_));
@@ -257,11 +266,14 @@ mod tests {
     #[test]
     fn what_is_deep_or_long_is_refused_with_a_short_message() {
         for opening in ["- ", "{a: ", "["] {
-            let said = refusal(opening.repeat(100_000));
-            assert!(said.starts_with("deep.yaml:1:") && said.len() < 1000, "{opening}: {said:.1000}");
+            let message = refusal(opening.repeat(100_000));
+            assert!(
+                message.starts_with("deep.yaml:1:") && message.len() < 1000,
+                "{opening}: {message:.1000}"
+            );
         }
         let long = "x".repeat(1000);
-        let said = refusal(format!("{long}: 1\n{long}: 2\n"));
-        assert!(said.contains("is given twice") && said.len() < 500, "{said:.1000}");
+        let message = refusal(format!("{long}: 1\n{long}: 2\n"));
+        assert!(message.contains("is given twice") && message.len() < 500, "{message:.1000}");
     }
 }

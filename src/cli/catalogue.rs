@@ -182,7 +182,7 @@ pub fn files() -> Vec<Item> {
         },
         FileKind {
             name: "crosscheck",
-            about: "what an independent judge is asked: crosscheck.toml in a paper's folder",
+            about: "the questions to an independent judge: crosscheck.toml in a paper's folder",
             accepted: super::crosscheck::FILE,
             example: "experiments/gallery/crosscheck.toml",
         },

@@ -75,7 +75,7 @@ impl Compare {
             .map(|text| Gate::parse(text))
             .collect::<Result<_, _>>()
             .map_err(Failure::input)?;
-        let asked = CompareOptions { studies: self.studies.clone(), metrics: self.metrics.clone(), gates };
+        let options = CompareOptions { studies: self.studies.clone(), metrics: self.metrics.clone(), gates };
         doing("reading and comparing stored runs");
         let first = StoredRun::read(&stored_run(&self.first)?, &self.first)?;
         let second =
@@ -90,7 +90,7 @@ impl Compare {
                 ));
             }
         };
-        let found = compare(&sides, &asked).map_err(Failure::input)?;
+        let found = compare(&sides, &options).map_err(Failure::input)?;
         self.print(&found);
         if let Some(path) = &self.figure {
             let drawn = comparison::figure(&found, &Self::provenance(&found))?;
@@ -140,12 +140,12 @@ impl Compare {
         if worse == 0 && (open == 0 || !self.strict) {
             return Ok(());
         }
-        let said =
+        let lines =
             found.gates.iter().filter(|gate| gate.outcome != Outcome::NotWorse).map(comparison::gate_line);
         Err(Failure::stale(format!(
             "{worse} of {} lines are worse than their gates allow, of {open} that are undetermined:\n  {}",
             found.gates.len(),
-            said.collect::<Vec<_>>().join("\n  ")
+            lines.collect::<Vec<_>>().join("\n  ")
         )))
     }
 }

@@ -173,9 +173,9 @@ impl Trial {
             },
         };
         let data = describe(world, false).expect("these worlds are of the protocol");
-        let asked = Query { id: seed, seed, world: data, start: &query.start, goal: &query.goal };
+        let posed = Query { id: seed, seed, world: data, start: &query.start, goal: &query.goal };
         let mut space = Space::new(world, false);
-        let talk = solve(&mut own, asked, self.program.limits, &mut space, clock::now_ns);
+        let talk = solve(&mut own, posed, self.program.limits, &mut space, clock::now_ns);
         let is_sound = matches!(talk.end, End::Solved | End::NoPath | End::BudgetSpent) && !talk.is_cut_off;
         if hello.seeding == Seeding::Query && is_sound {
             *process = Some(own);

@@ -13,8 +13,8 @@ use study::{Contender, Group, Study, elsewhere_mark, recorded_mark};
 pub fn paper(paper: &Paper) -> String {
     let source = &paper.source;
     let mut lines = vec![paper.id.clone(), wrapped("  ", &source.title, 2)];
-    for said in [&source.authors, &source.published].into_iter().flatten() {
-        lines.push(wrapped("  ", said, 2));
+    for text in [&source.authors, &source.published].into_iter().flatten() {
+        lines.push(wrapped("  ", text, 2));
     }
     let claims = counted(paper.claims.len(), ["claim", "claims"]);
     lines.push(format!("  {claims}, {}", counted(paper.studies.len(), ["study", "studies"])));

@@ -45,10 +45,10 @@ pub fn explained(item: &Item) -> String {
 /// What the project's `file` says without its comments, indented, if it is here and fits a terminal.
 fn short(file: &str) -> Option<String> {
     let text = read_text(&home(None).ok()?.join(file)).ok()?;
-    let said: Vec<String> =
+    let lines: Vec<String> =
         text.lines().filter(|line| !line.starts_with('#')).map(|line| format!("    {line}")).collect();
-    let fits = said.len() <= ROWS && said.iter().all(|line| line.chars().count() <= COLUMNS);
-    fits.then(|| said.join("\n").replace("    \n", "\n").trim_end().to_owned())
+    let fits = lines.len() <= ROWS && lines.iter().all(|line| line.chars().count() <= COLUMNS);
+    fits.then(|| lines.join("\n").replace("    \n", "\n").trim_end().to_owned())
 }
 
 fn key(field: &Field) -> String {

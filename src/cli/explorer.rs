@@ -112,8 +112,8 @@ impl<'p> Explorer<'p> {
             (chosen, trials) = (with, needed);
         }
         let interpretations = counted(chosen.len(), ["interpretation", "interpretations"]);
-        let said = counted(trials as usize, ["trial", "trials"]);
-        say!("{}: {interpretations}, {said} of at most {}", paper.id, budget.trials);
+        let count = counted(trials as usize, ["trial", "trials"]);
+        say!("{}: {interpretations}, {count} of at most {}", paper.id, budget.trials);
         Ok((chosen, trials))
     }
 

@@ -21,19 +21,19 @@ fn text(paper: &Paper, verdicts: &Verdicts, which: &Which) -> String {
         text += &(plain("", &prose(finding, verdicts), 0, COLUMNS) + "\n\n");
     }
     for headline in headlines(paper, verdicts) {
-        text += &lines(&headline);
+        text += &lines(&headline, verdicts);
     }
     text + "\n" + &tallied(verdicts, which)
 }
 
 /// The verdict, what the paper says and our number; below, the claim and what its verdict rests on.
-fn lines(headline: &Headline<'_>) -> String {
+fn lines(headline: &Headline<'_>, verdicts: &Verdicts) -> String {
     let judged = headline.judged;
     let word = judged.verdict_said();
     let pad = " ".repeat((VERDICT + 1).saturating_sub(word.chars().count()));
     let first = coloured(judged.verdict, &word) + &pad;
     let ours = headline.ours.as_ref().map_or_else(String::new, |ours| format!(": {ours}"));
-    let beside = judged.said.as_ref().map_or_else(String::new, |said| format!(": {said}"));
+    let beside = headline.beside(verdicts).map_or_else(String::new, |words| format!(": {words}"));
     let indent = VERDICT + 2;
     let says = plain(&(first + " "), &format!("{}{ours}", headline.says), indent, COLUMNS);
     let rests = plain(&" ".repeat(indent), &(judged.claim.clone() + &beside), indent, COLUMNS);

@@ -1,8 +1,13 @@
 //! The command line: one subcommand a file.
 //!
-//! Exit codes: 0 done; 1 the system refused (disk, permissions, a busy folder); 2 wrong words on the command line or
-//! wrong input files; 3 a check failed: something is not as stored, is worse than a gate allows, is judged otherwise, is impossible, or an independent judge
-//! disagrees; 4 a tool is missing: Python or the network for `crosscheck`, `replan-audit`, `replan-export`, a planner from outside; 130 interrupted, and what was done is kept.
+//! Exit codes:
+//! - 0: done.
+//! - 1: the system refused (disk, permissions, a busy folder).
+//! - 2: wrong words on the command line or wrong input files.
+//! - 3: a check failed. Something is not as stored, worse than a gate allows, judged otherwise or impossible, or an independent
+//!   judge disagrees.
+//! - 4: a tool is missing: Python or the network for `crosscheck`, `replan-audit`, `replan-export`, a planner from outside.
+//! - 130: interrupted, and what was done is kept.
 //!
 //! A stored file that is edited, damaged, gone, or of a spec that has changed is the answer that a check gives: code 3 under
 //! `--check` and `--rerun`. A command that needs it as its input ends with code 2, and so does a check where nothing was ever
@@ -265,7 +270,7 @@ impl From<StudyError> for Failure {
         let code = match &error {
             StudyError::Interrupted { .. } => 130,
             StudyError::Io { .. } | StudyError::Busy { .. } => 1,
-            StudyError::Lacks { .. } => 4,
+            StudyError::Lacks { .. } | StudyError::LacksFiles { .. } => 4,
             _ => 2,
         };
         Self { is_touched: matches!(error, StudyError::Touched(_)), ..Self::new(code, error.to_string()) }

@@ -2,7 +2,7 @@
 //!
 //! Progress goes to standard error, so that standard output holds results alone. Whatever may take longer than a second begins
 //! with a line that ends in an ellipsis, on a terminal or not; what is done in units has a bar on a terminal, and elsewhere says
-//! how far it is, at most once in [`SAID_EVERY_S`].
+//! how far it is, at most once in [`PRINTED_EVERY_S`].
 
 use super::{Failure, counted};
 use base::text::shown;
@@ -54,7 +54,7 @@ pub fn doing(what: &str) {
 }
 
 /// How often it prints how far units are, where there is no terminal for a bar.
-const SAID_EVERY_S: u64 = 10;
+const PRINTED_EVERY_S: u64 = 10;
 
 /// Ends the command here if Ctrl-C was pressed; `kept` says what is not lost.
 pub fn safe_point(stop: &AtomicBool, kept: &str) -> Result<(), Failure> {
@@ -76,15 +76,15 @@ struct Pass {
     what: String,
     bar: ProgressBar,
     /// When it last printed how far it is, in seconds since it began.
-    said_s: u64,
+    printed_s: u64,
 }
 
 impl Pass {
     /// Says how far it is, if that is due.
     fn print(&mut self) {
         let now_s = self.bar.elapsed().as_secs();
-        if self.bar.is_hidden() && now_s >= self.said_s + SAID_EVERY_S {
-            self.said_s = now_s;
+        if self.bar.is_hidden() && now_s >= self.printed_s + PRINTED_EVERY_S {
+            self.printed_s = now_s;
             let all = self.bar.length().unwrap_or_default();
             doing(&format!("{}: {} of {}", self.what, self.bar.position(), counted(all as usize, UNITS)));
         }
@@ -103,7 +103,7 @@ impl Progress for Bar {
         if bar.is_hidden() && total > 0 {
             doing(&format!("{what}: {}", counted(total, UNITS)));
         }
-        let pass = Pass { what: what.to_owned(), bar, said_s: 0 };
+        let pass = Pass { what: what.to_owned(), bar, printed_s: 0 };
         *self.bar.lock().expect("no thread panics while it holds the bar") = Some(pass);
     }
 

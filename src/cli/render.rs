@@ -70,11 +70,11 @@ pub fn all_drawn(outputs: &Outputs) -> Result<(), Failure> {
     if outputs.undrawn.is_empty() {
         return Ok(());
     }
-    let said: Vec<&str> = outputs.undrawn.iter().map(|undrawn| undrawn.why.as_str()).collect();
+    let reasons: Vec<&str> = outputs.undrawn.iter().map(|undrawn| undrawn.why.as_str()).collect();
     Err(Failure::stale(format!(
         "{} could not be drawn: {}",
-        counted(said.len(), ["figure", "figures"]),
-        said.join("; ")
+        counted(reasons.len(), ["figure", "figures"]),
+        reasons.join("; ")
     )))
 }
 
@@ -136,12 +136,12 @@ fn check(paper: &Paper, places: &Places, drawn: &Drawn) -> Result<(), Failure> {
     let listed = |paths: &[PathBuf]| {
         paths.iter().map(|path| path.display().to_string()).collect::<Vec<String>>().join(", ")
     };
-    let said = [("not current", &stale), ("left over from before; remove", &left)];
-    let said = said.into_iter().filter(|(_, paths)| !paths.is_empty());
-    let said: Vec<String> = said.map(|(what, paths)| format!("{what}: {}", listed(paths))).collect();
-    if said.is_empty() {
+    let faults = [("not current", &stale), ("left over from before; remove", &left)];
+    let faults = faults.into_iter().filter(|(_, paths)| !paths.is_empty());
+    let faults: Vec<String> = faults.map(|(what, paths)| format!("{what}: {}", listed(paths))).collect();
+    if faults.is_empty() {
         say!("{} files are current", files.len() + usize::from(drawn.chapter.is_some()));
         return Ok(());
     }
-    Err(Failure::stale(said.join("; ")))
+    Err(Failure::stale(faults.join("; ")))
 }

@@ -100,7 +100,7 @@ fn shown(judged: &ClaimVerdict) -> String {
     let mut text = wrapped("", &format!("{}: {}", judged.claim, judged.verdict_said()), 2, COLUMNS) + "\n";
     let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
     let printed = judged.printed.as_ref().map(|printed| format!("{printed}{unit}"));
-    for (what, said) in [
+    for (what, about) in [
         ("at", Some(judged.at.clone())),
         ("says", judged.says.clone()),
         ("quote", judged.quote.as_ref().map(|quote| format!("“{quote}”"))),
@@ -112,8 +112,8 @@ fn shown(judged: &ClaimVerdict) -> String {
         ("must hold", judged.theorem.clone()),
         ("changed after a run", judged.changed()),
     ] {
-        text += &said
-            .map_or_else(String::new, |said| wrapped("  ", &format!("{what}: {said}"), 4, COLUMNS) + "\n");
+        text += &about
+            .map_or_else(String::new, |about| wrapped("  ", &format!("{what}: {about}"), 4, COLUMNS) + "\n");
     }
     text.extend(across_lines(judged).map(|line| wrapped("  ", &line, 4, COLUMNS) + "\n"));
     text + &judged.findings.iter().map(found).collect::<String>()

@@ -12,9 +12,9 @@ pub fn summary(report: &Report, why: bool) -> String {
         (report.kept, report.trials, "trials reused"),
     ];
     let parts = parts.iter().filter(|(count, ..)| *count > 0);
-    let said: Vec<String> = parts.map(|(count, all, what)| format!("{count} of {all} {what}")).collect();
-    if !said.is_empty() {
-        text += &format!(" ({})", said.join(", "));
+    let shares: Vec<String> = parts.map(|(count, all, what)| format!("{count} of {all} {what}")).collect();
+    if !shares.is_empty() {
+        text += &format!(" ({})", shares.join(", "));
     }
     for UnexpectedStatus { status, count, trial, reason } in &report.odd {
         text += &format!("\n  {count} {status}; the first is {}/{trial}: {reason}", report.manifest.study);

@@ -49,11 +49,11 @@ pub(super) fn tallied(verdicts: &Verdicts, which: &Which) -> String {
     let quick = verdicts
         .quick
         .then(|| "a quick run: few instances, so these verdicts are not the study's".to_owned());
-    for said in [Some(of_each), counts.parts, counts.asserted, quick].into_iter().flatten() {
-        text += &(wrapped("", &said, 2, COLUMNS) + "\n");
+    for line in [Some(of_each), counts.parts, counts.asserted, quick].into_iter().flatten() {
+        text += &(wrapped("", &line, 2, COLUMNS) + "\n");
     }
-    for said in explored(verdicts, which).into_iter().chain(verdicts.changed()) {
-        text += &(wrapped("", &said, 2, COLUMNS) + "\n");
+    for line in explored(verdicts, which).into_iter().chain(verdicts.changed()) {
+        text += &(wrapped("", &line, 2, COLUMNS) + "\n");
     }
     text
 }

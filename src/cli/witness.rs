@@ -114,8 +114,8 @@ impl Witness {
 
     /// What sets these searches apart from all others, in a few letters: all that a search depends on.
     fn name(&self, paper: &Paper) -> String {
-        let asked = format!("{} {} {} maps", paper.id, self.request(), self.maps);
-        sha256(asked.as_bytes()).chars().take(12).collect()
+        let key = format!("{} {} {} maps", paper.id, self.request(), self.maps);
+        sha256(key.as_bytes()).chars().take(12).collect()
     }
 
     /// Goes through the searches that are left; those that found none are remembered in `file`.
@@ -147,7 +147,7 @@ impl Witness {
     /// Writes a map that was found, and says what holds on it.
     fn found(&self, hunt: &WitnessSearch<'_>, found: &FoundWitness, file: &Path) -> Result<(), Failure> {
         let holding = hunt.holding(found)?;
-        let mut said = vec![
+        let mut lines = vec![
             format!("search {} of seed {} found a map {}", found.number, self.seed, self.request()),
             format!(
                 "maps looked at: {} in {} searches before, {} in this one",
@@ -162,11 +162,11 @@ impl Witness {
                 hunt.group.label
             ),
         ];
-        said.extend(holding.iter().map(line));
-        let comments: Vec<String> = said.iter().map(|line| format!("; {line}\n")).collect();
+        lines.extend(holding.iter().map(line));
+        let comments: Vec<String> = lines.iter().map(|line| format!("; {line}\n")).collect();
         let comments = comments.concat();
         write_whole(file, (comments + &to_text_map(&found.grid)).as_bytes())?;
-        for line in &said {
+        for line in &lines {
             say!("{line}");
         }
         say!("the map is in {}", file.display());

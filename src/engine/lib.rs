@@ -12,4 +12,6 @@ pub mod space;
 pub mod search;
 pub mod shorten;
 
+pub mod sampling;
+
 pub mod planner;

@@ -55,7 +55,7 @@ pub struct PlannerRuns {
     pub name: String,
     /// Its properties, in the order of the values.
     pub properties: Vec<Property>,
-    /// The values of each run; none where a property was not measured.
+    /// The values of each run; `None` where a property was not measured.
     pub runs: Vec<Vec<Option<f64>>>,
 }
 
@@ -69,7 +69,7 @@ pub struct Experiment {
     pub setup: String,
     /// The processor that read the clock, if it is known.
     pub cpu: String,
-    /// The planners.
+    /// The contenders with their runs; OMPL's format calls them planners.
     pub planners: Vec<PlannerRuns>,
 }
 

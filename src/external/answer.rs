@@ -5,7 +5,7 @@
 //! it ends in the configuration requested, whatever a study's paths may end in.
 
 use super::clear;
-use super::describe::{RASTER_MM, pose};
+use super::describe::pose;
 use super::message::{Answer, Ask};
 use super::world::Pose;
 use base::grid::{CornerRule, corners_see};
@@ -13,7 +13,7 @@ use engine::geometry::{Frame, Segment, Vec2, Vec3};
 use engine::kinematics::{Arm, Joints};
 use engine::shorten::path_length;
 use engine::space::cell::{EdgeEnd, LineRules, Lines, Path, Scratch};
-use engine::space::roadmap::{Local, joints};
+use engine::space::roadmap::{Local, RASTER_MM, joints};
 use engine::space::{LatticeWorld, World};
 use nalgebra::Matrix3;
 
@@ -76,7 +76,7 @@ pub struct Space<'a> {
     /// The local paths of a cell with the end that was requested.
     lines: Option<Lines>,
     scratch: Scratch,
-    asked: QuestionCounts,
+    questions: QuestionCounts,
 }
 
 impl<'a> Space<'a> {
@@ -89,12 +89,12 @@ impl<'a> Space<'a> {
             }
             Local::Joints(_) | Local::Plane(_) => None,
         });
-        Self { world, any_angle, lines, scratch: Scratch::default(), asked: QuestionCounts::default() }
+        Self { world, any_angle, lines, scratch: Scratch::default(), questions: QuestionCounts::default() }
     }
 
     /// How many questions were answered.
     pub fn question_counts(&self) -> QuestionCounts {
-        self.asked
+        self.questions
     }
 
     /// How many numbers make a configuration.
@@ -123,11 +123,11 @@ impl<'a> Space<'a> {
     /// [`Unanswered`].
     pub fn answer_while(&mut self, ask: &Ask, goes_on: &dyn Fn() -> bool) -> Result<Answer, Unanswered> {
         let Ask { id, valid, motion, fractions, fk, ik } = ask;
-        self.asked.batches += 1;
-        self.asked.valid += count(valid.as_ref());
-        self.asked.motion += count(motion.as_ref());
-        self.asked.fk += count(fk.as_ref());
-        self.asked.ik += count(ik.as_ref());
+        self.questions.batches += 1;
+        self.questions.valid += count(valid.as_ref());
+        self.questions.motion += count(motion.as_ref());
+        self.questions.fk += count(fk.as_ref());
+        self.questions.ik += count(ik.as_ref());
         let all = count(valid.as_ref()) + count(motion.as_ref()) + count(fk.as_ref()) + count(ik.as_ref());
         if all > MOST_QUESTIONS {
             let why = format!("the planner asks {all} questions at once; {MOST_QUESTIONS} are accepted");
@@ -185,12 +185,13 @@ impl<'a> Space<'a> {
     ///
     /// # Errors
     /// As [`is_valid`](Self::is_valid).
-    fn are_valid(&self, asked: &[Vec<f64>]) -> Result<Vec<bool>, String> {
+    fn are_valid(&self, configurations: &[Vec<f64>]) -> Result<Vec<bool>, String> {
         if let Some(lines) = &self.lines {
-            let states = asked.iter().map(|at| self.check(at).map(|()| joints(at).unwrap_or_default()));
+            let states =
+                configurations.iter().map(|at| self.check(at).map(|()| joints(at).unwrap_or_default()));
             return Ok(lines.cell().are_free(&states.collect::<Result<Vec<_>, _>>()?));
         }
-        asked.iter().map(|at| self.is_valid(at)).collect()
+        configurations.iter().map(|at| self.is_valid(at)).collect()
     }
 
     /// Whether the motion between two configurations is free, both ends included.
@@ -273,8 +274,8 @@ impl<'a> Space<'a> {
             let tip = world.rules().arm.forward([*q1, *q2]);
             return Ok(Pose { position: vec![tip.x, tip.y], rotation: None });
         }
-        let (arm, scale) = self.arm().ok_or("fk is asked for, and this world has no arm")?;
-        let q = joints(q).ok_or_else(|| format!("fk is asked for {} angles; 6 are accepted", q.len()))?;
+        let (arm, scale) = self.arm().ok_or("fk needs an arm, and this world has none")?;
+        let q = joints(q).ok_or_else(|| format!("fk is given {} angles; 6 are accepted", q.len()))?;
         Ok(pose(&arm.chain().forward(&q), scale))
     }
 
@@ -285,9 +286,9 @@ impl<'a> Space<'a> {
             return Ok(found
                 .map_or_else(|_| Vec::new(), |both| vec![both.negative.to_vec(), both.positive.to_vec()]));
         }
-        let (arm, scale) = self.arm().ok_or("ik is asked for, and this world has no arm")?;
+        let (arm, scale) = self.arm().ok_or("ik needs an arm, and this world has none")?;
         let ([x, y, z], Some(rows)) = (pose.position.as_slice(), pose.rotation) else {
-            return Err("ik is asked for a pose without three coordinates and a rotation".to_owned());
+            return Err("ik is given a pose without three coordinates and a rotation".to_owned());
         };
         let rotation = Matrix3::from_fn(|i, j| rows[i][j]);
         let target = Frame { origin: Vec3::new(*x, *y, *z) / scale, rotation };
@@ -307,7 +308,7 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// The length of a path in the world's unit, also where joints go straight and the tool does not: there the tool's way is
+    /// The length of a path in the world's unit, also where joints go straight and the tool does not. There the tool's way is
     /// measured at steps of at most half a degree of any joint, which makes it shorter by less than a part in ten thousand.
     pub fn length(&self, path: &[Vec<f64>]) -> Option<f64> {
         self.cost(path).or_else(|| self.cost_of_steps(path))
@@ -331,8 +332,8 @@ impl<'a> Space<'a> {
 }
 
 /// How many questions a list holds.
-fn count<T>(asked: Option<&Vec<T>>) -> u64 {
-    asked.map_or(0, |all| all.len() as u64)
+fn count<T>(questions: Option<&Vec<T>>) -> u64 {
+    questions.map_or(0, |all| all.len() as u64)
 }
 
 /// Half a degree.

@@ -9,11 +9,8 @@ use engine::geometry::planar::Touch;
 use engine::geometry::{Frame, Solid as EngineSolid, Vec3};
 use engine::kinematics::planar_2r::ElbowRule;
 use engine::space::cell::{Lines, Path};
-use engine::space::roadmap::{Local, PlaneMap};
+use engine::space::roadmap::{Local, PlaneMap, RASTER_MM};
 use engine::space::{ArmWorld, HopRule, LatticeWorld, Obstacle, PolyhedraWorld, World as EngineWorld};
-
-/// In the plane, coordinates are multiples of this: the verifier decides contact there in whole numbers.
-pub(super) const RASTER_MM: f64 = 0.0625;
 
 /// `world` as data; on a grid, whether steps may go at any angle is the caller's word.
 ///

@@ -12,7 +12,7 @@ use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, Stdio};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, SyncSender, channel, sync_channel};
 use std::sync::{Arc, Mutex};
-use std::thread;
+use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
 /// Reads a clock: nanoseconds since some moment.
@@ -89,6 +89,8 @@ pub struct Process {
     from: Receiver<PlannerOutput>,
     written: Arc<AtomicU64>,
     log: Arc<Mutex<VecDeque<u8>>>,
+    /// Reads the log until nothing can write to it any more.
+    logging: JoinHandle<()>,
     /// Its greeting, once it has.
     pub hello: Option<Hello>,
 }
@@ -119,17 +121,17 @@ impl Process {
         let stdout = child.stdout.take();
         let stderr = child.stderr.take();
         let (to, lines) = channel();
-        let (said, from) = sync_channel(WAITING_LINES);
+        let (sender, from) = sync_channel(WAITING_LINES);
         let written = Arc::new(AtomicU64::new(0));
         let log = Arc::default();
         let count = written.clone();
         let tail = Arc::clone(&log);
         let most = program.limits.output_mb << 20;
-        let piped = "its pipes were asked for";
+        let piped = "its pipes were requested";
         thread::spawn(move || write_lines(stdin.expect(piped), &lines));
-        thread::spawn(move || read_lines(stdout.expect(piped), &said, &count, most));
-        thread::spawn(move || read_log(stderr.expect(piped), &tail));
-        Ok(Self { child, mark, to: Some(to), from, written, log, hello: None })
+        thread::spawn(move || read_lines(stdout.expect(piped), &sender, &count, most));
+        let logging = thread::spawn(move || read_log(stderr.expect(piped), &tail));
+        Ok(Self { child, mark, to: Some(to), from, written, log, logging, hello: None })
     }
 
     /// Hands a message over; a planner that does not read it keeps nobody waiting.
@@ -200,16 +202,17 @@ impl Process {
         one_line(String::from_utf8_lossy(&[a, b].concat()).trim())
     }
 
-    /// How it ended, once it has, after a moment in which its log arrives.
+    /// How it ended, once it has and its log has arrived; a child of its own may keep the log open, which is not waited for.
     pub(super) fn ended(&mut self) -> Option<String> {
-        for _ in 0..20 {
-            if let Ok(Some(status)) = self.child.try_wait() {
-                thread::sleep(Duration::from_millis(10));
-                return Some(status.to_string());
+        let mut status = None;
+        for _ in 0..40 {
+            status = status.or_else(|| self.child.try_wait().ok().flatten());
+            if status.is_some() && self.logging.is_finished() {
+                break;
             }
             thread::sleep(Duration::from_millis(5));
         }
-        None
+        status.map(|status| status.to_string())
     }
 
     /// Ends it as a planner expects: `quit`, a moment, then SIGTERM and SIGKILL to all that is left. Whether it ended by itself.
@@ -264,9 +267,17 @@ fn no_message(line: &str, error: &serde_json::Error) -> String {
     let why = match number {
         Some(number) => format!("JSON has no number `{number}`, at column {}", column + 1),
         // The library repeats names as long as they are.
-        None => around(&error.to_string(), 0),
+        None => around(&in_words(&error.to_string()), 0),
     };
     format!("the planner wrote `{}`, which is no message: {why}", around(line, column))
+}
+
+/// A message of the JSON library, with words for Rust's types of numbers.
+fn in_words(said: &str) -> String {
+    let whole = "expected a whole number of 0 or more";
+    said.replace("expected u64", whole)
+        .replace("expected u32", whole)
+        .replace("expected f64", "expected a number")
 }
 
 fn write_lines(mut stdin: ChildStdin, lines: &Receiver<String>) {
@@ -277,7 +288,7 @@ fn write_lines(mut stdin: ChildStdin, lines: &Receiver<String>) {
     }
 }
 
-fn read_lines(stdout: ChildStdout, said: &SyncSender<PlannerOutput>, written: &AtomicU64, most: u64) {
+fn read_lines(stdout: ChildStdout, sender: &SyncSender<PlannerOutput>, written: &AtomicU64, most: u64) {
     let mut reader = BufReader::new(stdout);
     let mut line = Vec::new();
     loop {
@@ -292,17 +303,17 @@ fn read_lines(stdout: ChildStdout, said: &SyncSender<PlannerOutput>, written: &A
         line.extend_from_slice(&chunk[..used]);
         reader.consume(used);
         if written.fetch_add(used as u64, Ordering::Relaxed) + used as u64 > most {
-            let _ = said.send(PlannerOutput::Flood);
+            let _ = sender.send(PlannerOutput::Flood);
             return;
         }
         if end.is_some() {
             let whole = std::mem::take(&mut line);
-            if !whole.trim_ascii().is_empty() && said.send(PlannerOutput::Line(whole)).is_err() {
+            if !whole.trim_ascii().is_empty() && sender.send(PlannerOutput::Line(whole)).is_err() {
                 return;
             }
         }
     }
-    let _ = said.send(PlannerOutput::End);
+    let _ = sender.send(PlannerOutput::End);
 }
 
 fn read_log(mut stderr: ChildStderr, log: &Mutex<VecDeque<u8>>) {

@@ -56,7 +56,7 @@ pub struct Talk {
     /// Incumbents that its own questions would have been answered for: seconds since the query, and the path.
     pub incumbents: Vec<(f64, Vec<Vec<f64>>)>,
     /// Questions.
-    pub asked: QuestionCounts,
+    pub questions: QuestionCounts,
     /// From the query to its end by replan's clock.
     pub wall_ns: u64,
     /// Of it, what replan took to answer questions.
@@ -77,7 +77,7 @@ impl Talk {
             cost: None,
             counters: BTreeMap::new(),
             incumbents: Vec::new(),
-            asked: QuestionCounts::default(),
+            questions: QuestionCounts::default(),
             wall_ns: 0,
             answering_ns: 0,
             is_cut_off: false,
@@ -136,7 +136,7 @@ pub fn greet(process: &mut Process, program: &Program) -> Result<Hello, String> 
         Ok(None) => {
             let seconds = program.hello_s;
             let hint = if process.is_silent() { SILENT } else { "" };
-            return Err(with_log(process, &format!("the planner said no `hello` within {seconds} s{hint}")));
+            return Err(with_log(process, &format!("the planner sent no `hello` within {seconds} s{hint}")));
         }
         Err(why) => return Err(with_log(process, &why)),
     };
@@ -247,11 +247,11 @@ impl Conversation<'_, '_> {
     }
 
     fn own(&self, id: u64) -> Result<(), String> {
-        let asked = self.id;
-        if id == asked {
+        let current = self.id;
+        if id == current {
             Ok(())
         } else {
-            Err(format!("the planner answers query {id}; it was asked query {asked}"))
+            Err(format!("the planner answers query {id}; its query is {current}"))
         }
     }
 
@@ -286,7 +286,7 @@ impl Conversation<'_, '_> {
 
     fn finish(mut self, end: End) -> Talk {
         self.talk.wall_ns = (self.clock)() - self.begun;
-        self.talk.asked = self.space.question_counts();
+        self.talk.questions = self.space.question_counts();
         self.talk.end = end;
         if self.talk.end == End::TimeSpent
             && let Some((_, path)) = self.talk.incumbents.last()

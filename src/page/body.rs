@@ -51,8 +51,8 @@ impl Body<'_> {
     /// # Errors
     /// A table for which something is not stored.
     pub fn html(&self, state: &[String], is_without_curves: bool) -> Result<String, RenderError> {
-        let said = state.iter().map(|said| format!("<p class=\"state\">{}</p>\n", escaped(said)));
-        let mut text: String = said.collect();
+        let note = state.iter().map(|note| format!("<p class=\"state\">{}</p>\n", escaped(note)));
+        let mut text: String = note.collect();
         text += &self.head(state.is_empty());
         text += &self.navigation(is_without_curves);
         text += &part("claims", "Claims", &self.claims());
@@ -98,7 +98,7 @@ impl Body<'_> {
                     .report
                     .finding
                     .iter()
-                    .map(|said| format!("<p><strong>{}</strong></p>\n", self.prose_html(said))),
+                    .map(|sentence| format!("<p><strong>{}</strong></p>\n", self.prose_html(sentence))),
             );
         }
         let badges: Vec<String> = counts
@@ -116,12 +116,16 @@ impl Body<'_> {
         }));
         text += "</dl>";
         let beside = counts.parts.into_iter().chain(counts.asserted);
-        text.extend(beside.map(|said| format!("<p>{}.</p>", escaped(&said))));
+        text.extend(beside.map(|sentence| format!("<p>{}.</p>", escaped(&sentence))));
         text += "</details>\n";
         if is_own && !paper.report.findings.is_empty() {
             text += "<details><summary>More findings, with numbers</summary><ul>\n";
             text.extend(
-                paper.report.findings.iter().map(|said| format!("<li>{}</li>\n", self.prose_html(said))),
+                paper
+                    .report
+                    .findings
+                    .iter()
+                    .map(|sentence| format!("<li>{}</li>\n", self.prose_html(sentence))),
             );
             text += "</ul></details>\n";
         }
@@ -132,12 +136,13 @@ impl Body<'_> {
     fn headlines(&self) -> String {
         let line = |headline: &Headline<'_>| {
             let ours = headline.ours.as_ref().map_or_else(String::new, |ours| format!(": {ours}"));
+            let beside = headline.beside(self.verdicts).map_or_else(String::new, |said| format!("; {said}"));
             format!(
                 "<li>{} <a href=\"#claim={}\">{}</a>{}</li>\n",
-                badge(headline.judged.word(), &headline.verdict(self.verdicts)),
+                badge(headline.judged.word(), &headline.judged.verdict_said()),
                 escaped(&headline.judged.claim),
                 escaped(&headline.says),
-                escaped(&ours)
+                escaped(&(ours + &beside))
             )
         };
         let lines: String = headlines(self.evidence.paper, self.verdicts).iter().map(line).collect();
@@ -145,7 +150,7 @@ impl Body<'_> {
             return lines;
         }
         let evidence = evidence(self.verdicts);
-        format!("<ul class=\"headlines\">\n{lines}</ul>\n<p>{}</p>\n", escaped(&evidence))
+        format!("<ul class=\"headlines\">\n{lines}</ul>\n<p>{}</p>\n", self.prose_html(&evidence))
     }
 
     fn navigation(&self, is_without_curves: bool) -> String {
@@ -235,9 +240,9 @@ impl Body<'_> {
     }
 
     fn evidence_of(&self, judged: &ClaimVerdict) -> String {
-        let line = |what: &str, said: &Option<String>| {
-            said.as_ref().map_or_else(String::new, |said| {
-                format!("<p>{what}: {}</p>", inline(said, |id| self.is_claim(id)))
+        let line = |what: &str, value: &Option<String>| {
+            value.as_ref().map_or_else(String::new, |value| {
+                format!("<p>{what}: {}</p>", inline(value, |id| self.is_claim(id)))
             })
         };
         let whole = judged.part_of.as_ref().map(|whole| format!("`{whole}`"));
@@ -257,15 +262,15 @@ impl Body<'_> {
             "<div class=\"finding\"><p><code>{}</code> {outcome}</p><ul>",
             escaped(&finding.criterion)
         );
-        let mut add = |said: &str| text += &format!("<li>{}</li>", inline(said, |id| self.is_claim(id)));
+        let mut add = |line: &str| text += &format!("<li>{}</li>", inline(line, |id| self.is_claim(id)));
         if let Some(ours) = &finding.ours {
             let solved =
                 ours.solved.map_or_else(String::new, |[solved, all]| format!(", {solved} of {all} solved"));
             add(&format!("ours: {} ({}; n = {}{solved})", short(ours), ours.what, ours.n));
         }
-        finding.because.iter().for_each(|said| add(said));
-        finding.settles.iter().for_each(|said| add(&format!("what would settle it: {said}")));
-        finding.premises.iter().for_each(|said| add(&format!("premise: {said}")));
+        finding.because.iter().for_each(|line| add(line));
+        finding.settles.iter().for_each(|line| add(&format!("what would settle it: {line}")));
+        finding.premises.iter().for_each(|line| add(&format!("premise: {line}")));
         text += &finding
             .trial
             .as_ref()

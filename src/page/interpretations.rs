@@ -13,7 +13,7 @@ pub fn section(paper: &Paper, verdicts: &Verdicts, explored: usize) -> String {
     }
     let rows: String = choices.iter().map(row).collect();
     let stale = verdicts.explored.as_ref().map_or(0, |explored| explored.stale.len());
-    let mut said = match explored {
+    let mut text = match explored {
         0 => "no other interpretation than the default was explored for this paper.".to_owned(),
         _ => format!(
             "{explored} interpretations were explored: every option by itself, and a sample of combinations. Choose one to see each \
@@ -21,7 +21,7 @@ pub fn section(paper: &Paper, verdicts: &Verdicts, explored: usize) -> String {
         ),
     };
     if stale > 0 {
-        said += &format!(
+        text += &format!(
             " {stale} claims or their studies changed since; they stand under the default interpretation alone."
         );
     }
@@ -30,7 +30,7 @@ pub fn section(paper: &Paper, verdicts: &Verdicts, explored: usize) -> String {
          <details><summary>What the paper leaves open, and why these options</summary><div class=\"wide\">\
          <table class=\"plain\"><thead><tr><th>choice</th><th>what is left open</th><th>options</th></tr></thead>\
          <tbody>\n{rows}</tbody></table></div></details></div>\n",
-        escaped(&said)
+        escaped(&text)
     )
 }
 

@@ -60,8 +60,9 @@ pub struct Page {
     pub rest: Option<Vec<u8>>,
 }
 
-/// The page of the paper of `evidence` with what is `stored` of its interpretations and `figures` as they were drawn, SVG by the name of
-/// each; `rest` is the name of the file for what does not fit, and `has_index` says whether the index of all papers lies beside the page.
+/// The page of the paper of `evidence` with what is `stored` of its interpretations and `figures` as they were drawn, SVG by the
+/// name of each. `rest` is the name of the file for what does not fit, and `has_index` says whether the index of all papers lies
+/// beside the page.
 ///
 /// # Errors
 /// [`PageError`].
@@ -118,8 +119,8 @@ fn in_order<T: Sync, U: Send>(
 
 /// The page of a paper whose run cannot be shown, for the reason `why`.
 pub fn unread(id: &str, title: &str, why: &str) -> String {
-    let said = format!("<p class=\"state\">Nothing is shown: {}.</p>", escaped(why.trim_end_matches('.')));
-    format!("{}{said}<main><h1>{}</h1></main></body></html>\n", opening(id, title), escaped(title))
+    let notice = format!("<p class=\"state\">Nothing is shown: {}.</p>", escaped(why.trim_end_matches('.')));
+    format!("{}{notice}<main><h1>{}</h1></main></body></html>\n", opening(id, title), escaped(title))
 }
 
 /// A paper's line of the index.

@@ -41,7 +41,7 @@ fn nothing_in_the_viewer_ends_the_script_it_stands_in() {
 }
 
 #[test]
-fn a_run_that_cannot_be_shown_is_said_in_the_first_line() {
+fn a_run_that_cannot_be_shown_is_reported_in_the_first_line() {
     let page = unread("zhang", "A <script> & more", "data/runs/zhang: <no> verdicts");
     let body = page.split("<body>\n").nth(1).unwrap();
     assert!(

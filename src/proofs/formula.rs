@@ -82,10 +82,10 @@ impl Formula {
 }
 
 /// Whether a table's shortest row lists as many points as stated.
-fn fewest_listed(fewest: f64, said: f64) -> Proof {
-    let because = format!("the shortest row lists {fewest} points, and the text says {said} of every row");
+fn fewest_listed(fewest: f64, stated: f64) -> Proof {
+    let because = format!("the shortest row lists {fewest} points, and the text says {stated} of every row");
     let premise = "the text speaks of every row, and a dash is no point".to_owned();
-    Proof { is_possible: fewest >= said, because: vec![because], premises: vec![premise] }
+    Proof { is_possible: fewest >= stated, because: vec![because], premises: vec![premise] }
 }
 
 /// Whether the points that a planar two-link arm cannot take, or takes only stretched or folded, reach as far from its base
@@ -147,12 +147,12 @@ fn repulsion_along_force(d0: f64) -> Proof {
         potential(d + step * force(d, d0).signum(), d0) < potential(d, d0)
     };
     let falls = (1..=TRIED).filter(lowers).count();
-    let said = format!(
+    let reason = format!(
         "a step along f lowers U at {falls} of {TRIED} distances between 0 and d0; f is +∂U/∂X, as eq. 23 says, so U rises \
          along it"
     );
     let premise = "eqs. 21, 23 and 24 are read as printed".to_owned();
-    Proof { is_possible: falls == TRIED, because: vec![said], premises: vec![premise] }
+    Proof { is_possible: falls == TRIED, because: vec![reason], premises: vec![premise] }
 }
 
 /// Whether any regular octagon about a lattice point holds `nodes` other lattice points.
@@ -162,13 +162,13 @@ fn octagon_nodes(nodes: usize) -> Proof {
         let found = octagon_counts(nodes, is_cornered);
         let listed: Vec<String> = found.iter().map(|(count, _)| count.to_string()).collect();
         let hit = found.iter().find(|(count, _)| *count == nodes);
-        let said = match hit {
+        let onset = match hit {
             Some((_, radius)) => format!("{nodes} from a circumradius of {radius:.4} on"),
             None => format!("never {nodes}"),
         };
         let listed = listed.join(", ");
         let text = format!(
-            "regular octagons of any size about a lattice point, {how}, hold {listed} others: {said}"
+            "regular octagons of any size about a lattice point, {how}, hold {listed} others: {onset}"
         );
         (hit.is_some(), text)
     });

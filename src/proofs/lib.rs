@@ -57,11 +57,11 @@ mod tests {
 
     #[test]
     fn an_upper_bound_in_words_is_no_lower_than_the_bound() {
-        for (bound, decimals, said) in
+        for (bound, decimals, expected) in
             [(6.4150, 2, "6.42"), (7.2006, 2, "7.21"), (7.2, 2, "7.20"), (-1.237, 2, "-1.23"), (3.0, 0, "3")]
         {
-            assert_eq!(at_most(bound, decimals), said);
-            assert!(said.parse::<f64>().unwrap() >= bound - 1e-9);
+            assert_eq!(at_most(bound, decimals), expected);
+            assert!(expected.parse::<f64>().unwrap() >= bound - 1e-9);
         }
     }
 

@@ -32,17 +32,17 @@ pub struct SumQuery {
 
 /// A question with the values that its largest one can have and are not tried yet.
 struct Open {
-    asked: SumQuery,
+    query: SumQuery,
     next: i128,
     last: i128,
 }
 
 /// Whether there are such numbers; none if 128 bits or `steps`, which are used up, do not suffice.
-pub fn is_met(asked: SumQuery, steps: &mut u64) -> Option<bool> {
-    if let Some(settled) = asked.settled()? {
+pub fn is_met(query: SumQuery, steps: &mut u64) -> Option<bool> {
+    if let Some(settled) = query.settled()? {
         return Some(settled);
     }
-    let mut open = vec![asked.opened()?];
+    let mut open = vec![query.opened()?];
     let mut seen = BTreeSet::new();
     while let Some(top) = open.last_mut() {
         if top.next < top.last {
@@ -50,7 +50,7 @@ pub fn is_met(asked: SumQuery, steps: &mut u64) -> Option<bool> {
             continue;
         }
         *steps = steps.checked_sub(1)?;
-        let left = top.asked.without(top.next);
+        let left = top.query.without(top.next);
         top.next -= 1;
         match left.settled()? {
             Some(true) => return Some(true),
@@ -141,7 +141,7 @@ impl SumQuery {
             let (_, most) = extremes(self.n, self.sum, [self.ends[0], Some(middle)])?;
             if most.is_none_or(|most| most >= self.squares) { enough = middle } else { last = middle + 1 }
         }
-        Some(Open { asked: self, next, last })
+        Some(Open { query: self, next, last })
     }
 }
 
@@ -219,14 +219,14 @@ mod tests {
             for shift in [0, -3] {
                 for sum in 0..=i128::from(n) * width {
                     for squares in 0..=i128::from(n) * width * width {
-                        let asked = SumQuery {
+                        let query = SumQuery {
                             n,
                             sum: sum + shift * i128::from(n),
                             squares: squares + 2 * shift * sum + i128::from(n) * shift * shift,
                             ends: [Some(shift), Some(width + shift)],
                         };
                         let expected = all.contains(&(sum, squares));
-                        assert_eq!(is_met(asked, &mut 100_000), Some(expected), "{asked:?}");
+                        assert_eq!(is_met(query, &mut 100_000), Some(expected), "{query:?}");
                         let (least, most) = extremes(n, sum, [Some(0), Some(width)]).unwrap();
                         let is_plausible =
                             (squares - sum) % 2 == 0 && (least..=most.unwrap()).contains(&squares);
@@ -250,8 +250,8 @@ mod tests {
             }
             for sum in -20..=20 {
                 for squares in 0..=60 {
-                    let asked = SumQuery { n, sum, squares, ends: [None, None] };
-                    assert_eq!(is_met(asked, &mut 10_000), Some(all.contains(&(sum, squares))), "{asked:?}");
+                    let query = SumQuery { n, sum, squares, ends: [None, None] };
+                    assert_eq!(is_met(query, &mut 10_000), Some(all.contains(&(sum, squares))), "{query:?}");
                 }
             }
         }
@@ -266,8 +266,8 @@ mod tests {
                     let expected = all.contains(&(sum, squares));
                     let up = SumQuery { n, sum, squares, ends: [Some(0), None] };
                     let down = SumQuery { n, sum: -sum, squares, ends: [None, Some(0)] };
-                    for asked in [up, down] {
-                        assert_eq!(is_met(asked, &mut 10_000), Some(expected), "{asked:?}");
+                    for query in [up, down] {
+                        assert_eq!(is_met(query, &mut 10_000), Some(expected), "{query:?}");
                     }
                 }
             }

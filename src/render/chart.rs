@@ -1,11 +1,11 @@
 //! Sheets of panels: a figure kind adds marks to panels and gets axes, letters and a legend.
 //!
-//! A [`Sheet`] lays its panels out row by row in equal columns, aligns their plots, letters them (a), (b)…
-//! when there are several, and sets one legend below all of them, where it cannot cover data. A [`Mark`]
-//! draws itself through a [`View`], which maps data to the page.
+//! A [`Sheet`] lays its panels out row by row in equal columns, aligns their plots, letters them (a), (b)… when there are
+//! several. It sets one legend below all of them, where it cannot cover data. A [`Mark`] draws itself through a [`View`], which
+//! maps data to the page.
 //!
-//! Panels are charts of the crate plotters, drawn on the canvas by a [`Pen`]: an [`Axis`] is one of its
-//! coordinates, its mesh is the grid with ticks and labels, and [`View::plot`] draws its series and elements.
+//! Panels are charts of the crate plotters, drawn on the canvas by a [`Pen`]. An [`Axis`] is one of its coordinates, its mesh is
+//! the grid with ticks and labels, and [`View::plot`] draws its series and elements.
 
 pub mod axis;
 pub mod labels;

@@ -46,14 +46,14 @@ fn untouched(paper: &Paper, verdicts: &Verdicts) -> Option<String> {
 /// What a chapter begins with: [`marks`], and what is stale in the stored run and its verdicts.
 pub fn state(evidence: &Evidence<'_>, verdicts: &Verdicts) -> Vec<String> {
     let paper = evidence.paper;
-    let mut said = marks(paper, verdicts);
-    said.extend(untouched(paper, verdicts));
+    let mut lines = marks(paper, verdicts);
+    lines.extend(untouched(paper, verdicts));
     if !verdicts.quick && evidence.runs().any(|run| run.manifest.quick) {
-        said.push(QUICK.to_owned());
+        lines.push(QUICK.to_owned());
     }
-    said.extend(verdicts.changed());
+    lines.extend(verdicts.changed());
     if digest(paper) != verdicts.meanings {
-        said.push(format!(
+        lines.push(format!(
             "Stale: the stored verdicts are on other claims than paper.toml has now; run `replan judge {}`.",
             paper.id
         ));
@@ -65,12 +65,12 @@ pub fn state(evidence: &Evidence<'_>, verdicts: &Verdicts) -> Vec<String> {
     });
     let again = listed(again);
     if !again.is_empty() {
-        said.push(format!(
+        lines.push(format!(
             "Stale: records of study {again} are others than the claims were judged from; run `replan judge {}`.",
             paper.id
         ));
     }
-    said
+    lines
 }
 
 /// The studies of `runs`, named.

@@ -42,14 +42,17 @@ impl Headline<'_> {
     /// The verdict with the counts over interpretations, where they were explored, or with how many meanings have which verdict.
     pub fn verdict(&self, verdicts: &Verdicts) -> String {
         let verdict = self.judged.verdict_said();
-        let beside = match self.judged.said.as_deref() {
-            Some(said) if said.starts_with("meanings: ") => meanings(self.judged, verdicts),
-            Some(said) => said.split("; ").next().map(str::to_owned),
-            None => None,
-        };
-        match beside {
-            Some(said) => format!("{verdict}, {said}"),
+        match self.beside(verdicts) {
+            Some(counts) => format!("{verdict}, {counts}"),
             None => verdict,
+        }
+    }
+
+    /// The counts over interpretations, or how many meanings have which verdict.
+    pub fn beside(&self, verdicts: &Verdicts) -> Option<String> {
+        match self.judged.said.as_deref()? {
+            counts if counts.starts_with("meanings: ") => meanings(self.judged, verdicts),
+            counts => counts.split("; ").next().map(str::to_owned),
         }
     }
 }
@@ -58,20 +61,22 @@ impl Headline<'_> {
 fn meanings(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     let parts = verdicts.claims.iter().filter(|part| part.part_of.as_ref() == Some(&judged.claim));
     let mut counts: Vec<(String, usize)> = Vec::new();
-    for said in parts.map(ClaimVerdict::verdict_said) {
-        match counts.iter_mut().find(|(known, _)| *known == said) {
+    for verdict in parts.map(ClaimVerdict::verdict_said) {
+        match counts.iter_mut().find(|(known, _)| *known == verdict) {
             Some((_, count)) => *count += 1,
-            None => counts.push((said, 1)),
+            None => counts.push((verdict, 1)),
         }
     }
-    let of_each: Vec<String> = counts.iter().map(|(said, count)| format!("{count} {said}")).collect();
+    let of_each: Vec<String> = counts.iter().map(|(verdict, count)| format!("{count} {verdict}")).collect();
     (counts.len() > 1).then(|| format!("by meaning: {}", of_each.join(", ")))
 }
 
 /// Under how much the headline claims were judged, and the command that does it again.
 pub fn evidence(verdicts: &Verdicts) -> String {
     let again = format!("`replan repro {}` computes it again.", verdicts.paper);
-    let Some(explored) = &verdicts.explored else { return format!("Judged under the defaults alone; {again}") };
+    let Some(explored) = &verdicts.explored else {
+        return format!("Judged under the defaults alone; {again}");
+    };
     let seed = if explored.second_seed { "with a second seed" } else { "without a second seed" };
     format!("Judged under {} interpretations, {seed}; {again}", explored.interpretations)
 }
@@ -113,6 +118,10 @@ fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     }
     sizes.sort_by(f64::total_cmp);
     counts.sort_unstable();
-    let n = if counts.len() == 1 { counts[0].to_string() } else { format!("{} to {}", counts[0], counts.last()?) };
+    let n = if counts.len() == 1 {
+        counts[0].to_string()
+    } else {
+        format!("{} to {}", counts[0], counts.last()?)
+    };
     Some(format!("{} to {}{words} (n = {n})", number(sizes.first()?), number(sizes.last()?)))
 }

@@ -176,8 +176,8 @@ pub fn stale(folder: &Path, outputs: &[Output]) -> Vec<PathBuf> {
     outputs.iter().filter(|output| !is_stale(output)).map(|output| folder.join(&output.name)).collect()
 }
 
-/// The files in `folder` that are not among `outputs`, and that neither the report at `path`, outside the chapter of `paper`,
-/// nor a file that stands beside the chapter speaks: what an earlier state of the paper left behind.
+/// The files in `folder` that are not among `outputs`, and that neither the report at `path`, outside the chapter of `paper`, nor
+/// a file that stands beside the chapter speaks of. They are what an earlier state of the paper left behind.
 ///
 /// # Errors
 /// Those of [`report::besides`].

@@ -42,7 +42,7 @@ pub fn indexed(rgba: &[u8]) -> Option<Indexed> {
 /// Pixels that are compared at once; where they differ, the second number of them.
 const BLOCKS: [usize; 2] = [64, 8];
 
-/// Runs of equal colours, as one number each: a figure is mostly paper, and whether a block is of one colour is a question for
+/// Runs of equal colours, as one number each. A figure is mostly paper, and whether a block is of one colour is a question for
 /// its bytes at once, which is quick however this is compiled.
 fn runs(rgba: &[u8]) -> Vec<(u32, usize)> {
     let mut runs: Vec<(u32, usize)> = Vec::new();

@@ -84,9 +84,9 @@ pub fn table(
         let verdict = |judged: Option<&ClaimVerdict>| judged.map_or_else(dash, ClaimVerdict::verdict_said);
         let mut claims = line("", "verdict", &beside.claims.iter().copied().map(verdict).collect::<Vec<_>>());
         for (cell, judged) in claims.iter_mut().skip(2).zip(&beside.claims) {
-            let said = granted(paper, *judged, verdicts);
-            if !said.is_empty() {
-                latex.footnote(cell, said.join(" "));
+            let notes = granted(paper, *judged, verdicts);
+            if !notes.is_empty() {
+                latex.footnote(cell, notes.join(" "));
             }
         }
         latex.row(claims);

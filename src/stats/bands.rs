@@ -32,7 +32,7 @@ pub struct Band {
 pub fn sup_t(curves: &[Vec<f64>], plan: Resampling) -> Option<Band> {
     let points = curves.first()?.len();
     let fits = |curve: &Vec<f64>| curve.len() == points && curve.iter().all(|y| y.is_finite());
-    assert!(curves.iter().all(fits), "curves of {points} finite points are asked for");
+    assert!(curves.iter().all(fits), "curves of {points} finite points are wanted");
     let everyone: Vec<usize> = (0..curves.len()).collect();
     let mean = mean_curve(curves, &everyone, points);
     let means: Vec<Vec<f64>> =

@@ -56,7 +56,7 @@ mod tests {
 
     /// How often, of [`RUNS`] comparisons of so many instances each, the gate says worse and not worse of a true change.
     fn rates(change_percent: f64, instances: usize) -> [usize; 2] {
-        let mut said = [0, 0];
+        let mut counts = [0, 0];
         for run in 0..RUNS {
             let stream = &mut seed::stream(seed::derive(run, &["gate", &change_percent.to_string()]));
             let mut normal = || (0..12).map(|_| stream.random::<f64>()).sum::<f64>() - 6.0;
@@ -71,12 +71,12 @@ mod tests {
             let percent = |ratio: f64| 100.0 * (ratio - 1.0);
             let interval = Interval::new(percent(ratio.interval.low), percent(ratio.interval.high));
             match decide(&Estimate { value: percent(ratio.value), interval, ..ratio }, MARGIN_PERCENT) {
-                Decision::Worse => said[0] += 1,
-                Decision::NotWorse => said[1] += 1,
+                Decision::Worse => counts[0] += 1,
+                Decision::NotWorse => counts[1] += 1,
                 Decision::CannotTell { .. } => {}
             }
         }
-        said
+        counts
     }
 
     /// Whether so many of [`RUNS`] can come of a probability of at most `percent`.
@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn false_alarms_and_misses_are_as_rare_as_is_said() {
+    fn false_alarms_and_misses_are_as_rare_as_promised() {
         // At the margin itself both words are as often wrong as they ever are. The percentile interval is a little short
         // of few instances of unlike size: 3.5 % of 100 in place of 2.5 %, and 5.5 % of 20.
         for (instances, bound_percent) in [(20, 5.5), (100, 3.5)] {

@@ -20,8 +20,9 @@ pub fn ratio_of_sums(instances: &[[f64; 2]], plan: Resampling) -> Option<Estimat
     bootstrap::of_indices(instances.len(), &ratio, plan)
 }
 
-/// The interval of a share from `instances` of hits and chances, whatever they are drawn from: that of the instances with one more, a hit
-/// throughout at the upper end and a miss throughout at the lower, all weighted at random. None without instances.
+/// The interval of a share from `instances` of hits and chances, whatever they are drawn from. It is that of the instances with
+/// one more, a hit throughout at the upper end and a miss throughout at the lower, all weighted at random. None without
+/// instances.
 ///
 /// The weights are exponential, so that their shares are spacings of uniform numbers. Where every instance has one chance this is
 /// Clopper and Pearson's interval, and where all agree [`proportion::mean_of_agreed`], but for what `resamples` leave to chance:

@@ -58,12 +58,12 @@ pub fn clopper_pearson(hits: usize, trials: usize, level: f64) -> Option<Interva
 /// An interval for a share, from `instances` of hits and chances that all agree on it, whatever they are drawn from; none for other
 /// instances, and without any.
 ///
-/// So many as agree leave, at the level, at most a part m of all instances that differ, with (1 − m)ⁿ = (1 − level) / 2; those may be
-/// hits throughout or misses throughout, so that a share v lies from v − m·v to v + m·(1 − v). At v = 1 or 0 this is exact: if the
-/// values are in [0, 1], P(all are 1) ≤ meanⁿ. Between them, v was not known before it was drawn; that all agree on a value that
-/// fewer than 1 − m of the instances have is no likelier than (1 − m)ⁿ⁻¹, below 5 % from six instances on at 0.95. Instances of unequal chances
-/// weigh unequally, and one that differs may be the largest: the interval is wider by the `most` chances that an instance can have, or
-/// that one has, over the mean number.
+/// So many as agree leave, at the level, at most a part m of all instances that differ, with (1 − m)ⁿ = (1 − level) / 2. Those
+/// may be hits throughout or misses throughout, so that a share v lies from v − m·v to v + m·(1 − v). At v = 1 or 0 this is
+/// exact: if the values are in [0, 1], P(all are 1) ≤ meanⁿ. Between them, v was not known before it was drawn. That all agree on
+/// a value that fewer than 1 − m of the instances have is no likelier than (1 − m)ⁿ⁻¹, below 5 % from six instances on at 0.95.
+/// Instances of unequal chances weigh unequally, and one that differs may be the largest: the interval is wider by the `most`
+/// chances that an instance can have, or that one has, over the mean number.
 ///
 /// # Panics
 /// If `level` is not inside (0, 1).

@@ -49,7 +49,7 @@ pub struct Study {
     pub contenders: Vec<Contender>,
     /// Factors that the paper varies.
     pub sweeps: Vec<Sweep>,
-    /// The choices of its paper that touch what it runs or what is said of it, but for those that it leaves out.
+    /// The choices of its paper that touch what it runs or how it is judged, but for those that it leaves out.
     pub choices: Vec<Choice>,
     /// The choices that touch what it runs and that it leaves out.
     pub leaves_out: Vec<String>,
@@ -118,7 +118,7 @@ pub fn sweeps_of(name: &str) -> String {
     format!("sweeps of {name}")
 }
 
-/// What stands beside whatever shows these contenders, of which a study says that they are recorded; none if there are none.
+/// The remark beside whatever shows `labels`, the contenders that a study marks as recorded; `None` if there are none.
 pub fn recorded_mark<'a>(labels: impl Iterator<Item = &'a str>) -> Option<String> {
     let labels: Vec<&str> = labels.collect();
     (!labels.is_empty())
@@ -248,8 +248,8 @@ impl Study {
         })
     }
 
-    /// The points of the sweeps that trials on `groups` can have and that meet what one of `texts` asks: each is a condition
-    /// (`samples<=1400`), or several joined by commas that are met together; a point's own name is one.
+    /// The points of the sweeps that trials on `groups` can have and that meet one of `texts`. A text is a condition
+    /// (`samples<=1400`), several joined by commas that are met together, or a point's own name.
     ///
     /// # Errors
     /// A text that no point meets, by its place, in words.
@@ -286,7 +286,7 @@ impl Study {
         self.contenders.iter().map(|contender| contender.label.clone()).collect()
     }
 
-    /// Why there is no query called `name` in the problem groups `labels`; none if there is one, or if some group's queries are not known.
+    /// Why there is no query called `name` in the problem groups `labels`; `None` if there is one, or if some group's queries are not known.
     pub fn lacks_query(&self, labels: &[&str], name: &str) -> Option<String> {
         let groups = || self.groups.iter().filter(|group| labels.contains(&group.label.as_str()));
         let known: BTreeSet<&str> = groups().flat_map(|group| &group.queries).map(String::as_str).collect();

@@ -11,11 +11,11 @@ use toml::Table;
 /// Something that the paper leaves open.
 #[derive(Debug, Clone)]
 pub struct Choice {
-    /// Its name.
+    /// Its name in specs, columns and on the command line.
     pub id: String,
     /// What the paper leaves open, and why the default was taken.
     pub why: String,
-    /// The option taken unless asked otherwise.
+    /// The option taken unless another is named.
     pub default: String,
     /// Its default was chosen so that claims hold, and is chosen again for each setting of the others.
     pub fitted: bool,

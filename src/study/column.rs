@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 /// What a column holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// A count.
+    /// A whole number of 0 or more.
     Count,
     /// A measured quantity.
     Real,
@@ -16,7 +16,7 @@ pub enum Kind {
 /// A column of numbers.
 #[derive(Debug)]
 pub struct Column {
-    /// Its name.
+    /// Its name in records, which ends in the unit of a measured quantity.
     pub name: &'static str,
     /// What it holds.
     pub kind: Kind,
@@ -128,6 +128,20 @@ pub static COLUMNS: &[Column] = &[
     count("sight_checks", "lines of sight between two cells that were looked at"),
     count("shots", "local paths to the goal that were tried before an expansion"),
     count("joins", "local paths that were tried to straighten the path"),
+    real(
+        "joint_length_rad",
+        "way of all joints together: root of the sum of squares of each leg's changes; a metre of a slide counts as a radian",
+    ),
+    count("valid_problems", "problems of the set at whose start and one goal at least the robot can be"),
+    count("set_problems", "problems of the set"),
+    count("tree_nodes", "nodes of the planner's trees or roadmap"),
+    count("motions", "straight motions that the planner checked"),
+    count("motion_states", "configurations checked for contact on those motions"),
+    real("initial_length_rad", "way of all joints together along the planner's path, before any stage"),
+    count("first_iterations", "iterations until the planner's first path"),
+    real("first_length_rad", "way of all joints together along the planner's first path"),
+    count("simplification_motions", "straight motions that were checked to simplify the path"),
+    count("simplification_states", "configurations checked for contact on those"),
     count("samples", "samples of a roadmap"),
     count("draws", "configurations drawn for a roadmap, refused ones included"),
     count("edges", "pairs of samples that are joined"),

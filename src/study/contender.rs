@@ -30,17 +30,17 @@ pub struct Contender {
 /// An entry of the planner registry with its settings.
 #[derive(Debug, Clone)]
 pub struct StageUse {
-    /// The entry.
+    /// The planner, or the stage that tidies a plan.
     pub entry: &'static Entry,
     /// Where the study names it.
     pub named: Range<usize>,
-    /// Its settings.
+    /// The settings that the study gives it.
     pub settings: Settings,
 }
 
 /// A contender that is ready to run.
 pub struct Pipeline {
-    /// The planner.
+    /// The planner built from its settings.
     pub planner: Box<dyn Planner>,
     /// The stages that tidy its plan.
     pub stages: Vec<Box<dyn Stage>>,

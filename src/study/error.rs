@@ -27,7 +27,7 @@ pub enum StudyError {
         path: PathBuf,
         /// What was being done.
         doing: &'static str,
-        /// What the system said.
+        /// The system's message.
         source: std::io::Error,
     },
     /// A stored file cannot be used.
@@ -47,7 +47,7 @@ pub enum StudyError {
         /// The folder.
         path: PathBuf,
     },
-    /// The run was asked to stop.
+    /// A person or the system stopped the run.
     #[error(
         "interrupted: {kept} of {total} units of study `{study}` are kept; the same command goes on from there"
     )]
@@ -71,12 +71,24 @@ pub enum StudyError {
         /// What is missing, and what helps.
         lacks: String,
     },
-    /// A trial was asked for that the study does not have.
+    /// A problem group needs files that are not there.
+    #[error(
+        "study `{study}`: problems `{group}` cannot be posed: {lacks}; stored trials stay readable without it"
+    )]
+    LacksFiles {
+        /// The study.
+        study: String,
+        /// The problem group.
+        group: String,
+        /// What is missing, and what helps.
+        lacks: String,
+    },
+    /// The study has no trial of this name.
     #[error("study `{study}` has no trial `{trial}`{near}; {hint}")]
     UnknownTrial {
         /// The study.
         study: String,
-        /// The trial asked for.
+        /// The name that was given, without the study's.
         trial: String,
         /// Which of its trials may have been meant.
         near: String,

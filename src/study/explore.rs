@@ -20,10 +20,10 @@ pub struct Interpretations {
     pub drawn: Vec<Vec<Interpretation>>,
 }
 
-/// The interpretations of `choices`, of which `sample` settings are drawn from `seed` with equal chance for every voting option;
-/// contenders depart to those in `departures`, under which alone their trials count.
+/// The interpretations of `choices`: `sample` settings drawn from `seed` with equal chance for every voting option. Each setting
+/// of the choices that are not fitted stands with every option of those that are.
 ///
-/// Each setting of the choices that are not fitted stands with every option of those that are.
+/// Contenders with an entry in `departures` have trials that count under these interpretations only.
 ///
 /// # Errors
 /// A choice whose default is not among its options.
@@ -152,7 +152,7 @@ mod tests {
     use super::super::spec::BoundsSpec;
     use super::*;
 
-    /// A choice with the options 0 to `count - 1`, of which those below `cited` cite the paper.
+    /// A choice with the options 0 to `count - 1`; those below `cited` cite the paper.
     fn choice(id: &str, count: usize, cited: usize, fitted: bool) -> Choice {
         let option = |i: usize| {
             let paper = (i < cited).then(|| "section 1".to_owned());
@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn an_option_is_asked_with_those_alone_that_it_names() {
+    fn an_option_is_explored_only_with_those_that_it_names() {
         let only = |choice: &mut Choice, id: &str| {
             let only_with = [(id.to_owned(), vec!["1".to_owned()])].into();
             let paper = Some("section 1".to_owned());

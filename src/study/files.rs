@@ -1,4 +1,4 @@
-//! The kinds of TOML file that replan reads from a paper's folder and from `data/`, and how one is told from another.
+//! The kinds of TOML file that replan reads from a paper's folder and from `data/`, and how it recognises each.
 
 use super::StudyError;
 use super::family::{cell_queries, plane_queries};
@@ -10,7 +10,7 @@ use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A kind of file.
+/// A kind of TOML file: what it may hold, and an example.
 #[derive(Debug)]
 pub struct FileKind {
     /// Its name: for `replan list files`, and the stem of its schema.
@@ -69,7 +69,7 @@ pub const STUDY: &str = "study";
 /// What a file is called that is of no kind of ours.
 pub const FOREIGN: &str = "file of something else";
 
-/// Files of a paper's folder that are no studies: the paper itself, and what an independent judge is asked.
+/// Files of a paper's folder that are no studies: the paper itself, and the questions to an independent judge.
 const NO_STUDIES: [&str; 2] = ["paper.toml", "crosscheck.toml"];
 
 /// The TOML files in `folder` besides those of `NO_STUDIES` and hidden ones, in the order of their names.
@@ -96,9 +96,10 @@ pub fn schema(name: &str) -> Value {
 
 /// The kind of `document`.
 ///
-/// A study has `paper` or `question`; what has neither is of another kind if at least half of its keys, and more than a
-/// study has of them, are that kind's, and some table or list under one of them is as that kind has it: `name` and `tool` are
-/// keys of many files. Of the rest a study is what has some key of one, what `paper` speaks of, and what is no TOML.
+/// A study has `paper` or `question`. A document with neither is of another kind if two things hold. At least half of its keys,
+/// and more than a study has of them, are that kind's. And some table or list under one of them is as that kind has it, since
+/// `name` and `tool` are keys of many files. Of the rest a study is what has some key of one, what `paper` speaks of, and what is no
+/// TOML.
 pub fn kind_of(document: &Document, paper: &Document) -> &'static str {
     let keys = document.keys();
     if ["paper", "question"].iter().any(|key| keys.contains(key)) {

@@ -34,6 +34,8 @@ pub struct Group {
     pub queries: Vec<String>,
     /// Whether the seed decides anything of what is posed.
     pub is_drawn: bool,
+    /// The noun for its instances, in the plural.
+    pub noun: &'static str,
 }
 
 impl Group {
@@ -75,7 +77,7 @@ impl Group {
         }
     }
 
-    /// Whether its family can be built from `settings`; what is wrong with a file is told elsewhere.
+    /// Builds its family from `settings`, to find faults. Those of a file that they name are reported elsewhere.
     ///
     /// # Errors
     /// Those of the settings.

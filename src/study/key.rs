@@ -53,7 +53,7 @@ pub struct InstanceKey {
     pub interpretation: InterpretationKey,
 }
 
-/// The value of a sweep.
+/// One value along a sweep, as the study writes it.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum SweepValue {
@@ -201,7 +201,7 @@ impl PartialOrd for SweepKey {
 pub struct TrialKey {
     /// The preprocessed object that it ran on.
     pub on: Arc<InstanceKey>,
-    /// The query; none where an instance has one query only.
+    /// The query; `None` where an instance has one query only.
     pub query: Option<Text>,
     /// The contender's label, or the variant's in a study that has variants.
     pub contender: Text,
@@ -243,7 +243,7 @@ pub struct KeyColumns {
 pub enum Owner {
     /// A preprocessed object.
     Instance(Arc<InstanceKey>),
-    /// A trial.
+    /// One run of a contender on a query.
     Trial(TrialKey),
 }
 

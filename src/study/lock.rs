@@ -37,7 +37,7 @@ impl Lock {
         file.is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
     }
 
-    /// The folder.
+    /// The folder that it locks.
     pub fn folder(&self) -> &Path {
         &self.folder
     }

@@ -28,7 +28,7 @@ use std::sync::OnceLock;
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
-    /// The study.
+    /// The study's name, without the paper's.
     pub study: String,
     /// The command that made the records.
     pub command: String,
@@ -44,7 +44,7 @@ pub struct Manifest {
     pub spec: String,
     /// One hash of everything below that trials depend on.
     pub depends: String,
-    /// The contenders whose trials are bound to a clock: they were recorded, and no run repeats them unless asked.
+    /// The contenders whose trials are bound to a clock: they were recorded, and a run repeats them only on request.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub recorded: Vec<String>,
     /// Where the records come from, if no run of ours made them: the file, and SHA-256 of it.
@@ -60,7 +60,7 @@ pub struct Manifest {
     pub shard: Option<Shard>,
     /// SHA-256 of every input file.
     pub inputs: BTreeMap<String, String>,
-    /// Where and by what clocks were read.
+    /// Where clocks were read, and which.
     #[serde(default, rename = "session")]
     pub sessions: Vec<Session>,
     /// What each problem group depends on, at each point of the sweeps over it.
@@ -325,7 +325,7 @@ impl MadeBy {
 
     /// What is true of the program and of the working tree that `folder` lies in.
     fn found(folder: &Path) -> Self {
-        let said = |program: &str, arguments: &[&str]| {
+        let output_of = |program: &str, arguments: &[&str]| {
             let output = Command::new(program).args(arguments).current_dir(folder).output().ok()?;
             let text = String::from_utf8(output.stdout).ok()?.trim().to_owned();
             output.status.success().then_some(text)
@@ -339,9 +339,9 @@ impl MadeBy {
         status.extend(outputs.iter().map(String::as_str));
         Self {
             replan: env!("CARGO_PKG_VERSION").to_owned(),
-            git: said("git", &["rev-parse", "HEAD"]),
-            clean: said("git", &status).map(|text| text.is_empty()),
-            rustc: said("rustc", &["--version"]),
+            git: output_of("git", &["rev-parse", "HEAD"]),
+            clean: output_of("git", &status).map(|text| text.is_empty()),
+            rustc: output_of("rustc", &["--version"]),
             lock: fs::read(folder.join("Cargo.lock")).ok().map(|bytes| sha256(&bytes)),
             cpu,
         }

@@ -16,7 +16,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The parts of a run, all of which may be put together.
+/// The parts of a run that are fit to be put together.
 pub struct Parts<'a> {
     plan: &'a Plan,
     folder: &'a Path,
@@ -211,8 +211,8 @@ fn strangers(plan: &Plan, folder: &Path) -> Vec<String> {
             name.split_once("-of-").and_then(|(one, all)| one.parse::<usize>().ok().zip(all.parse().ok()));
         numbers.is_some_and(|(number, of)| of != plan.shards || !(1..=of).contains(&number))
     };
-    let said = |name: &String| format!("{name}: no part of this run, which has {} shards", plan.shards);
-    names.iter().filter(is_stranger).map(said).collect()
+    let message = |name: &String| format!("{name}: no part of this run, which has {} shards", plan.shards);
+    names.iter().filter(is_stranger).map(message).collect()
 }
 
 /// Why the part that `found` describes is not the shard `number` of the run that `expected` describes.

@@ -131,8 +131,8 @@ pub fn repeated<'a>(queries: impl Iterator<Item = &'a str>) -> Vec<(usize, Strin
     let mut seen = BTreeSet::new();
     let again = queries.enumerate().filter(|(_, name)| !seen.insert(*name));
     let refused = |(place, name): (usize, &str)| {
-        let said = if name.is_empty() { "without a name".to_owned() } else { format!("called `{name}`") };
-        (place, format!("query {} is the second {said}; one name each is accepted", place + 1))
+        let named = if name.is_empty() { "without a name".to_owned() } else { format!("called `{name}`") };
+        (place, format!("query {} is the second {named}; one name each is accepted", place + 1))
     };
     again.map(refused).collect()
 }

@@ -49,7 +49,7 @@ struct PaperSpec {
     /// What its chapter of the report shows.
     #[serde(default)]
     report: ReportSpec,
-    /// How many numbered things the paper has, each of which then needs a row in the inventory; none if absent.
+    /// How many numbered things the paper has, each with a row in the inventory; none if absent.
     #[serde(default)]
     prints: Prints,
     /// What it leaves open: each choice once, for all studies that it touches.
@@ -105,7 +105,7 @@ impl Study {
     ///
     /// # Errors
     /// Every name that does not exist, every settings table that its entry does not understand, every label
-    /// that is used twice: all of them at once, each with file, line, column, what was found and what is accepted.
+    /// that is used twice. All come at once, each with file, line, column, the value found and the values accepted.
     pub fn load(path: &Path, inputs: &Inputs) -> Result<Self, StudyError> {
         let mut faults = Faults::default();
         let paper = path.with_file_name("paper.toml");
@@ -127,7 +127,7 @@ impl Study {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Source {
-    /// Title.
+    /// The title as printed.
     pub title: String,
     /// Authors, if the text names them.
     pub authors: Option<String>,
@@ -148,16 +148,16 @@ pub struct Source {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Prints {
-    /// Figures.
+    /// Numbered figures.
     #[schemars(range(max = 1000))]
     pub figures: u32,
-    /// Tables.
+    /// Numbered tables.
     #[schemars(range(max = 1000))]
     pub tables: u32,
-    /// Equations.
+    /// Numbered equations.
     #[schemars(range(max = 1000))]
     pub equations: u32,
-    /// Numbers in its result sections, tables and captions, each of which the inventory then lists where it is printed.
+    /// Numbers in its result sections, tables and captions; the inventory lists each where it is printed.
     #[schemars(range(max = 10_000))]
     pub numbers: u32,
 }
@@ -167,7 +167,7 @@ pub struct Prints {
 pub struct Paper {
     /// Its name: the folder's.
     pub id: String,
-    /// Its folder.
+    /// The folder of its paper.toml.
     pub folder: PathBuf,
     /// Bibliography.
     pub source: Source,
@@ -181,9 +181,9 @@ pub struct Paper {
     pub explore: Option<ExploreSpec>,
     /// Everything it prints.
     pub inventory: Vec<InventoryRow>,
-    /// What it says.
+    /// What it claims, with the cells of its tables.
     pub claims: Vec<Claim>,
-    /// Its tables.
+    /// The tables that it prints, with the claims that are their cells.
     pub tables: Vec<PrintedTable>,
     /// The claims that are cells of its tables, by their names.
     pub cells: Vec<String>,
@@ -214,7 +214,7 @@ fn first_places<'a>(ids: impl Iterator<Item = (usize, &'a String)>) -> BTreeMap<
     places
 }
 
-/// Holds files beside the studies against what they are taken for; what is wrong in one that a study names was told already.
+/// Checks files beside the studies as the kinds that they are taken for, but for those with a fault that a study reported.
 fn check_others(others: &[(PathBuf, &'static str)], faults: &mut Faults) {
     for (path, kind) in others.iter().filter(|(_, kind)| *kind != files::FOREIGN) {
         if !faults.are_in(path) {

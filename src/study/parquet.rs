@@ -3,24 +3,32 @@
 //! polars's own reader and writer of files bring along what reads other formats, from other places; this asks its Parquet library
 //! alone, and a first build takes a sixth less.
 
+use base::file::MOST_BYTES;
 use polars::prelude::{
-    ArrowDataType, ArrowField, ArrowSchema, Column, CompatLevel, DataFrame, PolarsResult, Schema,
-    SchemaExt as _, Series,
+    ArrowDataType, ArrowField, ArrowSchema, Column, CompatLevel, DataFrame, PolarsError, PolarsResult,
+    Schema, SchemaExt as _, Series,
 };
 use polars::utils::accumulate_dataframes_vertical;
+use polars_parquet::parquet::compression::DecompressionContext;
 use polars_parquet::read::{
-    BasicDecompressor, ColumnChunkMetadata, FileMetadata, PageReader, RowGroupMetadata,
-    column_iter_to_arrays, infer_schema, read_metadata,
+    BasicDecompressor, ColumnChunkMetadata, FileMetadata, Page, PageReader, RowGroupMetadata,
+    column_iter_to_arrays, decompress, infer_schema, read_metadata,
 };
 use polars_parquet::write::{
-    CompressionOptions, FileWriter, KeyValue, StatisticsOptions, Version, WriteOptions, get_dtype_encoding,
-    row_group_iter, schema_to_metadata_key,
+    CompressedPage, CompressionOptions, FileWriter, KeyValue, StatisticsOptions, Version, WriteOptions,
+    get_dtype_encoding, row_group_iter, schema_to_metadata_key,
 };
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 use std::io::{Cursor, Read, Seek, SeekFrom, Write};
 
 /// How many rows a group has at most.
 const GROUP_ROWS: usize = 1 << 18;
+
+/// A page of another program may hold no more values: for each of them there must be room in memory.
+const MOST_VALUES: usize = 1 << 28;
+
+/// A page may take no more bytes, packed or not.
+const MOST_OF_PAGE: usize = MOST_BYTES as usize;
 
 const OPTIONS: WriteOptions = WriteOptions {
     statistics: StatisticsOptions {
@@ -184,10 +192,10 @@ impl<R: Read + Seek> FrameReader<R> {
             let types =
                 chunks.iter().map(|(chunk, _)| &chunk.descriptor().descriptor.primitive_type).collect();
             let pages = chunks.into_iter().map(|(chunk, bytes)| {
-                let pages = PageReader::new(Cursor::new(bytes.into()), chunk, Vec::new(), usize::MAX);
-                BasicDecompressor::new(pages, Vec::new())
+                Ok(BasicDecompressor::new(pages(chunk, bytes, group.num_rows())?, Vec::new()))
             });
-            let (arrays, _) = column_iter_to_arrays(pages.collect(), types, field.clone(), None)?;
+            let pages = pages.collect::<PolarsResult<_>>()?;
+            let (arrays, _) = column_iter_to_arrays(pages, types, field.clone(), None)?;
             Ok(Series::try_from((field, arrays))?.into())
         });
         DataFrame::new(group.num_rows(), columns.collect::<PolarsResult<Vec<Column>>>()?)
@@ -210,6 +218,40 @@ fn plain(dtype: &ArrowDataType) -> Option<ArrowDataType> {
         | Type::Float64 => Some(dtype.clone()),
         _ => None,
     }
+}
+
+/// The pages in `bytes` of a column of a group of `rows` rows.
+///
+/// polars reserves memory for as many values as a column or a page claims to have, and ends the whole program where there is
+/// not so much. So the claims are checked first.
+fn pages(chunk: &ColumnChunkMetadata, bytes: Vec<u8>, rows: usize) -> PolarsResult<PageReader> {
+    let is_flat = chunk.descriptor().descriptor.max_rep_level == 0;
+    let most = if is_flat { rows.min(MOST_VALUES) } else { MOST_VALUES };
+    check_claim(chunk.num_values() as usize, most)?;
+    let mut pages = PageReader::new(Cursor::new(bytes.into()), chunk, Vec::new(), MOST_OF_PAGE);
+    for page in &mut pages {
+        let page = page?;
+        if let CompressedPage::Data(page) = &page {
+            check_claim(page.num_values(), most)?;
+            check_claim(page.uncompressed_size(), MOST_OF_PAGE)?;
+        } else if let Page::Dict(page) = decompress(page, &mut Vec::new(), &mut DecompressionContext::Unset)?
+        {
+            check_claim(page.num_values, page.buffer.len())?;
+        }
+    }
+    let (mut bytes, _) = pages.into_inner();
+    bytes.set_position(0);
+    Ok(PageReader::new(bytes, chunk, Vec::new(), MOST_OF_PAGE))
+}
+
+/// Refuses a number of values or bytes that cannot be; one below 0 is beyond every limit.
+fn check_claim(claimed: usize, most: usize) -> PolarsResult<()> {
+    if claimed <= most {
+        return Ok(());
+    }
+    let message =
+        format!("a column or page claims {} values or bytes; at most {most} can be", claimed as i64);
+    Err(PolarsError::ComputeError(message.into()))
 }
 
 /// The bytes of a column of a group, or as many as the file has of them.

@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// A plan.
+/// How a run is cut into shards, and what it depends on, as the plan's file holds it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plan {
@@ -29,7 +29,7 @@ pub struct Plan {
     pub quick: bool,
     /// The root of every seed, if it is not the studies' own.
     pub seed: Option<u64>,
-    /// The options that were asked for, if any were.
+    /// The options of `--with`, if there were any.
     pub with: Option<String>,
     /// How many units each shard runs.
     pub units: Vec<usize>,
@@ -52,7 +52,7 @@ pub struct Plan {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlannedRound {
-    /// The command.
+    /// The command that runs it: `explore` or `confirm`.
     pub command: String,
     /// The name of the round, which is that of the plan's folder within the folder of all parts.
     pub name: String,
@@ -64,7 +64,7 @@ pub struct PlannedRound {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlannedStudy {
-    /// Its name.
+    /// The study's name, without the paper's.
     pub name: String,
     /// The root of its seeds.
     pub seed: u64,
@@ -78,7 +78,7 @@ pub struct PlannedStudy {
     pub cost_ns: BTreeMap<String, u64>,
 }
 
-/// What is asked of a plan.
+/// The run that a plan is wanted for.
 #[derive(Debug, Clone)]
 pub struct Wanted {
     /// The paper, as the command line named it.
@@ -89,7 +89,7 @@ pub struct Wanted {
     pub quick: bool,
     /// The root of every seed, if it is not the studies' own.
     pub seed: Option<u64>,
-    /// The options asked for.
+    /// The options of `--with`.
     pub with: Option<String>,
     /// The round of an exploration or a confirmation.
     pub round: Option<PlannedRound>,
@@ -113,7 +113,7 @@ pub enum State {
 /// One shard's state and about how many of its units are done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Progressed {
-    /// The state.
+    /// Whether it is done, at work, stopped or waiting.
     pub state: State,
     /// Units that are done.
     pub units: usize,
@@ -270,7 +270,7 @@ impl Plan {
         costs
     }
 
-    /// Refuses a plan of another run than is asked for.
+    /// Refuses a plan of another run than `wanted`.
     fn check(
         &self,
         path: &Path,
@@ -278,7 +278,8 @@ impl Plan {
         studies: &[(BuiltStudy<'_>, Manifest)],
     ) -> Result<(), StudyError> {
         let mut other = Differences(Vec::new());
-        let mut differs = |what: &str, planned: String, asked: String| other.note(what, &planned, &asked);
+        let mut differs =
+            |what: &str, planned: String, requested: String| other.note(what, &planned, &requested);
         let shown = |with: &Option<String>| with.clone().unwrap_or_else(|| "the default".to_owned());
         let names = |names: &mut dyn Iterator<Item = &str>| names.collect::<Vec<_>>().join(", ");
         differs("command", command(self.round.as_ref()), command(wanted.round.as_ref()));

@@ -208,14 +208,14 @@ pub struct PreprocessingRow {
 pub struct Kept {
     /// Whose it is.
     pub of: Owner,
-    /// The trace.
+    /// Its numbers.
     pub trace: Trace,
 }
 
 /// One time of one trial.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Timing {
-    /// The trial.
+    /// The trial whose planning was timed.
     pub trial: TrialKey,
     /// The session in which the clock was read, from 1; times of different sessions are never pooled.
     pub session: u32,

@@ -122,9 +122,9 @@ impl Keeps {
 /// What of a run is stored, by the number of the unit.
 #[derive(Default)]
 pub struct Reusable {
-    /// Units of which everything is stored.
+    /// Units that are stored whole.
     pub units: BTreeMap<usize, Batch>,
-    /// Units of which some contenders' trials are.
+    /// Units with the trials of some contenders only.
     pub parts: BTreeMap<usize, Part>,
     /// The contenders of each of these units whose traces are stored; of all in a task that does without contenders.
     pub traces: BTreeMap<usize, Option<BTreeSet<Text>>>,
@@ -148,11 +148,16 @@ impl Reusable {
             let interpretation = &unit.key.interpretation;
             let problem = |of: &Manifest| of.problem(&unit.key).map(str::to_owned);
             let Some(batch) = stored.remove(&unit.key) else { continue };
-            if problem(manifest) != problem(before) || batch.preprocessing.is_empty() {
+            if problem(manifest) != problem(before) {
                 continue;
             }
             let labels: BTreeSet<Text> = unit.entrants.iter().map(|entrant| entrant.label.clone()).collect();
-            if labels.is_empty() && !keeps.repeated {
+            let is_there = if labels.is_empty() {
+                keeps.repeated && is_prepared(&batch)
+            } else {
+                !batch.rows.is_empty()
+            };
+            if !is_there {
                 continue;
             }
             let is_same = |entrant: &&&Entrant<'_>| {
@@ -166,7 +171,7 @@ impl Reusable {
         found
     }
 
-    /// Notes what is stored of a unit of which `same` of so many contenders have not changed.
+    /// Notes what is stored of a unit; of its so many `contenders` those in `same` have not changed.
     fn put(
         &mut self,
         built: &BuiltStudy<'_>,
@@ -180,7 +185,7 @@ impl Reusable {
             // A task that does without contenders depends on its problems alone.
             self.units.insert(index, stored);
             self.traces.insert(index, None);
-        } else if same.len() == contenders {
+        } else if same.len() == contenders && is_prepared(&stored) {
             self.units.insert(index, built.in_order(unit, [&stored, &Batch::default()]));
             self.traces.insert(index, Some(same));
         } else if !same.is_empty() {
@@ -191,10 +196,15 @@ impl Reusable {
         }
     }
 
-    /// How many trials are stored of units of which others are not.
+    /// How many trials are stored of units that are not stored whole.
     pub fn kept(&self) -> usize {
         self.parts.values().map(|part| part.stored.rows.len()).sum()
     }
+}
+
+/// Whether what was built before queries is among the records of a unit; the file that holds it may have been damaged.
+fn is_prepared(stored: &Batch) -> bool {
+    !stored.preprocessing.is_empty()
 }
 
 /// The records of each instance.

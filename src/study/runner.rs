@@ -53,7 +53,7 @@ impl Progress for Unwatched {
 /// beside it.
 pub const SESSION: u32 = 1;
 
-/// What is stored of a unit of which other contenders' trials must run.
+/// What is stored of a unit when other contenders' trials of it must run.
 #[derive(Debug, Default)]
 pub struct Part {
     /// The contenders whose trials are stored.
@@ -162,13 +162,15 @@ impl<'a> BuiltStudy<'a> {
             names.push(&at);
         }
         names.push(&number);
+        let family = self.families[interpretation][place].as_ref();
+        let is_numbered = family.numbers_instances();
         Unit {
             terms: &self.terms,
             group,
-            family: self.families[interpretation][place].as_ref(),
+            family,
             point: &self.points[interpretation],
             entrants: self.entrants[interpretation].iter().collect(),
-            seed: seed::derive(self.study.seed, &names),
+            seed: if is_numbered { key.instance.into() } else { seed::derive(self.study.seed, &names) },
             key: Arc::new(key),
             keeps_all: false,
         }
@@ -222,10 +224,10 @@ impl<'a> BuiltStudy<'a> {
         files.map(hash).collect()
     }
 
-    /// That every program is there whose trials are not `done` and not in `parts`.
+    /// That every program and every archive is there whose trials are not `done` and not in `parts`.
     ///
     /// # Errors
-    /// [`StudyError::Lacks`] for the first that is not.
+    /// [`StudyError::Lacks`] or [`StudyError::LacksFiles`] for the first that is not.
     pub fn check_programs(
         &self,
         only: Option<&BTreeSet<usize>>,
@@ -241,6 +243,10 @@ impl<'a> BuiltStudy<'a> {
                 parts.get(&index).is_some_and(|part| part.contenders.contains(&entrant.label))
             };
             for entrant in unit.entrants.iter().filter(|entrant| !stored(entrant)) {
+                if let Some(lacks) = unit.family.lacks() {
+                    let (study, group) = (self.study.name.clone(), unit.group.label.clone());
+                    return Err(StudyError::LacksFiles { study, group, lacks });
+                }
                 if let Some(lacks) = entrant.pipeline.planner.lacks() {
                     let study = self.study.name.clone();
                     let contender = entrant.contender.label.clone();
@@ -271,7 +277,7 @@ impl<'a> BuiltStudy<'a> {
         self.task.run(unit)
     }
 
-    /// One unit's records, of which some contenders' trials are stored.
+    /// One unit's records: those stored in `part`, and those of the other contenders, which run now.
     fn run_rest(&self, unit: &Unit<'_>, part: &Part) -> Batch {
         let mut rest = unit.clone();
         rest.entrants.retain(|entrant| !part.contenders.contains(&entrant.label));
@@ -290,13 +296,12 @@ impl<'a> BuiltStudy<'a> {
         Batch { preprocessing, rows, kept: batches[1].kept.clone() }
     }
 
-    /// Runs every unit, or those among `only`, that `done` does not hold yet, in the current thread pool; of a unit of which
-    /// `parts` holds some contenders' trials, those of the others.
+    /// Runs every unit, or those among `only`, that `done` does not hold yet, in the current thread pool. Where
+    /// `parts` holds some contenders' trials of a unit, only the others' run. The traces are in the journal, or where the stored
+    /// trials are.
     ///
     /// # Errors
     /// [`StudyError::Interrupted`] if `stop` was set; an error of the journal.
-    ///
-    /// The traces are in the journal, or where the stored trials are.
     pub fn run(
         &self,
         only: Option<&BTreeSet<usize>>,
@@ -357,8 +362,9 @@ impl<'a> BuiltStudy<'a> {
     }
 }
 
-/// The units in `todo` by what they are drawn from: those of one family and one seed share what is prepared, interpretations that
-/// change contenders alone among them; units that are `apart` stand by themselves. In the order of their first units.
+/// The units in `todo`, grouped by family and seed, since such units share what is prepared; interpretations that
+/// change contenders alone go together too. Units that are `apart` stand by themselves. Groups are in the order of their first
+/// units.
 fn alike(units: &[Unit<'_>], todo: &[usize], apart: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
     let mut all: Vec<Vec<usize>> = Vec::new();
     let mut places = BTreeMap::new();

@@ -125,7 +125,7 @@ impl Report {
 /// Trials of one status that a reader may not have expected.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UnexpectedStatus {
-    /// The status.
+    /// How they ended.
     pub status: Status,
     /// How many there are.
     pub count: usize,
@@ -250,7 +250,7 @@ pub fn read_clock(study: &Study, options: &Options<'_>) -> Result<u32, StudyErro
     Ok(number)
 }
 
-/// The stored times, with their sessions, if no trial ran again and they are as many as are asked for.
+/// The stored times, with their sessions, if no trial ran again and they are as many as the study wants.
 fn kept_times(
     study: &Study,
     stored: Option<&(Manifest, Records)>,
@@ -289,8 +289,8 @@ fn times_beside(
     Ok([old.times.clone(), built.time(number, options.stop, options.progress)?].concat())
 }
 
-/// Whether the clock was read for as many instances, repeats and seeds as `study` asks for: interpretations are then as good as new ones
-/// where no trial ran again, whatever else of the spec has changed.
+/// Whether the clock was read for as many instances, repeats and seeds as `study` asks for. Interpretations are then as good as
+/// new ones where no trial ran again, whatever else of the spec has changed.
 fn is_timed_as(study: &Study, times: &[Timing]) -> bool {
     let Some(timing) = study.timing else { return times.is_empty() };
     let most = |of: fn(&Timing) -> u32| times.iter().map(|time| of(time) + 1).max().unwrap_or(0);
@@ -357,7 +357,7 @@ pub fn run_one(
     Ok((batch, before))
 }
 
-/// What is said of a trial that is not among `all` of the study's.
+/// The error about a trial that is not among `all` of the study's.
 fn unknown_trial(study: &str, trial: &str, all: &[String]) -> StudyError {
     let near = did_you_mean(trial, all.iter().map(String::as_str));
     let hint = format!("its first one is `{study}/{}`", all.first().map_or("", String::as_str));

@@ -20,7 +20,7 @@ pub struct Shard {
 /// The units of one study that a shard runs.
 #[derive(Debug, Clone)]
 pub struct Portion {
-    /// The shard.
+    /// Which part of the plan it is.
     pub shard: Shard,
     /// Their numbers.
     pub units: BTreeSet<usize>,

@@ -22,7 +22,7 @@ pub struct StudySpec {
     pub second_seed: Option<u64>,
     /// What is done with the problems; `plan` if absent.
     pub task: Option<Spanned<String>>,
-    /// Settings of the task.
+    /// The settings of `task`.
     #[schemars(with = "Option<AnyTable>")]
     pub task_settings: Option<Spanned<Table>>,
     /// Inputs were searched for so that claims would hold: at best *attainable*.
@@ -79,9 +79,9 @@ pub struct ProblemsSpec {
     /// How many independent instances; 1 if absent.
     #[schemars(range(min = 1, max = 1_000_000))]
     pub instances: Option<u32>,
-    /// What its instances are called: groups of one paper whose draws have one name get the same seeds, instance by instance, so that
-    /// what their settings do can be compared in pairs, and so do the points of a sweep over the group. The study, the label
-    /// and the point of the sweep if absent.
+    /// What its instances are called. Groups of one paper whose instances have one name get the same seeds, instance by instance,
+    /// and so do the points of a sweep over the group: their settings can then be compared in pairs. The study, the label and the
+    /// point of the sweep if absent.
     pub shared_instances: Option<String>,
     /// The family's settings.
     #[schemars(with = "AnyTable")]
@@ -94,7 +94,7 @@ pub struct ProblemsSpec {
 pub struct ContenderSpec {
     /// Its name in records and tables.
     pub label: Spanned<String>,
-    /// The planner.
+    /// The planner's name in the registry.
     pub planner: Spanned<String>,
     /// The planner's settings.
     #[schemars(with = "Option<AnyTable>")]
@@ -117,7 +117,7 @@ pub struct ContenderSpec {
 pub struct StageSpec {
     /// Its name in the registry.
     pub stage: Spanned<String>,
-    /// Its settings.
+    /// The stage's settings.
     #[schemars(with = "Option<AnyTable>")]
     pub settings: Option<Spanned<Table>>,
 }
@@ -145,11 +145,11 @@ pub struct SweepSpec {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ChoiceSpec {
-    /// Its name.
+    /// Its name in specs, columns and on the command line.
     pub id: Spanned<String>,
     /// What the paper leaves open, and why the default was taken.
     pub why: String,
-    /// The option taken unless asked otherwise.
+    /// The option taken unless another is named.
     pub default: Spanned<String>,
     /// The default was chosen so that the claims in `fitted_to` hold: for each setting of the other choices the options
     /// count with which most of them do.
@@ -161,7 +161,7 @@ pub struct ChoiceSpec {
     pub paper: Option<String>,
     /// The practice that does so, with its source, for every option that cites nothing itself and is no probe.
     pub practice: Option<String>,
-    /// The options.
+    /// The ways to settle it, by name.
     pub option: Spanned<BTreeMap<String, OptionSpec>>,
 }
 
@@ -169,9 +169,9 @@ pub struct ChoiceSpec {
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoundsSpec {
-    /// The least.
+    /// The least number that votes.
     pub least: f64,
-    /// The greatest.
+    /// The greatest number that votes.
     pub greatest: f64,
     /// The paper's text, or the practice, that says so.
     pub source: String,
@@ -196,7 +196,7 @@ pub struct OptionSpec {
     pub probe: bool,
     /// The number that it stands for, where the choice has `bounds`.
     pub value: Option<f64>,
-    /// The options of other choices, by the choice's name, with one of which alone it is explored; with all, if none are named.
+    /// Options of other choices, by the choice's name: it is explored only with these. With all, if none are named.
     #[serde(default)]
     pub only_with: BTreeMap<String, Vec<String>>,
     /// Why it cannot be run: claims on studies that inherit the choice then stay open.
@@ -293,7 +293,7 @@ pub struct ExploredStudy {
 }
 
 impl ExploreSpec {
-    /// What is run of the study called `name`; none if it is not explored.
+    /// What is run of the study called `name`; `None` if it is not explored.
     pub fn study(&self, name: &str) -> Option<ExploredStudy> {
         Some(ExploredStudy {
             instances: self.instances.get(name)?.0,

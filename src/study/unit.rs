@@ -49,7 +49,7 @@ pub struct Unit<'a> {
 
 /// A contender at one point of the sweeps over contenders, ready to run.
 pub struct Entrant<'a> {
-    /// The contender.
+    /// The contender as the study names it.
     pub contender: &'a Contender,
     /// Its label, as keys share it.
     pub label: Text,

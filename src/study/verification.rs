@@ -60,11 +60,11 @@ pub struct Verified {
     pub outcome: (Status, Option<String>),
     /// What was measured.
     pub values: Counts,
-    /// What figures need of what was measured, if the request asked for it.
+    /// What figures need of what was measured, if the request wanted it.
     pub traces: Vec<Trace>,
 }
 
-/// How many queries a map must be asked for landmarks to be worth their distances.
+/// Fewest queries of one map that make landmarks worth their distances.
 const MANY: usize = 32;
 
 /// What helps to find the truth about each of many queries in one world.

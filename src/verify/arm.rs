@@ -1,9 +1,9 @@
 //! Judges paths of a planar arm's tip, continuously in joint space.
 //!
-//! Kinematics is written here once more, as products of rotation matrices, and the inverse by intersecting the
-//! circles that the elbow lies on; distances are parry2d's. A hop is judged by the joints moving evenly between its
-//! postures, or by the tip moving along the straight line ([`Hops`]): an interval of the motion is clear if no point of a
-//! link can reach what it is nearest to; otherwise it is halved, down to `RESOLUTION_CM`, below which contact is assumed.
+//! Kinematics is written here once more, as products of rotation matrices, and the inverse by intersecting the circles that the
+//! elbow lies on; distances are parry2d's. A hop is judged by the joints moving evenly between its postures, or by the tip moving
+//! along the straight line ([`Hops`]). An interval of the motion is clear if no point of a link can reach what it is nearest to.
+//! Otherwise it is halved, down to `RESOLUTION_CM`, below which contact is assumed.
 
 mod body;
 #[cfg(test)]

@@ -43,6 +43,8 @@ pub struct Motion {
     pub length_m: f64,
     /// The sum of the changes of all joints that turn.
     pub travel_rad: f64,
+    /// The sum over the legs of the root of the sum of squares of all changes.
+    pub joint_length: f64,
 }
 
 impl Case {
@@ -85,13 +87,14 @@ impl Case {
             return Err("the path does not go from start to goal".to_owned());
         }
         self.refusal(&path[0]).map_or(Ok(()), |refusal| Err(format!("at the start, {refusal}")))?;
-        let mut motion = Motion { length_m: 0.0, travel_rad: 0.0 };
+        let mut motion = Motion { length_m: 0.0, travel_rad: 0.0, joint_length: 0.0 };
         for (index, leg) in path.windows(2).enumerate() {
             let to = self.reached(leg);
             let change = leg[0].iter().zip(&to).map(|(a, b)| (b - a).abs());
             let turns =
                 change.clone().zip(&self.robot.joints).filter(|(_, joint)| joint.kind != Kind::Slides);
             motion.travel_rad += turns.map(|(by, _)| by).sum::<f64>();
+            motion.joint_length += change.clone().map(|by| by * by).sum::<f64>().sqrt();
             let steps = (change.fold(0.0, f64::max) / self.step_rad).ceil().max(1.0) as u32;
             let mut at = self.tip(&leg[0]);
             for step in 1..=steps {
@@ -279,6 +282,7 @@ mod tests {
         let motion = judged(&[ball(0.3, -0.5)], &[-1.0, 0.0, 1.0]).unwrap();
         assert!((motion.length_m - 2.0).abs() < 1e-4, "{motion:?}");
         assert!((motion.travel_rad - 2.0).abs() < 1e-12, "{motion:?}");
+        assert!((motion.joint_length - 2.0).abs() < 1e-12, "{motion:?}");
         // At 45 degrees between two stops of the path.
         let refusal = judged(&[ball(0.6, 0.6)], &[0.0, 1.5]).unwrap_err();
         assert_eq!(refusal, "leg 1: part 1 touches obstacle 1");
@@ -287,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn paths_that_are_not_what_was_asked_are_refused() {
+    fn paths_that_are_not_what_was_wanted_are_refused() {
         assert!(judged(&[], &[0.0, 2.5]).unwrap_err().contains("joint 1 is outside its limits at 2.0"));
         assert_eq!(
             judged(&[ball(0.0, 0.5)], &[0.0, 1.0]).unwrap_err(),

@@ -186,8 +186,8 @@ impl Toy {
     }
 }
 
-pub fn pair(verdict: &str, said: &str) -> (String, String) {
-    (verdict.to_owned(), said.to_owned())
+pub fn pair(verdict: &str, counts: &str) -> (String, String) {
+    (verdict.to_owned(), counts.to_owned())
 }
 
 /// What stands beside a claim that the weight turns.
@@ -268,7 +268,7 @@ fn a_sentence_that_repeats_a_number_which_the_study_was_fitted_to_is_fitted() {
 }
 
 #[test]
-fn where_nothing_is_compatible_all_voting_readings_are_judged_and_it_is_said() {
+fn where_nothing_is_compatible_all_voting_options_are_judged_and_this_is_reported() {
     let toy = Toy::new(&[CITED, FITTED, ("printed = \"4\"", "printed = \"7\"")]);
     toy.0.done(&["confirm", "./toy"]);
     assert_eq!(toy.class_and_across("fewer").1, ON_HURRY);
@@ -399,8 +399,8 @@ fn exploring_once_more_runs_nothing_and_writes_the_same_bytes() {
     let toy = Toy::new(&[CITED]);
     let path = toy.0.at(RUNS).join("estimates.parquet");
     let before = fs::read(&path).unwrap();
-    let said = toy.0.run(&["explore", "./toy"]);
-    assert!(!said.err.contains("trials:"), "{}", said.err);
+    let output = toy.0.run(&["explore", "./toy"]);
+    assert!(!output.err.contains("trials:"), "{}", output.err);
     assert!(fs::read(&path).unwrap() == before, "another exploration");
 }
 
@@ -408,22 +408,26 @@ fn exploring_once_more_runs_nothing_and_writes_the_same_bytes() {
 fn a_budget_without_room_and_votes_without_sources_are_refused_where_they_stand() {
     let toy = Toy::new(&[]);
     toy.0.edit("toy/paper.toml", "trials = 100_000", "trials = 10");
-    let said = toy.0.run(&["explore", "./toy"]);
-    assert_eq!(said.code, Some(2));
-    assert!(said.err.contains("./toy/paper.toml:7:10: the defaults and every other option"), "{}", said.err);
+    let output = toy.0.run(&["explore", "./toy"]);
+    assert_eq!(output.code, Some(2));
+    assert!(
+        output.err.contains("./toy/paper.toml:7:10: the defaults and every other option"),
+        "{}",
+        output.err
+    );
     toy.0.edit("toy/paper.toml", "paper = \"section 1: the weight is three\"", "");
     toy.0.edit("toy/paper.toml", "[choice.option.none]", "[choice.option.none]\npractice = \"x\"");
-    let said = toy.0.run(&["check", "./toy"]);
-    assert!(said.err.contains("the default `three` needs `paper` or `practice`"), "{}", said.err);
+    let output = toy.0.run(&["check", "./toy"]);
+    assert!(output.err.contains("the default `three` needs `paper` or `practice`"), "{}", output.err);
 }
 
 #[test]
 fn a_finding_that_asks_alone_gets_the_least_and_the_greatest_number_over_readings() {
-    let asked = "[explore]\nsample = 20";
+    let explored = "[explore]\nsample = 20";
     let report = "[report]\nfindings = [\"{fewer:percents}\"]\n\n[explore]\nsample = 20";
     let hurried = "[choice.option.none]\nstage.astar = { weight = 0 }";
     let voting = "[choice.option.none]\npaper = \"section 1\"\nstage.astar = { weight = 0 }";
-    let toy = Toy::new(&[(asked, report), (hurried, voting)]);
+    let toy = Toy::new(&[(explored, report), (hurried, voting)]);
     let own = &toy.first().claims["fewer"];
     let numbers: Vec<f64> = own.results.iter().skip(1).filter_map(|result| result.value).collect();
     let default = toy.claim("fewer").ours().unwrap().value;

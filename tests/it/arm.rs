@@ -209,14 +209,14 @@ fn a_subset_has_its_size_and_every_point_of_the_region_is_drawn_sometime() {
 
 #[test]
 fn a_subset_larger_than_its_region_is_refused_with_what_is_accepted() {
-    for (changes, said) in [
+    for (changes, expected) in [
         ("neighbours = 25", "neighbours is 25; 1 to 24, all points of the region, is accepted"),
         ("neighbours = 0", "neighbours is 0; 1 to 24"),
         ("region_shape = 'octagon'\nneighbours = 13", "neighbours is 13; 1 to 12"),
         ("region_radius_cells = 0", "`region_radius_cells` is 0; a whole number from 1 to 20 is accepted"),
     ] {
         let refused = chaos(changes).err().unwrap();
-        assert!(refused.contains(said), "{changes}: {refused}");
+        assert!(refused.contains(expected), "{changes}: {refused}");
     }
 }
 

@@ -35,16 +35,16 @@ fn the_program_beside_replan_comes_first_then_the_path_and_without_both_the_mess
         bench.output(&child.wait_with_output().unwrap())
     };
     let missing = run(&["t.md"]);
-    let told = "replan: `replan-audit` is neither beside this program nor on the PATH; `cargo build -p replan-audit` builds it\n";
-    assert_eq!((missing.code, &*missing.err), (Some(4), told));
+    let expected = "replan: `replan-audit` is neither beside this program nor on the PATH; `cargo build -p replan-audit` builds it\n";
+    assert_eq!((missing.code, &*missing.err), (Some(4), expected));
     for place in ["path/replan-audit", "bin/replan-audit"] {
         stand_in(&bench, place);
         for arguments in [&["--json", "-"][..], &["--help"], &[], &["--", "-t.md"], &["t.md", "--", "--list"]]
         {
-            let said = run(arguments);
+            let output = run(arguments);
             let given = [&[place, "[dir]/bin/replan"], arguments].concat();
-            assert_eq!(said.out, given.join("|") + "|table");
-            assert_eq!((said.code, &*said.err), (Some(7), "lost\n"));
+            assert_eq!(output.out, given.join("|") + "|table");
+            assert_eq!((output.code, &*output.err), (Some(7), "lost\n"));
         }
     }
 }

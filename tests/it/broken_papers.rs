@@ -186,18 +186,19 @@ fn broken(template: &str, mistakes: &[Mistake]) -> Bench {
 
 #[test]
 fn one_round_of_check_tells_every_mistake_of_ten_broken_papers() {
-    let mut said = BTreeMap::new();
+    let mut messages = BTreeMap::new();
     let mut missed = Vec::new();
     for (what, template, mistakes) in BROKEN {
         let answer = broken(template, mistakes).run(&["check", "./toy"]);
         assert_eq!((answer.code, answer.out.as_str()), (Some(2), ""), "{what}: {}", answer.err);
-        let untold = mistakes.iter().filter(|(.., place)| !answer.err.contains(place));
+        let unreported = mistakes.iter().filter(|(.., place)| !answer.err.contains(place));
         missed.extend(
-            untold.map(|(file, _, to, place)| format!("{what}: {file}: {to}: {place}\n{}", answer.err)),
+            unreported.map(|(file, _, to, place)| format!("{what}: {file}: {to}: {place}\n{}", answer.err)),
         );
-        said.insert(what, answer.err);
+        messages.insert(what, answer.err);
     }
     assert!(missed.is_empty(), "{}", missed.join("\n"));
-    let told: Vec<String> = BROKEN.iter().map(|(what, ..)| format!("# {what}\n{}", said[what])).collect();
-    insta::assert_snapshot!(told.join("\n"));
+    let lines: Vec<String> =
+        BROKEN.iter().map(|(what, ..)| format!("# {what}\n{}", messages[what])).collect();
+    insta::assert_snapshot!(lines.join("\n"));
 }

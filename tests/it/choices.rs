@@ -49,11 +49,11 @@ fn what_all_studies_share_stands_in_the_paper_and_a_study_says_what_differs() {
     toy.0.edit("toy/paper.toml", "[source]\ntitle = \"A toy\"\n", shared);
     toy.0.edit("toy/draws.toml", "second_seed = 8\n[budget]\nexpansions = 10_000\n", "");
     let paper = loaded(&toy.0, "toy");
-    let said = |name: &str| {
+    let message = |name: &str| {
         let study = paper.study(name).unwrap();
         (study.second_seed, study.budget.expansions)
     };
-    assert_eq!((said("draws"), said("room")), ((Some(99), 77), (Some(8), 10_000)));
+    assert_eq!((message("draws"), message("room")), ((Some(99), 77), (Some(8), 10_000)));
 }
 
 #[test]
@@ -137,13 +137,15 @@ fn an_option_is_laid_over_the_files_of_a_robot_and_of_its_scene() {
             &over("tool.length_mm = 160", "box.wall.max_mm = [900, 40, 700]"),
             &over(robot, scene),
         );
-        let said = bench.run(&["check", "./arm"]);
-        assert_eq!(said.code, Some(2), "{}", said.err);
-        let told: Vec<&str> = said.err.lines().filter(|line| line.contains("arm/")).collect();
+        let output = bench.run(&["check", "./arm"]);
+        assert_eq!(output.code, Some(2), "{}", output.err);
+        let reported: Vec<&str> = output.err.lines().filter(|line| line.contains("arm/")).collect();
         assert!(
-            told.len() == 1 && told[0].contains("arm/paper.toml:34:") && told[0].contains(refused),
+            reported.len() == 1
+                && reported[0].contains("arm/paper.toml:34:")
+                && reported[0].contains(refused),
             "{}",
-            said.err
+            output.err
         );
         bench.write("arm/paper.toml", &text);
     }
@@ -170,9 +172,9 @@ fn an_option_that_cannot_be_run_leaves_open_what_it_touches_and_is_shown() {
         "{:?}",
         explored.interpretations
     );
-    let said = toy.0.run(&["run", "./toy", "--with", "hurry=none"]);
-    assert_eq!(said.code, Some(2), "{}", said.err);
-    assert!(said.err.contains("--with: option `none` of choice `hurry` cannot be run: that work is lost"));
+    let output = toy.0.run(&["run", "./toy", "--with", "hurry=none"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
+    assert!(output.err.contains("--with: option `none` of choice `hurry` cannot be run: that work is lost"));
     toy.0.done(&["render", "./toy"]);
     let details = fs::read_to_string(toy.0.at("target/replan/toy/plots/toy/details.md")).unwrap();
     assert!(details.contains("none cannot be run here: that work is lost"), "{details}");
@@ -282,11 +284,11 @@ fn what_a_choice_cannot_be_is_refused_once_where_it_stands() {
         let name = format!("toy/{file}.toml");
         let whole = fs::read(toy.0.at(&name)).unwrap();
         toy.0.edit(&name, from, to);
-        let said = toy.0.run(&["check", "./toy"]);
-        assert_eq!(said.code, Some(2), "{to}: {}{}", said.out, said.err);
-        let told: Vec<&str> = said.err.lines().filter(|line| line.contains("toy/")).collect();
-        assert!(told.len() == 1 && told[0].contains(refused), "{to}\n{}", said.err);
-        assert!(told[0].contains(&format!("/toy/{file}.toml:")), "{}", told[0]);
+        let output = toy.0.run(&["check", "./toy"]);
+        assert_eq!(output.code, Some(2), "{to}: {}{}", output.out, output.err);
+        let lines: Vec<&str> = output.err.lines().filter(|line| line.contains("toy/")).collect();
+        assert!(lines.len() == 1 && lines[0].contains(refused), "{to}\n{}", output.err);
+        assert!(lines[0].contains(&format!("/toy/{file}.toml:")), "{}", lines[0]);
         toy.0.write(&name, &whole);
     }
 }
@@ -296,10 +298,10 @@ fn a_premise_that_the_claims_study_leaves_out_is_refused() {
     let bench = Bench::new();
     let when = "cell.cost.id = \"cost\", cell.cost.holds_when = { corners = [\"allow\"] }";
     bench.edit("mini/paper.toml", "cell.cost.id = \"cost\"", when);
-    let said = bench.run(&["check", "./mini"]);
-    assert_eq!(said.code, Some(2), "{}", said.err);
+    let output = bench.run(&["check", "./mini"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
     let refused = "claim `cost` is meant under options of choice `corners`, which study `room` leaves out";
-    assert!(said.err.contains(refused), "{}", said.err);
+    assert!(output.err.contains(refused), "{}", output.err);
 }
 
 #[test]
@@ -310,9 +312,9 @@ fn words_of_the_command_line_that_were_renamed_are_answered_with_the_new_ones() 
         (&["repro", "./mini", "--readings=all"], "`--readings` is now `--with`"),
         (&["list", "readings"], "`list readings` is now `list choices`"),
     ] {
-        let said = bench.run(words);
-        assert_eq!(said.code, Some(2), "{}", said.err);
-        assert!(said.err.contains(new), "{words:?}: {}", said.err);
+        let output = bench.run(words);
+        assert_eq!(output.code, Some(2), "{}", output.err);
+        assert!(output.err.contains(new), "{words:?}: {}", output.err);
     }
 }
 
@@ -332,9 +334,9 @@ fn committed() -> Vec<(String, String, Table)> {
 }
 
 /// Notes `what` as said; panics if it was said before.
-fn once<T: Ord + std::fmt::Debug>(said: &mut BTreeSet<T>, what: T) {
+fn once<T: Ord + std::fmt::Debug>(message: &mut BTreeSet<T>, what: T) {
     let shown = format!("{what:?}");
-    assert!(said.insert(what), "written twice: {shown}");
+    assert!(message.insert(what), "written twice: {shown}");
 }
 
 #[test]
@@ -343,25 +345,25 @@ fn nothing_of_choices_is_written_twice_in_the_committed_specs() {
     let mut options = 0;
     let mut choices = 0;
     for (paper, _, spec) in files.iter().filter(|(_, file, _)| file == "paper") {
-        let mut said = BTreeSet::new();
+        let mut seen = BTreeSet::new();
         for choice in spec.get("choice").and_then(Value::as_array).into_iter().flatten() {
             choices += 1;
             let id = choice["id"].as_str().unwrap();
-            once(&mut said, (paper, id, "its name".to_owned()));
-            once(&mut said, (paper, "why", choice["why"].to_string()));
+            once(&mut seen, (paper, id, "its name".to_owned()));
+            once(&mut seen, (paper, "why", choice["why"].to_string()));
             for (name, option) in choice["option"].as_table().unwrap() {
                 options += 1;
                 let option = option.as_table().unwrap();
                 // Several options may rest on one sentence: then it is the choice's.
                 for key in ["paper", "practice"] {
                     if let Some(source) = option.get(key) {
-                        once(&mut said, (paper, id, format!("{key} {source}")));
+                        once(&mut seen, (paper, id, format!("{key} {source}")));
                         assert_ne!(choice.get(key), Some(source), "{paper}, {id} = {name}: {key} twice");
                     }
                 }
                 let sets = ["problem", "stage", "contender", "metric", "digits"]
                     .map(|key| option.get(key).map(|value| format!("{key} = {value}")).unwrap_or_default());
-                once(&mut said, (paper, id, format!("sets {}", sets.concat())));
+                once(&mut seen, (paper, id, format!("sets {}", sets.concat())));
             }
         }
     }

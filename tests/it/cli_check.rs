@@ -4,17 +4,22 @@ use crate::paper::{Bench, CONTENDERS_END};
 
 /// Every fault that `said` tells is one of `expected`, in this order, and none is missing; the lines of the files below them
 /// are left out.
-fn assert_faults(said: &str, expected: &[&str]) {
-    let told = said.strip_prefix("replan: ").unwrap_or(said);
-    let told: Vec<&str> = told.lines().filter(|line| !line.starts_with("    ")).collect();
-    assert_eq!(told.len(), expected.len(), "{said}");
-    for (told, expected) in told.iter().zip(expected) {
-        assert!(told.contains(expected), "{expected}\nis said: {told}\n{said}");
+fn assert_faults(message: &str, expected: &[&str]) {
+    let text = message.strip_prefix("replan: ").unwrap_or(message);
+    let lines: Vec<&str> = text.lines().filter(|line| !line.starts_with("    ")).collect();
+    assert_eq!(lines.len(), expected.len(), "{message}");
+    for (line, expected) in lines.iter().zip(expected) {
+        assert!(
+            line.contains(expected),
+            "{expected}
+is not in: {line}
+{message}"
+        );
     }
 }
 
 #[test]
-fn fourteen_faults_of_as_many_kinds_are_told_in_one_round_and_once_each() {
+fn fourteen_faults_of_as_many_kinds_are_reported_in_one_round_and_once_each() {
     let bench = Bench::new();
     for (file, from, to) in [
         ("room", "seed = 8", "seed = 'eight'"),
@@ -34,8 +39,8 @@ fn fourteen_faults_of_as_many_kinds_are_told_in_one_round_and_once_each() {
     ] {
         bench.edit(&format!("mini/{file}.toml"), from, to);
     }
-    let said = bench.run(&["check", "./mini"]);
-    assert_eq!(said.code, Some(2), "{}", said.err);
+    let output = bench.run(&["check", "./mini"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
     let expected = [
         "mini/draws.toml:24:23: weight is -1; ",
         "mini/draws.toml:30:19: contender `Two-sided` asks for stage `delete_reflections`, which does not exist (did you",
@@ -52,7 +57,7 @@ fn fourteen_faults_of_as_many_kinds_are_told_in_one_round_and_once_each() {
         "mini/room.toml:17:59: the goal [3.0, 1.0] is blocked",
         "mini/room.toml:28:31: unknown key `instancs` (did you mean `instances`?); accepted: ",
     ];
-    assert_faults(&said.err, &expected);
+    assert_faults(&output.err, &expected);
 }
 
 #[test]
@@ -61,10 +66,10 @@ fn a_default_that_hides_what_a_contender_or_a_problem_says_is_refused() {
     let written = "problem = { corner_rule = \"allow\" }";
     let other = "problem = { corner_rule = \"forbid_any\" }\nstage.astar = { ties = \"lifo\" }";
     bench.edit("mini/paper.toml", written, other);
-    let said = bench.run(&["check", "./mini"]);
-    assert_eq!(said.code, Some(2), "{}", said.err);
+    let output = bench.run(&["check", "./mini"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
     assert_faults(
-        &said.err,
+        &output.err,
         &[
             "paper.toml:54:11: the default of choice `corners` changes the `ties` that contender `A*` says in study `draws`; the",
             "paper.toml:54:11: the default of choice `corners` changes the `corner_rule` that problems `drawn` say in study `draws`;",
@@ -75,20 +80,20 @@ fn a_default_that_hides_what_a_contender_or_a_problem_says_is_refused() {
         "{written}\nstage.astar = {{ ties = \"fifo\" }}\nstage.delete_inflections = {{ corners = \"kept\" }}"
     );
     bench.edit("mini/paper.toml", other, &same);
-    let said = bench.run(&["check", "./mini"]);
-    assert!(!said.err.contains("the default of choice"), "{}", said.err);
+    let output = bench.run(&["check", "./mini"]);
+    assert!(!output.err.contains("the default of choice"), "{}", output.err);
 }
 
 #[test]
-fn a_fault_is_told_once_whatever_choices_and_sweeps_lie_over_it() {
+fn a_fault_is_reported_once_whatever_choices_and_sweeps_lie_over_it() {
     let bench = Bench::new();
     bench.edit("mini/draws.toml", "weight = 1,", "weight = -1,");
     bench.edit("mini/draws.toml", "size_cells = [12, 12]", "size_cells = [0, 12]");
     let sweep = "\n[[sweep]]\nkey = \"ties\"\nof = \"astar\"\nvalues = [\"fifo\", \"lifo\"]\n";
     bench.edit("mini/draws.toml", CONTENDERS_END, &format!("{CONTENDERS_END}{sweep}"));
-    let said = bench.run(&["check", "./mini"]);
+    let output = bench.run(&["check", "./mini"]);
     assert_faults(
-        &said.err,
+        &output.err,
         &[
             "draws.toml:19:27: size_cells: a grid of 0 × 12 cells; each side",
             "draws.toml:24:23: weight is -1; ",
@@ -101,8 +106,8 @@ fn a_fault_is_told_once_whatever_choices_and_sweeps_lie_over_it() {
         "problem = { corner_rule = \"forbid_any\" }",
         "problem = { goal = [12, 9] }",
     );
-    let said = bench.run(&["check", "./mini"]);
-    assert_faults(&said.err, &[":20: goal is [12, 9], outside the map"]);
+    let output = bench.run(&["check", "./mini"]);
+    assert_faults(&output.err, &[":20: goal is [12, 9], outside the map"]);
 }
 
 #[test]
@@ -157,9 +162,9 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
         for (from, to) in edits {
             bench.edit(&name, from, to);
         }
-        let said = bench.run(&["check", "./mini"]);
-        assert_eq!(said.code, Some(2), "{}{}", said.out, said.err);
-        assert_faults(&said.err, expected);
+        let output = bench.run(&["check", "./mini"]);
+        assert_eq!(output.code, Some(2), "{}{}", output.out, output.err);
+        assert_faults(&output.err, expected);
         bench.write(&name, &whole);
     }
     let many: Vec<String> = (0..101).map(|value| value.to_string()).collect();
@@ -167,16 +172,16 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
         |key: &str| format!("[[sweep]]\nkey = \"{key}\"\nof = \"astar\"\nvalues = [{}]\n\n", many.join(", "));
     let both = format!("{CONTENDERS_END}\n{}{}", sweep("weight"), sweep("other"));
     bench.edit("mini/draws.toml", CONTENDERS_END, &both);
-    let said = bench.run(&["check", "./mini"]);
+    let output = bench.run(&["check", "./mini"]);
     assert!(
-        said.err.contains("the values of the sweeps have 10201 combinations; at most 10000 are"),
+        output.err.contains("the values of the sweeps have 10201 combinations; at most 10000 are"),
         "{}",
-        said.err
+        output.err
     );
 }
 
 #[test]
-fn files_of_something_else_beside_the_studies_are_told_from_studies() {
+fn files_of_something_else_beside_the_studies_are_distinguished_from_studies() {
     let bench = Bench::new();
     for (name, text) in [
         (".hidden.toml", "paper = \"mini\"\nbroken"),
@@ -186,12 +191,12 @@ fn files_of_something_else_beside_the_studies_are_told_from_studies() {
     ] {
         bench.write(&format!("mini/{name}"), text.as_bytes());
     }
-    let said = bench.done(&["check", "./mini"]);
+    let output = bench.done(&["check", "./mini"]);
     let expected = "mini: 2 studies, 2 claims, 2 inventory rows are in order\n  \
         ./mini/Cargo.toml is taken for a file of something else, not for a study\n  \
         ./mini/empty.toml is taken for a file of something else, not for a study\n  \
         ./mini/notes.toml is taken for a file of something else, not for a study\n";
-    assert_eq!(said, expected);
+    assert_eq!(output, expected);
     for (text, expected) in [
         (
             "seed = 3\n",
@@ -200,9 +205,9 @@ fn files_of_something_else_beside_the_studies_are_told_from_studies() {
         ("[budget", &["notes.toml:1:8: "]),
     ] {
         bench.write("mini/notes.toml", text.as_bytes());
-        let said = bench.run(&["check", "./mini"]);
-        assert_eq!(said.code, Some(2), "{}", said.err);
-        assert_faults(&said.err, expected);
+        let output = bench.run(&["check", "./mini"]);
+        assert_eq!(output.code, Some(2), "{}", output.err);
+        assert_faults(&output.err, expected);
     }
 }
 
@@ -211,9 +216,9 @@ fn a_crosscheck_is_checked_with_its_paper() {
     let bench = Bench::new();
     let spec = "seed = 1\n[sizes]\nstills = 1\n[picture]\n";
     bench.write("mini/crosscheck.toml", spec.as_bytes());
-    let said = bench.run(&["check", "./mini"]);
-    assert_eq!(said.code, Some(2), "{}", said.err);
-    assert!(said.err.contains("mini/crosscheck.toml:2:1: missing key `"), "{}", said.err);
+    let output = bench.run(&["check", "./mini"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
+    assert!(output.err.contains("mini/crosscheck.toml:2:1: missing key `"), "{}", output.err);
     let whole =
         std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/experiments/planar/crosscheck.toml"));
     let whole = whole.unwrap();
@@ -221,30 +226,30 @@ fn a_crosscheck_is_checked_with_its_paper() {
     let wrong = whole.replace(&format!("study = \"{name}\""), "study = \"drows\"");
     bench.write("mini/crosscheck.toml", wrong.as_bytes());
     bench.edit("mini/room.toml", "start = [0, 0]", "start = [3, 0]");
-    let said = bench.run(&["check", "./mini"]);
+    let output = bench.run(&["check", "./mini"]);
     assert!(
-        said.err.contains("there is no study `drows` (did you mean `draws`?); there are draws, room"),
+        output.err.contains("there is no study `drows` (did you mean `draws`?); there are draws, room"),
         "{}",
-        said.err
+        output.err
     );
-    assert!(said.err.contains("mini/room.toml:16:44: the start [3.0, 0.0] is blocked"), "{}", said.err);
+    assert!(output.err.contains("mini/room.toml:16:44: the start [3.0, 0.0] is blocked"), "{}", output.err);
 }
 
 #[test]
 fn a_misspelled_metric_may_be_one_that_a_choice_introduces() {
     let bench = Bench::new();
     bench.edit("mini/paper.toml", "metric = \"nodes\"", "metric = \"nodez\"");
-    let said = bench.run(&["check", "./mini"]);
+    let output = bench.run(&["check", "./mini"]);
     assert!(
-        said.err.contains("gives the name a meaning (did you mean `nodes`?); the metrics are "),
+        output.err.contains("gives the name a meaning (did you mean `nodes`?); the metrics are "),
         "{}",
-        said.err
+        output.err
     );
-    let said = bench.done(&["list", "metrics", "path_length_mm"]);
-    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    let output = bench.done(&["list", "metrics", "path_length_mm"]);
+    let output = output.split_whitespace().collect::<Vec<_>>().join(" ");
     let column = study::column::find("path_length_mm").unwrap();
     for part in [column.about, "unit: mm", "better: lower", "read from: path_length_mm"] {
-        assert!(said.contains(part), "{part}\n{said}");
+        assert!(output.contains(part), "{part}\n{output}");
     }
 }
 
@@ -256,9 +261,9 @@ fn an_option_of_a_choice_changes_what_exists() {
         "metric = { nodes = \"closed\" }",
         "metric = { nodes = \"colsed\" }, stage = { asatr = { ties = \"lifo\" } }",
     );
-    let said = bench.run(&["check", "./mini"]);
+    let output = bench.run(&["check", "./mini"]);
     assert_faults(
-        &said.err,
+        &output.err,
         &[
             "paper.toml:49:31: there is no metric `colsed` (did you mean `closed`?); there are ",
             "paper.toml:49:61: there is no planner or stage `asatr` (did you mean `astar`?); there are ",
@@ -270,18 +275,18 @@ fn an_option_of_a_choice_changes_what_exists() {
 fn a_check_of_schemas_says_what_it_checked_and_refuses_what_is_left_over() {
     let bench = Bench::new();
     bench.done(&["schema"]);
-    let said = bench.done(&["schema", "--check"]);
+    let output = bench.done(&["schema", "--check"]);
     assert_eq!(
-        said,
+        output,
         "10 schemas in docs/schema are current: audit_tables, cell_groups, cell_scene, crosscheck, paper, plane_map, planner_protocol, \
         polyhedra_scene, robot, study\n"
     );
     bench.write("docs/schema/spec.schema.json", b"{}");
-    let said = bench.run(&["schema", "--check"]);
-    assert_eq!(said.code, Some(3), "{}", said.err);
+    let output = bench.run(&["schema", "--check"]);
+    assert_eq!(output.code, Some(3), "{}", output.err);
     assert!(
-        said.err.contains("docs/schema/spec.schema.json is the schema of no kind of file; remove it"),
+        output.err.contains("docs/schema/spec.schema.json is the schema of no kind of file; remove it"),
         "{}",
-        said.err
+        output.err
     );
 }

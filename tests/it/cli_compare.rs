@@ -163,7 +163,7 @@ fn a_spreadsheet_computes_no_label_of_an_export() {
 }
 
 #[test]
-fn what_cannot_be_compared_is_told() {
+fn what_cannot_be_compared_is_reported() {
     let bench = Bench::new();
     bench.done(&["run", "./mini", "--out", "a"]);
     for (arguments, complaint) in [
@@ -185,9 +185,9 @@ fn what_cannot_be_compared_is_told() {
         (&["export", "a"], "--to <FORMAT>"),
         (&["export", "nowhere", "--csv"], "`nowhere` holds no stored run"),
     ] {
-        let said = bench.run(arguments);
-        assert_eq!(said.code, Some(2), "{arguments:?}: {}{}", said.out, said.err);
-        assert!(said.err.contains(complaint), "{arguments:?} is answered: {}", said.err);
+        let output = bench.run(arguments);
+        assert_eq!(output.code, Some(2), "{arguments:?}: {}{}", output.out, output.err);
+        assert!(output.err.contains(complaint), "{arguments:?} is answered: {}", output.err);
     }
 }
 
@@ -204,9 +204,9 @@ fn two_encodings_of_one_paper_show_what_they_judge_differently_and_which_default
     bench.edit("mini/paper.toml", "cell.cost.id = \"cost\"", "cell.cost.id = \"length\"");
     bench.edit("mini/paper.toml", "figures = [\"table1\"]", "figures = [\"costs\"]");
     bench.done(&["repro", "./mini", "--out", "b"]);
-    let said = bench.done(&["compare", "a", "b", "--verdicts"]);
-    assert!(said.contains("| `nodes` | "), "{said}");
-    assert!(said.contains("- default of `nodes`: opened and closed"), "{said}");
+    let output = bench.done(&["compare", "a", "b", "--verdicts"]);
+    assert!(output.contains("| `nodes` | "), "{output}");
+    assert!(output.contains("- default of `nodes`: opened and closed"), "{output}");
     let json: serde_json::Value =
         serde_json::from_str(&bench.done(&["compare", "a", "b", "--verdicts", "--json"])).unwrap();
     let claims = json["claims"].as_array().unwrap();

@@ -5,7 +5,7 @@ use crate::wrong_words::file;
 use std::fs;
 
 #[test]
-fn ten_mistakes_in_different_tables_are_told_in_one_round_each_at_its_own_place() {
+fn ten_mistakes_in_different_tables_are_reported_in_one_round_each_at_its_own_place() {
     let bench = Bench::new();
     let edits = [
         ("paper", "title =", "titel =", "paper.toml:2:1: unknown key `titel` (did you mean `title`?)"),
@@ -22,13 +22,13 @@ fn ten_mistakes_in_different_tables_are_told_in_one_round_each_at_its_own_place(
     for (name, from, to, _) in edits {
         bench.edit(&file(name), from, to);
     }
-    let said = bench.run(&["check", "./mini"]);
-    assert_eq!(said.code, Some(2), "{}", said.err);
+    let output = bench.run(&["check", "./mini"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
     for (.., part) in edits {
-        assert!(said.err.contains(part), "{part}\nis said: {}", said.err);
+        assert!(output.err.contains(part), "{part}\nis said: {}", output.err);
     }
-    let places = said.err.lines().filter(|line| line.contains(".toml:"));
-    assert!(places.count() <= edits.len() + 2, "something is said twice: {}", said.err);
+    let places = output.err.lines().filter(|line| line.contains(".toml:"));
+    assert!(places.count() <= edits.len() + 2, "something is said twice: {}", output.err);
 }
 
 #[test]
@@ -65,13 +65,17 @@ fn a_scene_in_a_papers_folder_is_taken_for_a_scene() {
     let scene =
         format!("name = \"s\"\n[[box]]\nname = \"b\"\nmin_mm = [0, 0, 0]\nmax_mm = [1, 1, 1]\n{support}");
     bench.write("mini/walls.toml", scene.as_bytes());
-    let said = bench.done(&["check", "./mini"]);
-    assert!(said.contains("mini/walls.toml is taken for a cell_scene, not for a study"), "{said}");
+    let output = bench.done(&["check", "./mini"]);
+    assert!(output.contains("mini/walls.toml is taken for a cell_scene, not for a study"), "{output}");
     bench.write("mini/walls.toml", scene.replace("max_mm", "max_m").as_bytes());
-    let said = bench.run(&["check", "./mini"]);
-    assert_eq!(said.code, Some(2), "{}", said.err);
-    assert!(said.err.contains("walls.toml:5:1: without `paper` and `question`"), "{}", said.err);
-    assert!(said.err.contains("cell_scene: unknown key `max_m` (did you mean `max_mm`?)"), "{}", said.err);
+    let output = bench.run(&["check", "./mini"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
+    assert!(output.err.contains("walls.toml:5:1: without `paper` and `question`"), "{}", output.err);
+    assert!(
+        output.err.contains("cell_scene: unknown key `max_m` (did you mean `max_mm`?)"),
+        "{}",
+        output.err
+    );
 }
 
 #[test]
@@ -91,21 +95,21 @@ fn list_explains_one_thing_within_eighty_columns_and_meets_a_misspelled_name() {
         ("files", "robot", "joint.alpha_deg: a number from -360 to 360 (degrees); required"),
         ("files", "study", "{ instances = 2 } if left out"),
     ] {
-        let said = bench.done(&["list", what, name]);
-        assert!(said.contains(part), "{part}\n{said}");
-        assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
+        let output = bench.done(&["list", what, name]);
+        assert!(output.contains(part), "{part}\n{output}");
+        assert!(output.lines().all(|line| line.chars().count() <= 80), "{output}");
     }
     assert!(bench.done(&["list", "criteria"]).lines().all(|line| line.chars().count() <= 80));
-    let said = bench.run(&["list", "planners", "astr"]);
-    assert_eq!(said.code, Some(2), "{}", said.err);
-    assert!(said.err.contains("there is no planner `astr` (did you mean `astar`?)"), "{}", said.err);
+    let output = bench.run(&["list", "planners", "astr"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
+    assert!(output.err.contains("there is no planner `astr` (did you mean `astar`?)"), "{}", output.err);
 }
 
 #[test]
 fn what_list_prints_of_the_committed_papers_fits_80_columns() {
     let mut list = std::process::Command::new(env!("CARGO_BIN_EXE_replan"));
-    let said = list.arg("list").current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
-    let said = String::from_utf8(said.stdout).unwrap();
-    let wide: Vec<&str> = said.lines().filter(|line| line.chars().count() > 80).collect();
-    assert!(said.lines().count() > 100 && wide.is_empty(), "{wide:#?}");
+    let output = list.arg("list").current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
+    let output = String::from_utf8(output.stdout).unwrap();
+    let wide: Vec<&str> = output.lines().filter(|line| line.chars().count() > 80).collect();
+    assert!(output.lines().count() > 100 && wide.is_empty(), "{wide:#?}");
 }

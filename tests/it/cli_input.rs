@@ -5,7 +5,7 @@ use crate::wrong_words::{WRONG, file};
 use std::fs::{self, File};
 
 #[test]
-fn every_wrong_word_in_a_spec_is_told_with_its_place_and_what_is_accepted() {
+fn every_wrong_word_in_a_spec_is_reported_with_its_place_and_what_is_accepted() {
     let bench = Bench::new();
     assert_eq!(
         bench.done(&["check", "./mini"]),
@@ -15,13 +15,20 @@ fn every_wrong_word_in_a_spec_is_told_with_its_place_and_what_is_accepted() {
     for case in WRONG {
         let before = fs::read_to_string(bench.at(&file(case.file))).unwrap();
         bench.edit(&file(case.file), case.from, case.to);
-        let said = bench.run(&["check", "./mini"]);
-        assert_eq!((said.code, said.out.as_str()), (Some(2), ""), "{}: {}\n{}", case.file, case.to, said.err);
-        assert!(said.err.starts_with("replan: "), "{}", said.err);
-        if !said.err.contains(case.said) {
+        let output = bench.run(&["check", "./mini"]);
+        assert_eq!(
+            (output.code, output.out.as_str()),
+            (Some(2), ""),
+            "{}: {}\n{}",
+            case.file,
+            case.to,
+            output.err
+        );
+        assert!(output.err.starts_with("replan: "), "{}", output.err);
+        if !output.err.contains(case.expected) {
             missed.push(format!(
                 "{}: {}\nshould be said: {}\nis said: {}",
-                case.file, case.to, case.said, said.err
+                case.file, case.to, case.expected, output.err
             ));
         }
         fs::write(bench.at(&file(case.file)), before).unwrap();
@@ -30,14 +37,14 @@ fn every_wrong_word_in_a_spec_is_told_with_its_place_and_what_is_accepted() {
 }
 
 #[test]
-fn faults_of_several_claims_and_of_several_names_in_one_check_are_told_at_once() {
+fn faults_of_several_claims_and_of_several_names_in_one_check_are_reported_at_once() {
     let bench = Bench::new();
     bench.edit("mini/paper.toml", "problems = \"drawn\"", "problems = [\"drown\", \"lost\"]");
     bench.edit("mini/paper.toml", "contender = \"Two-sided\"", "contender = \"Two\"");
     bench.edit("mini/paper.toml", "contenders = [\"A*\"]", "contenders = [\"B*\"]");
     bench.edit("mini/room.toml", "searched = true", "searched = true\nfitted_to = [\"cost\", \"toll\"]");
-    let said = bench.run(&["check", "./mini"]);
-    assert_eq!(said.code, Some(2), "{}", said.err);
+    let output = bench.run(&["check", "./mini"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
     for fault in [
         "mini/paper.toml:27:15: there is no contender `B*`",
         "mini/paper.toml:38:13: study `draws` has no problem group `drown`",
@@ -45,12 +52,12 @@ fn faults_of_several_claims_and_of_several_names_in_one_check_are_told_at_once()
         "mini/paper.toml:40:13: study `draws` has no contender `Two`",
         "mini/room.toml:5:22: fitted_to: there is no claim `toll`",
     ] {
-        assert!(said.err.contains(fault), "{fault}\nis said: {}", said.err);
+        assert!(output.err.contains(fault), "{fault}\nis said: {}", output.err);
     }
 }
 
 #[test]
-fn files_that_are_no_toml_are_told_apart() {
+fn files_that_are_no_toml_are_distinguished() {
     let bench = Bench::new();
     let whole = fs::read(bench.at("mini/draws.toml")).unwrap();
     let mut broken = whole.clone();
@@ -63,9 +70,9 @@ fn files_that_are_no_toml_are_told_apart() {
         (b"\x00\x1bPAR1", "draws.toml:1:7: key with no value, expected `=`\n    ‹NUL›‹escape›PAR1\n"),
     ] {
         fs::write(bench.at("mini/draws.toml"), bytes).unwrap();
-        let said = bench.run(&["repro", "./mini"]);
-        assert_eq!(said.code, Some(2), "{}", said.err);
-        assert!(said.err.contains(complaint), "{complaint}\nis said: {}", said.err);
+        let output = bench.run(&["repro", "./mini"]);
+        assert_eq!(output.code, Some(2), "{}", output.err);
+        assert!(output.err.contains(complaint), "{complaint}\nis said: {}", output.err);
     }
 }
 
@@ -76,15 +83,15 @@ fn a_study_cut_anywhere_is_never_taken_for_another_study() {
     let mut refused = 0;
     for cut in (0..whole.len() - 1).step_by(23) {
         fs::write(bench.at("mini/room.toml"), &whole[..cut]).unwrap();
-        let said = bench.run(&["check", "./mini"]);
-        assert_eq!(said.code, Some(2), "cut at {cut}: {}{}", said.out, said.err);
+        let output = bench.run(&["check", "./mini"]);
+        assert_eq!(output.code, Some(2), "cut at {cut}: {}{}", output.out, output.err);
         refused += 1;
     }
     assert!(refused > 20, "only {refused} cuts");
 }
 
 #[test]
-fn papers_and_flags_that_do_not_exist_are_told() {
+fn papers_and_flags_that_do_not_exist_are_reported() {
     let bench = Bench::new();
     for (arguments, complaint) in [
         (
@@ -127,9 +134,9 @@ fn papers_and_flags_that_do_not_exist_are_told() {
         (&["list", "plotters"], "invalid value 'plotters'"),
         (&["reproduce", "./mini"], "unrecognized subcommand 'reproduce'"),
     ] {
-        let said = bench.run(arguments);
-        assert_eq!(said.code, Some(2), "{arguments:?}: {}", said.err);
-        assert!(said.err.contains(complaint), "{arguments:?} is answered: {}", said.err);
+        let output = bench.run(arguments);
+        assert_eq!(output.code, Some(2), "{arguments:?}: {}", output.err);
+        assert!(output.err.contains(complaint), "{arguments:?} is answered: {}", output.err);
     }
     assert!(!bench.at("target/replan/mini").exists(), "a refused command wrote something");
     assert!(!bench.at("target").exists(), "a refused command wrote below target");
@@ -163,9 +170,9 @@ fn records_of_another_spec_truncated_or_missing_are_not_judged() {
     let whole = fs::read(bench.at(trials)).unwrap();
     let refused = |complaint: &str| {
         for command in ["judge", "render"] {
-            let said = bench.run(&[command, "./mini"]);
-            assert_eq!(said.code, Some(2), "{command}: {}", said.err);
-            assert!(said.err.contains(complaint), "{command}: {}", said.err);
+            let output = bench.run(&[command, "./mini"]);
+            assert_eq!(output.code, Some(2), "{command}: {}", output.err);
+            assert!(output.err.contains(complaint), "{command}: {}", output.err);
         }
     };
     bench.write(trials, &whole[..whole.len() / 2]);
@@ -186,13 +193,13 @@ fn records_of_another_spec_truncated_or_missing_are_not_judged() {
 }
 
 #[test]
-fn places_that_cannot_be_written_are_told_with_exit_code_1() {
+fn places_that_cannot_be_written_are_reported_with_exit_code_1() {
     let bench = Bench::new();
     bench.write("file", b"in the way");
-    let said = bench.run(&["repro", "./mini", "--out", "file/below"]);
-    assert_eq!(said.code, Some(1), "{}", said.err);
+    let output = bench.run(&["repro", "./mini", "--out", "file/below"]);
+    assert_eq!(output.code, Some(1), "{}", output.err);
     assert_eq!(
-        said.err,
+        output.err,
         "replan: file/below/paper_repro.md: reading the report: Not a directory (os error 20)\n"
     );
     assert_eq!(fs::read(bench.at("file")).unwrap(), b"in the way");
@@ -207,12 +214,12 @@ fn a_folder_where_a_record_belongs_stops_the_run_before_any_record_changes() {
     fs::create_dir(bench.at(times)).unwrap();
     let before = bench.tree("target/replan/mini");
     bench.edit("mini/draws.toml", "seed = 7", "seed = 9");
-    let said = bench.run(&["repro", "./mini"]);
-    assert_eq!(said.code, Some(2), "{}", said.err);
+    let output = bench.run(&["repro", "./mini"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
     assert!(
-        said.err.contains("draws.times.parquet: cannot be read (a link, a pipe or a folder"),
+        output.err.contains("draws.times.parquet: cannot be read (a link, a pipe or a folder"),
         "{}",
-        said.err
+        output.err
     );
     let after = bench.tree("target/replan/mini");
     assert!(
@@ -229,10 +236,10 @@ fn a_second_run_into_one_folder_is_refused_and_disturbs_nothing() {
     let before = bench.tree("target/replan/mini");
     let lock = File::open(bench.at("target/replan/mini/data/runs/mini/.lock")).unwrap();
     lock.try_lock().unwrap();
-    let said = bench.run(&["repro", "./mini"]);
-    assert_eq!(said.code, Some(1), "{}", said.err);
+    let output = bench.run(&["repro", "./mini"]);
+    assert_eq!(output.code, Some(1), "{}", output.err);
     assert_eq!(
-        said.err,
+        output.err,
         "replan: target/replan/mini/data/runs/mini: another run is writing here; wait for it or choose another place with \
          --out\n"
     );
@@ -242,30 +249,30 @@ fn a_second_run_into_one_folder_is_refused_and_disturbs_nothing() {
 }
 
 #[test]
-fn a_map_or_verdicts_that_are_no_text_are_told_with_the_byte_and_a_paper_without_study_as_such() {
+fn a_map_or_verdicts_that_are_no_text_are_reported_with_the_byte_and_a_paper_without_study_as_such() {
     let bench = Bench::new();
     bench.done(&["repro", "./mini"]);
     bench.write("target/replan/mini/data/runs/mini/verdicts.toml", b"paper = \"\xff\"");
-    let said = bench.run(&["render", "./mini"]);
+    let output = bench.run(&["render", "./mini"]);
     assert_eq!(
-        (said.code, said.err.contains("verdicts.toml: line 1, byte 9 of the file is not UTF-8")),
+        (output.code, output.err.contains("verdicts.toml: line 1, byte 9 of the file is not UTF-8")),
         (Some(2), true),
         "{}",
-        said.err
+        output.err
     );
     bench.write("mini/room.map.txt", b"; a room\n..\xff.\n");
-    let said = bench.run(&["check", "./mini"]);
+    let output = bench.run(&["check", "./mini"]);
     assert!(
-        said.err.contains("line 2, byte 11 of the file is not UTF-8; UTF-8 text is accepted"),
+        output.err.contains("line 2, byte 11 of the file is not UTF-8; UTF-8 text is accepted"),
         "{}",
-        said.err
+        output.err
     );
     for study in ["draws", "room"] {
         fs::remove_file(bench.at(&format!("mini/{study}.toml"))).unwrap();
     }
-    let said = bench.run(&["check", "./mini"]);
+    let output = bench.run(&["check", "./mini"]);
     assert_eq!(
-        (said.code, said.err.as_str()),
+        (output.code, output.err.as_str()),
         (Some(2), "replan: ./mini: no study; a study is a TOML file beside paper.toml\n")
     );
 }
@@ -276,15 +283,15 @@ fn one_broken_paper_does_not_hide_the_others() {
     fs::create_dir(bench.at("experiments")).unwrap();
     fs::rename(bench.at("mini"), bench.at("experiments/mini")).unwrap();
     bench.write("experiments/abroken/paper.toml", b"[source\n");
-    let said = bench.run(&["check"]);
-    assert_eq!(said.code, Some(2), "{}", said.err);
-    assert!(said.out.starts_with("mini: 2 studies"), "{}", said.out);
-    assert!(said.err.contains("abroken/paper.toml:1:8: "), "{}", said.err);
-    assert!(said.err.ends_with("replan: 1 of 2 papers are not in order\n"), "{}", said.err);
-    let said = bench.run(&["list"]);
-    assert_eq!(said.code, Some(2), "{}", said.err);
+    let output = bench.run(&["check"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
+    assert!(output.out.starts_with("mini: 2 studies"), "{}", output.out);
+    assert!(output.err.contains("abroken/paper.toml:1:8: "), "{}", output.err);
+    assert!(output.err.ends_with("replan: 1 of 2 papers are not in order\n"), "{}", output.err);
+    let output = bench.run(&["list"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
     for name in ["  mini ", "  mini/draws ", "  astar ", "  grid_search "] {
-        assert!(said.out.contains(name), "{name}\n{}", said.out);
+        assert!(output.out.contains(name), "{name}\n{}", output.out);
     }
     assert!(bench.done(&["list", "planners"]).contains("  astar "), "planners need no paper");
 }
@@ -298,7 +305,7 @@ fn a_contender_that_asks_for_more_of_a_roadmap_than_there_is_is_refused_before_a
     let sweep = |values: &str| {
         format!("[[sweep]]\nkey = \"samples\"\nof = \"roadmap_astar\"\nvalues = [{values}]\n[budget]")
     };
-    for (from, to, said) in [
+    for (from, to, expected) in [
         (
             "samples = 30, n",
             "samples = 31, n".to_owned(),
@@ -321,14 +328,14 @@ fn a_contender_that_asks_for_more_of_a_roadmap_than_there_is_is_refused_before_a
         for command in ["check", "run"] {
             let answer = bench.run(&[command, "./mini"]);
             assert_eq!(answer.code, Some(2), "{}{}", answer.out, answer.err);
-            assert!(answer.err.contains(said), "should be said: {said}\nis said: {}", answer.err);
+            assert!(answer.err.contains(expected), "should be said: {expected}\nis said: {}", answer.err);
         }
         bench.write("mini/plane.toml", &whole);
     }
     bench.edit("bar.toml", "start_mm = [5, 5]", "start_mm = [50, 25]");
     let answer = bench.run(&["check", "./mini"]);
-    let said = "replan: bar.toml:3:12: the start cannot be posed: [50.0, 25.0] is in obstacle 1";
-    assert!(answer.code == Some(2) && answer.err.starts_with(said), "{}", answer.err);
+    let expected = "replan: bar.toml:3:12: the start cannot be posed: [50.0, 25.0] is in obstacle 1";
+    assert!(answer.code == Some(2) && answer.err.starts_with(expected), "{}", answer.err);
     bench.edit("bar.toml", "start_mm = [50, 25]", "start_mm = [5, 5]");
     // A sweep's own values count, not what it takes the place of.
     bench.edit("mini/plane.toml", "samples = 30, n", "samples = 31, n");

@@ -53,7 +53,7 @@ fn a_paper_of_the_project_is_found_by_name_and_writes_the_committed_places() {
 }
 
 #[test]
-fn robots_are_listed_with_the_solver_that_fits_and_a_broken_file_is_said_to_be_broken() {
+fn robots_are_listed_with_the_solver_that_fits_and_a_broken_file_is_called_broken() {
     let bench = Bench::new();
     let ur5 = include_str!("../../data/robots/ur5.toml");
     bench.write("data/robots/ur5.toml", ur5.as_bytes());
@@ -74,13 +74,13 @@ fn robots_are_listed_with_the_solver_that_fits_and_a_broken_file_is_said_to_be_b
         "{listed}"
     );
     bench.write("data/robots/bent.toml", bent.replace("d_mm = 82.3", "").as_bytes());
-    let said = bench.run(&["list", "robots"]);
-    assert_eq!(said.code, Some(2), "{}", said.err);
+    let output = bench.run(&["list", "robots"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
     assert!(
-        said.out.contains("  ur5 ") && said.err.contains("missing key `d_mm`"),
+        output.out.contains("  ur5 ") && output.err.contains("missing key `d_mm`"),
         "{}\n{}",
-        said.out,
-        said.err
+        output.out,
+        output.err
     );
 }
 
@@ -100,15 +100,19 @@ fn a_run_that_is_not_a_full_one_is_refused_the_committed_places_however_they_are
     let here = bench.at("").display().to_string();
     for out in [".", "./", "experiments/..", "new/..", "new/deep/../..", &here] {
         for flags in [&["--quick"][..], &["--seed", "5"], &["--with", "all"], &["--quick", "--fresh"]] {
-            let said = bench.run(&[&["repro", "mini", "--out", out], flags].concat());
-            assert_eq!(said.code, Some(2), "--out {out} {flags:?}: {}", said.err);
-            assert!(said.err.contains("is where full runs are kept, and this is not one ("), "{}", said.err);
+            let output = bench.run(&[&["repro", "mini", "--out", out], flags].concat());
+            assert_eq!(output.code, Some(2), "--out {out} {flags:?}: {}", output.err);
+            assert!(
+                output.err.contains("is where full runs are kept, and this is not one ("),
+                "{}",
+                output.err
+            );
         }
     }
     assert!(bench.tree("") == before, "a refused run wrote something");
     let own = Bench::new();
-    let said = own.run(&["repro", "./mini", "--quick", "--out", "target/replan/mini"]);
-    assert_eq!(said.code, Some(2), "{}", said.err);
+    let output = own.run(&["repro", "./mini", "--quick", "--out", "target/replan/mini"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
     bench.done(&["repro", "mini", "--quick", "--out", "elsewhere"]);
     bench.done(&["repro", "mini", "--out", "."]);
 }
@@ -161,11 +165,11 @@ fn an_own_paper_runs_from_within_its_folder_and_through_a_link() {
     let bench = Bench::new();
     symlink(bench.at("mini"), bench.at("link")).unwrap();
     for (folder, name) in [("mini", "."), ("mini", "./"), ("mini", "../mini"), ("", "./link"), ("", "link")] {
-        let said =
+        let output =
             bench.output(&bench.command(&["run", name]).current_dir(bench.at(folder)).output().unwrap());
-        assert_eq!(said.code, Some(0), "{name} in `{folder}`: {}", said.err);
-        let again = said.out.contains("draws: 48 trials (24 of 24 units reused)");
-        assert!(again || (folder, name) == ("mini", "."), "{name} in `{folder}`: {}", said.out);
+        assert_eq!(output.code, Some(0), "{name} in `{folder}`: {}", output.err);
+        let again = output.out.contains("draws: 48 trials (24 of 24 units reused)");
+        assert!(again || (folder, name) == ("mini", "."), "{name} in `{folder}`: {}", output.out);
         assert!(bench.at("target/replan/mini/data/runs/mini/draws.manifest.toml").is_file());
         assert!(!bench.at("mini/target").exists(), "{name} in `{folder}` wrote into the paper's folder");
     }
@@ -180,9 +184,13 @@ fn a_paper_of_the_project_writes_the_committed_places_from_within_its_folder_too
     let before = bench.tree("");
     for (folder, name) in [("experiments/mini", "."), ("experiments", "mini"), ("experiments", "./mini")] {
         let command = bench.command(&["repro", name]).current_dir(bench.at(folder)).output().unwrap();
-        let said = bench.output(&command);
-        assert_eq!(said.code, Some(0), "{name} in `{folder}`: {}", said.err);
-        assert!(said.out.starts_with("2 studies: nothing to run, "), "{name} in `{folder}`: {}", said.out);
+        let output = bench.output(&command);
+        assert_eq!(output.code, Some(0), "{name} in `{folder}`: {}", output.err);
+        assert!(
+            output.out.starts_with("2 studies: nothing to run, "),
+            "{name} in `{folder}`: {}",
+            output.out
+        );
         let after = bench.tree("");
         assert!(after.keys().eq(before.keys()) && after == before, "{name} in `{folder}` wrote elsewhere");
     }
@@ -199,7 +207,7 @@ fn the_report_keeps_what_others_wrote_and_is_refused_where_it_cannot() {
     let (before, after) = mine.split_once("<!-- replan begin zz").unwrap();
     assert!(text.starts_with(before) && text.ends_with(after), "{text}");
     let runs = bench.tree("target/replan/mini/data");
-    for (broken, said) in [
+    for (broken, expected) in [
         (text.replace("<!-- replan end mini -->", "").into_bytes(), "`zz other` begins within `mini`"),
         (text.replace("<!-- replan end zz other -->", "").into_bytes(), "`zz other` begins and has no end"),
         (
@@ -211,7 +219,7 @@ fn the_report_keeps_what_others_wrote_and_is_refused_where_it_cannot() {
         for command in [&["repro", "./mini", "--fresh"][..], &["render", "./mini"]] {
             let answer = bench.run(command);
             assert_eq!(answer.code, Some(2), "{command:?}: {}", answer.err);
-            assert!(answer.err.contains(said), "{command:?}: {}", answer.err);
+            assert!(answer.err.contains(expected), "{command:?}: {}", answer.err);
         }
         assert!(fs::read(bench.at(report)).unwrap() == broken, "the broken report was touched");
         assert!(bench.tree("target/replan/mini/data") == runs, "a refused command ran something");

@@ -39,11 +39,11 @@ fn rounds(toy: &Toy, command: &str, numbers: &[usize], parts: &str) -> Vec<Strin
         for number in numbers {
             shard(toy, command, *number, numbers.len(), parts);
         }
-        let said = toy.0.done(&["merge", parts]);
-        if said.contains("what was found is in ") {
+        let output = toy.0.done(&["merge", parts]);
+        if output.contains("what was found is in ") {
             return planned;
         }
-        let name = said.split("\nround `").nth(1).unwrap_or_else(|| panic!("{said}"));
+        let name = output.split("\nround `").nth(1).unwrap_or_else(|| panic!("{output}"));
         planned.push(name.split('`').next().unwrap().to_owned());
         let status = toy.0.done(&["status", parts]);
         let none = format!("round `{}`: 0 of {} shards are done", planned[planned.len() - 1], numbers.len());
@@ -81,9 +81,9 @@ fn explorations_and_confirmations_in_shards_find_what_one_machine_finds() {
 fn parts_of_a_round_that_are_missing_double_or_of_another_exploration_are_refused_by_name() {
     let toy = Toy::unexplored(&EDITS);
     let merge = |complaint: &str| {
-        let said = toy.0.run(&["merge", "parts"]);
-        assert_eq!(said.code, Some(2), "{}", said.err);
-        assert!(said.err.contains(complaint), "{complaint}\nis said: {}", said.err);
+        let output = toy.0.run(&["merge", "parts"]);
+        assert_eq!(output.code, Some(2), "{}", output.err);
+        assert!(output.err.contains(complaint), "{complaint}\nis said: {}", output.err);
         assert!(found(&toy).is_empty(), "{complaint}: something was written");
     };
     let copy = |from: &str| {
@@ -115,9 +115,13 @@ fn parts_of_a_round_that_are_missing_double_or_of_another_exploration_are_refuse
     merge("2-of-3: study `draws`: version 9");
     toy.0.write(manifest, &sound);
     for (command, of) in [("confirm", "3"), ("run", "3"), ("explore", "2")] {
-        let said = toy.0.run(&[command, "./toy", "--shard", &format!("1/{of}"), "--out", "parts"]);
-        assert_eq!(said.code, Some(2), "{}", said.err);
-        assert!(said.err.contains("parts/round-1/plan.toml: the parts here are of another "), "{}", said.err);
+        let output = toy.0.run(&[command, "./toy", "--shard", &format!("1/{of}"), "--out", "parts"]);
+        assert_eq!(output.code, Some(2), "{}", output.err);
+        assert!(
+            output.err.contains("parts/round-1/plan.toml: the parts here are of another "),
+            "{}",
+            output.err
+        );
     }
     toy.0.done(&["merge", "parts"]);
     // A round runs under the interpretations that come out of the one before it, and under no others.
@@ -126,14 +130,14 @@ fn parts_of_a_round_that_are_missing_double_or_of_another_exploration_are_refuse
         "[[round.interpretations]]",
         "[[round.interpretations]]\nhurry = \"none\"\n[[round.interpretations]]",
     );
-    let said = toy.0.run(&["merge", "parts"]);
-    assert_eq!(said.code, Some(2), "{}", said.err);
+    let output = toy.0.run(&["merge", "parts"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
     assert!(
-        said.err.contains(
+        output.err.contains(
             "parts/compatible/plan.toml: the parts here are of another run: command `explore`, round"
         ),
         "{}",
-        said.err
+        output.err
     );
 }
 
@@ -178,11 +182,11 @@ fn hyperqueue_runs_round_after_round_and_again_what_was_killed() {
     for (command, rounds) in [("explore", 3), ("confirm", 2)] {
         let arguments = ["--engine", "hyperqueue", "--shards", "2", "--out", command];
         toy.0.done(&[&["shard", "./toy", &format!("--{command}")], &arguments[..]].concat());
-        let Some(said) = run_hyperqueue(&toy.0, command) else { return };
-        let count = |what: &str| said.matches(what).count();
-        assert_eq!(count("2 of 2 shards to run, try 1 of 3\n"), rounds, "{said}");
-        assert_eq!(count("1 of 2 shards to run, try 2 of 3\n"), rounds, "{said}");
-        assert_eq!(count("shard 2 failed; see "), rounds, "{said}");
+        let Some(message) = run_hyperqueue(&toy.0, command) else { return };
+        let count = |what: &str| message.matches(what).count();
+        assert_eq!(count("2 of 2 shards to run, try 1 of 3\n"), rounds, "{message}");
+        assert_eq!(count("1 of 2 shards to run, try 2 of 3\n"), rounds, "{message}");
+        assert_eq!(count("shard 2 failed; see "), rounds, "{message}");
     }
     assert!(found(&toy) == calm, "HyperQueue finds something else than one machine");
 }

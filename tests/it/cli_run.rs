@@ -34,9 +34,9 @@ fn render_writes_what_repro_wrote_byte_for_byte_and_check_notices_an_edit() {
         let whole = fs::read_to_string(&path).unwrap();
         fs::write(&path, whole.replacen("attainable", "obtainable", 1).replacen("made by", "mad by", 1))
             .unwrap();
-        let said = bench.run(&["render", "./mini", "--check"]);
+        let output = bench.run(&["render", "./mini", "--check"]);
         assert_eq!(
-            (said.code, said.err),
+            (output.code, output.err),
             (Some(3), format!("replan: not current: target/replan/mini/{name}\n"))
         );
         fs::write(&path, whole).unwrap();
@@ -45,11 +45,11 @@ fn render_writes_what_repro_wrote_byte_for_byte_and_check_notices_an_edit() {
     assert_eq!(bench.run(&["render", "./mini", "--check"]).code, Some(3));
     bench.done(&["render", "./mini", "--only", "fig1"]);
     assert!(bench.tree("target/replan/mini") == before, "--only fig1 did not bring the figure back");
-    let said = bench.run(&["render", "./mini", "--only", "fig9"]);
-    assert_eq!(said.code, Some(2));
+    let output = bench.run(&["render", "./mini", "--only", "fig9"]);
+    assert_eq!(output.code, Some(2));
     let known =
         "nothing like a figure or table `fig9` (did you mean `fig1`?); there are fig1, table1, numbers";
-    assert!(said.err.contains(known), "{}", said.err);
+    assert!(output.err.contains(known), "{}", output.err);
 }
 
 #[test]
@@ -89,10 +89,10 @@ fn a_trial_run_alone_equals_its_stored_row_and_a_wrong_row_is_noticed() {
     }
     assert!(bench.tree("target/replan/mini") == before, "--trial wrote something");
     bench.edit("mini/draws.toml", "seed = 7", "seed = 9");
-    let said = bench.run(&trial);
-    assert_eq!(said.code, Some(3), "{}", said.out);
+    let output = bench.run(&trial);
+    assert_eq!(output.code, Some(3), "{}", output.out);
     assert_eq!(
-        said.err,
+        output.err,
         "replan: trial draws/drawn/5/two-sided is not what is stored; the stored row stands above\n"
     );
 }
@@ -207,9 +207,9 @@ fn help_has_examples_and_nothing_is_coloured_in_a_pipe() {
         assert!(bench.done(&[command, "--help"]).contains("Usage: replan "), "{command}");
     }
     bench.done(&["run", "./mini"]);
-    let said = bench.run(&["repro", "./mini", "--quick"]);
-    assert!(said.out.contains("verdict"), "{}", said.out);
-    for text in [&help, &said.out, &said.err, &bench.run(&["repro"]).err] {
+    let output = bench.run(&["repro", "./mini", "--quick"]);
+    assert!(output.out.contains("verdict"), "{}", output.out);
+    for text in [&help, &output.out, &output.err, &bench.run(&["repro"]).err] {
         assert!(!text.contains('\x1b'), "{text}");
     }
 }
@@ -241,9 +241,9 @@ fn check_names_what_an_earlier_state_of_the_paper_left_behind() {
     let bench = Bench::new();
     bench.done(&["repro", "./mini"]);
     bench.write("target/replan/mini/plots/mini/fig7.svg", b"old");
-    let said = bench.run(&["render", "./mini", "--check"]);
+    let output = bench.run(&["render", "./mini", "--check"]);
     let left = "replan: left over from before; remove: target/replan/mini/plots/mini/fig7.svg\n";
-    assert_eq!((said.code, said.err.as_str()), (Some(3), left));
+    assert_eq!((output.code, output.err.as_str()), (Some(3), left));
     let path = bench.at("target/replan/mini/paper_repro.md");
     let text = fs::read_to_string(&path).unwrap();
     fs::write(&path, text + "\nMy remark on plots/mini/fig7.svg.\n").unwrap();
@@ -260,9 +260,9 @@ fn a_figure_that_cannot_be_drawn_costs_that_figure_alone() {
     let plots = "target/replan/mini/plots/mini";
     bench.write(&format!("{plots}/fig2.png"), b"an older picture");
     let why = "figure `room:fig2`: the stored run and the paper have nothing like";
-    let said = bench.run(&["repro", "./mini"]);
-    assert_eq!(said.code, Some(3), "{}", said.err);
-    assert!(said.err.contains(&format!("replan: 1 figure could not be drawn: {why}")), "{}", said.err);
+    let output = bench.run(&["repro", "./mini"]);
+    assert_eq!(output.code, Some(3), "{}", output.err);
+    assert!(output.err.contains(&format!("replan: 1 figure could not be drawn: {why}")), "{}", output.err);
     for name in ["fig1.svg", "fig1.png", "table1.tex", "numbers.tex"] {
         assert!(bench.at(plots).join(name).is_file(), "{name}");
     }
@@ -270,17 +270,17 @@ fn a_figure_that_cannot_be_drawn_costs_that_figure_alone() {
     let report = fs::read_to_string(bench.at("target/replan/mini/paper_repro.md")).unwrap();
     assert!(report.contains(&format!("**fig2 could not be drawn: {why}")), "{report}");
     assert!(report.contains("![fig1](plots/mini/fig1.png)") && !report.contains("![fig2]"), "{report}");
-    let said = bench.run(&["render", "./mini", "--check"]);
-    assert!(said.code == Some(3) && said.err.contains(why), "{}", said.err);
+    let output = bench.run(&["render", "./mini", "--check"]);
+    assert!(output.code == Some(3) && output.err.contains(why), "{}", output.err);
 }
 
 #[test]
 fn claims_are_judged_again_only_where_something_changed() {
     let bench = Bench::new();
     let judges = |arguments: &[&str]| {
-        let said = bench.run(arguments);
-        assert_eq!(said.code, Some(0), "{}", said.err);
-        said.doing.iter().any(|line| line.starts_with("mini: judging "))
+        let output = bench.run(arguments);
+        assert_eq!(output.code, Some(0), "{}", output.err);
+        output.doing.iter().any(|line| line.starts_with("mini: judging "))
     };
     let is_judged = || judges(&["repro", "./mini"]);
     assert!(is_judged());

@@ -102,9 +102,9 @@ fn parts_that_are_missing_double_or_of_another_run_are_refused_by_name() {
         bench.done(&[&["run", "./mini", "--shard", &shard, "--out", parts], flags].concat());
     };
     let merge = |complaint: &str| {
-        let said = bench.run(&["merge", "parts", "--out", "merged"]);
-        assert_eq!(said.code, Some(2), "{}", said.err);
-        assert!(said.err.contains(complaint), "{complaint}\nis said: {}", said.err);
+        let output = bench.run(&["merge", "parts", "--out", "merged"]);
+        assert_eq!(output.code, Some(2), "{}", output.err);
+        assert!(output.err.contains(complaint), "{complaint}\nis said: {}", output.err);
         assert!(!bench.at("merged").exists(), "{complaint}: something was written");
     };
     let copy = |from: &str, to: &str| {
@@ -128,9 +128,13 @@ fn parts_that_are_missing_double_or_of_another_run_are_refused_by_name() {
         copy("other/2-of-3", "parts/2-of-3");
         merge("was cut by another plan");
         merge(complaint.split(": ").last().unwrap());
-        let said = bench.run(&[&["run", "./mini", "--shard", "2/3", "--out", "parts"], flags].concat());
-        assert_eq!(said.code, Some(2), "{}", said.err);
-        assert!(said.err.contains("parts/plan.toml: the parts here are of another run: "), "{}", said.err);
+        let output = bench.run(&[&["run", "./mini", "--shard", "2/3", "--out", "parts"], flags].concat());
+        assert_eq!(output.code, Some(2), "{}", output.err);
+        assert!(
+            output.err.contains("parts/plan.toml: the parts here are of another run: "),
+            "{}",
+            output.err
+        );
     }
     copy("parts/1-of-3", "parts/2-of-3");
     merge("2-of-3: study `draws`: holds shard 1/3, not 2/3");
@@ -169,20 +173,20 @@ fn half_written_parts_a_full_disk_and_a_second_merge_lose_nothing() {
     let whole = fs::read(bench.at(trials)).unwrap();
     for bytes in [&whole[..whole.len() / 2], b""] {
         bench.write(trials, bytes);
-        let said = bench.run(&["merge", "parts", "--out", "merged"]);
-        assert_eq!(said.code, Some(2), "{}", said.err);
+        let output = bench.run(&["merge", "parts", "--out", "merged"]);
+        assert_eq!(output.code, Some(2), "{}", output.err);
         assert!(
-            said.err.contains(&format!("{trials}: is not the file that the manifest names")),
+            output.err.contains(&format!("{trials}: is not the file that the manifest names")),
             "{}",
-            said.err
+            output.err
         );
     }
     bench.write(trials, &whole);
     let lock = File::open(bench.at("merged/data/runs/mini/.lock")).unwrap();
     lock.lock().unwrap();
-    let said = bench.run(&["merge", "parts", "--out", "merged"]);
-    assert_eq!(said.code, Some(1), "{}", said.err);
-    assert!(said.err.contains("merged/data/runs/mini: another run is writing here"), "{}", said.err);
+    let output = bench.run(&["merge", "parts", "--out", "merged"]);
+    assert_eq!(output.code, Some(1), "{}", output.err);
+    assert!(output.err.contains("merged/data/runs/mini: another run is writing here"), "{}", output.err);
     drop(lock);
     assert!(bench.tree("merged") == before, "a refused merge changed something");
     full_disk(&bench);
@@ -198,14 +202,14 @@ fn full_disk(bench: &Bench) {
         eprintln!("no tmpfs can be mounted here: a full disk is not tried");
         return;
     }
-    let said = bench.run(&["merge", "parts", "--out", "small/merged"]);
+    let output = bench.run(&["merge", "parts", "--out", "small/merged"]);
     let left = bench.tree("small");
     let grown = Command::new("mount").args(["-o", "remount,size=4m", &place]).status();
     let again = bench.run(&["merge", "parts", "--out", "small/merged"]);
     let facts = bench.facts("small");
     assert!(Command::new("umount").arg(&place).status().unwrap().success());
-    assert_eq!(said.code, Some(1), "{}", said.err);
-    assert!(said.err.contains(".parquet: writing the file: No space left on device"), "{}", said.err);
+    assert_eq!(output.code, Some(1), "{}", output.err);
+    assert!(output.err.contains(".parquet: writing the file: No space left on device"), "{}", output.err);
     // What the claims meant is written first, so that no merge that ends midway hides a change.
     let history = |file: &PathBuf| file.ends_with("history.toml");
     assert!(left.keys().all(history), "left behind: {:?}", left.keys());
@@ -279,7 +283,7 @@ pub fn checked(script: &Path) {
     let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/replan/cluster/venv/bin/shellcheck");
     let program = if own.is_file() { own } else { PathBuf::from("shellcheck") };
     match Command::new(program).arg(script).output() {
-        Ok(said) => assert!(said.status.success(), "{}", String::from_utf8_lossy(&said.stdout)),
+        Ok(output) => assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout)),
         Err(_) => eprintln!("there is no shellcheck here: {} is not checked by it", script.display()),
     }
 }
@@ -312,9 +316,9 @@ pub fn run_hyperqueue(bench: &Bench, parts: &str) -> Option<String> {
     command.arg(bench.at(&format!("{parts}/run_hyperqueue.py"))).current_dir(bench.at(""));
     command.env("REPLAN", bench.at("bin/replan")).env("REAL", env!("CARGO_BIN_EXE_replan"));
     let done = command.output().unwrap();
-    let said = format!("{}{}", String::from_utf8_lossy(&done.stdout), String::from_utf8_lossy(&done.stderr));
-    assert!(done.status.success(), "{said}");
-    Some(said)
+    let text = format!("{}{}", String::from_utf8_lossy(&done.stdout), String::from_utf8_lossy(&done.stderr));
+    assert!(done.status.success(), "{text}");
+    Some(text)
 }
 
 #[test]
@@ -323,11 +327,11 @@ fn hyperqueue_runs_every_shard_again_where_its_process_was_killed() {
     stub(&bench, "replan", DYING);
     let arguments = ["--engine", "hyperqueue", "--shards", "4", "--out", "parts", "--merge", "merged"];
     bench.done(&[&["shard", "./mini", "--with", "all"], &arguments[..]].concat());
-    let Some(said) = run_hyperqueue(&bench, "parts") else { return };
-    assert!(said.contains("4 of 4 shards to run, try 1 of 3\n"), "{said}");
+    let Some(message) = run_hyperqueue(&bench, "parts") else { return };
+    assert!(message.contains("4 of 4 shards to run, try 1 of 3\n"), "{message}");
     assert!(
-        said.contains("shard 2 failed; see ") && said.contains("1 of 4 shards to run, try 2 of 3\n"),
-        "{said}"
+        message.contains("shard 2 failed; see ") && message.contains("1 of 4 shards to run, try 2 of 3\n"),
+        "{message}"
     );
     assert!(
         fs::read(bench.at("journal.seen")).unwrap().len() > 100,
@@ -354,9 +358,9 @@ fn shards_that_do_not_exist_are_refused() {
             "possible values: hyperqueue, slurm",
         ),
     ] {
-        let said = bench.run(arguments);
-        assert_eq!(said.code, Some(2), "{arguments:?}: {}", said.err);
-        assert!(said.err.contains(complaint), "{arguments:?} is answered: {}", said.err);
+        let output = bench.run(arguments);
+        assert_eq!(output.code, Some(2), "{arguments:?}: {}", output.err);
+        assert!(output.err.contains(complaint), "{arguments:?} is answered: {}", output.err);
     }
     bench.write("p/plan.toml", b"paper = 3\n");
     assert!(bench.run(&["status", "p"]).err.contains("p/plan.toml:1:9: "));

@@ -118,14 +118,18 @@ fn ctrl_c_finishes_the_units_at_work_says_what_it_kept_and_the_run_goes_on() {
     assert!(await_journal(&bench, &mut run, 20_000), "the run was over before it could be interrupted");
     let sent = Command::new("sh").args(["-c", &format!("kill -INT {}", run.id())]).status().unwrap();
     assert!(sent.success());
-    let said = bench.output(&run.wait_with_output().unwrap());
-    assert_eq!(said.code, Some(130), "{}", said.err);
+    let output = bench.output(&run.wait_with_output().unwrap());
+    assert_eq!(output.code, Some(130), "{}", output.err);
     let kept = units(&bench);
     let message = format!(
         "replan: interrupted: {kept} of 300 units of study `draws` are kept; the same command goes on from there\n"
     );
-    assert!(said.err.starts_with("stopping at the next safe point; press Ctrl-C again to"), "{}", said.err);
-    assert!(said.err.ends_with(&message), "{message}{}", said.err);
+    assert!(
+        output.err.starts_with("stopping at the next safe point; press Ctrl-C again to"),
+        "{}",
+        output.err
+    );
+    assert!(output.err.ends_with(&message), "{message}{}", output.err);
     assert!((1..300).contains(&kept), "{kept}");
     let out = bench.done(&["run", "./mini"]);
     assert!(out.starts_with(&format!("draws: 600 trials ({kept} of 300 units resumed)\n")), "{out}");
@@ -144,9 +148,9 @@ fn ctrl_c_while_the_clock_is_read_keeps_the_trials_and_stores_no_half_sample() {
     sleep(Duration::from_millis(30));
     let sent = Command::new("sh").args(["-c", &format!("kill -INT {}", run.id())]).status().unwrap();
     assert!(sent.success());
-    let said = bench.output(&run.wait_with_output().unwrap());
-    assert_eq!(said.code, Some(130), "{}", said.err);
-    assert!(said.err.contains("300 of 300 units of study `draws` are kept"), "{}", said.err);
+    let output = bench.output(&run.wait_with_output().unwrap());
+    assert_eq!(output.code, Some(130), "{}", output.err);
+    assert!(output.err.contains("300 of 300 units of study `draws` are kept"), "{}", output.err);
     assert!(bench.facts("target/replan/mini").is_empty(), "records were written");
     bench.edit("mini/draws.toml", "problems = 300\nrepeats = 20", "problems = 2\nrepeats = 2");
     assert!(bench.done(&["run", "./mini"]).starts_with("draws: 600 trials (300 of 300 units resumed)\n"));
@@ -183,13 +187,13 @@ fn ctrl_c_while_figures_are_drawn_ends_with_130_and_leaves_the_older_ones() {
     }
     let sent = Command::new("sh").args(["-c", &format!("kill -INT {}", run.id())]).status().unwrap();
     assert!(sent.success());
-    let said = bench.output(&run.wait_with_output().unwrap());
-    assert_eq!(said.code, Some(130), "{}", said.err);
-    assert!(said.err.contains("interrupted"), "{}", said.err);
+    let output = bench.output(&run.wait_with_output().unwrap());
+    assert_eq!(output.code, Some(130), "{}", output.err);
+    assert!(output.err.contains("interrupted"), "{}", output.err);
     assert!(
-        said.out.contains("2 sentences and rows: "),
+        output.out.contains("2 sentences and rows: "),
         "the verdicts are printed before figures are drawn: {}",
-        said.out
+        output.out
     );
     assert!(bench.tree("target/replan/mini/plots") == before, "a figure was replaced");
     bench.done(&["repro", "./mini"]);

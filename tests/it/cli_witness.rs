@@ -11,9 +11,9 @@ fn a_map_is_found_on_which_the_claim_holds_and_the_same_at_any_number_of_threads
     let ask = |out: &str, threads: &str| {
         let mut command =
             bench.command(&["witness", "./mini", "--claims", "cost", "--seed", "3", "--out", out]);
-        let said = bench.output(&command.env("RAYON_NUM_THREADS", threads).output().unwrap());
-        assert_eq!(said.code, Some(0), "{}{}", said.out, said.err);
-        said.out
+        let output = bench.output(&command.env("RAYON_NUM_THREADS", threads).output().unwrap());
+        assert_eq!(output.code, Some(0), "{}{}", output.out, output.err);
+        output.out
     };
     let one = ask("one", "1");
     assert!(one.contains("holds: cost, printed 7.83, here 7.8"), "{one}");
@@ -53,8 +53,8 @@ fn under_any_interpretation_each_search_draws_one_and_the_study_agrees_under_it(
     for seed in 1..=8 {
         let (seed, out) = (seed.to_string(), format!("any{seed}"));
         let ask = ["witness", "./mini", "--claims", "cost", "--with", "any", "--seed", &seed, "--out", &out];
-        let said = bench.done(&ask);
-        let interpretation = said.lines().find_map(|line| line.strip_prefix("interpretation: ")).unwrap();
+        let output = bench.done(&ask);
+        let interpretation = output.lines().find_map(|line| line.strip_prefix("interpretation: ")).unwrap();
         let interpretation = interpretation.split(';').next().unwrap().to_owned();
         let (path, _) = bench.tree(&out).into_iter().next().unwrap();
         fs::copy(bench.at(&out).join(path), bench.at("mini/room.map.txt")).unwrap();
@@ -69,7 +69,7 @@ fn under_any_interpretation_each_search_draws_one_and_the_study_agrees_under_it(
 }
 
 #[test]
-fn what_no_search_finds_is_said_with_their_number_and_remembered() {
+fn what_no_search_finds_is_reported_with_their_number_and_remembered() {
     let bench = Bench::new();
     bench.edit("mini/paper.toml", "7.83", "0.31");
     let ask = |searches: &str| {
@@ -93,17 +93,17 @@ fn what_no_search_finds_is_said_with_their_number_and_remembered() {
 
 #[test]
 fn a_claim_that_asks_for_no_number_is_refused_with_its_name() {
-    let said = Bench::new().run(&["witness", "./mini", "--claims", "nodes"]);
-    assert_eq!(said.code, Some(2));
-    assert!(said.err.contains("claim `nodes` asks for no number that a trial may meet"), "{}", said.err);
+    let output = Bench::new().run(&["witness", "./mini", "--claims", "nodes"]);
+    assert_eq!(output.code, Some(2));
+    assert!(output.err.contains("claim `nodes` asks for no number that a trial may meet"), "{}", output.err);
 }
 
 #[test]
 fn a_clock_that_is_read_again_adds_a_session_and_moves_no_trial() {
     let bench = Bench::new();
     bench.edit("mini/room.toml", "[quick]", "[timing]\nproblems = 1\nrepeats = 2\n\n[quick]");
-    let said = bench.run(&["run", "./mini", "--clock"]);
-    assert_eq!(said.code, Some(2), "{}", said.err);
+    let output = bench.run(&["run", "./mini", "--clock"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
     bench.done(&["run", "./mini"]);
     let before = bench.facts("target/replan/mini");
     let out = bench.done(&["run", "./mini", "--clock"]);

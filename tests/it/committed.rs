@@ -105,10 +105,10 @@ fn stored_trials_of_contenders_and_of_tasks_are_found_by_their_names() {
         ("zhang", "readings/w1/a-star"),
     ] {
         let mut replan = Command::new(env!("CARGO_BIN_EXE_replan"));
-        let said = replan.args(["repro", paper, "--trial", trial]).current_dir(env!("CARGO_MANIFEST_DIR"));
-        let said = said.output().unwrap();
-        let out = String::from_utf8(said.stdout).unwrap();
-        assert!(said.status.success() && out.ends_with("equals the stored row\n"), "{trial}: {out}");
+        let output = replan.args(["repro", paper, "--trial", trial]).current_dir(env!("CARGO_MANIFEST_DIR"));
+        let output = output.output().unwrap();
+        let out = String::from_utf8(output.stdout).unwrap();
+        assert!(output.status.success() && out.ends_with("equals the stored row\n"), "{trial}: {out}");
     }
 }
 
@@ -119,10 +119,10 @@ fn what_speaks_against_a_claim_names_a_trial_and_what_leaves_it_open_says_what_w
     for folder in fs::read_dir(runs).unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_dir())
     {
         for judged in Verdicts::read(&folder).unwrap().claims {
-            let is_said = judged.across.as_ref().is_some_and(|across| across.settles.is_some())
+            let is_reported = judged.across.as_ref().is_some_and(|across| across.settles.is_some())
                 || judged.findings.iter().any(|finding| finding.settles.is_some());
             let is_open = [Verdict::Inconclusive, Verdict::Depends].contains(&judged.verdict);
-            assert!(!is_open || is_said, "{}", judged.claim);
+            assert!(!is_open || is_reported, "{}", judged.claim);
             for finding in &judged.findings {
                 let is_measured = criterion::find(&finding.criterion).is_some();
                 match finding.outcome {

@@ -106,12 +106,12 @@ fn what_contenders_depart_to_together_is_explored() {
 fn a_contender_cannot_depart_from_a_reading_that_its_study_has() {
     let departs = ("label = \"A*\"\nplanner", "label = \"A*\"\ndeparts = { hurry = \"none\" }\nplanner");
     let toy = Toy::written(&[CITED, departs]);
-    let said = toy.0.run(&["check", "./toy"]);
-    assert_eq!(said.code, Some(2));
-    assert!(said.err.contains("departs from choice `hurry`, which its study inherits"), "{}", said.err);
+    let output = toy.0.run(&["check", "./toy"]);
+    assert_eq!(output.code, Some(2));
+    assert!(output.err.contains("departs from choice `hurry`, which its study inherits"), "{}", output.err);
     toy.0.edit("toy/room.toml", "hurry = \"none\"", "haste = \"none\"");
-    let said = toy.0.run(&["check", "./toy"]);
-    assert!(said.err.contains("there is no choice `haste`; there are hurry, idle"), "{}", said.err);
+    let output = toy.0.run(&["check", "./toy"]);
+    assert!(output.err.contains("there is no choice `haste`; there are hurry, idle"), "{}", output.err);
 }
 
 /// A row that takes the best of its parts: a number that is met with a weight of three, or an input on which one is met.
@@ -172,10 +172,10 @@ fn a_claim_is_judged_only_under_the_readings_under_which_it_is_meant() {
         ("[\"three\"]", "[]", "holds_when.hurry: names no option; the options are none, three"),
     ] {
         std::fs::write(&path, text.replace(from, to)).unwrap();
-        let said = toy.0.run(&["check", "./toy"]);
+        let output = toy.0.run(&["check", "./toy"]);
         let line = text.lines().position(|line| line.starts_with("holds_when")).unwrap() + 1;
         let place = format!("paper.toml:{line}:");
-        assert!(said.err.contains(refused) && said.err.contains(&place), "{to}: {}", said.err);
+        assert!(output.err.contains(refused) && output.err.contains(&place), "{to}: {}", output.err);
     }
 }
 
@@ -224,9 +224,9 @@ fn numbers_vote_within_their_bounds_and_bounds_that_are_not_whole_are_refused() 
     ] {
         let text = std::fs::read(toy.0.at("toy/paper.toml")).unwrap();
         toy.0.edit("toy/paper.toml", from, to);
-        let said = toy.0.run(&["check", "./toy"]);
-        assert_eq!(said.code, Some(2), "{to}");
-        assert!(said.err.contains(refused), "{to}: {}", said.err);
+        let output = toy.0.run(&["check", "./toy"]);
+        assert_eq!(output.code, Some(2), "{to}");
+        assert!(output.err.contains(refused), "{to}: {}", output.err);
         toy.0.write("toy/paper.toml", &text);
     }
 }
@@ -319,7 +319,7 @@ fn a_reading_whose_paths_the_verifier_refuses_is_set_apart_where_the_paper_calls
     // Claims that look at no such path are judged under both.
     assert!(free.claim("fewer").across.unwrap().refused.is_empty());
     for toy in [&toy, &free] {
-        let said = toy.0.done(&["judge", "./toy"]);
-        assert!(said.contains("the verifier refuses many paths under sight = cutting"), "{said}");
+        let output = toy.0.done(&["judge", "./toy"]);
+        assert!(output.contains("the verifier refuses many paths under sight = cutting"), "{output}");
     }
 }

@@ -54,8 +54,8 @@ fn what_replan_answers_is_what_the_judge_is_tested_with() {
         kept().display()
     );
     python(&bench, &copy);
-    let said = bench.run(&["crosscheck", "./judged", "--out", "out", "--python", "./python"]);
-    assert_eq!(said.code, Some(0), "{}{}", said.out, said.err);
+    let output = bench.run(&["crosscheck", "./judged", "--out", "out", "--python", "./python"]);
+    assert_eq!(output.code, Some(0), "{}{}", output.out, output.err);
     for part in ["gaps", "frames", "limits", "planners"] {
         let name = format!("replan.{part}.parquet");
         let answered = frame_at(&bench.at(&format!("{ANSWERS}/{name}")));
@@ -77,8 +77,8 @@ fn the_exit_code_is_the_judges() {
             fs::remove_file(made).unwrap();
         }
         python(&bench, &format!("if [ $3 = pose ]; then {copy}; exit {pose}; else exit {report}; fi"));
-        let said = bench.run(&["crosscheck", "./judged", "--out", "out", "--python", "./python"]);
-        assert_eq!(said.code, Some(code), "{pose} {report}: {}{}", said.out, said.err);
+        let output = bench.run(&["crosscheck", "./judged", "--out", "out", "--python", "./python"]);
+        assert_eq!(output.code, Some(code), "{pose} {report}: {}{}", output.out, output.err);
     }
 }
 
@@ -87,21 +87,21 @@ fn questions_that_do_not_fit_are_refused_by_name() {
     let bench = bench();
     let copy = "mkdir -p \"$4/up6-in-room\" && echo no > \"$4/up6-in-room/scene.questions.parquet\"";
     python(&bench, copy);
-    let said = bench.run(&["crosscheck", "./judged", "--out", "out", "--python", "./python"]);
-    let is_named = said.err.contains("up6-in-room/scene.questions.parquet: is no table of questions");
-    assert!(said.code == Some(3) && is_named, "{}", said.err);
+    let output = bench.run(&["crosscheck", "./judged", "--out", "out", "--python", "./python"]);
+    let is_named = output.err.contains("up6-in-room/scene.questions.parquet: is no table of questions");
+    assert!(output.code == Some(3) && is_named, "{}", output.err);
 }
 
 #[test]
 fn without_python_or_its_packages_the_exit_code_is_4_and_the_message_says_what_to_run() {
     let bench = bench();
     let ask = |program: &str| bench.run(&["crosscheck", "./judged", "--out", "out", "--python", program]);
-    let said = ask("./no-such-python");
-    assert_eq!(said.code, Some(4), "{}", said.err);
+    let output = ask("./no-such-python");
+    assert_eq!(output.code, Some(4), "{}", output.err);
     assert!(
-        said.err.contains("Python 3.11 or later is needed") && said.err.contains("apt install"),
+        output.err.contains("Python 3.11 or later is needed") && output.err.contains("apt install"),
         "{}",
-        said.err
+        output.err
     );
     // A Python that is too old, and one whose pip has no network.
     let script = |body: &str| {
@@ -110,15 +110,15 @@ fn without_python_or_its_packages_the_exit_code_is_4_and_the_message_says_what_t
         fs::set_permissions(bench.at("python"), mode).unwrap();
         ask("./python")
     };
-    let said = script("echo 3 9");
-    assert!(said.code == Some(4) && said.err.contains("`./python` is Python 3.9"), "{}", said.err);
-    let said = script(
+    let output = script("echo 3 9");
+    assert!(output.code == Some(4) && output.err.contains("`./python` is Python 3.9"), "{}", output.err);
+    let output = script(
         "case \"$2\" in\n  venv) mkdir -p \"$4/bin\" && cp \"$0\" \"$4/bin/python\";;\n  pip) echo 'no route to host' >&2; exit 1;;\n\
          \x20 *) echo 3 11;;\nesac",
     );
-    assert_eq!(said.code, Some(4), "{}{}", said.out, said.err);
-    let is_told = said.err.contains("no route to host") && said.err.contains("-m pip install");
-    assert!(is_told, "{}", said.err);
+    assert_eq!(output.code, Some(4), "{}{}", output.out, output.err);
+    let is_reported = output.err.contains("no route to host") && output.err.contains("-m pip install");
+    assert!(is_reported, "{}", output.err);
 }
 
 #[test]
@@ -131,23 +131,23 @@ fn a_spec_that_names_what_is_not_there_is_refused_at_its_line() {
     ] {
         let bench = bench();
         bench.edit("judged/crosscheck.toml", from, to);
-        let said = bench.run(&["crosscheck", "./judged", "--out", "out"]);
-        assert_eq!(said.code, Some(2), "{}", said.err);
-        assert!(parts.iter().all(|part| said.err.contains(part)), "{parts:?}\n{}", said.err);
+        let output = bench.run(&["crosscheck", "./judged", "--out", "out"]);
+        assert_eq!(output.code, Some(2), "{}", output.err);
+        assert!(parts.iter().all(|part| output.err.contains(part)), "{parts:?}\n{}", output.err);
     }
 }
 
 #[test]
-fn answers_that_were_never_asked_for_are_wrong_input_and_nothing_is_written() {
+fn answers_without_a_question_are_wrong_input_and_nothing_is_written() {
     let bench = bench();
     let judged = || bench.run(&["crosscheck", "./judged", "--answered", "--out", "out"]);
-    let said = judged();
-    assert_eq!((said.code, said.out.as_str()), (Some(2), ""), "{}", said.err);
-    let told = "there are no answers to judge; run `replan crosscheck judged` without --answered";
+    let output = judged();
+    assert_eq!((output.code, output.out.as_str()), (Some(2), ""), "{}", output.err);
+    let expected = "there are no answers to judge; run `replan crosscheck judged` without --answered";
     assert!(
-        said.err.contains(told) && said.err.contains("out/target/replan/crosscheck/judged: "),
+        output.err.contains(expected) && output.err.contains("out/target/replan/crosscheck/judged: "),
         "{}",
-        said.err
+        output.err
     );
     // Questions alone are no answers.
     bench.write(&format!("{ANSWERS}/scene.questions.parquet"), b"");
@@ -156,7 +156,7 @@ fn answers_that_were_never_asked_for_are_wrong_input_and_nothing_is_written() {
 }
 
 #[test]
-fn the_judge_of_statistics_is_told_metrics_and_papers() {
+fn the_judge_of_statistics_is_given_metrics_and_papers() {
     let bench = bench();
     bench.write("crosscheck/requirements.txt", b"scipy==1.17.1\n");
     let ask =
@@ -176,23 +176,29 @@ fn the_judge_of_statistics_is_told_metrics_and_papers() {
         }
     };
     script(0);
-    let said = ask();
-    assert!(said.code == Some(2) && said.err.contains("no verdicts"), "{}", said.err);
+    let output = ask();
+    assert!(output.code == Some(2) && output.err.contains("no verdicts"), "{}", output.err);
     bench.write("out/data/runs/judged/verdicts.toml", b"");
     for (ends, expected, message) in
         [(0, 0, ""), (3, 3, "differ from verdicts.toml"), (1, 1, "the judge ended")]
     {
         script(ends);
-        let said = ask();
-        assert_eq!(said.code, Some(expected), "{}{}", said.out, said.err);
-        assert!(said.err.contains(message) && said.out.contains("asked in out/"), "{}{}", said.out, said.err);
+        let output = ask();
+        assert_eq!(output.code, Some(expected), "{}{}", output.out, output.err);
+        assert!(
+            output.err.contains(message) && output.out.contains("asked in out/"),
+            "{}{}",
+            output.out,
+            output.err
+        );
     }
-    let asked = fs::read_to_string(bench.at("out/target/replan/crosscheck/statistics.json")).unwrap();
-    let asked: serde_json::Value = serde_json::from_str(&asked).unwrap();
-    let metric = asked["metrics"].as_array().unwrap().iter().find(|metric| metric["name"] == "plan_time_ms");
+    let text = fs::read_to_string(bench.at("out/target/replan/crosscheck/statistics.json")).unwrap();
+    let request: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let metric =
+        request["metrics"].as_array().unwrap().iter().find(|metric| metric["name"] == "plan_time_ms");
     let expected = serde_json::json!({
         "name": "plan_time_ms", "column": "plan_wall_ns", "scale": 1e-6, "better": "lower", "clock": true, "status": false, "at_most": null,
     });
     assert_eq!(metric, Some(&expected));
-    assert_eq!(asked["papers"].as_array().unwrap().len(), 1, "{asked}");
+    assert_eq!(request["papers"].as_array().unwrap().len(), 1, "{request}");
 }

@@ -39,10 +39,10 @@ fn a_damaged_file_is_refused_by_runs_and_checks_and_replaced_only_beside_its_old
         ] {
             let refused = bench.run(command);
             assert_eq!(refused.code, Some(code), "{part}: {command:?}: {}{}", refused.out, refused.err);
-            let said = format!("{}{}", refused.out, refused.err);
+            let message = format!("{}{}", refused.out, refused.err);
             assert!(
-                said.contains(&file) && said.contains("--replace-damaged"),
-                "{part}: {command:?}: {said}"
+                message.contains(&file) && message.contains("--replace-damaged"),
+                "{part}: {command:?}: {message}"
             );
         }
         assert_eq!(
@@ -50,8 +50,8 @@ fn a_damaged_file_is_refused_by_runs_and_checks_and_replaced_only_beside_its_old
             damaged,
             "{part} was written over"
         );
-        let said = bench.done(&["run", "./mini", "--replace-damaged"]);
-        assert!(said.contains(&format!("{RUNS}/{file}.damaged-1")), "{said}");
+        let message = bench.done(&["run", "./mini", "--replace-damaged"]);
+        assert!(message.contains(&format!("{RUNS}/{file}.damaged-1")), "{message}");
         let aside = bench.at(&format!("{RUNS}/{file}.damaged-1"));
         assert_eq!(fs::read(&aside).unwrap(), damaged);
         fs::remove_file(aside).unwrap();
@@ -77,13 +77,17 @@ fn one_bit_of_a_manifest_flipped_anywhere_is_noticed() {
         tried += 1;
     }
     assert!(tried > 100, "{tried}");
+    fs::write(&path, b"").unwrap();
+    assert_eq!(bench.run(&["run", "./mini"]).code, Some(2));
+    assert_eq!(fs::read(&path).unwrap(), b"", "an emptied manifest was written over");
+    fs::write(&path, &whole).unwrap();
     // Even where it names the machine: nothing else is held against that.
     let at = text.find("rustc = ").unwrap() + 12;
     flip(&bench, "draws.manifest.toml", at);
     let refused = bench.run(&["repro", "./mini"]);
     assert_eq!(refused.code, Some(2), "{}", refused.err);
-    let said = bench.done(&["run", "./mini", "--replace-damaged"]);
-    assert!(said.contains("(24 of 24 units reused)"), "{said}");
+    let output = bench.done(&["run", "./mini", "--replace-damaged"]);
+    assert!(output.contains("(24 of 24 units reused)"), "{output}");
     assert_eq!(reuse::stored(&bench.at(RUNS), "draws").unwrap().0.sessions.len(), 1);
 }
 

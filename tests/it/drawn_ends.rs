@@ -134,7 +134,7 @@ fn a_drawn_cell_is_any_free_one_with_equal_chance() {
 
 #[test]
 fn ends_that_cannot_be_drawn_are_refused_at_their_key_or_make_an_invalid_instance() {
-    for (name, over, said) in [
+    for (name, over, expected) in [
         (
             "random_cells",
             "goal = { x = 40 }",
@@ -175,7 +175,7 @@ fn ends_that_cannot_be_drawn_are_refused_at_their_key_or_make_an_invalid_instanc
     ] {
         let refused =
             build(name, over).err().unwrap_or_else(|| panic!("{name}: {over} was accepted")).to_string();
-        assert!(refused.contains(said), "should be said: {said}\nis said: {refused}");
+        assert!(refused.contains(expected), "should be said: {expected}\nis said: {refused}");
     }
     for (name, over, end) in [
         ("random_rectangles", "goal = { x = 5 }\ncount = 3000", "goal"),

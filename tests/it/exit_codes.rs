@@ -16,9 +16,9 @@ fn reproduced() -> Bench {
 
 /// The command must end with the exit code; what it said.
 fn ends(bench: &Bench, arguments: &[&str], code: i32) -> String {
-    let said = bench.run(arguments);
-    assert_eq!(said.code, Some(code), "{arguments:?}: {}{}", said.out, said.err);
-    said.err
+    let output = bench.run(arguments);
+    assert_eq!(output.code, Some(code), "{arguments:?}: {}{}", output.out, output.err);
+    output.err
 }
 
 #[test]
@@ -53,8 +53,8 @@ fn a_report_that_was_edited_has_one_exit_code_however_it_was_edited() {
     }
     bench.write(REPORT, &[&whole[..], b"\xff"].concat());
     ends(&bench, &["render", "./mini", "--check"], 3);
-    let said = ends(&bench, &["render", "./mini"], 2);
-    assert!(said.contains("is not UTF-8; mend it, move it away"), "{said}");
+    let text = ends(&bench, &["render", "./mini"], 2);
+    assert!(text.contains("is not UTF-8; mend it, move it away"), "{text}");
 }
 
 #[test]
@@ -62,10 +62,10 @@ fn verdicts_of_other_readings_are_stale_under_a_check() {
     let bench = Bench::new();
     bench.done(&["repro", "./mini", "--with", "nodes=closed", "--out", "other"]);
     bench.edit("mini/paper.toml", "closed = { metric", "shut = { metric");
-    let said = ends(&bench, &["render", "./mini", "--out", "other", "--check"], 3);
+    let text = ends(&bench, &["render", "./mini", "--out", "other", "--check"], 3);
     assert!(
-        said.contains("the stored verdicts are of other interpretations (choice `nodes` has no option"),
-        "{said}"
+        text.contains("the stored verdicts are of other interpretations (choice `nodes` has no option"),
+        "{text}"
     );
     ends(&bench, &["render", "./mini", "--out", "other"], 2);
 }

@@ -62,16 +62,16 @@ fn a_confirmation_keeps_to_the_budget_of_trials_and_says_what_it_left_out() {
         fs::write(toy.0.at("toy/paper.toml"), text.replace(line, &format!("trials = {trials}"))).unwrap();
     };
     budget(120);
-    let said = toy.0.run(&["confirm", "./toy"]);
-    assert_eq!(said.code, Some(2), "{}", said.err);
+    let output = toy.0.run(&["confirm", "./toy"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
     let refused = "./toy/paper.toml:7:10: the default interpretation takes 121 trials on the second seed; `trials` is 120";
-    assert!(said.err.contains(refused), "{}", said.err);
+    assert!(output.err.contains(refused), "{}", output.err);
     assert!(!toy.0.at("target/replan/confirm").exists(), "trials were run");
     budget(181);
-    let said = toy.0.done(&["confirm", "./toy"]);
+    let output = toy.0.done(&["confirm", "./toy"]);
     assert!(
-        said.contains("toy: interpretations that turn a claim and for which the budget has no room: 1\n"),
-        "{said}"
+        output.contains("toy: interpretations that turn a claim and for which the budget has no room: 1\n"),
+        "{output}"
     );
     assert_eq!(toy.second().trials, 121);
     assert_eq!(toy.claim("fewer").across.unwrap().unconfirmed, 1);
@@ -97,9 +97,9 @@ fn interrupt(toy: &Toy, mut child: Child, file: &Path, bytes: u64) -> ProgramOut
 }
 
 /// The units that a message says are kept.
-fn kept(said: &ProgramOutput) -> u32 {
+fn kept(output: &ProgramOutput) -> u32 {
     let (before, _) =
-        said.err.split_once(" units of study `draws` are kept").unwrap_or_else(|| panic!("{}", said.err));
+        output.err.split_once(" units of study `draws` are kept").unwrap_or_else(|| panic!("{}", output.err));
     before.split_whitespace().rev().nth(2).unwrap().parse().unwrap()
 }
 
@@ -126,12 +126,12 @@ fn interrupted_explorations_and_confirmations_end_with_the_same_bytes() {
 fn an_exploration_that_is_interrupted_while_readings_are_judged_runs_no_trial_again() {
     let toy = noisy();
     let child = toy.0.command(&["explore", "./toy"]).spawn().unwrap();
-    let said = interrupt(&toy, child, &toy.0.at("target/replan/explore/toy/round-1/room.manifest.toml"), 1);
-    assert_eq!(said.code, Some(130), "{}", said.err);
+    let output = interrupt(&toy, child, &toy.0.at("target/replan/explore/toy/round-1/room.manifest.toml"), 1);
+    assert_eq!(output.code, Some(130), "{}", output.err);
     assert!(
-        said.err.ends_with("interrupted: the trials are kept; the same command goes on from there\n"),
+        output.err.ends_with("interrupted: the trials are kept; the same command goes on from there\n"),
         "{}",
-        said.err
+        output.err
     );
     let trials = toy.0.at("target/replan/explore/toy/round-1/draws.trials.parquet");
     let written = fs::metadata(&trials).unwrap().modified().unwrap();
@@ -229,11 +229,11 @@ fn the_advice_after_a_changed_claim_works_as_it_is_printed() {
         "metric = \"expansions\", contender = \"A*\", against",
         "metric = \"opened\", contender = \"A*\", against",
     );
-    let mut said = toy.0.done(&["repro", "own/toy"]);
+    let mut output = toy.0.done(&["repro", "own/toy"]);
     let mut ran = Vec::new();
-    while let Some(command) = advised(&said).into_iter().next() {
-        assert!(!ran.contains(&command), "`{command}` changes nothing: {said}");
-        said = toy.0.done(&command.split(' ').collect::<Vec<_>>());
+    while let Some(command) = advised(&output).into_iter().next() {
+        assert!(!ran.contains(&command), "`{command}` changes nothing: {output}");
+        output = toy.0.done(&command.split(' ').collect::<Vec<_>>());
         ran.push(command);
     }
     assert_eq!(ran, ["explore own/toy", "confirm own/toy"]);

@@ -10,6 +10,7 @@ use crate::paper::Bench;
 use scripts::{CASES, Case, PRELUDE, SHORTER, SILENT};
 use std::collections::BTreeMap;
 use std::fs;
+use std::process::Command;
 use study::record::Row;
 use study::reuse;
 
@@ -122,19 +123,33 @@ fn soon(is_so: impl Fn() -> bool) -> bool {
 fn replan_interrupted_or_killed_takes_its_planners_with_it() {
     let hang = "hello; query; (sleep 770011) & trap '' TERM INT; while :; do sleep 770012; done";
     let case = Case { name: "hang-on", script: hang, status: "", reason: "" };
-    for (signal, code) in [("INT", Some(130)), ("TERM", Some(130)), ("KILL", None)] {
+    for (signals, code) in
+        [(&["INT"][..], Some(130)), (&["INT", "INT"], Some(130)), (&["TERM"], Some(130)), (&["KILL"], None)]
+    {
         let bench = bench(&[&case]);
         bench.edit("outside/study.toml", "time_s = 0.5", "time_s = 600.0");
         let mut run = bench.command(&["run", "./outside", "--trust"]).spawn().unwrap();
-        assert!(soon(|| alive("sleep 770012").len() == 1), "{signal}: the planner was not seen");
-        let kill =
-            std::process::Command::new("kill").args([&format!("-{signal}"), &run.id().to_string()]).status();
-        assert!(kill.unwrap().success());
-        assert!(soon(|| run_has_ended(run.id())), "{signal}: replan goes on");
-        assert_eq!(run.wait().unwrap().code(), code, "{signal}");
+        assert!(soon(|| alive("sleep 770012").len() == 1), "{signals:?}: the planner was not seen");
+        for signal in signals {
+            let kill = Command::new("kill").args([&format!("-{signal}"), &run.id().to_string()]).status();
+            assert!(kill.unwrap().success());
+        }
+        assert!(soon(|| run_has_ended(run.id())), "{signals:?}: replan goes on");
+        assert_eq!(run.wait().unwrap().code(), code, "{signals:?}");
         let is_gone = || alive("sleep 77001").is_empty() && alive("hang-on.sh").is_empty();
-        assert!(soon(is_gone), "{signal}: left alone: {:?}", alive("sleep 77001"));
+        assert!(soon(is_gone), "{signals:?}: left alone: {:?}", alive("sleep 77001"));
     }
+}
+
+#[test]
+fn a_planner_that_kills_replan_does_not_outlive_it() {
+    let script = "hello; query; (setsid sleep 770021) & sleep 0.1; kill -9 $PPID; sleep 770022";
+    let bench = bench(&[&Case { name: "kills-its-parent", script, status: "", reason: "" }]);
+    bench.edit("outside/study.toml", "time_s = 0.5", "time_s = 600.0");
+    let run = bench.command(&["run", "./outside", "--trust"]).status().unwrap();
+    assert_eq!(run.code(), None, "replan was not killed");
+    let is_gone = || alive("sleep 77002").is_empty() && alive("kills-its-parent.sh").is_empty();
+    assert!(soon(is_gone), "left alone: {:?}", alive("sleep 77002"));
 }
 
 /// Whether the process has ended, though nobody has waited for it.
@@ -192,16 +207,36 @@ fn recorded_trials_are_kept_by_fresh_and_run_again_by_record_or_where_a_file_cha
 }
 
 #[test]
+fn recorded_trials_outlive_a_damaged_file_that_is_not_theirs() {
+    let good = CASES.iter().find(|case| case.name == "good").unwrap();
+    let bench = bench(&[good]);
+    bench.done(&["run", "./outside", "--trust"]);
+    let clock = |bench: &Bench| rows(bench)["good"].value("solve_wall_ns").unwrap();
+    let first = clock(&bench);
+    for (part, is_kept) in [("preprocessing", true), ("trials", false)] {
+        let file = format!("target/replan/outside/data/runs/outside/study.{part}.parquet");
+        let mut bytes = fs::read(bench.at(&file)).unwrap();
+        bytes[20] ^= 1;
+        bench.write(&file, &bytes);
+        assert_eq!(bench.run(&["run", "./outside", "--trust"]).code, Some(2));
+        bench.done(&["run", "./outside", "--trust", "--replace-damaged"]);
+        assert_eq!(rows(&bench).len(), 2, "{part}");
+        assert_eq!(clock(&bench) == first, is_kept, "{part}");
+        assert_eq!(fs::read(bench.at(&format!("{file}.damaged-1"))).unwrap(), bytes);
+    }
+}
+
+#[test]
 fn without_its_program_a_run_says_what_to_install_and_stored_trials_stay_readable() {
     let bench = bench(&[]);
     let program = "[\"./outside/planner\"]";
     let study =
         STUDY.to_owned() + &contender("theirs", program, "[]").replace("a shell", "pip install theirs");
     bench.write("outside/study.toml", study.as_bytes());
-    let said = bench.run(&["run", "./outside", "--trust"]);
-    assert_eq!(said.code, Some(4), "{}", said.err);
+    let output = bench.run(&["run", "./outside", "--trust"]);
+    assert_eq!(output.code, Some(4), "{}", output.err);
     let lacks = "contender `theirs` cannot run: there is no program `./outside/planner`; to install: pip install theirs";
-    assert!(said.err.contains(lacks), "{}", said.err);
+    assert!(output.err.contains(lacks), "{}", output.err);
     let good = CASES.iter().find(|case| case.name == "good").unwrap();
     bench.write("outside/planner", format!("{PRELUDE}{}\n", good.script).as_bytes());
     let mut mode = fs::metadata(bench.at("outside/planner")).unwrap().permissions();
@@ -236,13 +271,18 @@ fn conformance_keeps_count_of_what_is_broken_and_its_exit_code_says_so() {
             "BROKEN  query 1 ends in time: 2 s were not enough; it wrote nothing: an output that is buffered",
         ),
     ] {
-        let said = bench.run(&["conformance", "--", "sh", &format!("outside/{name}.sh")]);
-        assert!(said.out.contains(broken), "{name}: should say {broken}\nsays {}{}", said.out, said.err);
-        assert_eq!(said.code, Some(3), "{name}: {}", said.err);
+        let output = bench.run(&["conformance", "--", "sh", &format!("outside/{name}.sh")]);
+        assert!(
+            output.out.contains(broken),
+            "{name}: should say {broken}\nsays {}{}",
+            output.out,
+            output.err
+        );
+        assert_eq!(output.code, Some(3), "{name}: {}", output.err);
     }
     let honest = r#"hello; query; printf '{"type":"result","id":%s,"status":"no_path"}\n' "$id"; query"#;
     bench.write("outside/honest.sh", format!("{PRELUDE}{honest}\n").as_bytes());
-    let said = bench.run(&["conformance", "--", "sh", "outside/honest.sh"]);
-    assert!(said.out.contains("BROKEN  some query is solved: none was"), "{}", said.out);
+    let output = bench.run(&["conformance", "--", "sh", "outside/honest.sh"]);
+    assert!(output.out.contains("BROKEN  some query is solved: none was"), "{}", output.out);
     assert_eq!(bench.run(&["conformance", "--", "./no/such/planner"]).code, Some(4));
 }

@@ -1,9 +1,10 @@
 //! Files of others, from the file to the row: what is asked is what their authors mean.
 
 use crate::paper::Bench;
+use base::settings::Settings;
 use std::fs;
 use std::path::Path;
-use study::reuse;
+use study::{Inputs, family, reuse};
 
 /// The least that a paper has.
 pub const PAPER: &str =
@@ -116,6 +117,10 @@ pub fn study(groups: &str, contender: &str) -> String {
 /// A straight shot at the goal, so that the path is the query itself.
 pub const STRAIGHT: &str = "label = \"straight\"\nplanner = \"direct\"";
 
+/// The shortest way on a roadmap.
+const ON_A_ROADMAP: &str = "[[contender]]\nlabel = \"to roadmap\"\nplanner = \"roadmap_astar\"\n\
+    settings = { samples = 30, neighbour_mm = 500, cost = \"length\", goal_shot = \"never\", path = \"parents\" }";
+
 #[test]
 fn joints_move_as_their_urdf_file_means_and_go_where_the_problem_file_names_them() {
     let bench = Bench::empty();
@@ -125,26 +130,62 @@ fn joints_move_as_their_urdf_file_means_and_go_where_the_problem_file_names_them
         let robot =
             ROBOT.replace("[low]", arm.low).replace("[along]", arm.along).replace("[limit]", arm.limit);
         bench.write(&format!("files/{}.urdf", arm.name), robot.as_bytes());
-        bench.write(&format!("files/{}.json", arm.name), arm.problem.as_bytes());
+        // Whether the file begins with a byte-order mark changes nothing.
+        let mark = if arm.low == "revolute" { "\u{feff}" } else { "" };
+        bench.write(&format!("files/{}.json", arm.name), format!("{mark}{}", arm.problem).as_bytes());
         groups += &joint_group(arm.name);
     }
-    bench.write("files/arms.toml", study(&groups, STRAIGHT).as_bytes());
-    let said = bench.done(&["check", "./files"]);
-    assert!(said.contains("invalid.json: the set calls problem 0 invalid; it is counted as such"), "{said}");
+    bench.write("files/arms.toml", study(&groups, &format!("{STRAIGHT}\n{ON_A_ROADMAP}")).as_bytes());
+    let output = bench.done(&["check", "./files"]);
+    assert!(
+        output.contains("invalid.json: the set calls problem 0 invalid; it is counted as such"),
+        "{output}"
+    );
     bench.done(&["run", "./files"]);
     let (_, records) = reuse::stored(&bench.at("target/replan/files/data/runs/files"), "arms").unwrap();
     for arm in ARMS {
-        let row = records.batch.rows.iter().find(|row| *row.key.on.group == *arm.name).unwrap();
+        let mut rows = records.batch.rows.iter().filter(|row| *row.key.on.group == *arm.name);
+        let [row, mapped] = [rows.next().unwrap(), rows.next().unwrap()];
         let reason = row.reason.clone().unwrap_or_default();
         assert_eq!(row.status.name(), arm.row.0, "{}: {reason}", arm.name);
+        assert_eq!(mapped.status.name(), arm.row.0, "{}: {:?}", arm.name, mapped.reason);
         match arm.row.1 {
             Ok(turned_rad) => {
-                let travel_deg = row.value("joint_travel_deg").unwrap();
+                let [travel_deg, longer_deg] =
+                    [row, mapped].map(|row| row.value("joint_travel_deg").unwrap());
                 assert!((travel_deg - turned_rad.to_degrees()).abs() < 1e-9, "{}: {travel_deg}", arm.name);
+                // A roadmap takes no way that is shorter, and none the other way round.
+                let most = if arm.low == "continuous" { 180.0 } else { 720.0 };
+                assert!((travel_deg - 1e-9..most).contains(&longer_deg), "{}: {longer_deg}", arm.name);
             }
-            Err(said) => assert!(reason.starts_with(said), "{}: {reason}", arm.name),
+            Err(output) => assert!(reason.starts_with(output), "{}: {reason}", arm.name),
         }
     }
+}
+
+#[test]
+fn a_page_shows_a_slide_as_its_length_and_a_whole_turn_of_an_endless_joint_as_nothing() {
+    let bench = Bench::empty();
+    let tip_mm = |name: &str, q: [f64; 2]| {
+        let arm = ARMS.iter().find(|arm| arm.name == name).unwrap();
+        let robot =
+            ROBOT.replace("[low]", arm.low).replace("[along]", arm.along).replace("[limit]", arm.limit);
+        bench.write("arm.urdf", robot.as_bytes());
+        bench.write("arm.json", arm.problem.as_bytes());
+        let group: toml::Table = toml::from_str(&joint_group("arm")).unwrap();
+        let settings = group["problems"][0]["settings"].as_table().unwrap().clone();
+        let inputs = Inputs { roots: vec![bench.at("")] };
+        let build = family::find("joint_queries").unwrap().build;
+        let family = build(&Settings::composed("an arm", settings), &inputs).unwrap();
+        family.stance(&q).unwrap().tip_mm
+    };
+    let is_so = |[x, y, z]: [f64; 3], wanted: [f64; 3]| {
+        libm::hypot(libm::hypot(x - wanted[0], y - wanted[1]), z - wanted[2]) < 1e-9
+    };
+    let [x, y, z] = tip_mm("lift", [0.05, 0.2]);
+    assert!(is_so(tip_mm("lift", [0.35, 0.2]), [x, y, z + 300.0]));
+    assert!(is_so(tip_mm("round", [3.1, 0.1]), tip_mm("round", [3.1 - std::f64::consts::TAU, 0.1])));
+    assert!(!is_so(tip_mm("round", [3.1, 0.1]), tip_mm("round", [-3.1, 0.1])));
 }
 
 #[test]
@@ -165,11 +206,11 @@ fn an_srdf_file_decides_which_links_are_held_against_each_other() {
     };
     srdf(&[["foot", "shin"], ["shin", "hand"]]);
     let refused = bench.run(&["check", "./files"]).err;
-    let said = "the goal cannot be posed: parts `foot` and `hand` are in contact";
-    assert!(refused.contains(said), "should say {said}\nsays {refused}");
+    let expected = "the goal cannot be posed: parts `foot` and `hand` are in contact";
+    assert!(refused.contains(expected), "should say {expected}\nsays {refused}");
     srdf(&[["foot", "shin"], ["hand", "foot"], ["tail", "foot"]]);
-    let said = bench.done(&["check", "./files"]);
-    assert!(said.contains("fold.srdf: no solid stands for the links `tail` of its pairs"), "{said}");
+    let expected = bench.done(&["check", "./files"]);
+    assert!(expected.contains("fold.srdf: no solid stands for the links `tail` of its pairs"), "{expected}");
     bench.edit("files/arms.toml", "self_collision = true", "self_collision = false");
     let refused = bench.run(&["check", "./files"]).err;
     assert!(refused.contains("srdf says which links may touch, and self_collision is false"), "{refused}");
@@ -210,8 +251,8 @@ fn a_goal_that_is_the_start_and_one_without_a_way_are_queries_like_any_other_in_
         "files/grids.toml",
         study(HERE, "label = \"A*\"\nplanner = \"astar\"\nsettings = { weight = 1 }").as_bytes(),
     );
-    let said = bench.done(&["check", "./files"]);
-    assert!(said.contains("room.scen: 1 of its queries have no path, it says"), "{said}");
+    let output = bench.done(&["check", "./files"]);
+    assert!(output.contains("room.scen: 1 of its queries have no path, it says"), "{output}");
     bench.done(&["run", "./files"]);
     let (_, records) = reuse::stored(&bench.at("target/replan/files/data/runs/files"), "grids").unwrap();
     let rows = records.batch.rows;
@@ -231,6 +272,115 @@ fn a_goal_that_is_the_start_and_one_without_a_way_are_queries_like_any_other_in_
             let bits = row.value(column).map(f64::to_bits);
             assert_eq!(bits, Some(0), "{column} of {:?}: 0, not -0", row.key);
         }
+    }
+}
+
+/// A lake and a wall; below it, blank lines.
+const LAKE: &str = "type octile\r\nheight 3\r\nwidth 5\r\nmap\r\n.WWW.\r\n.@T@.\r\n.....\r\n\r\n\r\n";
+
+/// Ends in the wall and in the lake, a tab behind the last field, and a way round.
+const ON_THE_LAKE: &str = "version 1.0\n0\tlake.map\t5\t3\t1\t1\t4\t0\t0\n0\tlake.map\t5\t3\t1\t0\t2\t0\t1.00000000\n\
+    0\tlake.map\t5\t3\t0\t0\t4\t0\t8.00000000\t\n";
+
+/// A map in text, its ends, the corner rule, and the square of the shortest path's length at any angle, if there is a path.
+type Small = (&'static str, &'static str, &'static str, &'static str, Option<f64>);
+
+/// A diagonal between walls.
+const SLIT: &str = "###.\n##.#\n#.##\n.###\n";
+
+/// Two cells alone, the diagonal under two rules, and a straight line close to blocked cells.
+const SMALL: [Small; 4] = [
+    ("two", "..\n", "start = [0, 0], goal = [1, 0]", "forbid_any", Some(1.0)),
+    ("slit", SLIT, "start = [0, 0], goal = [3, 3]", "allow", Some(18.0)),
+    ("shut", SLIT, "start = [0, 0], goal = [3, 3]", "forbid_both", None),
+    (
+        "past",
+        "...#..\n..#...\n.#..#.\n#..#..\n..#...\n",
+        "start = [0, 0], goal = [5, 4]",
+        "allow",
+        Some(41.0),
+    ),
+];
+
+/// Planners that go from cell to cell, and Theta* with every line of sight.
+const PLANNERS: &str = r#"label = "astar"
+planner = "astar"
+settings = { weight = 1, ties = "fifo" }
+[[contender]]
+label = "octile"
+planner = "astar_octile"
+[[contender]]
+label = "jps"
+planner = "jps"
+[[contender]]
+label = "jps+"
+planner = "jps_plus"
+[[contender]]
+label = "both ways"
+planner = "bidirectional"
+settings = { meeting = "optimal_stop", side = "alternate", weight = "one" }
+[[contender]]
+label = "theta"
+planner = "theta_star"
+settings = { line_of_sight = "exact_interior" }
+[[contender]]
+label = "lazy theta"
+planner = "lazy_theta_star"
+settings = { line_of_sight = "exact_interior" }
+[[contender]]
+label = "careful theta"
+planner = "theta_star"
+settings = { line_of_sight = "closed_cells" }
+[[contender]]
+label = "careless theta"
+planner = "theta_star"
+settings = { line_of_sight = "bresenham" }
+"#;
+
+#[test]
+fn small_maps_by_hand_have_the_costs_that_can_be_counted_on_them_for_every_planner() {
+    let bench = Bench::empty();
+    bench.write("files/paper.toml", PAPER.as_bytes());
+    bench.write("files/lake.map", LAKE.as_bytes());
+    bench.write("files/lake.scen", ON_THE_LAKE.as_bytes());
+    let mut groups = "\n[[problems]]\nlabel = \"lake\"\nfamily = \"movingai\"\nsettings = { map = \"lake.map\", scenarios = \"lake.scen\" }\n".to_owned();
+    for (name, map, ends, rule, _) in SMALL {
+        bench.write(&format!("files/{name}.map.txt"), map.as_bytes());
+        groups += &format!(
+            "\n[[problems]]\nlabel = \"{name}\"\nfamily = \"grid_map\"\nsettings = {{ map = \"{name}.map.txt\", {ends}, corner_rule = \"{rule}\" }}\n"
+        );
+    }
+    // A spec as an editor of another system writes it.
+    let spec = study(&groups, PLANNERS).replace('\n', "\r\n");
+    bench.write("files/grids.toml", format!("\u{feff}{spec}").as_bytes());
+    bench.done(&["run", "./files"]);
+    let (_, records) = reuse::stored(&bench.at("target/replan/files/data/runs/files"), "grids").unwrap();
+    let rows = &records.batch.rows;
+    assert_eq!(rows.len(), 9 * (3 + SMALL.len()));
+    for row in rows {
+        let reason = row.reason.as_deref().unwrap_or_default();
+        let small = SMALL.iter().find(|small| *small.0 == *row.key.on.group);
+        let squared = match (small, row.key.query.as_deref()) {
+            (Some((.., squared)), _) => *squared,
+            (None, Some("line-4")) => Some(64.0),
+            (None, _) => {
+                assert_eq!(row.status.name(), "invalid_problem", "{:?}: {reason}", row.key);
+                assert!(reason.contains("is blocked"), "{reason}");
+                continue;
+            }
+        };
+        let status = if squared.is_some() { "solved" } else { "no_path" };
+        assert_eq!(row.status.name(), status, "{:?}: {reason}", row.key);
+        let Some(straight) = squared.map(f64::sqrt) else { continue };
+        // Four diagonal moves and a straight one, where a planner knows no other; lines of sight in cells may see less.
+        let by_moves = if *row.key.on.group == *"past" { 4.0 * 2_f64.sqrt() + 1.0 } else { straight };
+        let [least, most] = match &*row.key.contender {
+            "theta" | "lazy theta" => [straight; 2],
+            "careful theta" | "careless theta" => [straight, by_moves],
+            _ => [by_moves; 2],
+        };
+        let cost = row.value("path_cost_cells").unwrap();
+        assert!((least - 1e-9..most + 1e-9).contains(&cost), "{:?}: {cost}, not {least} to {most}", row.key);
     }
 }
 

@@ -16,13 +16,13 @@ fn faults_after(paper: &str, file: &str, from: &str, to: &str) -> Vec<String> {
         bench.write(&format!("{paper}/{name}"), &fs::read(entry.path()).unwrap());
     }
     bench.edit(&format!("{paper}/{file}"), from, to);
-    let said = bench.run(&["check", &format!("./{paper}")]);
-    assert_eq!(said.code, Some(2), "{from} to {to}: {}{}", said.out, said.err);
-    said.err.lines().filter(|line| !line.starts_with("    ")).map(str::to_owned).collect()
+    let output = bench.run(&["check", &format!("./{paper}")]);
+    assert_eq!(output.code, Some(2), "{from} to {to}: {}{}", output.out, output.err);
+    output.err.lines().filter(|line| !line.starts_with("    ")).map(str::to_owned).collect()
 }
 
 #[test]
-fn a_fault_of_one_study_is_told_alone_in_a_paper_of_many() {
+fn a_fault_of_one_study_is_reported_alone_in_a_paper_of_many() {
     for (paper, file, from, to, wanted) in [
         ("fu2018", "success.toml", "[[sweep]]", "[[sweeep]]", "unknown key `sweeep` (did you mean `sweep`?)"),
         ("fu2018", "success.toml", "key = \"samples\"", "key = 5", "`key` is 5; text in quotes is accepted"),
@@ -39,9 +39,9 @@ fn a_fault_of_one_study_is_told_alone_in_a_paper_of_many() {
         ("tang2023", "postures.toml", "instances = 1000", "instances = \"9\"", "`instances` is \"9\""),
         ("tang2023", "paper.toml", "default = \"paper\"", "default = \"papper\"", "has no option `papper`"),
     ] {
-        let told = faults_after(paper, file, from, to);
-        let is_meant = told.len() == 1 && told[0].contains(wanted);
-        assert!(is_meant, "{paper}/{file}: {from} to {to} is told:\n{}", told.join("\n"));
+        let message = faults_after(paper, file, from, to);
+        let is_meant = message.len() == 1 && message[0].contains(wanted);
+        assert!(is_meant, "{paper}/{file}: {from} to {to} is told:\n{}", message.join("\n"));
     }
 }
 
@@ -52,17 +52,20 @@ fn a_study_that_plans_nothing_is_refused() {
         "mini/none.toml",
         b"paper = \"mini\"\nquestion = \"?\"\nseed = 1\nbudget = { expansions = 9 }\n",
     );
-    let said = bench.run(&["check", "./mini"]);
-    assert_eq!(said.code, Some(2), "{}{}", said.out, said.err);
+    let output = bench.run(&["check", "./mini"]);
+    assert_eq!(output.code, Some(2), "{}{}", output.out, output.err);
     for list in ["problems", "contender"] {
-        assert!(said.err.contains(&format!("nothing is planned without `[[{list}]]`")), "{}", said.err);
+        assert!(output.err.contains(&format!("nothing is planned without `[[{list}]]`")), "{}", output.err);
     }
 }
 
 #[test]
 fn text_that_turns_a_terminal_or_a_page_is_refused() {
     for turning in ["\\u0000", "\\u001b[31m", "\\u202e"] {
-        let told = faults_after("gallery", "paper.toml", "title = \"", &format!("title = \"{turning}"));
-        assert!(told.len() == 1 && told[0].contains("`title` holds a control character"), "{told:?}");
+        let message = faults_after("gallery", "paper.toml", "title = \"", &format!("title = \"{turning}"));
+        assert!(
+            message.len() == 1 && message[0].contains("`title` holds a control character"),
+            "{message:?}"
+        );
     }
 }

@@ -38,9 +38,9 @@ fn copy(bench: &Bench, root: &Path, name: &str) {
 
 /// The program run on the copy, which must end with exit code 3; what it said.
 fn refused(bench: &Bench, arguments: &[&str]) -> String {
-    let said = bench.run(arguments);
-    assert_eq!(said.code, Some(3), "{arguments:?}: {}{}", said.out, said.err);
-    said.err
+    let output = bench.run(arguments);
+    assert_eq!(output.code, Some(3), "{arguments:?}: {}{}", output.out, output.err);
+    output.err
 }
 
 /// Multiplies the first value of `column` in the stored trials by 1.5 and gives the file's hash.
@@ -106,17 +106,17 @@ fn a_flipped_verdict_under_a_forged_seal_is_caught_by_judge_though_render_believ
     bench.write(&verdicts, format!("{above}{words} {}\n", sha256(above.as_bytes())).as_bytes());
     bench.done(&["render", "movingai_sample"]);
     bench.done(&["render", "movingai_sample", "--check"]);
-    let said = refused(&bench, &["judge", "movingai_sample", "--check"]);
+    let message = refused(&bench, &["judge", "movingai_sample", "--check"]);
     let named = format!(
         "replan: {verdicts}: not what the stored run gives:\n  \
          claim `lengths.astar`: stored not reproduced, judged reproduced\n"
     );
-    assert_eq!(said, named);
+    assert_eq!(message, named);
 }
 
 #[test]
 fn whatever_else_is_edited_in_stored_verdicts_is_caught_and_named() {
-    for (from, to, said) in [
+    for (from, to, expected) in [
         (
             "value = 1.0",
             "value = 0.5",
@@ -148,7 +148,7 @@ fn whatever_else_is_edited_in_stored_verdicts_is_caught_and_named() {
         let bench = committed();
         bench.edit(&format!("{RUNS}/verdicts.toml"), from, to);
         let found = refused(&bench, &["judge", "movingai_sample", "--check"]);
-        assert!(found.contains(said), "{to}: {found}");
+        assert!(found.contains(expected), "{to}: {found}");
     }
 }
 
@@ -165,22 +165,22 @@ fn a_touched_record_is_caught_by_its_hash_and_by_the_verdict_if_the_hash_is_touc
         &["check", "movingai_sample", "--rerun", "2"],
     ];
     for check in checks {
-        let said = refused(&bench, check);
-        assert!(said.contains("trials.parquet: is not the file that the manifest names"), "{said}");
+        let message = refused(&bench, check);
+        assert!(message.contains("trials.parquet: is not the file that the manifest names"), "{message}");
     }
     assert_eq!(bench.run(&["judge", "movingai_sample"]).code, Some(2), "what is not there to check is input");
     assert!(text.contains(&stored));
     bench.write(&manifest, text.replace(&stored, &touched).as_bytes());
-    let said = refused(&bench, &["judge", "movingai_sample", "--check"]);
-    assert!(said.contains("claim `lengths.astar`: stored reproduced, judged not reproduced"), "{said}");
+    let message = refused(&bench, &["judge", "movingai_sample", "--check"]);
+    assert!(message.contains("claim `lengths.astar`: stored reproduced, judged not reproduced"), "{message}");
     bench.done(&["judge", "movingai_sample"]);
     bench.done(&["judge", "movingai_sample", "--check"]);
-    let said = refused(&bench, &["check", "movingai_sample", "--rerun", "1000"]);
-    assert!(said.contains("trials of study `scenarios` are not what is stored"), "{said}");
+    let message = refused(&bench, &["check", "movingai_sample", "--rerun", "1000"]);
+    assert!(message.contains("trials of study `scenarios` are not what is stored"), "{message}");
 }
 
 #[test]
-fn stored_texts_that_cannot_be_read_are_told_in_words_of_ours() {
+fn stored_texts_that_cannot_be_read_are_reported_in_words_of_ours() {
     for (name, again) in [
         ("verdicts", "`replan judge` writes it again"),
         (
@@ -192,10 +192,10 @@ fn stored_texts_that_cannot_be_read_are_told_in_words_of_ours() {
             let bench = committed();
             let file = format!("{RUNS}/{name}.toml");
             bench.edit(&file, "quick = false", to);
-            let said = refused(&bench, &["judge", "movingai_sample", "--check"]);
+            let message = refused(&bench, &["judge", "movingai_sample", "--check"]);
             let words = "is not what replan wrote: truncated, edited, or of another version; ";
-            assert!(said.starts_with(&format!("replan: {file}:3:9: ")), "{said}");
-            assert!(said.contains(&format!("{words}{again}\n    {}", to.trim_end())), "{said}");
+            assert!(message.starts_with(&format!("replan: {file}:3:9: ")), "{message}");
+            assert!(message.contains(&format!("{words}{again}\n    {}", to.trim_end())), "{message}");
         }
     }
 }
@@ -211,8 +211,8 @@ fn every_stale_file_of_a_figure_is_caught() {
             let mut stale = whole.clone();
             stale[at] ^= 1;
             bench.write(&place, &stale);
-            let said = refused(&bench, &["render", "./mini", "--check"]);
-            assert_eq!(said, format!("replan: not current: {place}\n"), "byte {at}");
+            let message = refused(&bench, &["render", "./mini", "--check"]);
+            assert_eq!(message, format!("replan: not current: {place}\n"), "byte {at}");
         }
         bench.done(&["render", "./mini"]);
         assert!(fs::read(bench.at(&place)).unwrap() == whole, "{name} was not mended");
@@ -228,8 +228,8 @@ fn a_chapter_edited_by_hand_is_caught_and_words_around_it_are_left_alone() {
     let (before, chapter) = text.split_once("<!-- replan begin movingai_sample -->").unwrap();
     let edited = chapter.replacen("reproduced", "rather well reproduced", 1);
     bench.write(REPORT, format!("{before}<!-- replan begin movingai_sample -->{edited}").as_bytes());
-    let said = refused(&bench, &["render", "movingai_sample", "--check"]);
-    assert_eq!(said, format!("replan: not current: {REPORT}\n"));
+    let message = refused(&bench, &["render", "movingai_sample", "--check"]);
+    assert_eq!(message, format!("replan: not current: {REPORT}\n"));
 }
 
 #[test]
@@ -250,7 +250,7 @@ fn each_exit_code_means_what_the_help_says() {
 }
 
 #[test]
-fn a_record_that_is_gone_is_told_by_every_command_that_reads_the_run() {
+fn a_record_that_is_gone_is_reported_by_every_command_that_reads_the_run() {
     let bench = Bench::new();
     bench.done(&["repro", "./mini"]);
     let runs = "target/replan/mini/data/runs/mini";
@@ -260,13 +260,13 @@ fn a_record_that_is_gone_is_told_by_every_command_that_reads_the_run() {
         let file = format!("{runs}/draws.{part}");
         let whole = fs::read(bench.at(&file)).unwrap();
         fs::remove_file(bench.at(&file)).unwrap();
-        let said = refused(&bench, &["judge", "./mini", "--check"]);
-        assert!(said.contains(&file), "{said}");
+        let output = refused(&bench, &["judge", "./mini", "--check"]);
+        assert!(output.contains(&file), "{output}");
         if part != "manifest.toml" {
             for command in [&["show", "./mini"][..], &["export", "target/replan/mini", "--csv"]] {
-                let said = bench.run(command);
-                assert_eq!(said.code, Some(2), "{command:?}: {}{}", said.out, said.err);
-                assert!(said.err.contains(&file), "{}", said.err);
+                let output = bench.run(command);
+                assert_eq!(output.code, Some(2), "{command:?}: {}{}", output.out, output.err);
+                assert!(output.err.contains(&file), "{}", output.err);
             }
         }
         bench.write(&file, &whole);
@@ -285,12 +285,12 @@ fn a_touched_record_is_neither_shown_nor_exported() {
         touched[whole.len() / 2] ^= 1;
         bench.write(&file, &touched);
         for command in [&["show", "./mini", "nodes"][..], &["export", "target/replan/mini", "--csv"]] {
-            let said = bench.run(command);
-            assert_eq!((said.code, said.out.as_str()), (Some(2), ""), "{command:?}: {}", said.err);
+            let output = bench.run(command);
+            assert_eq!((output.code, output.out.as_str()), (Some(2), ""), "{command:?}: {}", output.err);
             assert!(
-                said.err.contains(&format!("{file}: is not the file that the manifest names")),
+                output.err.contains(&format!("{file}: is not the file that the manifest names")),
                 "{}",
-                said.err
+                output.err
             );
         }
         bench.write(&file, &whole);
@@ -328,24 +328,24 @@ fn a_manifest_edited_by_hand_is_caught_by_judge() {
     assert!(edits.len() > 12, "{edits:?}");
     for (line, edited) in edits {
         bench.write(file, whole.replacen(&line, &edited, 1).as_bytes());
-        let said = bench.run(&["judge", "./mini", "--check"]);
-        assert!(said.code != Some(0), "{line} was edited to {edited}, and nothing noticed it");
+        let output = bench.run(&["judge", "./mini", "--check"]);
+        assert!(output.code != Some(0), "{line} was edited to {edited}, and nothing noticed it");
     }
     bench.write(file, whole.as_bytes());
     bench.done(&["judge", "./mini", "--check"]);
 }
 
 #[test]
-fn records_of_a_study_that_is_no_more_are_told() {
+fn records_of_a_study_that_is_no_more_are_reported() {
     let bench = committed();
     for part in ["trials.parquet", "manifest.toml"] {
         let whole = fs::read(bench.at(&format!("{RUNS}/scenarios.{part}"))).unwrap();
         bench.write(&format!("{RUNS}/gone.{part}"), &whole);
     }
-    let said = refused(&bench, &["judge", "movingai_sample", "--check"]);
+    let message = refused(&bench, &["judge", "movingai_sample", "--check"]);
     assert!(
-        said.contains("left over from a study that is no more; remove: ") && said.contains("gone.*"),
-        "{said}"
+        message.contains("left over from a study that is no more; remove: ") && message.contains("gone.*"),
+        "{message}"
     );
 }
 
@@ -353,17 +353,17 @@ fn records_of_a_study_that_is_no_more_are_told() {
 fn what_must_hold_and_does_not_is_refused() {
     let own = "check.lower.of = { study = \"draws\", problems = \"drawn\", metric = \"expansions\", contender = \"A*\", against = \
                \"Two-sided\" }";
-    let asked = |accepted: &str| {
+    let judged = |accepted: &str| {
         let of = "{ study = \"draws\", problems = \"drawn\", metric = \"expansions\", contender = \"A*\" }";
         let check = format!("check.within = {{ statistic = \"mean\", accepted = {accepted}, of = {of} }}");
         Toy::unexplored(&[(own, &format!("theorem = \"nodes are counted\"\n{check}"))])
     };
-    let true_one = asked("[0.0, 1e6]");
+    let true_one = judged("[0.0, 1e6]");
     true_one.0.done(&["judge", "./toy"]);
     true_one.0.done(&["judge", "./toy", "--check"]);
-    let false_one = asked("[1e6, 2e6]");
+    let false_one = judged("[1e6, 2e6]");
     for arguments in [&["judge", "./toy"][..], &["judge", "./toy", "--check"], &["repro", "./toy"]] {
-        let said = refused(&false_one.0, arguments);
-        assert!(said.contains("toy: `fewer` must hold whatever was drawn, and does not"), "{said}");
+        let message = refused(&false_one.0, arguments);
+        assert!(message.contains("toy: `fewer` must hold whatever was drawn, and does not"), "{message}");
     }
 }

@@ -13,19 +13,19 @@ fn faults_after(template: &str, changes: &[Change<'_>]) -> Vec<String> {
     for (file, from, to) in changes {
         bench.edit(&format!("toy/{file}"), from, to);
     }
-    let said = bench.run(&["check", "./toy"]);
-    assert_eq!(said.code, Some(2), "{}{}", said.out, said.err);
-    let lines = said.err.lines().filter(|line| !line.starts_with("    "));
+    let output = bench.run(&["check", "./toy"]);
+    assert_eq!(output.code, Some(2), "{}{}", output.out, output.err);
+    let lines = output.err.lines().filter(|line| !line.starts_with("    "));
     let place = |line: &str| line.trim_start_matches("replan: ").trim_start_matches("./toy/").to_owned();
     lines.map(place).collect()
 }
 
 /// That exactly `wanted` is told, each line by how it begins.
 pub fn assert_faults(template: &str, changes: &[Change<'_>], wanted: &[&str]) {
-    let told = faults_after(template, changes);
-    let fits =
-        told.len() == wanted.len() && told.iter().zip(wanted).all(|(line, wanted)| line.starts_with(wanted));
-    assert!(fits, "{changes:?}\nshould be told:\n{}\nis told:\n{}", wanted.join("\n"), told.join("\n"));
+    let message = faults_after(template, changes);
+    let fits = message.len() == wanted.len()
+        && message.iter().zip(wanted).all(|(line, wanted)| line.starts_with(wanted));
+    assert!(fits, "{changes:?}\nshould be told:\n{}\nis told:\n{}", wanted.join("\n"), message.join("\n"));
 }
 
 const ROBOT: Change<'_> = ("robot.toml", "upper_deg = 360", "upper_deg = -500");
@@ -38,7 +38,7 @@ const IN_FILES: [&str; 3] = [
 ];
 
 #[test]
-fn faults_of_a_robot_a_scene_and_poses_are_told_together() {
+fn faults_of_a_robot_a_scene_and_poses_are_reported_together() {
     assert_faults("cell", &[ROBOT, SCENE, POSES], &IN_FILES);
 }
 
@@ -54,20 +54,20 @@ fn a_wrong_setting_hides_no_fault_of_the_files_beside_it() {
 }
 
 #[test]
-fn every_fault_of_one_robot_file_is_told() {
+fn every_fault_of_one_robot_file_is_reported() {
     let capsules = ("robot.toml", "radius_mm = 75", "radius_mm = -75");
     let speeds = ("robot.toml", "speed_deg_s = ", "speed_rad_s = 1\nspeed_deg_s = ");
     let tool = ("robot.toml", "length_mm = 0", "length_mm = -5");
-    let told = faults_after("cell", &[speeds, tool]);
-    assert_eq!(told.len(), 2, "{told:?}");
-    assert!(told.iter().any(|line| line.contains("both of speed_deg_s and speed_rad_s")), "{told:?}");
-    assert!(told.iter().any(|line| line.contains("tool.length_mm is -")), "{told:?}");
-    let told = self::faults_after("cell", &[capsules, SCENE]);
-    assert_eq!(told.len(), 2, "{told:?}");
+    let message = faults_after("cell", &[speeds, tool]);
+    assert_eq!(message.len(), 2, "{message:?}");
+    assert!(message.iter().any(|line| line.contains("both of speed_deg_s and speed_rad_s")), "{message:?}");
+    assert!(message.iter().any(|line| line.contains("tool.length_mm is -")), "{message:?}");
+    let message = self::faults_after("cell", &[capsules, SCENE]);
+    assert_eq!(message.len(), 2, "{message:?}");
 }
 
 #[test]
-fn a_key_too_many_and_a_key_too_few_in_one_table_are_both_told() {
+fn a_key_too_many_and_a_key_too_few_in_one_table_are_both_reported() {
     let unknown =
         ("lengths.toml", "radius_cells = 1 }, open_node = \"lowered\"", "radius_cells = 1 }, colour = 1");
     let wanted = ["lengths.toml:37:12: missing key `open_node`", "lengths.toml:37:70: unknown key `colour`"];
@@ -79,7 +79,7 @@ fn a_key_too_many_and_a_key_too_few_in_one_table_are_both_told() {
 }
 
 #[test]
-fn several_values_of_one_table_that_make_no_sense_are_told_together() {
+fn several_values_of_one_table_that_make_no_sense_are_reported_together() {
     let changes = [
         ("compare.toml", "start = [2, 2]", "start = [2, 200]"),
         ("compare.toml", "goal = [36, 30]", "goal = [360, 30]"),
@@ -113,7 +113,7 @@ fn a_value_of_the_wrong_kind_hides_nothing_that_makes_no_sense_in_its_table() {
 }
 
 #[test]
-fn what_an_option_lays_over_settings_is_told_at_its_own_key() {
+fn what_an_option_lays_over_settings_is_reported_at_its_own_key() {
     let of_problem = ("paper.toml", "problem = { tool_mm = 160 }", "problem = { tool_mm = -160 }");
     assert_faults("cell", &[of_problem], &["paper.toml:34:32: `tool_mm` is -160"]);
     let unknown = ("paper.toml", "problem = { tool_mm = 160 }", "problem = { tol_mm = 160 }");
@@ -128,7 +128,7 @@ fn what_an_option_lays_over_settings_is_told_at_its_own_key() {
 }
 
 #[test]
-fn a_label_without_a_name_is_told_and_nothing_that_follows_from_it() {
+fn a_label_without_a_name_is_reported_and_nothing_that_follows_from_it() {
     let group = ("compare.toml", "label = \"maps\"", "label = \"\"");
     assert_faults("grid", &[group], &["compare.toml:16:9: problem group `` has no letter"]);
     let contender = ("compare.toml", "label = \"A*\"", "label = \"\"");
@@ -148,8 +148,8 @@ fn a_figure_of_a_pose_or_a_claim_of_a_query_that_is_not_there_is_refused() {
     let end = ("cell.toml", "\"high/goal\", \"C\"", "\"high/end\", \"C\"");
     assert_faults("cell", &[end], &["cell.toml:54:82: `high/end` is no end of a query"]);
     let query = ("paper.toml", "problems = \"cell\", ", "problems = \"cell\", query = \"hugh\", ");
-    let told = faults_after("cell", &[query]);
-    assert!(told.len() == 1 && told[0].contains("there is no query of cell `hugh`"), "{told:?}");
+    let message = faults_after("cell", &[query]);
+    assert!(message.len() == 1 && message[0].contains("there is no query of cell `hugh`"), "{message:?}");
 }
 
 /// Before what a sweep may stand in the template of grids.
@@ -168,7 +168,7 @@ fn assert_swept(key: &str, values: &str, wanted: &[&str]) {
 }
 
 #[test]
-fn what_is_wrong_with_a_sweep_is_told_there_and_once() {
+fn what_is_wrong_with_a_sweep_is_reported_there_and_once() {
     assert_swept(
         "wheight",
         "[1, 2]",
@@ -196,7 +196,7 @@ fn a_sweep_that_would_make_two_contenders_one_is_refused() {
 }
 
 #[test]
-fn a_misspelt_value_is_told_as_such_where_the_default_of_a_choice_would_hide_it() {
+fn a_misspelt_value_is_reported_as_such_where_the_default_of_a_choice_would_hide_it() {
     let misspelt = ("compare.toml", "weight = 1, ties = \"fifo\"", "weight = 1, ties = \"fifoo\"");
     assert_faults("grid", &[misspelt], &["compare.toml:31:33: `ties` is \"fifoo\" (did you mean `fifo`?); "]);
 }

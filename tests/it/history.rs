@@ -92,8 +92,8 @@ fn a_margin_that_moves_after_the_run_is_reported_for_good() {
     assert!(!first.contains("Changed after their data"), "{first}");
     assert!(text(&bench, DETAILS).contains("No claim was changed after its data had been seen.\n"));
     bench.edit(PAPER, "margin = 0.25", "margin = 3.0");
-    let said = bench.done(&["repro", "./mini"]);
-    assert!(said.contains(mark) && said.starts_with("2 studies: nothing to run, "), "{said}");
+    let output = bench.done(&["repro", "./mini"]);
+    assert!(output.contains(mark) && output.starts_with("2 studies: nothing to run, "), "{output}");
     assert_reported(&bench, "repro");
     assert!(bench.done(&["repro", "./mini", "--fresh"]).contains(mark));
     assert_reported(&bench, "--fresh");
@@ -104,12 +104,12 @@ fn a_margin_that_moves_after_the_run_is_reported_for_good() {
     assert_reported(&bench, "manifests removed");
     fs::remove_file(bench.at(&format!("{RUNS}/verdicts.toml"))).unwrap();
     bench.edit(PAPER, "margin = 3.0", "margin = 0.25");
-    let said = bench.done(&["repro", "./mini"]);
-    assert!(said.contains(mark), "taking a change back hides it: {said}");
+    let output = bench.done(&["repro", "./mini"]);
+    assert!(output.contains(mark), "taking a change back hides it: {output}");
     let reason = "changed_after_run = \"the margin was a slip\"\n[claim.check.within]";
     bench.edit(PAPER, "[claim.check.within]", reason);
-    let said = bench.done(&["repro", "./mini"]);
-    assert!(!said.contains("without a reason"), "{said}");
+    let output = bench.done(&["repro", "./mini"]);
+    assert!(!output.contains("without a reason"), "{output}");
     let details = text(&bench, DETAILS).replace("\n  ", " ");
     assert!(details.contains("the margin was a slip (`history.toml`: entry 3: "), "{details}");
 }
@@ -125,9 +125,9 @@ fn a_change_is_reported_where_trials_are_recorded_and_recorded_again() {
     assert!(!first.contains("Changed after"), "{first}");
     bench.edit(PAPER, "margin = 0.25", "margin = 3.0");
     for again in [&[][..], &["--fresh"], &["--record"], &["--fresh", "--record"]] {
-        let said = bench.done(&[&["repro", "./mini"], again].concat());
-        assert!(said.contains("Changed after their data were seen"), "{again:?}: {said}");
-        assert!(!said.contains("run it again"), "{again:?}: {said}");
+        let output = bench.done(&[&["repro", "./mini"], again].concat());
+        assert!(output.contains("Changed after their data were seen"), "{again:?}: {output}");
+        assert!(!output.contains("run it again"), "{again:?}: {output}");
         assert_reported(&bench, &again.concat());
     }
 }
@@ -188,7 +188,7 @@ fn what_decides_a_claim_changes_its_meaning_and_that_of_claims_that_name_it() {
 }
 
 #[test]
-fn a_claim_that_is_renamed_keeps_its_history_and_one_that_is_new_or_gone_is_told_apart() {
+fn a_claim_that_is_renamed_keeps_its_history_and_one_that_is_new_or_gone_is_named() {
     let bench = bench();
     bench.done(&["repro", "./mini"]);
     let whole = text(&bench, PAPER);
@@ -197,18 +197,18 @@ fn a_claim_that_is_renamed_keeps_its_history_and_one_that_is_new_or_gone_is_told
         whole.replace("\"length\"", &format!("\"{name}\"")).replacen("margin = 0.25", &margin, 1)
     };
     bench.write(PAPER, named("half", "0.25").as_bytes());
-    let said = bench.done(&["repro", "./mini"]);
-    assert!(!said.contains("after their data"), "{said}");
+    let output = bench.done(&["repro", "./mini"]);
+    assert!(!output.contains("after their data"), "{output}");
     bench.write(PAPER, named("half", "2.5").as_bytes());
     bench.done(&["repro", "./mini"]);
     bench.write(PAPER, named("ratio", "2.5").as_bytes());
-    let said = bench.done(&["repro", "./mini"]);
-    assert!(said.contains("without a reason given: `ratio`."), "a new name hides a change: {said}");
+    let output = bench.done(&["repro", "./mini"]);
+    assert!(output.contains("without a reason given: `ratio`."), "a new name hides a change: {output}");
     // A new name with a new margin is one claim less and one more.
     bench.write(PAPER, named("other", "1.5").as_bytes());
-    let said = bench.done(&["repro", "./mini"]);
-    assert!(said.contains("without a reason given: `other`."), "{said}");
-    assert!(said.contains("Withdrawn after their data were seen: `ratio` (entry "), "{said}");
+    let output = bench.done(&["repro", "./mini"]);
+    assert!(output.contains("without a reason given: `other`."), "{output}");
+    assert!(output.contains("Withdrawn after their data were seen: `ratio` (entry "), "{output}");
     let shown = bench.done(&["show", "./mini", "other"]);
     assert!(shown.contains("written then, "), "{shown}");
 }
@@ -218,8 +218,8 @@ fn claims_may_change_before_their_data_are_there() {
     let bench = bench();
     bench.done(&["run", "./mini", "--quick"]);
     bench.edit(PAPER, "margin = 0.25", "margin = 3.0");
-    let said = bench.done(&["repro", "./mini"]);
-    assert!(!said.contains("after their data"), "a quick run is not the study's: {said}");
+    let output = bench.done(&["repro", "./mini"]);
+    assert!(!output.contains("after their data"), "a quick run is not the study's: {output}");
     bench.edit(PAPER, "[\"7.83\"]", "[\"7.84\"]");
     let quick = bench.done(&["repro", "./mini", "--quick"]);
     let both = "without a reason given: `cost`, `length`, `again`.";
@@ -293,9 +293,9 @@ fn an_edited_history_is_damage() {
             (&["run", "./mini"], 2),
             (&["show", "./mini"], 2),
         ] {
-            let said = bench.run(command);
-            assert_eq!(said.code, Some(code), "{what}: {command:?}: {}{}", said.out, said.err);
-            assert!(said.err.contains(&format!("history.toml: {complaint}; ")), "{what}: {}", said.err);
+            let output = bench.run(command);
+            assert_eq!(output.code, Some(code), "{what}: {command:?}: {}{}", output.out, output.err);
+            assert!(output.err.contains(&format!("history.toml: {complaint}; ")), "{what}: {}", output.err);
         }
         assert_eq!(text(&bench, HISTORY), edited, "{what}: a refused history was written to");
     }
@@ -308,8 +308,8 @@ fn without_its_history_a_stored_run_says_so() {
     let bench = bench();
     bench.done(&["repro", "./mini"]);
     fs::remove_file(bench.at(HISTORY)).unwrap();
-    let said = bench.done(&["check", "./mini"]);
-    assert!(said.contains("history.toml: there is no history of claims for the stored runs"), "{said}");
+    let output = bench.done(&["check", "./mini"]);
+    assert!(output.contains("history.toml: there is no history of claims for the stored runs"), "{output}");
     assert_eq!(bench.run(&["judge", "./mini", "--check"]).code, Some(3));
     bench.done(&["render", "./mini"]);
     let report = text(&bench, "target/replan/mini/paper_repro.md");
@@ -336,8 +336,11 @@ fn a_change_between_shards_and_their_merging_is_reported() {
     bench.done(&["run", "./mini", "--shard", "1/1", "--out", "parts"]);
     bench.edit(PAPER, "margin = 0.25", "margin = 3.0");
     bench.done(&["merge", "parts", "--out", "whole"]);
-    let said = bench.done(&["judge", "./mini", "--out", "whole"]);
-    assert!(said.contains("Changed after their data were seen, without a reason given: `length`."), "{said}");
+    let output = bench.done(&["judge", "./mini", "--out", "whole"]);
+    assert!(
+        output.contains("Changed after their data were seen, without a reason given: `length`."),
+        "{output}"
+    );
     let entries = text(&bench, "whole/data/runs/mini/history.toml");
     bench.done(&["merge", "parts", "--out", "whole"]);
     assert_eq!(
@@ -360,8 +363,8 @@ fn a_new_form_of_hashes_is_an_entry_and_no_change_of_claims() {
     }
     bench.write(HISTORY, older.as_bytes());
     fs::remove_file(bench.at(&format!("{RUNS}/verdicts.toml"))).unwrap();
-    let said = bench.done(&["repro", "./mini"]);
-    assert!(!said.contains("after their data"), "{said}");
+    let output = bench.done(&["repro", "./mini"]);
+    assert!(!output.contains("after their data"), "{output}");
     assert!(text(&bench, HISTORY).starts_with(&older));
     assert!(text(&bench, HISTORY).contains("form = 1"), "{}", text(&bench, HISTORY));
     let report = text(&bench, "target/replan/mini/paper_repro.md").replace('\n', " ");

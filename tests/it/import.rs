@@ -10,7 +10,7 @@ use study::parquet::FrameReader;
 pub const LOG: &str = include_str!("import/benchmark.log");
 
 /// Two rows as pandas 3 writes them, with a column of categories, one of dates, and numbers of single precision and of 8 bits.
-const SNAPPY: &[u8] = include_bytes!("import/pandas.snappy.parquet");
+pub const SNAPPY: &[u8] = include_bytes!("import/pandas.snappy.parquet");
 /// The same, packed by gzip.
 const GZIP: &[u8] = include_bytes!("import/pandas.gzip.parquet");
 
@@ -73,8 +73,8 @@ fn a_parquet_file_of_pandas_is_read_but_for_columns_of_dates_and_one_that_is_cut
         bench.run(&from)
     };
     for bytes in [SNAPPY, GZIP] {
-        let said = import(bytes);
-        assert_eq!(said.code, Some(0), "{}", said.err);
+        let output = import(bytes);
+        assert_eq!(output.code, Some(0), "{}", output.err);
         let frame = trials(&bench, "there/results.trials.parquet");
         assert_eq!(cells(&frame, "contender"), ["A*", "Ours"]);
         assert_eq!(cells(&frame, "status"), ["solved", "no_path"]);
@@ -89,9 +89,33 @@ fn a_parquet_file_of_pandas_is_read_but_for_columns_of_dates_and_one_that_is_cut
         assert!(error.contains("cut.parquet: is no Parquet file that can be read"), "{end} bytes: {error}");
     }
     bench.edit("columns.toml", "column = \"suite\"", "column = \"day\"");
-    let said = import(SNAPPY);
-    assert_eq!(said.code, Some(2));
-    assert!(said.err.contains("column `day` holds neither texts nor numbers nor booleans"), "{}", said.err);
+    let output = import(SNAPPY);
+    assert_eq!(output.code, Some(2));
+    assert!(
+        output.err.contains("column `day` holds neither texts nor numbers nor booleans"),
+        "{}",
+        output.err
+    );
+}
+
+#[test]
+fn a_parquet_file_that_claims_more_values_than_it_has_rows_is_refused() {
+    let bench = Bench::empty();
+    let file = bench.at("results.parquet");
+    let mut claims = 0;
+    // The number -1 in place of each byte of the first pages and of the end of the pages, where columns are described.
+    for at in (0..400).chain(900..1000) {
+        let mut bytes = SNAPPY.to_vec();
+        bytes[at] = 1;
+        fs::write(&file, bytes).unwrap();
+        if let Err(error) = Table::read_parquet(&file) {
+            let message = error.to_string();
+            assert!(message.contains("results.parquet: is no Parquet file that can be read"), "{message}");
+            claims +=
+                u32::from(message.contains("a column or page claims -1 values or bytes; at most 2 can be"));
+        }
+    }
+    assert!(claims >= 7, "{claims} of six pages and a column");
 }
 
 #[test]
@@ -110,9 +134,9 @@ fn a_log_of_ompl_is_compared_and_gated() {
     let slower = LOG.replace("; 0.25; ", "; 2.5; ").replace("120; 200;", "1200; 200;");
     bench.write("bench.log", slower.as_bytes());
     bench.done(&["import", "bench.log", "--from", "ompl-log", "--out", "b"]);
-    let said = bench.run(&["compare", "a", "b", "--markdown"]);
-    assert_eq!(said.code, Some(0), "{}", said.err);
-    assert!(said.out.contains("recorded elsewhere, with unknown seeds"), "{}", said.out);
+    let output = bench.run(&["compare", "a", "b", "--markdown"]);
+    assert_eq!(output.code, Some(0), "{}", output.err);
+    assert!(output.out.contains("recorded elsewhere, with unknown seeds"), "{}", output.out);
     let gated = bench.run(&["compare", "a", "b", "--gate", "solved -1%"]);
     assert!(gated.out.contains("gate solved -1%: bench: geometric_PRM: "), "{}{}", gated.out, gated.err);
 }
@@ -124,11 +148,11 @@ fn a_log_that_is_cut_off_or_of_another_form_is_refused_with_its_line_and_leaves_
     let mut refused = 0;
     for cut in 0..lines.len() {
         bench.write("bench.log", (lines[..cut].join("\n") + "\n").as_bytes());
-        let said = bench.run(&["import", "bench.log", "--from", "ompl-log", "--out", "there"]);
-        assert_eq!(said.code, Some(2), "{cut}: {}{}", said.out, said.err);
+        let output = bench.run(&["import", "bench.log", "--from", "ompl-log", "--out", "there"]);
+        assert_eq!(output.code, Some(2), "{cut}: {}{}", output.out, output.err);
         let place = format!("bench.log: line {}: ", cut + 1);
-        let is_empty = cut == 0 && said.err.contains("line 1: ");
-        assert!(said.err.contains(&place) || is_empty, "{cut}: {}", said.err);
+        let is_empty = cut == 0 && output.err.contains("line 1: ");
+        assert!(output.err.contains(&place) || is_empty, "{cut}: {}", output.err);
         assert!(!bench.at("there").exists());
         refused += 1;
     }
@@ -142,9 +166,9 @@ fn a_log_that_is_cut_off_or_of_another_form_is_refused_with_its_line_and_leaves_
     ] {
         assert!(LOG.contains(from), "{from}");
         bench.write("bench.log", LOG.replacen(from, to, 1).as_bytes());
-        let said = bench.run(&["import", "bench.log", "--from", "ompl-log", "--out", "there"]);
-        assert_eq!(said.code, Some(2), "{from}: {}", said.out);
-        assert!(said.err.contains(message), "{from}: {}", said.err);
+        let output = bench.run(&["import", "bench.log", "--from", "ompl-log", "--out", "there"]);
+        assert_eq!(output.code, Some(2), "{from}: {}", output.out);
+        assert!(output.err.contains(message), "{from}: {}", output.err);
         assert!(!bench.at("there").exists());
     }
 }
@@ -184,7 +208,7 @@ fn a_table_or_a_mapping_that_does_not_fit_is_refused_at_its_place() {
     ] {
         bench.write("results.csv", results.as_bytes());
         bench.write("columns.toml", columns.as_bytes());
-        let said = bench.run(&[
+        let output = bench.run(&[
             "import",
             "results.csv",
             "--from",
@@ -194,8 +218,8 @@ fn a_table_or_a_mapping_that_does_not_fit_is_refused_at_its_place() {
             "--out",
             "there",
         ]);
-        assert_eq!(said.code, Some(2), "{message}: {}{}", said.out, said.err);
-        assert!(said.err.contains(message), "{message}\nis not in\n{}", said.err);
+        assert_eq!(output.code, Some(2), "{message}: {}{}", output.out, output.err);
+        assert!(output.err.contains(message), "{message}\nis not in\n{}", output.err);
         assert!(!bench.at("there").exists(), "{message}");
     }
 }
@@ -232,16 +256,16 @@ fn results_that_are_not_those_of_the_study_are_refused_and_a_study_without_them_
         ),
         (RESULTS.replace("b,Ours,0,\n", ""), "./own/results", "a trial that failed is a row with a status"),
     ] {
-        let said = import(&results, into);
-        assert_eq!(said.code, Some(2), "{message}: {}{}", said.out, said.err);
-        assert!(said.err.contains(message), "{message}\nis not in\n{}", said.err);
+        let output = import(&results, into);
+        assert_eq!(output.code, Some(2), "{message}: {}{}", output.out, output.err);
+        assert!(output.err.contains(message), "{message}\nis not in\n{}", output.err);
         assert!(!bench.at("target/replan/own/data/runs/own/results.manifest.toml").exists());
     }
     assert_eq!(import(RESULTS, "./own/results").code, Some(0));
     // The records are the study's: nothing is stale, not even where everything is to run again.
     for again in [&["run", "./own"][..], &["run", "./own", "--fresh"]] {
-        let said = bench.run(again);
-        assert_eq!(said.code, Some(0), "{again:?}: {}", said.err);
+        let output = bench.run(again);
+        assert_eq!(output.code, Some(0), "{again:?}: {}", output.err);
     }
     let frame = trials(&bench, "target/replan/own/data/runs/own/results.trials.parquet");
     assert_eq!(cells(&frame, "expansions"), ["9", "null", "7", "3"]);

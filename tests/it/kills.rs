@@ -1,6 +1,5 @@
 //! Commands that are killed at random moments: the same command then ends with the bytes of one that nobody disturbed, leaves nothing
-//! half-written, and writes nowhere else. `REPLAN_KILLS` sets how many kills there are, and `REPLAN_KILLED_PAPER` a committed paper for
-//! `explore` in the toy's place.
+//! half-written, and writes nowhere else. `REPLAN_KILLS` sets how many kills there are.
 
 use crate::across::Toy;
 use crate::paper::Bench;
@@ -120,18 +119,23 @@ fn commands_killed_at_random_moments_end_with_the_bytes_of_undisturbed_ones_and_
 #[test]
 fn what_a_killed_command_left_half_written_is_cleared_when_its_file_is_next_written() {
     let Toy(bench) = toy();
-    bench.done(COMMANDS[0]);
-    bench.done(COMMANDS[4]);
+    for command in [0, 3, 4] {
+        bench.done(COMMANDS[command]);
+    }
     let mut ended = bench.command(&["--version"]).spawn().unwrap();
     ended.wait().unwrap();
-    let litter = format!("exported/draws.trials.csv.{}.tmp", ended.id());
+    let litter = ["exported/draws.trials.csv", "merged/data/runs/toy/draws.trials.parquet"]
+        .map(|name| format!("{name}.{}.tmp", ended.id()));
     let other = format!("exported/of_somebody_else.{}.tmp", ended.id());
     let at_work = format!("exported/draws.trials.csv.{}.tmp", std::process::id());
-    for name in [&litter, &other, &at_work] {
+    for name in litter.iter().chain([&other, &at_work]) {
         bench.write(name, b"half");
     }
+    bench.done(COMMANDS[3]);
     bench.done(COMMANDS[4]);
-    assert!(!bench.at(&litter).exists(), "{litter} is still there");
+    for name in litter {
+        assert!(!bench.at(&name).exists(), "{name} is still there");
+    }
     assert!(bench.at(&other).exists() && bench.at(&at_work).exists(), "files of others were removed");
 }
 

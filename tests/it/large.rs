@@ -1,5 +1,6 @@
 //! Studies that ask for more than people mean by accident are refused before anything runs, unless people say that they mean it.
 
+use crate::files::{self, PAPER};
 use crate::paper::{Bench, committed};
 use base::settings::Settings;
 use std::path::Path;
@@ -43,9 +44,9 @@ fn a_study_beyond_the_limits_is_refused_by_every_command_that_runs_and_runs_wher
         ] {
             let refused = bench.run(command);
             assert_eq!(refused.code, Some(2), "{to}: {command:?}: {}{}", refused.out, refused.err);
-            let is_told =
+            let is_reported =
                 refused.err.contains(excess) && refused.err.contains("`--allow-large` accepts that");
-            assert!(is_told, "{to}: {command:?}: {}", refused.err);
+            assert!(is_reported, "{to}: {command:?}: {}", refused.err);
         }
         assert!(!bench.at("target").exists() && !bench.at("parts").exists(), "{to}: something was written");
         bench.done(&["check", "./mini", "--allow-large"]);
@@ -65,12 +66,33 @@ fn the_lattices_of_arms_and_among_polyhedra_count_as_work() {
         ("random_polyhedra", "side_cm = 100\nstep_cm = 0.5", 201 * 201 * 201),
         ("polyhedra_scene", "step_cm = 5", 1000),
         ("joint_queries", "samples = 4000", 4000),
+        // A floor, five obstacles and the parts of a robot.
+        ("joint_problems", "", 6),
     ] {
         let entry = study::family::find(family).unwrap();
         let settings = Settings::composed("the example", toml::from_str(entry.example).unwrap());
         let settings = settings.overlaid(&toml::from_str(over).unwrap(), "the test");
         let built = (entry.build)(&settings, &inputs).unwrap_or_else(|error| panic!("{family}: {error}"));
-        let is_so = if family == "polyhedra_scene" { built.cells() > cells } else { built.cells() == cells };
+        let is_least = ["joint_problems", "polyhedra_scene"].contains(&family);
+        let is_so = if is_least { built.cells() > cells } else { built.cells() == cells };
         assert!(is_so, "{family}: {} cells", built.cells());
     }
+}
+
+#[test]
+fn trees_over_problems_without_a_roadmap_count_as_large_as_the_budget_lets_them_grow() {
+    let bench = Bench::empty();
+    bench.write("files/paper.toml", PAPER.as_bytes());
+    let group = format!(
+        "\n[[problems]]\nlabel = \"set\"\nfamily = \"joint_problems\"\ninstances = 1\n[problems.settings]{}",
+        study::family::find("joint_problems").unwrap().example
+    );
+    let example = engine::planner::find("rrt_connect").unwrap().example;
+    let contender = format!("label = \"trees\"\nplanner = \"rrt_connect\"\n[contender.settings]{example}");
+    bench.write("files/set.toml", files::study(&group, &contender).as_bytes());
+    let folder = bench.at("files");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).to_owned();
+    let inputs = Inputs { roots: vec![folder.clone(), root] };
+    let work = Paper::load(&folder, &inputs).unwrap().studies[0].work(&inputs).unwrap();
+    assert!(work.seconds > 0.1 && work.bytes > 1e6, "the budget is 100 000: {work:?}");
 }

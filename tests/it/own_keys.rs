@@ -9,7 +9,7 @@ fn assert_alone(template: &str, change: Change<'_>, wanted: &str) {
 }
 
 #[test]
-fn a_number_that_is_none_is_told_where_it_is_printed() {
+fn a_number_that_is_none_is_reported_where_it_is_printed() {
     for (written, shown) in [("1e400", "1e400"), ("nan", "nan"), ("inf", "inf")] {
         let change = format!("printed = [\"50.9\", \"{written}\"]");
         let wanted =
@@ -19,7 +19,7 @@ fn a_number_that_is_none_is_told_where_it_is_printed() {
 }
 
 #[test]
-fn a_misspelt_criterion_is_told_at_its_name() {
+fn a_misspelt_criterion_is_reported_at_its_name() {
     let header = ("paper.toml", "[claim.check.lower]", "[claim.check.lowr]");
     let wanted = "claim `fewer_nodes`: there is no criterion `lowr` (did you mean `lower`?)";
     assert_alone("grid", header, &format!("paper.toml:82:14: {wanted}"));
@@ -36,7 +36,7 @@ fn a_misspelt_criterion_is_told_at_its_name() {
 }
 
 #[test]
-fn what_follows_from_a_fault_of_a_claim_is_not_told() {
+fn what_follows_from_a_fault_of_a_claim_is_not_reported() {
     let bound = ("paper.toml", "bound = 1.1", "bound = inf");
     assert_alone("grid", bound, "paper.toml:93:9: `bound` is inf; a finite number is accepted");
     let number = ("paper.toml", "printed = [\"50.2\"", "printed = [50.2");
@@ -56,7 +56,7 @@ fn what_bears_a_name_that_cannot_be_read_is_missed_nowhere() {
 }
 
 #[test]
-fn a_figure_called_like_another_is_told_once() {
+fn a_figure_called_like_another_is_reported_once() {
     let from = "id = \"maps\"";
     let text = "id = \"maps\"\nkind = \"grid_search\"\ncaption = \"c\"\n";
     let settings = "settings = { problems = [\"maps\"], contenders = [\"A*\"] }\n";
@@ -67,7 +67,7 @@ fn a_figure_called_like_another_is_told_once() {
 }
 
 #[test]
-fn nothing_is_told_of_what_a_study_that_is_no_toml_may_say() {
+fn nothing_is_reported_of_the_contents_of_a_study_that_is_no_toml() {
     for (template, file) in [("grid", "compare.toml"), ("arm", "lengths.toml"), ("cell", "cell.toml")] {
         assert_alone(template, (file, "seed = 1", "seed = = 1"), &format!("{file}:8:8: "));
     }
@@ -78,7 +78,7 @@ fn nothing_is_told_of_what_a_study_that_is_no_toml_may_say() {
 }
 
 #[test]
-fn a_number_too_large_is_told_once_with_its_limit() {
+fn a_number_too_large_is_reported_once_with_its_limit() {
     let weight = ("compare.toml", "weight = 2", "weight = 1e308");
     assert_alone(
         "grid",
@@ -144,11 +144,11 @@ fn a_study_is_a_file_of_a_plain_name() {
     let bench = Bench::empty();
     bench.done(&["new", "toy", "--from", "grid"]);
     std::fs::rename(bench.at("toy/compare.toml"), bench.at("toy/com pare.toml")).unwrap();
-    let said = bench.run(&["check", "./toy"]);
-    let told: Vec<&str> = said.err.lines().filter(|line| !line.starts_with("    ")).collect();
+    let output = bench.run(&["check", "./toy"]);
+    let lines: Vec<&str> = output.err.lines().filter(|line| !line.starts_with("    ")).collect();
     assert!(
-        told.len() == 1 && told[0].contains("com pare.toml:1:1: the study is called \"com pare\""),
-        "{told:?}"
+        lines.len() == 1 && lines[0].contains("com pare.toml:1:1: the study is called \"com pare\""),
+        "{lines:?}"
     );
 }
 
@@ -164,9 +164,9 @@ fn files_of_other_tools_are_left_alone() {
     ] {
         bench.write(&format!("toy/{name}.toml"), text.as_bytes());
     }
-    let said = bench.done(&["check", "./toy"]);
+    let output = bench.done(&["check", "./toy"]);
     for name in ["pyproject", "only_tool", "only_name", "source"] {
-        assert!(said.contains(&format!("{name}.toml is taken for a file of something else")), "{said}");
+        assert!(output.contains(&format!("{name}.toml is taken for a file of something else")), "{output}");
     }
 }
 
@@ -183,10 +183,10 @@ fn a_robot_that_no_study_names_is_checked_as_one() {
         let text = std::fs::read_to_string(bench.at("toy/robot.toml")).unwrap();
         assert!(text.contains(from), "{from}");
         bench.write("toy/spare.toml", text.replacen(from, to, 1).as_bytes());
-        let said = bench.run(&["check", "./toy"]).err;
+        let output = bench.run(&["check", "./toy"]).err;
         assert!(
-            said.contains("spare.toml:") && said.contains("but a robot: ") && said.contains(wanted),
-            "{said}"
+            output.contains("spare.toml:") && output.contains("but a robot: ") && output.contains(wanted),
+            "{output}"
         );
     }
 }

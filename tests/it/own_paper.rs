@@ -12,8 +12,8 @@ fn a_new_paper_of_every_template_runs_at_once_and_its_schema_lines_name_files_th
         bench.done(&["new", template, "--from", template]);
         let folder = format!("./{template}");
         bench.done(&["check", &folder]);
-        let said = bench.done(&["repro", &folder, "--quick"]);
-        assert!(said.contains("sentences and rows: "), "{said}");
+        let output = bench.done(&["repro", &folder, "--quick"]);
+        assert!(output.contains("sentences and rows: "), "{output}");
         for entry in fs::read_dir(bench.at(template)).unwrap().map(Result::unwrap) {
             if entry.path().is_dir() {
                 continue;
@@ -42,7 +42,7 @@ fn a_new_paper_of_a_project_names_the_schemas_of_the_project() {
 fn a_folder_that_is_not_empty_or_whose_name_names_no_paper_is_refused_and_left_as_it_was() {
     let bench = Bench::empty();
     bench.write("full/notes.txt", b"mine");
-    for (folder, said) in [
+    for (folder, expected) in [
         ("full", "replan: full is not empty; a new folder is accepted\n"),
         (
             "a b",
@@ -54,7 +54,7 @@ fn a_folder_that_is_not_empty_or_whose_name_names_no_paper_is_refused_and_left_a
         ),
     ] {
         let answer = bench.run(&["new", folder, "--from", "grid"]);
-        assert_eq!((answer.code, answer.err.as_str()), (Some(2), said), "{folder}");
+        assert_eq!((answer.code, answer.err.as_str()), (Some(2), expected), "{folder}");
     }
     assert_eq!(bench.tree(".").len(), 1);
 }
@@ -95,10 +95,10 @@ fn followed(page: &str, bench: &Bench) -> [usize; 2] {
             }
             ("toml" | "python" | "csv", file) if !file.is_empty() => bench.write(file, text.as_bytes()),
             ("text", "") => {
-                let said: Vec<String> = last.out.lines().map(letters).collect();
+                let lines: Vec<String> = last.out.lines().map(letters).collect();
                 for line in text.lines().map(letters) {
                     assert!(
-                        said.iter().any(|said| said.contains(&line)),
+                        lines.iter().any(|lines| lines.contains(&line)),
                         "{line}\nis not said:\n{}",
                         last.out
                     );
@@ -132,7 +132,7 @@ fn every_command_and_file_of_the_page_on_results_that_exist_does_what_the_page_s
 }
 
 #[test]
-fn a_folder_of_maps_is_one_group_each_and_a_pattern_without_a_file_is_told() {
+fn a_folder_of_maps_is_one_group_each_and_a_pattern_without_a_file_is_reported() {
     let bench = Bench::empty();
     bench.done(&["new", "maps", "--from", "grid"]);
     for (name, row) in [("b", "....\n"), ("a", ".#..\n")] {
@@ -154,7 +154,7 @@ fn a_folder_of_maps_is_one_group_each_and_a_pattern_without_a_file_is_told() {
     bench.write("maps/paper.toml", paper.as_bytes());
     assert!(bench.done(&["run", "./maps"]).starts_with("compare: 4 trials"));
     bench.done(&["repro", "./maps", "--trial", "compare/maps-a/a-star"]);
-    for (pattern, said) in [
+    for (pattern, expected) in [
         (
             "rooms/*.map",
             "maps/compare.toml:18:8: no file is `rooms/*.map`; looked for ./maps/rooms/*.map, rooms/*.map",
@@ -167,8 +167,8 @@ fn a_folder_of_maps_is_one_group_each_and_a_pattern_without_a_file_is_told() {
         bench.write("maps/compare.toml", text_with(&bench, pattern).as_bytes());
         let answer = bench.run(&["check", "./maps"]);
         assert!(
-            answer.code == Some(2) && answer.err.contains(said),
-            "should say {said}\nsays {}",
+            answer.code == Some(2) && answer.err.contains(expected),
+            "should say {expected}\nsays {}",
             answer.err
         );
     }

@@ -67,21 +67,21 @@ fn a_file_that_is_changed_gone_or_added_is_named_and_a_place_that_is_taken_is_le
     bench.write("pack/plots/mini/table1.tex", b"edited");
     fs::remove_file(bench.at("pack/page/mini.html")).unwrap();
     bench.write("pack/more.txt", b"added");
-    let said = bench.run(&["check", "pack"]);
-    assert_eq!(said.code, Some(3), "{}", said.err);
+    let output = bench.run(&["check", "pack"]);
+    assert_eq!(output.code, Some(3), "{}", output.err);
     for line in
         ["table1.tex: is not the file that was packed", "page/mini.html: ", "more.txt: was not packed"]
     {
-        assert!(said.err.contains(line), "{line}\n{}", said.err);
+        assert!(output.err.contains(line), "{line}\n{}", output.err);
     }
     let again = bench.run(&PACK);
     assert_eq!(again.code, Some(2));
     assert!(again.err.contains("pack is not empty; a new folder is accepted"), "{}", again.err);
     for (date, message) in [("31.1.2026", "a day as 2026-01-31 is accepted"), ("2026-13-01", "a day as")] {
-        let said = bench.run(&["pack", "./mini", "--to", "other", "--date", date]);
-        assert!(said.code == Some(2) && said.err.contains(message), "{}", said.err);
+        let output = bench.run(&["pack", "./mini", "--to", "other", "--date", date]);
+        assert!(output.code == Some(2) && output.err.contains(message), "{}", output.err);
     }
-    let said = bench.run(&["pack", "./mini", "--to", "other", "--date", "2026-01-31"]);
-    assert!(said.code == Some(2) && said.err.contains("has no LICENSE; `--license`"), "{}", said.err);
+    let output = bench.run(&["pack", "./mini", "--to", "other", "--date", "2026-01-31"]);
+    assert!(output.code == Some(2) && output.err.contains("has no LICENSE; `--license`"), "{}", output.err);
     assert!(!bench.at("other").exists());
 }

@@ -176,7 +176,7 @@ fn two_sided(bench: &Bench) {
 }
 
 #[test]
-fn a_search_closes_a_cell_a_step_and_its_sides_are_told_apart() {
+fn a_search_closes_a_cell_a_step_and_its_sides_are_distinguished() {
     let bench = Bench::new();
     two_sided(&bench);
     bench.done(&["repro", "mini", "--quick", "--out", "quick"]);
@@ -186,14 +186,14 @@ fn a_search_closes_a_cell_a_step_and_its_sides_are_told_apart() {
     let mut seen = Vec::new();
     for step in 0..5_usize {
         browser.go(&file, &format!("replay=room/room/two-sided&step={step}"));
-        let said = browser.run("return document.querySelector('.controls output').textContent");
-        let said = said.as_str().unwrap().to_owned();
+        let output = browser.run("return document.querySelector('.controls output').textContent");
+        let output = output.as_str().unwrap().to_owned();
         let closed = |side: &str| -> usize {
-            let of = said.split(side).nth(1).unwrap().split(" closed").next().unwrap();
+            let of = output.split(side).nth(1).unwrap().split(" closed").next().unwrap();
             of.rsplit(' ').next().unwrap().parse().unwrap()
         };
         let [one, start, goal] = ["A* ", "from the start ", "from the goal "].map(closed);
-        assert_eq!((one, start, goal), (step, step.div_ceil(2), step / 2), "{said}");
+        assert_eq!((one, start, goal), (step, step.div_ceil(2), step / 2), "{output}");
         let pixels = browser.run(PIXELS);
         assert!(!seen.contains(&pixels), "step {step} looks as one before");
         seen.push(pixels);

@@ -267,17 +267,17 @@ impl Bench {
 
     /// Runs the program, which must succeed, and gives what it printed.
     pub fn done(&self, arguments: &[&str]) -> String {
-        let said = self.run(arguments);
-        assert_eq!(said.code, Some(0), "{arguments:?}\n{}{}", said.out, said.err);
-        said.out
+        let output = self.run(arguments);
+        assert_eq!(output.code, Some(0), "{arguments:?}\n{}{}", output.out, output.err);
+        output.out
     }
 
     pub fn output(&self, output: &Output) -> ProgramOutput {
         let place = self.folder.path().display().to_string();
         let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap().replace(&place, "[dir]");
-        let said = text(&output.stderr);
+        let message = text(&output.stderr);
         let (doing, rest): (Vec<&str>, Vec<&str>) =
-            said.split_inclusive('\n').partition(|line| line.ends_with(" …\n"));
+            message.split_inclusive('\n').partition(|line| line.ends_with(" …\n"));
         let doing = doing.iter().map(|line| line.trim_end().to_owned()).collect();
         ProgramOutput { code: output.status.code(), out: text(&output.stdout), err: rest.concat(), doing }
     }

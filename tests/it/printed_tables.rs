@@ -93,14 +93,17 @@ fn forty() -> Bench {
 fn forty_printed_cells_in_eighty_lines_of_toml_are_checked_run_and_judged() {
     let bench = forty();
     assert!(bench.done(&["check", "./forty"]).contains("50 claims"), "forty cells, ten rows");
-    let said = bench.done(&["repro", "./forty", "--all"]);
+    let output = bench.done(&["repro", "./forty", "--all"]);
     for cell in ["t.astar0.length", "t.weighted4.bends", "t.astar2 "] {
-        assert!(said.lines().any(|line| line.starts_with(cell)), "{cell}: {said}");
+        assert!(output.lines().any(|line| line.starts_with(cell)), "{cell}: {output}");
     }
     // On an empty map both go straight to the goal's row: 14 diagonals and 3 steps.
-    let straight = said.lines().find(|line| line.starts_with("t.astar0.length")).unwrap();
+    let straight = output.lines().find(|line| line.starts_with("t.astar0.length")).unwrap();
     assert!(straight.contains("23.5 cells") && straight.contains("reproduced"), "{straight}");
-    assert!(said.contains(" not reproduced"), "every row prints the same, so that some must differ: {said}");
+    assert!(
+        output.contains(" not reproduced"),
+        "every row prints the same, so that some must differ: {output}"
+    );
     let report = std::fs::read_to_string(bench.at("target/replan/forty/paper_repro.md")).unwrap();
     assert!(report.contains("| weighted3 | printed | 23.5 | 120 | 60.0 | 6.5 |"), "{report}");
 }
@@ -112,7 +115,7 @@ fn loaded(bench: &Bench, name: &str) -> Paper {
 }
 
 #[test]
-fn a_claim_that_moves_into_a_table_asks_what_it_asked() {
+fn a_claim_that_moves_into_a_table_asks_the_same() {
     let bench = forty();
     let paper = loaded(&bench, "forty");
     let mut written = String::new();
@@ -170,7 +173,7 @@ const WRONG: [(&str, &str, &str); 13] = [
     (
         "\"6.5\"]",
         "\"N/A\"], cell.bends.headline = true",
-        "11:110: table `t`: row `astar0`, column `bends`: the cell is no claim, so that nothing is said of it",
+        "11:110: table `t`: row `astar0`, column `bends`: the cell is no claim, so nothing is set for it",
     ),
     (
         "\"23.5\", \"120\", \"60.0\", \"6.5\"]",
@@ -207,20 +210,21 @@ const WRONG: [(&str, &str, &str); 13] = [
 ];
 
 #[test]
-fn what_is_wrong_with_a_table_is_told_once_at_its_own_place() {
+fn what_is_wrong_with_a_table_is_reported_once_at_its_own_place() {
     for (from, to, wanted) in WRONG {
         let bench = forty();
         bench.edit("forty/paper.toml", from, to);
-        let said = bench.run(&["check", "./forty"]);
-        let told = said.err.lines().filter(|line| line.contains("forty/paper.toml:")).collect::<Vec<_>>();
-        let first = told.first().copied().unwrap_or_default();
+        let output = bench.run(&["check", "./forty"]);
+        let lines = output.err.lines().filter(|line| line.contains("forty/paper.toml:")).collect::<Vec<_>>();
+        let first = lines.first().copied().unwrap_or_default();
         assert!(
-            said.code == Some(2) && first.contains(&format!("paper.toml:{wanted}")),
+            output.code == Some(2) && first.contains(&format!("paper.toml:{wanted}")),
             "{to}: {}",
-            said.err
+            output.err
         );
-        let is_repeated = told.iter().skip(1).any(|line| line.split(": ").nth(1) == first.split(": ").nth(1));
-        assert!(!is_repeated, "{to}: {}", said.err);
+        let is_repeated =
+            lines.iter().skip(1).any(|line| line.split(": ").nth(1) == first.split(": ").nth(1));
+        assert!(!is_repeated, "{to}: {}", output.err);
     }
 }
 
@@ -281,10 +285,10 @@ fn what_one_column_has_more_than_another_is_a_claim_in_a_table_of_its_own() {
     let more = paper.claim("u.one.more").unwrap();
     assert_eq!(more.printed.as_deref(), Some("-8879.5"));
     assert_eq!(more.difference, Some(["u.one.astar", "u.one.weighted"].map(str::to_owned)));
-    let said = bench.done(&["repro", "./forty", "--all"]);
-    let line = |id: &str| said.lines().find(|line| line.starts_with(id)).unwrap_or_default();
-    assert!(line("u.one.more").contains("not reproduced"), "A* opens more: {said}");
-    assert!(line("whole").contains("inconclusive"), "twelve maps are too few: {said}");
+    let output = bench.done(&["repro", "./forty", "--all"]);
+    let line = |id: &str| output.lines().find(|line| line.starts_with(id)).unwrap_or_default();
+    assert!(line("u.one.more").contains("not reproduced"), "A* opens more: {output}");
+    assert!(line("whole").contains("inconclusive"), "twelve maps are too few: {output}");
     let report = std::fs::read_to_string(bench.at("target/replan/forty/paper_repro.md")).unwrap();
     assert!(!report.contains("| one | -8879.5 |"), "the paper does not print it: {report}");
     let details = std::fs::read_to_string(bench.at("target/replan/forty/plots/forty/details.md")).unwrap();
@@ -293,7 +297,7 @@ fn what_one_column_has_more_than_another_is_a_claim_in_a_table_of_its_own() {
 }
 
 #[test]
-fn means_and_differences_that_cannot_be_asked_are_refused_where_they_stand() {
+fn means_and_differences_that_cannot_be_computed_are_refused_where_they_stand() {
     for (from, to, wanted) in [
         (
             "difference = [\"astar\"",
@@ -306,9 +310,9 @@ fn means_and_differences_that_cannot_be_asked_are_refused_where_they_stand() {
     ] {
         let bench = compared();
         bench.edit("forty/paper.toml", from, to);
-        let said = bench.run(&["check", "./forty"]);
-        let told = said.err.lines().find(|line| line.contains("forty/paper.toml:")).unwrap_or_default();
-        assert!(said.code == Some(2) && told.contains(wanted), "{to}: {}", said.err);
+        let output = bench.run(&["check", "./forty"]);
+        let message = output.err.lines().find(|line| line.contains("forty/paper.toml:")).unwrap_or_default();
+        assert!(output.code == Some(2) && message.contains(wanted), "{to}: {}", output.err);
     }
 }
 
@@ -323,11 +327,11 @@ fn a_ninth_headline_is_refused_where_it_is_set_and_eight_open_the_chapter() {
         bench.write("forty/paper.toml", text.as_bytes());
         bench.run(&["check", "./forty"])
     };
-    let said = with(9);
+    let output = with(9);
     let wanted =
         "the paper has 9 headline claims; at most 8 are accepted, so `t.astar4.bends` is one too many";
-    assert!(said.code == Some(2) && said.err.contains(wanted), "{}", said.err);
-    assert!(said.err.contains("forty/paper.toml:19:"), "{}", said.err);
+    assert!(output.code == Some(2) && output.err.contains(wanted), "{}", output.err);
+    assert!(output.err.contains("forty/paper.toml:19:"), "{}", output.err);
     assert_eq!(with(8).code, Some(0));
     bench.done(&["repro", "./forty", "--all"]);
     let report = std::fs::read_to_string(bench.at("target/replan/forty/paper_repro.md")).unwrap();
@@ -360,8 +364,8 @@ fn a_claim_asks_for_a_part_of_a_sweep() {
             "[claim.check.share]\nhits = \"solved\"\naccepted = [0.0, 0.5]\nof = {{ study = \"maps\", problems = \"0\", contender = \"A*\", \
              sweep = {sweep} }}\n"
         ));
-        let said = bench.done(&["repro", "./forty", "--all"]);
-        let line = said.lines().find(|line| line.starts_with("c ")).unwrap();
+        let output = bench.done(&["repro", "./forty", "--all"]);
+        let line = output.lines().find(|line| line.starts_with("c ")).unwrap();
         line.split_whitespace()
             .find_map(|word| word.strip_prefix("12/").or(word.split_once('/').map(|(_, all)| all)))
             .unwrap()
@@ -381,19 +385,19 @@ fn a_claim_asks_for_a_part_of_a_sweep() {
         "[claim.check.share]\nhits = \"solved\"\naccepted = [0.0, 0.5]\nof = { study = \"maps\", problems = \"0\", contender = \"A*\", sweep = \
          [\"weight=1\", \"weight>5\"] }\n",
     );
-    let said = none.run(&["check", "./forty"]).err;
+    let output = none.run(&["check", "./forty"]).err;
     let wanted = "study `maps` has no sweep `weight>5`; it has weight=1, weight=2, weight=3, weight=5";
-    assert!(said.contains(wanted) && said.contains("paper.toml:9:"), "{said}");
+    assert!(output.contains(wanted) && output.contains("paper.toml:9:"), "{output}");
 }
 
 #[test]
-fn success_along_a_part_of_a_sweep_is_asked_of_that_part() {
+fn success_along_a_part_of_a_sweep_is_computed_of_that_part() {
     let bench = swept(
         "[claim.check.lower]\nof = { study = \"maps\", problems = \"3\", contender = \"A*\", against = \"Weighted\", sweep = \"weight<=3\" }\n",
     );
     bench.done(&["repro", "./forty", "--all"]);
-    let said = bench.done(&["show", "./forty", "c"]);
-    assert!(said.contains("at 0 of 3 points"), "{said}");
+    let output = bench.done(&["show", "./forty", "c"]);
+    assert!(output.contains("at 0 of 3 points"), "{output}");
 }
 
 #[test]
@@ -402,23 +406,23 @@ fn a_selection_that_selects_nothing_is_refused_with_the_names_there_are() {
     let bench = swept(share);
     let wanted =
         "paper.toml:9:6: `of` names no contender, so that it selects nothing; study `maps` has A*, Weighted";
-    let said = bench.run(&["check", "./forty"]).err;
-    assert!(said.contains(wanted), "{said}");
+    let output = bench.run(&["check", "./forty"]).err;
+    assert!(output.contains(wanted), "{output}");
     // What a task tries in the place of contenders has names too.
     let study = "paper = 'forty'\nquestion = 'q'\nseed = 1\nbudget = { expansions = 1 }\ntask = 'formula_error'\n\
                  task_settings = { samples = 5, reach = 0.5 }\n[[problems]]\nlabel = '0'\nfamily = 'random_polyhedra'\n\
                  settings = { side_cm = 60, step_cm = 1, count = [1, 1], size_cm = [7, 16], shapes = ['box'], clear_cm = 1, queries = \
                  [{ start = [4, 5, 6], goal = [56, 54, 50] }] }\n";
     bench.write("forty/maps.toml", study.as_bytes());
-    let said = bench.run(&["check", "./forty"]).err;
-    assert!(said.contains("it selects nothing; study `maps` has Printed distance"), "{said}");
+    let output = bench.run(&["check", "./forty"]).err;
+    assert!(output.contains("it selects nothing; study `maps` has Printed distance"), "{output}");
     bench.edit("forty/paper.toml", "problems = \"0\"", "problems = \"0\", contender = \"Printed\"");
-    let said = bench.run(&["check", "./forty"]).err;
+    let output = bench.run(&["check", "./forty"]).err;
     assert!(
-        said.contains(
+        output.contains(
             "has no contender `Printed` (did you mean `Printed distance`?); it has Printed distance"
         ),
-        "{said}"
+        "{output}"
     );
     bench.edit("forty/paper.toml", "\"Printed\"", "\"Printed distance\"");
     assert_eq!(bench.run(&["check", "./forty"]).code, Some(0));
@@ -434,9 +438,9 @@ fn a_table_that_the_audit_wrote_as_claims_is_accepted_and_each_number_is_not_tes
     bench.edit("mini/paper.toml", "tables = 1", "tables = 2");
     bench.done(&["check", "./mini"]);
     bench.done(&["run", "./mini"]);
-    let said = bench.done(&["judge", "./mini"]);
+    let output = bench.done(&["judge", "./mini"]);
     for claim in ["table2.a_star.cost", "table2.improved_a_star.time", "table2.d_star.time"] {
-        let line = said.lines().find(|line| line.starts_with(claim));
-        assert!(line.is_some_and(|line| line.contains("not testable")), "{claim}: {said}");
+        let line = output.lines().find(|line| line.starts_with(claim));
+        assert!(line.is_some_and(|line| line.contains("not testable")), "{claim}: {output}");
     }
 }

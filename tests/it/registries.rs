@@ -96,27 +96,35 @@ fn what_stands_below_a_figure_says_of_how_many() {
     for entry in replan::render::figure::REGISTRY {
         let says = |what: &str| entry.statistic.contains(what);
         // Of every pair found, the panels' titles say how many there are.
-        let is_said = says("{n}")
+        let is_reported = says("{n}")
             || says("{interpretations}")
             || entry.statistic.starts_with("One ")
+            || entry.statistic.starts_with("Single trials")
             || says("Every pair");
-        assert!(is_said, "{}: {}", entry.name, entry.statistic);
+        assert!(is_reported, "{}: {}", entry.name, entry.statistic);
+        let words = entry.statistic.split_whitespace().count();
+        assert!(
+            words <= 20,
+            "{}: {words} words leave a caption little room: {}",
+            entry.name,
+            entry.statistic
+        );
     }
 }
 
 /// The criteria that decide and the rules of every committed paper, with how many claims have each.
 fn used_criteria() -> BTreeMap<String, usize> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut asked = BTreeMap::new();
+    let mut used = BTreeMap::new();
     for name in crate::paper::committed() {
         let folder = root.join("experiments").join(name);
         let inputs = study::Inputs { roots: vec![folder.clone(), root.to_owned()] };
         let paper = Paper::load(&folder, &inputs).unwrap();
         for (how, name, _) in paper.claims.iter().flat_map(Claim::tests) {
-            *asked.entry(name.to_owned()).or_default() += usize::from(how != TestRole::Shown);
+            *used.entry(name.to_owned()).or_default() += usize::from(how != TestRole::Shown);
         }
     }
-    asked
+    used
 }
 
 #[test]
@@ -127,10 +135,10 @@ fn criteria_and_kinds_of_figure_stay_few() {
 
 #[test]
 fn no_criterion_or_rule_serves_one_claim_alone() {
-    let asked = used_criteria();
-    assert!(asked.values().sum::<usize>() > 200, "the papers' claims are not found: {asked:?}");
+    let used = used_criteria();
+    assert!(used.values().sum::<usize>() > 200, "the papers' claims are not found: {used:?}");
     let names = criterion::REGISTRY.iter().chain(rule::REGISTRY).map(|entry| entry.name);
-    let few: Vec<&str> = names.filter(|name| asked.get(*name).is_none_or(|claims| *claims < 2)).collect();
+    let few: Vec<&str> = names.filter(|name| used.get(*name).is_none_or(|claims| *claims < 2)).collect();
     assert!(few.is_empty(), "asked by fewer than two claims of the committed papers: {few:?}");
 }
 

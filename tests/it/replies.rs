@@ -21,9 +21,16 @@ fn shown(bench: &Bench) -> [String; 4] {
 
 /// The version of the claim `nodes`.
 fn version(bench: &Bench) -> String {
-    let said = bench.done(&["show", "./mini", "nodes"]);
-    let words = said.split_whitespace().collect::<Vec<_>>().join(" ");
-    words.split(", version ").nth(1).unwrap_or_else(|| panic!("{said}")).split(' ').next().unwrap().to_owned()
+    let output = bench.done(&["show", "./mini", "nodes"]);
+    let words = output.split_whitespace().collect::<Vec<_>>().join(" ");
+    words
+        .split(", version ")
+        .nth(1)
+        .unwrap_or_else(|| panic!("{output}"))
+        .split(' ')
+        .next()
+        .unwrap()
+        .to_owned()
 }
 
 #[test]
@@ -94,9 +101,9 @@ fn a_reply_that_names_no_claim_has_no_day_or_is_too_long_is_refused_at_its_place
     ] {
         assert!(REPLY.contains(from), "{from}");
         bench.write("mini/paper.toml", (paper.clone() + &REPLY.replacen(from, to, 1)).as_bytes());
-        let said = bench.run(&["check", "./mini"]);
-        assert_eq!(said.code, Some(2), "{message}: {}", said.out);
-        assert!(said.err.contains(&message), "{message}\nis not in\n{}", said.err);
+        let output = bench.run(&["check", "./mini"]);
+        assert_eq!(output.code, Some(2), "{message}: {}", output.out);
+        assert!(output.err.contains(&message), "{message}\nis not in\n{}", output.err);
     }
     bench.write("mini/paper.toml", (paper + REPLY).as_bytes());
     bench.done(&["check", "./mini"]);
@@ -105,9 +112,9 @@ fn a_reply_that_names_no_claim_has_no_day_or_is_too_long_is_refused_at_its_place
 #[test]
 fn a_version_is_of_what_a_claim_means_and_of_its_records_and_not_of_words() {
     let bench = Bench::new();
-    let [said, _, details, page] = shown(&bench);
+    let [message, _, details, page] = shown(&bench);
     let first = version(&bench);
-    assert_eq!(first.len(), 12, "{said}");
+    assert_eq!(first.len(), 12, "{message}");
     assert!(
         details.contains(&format!("Version `{first}`")) && page.contains(&format!("version {first} (replan"))
     );

@@ -179,7 +179,7 @@ fn a_inventory_that_misses_a_number_or_names_what_does_not_exist_is_refused() {
         bench.run(&["check", "./mini"])
     };
     assert_eq!(with(numbers, 1).code, Some(0), "{}", with(numbers, 1).err);
-    for (numbers, count, said) in [
+    for (numbers, count, expected) in [
         (numbers.to_owned(), 2, "9:11: the inventory lists 1 printed numbers; `numbers` says 2".to_owned()),
         (
             numbers.replace("{ claims", "{ printed = [\"7.83\"], claims"),
@@ -219,17 +219,17 @@ fn a_inventory_that_misses_a_number_or_names_what_does_not_exist_is_refused() {
         ),
     ] {
         let answer = with(&numbers, count);
-        assert!(answer.code == Some(2) && answer.err.contains(&said), "{said}\n{}", answer.err);
+        assert!(answer.code == Some(2) && answer.err.contains(&expected), "{expected}\n{}", answer.err);
     }
     let bench = Bench::new();
     bench.edit("mini/paper.toml", "figures = [\"fig1\"]", "studies = [\"room\"]");
-    let said = "Fig. 1 of the paper needs `figures`, ours beside it, or `none`";
-    assert!(bench.run(&["check", "./mini"]).err.contains(said));
+    let expected = "Fig. 1 of the paper needs `figures`, ours beside it, or `none`";
+    assert!(bench.run(&["check", "./mini"]).err.contains(expected));
 }
 
 #[test]
 fn a_chapter_that_asks_for_what_is_not_there_is_refused_with_its_place() {
-    for (report, said) in [
+    for (report, expected) in [
         (
             "finding = \"it costs {costs}\"",
             "the text speaks of `{costs}`; there is no such claim (did you mean `cost`?)",
@@ -245,7 +245,7 @@ fn a_chapter_that_asks_for_what_is_not_there_is_refused_with_its_place() {
         let bench = Bench::new();
         bench.edit("mini/paper.toml", "[prints]", &format!("[report]\n{report}\n\n[prints]"));
         let answer = bench.run(&["check", "./mini"]);
-        assert!(answer.code == Some(2) && answer.err.contains(said), "{report}: {}", answer.err);
+        assert!(answer.code == Some(2) && answer.err.contains(expected), "{report}: {}", answer.err);
         assert!(answer.err.contains("mini/paper.toml:6:"), "{report}: {}", answer.err);
     }
 }
@@ -315,9 +315,9 @@ fn marks_of_markdown_html_and_mathematics_in_a_title_stay_text() {
 fn one_claim_is_shown_with_its_evidence_within_100_columns() {
     let bench = Bench::new();
     bench.done(&["repro", "./mini"]);
-    let said = bench.done(&["show", "./mini", "nodes"]);
-    assert!(said.starts_with("nodes: reproduced\n") && said.contains("trial: draws/"), "{said}");
-    assert_eq!(bench.done(&["show", "./mini", "node"]), said);
+    let output = bench.done(&["show", "./mini", "nodes"]);
+    assert!(output.starts_with("nodes: reproduced\n") && output.contains("trial: draws/"), "{output}");
+    assert_eq!(bench.done(&["show", "./mini", "node"]), output);
     for (arguments, least) in [(&["show", "zhang"][..], 120), (&["show", "zhang", "t1.improved.cost"], 10)] {
         let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_replan"));
         let out = program.args(arguments).current_dir(root()).output().unwrap().stdout;
@@ -333,14 +333,14 @@ fn repro_ends_with_the_finding_and_its_headline_claims_within_a_screen() {
     let bench = Bench::new();
     bench.edit("mini/paper.toml", "at = \"section 1\"\n", "at = \"section 1\"\nheadline = true\n");
     bench.done(&["repro", "./mini"]);
-    let said = bench.done(&["repro", "./mini"]);
-    let lines: Vec<&str> = said.lines().collect();
-    assert!(lines.len() <= 40 && lines.iter().all(|line| line.chars().count() <= 100), "{said}");
+    let output = bench.done(&["repro", "./mini"]);
+    let lines: Vec<&str> = output.lines().collect();
+    assert!(lines.len() <= 40 && lines.iter().all(|line| line.chars().count() <= 100), "{output}");
     let is_claim = |line: &str, id: &str| line.trim_start().split([' ', ':']).next() == Some(id);
     let claims = |text: &str| ["nodes", "cost"].map(|id| text.lines().any(|line| is_claim(line, id)));
-    assert_eq!(claims(&said), [true, false], "{said}");
+    assert_eq!(claims(&output), [true, false], "{output}");
     assert_eq!(claims(&bench.done(&["repro", "./mini", "--all"])), [true, true]);
-    assert!(lines.iter().any(|line| line.starts_with("why: replan show ./mini CLAIM; ")), "{said}");
+    assert!(lines.iter().any(|line| line.starts_with("why: replan show ./mini CLAIM; ")), "{output}");
     let verdict = bench.done(&["show", "./mini", "nodes"]);
     let at = lines.iter().position(|line| is_claim(line, "nodes")).unwrap();
     let word = lines[at - 1].split("  ").next().unwrap();

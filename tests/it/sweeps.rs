@@ -145,9 +145,9 @@ fn another_value_of_a_sweep_runs_alone_and_changes_no_other_row() {
     let bench = bench();
     let before = run(&bench, "out", &[]);
     bench.edit("mini/study.toml", "[0.2, 0.4]", "[0.1, 0.2, 0.4]");
-    let said = bench.done(&["run", "./mini", "--out", "out", "--why"]);
-    assert!(said.contains("(21 of 27 units reused)"), "{said}");
-    assert!(said.contains("why: problem group `maps/blocked_share=0.1` is new\n"), "{said}");
+    let output = bench.done(&["run", "./mini", "--out", "out", "--why"]);
+    assert!(output.contains("(21 of 27 units reused)"), "{output}");
+    assert!(output.contains("why: problem group `maps/blocked_share=0.1` is new\n"), "{output}");
     let after = run(&bench, "fresh", &[]);
     let rest: Vec<&Row> = after.rows.iter().filter(|row| at(row, "blocked_share") != Some(0.1)).collect();
     assert_eq!(rest, before.rows.iter().collect::<Vec<_>>());
@@ -209,7 +209,7 @@ fn copied_groups_whose_instances_share_a_name_give_the_rows_of_a_sweep() {
 
 #[test]
 fn a_sweep_that_cannot_be_is_refused_at_its_key() {
-    for (from, to, said) in [
+    for (from, to, expected) in [
         (
             "problems = [\"maps\"]",
             "problems = [\"map\"]",
@@ -253,7 +253,7 @@ fn a_sweep_that_cannot_be_is_refused_at_its_key() {
         bench.edit("mini/study.toml", from, to);
         let answer = bench.run(&["check", "./mini"]);
         assert_eq!(answer.code, Some(2), "{to}: {}{}", answer.out, answer.err);
-        assert!(answer.err.contains(said), "should be said: {said}\nis said: {}", answer.err);
+        assert!(answer.err.contains(expected), "should be said: {expected}\nis said: {}", answer.err);
         // A setting of another name is missing as well; nothing else follows.
         let faults = answer.err.lines().filter(|line| line.contains("mini/")).count();
         assert!(faults == 1 || to.starts_with("key"), "what follows is said as well: {}", answer.err);

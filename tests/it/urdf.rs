@@ -38,14 +38,14 @@ fn forward_kinematics_of_every_urdf_robot_are_those_of_mujoco_to_a_billionth() {
     for path in robots() {
         let name = path.file_stem().unwrap().to_string_lossy().into_owned();
         let stored = root().join(format!("tests/it/crosscheck/urdf/{name}.json"));
-        let told = fs::read_to_string(&stored).expect("crosscheck/urdf_frames.py writes it");
-        let told: Value = serde_json::from_str(&told).unwrap();
+        let text = fs::read_to_string(&stored).expect("crosscheck/urdf_frames.py writes it");
+        let text: Value = serde_json::from_str(&text).unwrap();
         let robot = read_urdf(&path).unwrap();
         let judged = joints::Case::new(&robot, &[], &[], 1.0).unwrap();
         let open = OpenChain::new(&robot);
         let arm = Robot::load(&path).ok();
-        let angles = told["angles_rad"].as_array().unwrap();
-        let frames = told["frames"].as_array().unwrap();
+        let angles = text["angles_rad"].as_array().unwrap();
+        let frames = text["frames"].as_array().unwrap();
         for (q, frame) in angles.iter().zip(frames) {
             let q = numbers(q);
             let frame = numbers(frame);
@@ -124,13 +124,13 @@ fn check_tells_what_capsules_stand_for_and_that_a_search_may_miss_configurations
         "obstacles = true\nself_collision = true",
         "obstacles = false\nself_collision = false",
     );
-    let said = bench.done(&["check", "./toy"]);
+    let output = bench.done(&["check", "./toy"]);
     for note in [
         "  my.urdf: the capsules around them stand for its solids (boxes: 1; cylinders: 8; meshes, by the hulls of their STL \
          vertices: 1); contact is never missed and sometimes seen too early\n",
         "  my.urdf: inverse kinematics by `numerical`, which may miss configurations; ",
     ] {
-        assert!(said.contains(note), "no `{note}` in\n{said}");
+        assert!(output.contains(note), "no `{note}` in\n{output}");
     }
 }
 
@@ -254,7 +254,7 @@ fn an_srdf_file_decides_which_links_of_a_six_axis_robot_are_held_against_each_ot
     };
     let family = built("robot = 'data/robots/ur5.urdf'").unwrap();
     assert!(family.inputs().contains(&srdf), "{:?}", family.inputs());
-    for (changes, said) in [
+    for (changes, expected) in [
         ("", "srdf is given, and the robot is no URDF file as it is"),
         (
             "robot = 'data/robots/ur5.urdf'\nself_collision = false",
@@ -262,6 +262,6 @@ fn an_srdf_file_decides_which_links_of_a_six_axis_robot_are_held_against_each_ot
         ),
     ] {
         let refused = built(changes).err().unwrap();
-        assert!(refused.contains(said), "should say {said}\nsays {refused}");
+        assert!(refused.contains(expected), "should say {expected}\nsays {refused}");
     }
 }

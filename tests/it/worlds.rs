@@ -13,7 +13,6 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 use std::sync::LazyLock;
 use verify::lattice::Least;
-use verify::plane;
 
 /// A planner with the settings that it was built from.
 pub struct Subject {
@@ -41,8 +40,8 @@ enum Posed {
     Corners(Option<Least>),
     /// The obstacles.
     Arm(Vec<crate::shapes::Placed>),
-    /// The samples, and the verifier's map.
-    Roadmap(Vec<Vec<f64>>, plane::Case),
+    /// The samples, the verifier's map, and what is true in the whole plane.
+    Roadmap(roadmap::Scene),
     /// The obstacles.
     Polyhedra(polyhedra::Scene),
     /// The obstacles.
@@ -79,6 +78,11 @@ pub fn worlds(kind: WorldKind) -> &'static [Case] {
     }
 }
 
+/// Whether a planner samples a world by itself and searches no graph of it.
+pub fn samples(subject: &Subject) -> bool {
+    subject.entry.columns.contains(&"tree_nodes")
+}
+
 /// The least cost of every node that can be reached from `start`, and how many moves leave them: Dijkstra's algorithm.
 fn flood<N: Copy + Ord>(start: N, moves: impl Fn(N) -> Vec<(N, f64)>) -> (BTreeMap<N, f64>, u64) {
     let (mut found, mut count): (BTreeMap<N, f64>, u64) = (BTreeMap::new(), 0);
@@ -104,7 +108,7 @@ impl Case {
             Posed::Lattice(optimum) => lattice::truth(self, *optimum, subject),
             Posed::Corners(least) => lattice::truth_at_corners(*least, subject),
             Posed::Arm(_) => arm::truth(self, subject),
-            Posed::Roadmap(places, plane) => roadmap::truth(self, places, plane, subject),
+            Posed::Roadmap(scene) => roadmap::truth(self, scene, subject),
             Posed::Polyhedra(scene) => polyhedra::truth(self, scene, subject),
             Posed::Rods(scene) => rods::truth(self, scene),
         }
@@ -122,7 +126,7 @@ impl Case {
                 lattice::refusal_at_corners(self, *least, plan, [!subject.planner.is_any_angle(), optimal])
             }
             Posed::Arm(solids) => arm::refusal(self, solids, plan, steps, optimal),
-            Posed::Roadmap(places, plane) => roadmap::refusal(self, places, plane, plan, Some(subject)),
+            Posed::Roadmap(scene) => roadmap::refusal(self, scene, plan, Some(subject)),
             Posed::Polyhedra(scene) => polyhedra::refusal(self, scene, plan),
             Posed::Rods(scene) => rods::refusal(self, scene, plan),
         }
@@ -134,7 +138,7 @@ impl Case {
             Posed::Lattice(optimum) => lattice::refusal(self, *optimum, plan, [false; 2]),
             Posed::Corners(least) => lattice::refusal_at_corners(self, *least, plan, [false; 2]),
             Posed::Arm(solids) => arm::refusal(self, solids, plan, None, false),
-            Posed::Roadmap(places, plane) => roadmap::refusal(self, places, plane, plan, None),
+            Posed::Roadmap(scene) => roadmap::refusal(self, scene, plan, None),
             Posed::Polyhedra(scene) => polyhedra::refusal(self, scene, plan),
             Posed::Rods(scene) => rods::refusal(self, scene, plan),
         }
@@ -145,7 +149,7 @@ impl Case {
         let points = match &self.posed {
             Posed::Lattice(_) | Posed::Corners(_) => lattice::impossible(self),
             Posed::Arm(solids) => arm::impossible(solids),
-            Posed::Roadmap(..) => roadmap::impossible(),
+            Posed::Roadmap(_) => roadmap::impossible(),
             Posed::Polyhedra(_) => polyhedra::impossible(self),
             Posed::Rods(_) => rods::impossible(self),
         };

@@ -5,11 +5,11 @@ pub struct Wrong {
     pub file: &'static str,
     pub from: &'static str,
     pub to: &'static str,
-    pub said: &'static str,
+    pub expected: &'static str,
 }
 
-const fn wrong(file: &'static str, from: &'static str, to: &'static str, said: &'static str) -> Wrong {
-    Wrong { file, from, to, said }
+const fn wrong(file: &'static str, from: &'static str, to: &'static str, expected: &'static str) -> Wrong {
+    Wrong { file, from, to, expected }
 }
 
 /// One wrong word each, in every place that a spec has.

@@ -22,7 +22,9 @@ pub static ENTRY: Entry = Entry {
     name: "on_every",
     about: "does it hold on every case that a contender is lower, within a bound, or solves what another solves?",
     // Since 5, a few cases that all tie are too few.
-    revision: |settings| if settings.get("that").is_some_and(|that| that.as_str() == Some("lower")) { 5 } else { 4 },
+    revision: |settings| {
+        if settings.get("that").is_some_and(|that| that.as_str() == Some("lower")) { 5 } else { 4 }
+    },
     question: |_| Some("every case 1"),
     settings: Accepted::shape::<Settings>(),
     example: r#"

@@ -104,13 +104,13 @@ fn placed(from: [Exact; 2], grid: Option<[Exact; 2]>) -> Option<(Cell, [i32; 2])
 }
 
 impl AnyAngle {
-    /// A polyline with both; none if there is none. The outer none is for lengths that are not looked at.
+    /// A polyline with both; `None` if there is none. The outer none is for lengths that are not looked at.
     #[expect(clippy::option_option, reason = "none found and not looked for are different answers")]
     fn polyline(&self, prints: &[Print]) -> Option<Option<Polyline>> {
         let [turn_deg, length] = [prints[0], prints[1]].map(|print| print.printed.interval(print.digits));
         // Mending asks about many prints, each a search; power takes what searches there are.
-        let is_asked = prints[1].printed == self.numbers[1].print.printed;
-        if !is_asked || length.high > distance(self.ends[0], self.ends[1]) + BEYOND {
+        let is_as_printed = prints[1].printed == self.numbers[1].print.printed;
+        if !is_as_printed || length.high > distance(self.ends[0], self.ends[1]) + BEYOND {
             return None;
         }
         let key = format!("{turn_deg:?} {length:?}");
@@ -135,7 +135,7 @@ impl AnyAngle {
             turn_deg,
             length,
         };
-        // The turn sum alone is asked first: that search keeps much less.
+        // The search without a length keeps much less, so it runs first.
         let alone = shortest_polyline(&query(Interval::new(0.0, length.high)))?;
         if alone.length >= length.low { Some(alone) } else { shortest_polyline(&query(length)) }
     }

@@ -20,7 +20,7 @@ pub fn digits(numbers: &[Quoted]) -> String {
             ways.push((way(number), &number.name));
         }
     }
-    let mut said = match ways.as_slice() {
+    let mut text = match ways.as_slice() {
         [] => String::new(),
         [(way, _)] => format!("digits end {way}"),
         several => {
@@ -34,11 +34,11 @@ pub fn digits(numbers: &[Quoted]) -> String {
         .find(|printed| printed.as_typed().decimals() < printed.decimals());
     if let Some((printed, digits)) = widened.and_then(|printed| Some((printed, printed.significant()?))) {
         let full = printed.as_read();
-        said += &format!(
+        text += &format!(
             "; {digits} digits count and zeros at the end are left out, so that {printed} is read as {full}"
         );
     }
-    said
+    text
 }
 
 /// Gives every number in columns that `is_meant` picks.
@@ -132,8 +132,8 @@ pub fn up_to_twice(print: Print) -> Option<Window> {
     Some(Window { ends: [whole(0), twice.max(least)], why })
 }
 
-/// From 0 to the greatest deviation that values between two ends have, whatever their mean (Popoviciu 1935): the root of
-/// `factor` times the square of half the range; n / (n − 1) for a sample's deviation, 1 for a population's.
+/// From 0 to the greatest deviation that values between `ends` have, whatever their mean (Popoviciu 1935): the root of
+/// `factor` times the square of half the range. `factor` is n / (n − 1) for a sample's deviation, 1 for a population's.
 pub fn spreads(print: Print, ends: [Exact; 2], factor: Exact) -> Option<Window> {
     let half = sub(ends[1], ends[0])? / whole(2);
     let ends = [whole(0), root_above(mul(mul(half, half)?, factor)?, print.printed.scale())?];

@@ -32,7 +32,7 @@ pub(super) struct Moment {
     numbers: Vec<Quoted>,
     n: u64,
     grain: Exact,
-    /// What is said of the values beside …
+    /// The bounds that an annotation gives to the values …
     ends: [Option<Exact>; 2],
     /// … and which numbers are the least and the greatest.
     printed_ends: [Option<usize>; 2],
@@ -137,13 +137,13 @@ impl Squares {
         })
     }
 
-    /// Whether values have one of them; none if `steps` do not suffice.
+    /// Whether values have one of them; `None` if `steps` do not suffice.
     fn is_met(&self, steps: &mut u64) -> Option<bool> {
         let mut is_decided = true;
         for (first, last) in self.plausible() {
             for squares in (first..=last).step_by(2) {
-                let asked = SumQuery { n: self.n, sum: self.sum, squares, ends: self.ends };
-                match is_met(asked, steps) {
+                let query = SumQuery { n: self.n, sum: self.sum, squares, ends: self.ends };
+                match is_met(query, steps) {
                     Some(true) => return Some(true),
                     Some(false) => *steps = steps.saturating_sub(1),
                     None => is_decided = false,
@@ -156,7 +156,7 @@ impl Squares {
         is_decided.then_some(false)
     }
 
-    /// The plausible ones, of which none is met, for the proof; none if they are too many to write down.
+    /// The plausible sums of squares, for the proof; `None` if they are too many to write down. No sample attains any of them.
     fn gaps(&self) -> Option<BTreeSet<i128>> {
         let all: Vec<(i128, i128)> = self.plausible().collect();
         let is_short = all.iter().all(|(first, last)| last - first < 2 * GAPS);
@@ -178,7 +178,7 @@ impl Moment {
         Some((first, last))
     }
 
-    /// The ends that no value passes, in grains: what is said, and what the printed ends allow at most.
+    /// The bounds of the values, in grains: those that an annotation gives, and those that the printed ends allow at most.
     fn ends(&self, prints: &[Print]) -> Option<Ends> {
         let grains = |end: Option<Exact>| end.map_or(Some(None), |end| Some(Some(div(end, self.grain)?)));
         let printed = |at: Option<usize>| {
@@ -189,7 +189,7 @@ impl Moment {
         Some([least.into_iter().flatten().max(), most.into_iter().flatten().min()])
     }
 
-    /// What sums of squares the deviation asks for, by sum; none if there are too many sums or digits.
+    /// What sums of squares the deviation asks for, by sum; `None` if there are too many sums or digits.
     fn squares(&self, prints: &[Print]) -> Option<Vec<Squares>> {
         let ends = self.ends(prints)?;
         let (first, last) = self.sums(prints[1], ends)?;
@@ -255,13 +255,13 @@ impl Test for Moment {
                 self.between(prints)
             );
         }
-        let mut said =
+        let mut text =
             format!("{}{} have no mean {mean} with {what} {spread}", self.values, self.between(prints));
         if let Some(least) = self.least_deviation(prints[1]) {
-            said +=
+            text +=
                 &format!("; with this mean the least is {}", shown(least, spread.decimals() as usize + 2));
         }
-        said
+        text
     }
 
     fn premises(&self) -> Vec<String> {
@@ -330,11 +330,11 @@ impl Test for Moment {
                 for sum in (first..=last).step_by(2) {
                     let moments = self.moments(ends, squares.sum, sum);
                     is_all &= moments.search(budget, &mut |vector| {
-                        let said = counted(vector, |value| {
+                        let text = counted(vector, |value| {
                             mul(self.grain, whole(value)).map_or_else(String::new, spelled)
                         });
-                        if !vectors.contains(&said) {
-                            vectors.push(said);
+                        if !vectors.contains(&text) {
+                            vectors.push(text);
                         }
                         vectors.len() < most
                     });

@@ -94,7 +94,7 @@ impl KofN {
         either(interval.low, prints[0]) && either(interval.high, prints[1])
     }
 
-    /// Which printed end Clopper and Pearson's misses, and on which side its own lies; none if it is not clearly outside.
+    /// Which printed end Clopper and Pearson's misses, and on which side its own lies; `None` if it is not clearly outside.
     fn miss(&self, interval: Interval, prints: &[Print]) -> Option<(&'static str, &'static str)> {
         let all = float(self.all);
         let ends = [("low", interval.low, prints[0]), ("high", interval.high, prints[1])];

@@ -102,7 +102,7 @@ fn cases(print: Print, lattice: Lattice, displacement: Option<Cell>) -> u64 {
     steps.filter(is_long).map_or(0, |steps| floor(steps.high).clamp(0, MOVES) as u64)
 }
 
-/// The moves that print a length; none if there are too many to look through.
+/// The moves that print a length; `None` if there are too many to look through.
 pub(super) fn moves(print: Print, lattice: Lattice, displacement: Option<Cell>) -> Option<Vec<Octile>> {
     let span = print.span().not_negative();
     if span.is_empty() {

@@ -1,8 +1,8 @@
 //! The checks: one a file, each with its example, premises and source.
 //!
 //! A check turns samples, tables and relations into [`Test`]s. A test knows the printed numbers that it is about and decides
-//! whether any data can print them; everything else (readings of digits, power, mend, ranking) is asked by
-//! [`report`](super::report) in one way for all.
+//! whether any data can print them. [`report`](super::report) does the rest in one way for all: how digits are read, power, mend
+//! and ranking.
 
 use super::input::{Input, Relation};
 use super::table::{Fault, Quoted};
@@ -52,7 +52,7 @@ pub trait Test {
     /// The numbers that it is about; power is stated for the first.
     fn numbers(&self) -> &[Quoted];
 
-    /// Whether any data could print `prints`, given in the order of [`numbers`](Self::numbers); none if exact arithmetic or
+    /// Whether any data could print `prints`, given in the order of [`numbers`](Self::numbers); `None` if exact arithmetic or
     /// the search's bound does not reach.
     fn is_possible(&self, prints: &[Print]) -> Option<bool>;
 
@@ -83,12 +83,12 @@ pub trait Test {
         None
     }
 
-    /// The proof that nothing prints `prints`; none if the check gives a signal and proves nothing.
+    /// The proof that nothing prints `prints`; `None` if the check gives a signal and proves nothing.
     fn proof(&self, _prints: &[Print]) -> Option<Proof> {
         None
     }
 
-    /// Data that print `prints`; none if the check has none to show.
+    /// Data that print `prints`; `None` if the check has none to show.
     fn witness(&self, _prints: &[Print], _budget: &mut Budget) -> Option<Witness> {
         None
     }
@@ -108,7 +108,7 @@ pub trait Test {
         false
     }
 
-    /// The cases that were looked through so far; none where a decision takes no search.
+    /// The cases that were looked through so far; `None` where a decision takes no search.
     fn steps_taken(&self) -> Option<u64> {
         None
     }

@@ -22,7 +22,7 @@ pub static ENTRY: Entry = Entry {
 
 struct Order {
     numbers: Vec<Quoted>,
-    /// Pairs of which the first may not be above the second.
+    /// Pairs of numbers: the first may not be above the second.
     pairs: Vec<[usize; 2]>,
     /// The share of values below each; none for the mean.
     ranks: Vec<Option<Exact>>,

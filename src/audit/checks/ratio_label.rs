@@ -19,7 +19,7 @@ pub static ENTRY: Entry = Entry {
     tests,
     relation: Some(FromRelation {
         keys: &[
-            ("ratio", "The sample, by its name, whose values are said to be ratios."),
+            ("ratio", "The sample, by its name, whose values the table calls ratios."),
             ("of", "The sample, by its name, of what is divided."),
             ("over", "The sample, by its name, of what it is divided by."),
         ],
@@ -63,7 +63,7 @@ fn stands(sample: &Sample) -> Vec<[usize; 2]> {
         .collect()
 }
 
-/// The sample in `column` of which a number stands beside one of `r`; a table may hold statistics of several contenders.
+/// The sample in `column` with a number in a row of `r`; a table may hold statistics of several contenders.
 fn beside<'a>(r: &Sample, column: usize, samples: &'a [Sample]) -> Option<&'a Sample> {
     let rows: Vec<usize> = stands(r).iter().map(|[row, _]| *row).collect();
     samples.iter().find(|sample| stands(sample).iter().any(|[row, at]| *at == column && rows.contains(row)))

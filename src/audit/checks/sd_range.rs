@@ -94,7 +94,7 @@ impl SdRange {
         mul(product.max(whole(0)), self.factor()?)
     }
 
-    /// The least variance there can be if both ends are attained; none if that is not known.
+    /// The least variance there can be if both ends are attained; `None` if that is not known.
     fn least(&self, prints: &[Print]) -> Option<Exact> {
         let (n, None) = (self.n?, self.ends) else { return None };
         let [min, max] = self.range(prints);

@@ -137,7 +137,7 @@ pub fn is_true(input: &Input, [index, row, column]: [usize; 3]) -> bool {
         && (of_row().is_some_and(holds) || of_column(index, table, row, column).is_some_and(holds))
 }
 
-/// The test of a cell in a row that sums up those above; none if it sums up nothing that is known.
+/// The test of a cell in a row that sums up those above; `None` if it sums up nothing that is known.
 fn of_row(
     index: usize,
     table: &Table,
@@ -241,7 +241,7 @@ fn weights(table: &Table, column: usize, rows: &[usize]) -> Vec<Exact> {
     all.map_or_else(Vec::new, |all| std::iter::once(whole(0)).chain(all).collect())
 }
 
-/// How numbers of a column may follow from others of it; none where no mean or sum does.
+/// How numbers of a column may follow from others of it; `None` where no mean or sum does.
 fn forms(table: &Table, at: usize, word: Word) -> Option<Vec<Form>> {
     let Column { name, meaning, .. } = &table.columns[at];
     let is_n = table.columns.iter().any(|column| column.meaning.n == Some(Count::Column(name.clone())));
@@ -269,7 +269,7 @@ fn forms(table: &Table, at: usize, word: Word) -> Option<Vec<Form>> {
     Some(forms.to_vec())
 }
 
-/// Whether a column holds quotients, of which the mean may be geometric, or a quotient of means.
+/// Whether a column holds quotients: their mean may be geometric, or a quotient of means.
 fn is_quotient(table: &Table, at: usize) -> bool {
     let Column { name, meaning, .. } = &table.columns[at];
     let name = name.to_lowercase();
@@ -284,7 +284,7 @@ fn is_quotient(table: &Table, at: usize) -> bool {
     is_named || meaning.ratio.is_some() || cell.is_some_and(has_unit)
 }
 
-/// The test of a cell in a column that sums up those before it; none if it sums up nothing that is known.
+/// The test of a cell in a column that sums up those before it; `None` if it sums up nothing that is known.
 fn of_column(index: usize, table: &Table, row: usize, at: usize) -> Option<Summary> {
     let Column { name, meaning, .. } = &table.columns[at];
     let word = word(name)?;
@@ -343,7 +343,7 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
 }
 
 impl Summary {
-    /// What one choice allows by one form; none if 128 bits do not suffice.
+    /// What one choice allows by one form; `None` if 128 bits do not suffice.
     fn allowed(&self, spans: &[Span], choice: &[usize], form: Form) -> Option<Span> {
         if form == Form::Between {
             let low = choice.iter().map(|at| spans[*at].low).min()?;

@@ -21,7 +21,7 @@ pub static ENTRY: Entry = Entry {
         keys: &[
             ("total", "The sum of all values, in quotes: the printed number, or the name of a cell."),
             ("mean", "Their mean, in quotes: the printed number, or the name of a cell."),
-            ("n", "How many values are said to be behind them, a whole number; any if absent."),
+            ("n", "How many values are behind them, a whole number; any if absent."),
             (
                 "unit",
                 "The total's unit in the mean's, 1000 for s and ms, in quotes if no whole number; 1 if absent.",

@@ -31,7 +31,7 @@ struct TurnSum {
     /// The turn sum, then the length.
     numbers: [Quoted; 2],
     displacement: Cell,
-    /// The sums in multiples of 45° by length, since they are asked for again and again.
+    /// The sums by length, in multiples of 45°: many tests need the same ones.
     sums: RefCell<BTreeMap<String, Option<BTreeSet<u32>>>>,
     steps: std::cell::Cell<u64>,
 }
@@ -72,7 +72,7 @@ impl TurnSum {
         found.iter().all(|moves| moves.straight + moves.diagonal <= MOVES).then_some(found)
     }
 
-    /// Every turn sum of paths of that length, in multiples of 45°; none if the length allows too many moves.
+    /// Every turn sum of paths of that length, in multiples of 45°; `None` if the length allows too many moves.
     fn sums(&self, length: Print) -> Option<BTreeSet<u32>> {
         let key = format!("{} {:?}", length.printed, length.digits);
         if let Some(known) = self.sums.borrow().get(&key) {

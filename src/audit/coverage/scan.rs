@@ -1,6 +1,6 @@
 //! A walk through an author's LaTeX, line by line, that finds the numbers a reader sees.
 
-/// Commands of which arguments hold no number of the text, by how many they have.
+/// Commands whose arguments hold no number of the text, by how many arguments they have.
 const SILENT: [(usize, &str); 3] = [
     (
         1,

@@ -16,7 +16,7 @@ pub enum Number {
     },
     /// `29/30`, alone or with its percentage.
     Fraction {
-        /// k of n.
+        /// The two counts, k first.
         k_of_n: [u64; 2],
         /// The percentage beside it.
         percent: Option<Printed>,
@@ -114,7 +114,7 @@ fn bracketed(text: &str) -> Option<(&str, &str)> {
     text.strip_suffix(')')?.split_once('(')
 }
 
-/// The fraction that a text is, with a percentage before or behind it; none if it is no fraction.
+/// The fraction that a text is, with a percentage before or behind it; `None` if it is no fraction.
 fn fraction(text: &str) -> Result<Option<Number>, String> {
     let parts = |text: &str| {
         let (k, n) = text.trim().split_once('/')?;
@@ -212,7 +212,7 @@ fn complaint(text: &str) -> String {
     behind(text).unwrap_or_else(|| "is no number".to_owned())
 }
 
-/// What is wrong with the text behind a number; none if there is no number before it.
+/// What is wrong with the text behind a number; `None` if there is no number before it.
 fn behind(text: &str) -> Option<String> {
     let body = text.trim_start_matches(['-', '−']);
     let end = body.find(|c: char| !c.is_ascii_digit() && c != '.').filter(|end| *end > 0)?;

@@ -25,7 +25,7 @@ pub fn annotation(name: &str, unit: &str, texts: &[&str]) -> String {
         }
     };
     let numbers = read.iter().filter(is_number).count();
-    // A column with a few faulty numbers is one of numbers, so that they are told.
+    // A column with a few faulty numbers is one of numbers, so that its faults are reported.
     if numbers == 0 || 2 * numbers < filled {
         return "label".to_owned();
     }
@@ -50,7 +50,7 @@ pub fn are_multiples(brackets: &[f64]) -> bool {
     brackets.contains(&1.0) && brackets.iter().all(|multiple| *multiple >= 1.0)
 }
 
-/// What a column of fractions holds: counts, or percentages that have fractions beside them; none if it holds no fraction.
+/// What a column of fractions holds: counts, or percentages that have fractions beside them; `None` if it holds no fraction.
 fn fractions(read: &[Result<Number, String>]) -> Option<String> {
     let found = read.iter().filter_map(|number| match number {
         Ok(Number::Fraction { k_of_n: [_, n], percent }) => Some((*n, percent.is_some())),
@@ -109,7 +109,7 @@ pub fn take_n(columns: &mut [Column], rows: &[(usize, Vec<String>)]) {
     }
 }
 
-/// What a guessed column's statistic is of: its name without the statistic, n and units; none if it holds no statistic.
+/// What a guessed column's statistic is of: its name without the statistic, n and units; `None` if it holds no statistic.
 fn base(column: &Column) -> Option<String> {
     if column.written.is_some() || !matches!(column.meaning.kind, Kind::Of(_) | Kind::Share { .. }) {
         return None;

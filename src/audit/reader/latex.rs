@@ -18,11 +18,11 @@ pub fn raw(text: &str, faults: &mut Vec<Fault>) -> Vec<Raw> {
     let mut row = String::new();
     for (number, line) in text.lines().enumerate() {
         let line = without_comment(line).trim();
-        if let Some(said) = argument(line, "\\caption") {
+        if let Some(words) = argument(line, "\\caption") {
             if let Some(table) = tables.last_mut().filter(|table| table.name.is_empty() && open.is_none()) {
-                said.clone_into(&mut table.name);
+                words.clone_into(&mut table.name);
             } else {
-                said.clone_into(&mut caption);
+                words.clone_into(&mut caption);
             }
         }
         if line.contains("\\begin{tabular") {

@@ -78,7 +78,7 @@ struct Raw {
     rows: Vec<(usize, Vec<String>)>,
 }
 
-/// The most faults that are told.
+/// Faults reported of one file, at most.
 const FAULTS: usize = 50;
 
 /// Reads a text.
@@ -251,7 +251,7 @@ fn check_references(columns: &[Column], line: usize, faults: &mut Vec<Fault>) {
     }
 }
 
-/// Reads a cell by what its column is.
+/// Reads a cell as its column's kind demands.
 fn cell(text: &str, column: &Column, place: Place) -> Result<Cell, String> {
     let (plain, is_bold) = cells::plain(text);
     let mut cell = Cell { place, text: plain, is_bold, value: None, spread: None, k_of_n: None };
@@ -284,8 +284,8 @@ fn of_fraction(
         (_, Kind::Share { whole: 0 }) if percent.is_some() => {
             Err(format!("is a count and a percentage; say `% of {n}` in the header"))
         }
-        (Some(Count::Number(said)), Kind::Share { .. }) if *said != n => {
-            Err(format!("is of {n}, and the header says of {said}; one of both is accepted"))
+        (Some(Count::Number(header_n)), Kind::Share { .. }) if *header_n != n => {
+            Err(format!("is of {n}, and the header says of {header_n}; one of both is accepted"))
         }
         (_, Kind::Share { whole: 0 }) => Ok(k.to_string().parse().ok()),
         (_, Kind::Share { .. }) => Ok(percent),

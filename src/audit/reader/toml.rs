@@ -1,9 +1,9 @@
 //! TOML with tables, cells, samples and relations between them.
 
 use super::Raw;
-use crate::asked;
 use crate::input::Input;
 use crate::meaning::{self, Meaning};
+use crate::named_check;
 use crate::statistic::Statistic;
 use crate::table::{Fault, Place};
 use proofs::printed::Digits;
@@ -14,7 +14,7 @@ use toml::{Spanned, Value};
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Document {
-    /// Said of the whole file; not used.
+    /// A remark on the whole file; not used.
     #[serde(default, rename = "about")]
     _about: String,
     rounding: Option<Spanned<String>>,
@@ -81,7 +81,7 @@ pub fn read(text: &str, faults: &mut Vec<Fault>) -> Option<Input> {
     }
     for relation in document.relation {
         let place = line(relation.span().start);
-        match asked::read(placed(relation.into_inner()), digits, place) {
+        match named_check::read(placed(relation.into_inner()), digits, place) {
             Ok(relation) => input.relations.push(relation),
             Err(fault) => faults.push(fault),
         }
@@ -112,7 +112,7 @@ fn raw_of(table: &TableText, place: Place, faults: &mut Vec<Fault>) -> Option<Ra
     }
 }
 
-/// How digits end where nothing else is said; unknown words are faults at the place that `line` gives.
+/// How digits end where no annotation says otherwise; unknown words are faults at the place that `line` gives.
 fn digits_of(
     rounding: Option<&Spanned<String>>,
     line: impl Fn(usize) -> Place,

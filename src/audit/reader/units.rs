@@ -6,7 +6,7 @@ use crate::meaning::Kind;
 use crate::table::{Cell, Column, Fault, named_by};
 use proofs::printed::Printed;
 
-/// Refuses columns of which cells have other units than their header or each other, and sums of columns in different units:
+/// Refuses columns whose cells have other units than their header or each other, and sums of columns in different units:
 /// such numbers do not compare.
 pub(super) fn check(columns: &[Column], rows: &[Vec<Cell>], faults: &mut Vec<Fault>) {
     for (at, column) in columns.iter().enumerate() {
@@ -15,15 +15,15 @@ pub(super) fn check(columns: &[Column], rows: &[Vec<Cell>], faults: &mut Vec<Fau
         }
         let first = |at: usize| rows.iter().filter_map(|row| row.get(at)).find(|cell| cell.value.is_some());
         let unit = |at: usize, cell: &Cell| {
-            let said = columns[at].meaning.unit.clone();
-            said.unwrap_or_else(|| cells::unit(&cell.text).1.to_owned())
+            let written = columns[at].meaning.unit.clone();
+            written.unwrap_or_else(|| cells::unit(&cell.text).1.to_owned())
         };
         for name in &column.meaning.sum {
             let Some(part) = named_by(columns, at, name) else { continue };
             let (Some(total), Some(of)) = (first(at), first(part)) else { continue };
             let [own, other] = [unit(at, total), unit(part, of)];
-            let is_said = columns[at].meaning.unit.is_some() || columns[part].meaning.unit.is_some();
-            let is_half = is_said && (own.is_empty() || other.is_empty());
+            let is_written = columns[at].meaning.unit.is_some() || columns[part].meaning.unit.is_some();
+            let is_half = is_written && (own.is_empty() || other.is_empty());
             if own != other && !is_half {
                 let message = format!(
                     "column `{}`: `{}` is the sum of numbers such as `{}`, in {} and in {}; one unit is accepted in both",
@@ -41,7 +41,7 @@ pub(super) fn check(columns: &[Column], rows: &[Vec<Cell>], faults: &mut Vec<Fau
     }
 }
 
-/// Refuses shares of which some are in per cent and others of 1: `4.2%` above `0.042`.
+/// Refuses columns that mix shares in per cent with shares of 1: `4.2%` above `0.042`.
 fn percents(at: usize, column: &Column, rows: &[Vec<Cell>], faults: &mut Vec<Fault>) {
     let Kind::Share { whole } = column.meaning.kind else { return };
     let cells = || rows.iter().filter_map(|row| row.get(at).filter(|cell| cell.value.is_some()));

@@ -33,7 +33,7 @@ fn guess(input: &Input, test: &dyn Test) -> Option<String> {
     ))
 }
 
-/// Whether nothing that was guessed of a column counts: it holds numbers, of which rows or other columns say what they are.
+/// Whether a column's guessed meaning cannot matter: it holds numbers whose meaning its rows or other columns give.
 fn is_plain(table: &Table, column: usize) -> bool {
     let meaning = &table.columns[column].meaning;
     let says_little = meaning.n.is_none() && meaning.grain.is_none();

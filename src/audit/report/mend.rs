@@ -1,7 +1,7 @@
 //! The least change that mends a finding, and findings of one cause.
 //!
 //! A mean that no n values have makes its deviation impossible too, and its place among quantiles. A reader wants the cause
-//! once: a finding that a smaller one's mend mends as well follows from it, and is told with it.
+//! once. A finding that the mend of a smaller one mends as well follows from it, and is reported beside it.
 
 use super::effort::Effort;
 use super::{Class, Finding};
@@ -23,14 +23,14 @@ pub struct Mend {
     pub from: Printed,
     /// As it would have to be.
     pub to: Printed,
-    /// Whether the order of the rows by that column changes with it; none where there is no column.
+    /// Whether the order of the rows by that column changes with it; `None` where there is no column.
     pub changes_ranking: Option<bool>,
 }
 
 /// How many changed prints are tried for a mend.
 const MENDS: i64 = 2000;
 
-/// The least change, in units of the last place, of one number of a test that refuses `prints`; none if the effort does not
+/// The least change, in units of the last place, of one number of a test that refuses `prints`; `None` if the effort does not
 /// suffice.
 pub(super) fn least(input: &Input, test: &dyn Test, prints: &[Print], effort: &Effort) -> Option<Mend> {
     let tries = MENDS / (2 * prints.len().max(1) as i64);
@@ -73,15 +73,15 @@ fn changes_ranking(
 
 /// A test that refuses what is printed, and the finding that says so, by its index.
 pub(super) struct Refusal {
-    /// The finding.
+    /// The finding's place in the list of findings.
     pub(super) finding: usize,
-    /// The test.
+    /// The test that refuses.
     pub(super) test: Box<dyn Test>,
-    /// Whether the author asked for it by a relation, so that it is told by itself in any case.
-    pub(super) is_asked: bool,
+    /// Whether the author wrote the relation that it breaks: it is then reported by itself in any case.
+    pub(super) is_written: bool,
 }
 
-/// Takes out findings that follow from smaller ones and tells them with these; gives the checks of those taken out.
+/// Takes out findings that follow from smaller ones and names them in these; gives the checks of those taken out.
 pub(super) fn one_a_cause(
     findings: &mut Vec<Finding>,
     mut refusals: Vec<Refusal>,
@@ -90,7 +90,7 @@ pub(super) fn one_a_cause(
     refusals.sort_by_key(size);
     let mut mended: BTreeMap<(Place, String), (Printed, usize)> = BTreeMap::new();
     let mut taken = BTreeSet::new();
-    for Refusal { finding, test, is_asked } in &refusals {
+    for Refusal { finding, test, is_written } in &refusals {
         let mut prints: Vec<Print> = test.numbers().iter().map(|number| number.print).collect();
         let mut cause = None;
         for (print, number) in prints.iter_mut().zip(test.numbers()) {
@@ -98,10 +98,10 @@ pub(super) fn one_a_cause(
                 (print.printed, cause) = (*to, cause.or(Some(*by)));
             }
         }
-        if let Some(cause) = cause.filter(|_| !is_asked && test.is_possible(&prints) == Some(true)) {
+        if let Some(cause) = cause.filter(|_| !is_written && test.is_possible(&prints) == Some(true)) {
             let Finding { check, name, .. } = &findings[*finding];
-            let told = format!("{check} of {name}");
-            findings[cause].follows.push(told);
+            let consequence = format!("{check} of {name}");
+            findings[cause].follows.push(consequence);
             taken.insert(*finding);
         } else if let Some(Mend { name, place, to, .. }) = &findings[*finding].mend {
             mended.entry((*place, name.clone())).or_insert((*to, *finding));

@@ -39,7 +39,7 @@ impl Power {
     }
 }
 
-/// In words: what share of which prints is refused, and why these.
+/// In words: the share of refused prints, the prints that were tried, and why these.
 impl fmt::Display for Power {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { low, high, tried, refused, why, is_beyond } = self;
@@ -55,7 +55,7 @@ impl fmt::Display for Power {
     }
 }
 
-/// How much of what could be printed instead of the first number the test refuses; none if the effort does not suffice.
+/// How much of what could be printed instead of the first number the test refuses; `None` if the effort does not suffice.
 pub(super) fn power(test: &dyn Test, prints: &[Print], most: i128, effort: &Effort) -> Option<Power> {
     let first = prints[0].printed;
     let (low, high, why) = window(test, first)?;

@@ -72,12 +72,12 @@ fn of_rows(table: &Table) -> Vec<Unseen> {
             unknown.entry(&name.text).or_insert(name.place);
         }
     }
-    let told = |(name, place): (&str, Place)| Unseen {
+    let unseen = |(name, place): (&str, Place)| Unseen {
         place,
         name: format!("row `{name}`"),
         advice: format!("no statistic is called so; there are {}", Statistic::WORDS),
     };
-    unknown.into_iter().map(told).collect()
+    unknown.into_iter().map(unseen).collect()
 }
 
 fn of_column(table: &Table, at: usize) -> Option<Unseen> {

@@ -130,8 +130,8 @@ mod tests {
     use crate::grid::{independent_cells, parse_text_map};
     use crate::seed;
 
-    /// Whether the segment crosses no blocked cell and runs between no two, by points on it: every grid line that it meets cuts it into
-    /// pieces, and the middle of each piece lies in one cell, or on an edge between two. Coordinates are multiplied by 2 dx dy.
+    /// Whether the segment crosses no blocked cell and runs between no two, by points on it. Every grid line that it meets cuts it into
+    /// pieces. The middle of each piece lies in one cell, or on an edge between two. Coordinates are multiplied by 2 dx dy.
     fn is_clear(cells: &Grid2, from: [i32; 2], to: [i32; 2]) -> bool {
         let [dx, dy] = [i64::from(to[0] - from[0]), i64::from(to[1] - from[1])];
         // Where along the way grid lines are met, in parts of |dx dy|.

@@ -19,7 +19,7 @@ pub const STEPS_26: [[i32; 3]; 26] = {
 
 /// A dense lattice of nodes in space, some of them blocked.
 ///
-/// Nodes are numbered row by row with a blocked border around them, so that a step from a node inside needs no
+/// Nodes are numbered row by row with a blocked border around them. A step from a node inside needs no
 /// check of bounds: the number of a neighbour is the number of the node plus the step's [`offset`](Self::offset).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Grid3 {

@@ -77,10 +77,10 @@ pub enum GridError {
         reason: String,
     },
     /// What stands beside a map, such as the YAML file of an image, is wrong, at its place.
-    #[error("{said}")]
-    Told {
+    #[error("{message}")]
+    Reported {
         /// The place and what is wrong.
-        said: String,
+        message: String,
     },
     /// Any of the above, in a file.
     #[error("{}: {source}", path.display())]

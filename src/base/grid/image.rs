@@ -219,8 +219,8 @@ mod tests {
                         "{shown}"
                     );
                 }
-                (Err(error), Err(said)) => {
-                    assert!(error.starts_with(said), "{shown}: {error}\nis not {said}");
+                (Err(error), Err(refusal)) => {
+                    assert!(error.starts_with(refusal), "{shown}: {error}\nis not {refusal}");
                 }
                 (found, expected) => panic!("{shown}: {found:?} is not {expected:?}"),
             }

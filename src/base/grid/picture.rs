@@ -22,7 +22,7 @@ pub struct FileMap {
 /// The map in the file at `path`: an image (`.png`, `.pgm`), a ROS map (`.yaml`), a Moving AI map (`.map`), or a text map.
 ///
 /// # Errors
-/// [`GridError::InFile`] or [`GridError::Told`] around what is wrong.
+/// [`GridError::InFile`] or [`GridError::Reported`] around what is wrong.
 pub fn read_map(path: &Path) -> Result<FileMap, GridError> {
     let ending = path.extension().map(|end| end.to_string_lossy().to_lowercase()).unwrap_or_default();
     let alone = |grid: Grid2| FileMap { grid, files: vec![path.to_owned()], notes: Vec::new() };
@@ -49,7 +49,7 @@ pub fn read_map(path: &Path) -> Result<FileMap, GridError> {
 
 /// The ROS map whose YAML file is at `path`, and both of its files.
 fn read_ros_map(path: &Path) -> Result<FileMap, GridError> {
-    let head = Head::read(path).map_err(|error| GridError::Told { said: error.to_string() })?;
+    let head = Head::read(path).map_err(|error| GridError::Reported { message: error.to_string() })?;
     let image = Image::open(&head.image)?;
     let grid = grid(&head.image, &image, |pixel| head.is_free(pixel.bright_with_opacity))?;
     let notes = head.notes(&image);
@@ -168,6 +168,8 @@ mod tests {
         };
         let FileMap { grid, files, .. } = read(head).unwrap();
         assert_eq!((free(&grid), files.len()), (vec![[0, 0], [2, 0], [0, 1]], 2), "205 is unknown to ROS");
+        let marked = read(&format!("\u{feff}{}", head.replace('\n', "\r\n"))).unwrap();
+        assert_eq!(free(&marked.grid), free(&grid), "a byte-order mark, and ends of lines of another system");
         for word in ["1", "true", "Yes", "on", "'1'", "\"true\""] {
             let negated = read(&head.replace("negate: 0", &format!("negate: {word}"))).unwrap();
             assert_eq!(free(&negated.grid), vec![[2, 1]], "{word}");
@@ -176,9 +178,9 @@ mod tests {
             let kept = read(&head.replace("negate: 0", &format!("negate: {word}"))).unwrap();
             assert_eq!(free(&kept.grid), free(&grid), "{word}");
         }
-        for (from, to, said) in WRONG_HEADS {
+        for (from, to, expected) in WRONG_HEADS {
             let error = read(&head.replace(from, to)).unwrap_err();
-            assert!(error.contains(said), "should say {said}\nsays {error}");
+            assert!(error.contains(expected), "should say {expected}\nsays {error}");
         }
     }
 

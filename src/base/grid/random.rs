@@ -147,7 +147,7 @@ mod tests {
     use crate::seed;
 
     #[test]
-    fn cells_are_blocked_in_the_share_asked_for() {
+    fn cells_are_blocked_in_the_share_wanted() {
         let grid = independent_cells(&mut seed::stream(4), [200, 200], 0.3, &[]).unwrap();
         let blocked = f64::from(grid.cell_count() - grid.free_count()) / f64::from(grid.cell_count());
         assert!((blocked - 0.3).abs() < 0.01, "seed 4: {blocked}"); // four standard errors

@@ -91,8 +91,8 @@ fn free_below(yaml: Yaml<'_>, root: &Node) -> Result<f64, SettingsError> {
         match yaml.number(node, key)? {
             share if (0.0..=1.0).contains(&share) => Ok((node, share)),
             other => {
-                let asked = if other > 1.0 { "is it in per cent or a pixel's value? " } else { "" };
-                let message = format!("{key} is {other}; {asked}a number from 0 to 1 is accepted");
+                let question = if other > 1.0 { "is it in per cent or a pixel's value? " } else { "" };
+                let message = format!("{key} is {other}; {question}a number from 0 to 1 is accepted");
                 Err(yaml.0.fault(&node.at, message))
             }
         }

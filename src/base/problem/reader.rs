@@ -31,8 +31,8 @@ impl Reader<'_> {
         self.notes.borrow_mut().insert(message);
     }
 
-    /// Looks at the keys that are not read: those in the table of ignored keys are passed over, one that is nearly written like one
-    /// that is read is refused, and so is one with tables under it if that `may_be_solids`; all others are noted.
+    /// Looks at the keys that are not read. Those in the table of ignored keys are passed over. One that is nearly written like one
+    /// that is read is refused, and so is one with tables under it if that `may_be_solids`. All others are noted.
     pub(super) fn rest(self, of: &Node, read: &[&str], may_be_solids: bool) -> Result<(), SettingsError> {
         for (key, node) in self.yaml.table(of)? {
             if read.contains(&key.as_str()) || is_ignored("problem", key) {
@@ -198,7 +198,7 @@ impl Reader<'_> {
     }
 
     /// The pose, which is noted if its quaternion was not of length 1.
-    fn unit(self, (pose, was_rounded): (Pose, bool)) -> Pose {
+    pub(super) fn unit(self, (pose, was_rounded): (Pose, bool)) -> Pose {
         if was_rounded {
             self.note("quaternions of few digits were made those of length 1".to_owned());
         }

@@ -36,7 +36,8 @@ const VAMP: &str = r#"{"robot": "panda", "problems": {"shelf": [{"index": 1, "st
 
 fn read(text: &str, set: Option<&str>, index: usize) -> Result<Problem, String> {
     let expected = Expected { robot: "panda", joints: vec!["lift", "turn"] };
-    parse_problem(&Document::new(Path::new("p.json"), text.to_owned()), set, index, Some(&expected))
+    ProblemFile::parse(Document::new(Path::new("p.json"), text.to_owned()))
+        .and_then(|file| file.problem(set, index, Some(&expected)))
         .map_err(|e| e.to_string())
 }
 
@@ -60,8 +61,8 @@ fn both_forms_of_a_problem_read_the_same() {
 #[test]
 fn obstacles_of_a_kind_that_is_not_known_are_not_passed_over() {
     let error = read(&VAMP.replacen("\"sphere\":", "\"capsule\":", 1), None, 0).unwrap_err();
-    let said = "p.json:5:18: obstacles are `capsule`; box, cylinder, sphere are accepted";
-    assert!(error.contains(said), "should say {said}\nsays {error}");
+    let expected = "p.json:5:18: obstacles are `capsule`; box, cylinder, sphere are accepted";
+    assert!(error.contains(expected), "should say {expected}\nsays {error}");
     let kept = VAMP.replacen("\"index\": 1", "\"valid\": true, \"tags\": [1, 2]", 1);
     let kept = read(&kept, None, 0).unwrap();
     assert_eq!((kept.obstacles.len(), kept.notes), (3, vec!["`tags` is not known and not used".to_owned()]));
@@ -130,19 +131,19 @@ const WRONG: &[(&str, &str, &str)] = &[
 ];
 
 #[test]
-fn what_is_wrong_with_a_problem_is_told_at_its_place() {
-    for (from, to, said) in WRONG {
+fn what_is_wrong_with_a_problem_is_reported_at_its_place() {
+    for (from, to, expected) in WRONG {
         let text = ROBOMETRICS.replace("- - [0.1, 0.2]", "- [0.1, 0.2]");
         assert!(text.contains(*from), "{from}");
         let error = read(&text.replace(*from, to), None, 1).unwrap_err();
-        assert!(error.contains(said), "{to}: should say {said}\nsays {error}");
+        assert!(error.contains(expected), "{to}: should say {expected}\nsays {error}");
     }
-    for (set, index, said) in [
+    for (set, index, expected) in [
         (Some("shelf"), 0, "p.json:1:1: there is no `shelf`; found are `shelf_panda`"),
         (None, 2, "p.json:2:3: problem 2 is requested; the set has 2, counted from 0"),
     ] {
         let error = read(ROBOMETRICS, set, index).unwrap_err();
-        assert!(error.contains(said), "should say {said}\nsays {error}");
+        assert!(error.contains(expected), "should say {expected}\nsays {error}");
     }
 }
 
@@ -168,12 +169,14 @@ const NAMED: &[(&str, Result<[f64; 2], &str>)] = &[
 
 #[test]
 fn numbers_go_to_the_joints_that_the_file_names_and_other_robots_are_refused() {
-    for (before, said) in NAMED {
+    for (before, expected) in NAMED {
         let text = VAMP.replacen("\"robot\": \"panda\",", &format!("{before}           "), 1);
-        match (read(&text, None, 0), said) {
+        match (read(&text, None, 0), expected) {
             (Ok(problem), Ok(start)) => assert_eq!(problem.start.joints, start, "{before}"),
-            (Err(error), Err(said)) => assert!(error.contains(said), "should say {said}\nsays {error}"),
-            (found, said) => panic!("{before}: should be {said:?}\nis {found:?}"),
+            (Err(error), Err(expected)) => {
+                assert!(error.contains(expected), "should say {expected}\nsays {error}");
+            }
+            (found, expected) => panic!("{before}: should be {expected:?}\nis {found:?}"),
         }
     }
 }
@@ -241,15 +244,154 @@ const KEYS: &[(&str, &str, Result<&[&str], &str>)] = &[
 
 #[test]
 fn every_key_of_a_problem_is_read_ignored_for_a_reason_noted_or_refused() {
-    for (from, to, said) in KEYS {
+    for (from, to, expected) in KEYS {
         assert!(VAMP.contains(from), "{from}");
-        match (read(&VAMP.replacen(from, to, 1), None, 0), said) {
+        match (read(&VAMP.replacen(from, to, 1), None, 0), expected) {
             (Ok(problem), Ok(notes)) => {
                 assert_eq!(problem.notes, *notes, "{to}");
                 assert_eq!(problem.is_valid, !to.contains("false"), "{to}");
             }
-            (Err(error), Err(said)) => assert!(error.contains(said), "should say {said}\nsays {error}"),
-            (found, said) => panic!("{to}: should be {said:?}\nis {found:?}"),
+            (Err(error), Err(expected)) => {
+                assert!(error.contains(expected), "should say {expected}\nsays {error}");
+            }
+            (found, expected) => panic!("{to}: should be {expected:?}\nis {found:?}"),
         }
     }
+}
+
+const SCENE: &str = "robot_model_name: panda
+robot_state: {joint_state: {name: [lift, turn], position: [0, 0]}}
+allowed_collision_matrix: {entry_names: [hand]}
+fixed_frame_transforms: [{child_frame_id: world, transform: {translation: [0, 0, 0], rotation: [0, 0, 0, 1]}}]
+name: \"\"
+world:
+  collision_objects:
+    - id: plank
+      pose: {position: [0.5, 0, 0], orientation: [0, 0, 0.7071067811865476, 0.7071067811865476]}
+      primitives: [{type: box, dimensions: [1.2, 1.0, 0.04]}]
+      primitive_poses: [{position: [0, 0, 0.2], orientation: [0, 0, 0, 1]}]
+    - id: can
+      primitive_poses: [{position: [0.1, 0.2, 0.3], orientation: [0, 0, 0, 1]}]
+      primitives: [{type: cylinder, dimensions: [0.14, 0.02]}]
+    - id: ball
+      primitive_poses: [{position: [0, 1, 0]}]
+      primitives: [{type: sphere, dimensions: [0.1]}]
+";
+
+const REQUEST: &str = "group_name: arm
+start_state: {joint_state: {name: [turn, finger, lift], position: [1.5, 0.04, 0.0]}}
+goal_constraints:
+  - joint_constraints: [{joint_name: turn, position: -0.25}, {position: 0.5, joint_name: lift}]
+";
+
+fn moveit(scene: &str, request: &str) -> Result<Problem, String> {
+    let expected = Expected { robot: "panda", joints: vec!["lift", "turn"] };
+    let [scene, request] = [("scene.yaml", scene), ("request.yaml", request)]
+        .map(|(path, text)| Document::new(Path::new(path), text.to_owned()));
+    parse_moveit(&scene, &request, &expected).map_err(|e| e.to_string())
+}
+
+#[test]
+fn a_scene_and_its_request_are_the_problem_that_vamp_makes_of_them() {
+    let (one, other) = (moveit(SCENE, REQUEST).unwrap(), read(VAMP, None, 0).unwrap());
+    assert_eq!((&one.start.joints, &one.goals[0].joints), (&other.start.joints, &other.goals[0].joints));
+    assert_eq!(one.obstacles.len(), 3);
+    for (a, b) in one.obstacles.iter().zip(&other.obstacles) {
+        assert_eq!((&a.name, &a.form), (&b.name, &b.form));
+        let [at, by] = [&a.pose, &b.pose].map(|pose| pose.point([0.3, 0.2, 0.1]));
+        assert!(at.iter().zip(by).all(|(x, y)| (x - y).abs() < 1e-12), "{}: {at:?} {by:?}", a.name);
+    }
+}
+
+#[test]
+fn what_a_scene_or_a_request_holds_besides_is_refused_at_its_place() {
+    for (from, to, message) in [
+        ("name: \"\"", "robot_state_diff: [1]", "scene.yaml:5:19: `robot_state_diff` is not read"),
+        (
+            "[lift, turn], position: [0, 0]}",
+            "[lift], position: [0]}, attached_collision_objects: [{id: cup}]",
+            "`attached_collision_objects` is not read",
+        ),
+        ("    - id: ball\n", "    - id: ball\n      meshes: [{vertices: [0]}]\n", "`meshes` is not read"),
+        ("type: sphere", "type: cone", "a primitive is a `cone`; box, cylinder and sphere are accepted"),
+        (
+            "translation: [0, 0, 0]",
+            "translation: [0, 0, 1]",
+            "the translation of a frame is not that of the robot's base",
+        ),
+        ("panda", "fetch", "the problems are for the robot `fetch`"),
+        ("dimensions: [0.14, 0.02]", "dimensions: [140, 20]", "is it in millimetres"),
+    ] {
+        assert!(SCENE.contains(from), "{from}");
+        let error = moveit(&SCENE.replacen(from, to, 1), REQUEST).unwrap_err();
+        assert!(error.contains(message), "should say {message}\nsays {error}");
+    }
+    for (from, to, message) in [
+        ("joint_name: lift", "joint_name: drop", "the goal has no joint `lift` of `panda`"),
+        ("finger, lift", "finger, drop", "the start has no joint `lift` of `panda`"),
+        ("position: -0.25", "position: -45", "is it in degrees"),
+        ("[1.5, 0.04, 0.0]", "[1.5, 0.04]", "2 numbers for 3 joints"),
+        (
+            "joint_state:",
+            "multi_dof_joint_state: {joint_names: [base], transforms: [{translation: [1, 0, 0], rotation: [0, 0, 0, 1]}]}, joint_state:",
+            "the translation of a frame is not that of the robot's base",
+        ),
+        (
+            "group_name: arm",
+            "path_constraints: {name: up}",
+            "request.yaml:1:19: `path_constraints` is not read",
+        ),
+    ] {
+        assert!(REQUEST.contains(from), "{from}");
+        let error = moveit(SCENE, &REQUEST.replacen(from, to, 1)).unwrap_err();
+        assert!(error.contains(message), "should say {message}\nsays {error}");
+    }
+}
+
+/// An archive of files.
+fn tar(files: &[(&str, &str)]) -> Vec<u8> {
+    let mut archive = Vec::new();
+    for (name, text) in files {
+        let mut header = vec![0; 512];
+        header[..name.len()].copy_from_slice(name.as_bytes());
+        header[124..135].copy_from_slice(format!("{:011o}", text.len()).as_bytes());
+        header[156] = b'0';
+        archive.extend(header);
+        archive.extend(text.as_bytes());
+        archive.resize(archive.len().next_multiple_of(512), 0);
+    }
+    archive.extend([0; 1024]);
+    archive
+}
+
+#[test]
+fn an_archive_of_pairs_is_a_set_and_a_fault_in_one_leaves_the_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("set.tar");
+    let files = [
+        ("problems/shelf_panda/request0001.yaml", REQUEST),
+        ("problems/shelf_panda/scene0002.yaml", SCENE),
+        ("problems/shelf_panda/scene0001.yaml", SCENE),
+        ("problems/box_panda/scene0001.yaml", "world: {}"),
+        ("problems/box_panda/request0001.yaml", REQUEST),
+        ("problems/readme.txt", "text"),
+    ];
+    std::fs::write(&path, tar(&files)).unwrap();
+    let expected = Expected { robot: "panda", joints: vec!["lift", "turn"] };
+    let all = ProblemSet::open(&path, None).unwrap();
+    assert_eq!(all.count(), 3);
+    let said = |index| {
+        all.problem(index, &expected).map(|problem| problem.obstacles.len()).map_err(|e| e.to_string())
+    };
+    let wrong = said(0).unwrap_err();
+    assert!(wrong.contains("box_panda/scene0001.yaml:1:8: there is no `collision_objects`"), "{wrong}");
+    assert_eq!(said(1), Ok(3));
+    assert!(said(2).unwrap_err().contains("scene0002.yaml:1:1: the scene has no request"));
+    assert!(said(3).unwrap_err().contains("the set has 3"));
+    assert_eq!(ProblemSet::open(&path, Some("shelf")).unwrap().count(), 2);
+    let none = ProblemSet::open(&path, Some("cage")).unwrap_err().to_string();
+    assert!(none.contains("no scene and no request of a folder `cage`"), "{none}");
+    std::fs::write(&path, &tar(&files)[..700]).unwrap();
+    let cut = ProblemSet::open(&path, None).unwrap_err().to_string();
+    assert!(cut.contains("it ends within `problems/shelf_panda/request0001.yaml`"), "{cut}");
 }

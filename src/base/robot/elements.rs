@@ -66,11 +66,11 @@ pub(super) fn unread(root: Node<'_, '_>, format: &str, read: &[(&str, &[&str])])
             }
         }
     }
-    let told = |(way, count): (String, usize)| {
+    let message = |(way, count): (String, usize)| {
         let times = if count == 1 { String::new() } else { format!(" ({count} times)") };
         format!("`{way}` is not known and not used{times}")
     };
-    found.into_iter().map(told).collect()
+    found.into_iter().map(message).collect()
 }
 
 impl Elements<'_> {

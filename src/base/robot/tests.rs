@@ -198,17 +198,17 @@ const WRONG: &[(&str, &str, &str)] = &[
 #[test]
 fn every_bad_input_is_refused_at_its_place() {
     let mut missed = Vec::new();
-    for (from, to, said) in WRONG {
+    for (from, to, expected) in WRONG {
         assert!(ARM.contains(from), "{from}");
         match read(&ARM.replacen(from, to, 1), FOOT.as_bytes()) {
-            Ok(_) => missed.push(format!("{to}\nis accepted; should say: {said}")),
-            Err(error) if !error.contains(said) => {
-                missed.push(format!("{to}\nshould say: {said}\nsays:       {error}"));
+            Ok(_) => missed.push(format!("{to}\nis accepted; should say: {expected}")),
+            Err(error) if !error.contains(expected) => {
+                missed.push(format!("{to}\nshould say: {expected}\nsays:       {error}"));
             }
             Err(_) => {}
         }
     }
-    for (foot, said) in [
+    for (foot, expected) in [
         (
             &b"\x00\x01"[..],
             "/meshes/foot.stl: its 2 bytes are too few for a binary STL file, and its text does not begin with `solid`",
@@ -218,14 +218,14 @@ fn every_bad_input_is_refused_at_its_place() {
         (b"solid\nvertex 0 nan 0\n", "it has the vertex 0 NaN 0; finite numbers are accepted"),
     ] {
         let error = read(ARM, foot).unwrap_err();
-        if !error.contains(said) {
-            missed.push(format!("should say: {said}\nsays:       {error}"));
+        if !error.contains(expected) {
+            missed.push(format!("should say: {expected}\nsays:       {error}"));
         }
     }
     let bare = read(&ARM.replace("collision>", "visual>"), FOOT.as_bytes()).unwrap_err();
-    let said = "/two.urdf:3:1: no link has a `collision`: nothing could be touched; at least one";
-    if !bare.contains(said) {
-        missed.push(format!("should say: {said}\nsays:       {bare}"));
+    let expected = "/two.urdf:3:1: no link has a `collision`: nothing could be touched; at least one";
+    if !bare.contains(expected) {
+        missed.push(format!("should say: {expected}\nsays:       {bare}"));
     }
     assert!(missed.is_empty(), "{}", missed.join("\n"));
     assert!(
@@ -258,8 +258,8 @@ fn a_mesh_is_read_as_text_and_as_numbers_and_bytes_too_many_are_counted() {
     let [numbers, text] = [&binary[..], FOOT.as_bytes()].map(|foot| read(ARM, foot).unwrap());
     assert_eq!(numbers.solids, text.solids);
     let error = read(ARM, &[&binary[..], &[0; 4]].concat()).unwrap_err();
-    let said = "foot.stl: its head says 2 facets, which take 184 bytes as a binary STL file; it has 188";
-    assert!(error.contains(said), "should say {said}\nsays {error}");
+    let expected = "foot.stl: its head says 2 facets, which take 184 bytes as a binary STL file; it has 188";
+    assert!(error.contains(expected), "should say {expected}\nsays {error}");
 }
 
 /// Changes of the file that mean nothing, or what the format says of what is left out.
@@ -272,6 +272,11 @@ const RIGHT: &[(&str, &str)] = &[
     ("<limit effort=\"1\" velocity=\"1\"/>", "<limit lower=\"-1\" upper=\"1\" velocity=\"0\"/>"),
     ("package://two/meshes", "model://two/meshes"),
     ("package://two/meshes", "meshes"),
+    (
+        "<link name=\"base\">",
+        "<link name=\"world\"/><joint name=\"stand\" type=\"fixed\"><parent link=\"world\"/><child link=\"base\"/></joint>\
+         <link name=\"base\">",
+    ),
     (
         "<link name=\"tool\"/>",
         "<link name=\"tool\"><visual/><inertial/></link><transmission name=\"t\"/><gazebo/>",
@@ -362,7 +367,7 @@ fn links_that_an_srdf_file_lets_touch_are_read_and_its_other_elements_are_known_
     let notes =
         ["`robot/pose` is not known and not used", "no solid stands for the links `finger` of its pairs"];
     assert_eq!(lost.notes, notes);
-    for (from, to, said) in [
+    for (from, to, expected) in [
         ("\"two\"", "\"three\"", "two.srdf:1:1: the file is of the robot `three`; `two` is accepted"),
         (
             "disable_coll",
@@ -377,6 +382,6 @@ fn links_that_an_srdf_file_lets_touch_are_read_and_its_other_elements_are_known_
         ("\"mast\"", "\"${side}\"", "this is xacro"),
     ] {
         let error = pairs(&srdf.replacen(from, to, 1)).unwrap_err();
-        assert!(error.contains(said), "should say {said}\nsays {error}");
+        assert!(error.contains(expected), "should say {expected}\nsays {error}");
     }
 }

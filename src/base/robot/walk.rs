@@ -220,12 +220,12 @@ fn limits(xml: Elements<'_>, name: &str, kind: Kind, limit: Node<'_, '_>) -> Res
     let [lower, upper] = [xml.number_or(limit, "lower", 0.0)?, xml.number_or(limit, "upper", 0.0)?];
     let fault = |key, message: String| Err(xml.fault(&place(limit, key), message));
     for (key, value) in [("lower", lower), ("upper", upper)] {
-        let (most, asked) = match kind {
+        let (most, accepted) = match kind {
             Kind::Slides => (FAR_M, "is it in millimetres? metres are accepted"),
             Kind::Turns | Kind::TurnsOn => (FAR_RAD, "is it in degrees? radians are accepted"),
         };
         if value.abs() > most {
-            return fault(key, format!("{key} of joint `{name}` is {value}; {asked}"));
+            return fault(key, format!("{key} of joint `{name}` is {value}; {accepted}"));
         }
     }
     if upper <= lower {

@@ -149,9 +149,10 @@ fn in_toml(value: &Value) -> String {
     match value {
         Value::Object(table) if table.values().all(Value::is_null) => "an empty table".to_owned(),
         Value::Object(table) => {
-            let said = table.iter().filter(|(_, value)| !value.is_null());
-            let said: Vec<String> = said.map(|(key, value)| format!("{key} = {}", in_toml(value))).collect();
-            format!("{{ {} }}", said.join(", "))
+            let given = table.iter().filter(|(_, value)| !value.is_null());
+            let given: Vec<String> =
+                given.map(|(key, value)| format!("{key} = {}", in_toml(value))).collect();
+            format!("{{ {} }}", given.join(", "))
         }
         other => other.to_string(),
     }

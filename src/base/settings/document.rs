@@ -25,6 +25,9 @@ pub struct Document {
     parted: BTreeSet<String>,
 }
 
+/// The most bytes of a spec: twenty thousand boxes have room, and `check` reads them in seconds.
+const MOST_OF_SPEC: usize = 2_000_000;
+
 /// What a text says, or why it is no TOML.
 type Outcome<'t> = Result<Spanned<DeValue<'t>>, toml::de::Error>;
 
@@ -93,6 +96,11 @@ impl Document {
     /// # Errors
     /// A syntax error, or every unknown key, missing key and value that is not accepted, each at its own place.
     pub fn read<T: DeserializeOwned + JsonSchema + 'static>(&self) -> Result<T, SettingsError> {
+        let bytes = self.text().len();
+        if bytes > MOST_OF_SPEC {
+            let message = format!("the file has {bytes} bytes; a spec of at most {MOST_OF_SPEC} is accepted");
+            return Err(self.error(0..0, message));
+        }
         if self.text().trim().is_empty() {
             return Err(self.error(0..0, "the file is empty; a TOML table is expected"));
         }

@@ -156,16 +156,16 @@ const MOST_OF_FILE: usize = 50;
 
 /// Each fault on a line of its own; of a file with very many the first ones, and how many more there are.
 fn lines(errors: &[SettingsError]) -> String {
-    let mut told: BTreeMap<Option<&PathBuf>, usize> = BTreeMap::new();
+    let mut counts: BTreeMap<Option<&PathBuf>, usize> = BTreeMap::new();
     let mut lines = Vec::new();
     for error in errors {
-        let count = told.entry(error.place().1).or_default();
+        let count = counts.entry(error.place().1).or_default();
         *count += 1;
         if *count <= MOST_OF_FILE {
             lines.push(error.to_string());
         }
     }
-    for (path, count) in told.into_iter().filter(|(_, count)| *count > MOST_OF_FILE) {
+    for (path, count) in counts.into_iter().filter(|(_, count)| *count > MOST_OF_FILE) {
         let path = path.map_or_else(String::new, |path| format!("{}: ", path.display()));
         lines.push(format!("{path}{} more faults like these", count - MOST_OF_FILE));
     }
@@ -219,7 +219,7 @@ impl Faults {
     /// If there is no value and nothing was added that says why.
     pub fn or<T>(self, value: Option<T>) -> Result<T, SettingsError> {
         self.done()?;
-        Ok(value.expect("what is missing was told as a fault"))
+        Ok(value.expect("what is missing was reported as a fault"))
     }
 
     /// Says that something called `name` is there but could not be read, for a reason that was added: that the name is not
@@ -240,11 +240,11 @@ impl Faults {
 
     /// All that is wrong, in the order of the places; only for who has added a fault.
     pub fn error(mut self) -> SettingsError {
-        let is_told = |fault: &SettingsError| match fault {
+        let is_sure = |fault: &SettingsError| match fault {
             SettingsError::At { about, .. } => !about.iter().any(|name| self.unread.contains(&**name)),
             _ => true,
         };
-        self.found.retain(is_told);
+        self.found.retain(is_sure);
         self.found.sort_by(|a, b| a.place().cmp(&b.place()));
         if self.found.len() == 1 { self.found.remove(0) } else { SettingsError::Several(self.found) }
     }

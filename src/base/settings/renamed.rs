@@ -17,8 +17,8 @@ pub fn renamed(section: &str) -> &'static BTreeMap<String, String> {
 /// That `key` of a spec was renamed or moved, if it was.
 pub(super) fn renamed_key(key: &str) -> Option<String> {
     let now = renamed("keys").get(key)?;
-    let said = if now.contains(' ') { now.clone() } else { format!("it is `{now}` now") };
-    Some(format!("`{key}` is no key here: {said}"))
+    let advice = if now.contains(' ') { now.clone() } else { format!("it is `{now}` now") };
+    Some(format!("`{key}` is no key here: {advice}"))
 }
 
 #[cfg(test)]
@@ -36,7 +36,7 @@ mod tests {
     }
 
     #[test]
-    fn an_old_key_is_told_with_the_new_one() {
+    fn an_old_key_is_reported_with_the_new_one() {
         let expected = "`replicates` is no key here: it is `instances` now";
         assert_eq!(renamed_key("replicates").as_deref(), Some(expected));
         assert!(renamed_key("ledger").unwrap().ends_with("`inventory` now"));

@@ -61,13 +61,13 @@ impl Settings {
         example: &str,
         build: impl Fn(&Self) -> Option<SettingsError>,
     ) -> Vec<SettingsError> {
-        let [said, again] = [1, 2].map(|times| {
+        let [first, again] = [1, 2].map(|times| {
             let error = self.mended(schema, example, times).and_then(|mended| build(&mended));
             error.map_or_else(Vec::new, SettingsError::each)
         });
-        let is_told =
+        let is_certain =
             |error: &SettingsError| !matches!(error, SettingsError::Composed { .. }) && again.contains(error);
-        said.into_iter().filter(is_told).collect()
+        first.into_iter().filter(is_certain).collect()
     }
 
     /// These settings with what `schema` does not accept as `example` has it, times `times`; none if `schema` accepts them, or not
@@ -83,8 +83,8 @@ impl Settings {
         let mut table = reader::read::<Table>(&value).ok()?;
         table.retain(|key, value| self.table().get(key) == Some(value));
         let kept: BTreeSet<String> = table.keys().cloned().collect();
-        let is_asked = |key: &String| !kept.contains(key);
-        let filled: Vec<_> = example.into_iter().filter(|(key, _)| is_asked(key)).collect();
+        let is_missing = |key: &String| !kept.contains(key);
+        let filled: Vec<_> = example.into_iter().filter(|(key, _)| is_missing(key)).collect();
         // What stands in a file cannot be doubled, so that nothing tells what hangs on it.
         if filled.iter().any(|(_, value)| value.as_str().is_some_and(|text| text.contains('/'))) {
             return None;

@@ -105,10 +105,10 @@ impl<'a> Node<'a> {
         let format = self.text("format");
         let width = INTEGERS.iter().find(|(name, ..)| Some(*name) == format);
         let (low, high) = width.map_or((f64::NEG_INFINITY, f64::INFINITY), |(_, low, high)| (*low, *high));
-        let said = |key: &str| self.get(key).and_then(Value::as_f64);
+        let number = |key: &str| self.get(key).and_then(Value::as_f64);
         (
-            said("minimum").map_or(low, |least| least.max(low)),
-            said("maximum").map_or(high, |most| most.min(high)),
+            number("minimum").map_or(low, |least| least.max(low)),
+            number("maximum").map_or(high, |most| most.min(high)),
         )
     }
 
@@ -124,17 +124,17 @@ impl<'a> Node<'a> {
 
     /// The numbers between which it lies, neither accepted.
     pub(super) fn open_bounds(self) -> (f64, f64) {
-        let said = |key: &str| self.get(key).and_then(Value::as_f64);
+        let number = |key: &str| self.get(key).and_then(Value::as_f64);
         (
-            said("exclusiveMinimum").unwrap_or(f64::NEG_INFINITY),
-            said("exclusiveMaximum").unwrap_or(f64::INFINITY),
+            number("exclusiveMinimum").unwrap_or(f64::NEG_INFINITY),
+            number("exclusiveMaximum").unwrap_or(f64::INFINITY),
         )
     }
 
     /// How many elements an array has at least and at most.
     pub(super) fn counts(self) -> (u64, u64) {
-        let said = |key: &str| self.get(key).and_then(Value::as_u64);
-        (said("minItems").unwrap_or(0), said("maxItems").unwrap_or(u64::MAX))
+        let number = |key: &str| self.get(key).and_then(Value::as_u64);
+        (number("minItems").unwrap_or(0), number("maxItems").unwrap_or(u64::MAX))
     }
 
     /// What is accepted of a number at most `furthest` away from 0, in words.
@@ -178,17 +178,17 @@ impl<'a> Node<'a> {
         let (low, high) = self.bounds();
         let (above, below) = self.open_bounds();
         let (low, high) = (low.max(-furthest), high.min(furthest));
-        let told = |end: f64| {
+        let shown = |end: f64| {
             if what == "a number" && end.abs() >= 1e9 { format!("{end:e}") } else { end.to_string() }
         };
         let lower = match () {
             () if above >= low && above.is_finite() => Some(format!("above {above}")),
-            () if low.is_finite() => Some(format!("from {}", told(low))),
+            () if low.is_finite() => Some(format!("from {}", shown(low))),
             () => None,
         };
         let upper = match () {
             () if below <= high && below.is_finite() => Some(format!("below {below}")),
-            () if high.is_finite() => Some(format!("to {}", told(high))),
+            () if high.is_finite() => Some(format!("to {}", shown(high))),
             () => None,
         };
         match (lower, upper) {
@@ -238,8 +238,9 @@ fn either(all: &[String]) -> String {
 /// What the keys of a table are where they are left out, switches aside.
 pub(super) fn defaults(schema: &Value) -> Vec<(String, toml::Value)> {
     let keys = schema.get("properties").and_then(Value::as_object).into_iter().flatten();
-    let said = keys.filter_map(|(key, part)| Some((key.clone(), part.get("default")?)));
-    said.filter(|(_, value)| !matches!(value, Value::Null | Value::Bool(false)))
+    let given = keys.filter_map(|(key, part)| Some((key.clone(), part.get("default")?)));
+    given
+        .filter(|(_, value)| !matches!(value, Value::Null | Value::Bool(false)))
         .filter_map(|(key, value)| Some((key, toml::Value::try_from(value).ok()?)))
         .collect()
 }

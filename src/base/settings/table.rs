@@ -234,8 +234,8 @@ impl Settings {
         self.placed(message.into(), Sought::Value(path))
     }
 
-    /// An error about `word`, a name that these settings give: at the first text that is it inside the value that `within`
-    /// leads to, and under a key that starts with one of `keys`; if there is none, at the first text that is it at all.
+    /// An error about `word`, a name that these settings give. It stands at the first text that is it inside the value that `within`
+    /// leads to, under a key that starts with one of `keys`. If there is none, it stands at the first text that is it at all.
     pub fn error_about(
         &self,
         within: &str,

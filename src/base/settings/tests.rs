@@ -281,6 +281,24 @@ fn all_faults_of_a_file_are_found_at_once_in_the_order_of_their_places() {
 }
 
 #[test]
+fn of_very_many_faults_the_first_fifty_are_shown_and_the_others_counted() {
+    let entries = "[[solid]]\nshape = 'ball'\nradius = 'r'\n".repeat(60);
+    let document = Document::new(Path::new("a.toml"), format!("count = 1\n{entries}"));
+    let message = document.read::<Many>().unwrap_err().to_string();
+    assert_eq!(message.matches("a number is accepted").count(), 50, "{message}");
+    assert!(message.ends_with("a.toml: 10 more faults like these"), "{message}");
+}
+
+#[test]
+fn a_name_is_compared_with_known_ones_up_to_sixty_four_letters() {
+    for (letters, hint) in [(64, true), (65, false)] {
+        let known = "n".repeat(letters - 1);
+        let said = none_called("map", &format!("{known}m"), [known.as_str()]);
+        assert_eq!(said.contains("did you mean"), hint, "{said}");
+    }
+}
+
+#[test]
 fn a_record_of_settings_has_the_values_that_hold_where_keys_are_left_out() {
     let settings = Settings::composed("a test", toml::from_str("count = 1\nreach_cm = 2").unwrap());
     let whole = settings.completed(Accepted::shape::<Many>());

@@ -160,9 +160,9 @@ fn tagged(branches: &[Node<'_>], subject: Subject<'_>, table: &DeTable<'_>, foun
     };
     let inner = Subject { name: tag, key: None, value };
     match value.get_ref().as_str() {
-        Some(said) => match tables.iter().find(|branch| tag_word(**branch, tag) == Some(said)) {
+        Some(written) => match tables.iter().find(|branch| tag_word(**branch, tag) == Some(written)) {
             Some(branch) => check(*branch, subject, found),
-            None => found.push(|| no_such_word(inner, said, &words, &accepted)),
+            None => found.push(|| no_such_word(inner, written, &words, &accepted)),
         },
         None => found.push(|| refused(inner, &accepted)),
     }

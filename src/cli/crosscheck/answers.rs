@@ -28,17 +28,19 @@ const PARTS: [&str; 12] = ["x", "y", "z", "xx", "xy", "xz", "yx", "yy", "yz", "z
 /// # Errors
 /// Questions that are missing or do not fit the subject.
 pub fn answer(subject: &dyn Subject, folder: &Path) -> Result<(), Failure> {
-    let asked = Questions::read(folder, subject.joints())?;
-    let rows = &asked.q_rad;
+    let questions = Questions::read(folder, subject.joints())?;
+    let rows = &questions.q_rad;
     let gaps: Vec<Vec<f64>> = rows.par_iter().map(|q| subject.gaps_m(q)).collect();
     write(folder, "gaps", gaps.len(), numbers(subject.pairs(), &gaps))?;
-    let frames: Vec<Vec<f64>> =
-        asked.rows(&asked.frames).map(|q| subject.frames(q).iter().flat_map(in_numbers).collect()).collect();
+    let frames: Vec<Vec<f64>> = questions
+        .rows(&questions.frames)
+        .map(|q| subject.frames(q).iter().flat_map(in_numbers).collect())
+        .collect();
     let links = (1..=subject.joints()).map(|link| format!("link_{link}"));
     let names = links.chain(["tool".to_owned()]);
     let names = names.flat_map(|frame| PARTS.map(|part| format!("{frame}.{part}"))).collect();
     write(folder, "frames", frames.len(), numbers(names, &frames))?;
-    let limited: Vec<&Vec<f64>> = asked.rows(&asked.limits).collect();
+    let limited: Vec<&Vec<f64>> = questions.rows(&questions.limits).collect();
     let limits = (0..subject.joints()).map(|joint| {
         let beyond = limited.iter().map(|q| subject.is_beyond(joint, q[joint])).collect();
         truths(&format!("joint_{}", joint + 1), beyond)

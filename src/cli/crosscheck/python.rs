@@ -110,7 +110,7 @@ impl Judge {
             Some(0) => Ok(true),
             Some(DIFFERS) => Ok(false),
             _ => {
-                let message = format!("the judge ended with {status}; what it said stands above");
+                let message = format!("the judge ended with {status}; its messages stand above");
                 Err(Failure::new(1, message))
             }
         }
@@ -160,9 +160,9 @@ fn check_version(program: &str) -> Result<(), Failure> {
         "Python {major}.{minor} or later is needed; install it (Debian or Ubuntu: apt install python3 python3-venv) or name one \
          with --python"
     );
-    let said = run(Command::new(program).args(["-c", "import sys; print(*sys.version_info[:2])"]))
+    let output = run(Command::new(program).args(["-c", "import sys; print(*sys.version_info[:2])"]))
         .map_err(|why| missing(format!("`{program}` does not run: {why}\n{wanted}")))?;
-    let text = String::from_utf8_lossy(&said.stdout).into_owned();
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let mut numbers = text.split_whitespace().map_while(|word| word.parse::<u32>().ok());
     let found = (numbers.next().unwrap_or(0), numbers.next().unwrap_or(0));
     if found < LEAST {

@@ -96,8 +96,10 @@ struct RobotEntry {
     label: String,
     /// Its file, from the repository's root.
     file: String,
-    /// The body of the robot's file that is judged.
+    /// The body of the robot's file that is judged; `urdf` of a URDF file.
     body: String,
+    /// The SRDF file that says which links of a URDF robot may touch each other.
+    srdf: Option<String>,
     /// What is straight between the stops of a stored path.
     #[expect(dead_code, reason = "Python follows the paths")]
     straight: Straight,
@@ -245,11 +247,22 @@ impl Spec {
         let wrong =
             |key: &str, message: String| self.document.error_at(&format!("robot.{index}.{key}"), message);
         let file = self.located(&format!("robot.{index}.file"), &robot.file, inputs)?;
-        if file.extension().is_none_or(|end| end != "toml") {
-            let message = format!("`{}` is no file of rows; accepted: one that ends with .toml", robot.file);
-            return Err(wrong("file", message));
-        }
-        let loaded = Robot::load(&file).map_err(|error| match error {
+        let ending = file.extension().and_then(|ending| ending.to_str());
+        let loaded = match (ending, &robot.srdf) {
+            (Some("toml"), None) => Robot::load(&file),
+            (Some("urdf"), Some(srdf)) => {
+                let srdf = self.located(&format!("robot.{index}.srdf"), srdf, inputs)?;
+                Robot::load_with_srdf(&file, &srdf)
+            }
+            _ => {
+                let message = format!(
+                    "`{}` is judged with no such `srdf`; accepted: a file of rows (.toml), or a URDF file with `srdf`",
+                    robot.file
+                );
+                return Err(wrong("file", message));
+            }
+        };
+        let loaded = loaded.map_err(|error| match error {
             KinematicsError::File(faults) => faults,
             other => wrong("file", other.to_string()),
         })?;

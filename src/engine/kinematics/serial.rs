@@ -110,8 +110,8 @@ impl Joint {
 /// Metres, radians and radians a second beyond which nothing is meant, and beyond which single precision overflows.
 const LARGEST: f64 = 1e6;
 
-/// Sine and cosine of a twist. A twist that is a multiple of a right angle to within rounding is taken as
-/// one, so that its sine and cosine are 0, 1 or -1 and the closed forms that rely on it are exact.
+/// Sine and cosine of a twist. A twist that is a multiple of a right angle to within rounding is taken as one. Its sine and
+/// cosine are then 0, 1 or -1 and the closed forms that rely on it are exact.
 fn twist(alpha_rad: f64) -> (f64, f64) {
     let (s, c) = libm::sincos(alpha_rad);
     let snap = |v: f64| if (v - v.round()).abs() < 1e-12 { v.round() } else { v };

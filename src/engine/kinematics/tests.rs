@@ -92,6 +92,66 @@ fn the_ur5_and_the_puma_at_zero_are_where_their_tables_add_up_to() {
     assert!((puma.axis(2) - Vec3::z()).norm() < 1e-12, "{puma:?}");
 }
 
+/// Rows of an arm in degrees and millimetres: alpha, a, d, offset.
+type Rows = [[f64; 4]; AXES];
+
+/// Source: "DH Parameters for calculations of kinematics and dynamics", Universal Robots.
+const UR10E: Rows = [
+    [90.0, 0.0, 180.7, 0.0],
+    [0.0, -612.7, 0.0, 0.0],
+    [0.0, -571.55, 0.0, 0.0],
+    [90.0, 0.0, 174.15, 0.0],
+    [-90.0, 0.0, 119.85, 0.0],
+    [0.0, 0.0, 116.55, 0.0],
+];
+
+/// Source: lengths of the product specification IRB 120, ABB: 290, 270, 70, 302 and 72 mm.
+const IRB120: Rows = [
+    [-90.0, 0.0, 290.0, 0.0],
+    [0.0, 270.0, 0.0, -90.0],
+    [-90.0, 70.0, 0.0, 0.0],
+    [90.0, 0.0, 302.0, 0.0],
+    [-90.0, 0.0, 0.0, 0.0],
+    [0.0, 0.0, 72.0, 180.0],
+];
+
+fn joints_of(rows: &Rows) -> [Joint; AXES] {
+    rows.map(|[alpha_deg, a_mm, d_mm, offset_deg]| Joint {
+        alpha_rad: alpha_deg.to_radians(),
+        a_m: a_mm * 1e-3,
+        d_m: d_mm * 1e-3,
+        offset_rad: offset_deg.to_radians(),
+        lower_rad: -PI,
+        upper_rad: PI,
+        speed_rad_s: 1.0,
+    })
+}
+
+#[test]
+fn arms_by_their_makers_rows_stand_at_zero_where_their_lengths_add_up_to() {
+    let zero = |chain: &Chain| chain.flange(&[0.0; AXES]);
+    let chain = |rows| Chain::new(joints_of(rows), Frame::IDENTITY, Frame::IDENTITY).unwrap();
+    let ur10e = zero(&chain(&UR10E)).origin;
+    let out = -0.6127 - 0.57155;
+    assert!((ur10e - Vec3::new(out, -0.17415 - 0.11655, 0.1807 - 0.11985)).norm() < 1e-12, "{ur10e:?}");
+    let irb120 = zero(&chain(&IRB120));
+    let wrist = Vec3::new(0.302 + 0.072, 0.0, 0.29 + 0.27 + 0.07);
+    assert!(
+        (irb120.origin - wrist).norm() < 1e-12 && (irb120.axis(2) - Vec3::x()).norm() < 1e-12,
+        "{irb120:?}"
+    );
+    // By the modified convention twists and lengths stand one row later.
+    let mut later = IRB120;
+    for (row, before) in later.iter_mut().skip(1).zip(&IRB120) {
+        row[..2].copy_from_slice(&before[..2]);
+    }
+    later[0][..2].fill(0.0);
+    let (modified, _) = Chain::modified(joints_of(&later), Frame::IDENTITY, Frame::IDENTITY).unwrap();
+    let q = [0.3, -0.4, 0.5, 0.6, -0.7, 0.8];
+    let apart = |q: &Joints| (modified.flange(q).origin - chain(&IRB120).flange(q).origin).norm();
+    assert!(apart(&[0.0; AXES]) < 1e-12 && apart(&q) < 1e-12);
+}
+
 /// One row of the modified convention, entry by entry.
 fn modified_row(joint: &Joint, angle_rad: f64) -> Matrix4<f64> {
     let (s, c) = libm::sincos(angle_rad + joint.offset_rad);

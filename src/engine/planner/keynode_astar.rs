@@ -1,9 +1,9 @@
 //! The improved A* of Tang et al.: straight at the goal, and over an edge of whatever stands in the way.
 //!
-//! As printed it is a walk: it steps towards the goal, and where the next step is in an obstacle it takes the key
-//! node of least cost on the faces in front of it (`literal`). A key node lies on an edge, where no face of that
-//! obstacle is in front any more, so the printed walk stops at its first one more often than not. `greedy` adds the
-//! guards without which it does; `open_list` keeps the key nodes on an open list, which is what makes it an A*.
+//! As printed it is a walk (`literal`): it steps towards the goal. Where the next step is in an obstacle it takes the key node of
+//! least cost on the faces in front of it. A key node lies on an edge, where no face of that obstacle is in front any more, so
+//! the printed walk stops at its first one more often than not. `greedy` adds the guards without which it does; `open_list` keeps
+//! the key nodes on an open list, which is what makes it an A*.
 //!
 //! # Source
 //! Tang, Zhou & Xu, *Obstacle avoidance path planning of 6-DOF robotic arm based on improved A\* algorithm and

@@ -164,7 +164,7 @@ pub(super) fn cells(grid: &Grid2, name: &str, cells: &[u32]) -> Trace {
     Trace { name: name.to_owned(), width: 2, values }
 }
 
-/// Cells in the order in which they were closed, as a trace: x, y, the side that closed it (0 from the start, 1 from the
+/// Cells in the order in which they were closed, as a trace. Columns: x, y, the side that closed it (0 from the start, 1 from the
 /// goal), and how many cells the start's and the goal's side had opened before.
 pub(super) fn closings(grid: &Grid2, closings: Closings) -> Trace {
     let row = |Closing { node, side, opened }| {

@@ -35,10 +35,16 @@ mod pool;
 mod post_smooth;
 mod posture;
 mod posture_turns;
+mod prm_star;
 mod roadmap;
 mod roadmap_astar;
 mod roadmap_cost;
+mod rrt;
+mod rrt_connect;
+mod rrt_star;
+mod sampled;
 mod shorten_best;
+mod simplify_path;
 mod straighten;
 mod straighten_from_previous;
 mod theta_star;
@@ -70,9 +76,14 @@ pub static REGISTRY: &[&Entry] = &[
     &post_smooth::ENTRY,
     &posture::ENTRY,
     &posture_turns::ENTRY,
+    &prm_star::ENTRY,
     &roadmap_astar::ENTRY,
     &roadmap_cost::ENTRY,
+    &rrt::ENTRY,
+    &rrt_connect::ENTRY,
+    &rrt_star::ENTRY,
     &shorten_best::ENTRY,
+    &simplify_path::ENTRY,
     &straighten::ENTRY,
     &straighten_from_previous::ENTRY,
     &theta_star::ENTRY,

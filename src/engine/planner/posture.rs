@@ -1,8 +1,8 @@
 //! Posture adjustment as a stage: the whole arm follows a tip path, turning its tip away from obstacles.
 //!
-//! The stage takes a tip path and gives joint angles. It starts with the tool pointing down on the branch of the
-//! inverse kinematics that has most clearance and goes node by node; where a rod would come nearer than `act_cm` at
-//! the next node, the tip is turned down the repulsive potential before the arm moves on.
+//! The stage takes a tip path and gives joint angles. It starts with the tool pointing down on the branch of the inverse
+//! kinematics that has most clearance and goes node by node. Where a rod would come nearer than `act_cm` at the next node, the
+//! tip is turned down the repulsive potential before the arm moves on.
 //!
 //! # Source
 //! Tang, Zhou & Xu (2023), sections 3.2 and 3.3, eqs. 21 to 31.

@@ -17,7 +17,7 @@ use serde::Deserialize;
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "posture_turns",
-    about: "counts the nodes of an arm's path at which the tip is turned from its first posture by more than is said",
+    about: "counts the nodes of an arm's path at which the tip is turned from its first posture by more than a given angle",
     revision: 1,
     needs: WorldKind::ArmAmongPolyhedra,
     columns: &["beyond_bounds", "posture_nodes"],

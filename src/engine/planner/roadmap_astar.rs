@@ -237,8 +237,8 @@ impl Planner for RoadmapAstar {
         Ok(plan)
     }
 
-    /// The graph is what its settings leave of the roadmap; the straight distance never lies above the rest of a way and
-    /// falls by no more than an edge is long, so that no closed node could be reached cheaper.
+    /// The graph is what its settings leave of the roadmap. The straight distance never lies above the rest of a way and falls by
+    /// no more than an edge is long, so that no closed node could be reached cheaper.
     fn is_optimal(&self) -> bool {
         let searches_alone = self.goal_shot == ShotSetting::Never && self.path == PathSetting::Parents;
         searches_alone && self.nearest.is_none() && matches!(self.cost, CostSetting::Length)

@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn pairs_closer_than_floating_point_sees_are_told_apart() {
+    fn pairs_closer_than_floating_point_sees_are_distinguished() {
         // Convergents p / q of √2 straddle it in turn: 1/1 lies below, 3/2 above, 7/5 below …
         let mut p = 1;
         let mut q = 1;

@@ -3,9 +3,9 @@
 //! It is [`Search`](super::Search) over a graph whose successors are some of the 26 neighbours in the order of [`STEPS_26`], with
 //! [`sum`](super::sum), [`Heap`](super::Heap) in the order [`Ties::Fifo`] or [`Ties::Lifo`],
 //! [`Stop::GoalPopped`](super::Stop::GoalPopped), and open nodes that are lowered but closed ones that stay closed. It returns
-//! the same paths, the same costs to the last bit and the same counters; a test holds the two equal. What makes it fast:
-//! the costs of the ways to a row of neighbours are compared at once, only ways that improve a node are dealt with one by
-//! one, and open nodes lie in buckets of f.
+//! the same paths, the same costs to the last bit and the same counters; a test holds the two equal. What makes it fast: the
+//! costs of the ways to a row of neighbours are compared at once, and only ways that improve a node are dealt with one by one.
+//! Open nodes lie in buckets of f.
 //!
 //! [`STEPS_26`]: base::grid::STEPS_26
 #![expect(
@@ -78,11 +78,11 @@ impl Steps {
 
     /// Those of a node's neighbours, one bit each, to which a move is allowed.
     #[inline(always)]
-    fn kept(&self, mut asked: u32, is_allowed: impl Fn(i32) -> bool) -> u32 {
-        let mut kept = asked;
-        while asked != 0 {
-            let bit = asked.trailing_zeros();
-            asked &= asked - 1;
+    fn kept(&self, mut wanted: u32, is_allowed: impl Fn(i32) -> bool) -> u32 {
+        let mut kept = wanted;
+        while wanted != 0 {
+            let bit = wanted.trailing_zeros();
+            wanted &= wanted - 1;
             kept &= !(u32::from(!is_allowed(self.each[bit as usize].0)) << bit);
         }
         kept

@@ -1,9 +1,9 @@
 //! Field D\* between corners of cells, searched once: costs are interpolated along edges, over which paths may lead anywhere.
 //!
-//! A vertex expanded offers each neighbour ways over the two edges of that neighbour's surroundings that it ends, the cost of a point on
-//! an edge being interpolated between its ends as far as they are known. Blocked cells are not crossed; costs are lengths. The path is
-//! extracted from the goal to the start. From where it is, it goes to that point on the edges of a free cell about it from which the
-//! rest seems shortest, looked at one step ahead; the cost must fall on the way.
+//! A vertex expanded offers each neighbour ways over the two edges of that neighbour's surroundings that it ends. The cost of a
+//! point on an edge is interpolated between its ends as far as they are known. Blocked cells are not crossed; costs are lengths.
+//! The path is extracted from the goal to the start. From where it is, it goes to that point on the edges of a free cell about it
+//! from which the rest seems shortest, looked at one step ahead. The cost must fall on the way.
 //!
 //! # Source
 //! Ferguson & Stentz, *Using Interpolation to Improve Path Planning: The Field D\* Algorithm*, JFR 23 (2006); as a search from start to goal:

@@ -1,14 +1,14 @@
 //! A* over jump points, on 8-connected grids with the octile distance.
 //!
-//! Nodes are the start, the goal and jump points. From a node the search runs in every direction that the pruning rules
-//! leave ([`Pruning`](crate::space::Pruning)): straight to the first jump point; diagonally to the wall, with both
-//! straight runs from every cell on the way, whose jump points are successors of the node itself, so that the cell on
-//! the diagonal is never a node (intermediate pruning). Where a corner may be cut, the diagonal run ends at a jump
-//! point of its own. A run that meets the goal ends there. One search serves both ways to follow runs, [`JumpLines`]
-//! (bits of rows and columns, scanned) and [`JumpTable`] (distances, looked up): they give the same report.
+//! Nodes are the start, the goal and jump points. From a node the search runs in every direction that the pruning rules leave
+//! ([`Pruning`](crate::space::Pruning)). A straight run goes to the first jump point. A diagonal one goes to the wall, with both
+//! straight runs from every cell on the way. Their jump points are successors of the node itself, and the cell on the diagonal is
+//! never a node (intermediate pruning). Where a corner may be cut, the diagonal run ends at a jump point of its own. A run that
+//! meets the goal ends there. One search serves both ways to follow runs, [`JumpLines`] (bits of rows and columns, scanned) and
+//! [`JumpTable`] (distances, looked up): they give the same report.
 //!
-//! A node that is reached again at equal cost goes on in the directions of both ways, even if it was expanded: pruning keeps
-//! one of several ways of equal cost, and which one it keeps depends on the direction in which a node was entered.
+//! A node that is reached again at equal cost goes on in the directions of both ways, even if it was expanded. Pruning keeps one
+//! of several ways of equal cost, and which one it keeps depends on the direction in which a node was entered.
 //!
 //! # Counters
 //! Only nodes count. **Generated** is every jump point or goal that a run ends at, known or not; cells that are passed or

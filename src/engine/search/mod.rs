@@ -1,23 +1,24 @@
 //! The A* kernel: one best-first search, generic over graph, cost, estimate and frontier.
 //!
-//! What distinguishes one method from another is a part and not a copy: a successor rule ([`Graph`]), an estimate
-//! f of (node, g) ([`Estimate`]; f = g + h, weighted, or falling weight), the order among equal f (the
-//! [`Frontier`]: a [`Heap`] with a [`Ties`] rule, or [`Buckets`]), whether the g of an open node is lowered and
-//! whether closed nodes reopen ([`Update`]), when to stop ([`Stop`]), what is tried before an expansion
-//! ([`BeforeExpansion`]) and who watches ([`Observer`]). [`Search`] runs one side, [`Bidirectional`] two, [`AnyAngle`] one
-//! whose ways leave the moves of the grid.
+//! Methods differ in parts and not in copies:
+//! - the successor rule ([`Graph`]);
+//! - the estimate f of (node, g) ([`Estimate`]): f = g + h, weighted, or with falling weight;
+//! - the order among equal f (the [`Frontier`]): a [`Heap`] with a [`Ties`] rule, or [`Buckets`];
+//! - whether the g of an open node is lowered, and whether closed nodes reopen ([`Update`]);
+//! - when to stop ([`Stop`]), what is tried before an expansion ([`BeforeExpansion`]) and who watches ([`Observer`]).
+//!
+//! [`Search`] runs one side, [`Bidirectional`] two, [`AnyAngle`] one whose ways leave the moves of the grid.
 //! Between corners of cells, [`AngleRanges`] hands on what each sees and [`Interpolated`] costs along edges.
 //! [`OctileAstar`] is the declared specialisation for 8-connected grids, [`LatticeAstar`] the one for neighbourhoods of any
 //! size, [`CubicAstar`] the one for cubic lattices with 26 neighbours; tests hold each equal to the general form.
 //!
 //! # Counters
-//! A node is **generated** each time it is produced as a successor, whatever becomes of it; **opened** when it
-//! enters OPEN for the first time (roots included), so `opened` counts the distinct nodes of OPEN ∪ CLOSED;
-//! **closed** when it is taken from OPEN. A goal that is taken ends the search instead and is not closed (Hart,
-//! Nilsson & Raphael 1968). An **expansion** generates all successors of a node just closed; `closed` counts
-//! nodes in CLOSED at the end, so it equals `expansions` unless closed nodes reopened, or the last node closed ended
-//! the search unexpanded ([`BeforeExpansion`], [`Meeting::BothClosed`]). `peak_open` is the most nodes that were in
-//! OPEN at once, between steps.
+//! A node is **generated** each time it is produced as a successor, whatever becomes of it. It is **opened** when it enters OPEN
+//! for the first time (roots included), so `opened` counts the distinct nodes of OPEN ∪ CLOSED. It is **closed** when it is taken
+//! from OPEN. A goal that is taken ends the search instead and is not closed (Hart, Nilsson & Raphael 1968). An **expansion**
+//! generates all successors of a node just closed. `closed` counts nodes in CLOSED at the end. It equals `expansions` unless
+//! closed nodes reopened, or the last node closed ended the search unexpanded ([`BeforeExpansion`], [`Meeting::BothClosed`]).
+//! `peak_open` is the most nodes that were in OPEN at once, between steps.
 //!
 //! # Ties
 //! Keys are integers. Estimates over floating point are rounded to 1e-9 ([`quantised`]) before they are compared,

@@ -6,8 +6,8 @@ use std::cmp::Ordering;
 
 /// The length of a way and, among equals, how far it has turned.
 ///
-/// How far a way turns depends on how it arrives, so that the best way to a node need not begin the best way beyond it: a
-/// search over these costs finds a shortest path and prefers straight ones, but not always the straightest.
+/// How far a way turns depends on how it arrives, so that the best way to a node need not begin the best way beyond it. A search
+/// over these costs finds a shortest path and prefers straight ones, but not always the straightest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bent {
     /// The length.

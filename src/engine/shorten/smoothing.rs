@@ -31,12 +31,12 @@ mod tests {
         assert_eq!(smoothing(2, |_, _| false), [0, 1]);
         assert_eq!((smoothing(1, |_, _| true), smoothing(0, |_, _| true)), (vec![0], vec![]));
         // 0 sees 1 to 3, and 5; 3 sees all.
-        let mut asked = Vec::new();
+        let mut pairs = Vec::new();
         let kept = smoothing(7, |i, j| {
-            asked.push((i, j));
+            pairs.push((i, j));
             i == 3 || j < 4 || j == 5
         });
         assert_eq!(kept, [0, 3, 6], "5 is seen from 0, which was given up before");
-        assert_eq!(asked, [(0, 2), (0, 3), (0, 4), (3, 5), (3, 6)]);
+        assert_eq!(pairs, [(0, 2), (0, 3), (0, 4), (3, 5), (3, 6)]);
     }
 }

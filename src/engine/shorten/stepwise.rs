@@ -53,7 +53,7 @@ mod tests {
     }
 
     #[test]
-    fn ends_are_kept_and_neighbours_are_never_asked_for() {
+    fn ends_are_kept_and_neighbours_are_never_tried() {
         for resume in [Resume::LastJoined, Resume::FirstRefused] {
             assert_eq!(stepwise_straightening(4, resume, |_, _| true), [0, 3]);
             assert_eq!(stepwise_straightening(4, resume, |i, j| j <= i + 1), [0, 1, 2, 3]);

@@ -23,12 +23,12 @@ pub trait Jumps {
     /// The pruning rules.
     fn pruning(&self) -> &Pruning;
 
-    /// How many moves a run in the straight direction number `DIRECTION` takes from the cell in column and row `at`, and
-    /// whether it ends at a jump point, the first on its way; if not, it ends before a wall.
+    /// How many moves a run in the straight direction number `DIRECTION` takes from the cell in column and row `at`, and whether
+    /// it ends at a jump point, the first on its way. If not, it ends before a wall.
     fn ahead<const DIRECTION: usize>(&self, at: [u32; 2]) -> (u32, bool);
 
-    /// How many moves in the diagonal direction number `DIRECTION` may be taken at once from `cell`: to a cell where a
-    /// search has to look for jump points, but no more than `wanted`; 0 if there is none on the way.
+    /// How many moves in the diagonal direction number `DIRECTION` may be taken at once from `cell`. It goes to a cell where a
+    /// search has to look for jump points, but takes no more than `wanted`. 0 if there is none on the way.
     fn hop<const DIRECTION: usize>(&self, cell: u32, wanted: u32) -> u32;
 }
 

@@ -13,7 +13,7 @@ mod support;
 #[cfg(test)]
 pub use arm::reproduced_rules;
 pub use arm::{ArmRules, ArmWorld, HopRule, Obstacle, TipLattice, Zone};
-pub use joints::{JointSpace, SelfContact};
+pub use joints::{JointSpace, MotionMemory, SelfContact};
 pub use lattice::{JumpLines, JumpTable, Jumps, LatticeWorld, Pruning};
 pub use polyhedra::PolyhedraWorld;
 use roadmap::Roadmap;

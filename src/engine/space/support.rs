@@ -4,7 +4,7 @@
 
 use crate::geometry::{Frame, GeometryError, HalfSpace, OrientedBox, Solid, Vec3};
 use crate::kinematics::FARTHEST_MM;
-use base::units::asked_in_degrees;
+use base::units::seems_in_radians;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -70,7 +70,7 @@ impl SupportEntry {
     pub fn support(&self) -> Result<Support, (&'static str, String)> {
         let (Self::Floor { yaw_deg, .. } | Self::Pedestal { yaw_deg, .. } | Self::Nothing { yaw_deg, .. }) =
             self;
-        if let Some((_, message)) = asked_in_degrees("yaw_deg", &[*yaw_deg]) {
+        if let Some((_, message)) = seems_in_radians("yaw_deg", &[*yaw_deg]) {
             return Err(("yaw_deg", message));
         }
         match self {

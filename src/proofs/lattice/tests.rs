@@ -12,17 +12,17 @@ fn octile(straight: u32, diagonal: u32) -> Octile {
 
 #[test]
 fn exact_comparison_agrees_with_floats_where_floats_can_tell() {
-    let mut told = 0;
+    let mut decided = 0;
     for a in -60..=60_i128 {
         for b in -60..=60_i128 {
             let x = a as f64 + b as f64 * std::f64::consts::SQRT_2;
             if x.abs() > 1e-9 {
                 assert_eq!(sign(a, b), x.total_cmp(&0.0), "{a} + {b}√2");
-                told += 1;
+                decided += 1;
             }
         }
     }
-    assert_eq!(told, 121 * 121 - 1, "only 0 + 0√2 is zero");
+    assert_eq!(decided, 121 * 121 - 1, "only 0 + 0√2 is zero");
     // 665857/470832 is a convergent of √2 within 1.6e-12 of it.
     assert_eq!(sign(665_857, -470_832), Ordering::Greater);
     assert_eq!(sign(-665_857, 470_832), Ordering::Less);

@@ -7,8 +7,8 @@ use crate::form::Form;
 use crate::fvalues::{CountBound, astar_count_bound};
 use crate::lattice::Octile;
 
-/// Whether a printed count is at most what A* with the Euclidean heuristic can close and open on any map on which its path
-/// has the moves of `optimum`; `applies` picks the bound that the number is under, if it is under either.
+/// Whether a printed count is at most what A* with the Euclidean heuristic can close and open on any map on which its path has
+/// the moves of `optimum`. `applies` picks the bound that the number is under, if it is under either.
 pub fn count_bound(
     print: Print,
     ends: Ends,
@@ -18,7 +18,7 @@ pub fn count_bound(
     let Ends { size, start, goal } = ends;
     let bound = astar_count_bound(size, start, goal, optimum.length());
     let least = print.interval().low;
-    let said = |what: &str, most: usize| {
+    let limit = |what: &str, most: usize| {
         let compared = if least > most as f64 { "cannot" } else { "may" };
         format!("at most {most} nodes are {what}, so it {compared} count them")
     };
@@ -26,8 +26,8 @@ pub fn count_bound(
         is_possible: applies.is_none_or(|applies| least <= applies(bound) as f64),
         because: vec![
             format!("{} on any map of {} × {} cells", print.printed, size[0], size[1]),
-            said("closed", bound.closed),
-            said("ever opened", bound.opened),
+            limit("closed", bound.closed),
+            limit("ever opened", bound.opened),
         ],
         premises: vec![
             format!(
@@ -71,7 +71,7 @@ pub fn clock_ticks(tick: Tick, times: &[Print], chosen: &str) -> Proof {
     let counts: Vec<Option<u64>> = times.iter().map(|time| tick.count(*time, digits)).collect();
     let own = times[times.len() - 1];
     let all = times.len();
-    let said = match counts[counts.len() - 1] {
+    let reason = match counts[counts.len() - 1] {
         Some(ticks) => format!("{own} s prints {ticks} ticks of {spelled}"),
         None => format!("{own} s is no whole number of ticks of {spelled}"),
     };
@@ -81,5 +81,5 @@ pub fn clock_ticks(tick: Tick, times: &[Print], chosen: &str) -> Proof {
         tick.chance(&times, digits)
     );
     let premises = vec![format!("the tick of {spelled}: {chosen}")];
-    Proof { is_possible: true, because: vec![said, chance], premises }
+    Proof { is_possible: true, because: vec![reason, chance], premises }
 }

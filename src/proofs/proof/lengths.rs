@@ -68,8 +68,8 @@ pub fn lattice_length(print: Print, ends: Option<[Cell; 2]>, size: Option<[i32; 
     let lengths = |digits| lengths_printing(print.printed, digits, Step::ONE, ends.map(displacement));
     let read = [("rounded", Digits::Rounded), ("truncated", Digits::Truncated)].map(|(how, digits)| {
         let listed: Vec<String> = lengths(digits).into_iter().map(spelled).collect();
-        let said = if listed.is_empty() { "no such length".to_owned() } else { listed.join(", ") };
-        format!("{} read as {how}: {said}", print.printed)
+        let named = if listed.is_empty() { "no such length".to_owned() } else { listed.join(", ") };
+        format!("{} read as {how}: {named}", print.printed)
     });
     let mut because = read.to_vec();
     let is_possible = !lengths(print.digits).is_empty();

@@ -68,8 +68,8 @@ impl Search<'_> {
 pub fn joint_length_turn(search: &Search<'_>, length: Print) -> Proof {
     let mut because = Vec::new();
     let impossible = BOTH.map(|(convention, name)| {
-        let (is_impossible, said) = both_impossible(search, length, convention, name);
-        because.extend(said);
+        let (is_impossible, reasons) = both_impossible(search, length, convention, name);
+        because.extend(reasons);
         is_impossible && convention == search.meant
     });
     let sums = "its cost is its Euclidean length in cells; its turn sum adds one angle at every bend";
@@ -109,13 +109,13 @@ fn both_impossible(
     (true, vec![alone, format!("{name} angles: no polyline has {both}, {ends}")])
 }
 
-/// How long a polyline through cell centres with the printed turn sum is at least, beside another printed length; refused if
+/// How long a polyline through cell centres with the printed turn sum is at least, beside another printed length. Refused if
 /// `is_shorter` says that the path is claimed to be shorter than that, and it cannot be.
 pub fn turn_needs_length(search: &Search<'_>, beside: Print, is_shorter: bool) -> Proof {
     let mut because = Vec::new();
     let longer = BOTH.map(|(convention, name)| {
-        let (is_longer, said) = needed(search, beside, convention, name);
-        because.push(said);
+        let (is_longer, reason) = needed(search, beside, convention, name);
+        because.push(reason);
         is_longer && convention == search.meant
     });
     let is_refused = is_shorter && longer != [false; 2];
@@ -140,14 +140,14 @@ fn needed(search: &Search<'_>, beside: Print, convention: Convention, name: &str
     let least = |turn_deg| search.least(convention, turn_deg, AS_PRINTED);
     let further = Interval { high: f64::INFINITY, ..exact };
     let least: [Option<f64>; 2] = rayon::join(|| least(exact), || least(further)).into();
-    let said = |least: Option<f64>| match least {
+    let in_words = |least: Option<f64>| match least {
         Some(least) => {
             let change = 100.0 * (least / beside.printed.value() - 1.0);
             format!("at least {least:.4} ({change:+.1} % from {})", beside.printed)
         }
         None => format!("more than {}", search.longest),
     };
-    let [so_far, or_further] = least.map(said);
+    let [so_far, or_further] = least.map(in_words);
     let text = format!(
         "{name} angles: a path that turns by {turn} is {so_far} cells long on any map; one that turns so far or further, \
          {or_further}"

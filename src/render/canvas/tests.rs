@@ -40,7 +40,7 @@ fn the_same_drawing_gives_the_same_bytes() {
 }
 
 #[test]
-fn text_is_outlined_and_no_font_is_asked_for() {
+fn text_is_outlined_and_needs_no_font() {
     let svg = drawn().svg;
     assert!(!svg.contains("<text") && !svg.contains("font-family"), "{svg}");
     assert!(svg.contains("aria-label=\"θ₁ = −√2 / °\""), "{svg}");
@@ -57,8 +57,8 @@ fn both_files_tell_command_and_spec() {
     let reader = png::Decoder::new(std::io::Cursor::new(&figure.png)).read_info().unwrap();
     let texts: Vec<(String, String)> =
         reader.info().utf8_text.iter().map(|t| (t.keyword.clone(), t.get_text().unwrap())).collect();
-    let told = provenance();
-    let expected = [("Title", told.title), ("Software", told.command), ("Spec-Hash", told.spec_hash)];
+    let given = provenance();
+    let expected = [("Title", given.title), ("Software", given.command), ("Spec-Hash", given.spec_hash)];
     assert_eq!(texts, expected.map(|(key, text)| (key.to_owned(), text)));
 }
 
@@ -153,6 +153,6 @@ fn a_side_of_either_box_may_part_the_two() {
 fn an_undrawable_character_is_refused_by_name() {
     let mut canvas = Canvas::new(Width::Single, 50.0);
     canvas.text([10.0, 20.0], "路径", &Type::regular(TextSize::TICK));
-    let message = canvas.finish(&provenance()).unwrap_err().to_string();
-    assert!(message.contains("`路`") && message.contains("`路径`"), "{message}");
+    let given = canvas.finish(&provenance()).unwrap_err().to_string();
+    assert!(given.contains("`路`") && given.contains("`路径`"), "{given}");
 }

@@ -185,9 +185,9 @@ impl Axis {
     }
 }
 
-/// An axis is a coordinate of plotters, in place of that crate's own linear and logarithmic ones: those draw an
-/// infinite value on the edge of the frame as if it were finite, panic far outside it, and choose ticks that
-/// miss an end of the axis by a rounding error (±0.5) or name a decade twice.
+/// An axis is a coordinate of plotters, in place of that crate's own linear and logarithmic ones. Those draw an infinite value on
+/// the edge of the frame as if it were finite and panic far outside it. They choose ticks that miss an end of the axis by a
+/// rounding error (±0.5) or name a decade twice.
 impl Ranged for Axis {
     type FormatOption = DefaultFormatting;
     type ValueType = f64;

@@ -22,7 +22,7 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "arm_plane",
     about: "a planar arm among obstacles: zones, paths of the tip, the arm at stations along them; or both postures at the goal",
-    statistic: "One stored trial a panel.",
+    statistic: "Single trials.",
     settings: Accepted::shape::<ArmPlane>(),
     example: r#"
 stations = 7

@@ -208,8 +208,8 @@ pub(super) fn trial_at<'s>(
     rows.find(|row| at.is_none_or(|sweep| row.key.sweep == *sweep)).ok_or_else(missing)
 }
 
-/// Of the instances on which every contender has a trial with the trace `name` for the query called `of_query`, the one on which
-/// the last contender's saving of the first one's way is nearest to the median over all instances; the first if nothing is saved.
+/// The instance, among those on which every contender has a trial with the trace `name` for the query called `of_query`, on which
+/// the last contender's saving of the first one's way is nearest to the median over all instances. The first if nothing is saved.
 ///
 /// # Errors
 /// [`RenderError::NotStored`] if there is none.

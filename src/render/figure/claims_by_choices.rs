@@ -16,8 +16,7 @@ use std::collections::BTreeSet;
 pub static ENTRY: Entry = Entry {
     name: "claims_by_choices",
     about: "which choice moves which claim: the greatest effect of an axis's voting options, one at a time",
-    statistic: "Options that vote, one at a time beside the defaults. Of several in one cell the greatest effect. Claims that nothing moves \
-                are left out; {interpretations}.",
+    statistic: "Options that vote, one at a time; a cell shows the greatest effect. Claims that none moves are absent; {interpretations}.",
     settings: Accepted::shape::<ClaimsByChoices>(),
     example: r#"
 fitted = "threshold"

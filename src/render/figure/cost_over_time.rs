@@ -17,8 +17,7 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "cost_over_time",
     about: "cost of the best path found so far by planners from outside, over time: medians with intervals, failures infinite",
-    statistic: "Medians over all queries with 95 % bootstrap intervals over instances. A query without a path costs infinitely much, so a \
-                curve begins where half of the queries have one; {n}.",
+    statistic: "Medians over queries with 95 % bootstrap intervals over instances. No path costs infinitely much; {n}.",
     settings: Accepted::shape::<Read>(),
     example: r#"
 problems = "cell"
@@ -160,8 +159,8 @@ mod tests {
         let instances: Vec<_> = [0.1, 0.2, 0.3].map(|at| vec![vec![[at, 10.0]]]).into();
         let by = |moment: f64| best_over_time(&instances, &[moment], &["a test"]);
         let all = [(&fast, by(0.5)), (&slow, by(0.05))];
-        let said = note(0.5, &all);
-        assert!(said.ends_with("No path for half of the queries within 0.5 s: RRT*."), "{said}");
+        let title = note(0.5, &all);
+        assert!(title.ends_with("No path for half of the queries within 0.5 s: RRT*."), "{title}");
         assert!(!note(0.5, &all[..1]).contains("No path"), "everyone has a curve");
     }
 }

@@ -21,7 +21,7 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "grid_search",
     about: "searches on grid maps: opened cells of each side, then or by moments, paths, bends; one panel a trial or moment",
-    statistic: "One stored trial a panel.",
+    statistic: "Single trials.",
     settings: Accepted::shape::<GridSearch>(),
     example: r#"
 problems = ["W1"]
@@ -119,8 +119,11 @@ impl Kind for Ready {
 struct Map<'a> {
     scene: &'a Scene<'a>,
     row: &'a Row,
+    /// The vertices along each axis.
     size: [usize; 2],
     walls: &'a Trace,
+    /// Whether vertices are corners of cells, and not their middles.
+    is_on_corners: bool,
 }
 
 impl<'a> Map<'a> {
@@ -128,7 +131,10 @@ impl<'a> Map<'a> {
         let stored = |name: &str| ask::trace(scene, &row.key.on, name);
         let size = stored("size_cells")?;
         let walls = stored("blocked")?;
-        Ok(Self { scene, row, size: [size.values[0] as usize, size.values[1] as usize], walls })
+        let size = [size.values[0] as usize, size.values[1] as usize];
+        // Among vertices that are corners, the middle of a cell lies between four of them.
+        let is_on_corners = walls.values.iter().any(|value| value.fract() != 0.0);
+        Ok(Self { scene, row, size, walls, is_on_corners })
     }
 
     fn trace(&self, name: &str) -> Option<&'a Trace> {
@@ -140,10 +146,21 @@ impl<'a> Map<'a> {
         self.trace(name).map(ask::points).unwrap_or_default()
     }
 
-    /// The centres of all that was opened.
+    /// Where vertices are drawn: a cell (x, y) is the unit square from (x, y) to (x + 1, y + 1), as the paper places its points.
+    fn placed(&self, vertices: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+        let shift = if self.is_on_corners { 0.0 } else { 0.5 };
+        vertices.into_iter().map(|[x, y]| [x + shift, y + shift]).collect()
+    }
+
+    /// The vertices of a stored path, where they are drawn.
+    fn way(&self, path: &Trace) -> Vec<[f64; 2]> {
+        self.placed(ask::points(path))
+    }
+
+    /// Where all that was opened is drawn.
     fn opened(&self) -> Vec<[f64; 2]> {
         let sides = ["opened_start_side", "opened_goal_side"].map(|name| self.listed(name));
-        sides.concat().into_iter().map(|[x, y]| [x + 0.5, y + 0.5]).collect()
+        self.placed(sides.concat())
     }
 
     /// All that was opened and the paths, on the part of the map about `part`, or on all of it; the title with what is printed.
@@ -158,24 +175,26 @@ impl<'a> Map<'a> {
             number("turn_exterior_deg", 2),
             number("opened", 0)
         );
-        let [width, height] = self.size.map(|side| side as f64);
+        let [width, height] = self.cells().map(|side| side as f64);
         let mut panel = match part {
             [] => window(title, [[0.0, width], [0.0, height]])?,
             part => self.panel_about(title, part)?,
         };
         let (start, goal) = (self.listed("opened_start_side"), self.listed("opened_goal_side"));
-        panel.add(self.painted_sides(
+        self.paint_sides(
+            &mut panel,
             start,
             goal,
             ["opened by the start's side", "opened by the goal's side"],
-        ));
+        );
         if let Some(raw) = self.trace("raw_path") {
             let dashed = Stroke::solid(BLUE, 1.0).dashed(Dash::Dashed);
-            panel.add(Line::through(centres(raw), dashed).labelled("path as searched"));
+            panel.add(Line::through(self.way(raw), dashed).labelled("path as searched"));
         }
         if let Some(path) = self.trace("path") {
-            panel.add(Line::through(centres(path), Stroke::solid(VERMILLION, 1.6)).labelled("returned path"));
-            ask::add_ends(&mut panel, &centres(path), 3.2, ENDS);
+            panel
+                .add(Line::through(self.way(path), Stroke::solid(VERMILLION, 1.6)).labelled("returned path"));
+            ask::add_ends(&mut panel, &self.way(path), 3.2, ENDS);
         }
         Ok(panel)
     }
@@ -188,11 +207,15 @@ impl<'a> Map<'a> {
         let title = format!("{} of {all} nodes opened", shown.iter().sum::<usize>());
         let mut panel = self.panel_about(title, &self.opened())?;
         let [start, goal] = [0, 1].map(|side: usize| sides[side][..shown[side]].to_vec());
-        panel.add(self.painted_sides(start, goal, ["opened from the start", "opened from the goal"]));
-        let path = self.trace("raw_path").or_else(|| self.trace("path")).map(centres).unwrap_or_default();
+        self.paint_sides(&mut panel, start, goal, ["opened from the start", "opened from the goal"]);
+        let path = self
+            .trace("raw_path")
+            .or_else(|| self.trace("path"))
+            .map(|path| self.way(path))
+            .unwrap_or_default();
         if share >= 1.0 {
             panel.add(Line::through(path.clone(), Stroke::solid(BLUE, 1.4)).labelled("path found"));
-            let met: Vec<[f64; 2]> = self.trace("meeting").map(centres).unwrap_or_default();
+            let met: Vec<[f64; 2]> = self.trace("meeting").map(|path| self.way(path)).unwrap_or_default();
             if !met.is_empty() {
                 panel
                     .add(Points::unlabelled(met, Marker::Square, 2.0, BLACK).labelled("where the sides met"));
@@ -209,19 +232,19 @@ impl<'a> Map<'a> {
         let path = stored("path")?;
         let refused = stored("refused_sight")?;
         let raw_points: Vec<&[f64]> = raw.values.chunks(raw.width).collect();
-        let bent: Vec<[f64; 2]> = bends(&raw_points).into_iter().map(|i| centres(raw)[i]).collect();
-        let path = centres(path);
+        let bent: Vec<[f64; 2]> = bends(&raw_points).into_iter().map(|i| self.way(raw)[i]).collect();
+        let path = self.way(path);
         let title = format!("{problem}: {} bends before, {} after", bent.len() - 2, path.len() - 2);
-        let mut panel = self.panel_about(title, &centres(raw))?;
-        panel.add(self.painted(&[], vec![cell_key("blocked", BLOCKED)]));
+        let mut panel = self.panel_about(title, &self.way(raw))?;
+        self.paint(&mut panel, &[], vec![cell_key("blocked", BLOCKED)]);
         let lines = refused.values.chunks(refused.width).flat_map(|ends| {
-            let [from, to] = [[ends[0] + 0.5, ends[1] + 0.5], [ends[2] + 0.5, ends[3] + 0.5]];
-            [from, to, [f64::NAN; 2]]
+            let [from, to] = [[ends[0], ends[1]], [ends[2], ends[3]]];
+            self.placed(vec![from, to, [f64::NAN; 2]])
         });
         let dotted = Stroke::solid(GREY, 0.9).dashed(Dash::Dotted);
         panel.add(Line::through(lines.collect(), dotted).labelled("line of sight refused"));
         let dashed = Stroke::solid(BLUE, 1.0).dashed(Dash::Dashed);
-        panel.add(Line::through(centres(raw), dashed).labelled("path as searched"));
+        panel.add(Line::through(self.way(raw), dashed).labelled("path as searched"));
         panel.add(Points::unlabelled(bent, Marker::Circle, 1.8, BLUE).labelled("its bends"));
         let kept = Line::through(path.clone(), Stroke::solid(VERMILLION, 1.6)).marked(Marker::Square);
         panel.add(kept.labelled("after deletion"));
@@ -248,28 +271,55 @@ impl<'a> Map<'a> {
         window(title, part)
     }
 
-    /// The cells with what each side opened, and what both did.
-    fn painted_sides(&self, start: Vec<[f64; 2]>, goal: Vec<[f64; 2]>, names: [&str; 2]) -> Cells {
+    /// How many cells lie along each axis.
+    fn cells(&self) -> [usize; 2] {
+        self.size.map(|side| if self.is_on_corners { side - 1 } else { side })
+    }
+
+    /// Adds the cells with what each side opened, and what both did.
+    fn paint_sides(&self, panel: &mut Panel, start: Vec<[f64; 2]>, goal: Vec<[f64; 2]>, names: [&str; 2]) {
         let both: Vec<[f64; 2]> = start.iter().filter(|cell| goal.contains(cell)).copied().collect();
         let mut keys = vec![cell_key("blocked", BLOCKED)];
         let layers = [(start, START_SIDE), (goal, GOAL_SIDE), (both, BOTH_SIDES)];
         for ((cells, color), name) in layers.iter().zip([names[0], names[1], "opened by both"]) {
             keys.extend((!cells.is_empty()).then(|| cell_key(name, *color)));
         }
-        self.painted(&layers, keys)
+        self.paint(panel, &layers, keys);
     }
 
-    /// The cells, blocked ones dark, with `layers` on top of nothing and below the walls.
-    fn painted(&self, layers: &[(Vec<[f64; 2]>, Rgb)], keys: Vec<Key>) -> Cells {
-        let [columns, rows] = self.size;
-        let mut colors = vec![None; columns * rows];
-        for (cells, color) in layers.iter().chain(&[(ask::points(self.walls), BLOCKED)]) {
-            for [x, y] in cells {
-                colors[*y as usize * columns + *x as usize] = Some(*color);
-            }
-        }
+    /// Adds the cells, blocked ones dark, with `layers` of vertices on top of nothing and below the walls. A vertex that is a corner is
+    /// a square about it.
+    fn paint(&self, panel: &mut Panel, layers: &[(Vec<[f64; 2]>, Rgb)], keys: Vec<Key>) {
         let lines = Some(Stroke::solid(BLACK.mixed(WHITE, 0.85), 0.25));
-        Cells { corner: [0.0, 0.0], cell: [1.0, 1.0], columns, colors, lines, keys }
+        let walls = (ask::points(self.walls), BLOCKED);
+        let colored = |[columns, rows]: [usize; 2],
+                       layers: &mut dyn Iterator<Item = &(Vec<[f64; 2]>, Rgb)>| {
+            let mut colors = vec![None; columns * rows];
+            for (cells, color) in layers {
+                for [x, y] in cells {
+                    colors[*y as usize * columns + *x as usize] = Some(*color);
+                }
+            }
+            colors
+        };
+        let [columns, rows] = self.cells();
+        if self.is_on_corners {
+            let colors = colored(self.size, &mut layers.iter());
+            let about = Cells {
+                corner: [-0.5; 2],
+                cell: [1.0; 2],
+                columns: self.size[0],
+                colors,
+                lines: None,
+                keys: Vec::new(),
+            };
+            panel.add(about);
+            let colors = colored([columns, rows], &mut std::iter::once(&walls));
+            panel.add(Cells { corner: [0.0; 2], cell: [1.0; 2], columns, colors, lines, keys });
+        } else {
+            let colors = colored(self.size, &mut layers.iter().chain(std::iter::once(&walls)));
+            panel.add(Cells { corner: [0.0; 2], cell: [1.0; 2], columns, colors, lines, keys });
+        }
     }
 }
 
@@ -281,11 +331,6 @@ fn window(title: String, [x, y]: [[f64; 2]; 2]) -> Result<Panel, RenderError> {
 
 /// How the ends of paths are marked.
 const ENDS: [(Marker, Rgb); 2] = [(Marker::Circle, GREEN), (Marker::Diamond, GREEN)];
-
-/// A cell (x, y) is drawn as the unit square from (x, y) to (x + 1, y + 1), as the paper places its points.
-fn centres(path: &Trace) -> Vec<[f64; 2]> {
-    ask::points(path).into_iter().map(|[x, y]| [x + 0.5, y + 0.5]).collect()
-}
 
 #[cfg(test)]
 mod tests {

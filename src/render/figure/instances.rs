@@ -21,7 +21,7 @@ use study::paper::{Claim, Paper};
 pub static ENTRY: Entry = Entry {
     name: "instances",
     about: "cumulative distributions of our instances with the printed number marked, one panel a claim",
-    statistic: "Cumulative share of the instances that have the claim's statistic. The outermost hundredth on either side is cut off; {n}.",
+    statistic: "Outer hundredths cut; {n}.",
     settings: Accepted::shape::<Instances>(),
     example: r#"
 columns = 4

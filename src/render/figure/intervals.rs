@@ -23,7 +23,7 @@ use study::paper::Paper;
 pub static ENTRY: Entry = Entry {
     name: "intervals",
     about: "shares solved, their differences from one group, or reductions, by problem group or contender, with intervals",
-    statistic: "Means over instances with 95 % bootstrap intervals; where all instances agree, the bar bounds one more; a reduction of nothing on every instance has none. Reductions count trials that both solve; {n}.",
+    statistic: "Means over instances with 95 % bootstrap intervals; {n}.",
     settings: Accepted::shape::<Read>(),
     example: r#"
 problems = ["cell"]
@@ -220,6 +220,13 @@ fn titled(title: &str, what: &What, found: &[(f64, &String, Option<Estimate>)]) 
 }
 
 impl Kind for Intervals {
+    fn statistic(&self) -> Option<&'static str> {
+        self.panels
+            .iter()
+            .any(|panel| panel.metric.is_some())
+            .then_some("Mean reductions where both solve, with 95 % bootstrap intervals; {n}.")
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let names = self.names(scene);
         let row_pt = if self.is_by_group() { 6.0 + 5.0 * self.contenders.len() as f64 } else { 13.0 };

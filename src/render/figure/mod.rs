@@ -169,7 +169,7 @@ pub fn caption(spec: &FigureSpec, run: &Run<'_>, paper: &Paper, verdicts: &Verdi
     let settings = spec.settings.as_ref().map(base::settings::Spanned::get_ref);
     let Trials { instances, solved, all } = trials(run, settings);
     let unit = unit(run.study);
-    let n = format!("n = {instances} {unit}, {solved} of {all} trials solved");
+    let n = format!("n = {instances} {unit}, {solved}/{all} trials solved");
     let interpretations = verdicts.explored.as_ref().map_or(0, |explored| explored.interpretations);
     let statistic = own.unwrap_or(entry.statistic);
     let statistic = statistic
@@ -181,7 +181,7 @@ pub fn caption(spec: &FigureSpec, run: &Run<'_>, paper: &Paper, verdicts: &Verdi
 
 /// The noun for the instances of `study`: that of its families if they agree.
 pub(crate) fn unit(study: &Study) -> &'static str {
-    let nouns: BTreeSet<&str> = study.groups.iter().map(|group| group.family.instances).collect();
+    let nouns: BTreeSet<&str> = study.groups.iter().map(|group| group.noun).collect();
     match nouns.first() {
         Some(noun) if nouns.len() == 1 => noun,
         _ => "instances",

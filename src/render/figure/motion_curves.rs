@@ -16,7 +16,7 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "motion_curves",
     about: "how tip, posture or joints change along a motion, over its time or the tip's way; one panel a contender or joint",
-    statistic: "One stored trial a panel.",
+    statistic: "Single trials.",
     settings: Accepted::shape::<Read>(),
     example: r#"
 panels = [{ problem = "C1", contenders = ["This method"] }]

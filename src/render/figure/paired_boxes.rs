@@ -20,7 +20,7 @@ use study::key::SweepKey;
 pub static ENTRY: Entry = Entry {
     name: "paired_boxes",
     about: "a metric by query and contender, boxes over the instances on which all compared contenders solve the query, and savings",
-    statistic: "Median, quartiles, 5 and 95 %. An instance counts only if every contender solves the query; {n}.",
+    statistic: "Median, quartiles, 5–95 %, where all solve; {n}.",
     settings: Accepted::shape::<Read>(),
     example: r#"
 problems = "cell"

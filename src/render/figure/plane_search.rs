@@ -16,7 +16,7 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "plane_search",
     about: "a particle's searches on one roadmap in the plane: nodes closed so far, shots at the goal, paths",
-    statistic: "One stored trial a panel.",
+    statistic: "Single trials.",
     settings: Accepted::shape::<PlaneSearch>(),
     example: r#"
 problems = "plane"

@@ -22,7 +22,7 @@ use study::record::{Row, Status};
 pub static ENTRY: Entry = Entry {
     name: "polyhedra",
     about: "tip paths, or the whole arm along its path, among solid polyhedra; one row a contender, one panel a view",
-    statistic: "One stored trial a panel.",
+    statistic: "Single trials.",
     settings: Accepted::shape::<Read>(),
     example: r#"
 problem = "E1"
@@ -166,12 +166,12 @@ impl Polyhedra {
     fn row<'a>(&self, scene: &'a Scene<'_>, contender: &str) -> Result<&'a Row, RenderError> {
         let rows = scene.run.rows(&self.read.problem, contender);
         let chosen = if self.read.first_alone { self.chosen(scene) } else { None };
-        let is_asked = |row: &&Row| {
+        let is_wanted = |row: &&Row| {
             self.sweep.as_ref().is_none_or(|sweep| row.key.sweep == *sweep)
                 && self.read.query.as_ref().is_none_or(|query| row.query() == query)
                 && chosen.is_none_or(|number| row.instance() == number)
         };
-        rows.into_iter().find(is_asked).ok_or_else(|| RenderError::NotStored {
+        rows.into_iter().find(is_wanted).ok_or_else(|| RenderError::NotStored {
             what: format!("a trial of `{contender}` on `{}`", self.read.problem),
         })
     }

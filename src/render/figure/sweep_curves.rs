@@ -26,7 +26,7 @@ pub static ENTRY: Entry = Entry {
     name: "sweep_curves",
     about: "along a sweep: shares of solved queries with simultaneous bands or instance by instance, printed rows on top; or metrics, \
             several studies, a saving along a column",
-    statistic: "Shares are means over instances and count unsolved queries. Other metrics are of single trials; {n}.",
+    statistic: "Shares count unsolved queries; {n}.",
     settings: Accepted::shape::<Read>(),
     example: r#"
 problems = "cell"
@@ -335,8 +335,8 @@ impl SweepCurves {
             trials.iter().filter_map(point).collect()
         };
         let curves: Vec<_> = self.rows.iter().map(curve).collect();
-        let asked = self.read.printed_ratio.as_ref().filter(|printed| printed.metric == metric.name);
-        let printed = asked.map(|PrintedRatio { ratio, .. }| {
+        let own = self.read.printed_ratio.as_ref().filter(|printed| printed.metric == metric.name);
+        let printed = own.map(|PrintedRatio { ratio, .. }| {
             let line = curves[0].iter().map(|[x, y]| [*x, y * ratio]).collect::<Vec<_>>();
             (line, format!("printed: {ratio} times {}", self.rows[0].contender))
         });
@@ -361,6 +361,10 @@ impl SweepCurves {
 }
 
 impl Kind for SweepCurves {
+    fn statistic(&self) -> Option<&'static str> {
+        (!self.metrics.is_empty()).then_some("Single trials; {n}.")
+    }
+
     fn curves(&self, scene: &Scene<'_>, caption: &str) -> Option<Curves> {
         if self.read.single_instances || !self.metrics.is_empty() {
             return None;

@@ -21,7 +21,7 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "tradeoff",
     about: "one metric against another, a point a contender: means with intervals both ways, or all trials and their medians",
-    statistic: "Means over instances that every contender solves, changes of means over pairs, or medians. Failures are infinite and not drawn; {n}.",
+    statistic: "Means over instances that every contender solves; {n}.",
     settings: Accepted::shape::<Tradeoff>(),
     example: r#"
 x = "opened"
@@ -50,8 +50,8 @@ struct Tradeoff {
     contenders: Vec<String>,
     /// The panels, in their order.
     panels: Vec<PanelSpec>,
-    /// Changes in per cent of both metrics against this contender, paired over the problems that both solve, in place of means:
-    /// intervals of means hold what differs from problem to problem, which is no matter between contenders.
+    /// Changes in per cent of both metrics against this contender, paired over the problems that both solve, in place of means.
+    /// Intervals of means hold what differs from problem to problem, which is no matter between contenders.
     against: Option<String>,
     /// Every trial as a point and medians, failures infinite, on a logarithmic axis, in place of means.
     #[serde(default)]
@@ -185,6 +185,13 @@ impl Ready {
 }
 
 impl Kind for Ready {
+    fn statistic(&self) -> Option<&'static str> {
+        if self.read.trials {
+            return Some("Failures are infinite and not drawn; {n}.");
+        }
+        self.read.against.as_ref().map(|_| "Mean changes over pairs; {n}.")
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let panels = &self.read.panels;
         let sheet = |pt| Sheet::new(Width::Double, self.read.panels.len(), pt);
@@ -212,10 +219,10 @@ fn cross([x, y]: [f64; 2], [along_x, along_y]: [Interval; 2]) -> Vec<[f64; 2]> {
 /// The title with who fails: failures are at infinity and show nowhere else.
 fn title(title: &str, series: &[(&String, Vec<[f64; 2]>)]) -> String {
     let failed = |all: &[[f64; 2]]| all.iter().filter(|point| point[1].is_infinite()).count();
-    let said = series.iter().filter(|(_, all)| failed(all) > 0);
-    let said: Vec<String> =
-        said.map(|(label, all)| format!("{label} fails in {} of {}", failed(all), all.len())).collect();
-    if said.is_empty() { title.to_owned() } else { format!("{title}; {}", said.join(", ")) }
+    let failing = series.iter().filter(|(_, all)| failed(all) > 0);
+    let failing: Vec<String> =
+        failing.map(|(label, all)| format!("{label} fails in {} of {}", failed(all), all.len())).collect();
+    if failing.is_empty() { title.to_owned() } else { format!("{title}; {}", failing.join(", ")) }
 }
 
 /// Points of the contender at place `index`: colours come round after seven, darker, and the marker moves on by one.

@@ -19,7 +19,7 @@ use study::key::InstanceKey;
 pub static ENTRY: Entry = Entry {
     name: "work_cell",
     about: "a work cell from two sides: its robot at several poses, or the ways of its tool by contenders on one query",
-    statistic: "One stored trial a way.",
+    statistic: "Single trials.",
     settings: Accepted::shape::<WorkCell>(),
     example: r#"
 problems = "cell"
@@ -154,14 +154,14 @@ fn straight_lines(scene: &Scene<'_>, instance: &Arc<InstanceKey>) -> Option<Stri
             blocked.push(name.to_owned());
         }
     }
-    let mut said = format!("{} of {} straight lines are free", free.len(), free.len() + blocked.len());
+    let mut heading = format!("{} of {} straight lines are free", free.len(), free.len() + blocked.len());
     for (what, names) in [(", with mm of clearance: ", free), ("; blocked: ", blocked)] {
         if !names.is_empty() {
-            said += what;
-            said += &names.join(", ");
+            heading += what;
+            heading += &names.join(", ");
         }
     }
-    Some(said)
+    Some(heading)
 }
 
 /// A pose in words: joint angles, where flange and tip are, and where the tool points.
@@ -205,8 +205,8 @@ impl WorkCell {
     fn poses(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let instance = ask::instance(scene, &self.problems, 0)?;
         let mut sheet = Sheet::new(Width::Double, VIEWS.len(), 200.0);
-        if let Some(said) = straight_lines(scene, instance) {
-            sheet = sheet.titled(said);
+        if let Some(heading) = straight_lines(scene, instance) {
+            sheet = sheet.titled(heading);
         }
         let named: Vec<(usize, &[String; 2])> = self.poses.iter().enumerate().collect();
         for (row, shown) in named.chunks(self.at_once.max(1)).enumerate() {

@@ -213,7 +213,7 @@ impl Page<'_> {
         std::iter::once(counts.verdicts())
             .chain(counts.parts)
             .chain(counts.asserted)
-            .map(|said| format!("{said}."))
+            .map(|counted| format!("{counted}."))
             .collect::<Vec<_>>()
             .join(" ")
     }

@@ -292,12 +292,12 @@ fn finding_lines<'a>(
     let settles = finding.settles.iter().map(|settles| format!("what would settle it: {settles}"));
     let premises =
         (!finding.premises.is_empty()).then(|| format!("premises: {}", finding.premises.join("; ")));
-    for said in because.chain(settles).chain(premises) {
-        let first = *known.entry(said.clone()).or_insert(claim);
-        let is_said = first != claim && said.len() > SHORT;
-        let said = if is_said { format!("as for {}", links(&[first])) } else { linked(&said, verdicts, "") };
-        if !lines.contains(&(1, said.clone())) {
-            lines.push((1, said));
+    for line in because.chain(settles).chain(premises) {
+        let first = *known.entry(line.clone()).or_insert(claim);
+        let is_known = first != claim && line.len() > SHORT;
+        let line = if is_known { format!("as for {}", links(&[first])) } else { linked(&line, verdicts, "") };
+        if !lines.contains(&(1, line.clone())) {
+            lines.push((1, line));
         }
     }
     if let Some(trial) = &finding.trial {

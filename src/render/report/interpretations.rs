@@ -68,11 +68,11 @@ impl Page<'_> {
             (Effect::Opens, "opens or decides"),
             (Effect::Outcome, "changes the outcome, not the direction, of"),
         ];
-        let said = |(effect, what)| {
+        let effects = |(effect, what)| {
             let claims = of(effect);
             (!claims.is_empty()).then(|| format!("{what} {}", links(&claims)))
         };
-        kinds.into_iter().filter_map(said).collect()
+        kinds.into_iter().filter_map(effects).collect()
     }
 }
 
@@ -81,8 +81,8 @@ fn votes(choice: &Choice) -> Vec<String> {
     let source = |name: &str, option: &OptionSpec| {
         let bounds = choice.bounds.as_ref().filter(|_| option.value.is_some());
         let own = [option.paper.clone(), option.practice.clone(), bounds.map(|bounds| bounds.source.clone())];
-        let said: Vec<String> = own.into_iter().flatten().collect();
-        (!said.is_empty()).then(|| format!("{name} votes: {}", said.join("; ")))
+        let sources: Vec<String> = own.into_iter().flatten().collect();
+        (!sources.is_empty()).then(|| format!("{name} votes: {}", sources.join("; ")))
     };
     let voting = choice.options.iter().filter(|(name, _)| choice.votes(name));
     let mut lines: Vec<String> = voting.filter_map(|(name, option)| source(name, option)).collect();

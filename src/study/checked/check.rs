@@ -48,6 +48,7 @@ impl Study {
             for group in &mut self.groups {
                 for (_, family) in built.iter().filter(|(label, _)| *label == group.label) {
                     group.is_drawn |= family.draws_ends();
+                    group.noun = family.instances().unwrap_or(group.noun);
                     for query in family.queries() {
                         if !group.queries.contains(&query.name) {
                             group.queries.push(query.name.clone());
@@ -228,7 +229,7 @@ impl Study {
             let accepts = |key: &&String| group.family.settings.has(key);
             let lacks = |key: &String| !group.settings.table().contains_key(key);
             if unfilled.iter().filter(accepts).any(lacks) {
-                // That the setting is missing follows from what was said of the sweep.
+                // The missing setting follows from the fault of the sweep, which is reported already.
                 group.points.clear();
             }
         }
@@ -246,8 +247,8 @@ impl Study {
         before.iter().filter(|other| other.key == sweep.key).all(goes_with)
     }
 
-    /// Whether each label of a sweep over problems is that of a group; what is not goes to `faults`. That there is no label was
-    /// said when the sweep was read.
+    /// Whether each label of a sweep over problems is that of a group; others go to `faults`. An empty list of labels
+    /// was reported when the sweep was read.
     fn names_groups(&self, sweep: &Sweep, patterns: &[String], faults: &mut Faults) -> bool {
         let mut all = !patterns.is_empty();
         for (place, pattern) in patterns.iter().enumerate() {
@@ -283,12 +284,12 @@ impl Study {
     /// Refuses a sweep over a setting that contenders differ in: it would make them one.
     fn check_what_sweep_hides(&self, sweep: &Sweep, faults: &mut Faults) {
         let stages = self.contenders.iter().flat_map(|own| own.stages.iter().map(move |stage| (own, stage)));
-        let said: Vec<_> = stages
+        let values: Vec<_> = stages
             .filter(|(_, stage)| sweep.entry() == Some(stage.entry.name))
             .filter_map(|(own, stage)| Some((own, stage.settings.table().get(&sweep.key)?)))
             .collect();
-        let Some((first, value)) = said.first() else { return };
-        if let Some((other, another)) = said.iter().find(|(_, other)| other != value) {
+        let Some((first, value)) = values.first() else { return };
+        if let Some((other, another)) = values.iter().find(|(_, other)| other != value) {
             let message = format!(
                 "sweep `{}` would hide that contender `{}` says {value} and contender `{}` {another}; a setting that \
                  contenders agree on is accepted",
@@ -344,7 +345,7 @@ fn keep<T>(faults: &mut Faults, result: Result<T, StudyError>) -> Result<Option<
     }
 }
 
-/// Queries are told apart by their names in the keys of records.
+/// Refuses queries of one name: keys of records distinguish them by it.
 fn check_query_names(families: &[(&Group, Arc<dyn Family>)], faults: &mut Faults) {
     for (group, family) in families {
         let names = family.queries().iter().map(|query| query.name.as_str());
@@ -358,11 +359,11 @@ fn check_query_names(families: &[(&Group, Arc<dyn Family>)], faults: &mut Faults
 fn check_extent(
     contender: &Contender,
     sweep: &SweepPoint,
-    asked: Option<Extent>,
+    wanted: Option<Extent>,
     families: &[(&Group, Arc<dyn Family>)],
 ) -> Result<(), SettingsError> {
     for (group, family) in families {
-        let lack = asked.zip(family.extent()).and_then(|(asked, built)| built.lacks(&asked));
+        let lack = wanted.zip(family.extent()).and_then(|(wanted, built)| built.lacks(&wanted));
         let Some(lack) = lack else { continue };
         let at = name::sweep(&sweep.key);
         let swept = if at.is_empty() { at } else { format!(" at {at}") };

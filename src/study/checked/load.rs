@@ -1,4 +1,4 @@
-//! From a spec to checked types: what is wrong is said with file, line, column, what was found and what is accepted.
+//! From a spec to checked types. A fault is reported with file, line, column, the value found and the values accepted.
 
 use super::super::contender::{StageUse, SweepPoint, Swept};
 use super::super::error::StudyError;
@@ -133,7 +133,7 @@ fn read_all<S, T>(
     all
 }
 
-/// Labels are told apart in the names of trials.
+/// Refuses labels that the names of trials cannot distinguish.
 fn check_labels(spec: &StudySpec, document: &Document, study: &str, faults: &mut Faults) {
     let mut labels = spec.problems.iter().map(|p| &p.label).chain(spec.contenders.iter().map(|c| &c.label));
     let is_nameless = labels.any(|label| slug(label.get_ref()).is_empty());
@@ -242,6 +242,7 @@ fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, Setting
         points: vec![SweepPoint::default()],
         queries: Vec::new(),
         is_drawn: family.is_drawn,
+        noun: family.instances,
     })
 }
 

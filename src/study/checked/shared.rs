@@ -42,11 +42,11 @@ impl Shared {
             } else if !choice.options.contains_key(&choice.default) {
                 Some((vec!["default"], choice.lacks(&choice.default)))
             } else if !choice.can_run(&choice.default) {
-                let said = format!(
+                let reason = format!(
                     "the default of choice `{}` cannot be run; another option is accepted",
                     choice.id
                 );
-                Some((vec!["default"], said))
+                Some((vec!["default"], reason))
             } else {
                 None
             };
@@ -140,7 +140,7 @@ impl Study {
         choice.options.values().any(|option| !self.what_sets(option).is_empty())
     }
 
-    /// Takes over those of the paper's `choices` that touch what it runs or what is said of it, but for those that it leaves out.
+    /// Takes over those of the paper's `choices` that touch what it runs or how it is judged, but for those that it leaves out.
     pub(super) fn inherit(
         &mut self,
         choices: &[Choice],
@@ -160,10 +160,10 @@ impl Study {
                 faults.add(error.about(&labels_of(&self.name)).about(&columns_of(&self.name)));
             }
         }
-        let is_said = |choice: &Choice| choice.options.values().any(|option| option.sets_claims());
+        let sets_claims = |choice: &Choice| choice.options.values().any(|option| option.sets_claims());
         let inherited = choices.iter().filter(|choice| {
             let is_touching = ids.contains(choice.id.as_str());
-            if is_touching { !left.contains(choice.id.as_str()) } else { is_said(choice) }
+            if is_touching { !left.contains(choice.id.as_str()) } else { sets_claims(choice) }
         });
         let own = |choice: &Choice| {
             let touches_trials = ids.contains(choice.id.as_str());

@@ -88,7 +88,7 @@ impl Study {
             let group = self.groups.iter().find(|group| group.label == trials.problems);
             let of = |label: &String| self.contenders.iter().find(|contender| contender.label == *label);
             let contender = trials.contender.as_ref().and_then(of);
-            let asked = [
+            let limits = [
                 ("instances", Some(trials.instances), group.map(|group| group.instances)),
                 (
                     "also",
@@ -97,11 +97,12 @@ impl Study {
                 ),
                 ("repeats", trials.repeats, contender.map(|contender| contender.repeats)),
             ];
-            for (key, asked, there_are) in asked {
-                if let Some((asked, there_are)) = asked.zip(there_are).filter(|(asked, there)| asked > there)
+            for (key, wanted, there_are) in limits {
+                if let Some((wanted, there_are)) =
+                    wanted.zip(there_are).filter(|(wanted, there)| wanted > there)
                 {
                     let message =
-                        format!("`{key}` is {asked}; there are {there_are}, and no more is accepted");
+                        format!("`{key}` is {wanted}; there are {there_are}, and no more is accepted");
                     let fault = self.document.error_at(&format!("{place}.{index}.{key}"), message);
                     faults.add(fault.about(&labels_of(&self.name)));
                 }

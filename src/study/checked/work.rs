@@ -4,6 +4,7 @@ use super::super::choice::Interpretation;
 use super::super::error::StudyError;
 use super::super::inputs::Inputs;
 use super::Study;
+use engine::space::WorldKind;
 use std::collections::BTreeMap;
 
 /// About what a step takes, in seconds: an opened node or a built edge, with what is checked for it.
@@ -62,12 +63,16 @@ impl Study {
         for (group, at) in self.posed() {
             let family = group.family(at, &default, inputs)?;
             let cells = family.cells() as f64;
-            let parts = if family.extent().is_some() { cells * cells * EDGES_SHARE } else { cells };
+            let has_roadmap = family.extent().is_some();
+            let parts = if has_roadmap { cells * cells * EDGES_SHARE } else { cells };
             let queries = family.queries().len().max(1) as f64;
             let trials = queries * (f64::from(group.instances) * runs + timed);
             work.trials += trials;
-            work.bytes = work.bytes.max(parts * CELL_BYTES);
-            let opened = parts.min(self.budget.expansions as f64);
+            let budget = self.budget.expansions as f64;
+            // Where robots have no roadmap, planners sample: nothing but the budget ends their trees.
+            let samples = family.world() == WorldKind::Roadmap && !has_roadmap;
+            let opened = if samples { budget } else { parts.min(budget) };
+            work.bytes = work.bytes.max(parts.max(opened) * CELL_BYTES);
             work.seconds += STEP_S * (f64::from(group.instances) * parts + trials * opened);
         }
         Ok(work)

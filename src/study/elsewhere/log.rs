@@ -15,7 +15,7 @@ use std::path::Path;
 pub struct Log {
     /// Its runs.
     pub table: Table,
-    /// The name of the experiment.
+    /// The experiment's name in the log's head.
     pub experiment: String,
     /// By our status the numbers that mean it.
     pub statuses: BTreeMap<String, Vec<String>>,

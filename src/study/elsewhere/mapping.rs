@@ -23,9 +23,9 @@ pub struct Mapping {
     instance: String,
     /// The contender of each row.
     contender: Source,
-    /// The column that counts a contender's trials on one instance, from 0; none if there is one.
+    /// The column that counts a contender's trials on one instance, from 0; `None` if there is one.
     repeat: Option<String>,
-    /// How each row ended; none if every row was solved.
+    /// How each row ended; `None` if every row was solved.
     status: Option<StatusColumn>,
     /// By column of our records, the column it is read from.
     #[serde(default)]
@@ -43,7 +43,7 @@ enum Source {
     },
     /// That of a column.
     Column {
-        /// The column.
+        /// The column's head in the file.
         column: String,
         /// By text of the column, what it is called here; the same where it is not listed.
         #[serde(default)]
@@ -55,7 +55,7 @@ enum Source {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct StatusColumn {
-    /// The column.
+    /// The column's head in the file.
     column: String,
     /// By status (`solved`, `no_path`, `time_spent`, …), the texts that mean it.
     means: BTreeMap<String, Vec<String>>,
@@ -65,7 +65,7 @@ struct StatusColumn {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct MetricColumn {
-    /// The column.
+    /// The column's head in the file.
     column: String,
     /// By how much it is multiplied to give our unit; 1 if absent.
     #[serde(default = "one")]

@@ -114,8 +114,9 @@ impl Imported {
     /// Stages the rows in `folder` as the records of `study`, under its defaults.
     ///
     /// # Errors
-    /// A study of which something is not recorded elsewhere; a row that it has no group, instance or contender for; a trial of it
-    /// that no row is; [`StudyError::Io`].
+    /// A study with parts that are not recorded elsewhere; a row whose group, instance or contender it does not have; a trial of
+    /// it
+    /// without a row; [`StudyError::Io`].
     pub fn stage_of(
         &self,
         staged: &mut Staged,

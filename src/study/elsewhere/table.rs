@@ -17,7 +17,7 @@ pub struct Table {
     hash: String,
     /// What a row's number is called in messages.
     pub(super) unit: &'static str,
-    /// The heads.
+    /// The columns' heads, from the left.
     pub(super) heads: Vec<String>,
     /// The heads of columns whose cells are neither texts nor numbers nor booleans.
     others: Vec<String>,

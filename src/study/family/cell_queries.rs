@@ -156,7 +156,7 @@ struct CellQueries {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "a file of groups, or how many queries are drawn, is accepted")]
 enum Queries {
-    /// A file.
+    /// From this file of groups.
     File(String),
     /// So many are drawn.
     Drawn(#[schemars(range(max = 10_000))] NonZeroU32),
@@ -260,7 +260,7 @@ impl CellQueries {
         Ends::of_tips(settings, count, [&self.start_mm, &self.goal_mm])
     }
 
-    /// The robot in `file`, with the tool that is asked for.
+    /// The robot in `file`, with the tool that `settings` name.
     fn robot(&self, settings: &Settings, inputs: &Inputs, file: &Path) -> Result<Robot, SettingsError> {
         if self.srdf.is_some() && !self.self_collision {
             return Err(settings.error_at("srdf", UNUSED_SRDF));
@@ -393,7 +393,7 @@ impl Posed {
         self.bounds_rad.map(|[low, high]| low + (high - low) * stream.random::<f64>())
     }
 
-    /// Free configurations of `cell`, as many as were asked for, and how many draws they took; fewer if the draws run out.
+    /// Free configurations of `cell`, as many as the settings want, and how many draws they took; fewer if the draws run out.
     fn samples(&self, cell: &Cell, seed: u64) -> (Vec<Sample>, u32) {
         let seed = match self.read.roadmap {
             None => seed,
@@ -521,6 +521,10 @@ impl Family for Posed {
 
     fn check_ends(&self) -> Result<(), SettingsError> {
         self.ends.clone()
+    }
+
+    fn instances(&self) -> Option<&'static str> {
+        self.drawn_scene.is_some().then_some("cells")
     }
 
     fn cells(&self) -> u64 {

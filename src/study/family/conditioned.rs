@@ -101,9 +101,9 @@ struct Conditioned {
     shared: Table,
     /// The corner rule of all of them.
     corner_rule: String,
-    /// The planner whose record is asked for.
+    /// The planner whose record decides.
     planner: String,
-    /// Its settings.
+    /// The planner's settings.
     #[schemars(with = "AnyTable")]
     planner_settings: Table,
     /// Columns of the record with the least and the greatest value that are accepted.
@@ -120,7 +120,7 @@ struct Conditioned {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ConditionedFamily {
-    /// The family, by name.
+    /// The family's name in the registry.
     family: String,
     /// Its settings besides the shared ones.
     #[schemars(with = "AnyTable")]
@@ -240,7 +240,7 @@ struct Rejection {
 
 impl Rejection {
     fn accepts(&self, world: &World) -> bool {
-        let [query] = &self.queries[..] else { unreachable!("one query was asked for") };
+        let [query] = &self.queries[..] else { unreachable!("one query was wanted") };
         let request = Request {
             world,
             start: &query.start,

@@ -63,7 +63,7 @@ impl DrawnScene {
         self.with(&self.values(|[low, high], _| low.midpoint(high)))
     }
 
-    /// What `accept` makes of the first drawn file that it does not refuse; none if it refuses all of [`TRIES`].
+    /// What `accept` makes of the first drawn file that it does not refuse; `None` if it refuses all of [`TRIES`].
     pub(super) fn draw<T>(
         &self,
         seed: u64,

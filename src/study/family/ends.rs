@@ -1,8 +1,8 @@
 //! Starts and goals that are written in settings, or drawn with each instance.
 //!
-//! A family says how a point is drawn within limits and whether it is free; here it is decided how often that is tried, that a
-//! goal is never the start, and that each query draws from a stream of its own: one more query moves no other, and none moves
-//! what else is drawn with the instance.
+//! A family says how a point is drawn within limits and whether it is free. This module decides how often that is tried and that
+//! a goal is never the start. Each query draws from a stream of its own: one more query moves no other, and none moves what else
+//! is drawn with the instance.
 
 use super::Query;
 use base::seed::{self, Stream};
@@ -36,7 +36,7 @@ pub(super) enum Anywhere {
     Drawn,
 }
 
-/// An end in the plane.
+/// A start or goal in the plane: `[x, y]`, drawn, or drawn within limits.
 pub(super) type PlaneEnd<T> = End<[T; 2], PlaneLimits<T>>;
 
 /// Limits in the plane; a coordinate without a limit is drawn from all that there are.
@@ -158,7 +158,11 @@ impl SpaceLimits {
     }
 }
 
-/// The place within the limits of each axis, all of which lie in `whole`; an axis without limits has all of it.
+/// The place within the limits of `axes`: each has its name, its limits and the widest that are accepted, which stand in for
+/// absent ones.
+///
+/// # Errors
+/// Limits out of order or wider than the widest.
 fn within(
     settings: &Settings,
     key: &str,
@@ -193,10 +197,10 @@ pub(super) struct Ends {
 }
 
 impl Ends {
-    /// So many queries, one if it is not said, from `start` to `goal`; `error_at` makes an error about `goal` or `queries`.
+    /// `count` queries, one if it is absent, from `start` to `goal`; `error_at` makes an error about `goal` or `queries`.
     ///
     /// # Errors
-    /// A goal that cannot but be the start; several queries of which nothing is drawn.
+    /// A goal that cannot but be the start; several queries between fixed ends.
     pub(super) fn new(
         start: Place,
         goal: Place,

@@ -9,7 +9,7 @@ use engine::space::roadmap::Extent;
 use engine::space::{World, WorldKind};
 use std::path::PathBuf;
 
-/// One question asked of a preprocessed object.
+/// One query of a preprocessed object.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Query {
     /// Its name within the instance; empty where an instance has one query only.
@@ -65,6 +65,21 @@ pub trait Family: Send + Sync {
     fn queries_for(&self, seed: u64) -> Vec<Query> {
         let _ = seed;
         self.queries().to_vec()
+    }
+
+    /// The noun for its instances, in the plural, where the settings make them others than the registry says.
+    fn instances(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Whether it holds a problem for each instance: the seed of an instance is then its number.
+    fn numbers_instances(&self) -> bool {
+        false
+    }
+
+    /// What must be installed before its problems can be posed; `None` if nothing must.
+    fn lacks(&self) -> Option<String> {
+        None
     }
 
     /// Whether starts or goals are drawn with each instance.

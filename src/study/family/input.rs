@@ -13,10 +13,10 @@ use toml::Table;
 pub(super) const UNUSED_SRDF: &str =
     "srdf says which links may touch, and self_collision is false; true is accepted";
 
-/// Where the file is that the settings call `name` at `key`, and what `read` makes of it.
+/// The path of the file that the settings call `name` at `key`, and what `read` makes of it.
 ///
 /// # Errors
-/// There is no such file, told at the key; those of `read`.
+/// There is no such file, reported at the key; those of `read`.
 pub(super) fn input<T>(
     settings: &Settings,
     inputs: &Inputs,

@@ -1,6 +1,6 @@
 //! A robot of any number of axes among solids, from a start to the goals of a problem file, on roadmaps in joint space.
 
-mod picture;
+pub(super) mod picture;
 
 use super::ends::{Ends, SpaceLimits, is_within};
 use super::input::{UNUSED_SRDF, input};
@@ -9,7 +9,7 @@ use crate::preprocessing::Preprocessing;
 use crate::preprocessing::nested_roadmap::{self, Neighbours};
 use crate::verification::roadmap::JOINT_COLUMNS;
 use crate::{Inputs, StudyError};
-use base::problem::{Ended, Expected, Problem, parse_problem};
+use base::problem::{Ended, Expected, Problem, ProblemFile};
 use base::robot::{Robot, read_srdf, read_urdf};
 use base::seed::{self, Stream};
 use base::settings::{Accepted, Document, Faults, Settings, SettingsError};
@@ -123,10 +123,12 @@ impl Posed {
         });
         let problem = faults.keep(input(settings, inputs, "problem", &read.problem, |file| {
             let document = Document::open(file)?;
-            Ok((parse_problem(&document, read.set.as_deref(), read.index, expected.as_ref())?, document))
+            let all = ProblemFile::parse(document.clone())?;
+            Ok((all.problem(read.set.as_deref(), read.index, expected.as_ref())?, document))
         }));
+        let rule = (read.self_collision, read.srdf.as_deref());
         let contact =
-            robot.as_ref().and_then(|(_, robot)| faults.keep(read.contact(settings, inputs, robot)));
+            robot.as_ref().and_then(|(_, robot)| faults.keep(contact(settings, inputs, robot, rule)));
         let read_all = robot.zip(problem).zip(contact);
         let (((robot_file, robot), (problem_file, (problem, document))), (srdf_file, contact)) =
             faults.or(read_all)?;
@@ -152,33 +154,45 @@ impl Posed {
     }
 }
 
-impl JointQueries {
-    /// Which parts of the robot must not touch, and the file that says so.
-    fn contact(
-        &self,
-        settings: &Settings,
-        inputs: &Inputs,
-        robot: &Robot,
-    ) -> Result<(Option<PathBuf>, SelfContact), SettingsError> {
-        let Some(srdf) = &self.srdf else {
-            return Ok((None, if self.self_collision { SelfContact::Apart } else { SelfContact::Unchecked }));
-        };
-        if !self.self_collision {
-            return Err(settings.error_at("srdf", UNUSED_SRDF));
-        }
-        let (file, may_touch) = input(settings, inputs, "srdf", srdf, |file| read_srdf(file, robot))?;
-        Ok((Some(file), SelfContact::Except(may_touch)))
+/// Which parts of the robot must not touch, if it is checked, and the file that says so.
+pub(super) fn contact(
+    settings: &Settings,
+    inputs: &Inputs,
+    robot: &Robot,
+    (is_checked, srdf): (bool, Option<&str>),
+) -> Result<(Option<PathBuf>, SelfContact), SettingsError> {
+    let Some(srdf) = srdf else {
+        return Ok((None, if is_checked { SelfContact::Apart } else { SelfContact::Unchecked }));
+    };
+    if !is_checked {
+        return Err(settings.error_at("srdf", UNUSED_SRDF));
     }
+    let (file, may_touch) = input(settings, inputs, "srdf", srdf, |file| read_srdf(file, robot))?;
+    Ok((Some(file), SelfContact::Except(may_touch)))
+}
 
+/// What a reader of results should know of how a robot's files were taken.
+pub(super) fn robot_notes(
+    file: &str,
+    robot: &Robot,
+    contact: &SelfContact,
+    srdf: Option<&str>,
+) -> Vec<String> {
+    let mut notes: Vec<String> = robot.notes.iter().map(|note| format!("{file}: {note}")).collect();
+    let meshes = robot.solids.iter().filter(|(_, solid)| matches!(solid.form, Form::Hull(_))).count();
+    if meshes > 0 {
+        notes.push(format!("{file}: the convex hulls of their STL vertices stand for {meshes} meshes"));
+    }
+    if let (SelfContact::Except(may_touch), Some(srdf)) = (contact, srdf) {
+        notes.extend(may_touch.notes.iter().map(|note| format!("{srdf}: {note}")));
+    }
+    notes
+}
+
+impl JointQueries {
     /// What a reader of results should know of how the files were taken.
     fn notes(&self, robot: &Robot, problem: &Problem, contact: &SelfContact) -> Vec<String> {
-        let mut notes: Vec<String> =
-            robot.notes.iter().map(|note| format!("{}: {note}", self.robot)).collect();
-        let meshes = robot.solids.iter().filter(|(_, solid)| matches!(solid.form, Form::Hull(_))).count();
-        if meshes > 0 {
-            let hulls = format!("the convex hulls of their STL vertices stand for {meshes} meshes");
-            notes.push(format!("{}: {hulls}", self.robot));
-        }
+        let mut notes = robot_notes(&self.robot, robot, contact, self.srdf.as_deref());
         notes.extend(problem.notes.iter().map(|note| format!("{}: {note}", self.problem)));
         if !problem.is_valid {
             let index = self.index;
@@ -187,15 +201,12 @@ impl JointQueries {
                 self.problem
             ));
         }
-        if let (SelfContact::Except(may_touch), Some(srdf)) = (contact, &self.srdf) {
-            notes.extend(may_touch.notes.iter().map(|note| format!("{srdf}: {note}")));
-        }
         notes
     }
 }
 
 /// The support, checked: the problem's origin is the base.
-fn support(settings: &Settings, entry: &SupportEntry) -> Result<Support, SettingsError> {
+pub(super) fn support(settings: &Settings, entry: &SupportEntry) -> Result<Support, SettingsError> {
     let support =
         entry.support().map_err(|(key, message)| settings.error_at(&format!("support.{key}"), message))?;
     if *support.base() == Frame::IDENTITY {
@@ -206,7 +217,7 @@ fn support(settings: &Settings, entry: &SupportEntry) -> Result<Support, Setting
 }
 
 /// The floor, first, and the pedestal as obstacles; the floor is a slab that no robot reaches an end of.
-fn under(support: &Support) -> Vec<Solid> {
+pub(super) fn under(support: &Support) -> Vec<Solid> {
     const FAR_M: f64 = 100.0;
     let solid = |name: &str, origin_m: [f64; 3], half_m: [f64; 3]| Solid {
         name: name.to_owned(),
@@ -221,7 +232,7 @@ fn under(support: &Support) -> Vec<Solid> {
 }
 
 /// From the start to each goal; a single one needs no name.
-fn queries(problem: &Problem) -> Vec<Query> {
+pub(super) fn queries(problem: &Problem) -> Vec<Query> {
     let name =
         |index: usize| if problem.goals.len() == 1 { String::new() } else { format!("goal-{}", index + 1) };
     let query = |(index, goal): (usize, &Ended)| Query {

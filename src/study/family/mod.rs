@@ -1,7 +1,7 @@
 //! Problem families: one a file, all in [`REGISTRY`].
 //!
-//! A family poses problems: it draws what is to be prepared from a seed, and names the queries that are asked of
-//! it. Its settings come from the study, with the interpretation's options laid on top.
+//! A family poses problems: it draws what is to be prepared from a seed, and names its queries. Its settings come from the study,
+//! with the interpretation's options laid on top.
 
 mod arm_workspace;
 pub(super) mod cell_queries;
@@ -11,6 +11,7 @@ mod ends;
 mod entry;
 mod grid_map;
 mod input;
+mod joint_problems;
 mod joint_queries;
 mod movingai;
 mod overlay;
@@ -31,6 +32,7 @@ pub static REGISTRY: &[&Entry] = &[
     &cell_queries::ENTRY,
     &conditioned::ENTRY,
     &grid_map::ENTRY,
+    &joint_problems::ENTRY,
     &joint_queries::ENTRY,
     &movingai::ENTRY,
     &plane_queries::ENTRY,

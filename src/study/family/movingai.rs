@@ -1,9 +1,9 @@
 //! A `MovingAI` map with the queries of a scenario file.
 //!
-//! Queries are named after their line in the file. The optimal length that the file prints for each stands in every
-//! trial's row, so that a check can hold both the verifier and the planners to it. A query whose start or goal is
-//! blocked (water, say) is an invalid problem, and its trials are rows with that status. One that has no path, the file says, is
-//! asked like any other, with no optimal length.
+//! Queries are named after their line in the file. The optimal length that the file prints for each stands in every trial's row,
+//! so that a check can hold both the verifier and the planners to it. A query whose start or goal is blocked (water, say) is an
+//! invalid problem, and its trials are rows with that status. A query without a path, according to the file, is posed like any
+//! other, with no optimal length.
 
 use super::{Entry, Family, Query};
 use crate::StudyError;
@@ -98,7 +98,7 @@ fn no_corner_is_cut() -> lattice::CornerSetting {
 }
 
 impl MovingAi {
-    /// Whether every query is asked of this map; files may stand in different folders.
+    /// Refuses scenarios of another map, by its file name; folders may differ.
     fn check_names(&self, all: &[Scenario]) -> Result<(), String> {
         let name = |path: &str| path.rsplit('/').next().map(str::to_owned);
         match all.iter().find(|scenario| name(&scenario.map) != name(&self.map)) {

@@ -8,7 +8,7 @@ use toml::{Table, Value};
 /// by an element's number from 0 or by its `name`.
 ///
 /// # Errors
-/// The file cannot be read or is no TOML, told there; what names an element that is not there, told at the key.
+/// The file cannot be read or is no TOML, reported there; `over` names an element that is not there, reported at the key.
 pub(super) fn overlaid(
     settings: &Settings,
     key: &str,

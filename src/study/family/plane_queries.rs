@@ -13,7 +13,7 @@ use engine::geometry::planar::ConvexPolygon;
 use engine::kinematics::FARTHEST_MM;
 use engine::planner::{Invalid, Trace};
 use engine::space::WorldKind;
-use engine::space::roadmap::{Counted, Extent, Local, Near, PlaneMap, Sample};
+use engine::space::roadmap::{Counted, Extent, Local, Near, PlaneMap, RASTER_MM, Sample};
 use rand::RngExt as _;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -68,9 +68,6 @@ radius_mm = 220
     },
 };
 
-/// Samples lie on this raster, on which the verifier is exact.
-const RASTER_MM: f64 = 1.0 / 16.0;
-
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PlaneQueries {
@@ -123,7 +120,7 @@ pub const MAP_FILE: Accepted = Accepted::shape::<MapFile>();
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct MapFile {
-    /// Its name.
+    /// The map's name, for readers.
     #[expect(dead_code, reason = "a map says its name to readers")]
     name: String,
     /// How wide and how high the plane is.

@@ -77,10 +77,10 @@ struct SceneSettings {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Contact {
-    /// Blocked.
+    /// In contact, so not free.
     #[default]
     Blocked,
-    /// Free.
+    /// Not in contact.
     Free,
 }
 

@@ -293,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drawn_query_belongs_to_its_environment_and_is_blocked_where_that_is_asked_for() {
+    fn a_drawn_query_belongs_to_its_environment_and_is_blocked_where_that_is_wanted() {
         let mut blocked = [0, 0];
         let mut pairs = std::collections::BTreeSet::new();
         for (index, line) in ["any", "blocked"].into_iter().enumerate() {

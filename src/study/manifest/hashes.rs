@@ -21,7 +21,7 @@ pub(super) fn problem_hashes(
     for (interpretation, point) in points.iter().enumerate() {
         for (place, (group, at)) in study.posed().enumerate() {
             let settings = group.settings_under(at, point);
-            // The object's own traces are kept for every instance of which anything is.
+            // The object's own traces are kept for every instance with a kept trial.
             let kept: Vec<_> = study.kept().filter(|trials| trials.problems == group.label).collect();
             let text = format!(
                 "{} {} {} {} {:?} {} {} {} {} {:?} {:?} {:?} {:?}",

@@ -260,7 +260,8 @@ fn option_faults(name: &str, option: &OptionSpec, choice: &Choice) -> Vec<String
     faults
 }
 
-/// Of options by choice those that are none of `all`, by choice; and choices of which none is named.
+/// The faults of options by choice, each with the choice's id and a message: an unknown choice, no option, or an option that it
+/// lacks.
 fn unknown_options(wanted: &BTreeMap<String, Vec<String>>, all: &[Choice]) -> Vec<(String, String)> {
     let fault = |(id, options): (&String, &Vec<String>)| -> Vec<(String, String)> {
         let Some(choice) = all.iter().find(|choice| choice.id == *id) else {

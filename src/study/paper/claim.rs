@@ -11,7 +11,7 @@ use toml::Table;
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ClaimSpec {
-    /// Its name.
+    /// Its name, without the paper's.
     pub(super) id: Spanned<String>,
     /// Where it stands in the paper.
     pub(super) at: String,
@@ -30,7 +30,7 @@ pub(super) struct ClaimSpec {
     /// Whether it is one of the few claims that say what the paper is about.
     #[serde(default)]
     pub(super) headline: bool,
-    /// What the paper leaves out, if that makes it untestable; checks then only show what can be shown.
+    /// What the paper leaves out, if the claim cannot be tested without it; checks then only show what can be shown.
     pub(super) untestable: Option<String>,
     /// Why it must hold whatever the paper says, if it must: it is then asserted, and no evidence for anything.
     pub(super) theorem: Option<String>,
@@ -51,13 +51,13 @@ pub(super) struct ClaimSpec {
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, AnyTable>")]
     pub(super) rule: BTreeMap<String, Spanned<Table>>,
-    /// The claims all of which the sentence says.
+    /// The claims that the sentence makes together.
     #[serde(default)]
     pub(super) all_of: Vec<Spanned<String>>,
-    /// The claims some one of which the sentence says.
+    /// The claims that make the sentence true if one of them holds.
     #[serde(default)]
     pub(super) any_of: Vec<Spanned<String>>,
-    /// The claims one of which the sentence means, without saying which.
+    /// The meanings that the sentence may have, each a claim; the paper does not say which it has.
     #[serde(default)]
     pub(super) means_one_of: Vec<Spanned<String>>,
 }
@@ -72,7 +72,7 @@ impl ClaimSpec {
 /// What the paper says.
 #[derive(Debug, Clone)]
 pub struct Claim {
-    /// Its name.
+    /// Its name, without the paper's.
     pub id: String,
     /// Where it stands in the paper.
     pub at: String,
@@ -90,18 +90,18 @@ pub struct Claim {
     pub digits: Option<Digits>,
     /// Whether it is one of the few claims that say what the paper is about.
     pub headline: bool,
-    /// What the paper leaves out, if that makes it untestable; checks then only show what can be shown.
+    /// What the paper leaves out, if the claim cannot be tested without it; checks then only show what can be shown.
     pub untestable: Option<String>,
     /// Why it must hold whatever the paper says, if it must: it is then asserted, and no evidence for anything.
     pub theorem: Option<String>,
-    /// Two claims of which the first prints more than the second by its number, which the paper does not print itself.
+    /// Two claims: the first prints more than the second by the claim's number, which the paper does not print itself.
     pub difference: Option<[String; 2]>,
     /// What was changed in how it is judged after a run had been seen, and why.
     pub changed_after_run: Option<String>,
     /// The choices under some of whose options alone it is meant, each with those options.
     pub holds_when: BTreeMap<String, Vec<String>>,
     /// How it is judged, and what is shown beside: rules and criteria by name.
-    pub(super) asked: Vec<(TestRole, String, Settings)>,
+    pub(super) tests: Vec<(TestRole, String, Settings)>,
     /// The claims that it is made of.
     pub parts: Parts,
     /// Where it is written.
@@ -159,7 +159,7 @@ impl TestRole {
 /// The claims that a claim is made of; they count with it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Parts {
-    /// None.
+    /// It stands by itself.
     None,
     /// A sentence that says all of them.
     AllOf(Vec<String>),
@@ -184,7 +184,7 @@ impl Parts {
 impl Claim {
     /// Every rule and criterion with its settings.
     pub fn tests(&self) -> impl Iterator<Item = (TestRole, &str, &Settings)> {
-        self.asked.iter().map(|(asked, name, settings)| (*asked, name.as_str(), settings))
+        self.tests.iter().map(|(role, name, settings)| (*role, name.as_str(), settings))
     }
 
     /// Whether it is meant under `interpretation`: what it takes for granted holds there.
@@ -201,20 +201,20 @@ impl Claim {
 
     /// Whether it holds the same number against the same trials, in the same way.
     pub fn tests_alike(&self, other: &Self) -> bool {
-        let asked = self.criteria().map(|(name, settings)| (name, settings.table()));
+        let criteria = self.criteria().map(|(name, settings)| (name, settings.table()));
         self.printed == other.printed
-            && asked.eq(other.criteria().map(|(name, settings)| (name, settings.table())))
+            && criteria.eq(other.criteria().map(|(name, settings)| (name, settings.table())))
     }
 
     /// Every criterion that decides or is shown, with its settings.
     pub fn criteria(&self) -> impl Iterator<Item = (&str, &Settings)> {
-        let criteria = self.tests().filter(|(asked, ..)| *asked != TestRole::Rule);
+        let criteria = self.tests().filter(|(role, ..)| *role != TestRole::Rule);
         criteria.map(|(_, name, settings)| (name, settings))
     }
 
     /// The settings of the criterion called `name` that it is judged by.
     pub fn check(&self, name: &str) -> Option<&Settings> {
-        let mut decides = self.tests().filter(|(asked, own, _)| *asked == TestRole::Decides && *own == name);
+        let mut decides = self.tests().filter(|(role, own, _)| *role == TestRole::Decides && *own == name);
         decides.next().map(|(.., settings)| settings)
     }
 }
@@ -232,8 +232,8 @@ pub(super) fn claim(
         check_printed(document, id, printed, faults);
     }
     let parts = faults.keep(parts(document, spec)).unwrap_or(Parts::None);
-    let asked = tests(document, (number, spec), cells);
-    if asked.is_empty()
+    let tests = tests(document, (number, spec), cells);
+    if tests.is_empty()
         && spec.untestable.is_none()
         && given(spec).next().is_none()
         && !document.is_part("claim")
@@ -258,7 +258,7 @@ pub(super) fn claim(
         difference: None,
         changed_after_run: spec.changed_after_run.clone(),
         holds_when: spec.holds_when.clone(),
-        asked,
+        tests,
         parts,
         written: Written::claim(format!("claim.{number}")),
     }
@@ -285,7 +285,7 @@ pub fn printed_by(id: &str) -> String {
     format!("printed by {id}")
 }
 
-/// Refuses what the claim `id` is said to print unless it is a number.
+/// Refuses what the claim `id` prints unless it is a number.
 pub(super) fn check_printed(
     document: &Arc<Document>,
     id: &str,
@@ -308,16 +308,16 @@ fn tests(
     cells: &[String],
 ) -> Vec<(TestRole, String, Settings)> {
     let number = number.to_string();
-    let one = |asked: TestRole, name: &String, table: &Spanned<Table>, index: Option<usize>| {
+    let one = |role: TestRole, name: &String, table: &Spanned<Table>, index: Option<usize>| {
         let mut named = table.get_ref().clone();
         if !name_cells(&mut named, cells) {
-            return (asked, name.clone(), Settings::written(document, table));
+            return (role, name.clone(), Settings::written(document, table));
         }
         let index = index.map(|index| index.to_string());
-        let steps = ["claim", &number, asked.key(), name].into_iter().chain(index.as_deref());
+        let steps = ["claim", &number, role.key(), name].into_iter().chain(index.as_deref());
         let place = Place::of_table(document, &steps.collect::<Vec<_>>());
         let settings = Settings::layered(document, table.span(), vec![Part { place, key: None }], named);
-        (asked, name.clone(), settings)
+        (role, name.clone(), settings)
     };
     let rules = spec.rule.iter().map(|(name, table)| one(TestRole::Rule, name, table, None));
     let checks = spec.check.iter().map(|(name, table)| one(TestRole::Decides, name, table, None));

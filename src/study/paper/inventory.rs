@@ -49,7 +49,7 @@ pub struct NumbersRow {
 }
 
 impl Paper {
-    /// Every row is answered, by what exists, and nothing that is printed is missing.
+    /// Refuses a row that is not answered, a name in one that nothing has, and printed things without a row.
     pub(super) fn check_inventory(
         &self,
         claims: &BTreeSet<&str>,

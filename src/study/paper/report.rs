@@ -27,15 +27,15 @@ pub struct ReportSpec {
 pub const FIGURES: usize = 6;
 
 /// The forms in which a place can ask for what was found: with one decimal, as a percentage, in words with
-/// a direction, the ends of the interval, the
-/// number of instances, the class, and the least and the greatest percentage over the interpretations that count.
+/// a direction, the ends of the interval, the number of instances and the verdict. The last one is the least and the greatest
+/// percentage over the interpretations that count.
 pub const FORMS: [&str; 8] =
     ["tenths", "percent", "effect", "low", "high", "n", "verdict", OVER_INTERPRETATIONS];
 
 /// The form that asks what a number is over interpretations.
 pub const OVER_INTERPRETATIONS: &str = "percents";
 
-/// `text` with every `{claim}` or `{claim:form}` replaced by what `with` says of the claim in that form.
+/// `text` with every `{claim}` or `{claim:form}` replaced by `with` of claim and form.
 pub fn filled(text: &str, mut with: impl FnMut(&str, &str) -> String) -> String {
     let mut pieces = text.split('{');
     let mut whole = pieces.next().unwrap_or_default().to_owned();
@@ -98,9 +98,9 @@ mod tests {
 
     #[test]
     fn places_are_filled_and_all_else_is_kept() {
-        let said =
+        let text =
             filled("of {a.b} we find {a.b:percent}, {c:n}.", |claim, form| format!("<{claim}|{form}>"));
-        assert_eq!(said, "of <a.b|> we find <a.b|percent>, <c|n>.");
+        assert_eq!(text, "of <a.b|> we find <a.b|percent>, <c|n>.");
         assert_eq!(filled("nothing to fill", |_, _| String::new()), "nothing to fill");
     }
 }

@@ -41,7 +41,7 @@ pub struct BlockSpec {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CellSpec {
-    /// The metric.
+    /// The metric, by its name in the registry or in an interpretation.
     pub metric: Spanned<String>,
     /// What is shown of it.
     pub show: Show,
@@ -71,8 +71,8 @@ pub enum Show {
     Failed,
     /// The value of the first trial that has one, whatever its status.
     Value,
-    /// The median over what the problems prepared before any query (a roadmap), all of it counted once for all of its queries; for
-    /// contenders that search it, and not for those from outside, which do not.
+    /// The median over what the problems prepared before any query (a roadmap), counted once for all of its queries. Only for
+    /// contenders that search it: those from outside do not.
     Preprocessing,
 }
 

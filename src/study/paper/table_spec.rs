@@ -33,7 +33,7 @@ pub(super) struct TableSpec {
     pub(super) unit: Option<String>,
     /// What its cells are if they are no claims.
     pub(super) none: Option<String>,
-    /// What the paper leaves out, if that makes its cells untestable.
+    /// What the paper leaves out, if its cells cannot be tested without it.
     pub(super) untestable: Option<String>,
     /// What was changed in how its cells are judged after a run had been seen, and why.
     pub(super) changed_after_run: Option<String>,
@@ -58,10 +58,10 @@ pub(super) struct TableSpec {
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, Vec<AnyTable>>")]
     pub(super) shows: BTreeMap<String, Vec<Spanned<Table>>>,
-    /// Its columns.
+    /// Its columns from the left, but for the rows' names.
     #[serde(rename = "column")]
     pub(super) columns: Vec<ColumnSpec>,
-    /// Its rows.
+    /// Its rows from the top, each with the numbers that it prints.
     #[serde(rename = "row")]
     pub(super) rows: Vec<RowSpec>,
 }
@@ -97,10 +97,10 @@ pub(super) struct ColumnSpec {
     pub(super) unit: Option<String>,
     /// What its cells are if they are no claims.
     pub(super) none: Option<String>,
-    /// Two columns of which the first has more than the second by what stands here: a column that the paper does not print. Rows have
-    /// no cell for it, and a table of its own shows it.
+    /// Two columns: the first has more than the second by the numbers of this one, a column that the paper does not print. Rows
+    /// have no cell for it, and a table of its own shows it.
     pub(super) difference: Option<[Spanned<String>; 2]>,
-    /// What the paper leaves out, if that makes its cells untestable.
+    /// What the paper leaves out, if its cells cannot be tested without it.
     pub(super) untestable: Option<String>,
     /// The trials that criteria look at: laid under their `of`.
     #[serde(default)]
@@ -134,7 +134,7 @@ pub(super) struct RowSpec {
     pub(super) unit: Option<String>,
     /// What is printed in each column, digits and all; `N/A` where no number is.
     pub(super) printed: Vec<Spanned<String>>,
-    /// What the paper leaves out, if that makes its cells untestable.
+    /// What the paper leaves out, if its cells cannot be tested without it.
     pub(super) untestable: Option<String>,
     /// The trials that criteria look at: laid under their `of`.
     #[serde(default)]
@@ -159,14 +159,14 @@ pub(super) struct RowSpec {
     /// What single cells say otherwise, by their columns.
     #[serde(default)]
     pub(super) cell: BTreeMap<String, CellSpec>,
-    /// What is said of the row as a whole.
+    /// What holds for the row as a whole.
     pub(super) whole: Option<CellSpec>,
     /// Further claims that are parts of the row.
     #[serde(default)]
     pub(super) with: Vec<Spanned<String>>,
 }
 
-/// What is said of a single cell, or of a row as a whole.
+/// What holds for a single cell, or for a row as a whole.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct CellSpec {
@@ -184,7 +184,7 @@ pub(super) struct CellSpec {
     pub(super) digits: Option<Digits>,
     /// Whether it is one of the few claims that say what the paper is about.
     pub(super) headline: bool,
-    /// What the paper leaves out, if that makes it untestable.
+    /// What the paper leaves out, if it cannot be tested without that.
     pub(super) untestable: Option<String>,
     /// What was changed in how it is judged after a run had been seen, and why.
     pub(super) changed_after_run: Option<String>,

@@ -1,8 +1,8 @@
 //! The paper's own tables: what they print, and the claims that their cells are.
 //!
-//! Every number of a cell is a claim called `table.row.column`. A row with two such cells or more is one called `table.row`, whose
-//! parts are its cells; a cell that is untestable is no part of it and counts by itself. Claims that are made here are as those that
-//! are written: nothing above this floor tells them apart.
+//! Every number of a cell is a claim called `table.row.column`. A row with two such cells or more is one called `table.row`,
+//! whose parts are its cells; a cell that is not testable is no part of it and counts by itself. Claims made here look like
+//! written ones: nothing above this floor distinguishes them.
 
 use super::claim::{Claim, Parts, TestRole, Written, check_printed, name_cells};
 use super::columns::{NOT_PRINTED, columns, differences};
@@ -28,7 +28,7 @@ pub struct PrintedTable {
     pub decimals: usize,
     /// The heads of its columns.
     pub columns: Vec<String>,
-    /// Its rows.
+    /// Its rows from the top.
     pub rows: Vec<PrintedRow>,
 }
 
@@ -48,12 +48,12 @@ pub struct PrintedCell {
     pub printed: String,
     /// The claim that it is, if it is one.
     pub claim: Option<String>,
-    /// The trials of which the first stands beside it; what its claim found if `None`.
+    /// Selects trials; the first of them is shown beside it. `None` shows what its claim found.
     pub beside: Option<Settings>,
 }
 
 impl PrintedTable {
-    /// Its cells.
+    /// Its cells, row by row.
     pub fn cells(&self) -> impl Iterator<Item = &PrintedCell> {
         self.rows.iter().flat_map(|row| &row.cells)
     }
@@ -64,7 +64,7 @@ impl PrintedTable {
     }
 }
 
-/// A cell with all that is said about it.
+/// A cell with the table, row and column that give its settings.
 struct Cell<'a> {
     document: &'a Arc<Document>,
     /// The table and its number, from 0.
@@ -262,10 +262,7 @@ impl TableSpec {
             let cell = row.printed.iter().zip(columns(self)).find(|(_, (.., own))| own == id);
             let message = match cell {
                 Some((printed, (column, ..))) if !self.is_claim(column, printed) => {
-                    format!(
-                        "row `{}`, column `{id}`: the cell is no claim, so that nothing is said of it",
-                        row.id
-                    )
+                    format!("row `{}`, column `{id}`: the cell is no claim, so nothing is set for it", row.id)
                 }
                 None if !ids.contains(&id.as_str()) => none_called("column", id, ids.iter().copied()),
                 _ => continue,
@@ -295,8 +292,8 @@ impl TableSpec {
         let place = steps.join(".");
         let whole = [&steps[..], &["whole".to_owned()]].concat();
         let layers = [layer!(own, whole), Layer { of: &self.of, ..layer!(NOTHING, steps[..2]) }];
-        let mut asked = tests_of(document, &layers, own.untestable.is_some());
-        for (_, _, settings) in &mut asked {
+        let mut tests = tests_of(document, &layers, own.untestable.is_some());
+        for (_, _, settings) in &mut tests {
             fill(settings, &[("{row}", &row.id)]);
             settings.change(|table| {
                 name_cells(table, ids);
@@ -321,7 +318,7 @@ impl TableSpec {
             difference: None,
             changed_after_run: own.changed_after_run.clone().or_else(|| self.changed_after_run.clone()),
             holds_when: own.holds_when.clone(),
-            asked,
+            tests,
             parts: Parts::Cells(parts),
             written: Written {
                 own: format!("{place}.whole"),
@@ -373,7 +370,7 @@ impl Cell<'_> {
         self.row.0.cell.get(self.column.2).unwrap_or(&NOTHING)
     }
 
-    /// What is said of how it is judged, the nearest first.
+    /// Where settings of its tests may stand, the nearest first.
     fn layers(&self) -> [Layer<'_>; 4] {
         let number = self.table.1.to_string();
         let index = self.row.1.to_string();
@@ -398,11 +395,11 @@ impl Cell<'_> {
         let untestable = own.untestable.as_ref().or(row.untestable.as_ref());
         let untestable = untestable.or(column.untestable.as_ref()).or(table.untestable.as_ref()).cloned();
         let layers = self.layers();
-        let mut asked = tests_of(self.document, &layers, untestable.is_some());
-        for (_, _, settings) in &mut asked {
+        let mut tests = tests_of(self.document, &layers, untestable.is_some());
+        for (_, _, settings) in &mut tests {
             fill(settings, &[("{row}", &row.id), ("{column}", self.column.2)]);
         }
-        if asked.is_empty() && untestable.is_none() && !self.document.is_part("table") {
+        if tests.is_empty() && untestable.is_none() && !self.document.is_part("table") {
             let message = format!(
                 "column `{}` of table `{}`: its cells are printed, and nothing says how they are judged; `check`, `rule`, `untestable` \
                  with what the paper leaves out, or `none` with what else they are is needed",
@@ -429,7 +426,7 @@ impl Cell<'_> {
             difference: None,
             changed_after_run: own.changed_after_run.clone().or_else(|| table.changed_after_run.clone()),
             holds_when: own.holds_when.clone(),
-            asked,
+            tests,
             parts: Parts::None,
             written: Written {
                 own: format!("{row_at}.cell.{}", self.column.2),
@@ -441,7 +438,7 @@ impl Cell<'_> {
         }
     }
 
-    /// The trials of which the first stands beside it.
+    /// Selects trials; the first of them is shown beside it.
     fn beside(&self) -> Option<Settings> {
         let table = self.table.0;
         let row = self.row.0;
@@ -477,12 +474,12 @@ fn laid_under(layers: &[Layer<'_>]) -> Table {
 
 /// Where the layers say it.
 fn of_parts(document: &Arc<Document>, layers: &[Layer<'_>]) -> Vec<Part> {
-    let said = layers.iter().filter(|layer| !layer.of.is_empty());
-    said.map(|layer| part(document, &layer.steps, Some("of"))).collect()
+    let naming = layers.iter().filter(|layer| !layer.of.is_empty());
+    naming.map(|layer| part(document, &layer.steps, Some("of"))).collect()
 }
 
-/// Rules and criteria with their settings: those that the nearest layer names which names any, each with what the others say of it.
-/// What is untestable is held against no criterion but those that it names itself.
+/// Rules and criteria with their settings: those of the nearest layer that names any. The other layers' settings lie under them.
+/// A cell that is not testable has no criteria but those that it names itself.
 fn tests_of(
     document: &Arc<Document>,
     layers: &[Layer<'_>],

@@ -112,7 +112,7 @@ impl External {
         Ok(Self { program, version, files, any_angle, install, idle, queries })
     }
 
-    /// A process that has said `hello`.
+    /// A process that has sent `hello`.
     fn process(&self) -> Result<Process, String> {
         if let Some(idle) = self.idle.lock().expect("no thread panics with the list").pop() {
             return Ok(idle);
@@ -228,13 +228,13 @@ fn ended(talk: &Talk, time_s: f64) -> (Ending, Option<String>) {
 }
 
 fn counts(talk: &Talk) -> Counts {
-    let asked = &talk.asked;
+    let questions = &talk.questions;
     let mut counts = Counts::from([
-        ("question_batches", Value::Count(asked.batches)),
-        ("questions_valid", Value::Count(asked.valid)),
-        ("questions_motion", Value::Count(asked.motion)),
-        ("questions_fk", Value::Count(asked.fk)),
-        ("questions_ik", Value::Count(asked.ik)),
+        ("question_batches", Value::Count(questions.batches)),
+        ("questions_valid", Value::Count(questions.valid)),
+        ("questions_motion", Value::Count(questions.motion)),
+        ("questions_fk", Value::Count(questions.fk)),
+        ("questions_ik", Value::Count(questions.ik)),
         ("incumbents", Value::Count(talk.incumbents.len() as u64)),
         ("is_cut_off", Value::Count(talk.is_cut_off.into())),
         ("solve_wall_ns", Value::Real(talk.wall_ns as f64)),

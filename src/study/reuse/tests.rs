@@ -134,7 +134,7 @@ fn reordered(spec: &str) -> String {
     format!("{head}[[contender]]{second}[[contender]]\nlabel = 'first'{first}")
 }
 
-/// What changes, what is said of it, and how many of the 14 trials of each contender are kept besides whole units.
+/// Changes: name, changed spec, reasons reported, and how many of the 14 trials of each contender are kept besides whole units.
 fn changes() -> Vec<(&'static str, String, Vec<&'static str>, usize)> {
     vec![
         (

@@ -46,7 +46,7 @@ const KEYS: [(&str, Option<&str>, &str); 16] = [
 /// What one column means.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Described {
-    /// Its name.
+    /// The column's name in the file.
     pub name: String,
     /// Its unit; none for what has none.
     pub unit: Option<String>,

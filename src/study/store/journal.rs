@@ -250,7 +250,7 @@ mod tests {
         assert!(Journal::open(&path, "another").unwrap().1.is_empty());
     }
     #[test]
-    fn a_full_disk_is_told_with_the_journals_place() {
+    fn a_full_disk_is_reported_with_the_journals_place() {
         let file = OpenOptions::new().write(true).open("/dev/full").unwrap();
         let mut journal = Journal::new(PathBuf::from("runs/a.journal"), file);
         let error = journal.append(0, &mut batch(0)).unwrap_err().to_string();

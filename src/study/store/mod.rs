@@ -35,7 +35,7 @@ use std::path::{Path, PathBuf};
 pub struct Records {
     /// Preprocessed objects, trials and traces.
     pub batch: Batch,
-    /// Times.
+    /// Readings of the clock, of all sessions.
     pub times: Vec<Timing>,
 }
 
@@ -264,7 +264,7 @@ pub fn finish_put(
     }
 }
 
-/// Refuses records of `study` in `folder` of which some file is gone or has not its hash among `hashes`.
+/// Refuses records of `study` in `folder` if a file is gone or does not have its hash in `hashes`.
 ///
 /// # Errors
 /// [`StudyError::Touched`].

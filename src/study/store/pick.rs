@@ -1,4 +1,4 @@
-//! Traces that are read when they are asked for: the group of the file that holds them, and no other.
+//! Traces that are read on demand: the group of the file that holds them, and no other.
 
 use super::read::{Instances, Stored};
 use super::traces::{groups, read_group};
@@ -16,7 +16,7 @@ use std::sync::OnceLock;
 /// The traces of one study's records.
 #[derive(Debug, Default)]
 pub struct KeptTraces {
-    /// The file that holds them; none if they are in memory already.
+    /// The file that holds them; `None` if they are in memory already.
     path: Option<PathBuf>,
     found: OnceLock<TraceIndex>,
     damage: OnceLock<String>,

@@ -96,22 +96,22 @@ pub fn touched(path: &Path, what: &str) -> StudyError {
     StudyError::Touched(format!("{}: {what}; {REMEDY}", path.display()))
 }
 
-/// What is said of a file that polars cannot make anything of.
+/// The message about a file that polars cannot read.
 pub const UNREADABLE: &str = "is no Parquet file that can be read";
 
-/// What `read` gives; none if it panics. polars takes the lengths in a file at its word and panics at some that are wrong: that is
-/// told as an error, and not on the terminal as well.
+/// What `read` gives; `None` if it panics. polars trusts the lengths in a file and panics at some wrong ones. The caller
+/// reports that as an error, so the panic prints nothing on the terminal.
 pub fn unpanicked<T>(read: impl FnOnce() -> T + UnwindSafe) -> Option<T> {
     static READING: AtomicUsize = AtomicUsize::new(0);
     static QUIET: Once = Once::new();
     QUIET.call_once(|| {
-        let told = panic::take_hook();
+        let hook = panic::take_hook();
         panic::set_hook(Box::new(move |info| {
             // The standard library's own lines are where polars asks for a slice or a capacity that there is not.
             let is_theirs = |file: &str| file.contains("polars") || file.contains("/rustc/");
             let is_theirs = info.location().is_some_and(|at| is_theirs(at.file()));
             if READING.load(Ordering::SeqCst) == 0 || !is_theirs {
-                told(info);
+                hook(info);
             }
         }));
     });
@@ -144,7 +144,7 @@ impl Stored {
         }
     }
 
-    /// What `made` makes of the frame: polars reads some of a file only when its cells are asked for.
+    /// What `made` makes of the frame: polars reads some of a file only when a cell is wanted.
     pub fn guarded<T>(&self, made: impl FnOnce(&Self) -> Result<T, StudyError>) -> Result<T, StudyError> {
         // Nothing that is left half-done by a panic is used again: the error ends the interpretation of the whole run.
         unpanicked(AssertUnwindSafe(|| made(self))).unwrap_or_else(|| Err(touched(&self.path, UNREADABLE)))

@@ -145,7 +145,7 @@ fn every_column_of_a_file_is_described_in_its_metadata() {
 }
 
 #[test]
-fn measured_columns_are_told_from_those_of_keys_by_their_names() {
+fn measured_columns_are_distinguished_from_those_of_keys_by_their_names() {
     for column in column::COLUMNS {
         let is_key = ["sweep_", "choice_"].iter().any(|prefix| column.name.starts_with(prefix));
         let described = described(column.name, &KeyColumns::default()).unwrap();
@@ -166,7 +166,7 @@ fn in_groups(kept: &[Kept], most: usize) -> Vec<u8> {
 }
 
 #[test]
-fn only_the_groups_that_are_asked_for_are_read_and_one_at_a_time_by_who_takes_them() {
+fn only_the_groups_that_are_wanted_are_read_and_one_at_a_time_by_who_takes_them() {
     let all = kept(40);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.traces.parquet");

@@ -162,7 +162,7 @@ impl TraceReader {
         Ok(Traces { each: Box::new(each), sweep, group_values: GROUP_VALUES })
     }
 
-    /// What is said of what it holds.
+    /// The error about faulty contents.
     pub fn wrong(&self, reason: &str) -> StudyError {
         touched(&self.path, reason)
     }

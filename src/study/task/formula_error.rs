@@ -1,9 +1,9 @@
 //! How often the printed distance of a segment and a polyhedron is wrong, on random segments beside each obstacle.
 //!
-//! One row an instance: the counts of that instance's samples. A sample is separated if the exact distance is above 0; it is
-//! overestimated if the printed distance is longer by more than a millionth of the obstacle's extent, and a
+//! One row an instance: the counts of that instance's samples. A sample is separated if the exact distance is above 0. It is
+//! overestimated if the printed distance is longer by more than a millionth of the obstacle's extent. A
 //! collision is missed if the printed distance is not 0. The clamped formula for two segments is compared with the
-//! exact one on pairs of segments of the same samples; so is the same formula to the letter, with s and t as eqs. 11 and 12 name
+//! exact one on pairs of segments of the same samples. So is the same formula to the letter, with s and t as eqs. 11 and 12 name
 //! them and the ends as the text after eq. 18 takes them. `overestimated_listed` has the diagonals that the text lists, not all;
 //! `overestimated_listed_first` has the first list of the text, which leaves out the face's closing edge too.
 
@@ -146,7 +146,7 @@ impl Task for FormulaError {
     fn run(&self, unit: &Unit<'_>) -> Batch {
         let mut row = super::labelled_row(unit, LABEL);
         let preprocessing = unit.family.prepare(unit.seed);
-        // Stored units are known by what was prepared for them: without this row every run would measure anew.
+        // Stored units are found by the inputs of their preprocessing: without this row every run would measure anew.
         let preprocessing_row = super::preprocessing_row(unit, preprocessing.as_ref());
         match preprocessing {
             Err(invalid) => (row.status, row.reason) = (Status::InvalidProblem, Some(invalid.0)),

@@ -32,7 +32,7 @@ pub trait Task: Send + Sync {
         if !trials.is_empty() {
             return trials;
         }
-        // Names alone are asked for: nothing is drawn.
+        // The loop needs only names, so nothing is drawn.
         for query in unit.family.queries() {
             for entrant in &unit.entrants {
                 trials

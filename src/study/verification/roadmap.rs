@@ -102,6 +102,10 @@ fn measure_joints(
     let motion = case.motion(&plan.path, [request.start, request.goal])?;
     let mut values = counts(motion.length_m * 1e3, plan);
     values.insert("joint_travel_deg", Value::Real(motion.travel_rad.to_degrees()));
+    // Beside the length that a planner measures in joint space; others measure their ways otherwise.
+    if plan.counts.contains_key("initial_length_rad") {
+        values.insert("joint_length_rad", Value::Real(motion.joint_length));
+    }
     if request.trace {
         traces.push(Trace { name: "way_mm".to_owned(), width: 3, values: case.way_mm(&plan.path) });
     }

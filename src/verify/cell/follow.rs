@@ -154,8 +154,8 @@ fn widest_change(a: &Angles, b: &Angles) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// Refuses a jump between the planner's stops, and a joint that is too fast while the tool goes straight: where joints go straight,
-/// they set the pace themselves, and neither limit says anything of the path.
+/// Refuses a jump between the planner's stops, and a joint that is too fast while the tool goes straight. Where joints go
+/// straight, they set the pace themselves, and neither limit says anything of the path.
 fn refuse_motion(case: &Case, states: &[Angles], law_m: f64) -> Result<(), String> {
     let rules = &case.rules;
     if rules.straight_joints {

@@ -126,7 +126,7 @@ fn a_tool_that_is_too_fast_for_a_joint_is_refused() {
 
 /// The planner asks neither a jump nor a speed where joints go straight: the path is theirs, not the tool's.
 #[test]
-fn joints_that_go_straight_are_asked_no_speed_of_the_tool() {
+fn joints_that_go_straight_need_no_speed_of_the_tool() {
     let mut case = case(LegEnd::Own);
     let home = angles(HOME);
     let far = moved(&case, &home, [0.0, 0.3, 0.0]);

@@ -108,18 +108,18 @@ impl<'a> CornerCase<'a> {
 
     fn refuse_leg(&self, from: &[f64], to: &[f64], in_graph: bool) -> Option<String> {
         let plain = self.plain();
-        let told = || format!("the leg from {} to {}", listed(from), listed(to));
+        let leg = || format!("the leg from {} to {}", listed(from), listed(to));
         let Some((a, b)) = plain.cell(from).zip(plain.cell(to)) else {
             let fits = !in_graph && self.is_in_one_cell(from, to);
-            return (!fits).then(|| format!("{} joins no corners and stays in no free cell", told()));
+            return (!fits).then(|| format!("{} joins no corners and stays in no free cell", leg()));
         };
         if a == b {
             return Some(format!("the path stands still at {}", listed(a)));
         }
         if in_graph && (a[0].abs_diff(b[0]) > 1 || a[1].abs_diff(b[1]) > 1) {
-            return Some(format!("{} is not one of the eight moves", told()));
+            return Some(format!("{} is not one of the eight moves", leg()));
         }
-        (!self.is_clear(a, b)).then(|| format!("{} is not clear of blocked cells", told()))
+        (!self.is_clear(a, b)).then(|| format!("{} is not clear of blocked cells", leg()))
     }
 
     /// Whether both points lie in one free cell, its edges included.

@@ -1,9 +1,9 @@
 //! The length of a shortest path among blocked cells, which may bend anywhere.
 //!
-//! Such a path bends at corners of blocked cells alone, about which it turns. From every corner that the search takes, rows are scanned
-//! upwards and downwards for what is in sight: an interval of the next row for every run of free cells, whose ends are rounded to a
-//! whole number within 1e-9. Ends are where a line through two corners of the map meets a row, so that different ones are further apart
-//! on maps of up to 10 000 rows.
+//! Such a path bends at corners of blocked cells alone, about which it turns. From every corner that the search takes, rows are
+//! scanned upwards and downwards for what is in sight. It is an interval of the next row for every run of free cells, whose ends
+//! are rounded to a whole number within 1e-9. Ends are where a line through two corners of the map meets a row, so that different
+//! ones are further apart on maps of up to 10 000 rows.
 
 use super::distance;
 use base::grid::Grid2;

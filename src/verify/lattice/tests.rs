@@ -184,6 +184,18 @@ fn corner_rules_judge_the_same_diagonal_differently() {
     }
 }
 
+#[test]
+fn jump_points_alone_are_a_path_at_any_angle_and_no_path_from_cell_to_cell() {
+    let grid = parse_text_map("....\n....\n").unwrap();
+    let case = Case { grid: &grid, corner_rule: CornerRule::Allow, start: &[], goal: &[] };
+    for (in_graph, refused) in
+        [(false, None), (true, Some("the step from [1, 0] to [3, 0] is not one of the eight moves"))]
+    {
+        let found = case.refuse_step(&[[1, 0], [3, 0]], &answer(in_graph, None));
+        assert_eq!(found.as_deref(), refused);
+    }
+}
+
 /// Maps whose ways are short, winding and roundabout.
 fn large_grid(seed: u64) -> Grid2 {
     let mut stream = stream(derive(seed, &["large"]));

@@ -174,8 +174,8 @@ fn a_claim_about_cases_that_both_solve_hangs_on_what_did_not_end_and_says_what_i
         {
             let (outcome, because) = found(lost);
             assert_eq!(outcome, "holds", "{name}: {lost:?}");
-            let said = "9 more cases are outside of the claim: not solved by both";
-            assert!(because.contains(said), "{name}: {lost:?}: {because}");
+            let expected = "9 more cases are outside of the claim: not solved by both";
+            assert!(because.contains(expected), "{name}: {lost:?}: {because}");
         }
         let (outcome, because) = found((9, Spent, Spent));
         assert!(outcome == "open" && !because.contains("outside"), "{name}: {because}");

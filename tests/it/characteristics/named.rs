@@ -91,7 +91,7 @@ fn a_match_says_which_printed_values_would_have_been_refused() {
         let settings = format!("{of}\nstatistic = \"mean\"\nmargin = {margin}");
         judged("within", &settings, Made::Plainly, pairs(&all)).findings[0].because.clone()
     };
-    let says_power = |because: &[String]| because.iter().any(|said| said.starts_with("power: "));
+    let says_power = |because: &[String]| because.iter().any(|message| message.starts_with("power: "));
     let met = within("0.5");
     let open = within("0.1");
     assert!(says_power(&met) && !says_power(&open), "{met:?} {open:?}");
@@ -127,7 +127,7 @@ fn our_clock_says_nothing_of_the_authors_times_and_decides_questions_of_our_own(
 }
 
 #[test]
-fn a_problem_that_cannot_be_posed_is_left_out_of_what_holds_on_each_and_it_is_said() {
+fn a_problem_that_cannot_be_posed_is_left_out_of_what_holds_on_each_and_is_named() {
     let found = |lower: &str, higher: &str| {
         let mut sample = Sample::default();
         for (group, ends) in [("map", [At(50.0), At(100.0)]), ("other", [Unposed, Unposed])] {
@@ -144,8 +144,8 @@ fn a_problem_that_cannot_be_posed_is_left_out_of_what_holds_on_each_and_it_is_sa
     };
     for (one, other, outcome) in [("A", "B", "holds"), ("B", "A", "contradicted")] {
         let (found, because) = found(one, other);
-        let is_said = because.contains("left out, for it cannot be posed: other");
-        assert!(found == outcome && is_said, "{one} below {other}: {found}: {because}");
+        let is_reported = because.contains("left out, for it cannot be posed: other");
+        assert!(found == outcome && is_reported, "{one} below {other}: {found}: {because}");
     }
 }
 

@@ -275,10 +275,10 @@ fn agreed() -> Vec<Scenario> {
     };
     let drawn =
         format!("A costs as much as B, but half on one map in twenty; {MANY} maps, which may all agree");
-    let of = |criterion, truth, said: &str, settings: &str, holds| Scenario {
+    let of = |criterion, truth, label: &str, settings: &str, holds| Scenario {
         criterion,
         truth,
-        about: format!("{said}; {drawn}"),
+        about: format!("{label}; {drawn}"),
         claim: claim(criterion, &format!("{PAIRED}{settings}\n")),
         made: Made::Plainly,
         world: Box::new(world(holds)),
@@ -298,7 +298,7 @@ fn agreed() -> Vec<Scenario> {
 
 /// Two contenders that take equally long, under a load that differs from one session of the clock to the next.
 fn clocked() -> Vec<Scenario> {
-    [(2, "two", never_firm()), (3, "three", at_most(2.0 * 0.125))].map(|(sessions, said, bounds)| {
+    [(2, "two", never_firm()), (3, "three", at_most(2.0 * 0.125))].map(|(sessions, count, bounds)| {
         let world = move |stream: &mut Stream| {
             let loads: Vec<f64> = (0..sessions).map(|_| 1.0 + 0.1 * normal(stream)).collect();
             let mut sample = Sample::default();
@@ -314,7 +314,7 @@ fn clocked() -> Vec<Scenario> {
             World::new(sample.records(), false)
         };
         let claim = claim("lower", &PAIRED.replace("path_cost_cells", "plan_time_ms"));
-        let about = format!("times of our own clock in {said} sessions, each with a load of its own (10 %); A is no faster");
+        let about = format!("times of our own clock in {count} sessions, each with a load of its own (10 %); A is no faster");
         let bounds = Bounds { false_against: None, ..bounds };
         let made = Made::Timed;
         let truth = "own clock";

@@ -33,7 +33,7 @@ fn row(one: &Scenario, counts: &Counts) -> String {
             format!("{} (≤ {:.1})", percent(count, counts.papers), 100.0 * bound)
         })
     };
-    let said = [
+    let text = [
         count(&[Outcome::Holds, Outcome::Fitted, Outcome::Attainable]),
         count(&[Outcome::SignOnly]),
         count(&[Outcome::Open, Outcome::Lacking]),
@@ -41,7 +41,7 @@ fn row(one: &Scenario, counts: &Counts) -> String {
         with(counts.false_for, one.bounds.false_for),
         with(counts.false_against, one.bounds.false_against),
     ];
-    format!("| `{}` | {} | {} | {} |\n", one.criterion, one.truth, one.about, said.join(" | "))
+    format!("| `{}` | {} | {} | {} |\n", one.criterion, one.truth, one.about, text.join(" | "))
 }
 
 /// The page with a table between its marks.

@@ -117,7 +117,7 @@ impl Scenario {
     pub fn broken(&self, counts: &Counts) -> Vec<String> {
         let firm = counts.papers - counts.count(Outcome::Open) - counts.count(Outcome::Lacking);
         let Bounds { false_for, false_against, reproduced, firm: most_firm, right } = self.bounds;
-        let said = |what: &str, count: usize, bound: f64| {
+        let message = |what: &str, count: usize, bound: f64| {
             format!("{}: {what} {count} of {} papers, bound {bound:.4}", self.name(), counts.papers)
         };
         let interval = |count| clopper_pearson(count, counts.papers, 1.0 - 2.0 * NOISE).unwrap();
@@ -128,9 +128,9 @@ impl Scenario {
             ("firm", firm, most_firm),
         ];
         let above = most.into_iter().filter_map(|(what, count, bound)| {
-            bound.filter(|bound| interval(count).low > *bound).map(|bound| said(what, count, bound))
+            bound.filter(|bound| interval(count).low > *bound).map(|bound| message(what, count, bound))
         });
         let below = right.filter(|least| interval(counts.right).high < *least);
-        above.chain(below.map(|least| said("right", counts.right, least))).collect()
+        above.chain(below.map(|least| message("right", counts.right, least))).collect()
     }
 }

@@ -44,20 +44,20 @@ fn right(bounds: Bounds) -> Bounds {
 /// What a share counts: the setting, in words, and how a trial ends that is no hit.
 struct Counted {
     hits: &'static str,
-    said: &'static str,
+    label: &'static str,
     missed: End,
 }
 
-const SOLVED: Counted = Counted { hits: "hits = \"solved\"", said: "are solved", missed: End::NoPath };
+const SOLVED: Counted = Counted { hits: "hits = \"solved\"", label: "are solved", missed: End::NoPath };
 
 const MARKED: Counted = Counted {
     hits: "hits = \"marked\"\ncolumns = [\"optimal_cost_cells\"]",
-    said: "have a mark",
+    label: "have a mark",
     missed: End::At(1.0),
 };
 
 /// One query a map: the share of hits, claimed to be at least nine in ten.
-fn share_of_trials(Counted { hits, said, missed }: &'static Counted) -> Vec<Scenario> {
+fn share_of_trials(Counted { hits, label, missed }: &'static Counted) -> Vec<Scenario> {
     let scenario = |truth, instances: usize, share: f64, made, bounds| {
         let is_censored = truth == "censored";
         let world = move |stream: &mut Stream| {
@@ -74,7 +74,7 @@ fn share_of_trials(Counted { hits, said, missed }: &'static Counted) -> Vec<Scen
             World::new(sample.records(), share >= 0.9)
         };
         let tail = if is_censored { ", the others without an end" } else { "" };
-        let about = format!("{:.2} % {said}{tail}, 90 % claimed; {instances} maps", 100.0 * share);
+        let about = format!("{:.2} % {label}{tail}, 90 % claimed; {instances} maps", 100.0 * share);
         let claim = claim("share", &format!("{OF_A}{hits}\naccepted = [0.9, 1.0]\n"));
         Scenario { criterion: "share", truth, about, claim, made, world: Box::new(world), bounds }
     };

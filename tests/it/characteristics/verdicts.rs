@@ -142,7 +142,7 @@ fn no_verdict_errs_more_often_than_is_stated() {
 }
 
 #[test]
-fn what_is_plainly_true_false_or_both_is_said_of_most_papers() {
+fn what_is_plainly_true_false_or_both_is_found_in_most_papers() {
     for (truth, column) in [(0, Column::For), (1, Column::Against), (2, Column::Depends)] {
         let count = KINDS[truth].tally()[Column::ALL.iter().position(|own| *own == column).unwrap()];
         assert!(count * 10 >= PAPERS * 9, "{}: {column:?} {count} of {PAPERS}", KINDS[truth].truth);

@@ -116,6 +116,13 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
     ),
     ("posture_turns", &["bounds_rad = [0.2, 0.2, 0.1]"]),
     (
+        "prm_star",
+        &[
+            "sampler = 'halton'\niterations = 300\ngrowth = 1.2",
+            "sampler = 'seeded'\niterations = 300\ngrowth = 2",
+        ],
+    ),
+    (
         "roadmap_astar",
         &[
             "samples = 40\nneighbour_mm = 30.0\ncost = 'hops'\ngoal_shot = 'never'\npath = 'parents'",
@@ -125,7 +132,36 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
         ],
     ),
     ("roadmap_cost", &[""]),
+    (
+        "rrt",
+        &[
+            "range = 20\nsampler = 'halton'\ngoal_share = 0\niterations = 2000",
+            "range = 20\nsampler = 'seeded'\ngoal_share = 0.1\niterations = 2000",
+        ],
+    ),
+    (
+        "rrt_connect",
+        &[
+            "range = 20\nsampler = 'halton'\nbalance = 1\ndynamic_domain = { radius = 40, alpha = 0.1, least_radius = 10 }\n\
+             first = 'start'\niterations = 2000\nnodes = 2000",
+            "range = 20\nsampler = 'seeded'\nfirst = 'goal'\niterations = 2000\nnodes = 2000",
+        ],
+    ),
+    (
+        "rrt_star",
+        &[
+            "range = 20\nsampler = 'halton'\ngoal_share = 0.05\niterations = 600\ninformed = false",
+            "range = 20\nsampler = 'seeded'\ngoal_share = 0.05\niterations = 600\ninformed = true",
+        ],
+    ),
     ("shorten_best", &["least = 'length'", "least = 'nodes'"]),
+    (
+        "simplify_path",
+        &[
+            "rounds = 5\noperations = ['shortcut', 'bspline']\nbspline = { rounds = 1, least_change = 0.1, share = 0.5 }",
+            "rounds = 5\noperations = ['reduce']\nreduce = { tries = 10, empty_tries = 5, range_share = 0.5 }",
+        ],
+    ),
     ("straighten", &["last = 'as_printed'", "last = 'goal'"]),
     ("straighten_from_previous", &["resume = 'last_joined'", "resume = 'first_refused'", "resume = 'off'"]),
     (
@@ -141,8 +177,17 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
 ];
 
 /// Planners that have nothing to show but their path.
-pub const WITHOUT_TRACES: &[&str] =
-    &["astar_octile", "direct", "jps", "jps_plus", "keynode_astar", "lattice26_astar", "visibility_edges"];
+pub const WITHOUT_TRACES: &[&str] = &[
+    "astar_octile",
+    "direct",
+    "jps",
+    "jps_plus",
+    "keynode_astar",
+    "lattice26_astar",
+    "rrt",
+    "rrt_connect",
+    "visibility_edges",
+];
 
 /// An entry, one of its settings, and the value under which a property is not asked of it.
 pub type Exception = (&'static str, &'static str, &'static str);

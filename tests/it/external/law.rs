@@ -6,8 +6,11 @@ use base::settings::Settings;
 use engine::planner::{Build, Counts, Ending, Plan, Request};
 use engine::space::World;
 use engine::space::roadmap::Local;
-use external::{Space, describe};
+use external::message::Ask;
+use external::world::Pose;
+use external::{Space, Unanswered, describe};
 use rand::RngExt as _;
+use std::cell::Cell;
 use std::path::PathBuf;
 use study::contender::Pipeline;
 use study::family::{self, Query};
@@ -184,7 +187,7 @@ fn refusal(
 
 #[test]
 fn what_motion_accepts_the_verifier_accepts() {
-    let mut asked = 0;
+    let mut tried = 0;
     for sample in SAMPLES {
         let mut accepted = 0;
         let mut drawn = 0;
@@ -216,7 +219,35 @@ fn what_motion_accepts_the_verifier_accepts() {
             "{what}: a one-sided sample, {share}"
         );
         assert!(refused.is_empty(), "{what}: {} of {accepted} refused; {}", refused.len(), refused[0]);
-        asked += drawn;
+        tried += drawn;
     }
-    assert!(asked as usize >= thoroughly(100_000), "{asked} motions");
+    assert!(tried as usize >= thoroughly(100_000), "{tried} motions");
+}
+
+#[test]
+fn a_batch_of_any_kind_of_question_is_given_up_as_soon_as_its_time_is_over() {
+    let mut stopped = [0; 4];
+    for world in worlds() {
+        let at = vec![0.25; Space::new(&world, false).width()];
+        let turn = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let pose = Pose { position: vec![0.4, 0.1, 0.5], rotation: Some(turn) };
+        let batches = [
+            Ask { valid: Some(vec![at.clone(); 1000]), ..Ask::default() },
+            Ask { motion: Some(vec![[at.clone(), at.clone()]; 1000]), ..Ask::default() },
+            Ask { fk: Some(vec![at; 1000]), ..Ask::default() },
+            Ask { ik: Some(vec![pose; 1000]), ..Ask::default() },
+        ];
+        for (kind, batch) in batches.iter().enumerate() {
+            let looks = Cell::new(0);
+            let goes_on = || looks.replace(looks.get() + 1) < 2;
+            match Space::new(&world, false).answer_while(batch, &goes_on) {
+                Err(Unanswered::Stopped) => stopped[kind] += 1,
+                // A world without an arm has no postures.
+                Err(Unanswered::Refused(_)) if kind > 1 => continue,
+                other => panic!("{batch:?}: {other:?}"),
+            }
+            assert_eq!(looks.get(), 3, "looks at the clock");
+        }
+    }
+    assert!(stopped.iter().all(|worlds| *worlds > 0), "{stopped:?}");
 }

@@ -71,12 +71,16 @@ fn a_study_bound_to_a_clock_says_so_wherever_it_is_shown() {
     let manifest = "data/runs/outside/study.manifest.toml";
     assert!(read(manifest).contains("recorded = [\"theirs\"]"), "{}", read(manifest));
     bench.edit(manifest, "recorded = [\"theirs\"]\n", "");
-    let said = bench.run(&["judge", "outside", "--check"]);
-    assert_eq!(said.code, Some(3), "{}{}", said.out, said.err);
-    assert!(format!("{}{}", said.out, said.err).contains("`recorded` is not what the study"), "{}", said.out);
+    let output = bench.run(&["judge", "outside", "--check"]);
+    assert_eq!(output.code, Some(3), "{}{}", output.out, output.err);
+    assert!(
+        format!("{}{}", output.out, output.err).contains("`recorded` is not what the study"),
+        "{}",
+        output.out
+    );
     // The next run puts the mark back, and runs no trial for it.
-    let said = bench.done(&["run", "outside", "--trust"]);
-    assert!(said.contains("study: 2 trials (1 of 1 units reused)"), "{said}");
+    let output = bench.done(&["run", "outside", "--trust"]);
+    assert!(output.contains("study: 2 trials (1 of 1 units reused)"), "{output}");
     assert!(read(manifest).contains("recorded = [\"theirs\"]"), "{}", read(manifest));
 }
 
@@ -93,7 +97,7 @@ fn a_table_shows_what_a_roadmap_cost_those_who_search_it_and_nobody_else() {
     }
     let paper = "experiments/outside/paper.toml";
     bench.edit(paper, "\"components\"", "\"hops\"");
-    let said = bench.run(&["check", "outside"]);
+    let output = bench.run(&["check", "outside"]);
     let known = "study `study` does not produce the metric `hops`; it produces checked_states";
-    assert!(said.err.contains(known), "{}", said.err);
+    assert!(output.err.contains(known), "{}", output.err);
 }

@@ -34,7 +34,7 @@ pub const SILENT: Case = case(
     "silent",
     "echo 'still loading' >&2; sleep 100",
     "crashed",
-    "the planner said no `hello` within 10 s; it wrote nothing: an output that is buffered must be flushed after each line; its \
+    "the planner sent no `hello` within 10 s; it wrote nothing: an output that is buffered must be flushed after each line; its \
      log ends: still loading",
 );
 
@@ -179,12 +179,7 @@ pub const CASES: &[Case] = &[
         "crashed",
         "does not plan in worlds of kind grid",
     ),
-    case(
-        "other-id",
-        "hello; query; id=77; straight; query",
-        "crashed",
-        "answers query 77; it was asked query",
-    ),
+    case("other-id", "hello; query; id=77; straight; query", "crashed", "answers query 77; its query is"),
     case(
         "flood",
         "hello; query; yes '{}' | tr -d '\\n' & sleep 100",
@@ -248,7 +243,25 @@ pub const CASES: &[Case] = &[
         "rejected",
         "not from start to goal",
     ),
+    case(
+        "from-elsewhere",
+        r#"hello; query; result "[[1,1],$goal]"; query"#,
+        "rejected",
+        "the path goes from [1, 1] to [299, 200], not from start to goal",
+    ),
     case("nowhere", "hello; query; result '[]'; query", "rejected", "the path is empty"),
+    case(
+        "standing-still",
+        r#"hello; query; result "[$start,$start,$goal]"; query"#,
+        "rejected",
+        "the path stands still at [0, 1]",
+    ),
+    case(
+        "id-in-parts",
+        "hello; query; id=$id.0; straight; query",
+        "crashed",
+        "expected a whole number of 0 or more",
+    ),
     case(
         "through-a-wall",
         r#"hello; query; result "[$start,[0,0],[299,0],$goal]"; query"#,
@@ -271,7 +284,7 @@ pub const CASES: &[Case] = &[
         "question-about-an-arm",
         r#"hello; query; echo '{"type":"ask","id":1,"fk":[[1,2]]}'; query"#,
         "crashed",
-        "this world has no arm",
+        "needs an arm, and this world has none",
     ),
     case(
         "cut-off",

@@ -25,10 +25,14 @@ fn good() -> Bench {
 }
 
 fn is_refused(bench: &Bench, command: &[&str]) {
-    let said = bench.run(command);
-    assert_eq!(said.code, Some(2), "{command:?}: {}{}", said.out, said.err);
-    assert!(said.err.contains("starts programs with your rights:\n  sh outside/good.sh\n"), "{}", said.err);
-    assert!(said.err.contains("`--trust` accepts them until they change"), "{}", said.err);
+    let output = bench.run(command);
+    assert_eq!(output.code, Some(2), "{command:?}: {}{}", output.out, output.err);
+    assert!(
+        output.err.contains("starts programs with your rights:\n  sh outside/good.sh\n"),
+        "{}",
+        output.err
+    );
+    assert!(output.err.contains("`--trust` accepts them until they change"), "{}", output.err);
     assert!(!bench.at("started").exists(), "{command:?} started the program");
 }
 

@@ -1,13 +1,14 @@
 //! Files of other programs and lines of planners, damaged, each read by its own reader: problem sets, robots, meshes, maps, scenarios,
-//! and messages with the answers to their questions. What is refused names its file and a place, in a message that is not long.
+//! tables of results, and messages with the answers to their questions. What is refused names its file and a place, in a message that is not long.
 
 use super::damage::{flipped, misshapen};
 use super::subject::validate;
-use super::{cases, fault, is_located};
+use super::{cases, count, fault, is_located};
 use crate::external::law;
+use crate::import::SNAPPY;
 use crate::paper::Bench;
 use base::grid::{parse_movingai_map, parse_scenarios, parse_text_map, read_map};
-use base::problem::{Expected, parse_problem};
+use base::problem::{Expected, ProblemFile};
 use base::robot::{Robot, parse_srdf, parse_urdf, read_urdf};
 use base::seed::{self, Stream};
 use base::settings::Document;
@@ -17,11 +18,13 @@ use external::message::FromPlanner;
 use external::{Space, read_message};
 use rand::RngExt as _;
 use std::cell::Cell;
+use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 use study::Inputs;
+use study::elsewhere::Table;
 use study::paper::Paper;
 
 /// No message of one fault is longer, in bytes.
@@ -199,7 +202,8 @@ fn files<'a>(folder: &'a Path, robots: &'a [Robot; 2]) -> Vec<Door<'a>> {
     let problem = move |document: &Arc<Document>| {
         let joints = panda.joints.iter().map(|joint| joint.name.as_str()).collect();
         let expected = Expected { robot: &panda.name, joints };
-        parse_problem(document, None, 0, Some(&expected)).map(drop).map_err(|error| shown(&error))
+        let file = ProblemFile::parse(document.clone()).map_err(|error| shown(&error))?;
+        file.problem(None, 0, Some(&expected)).map(drop).map_err(|error| shown(&error))
     };
     let robot = move |document: &Arc<Document>| parse_urdf(document).map(drop).map_err(|error| shown(&error));
     let map = move |path: &Path| read_map(path).map(drop).map_err(|error| shown(&error));
@@ -209,6 +213,7 @@ fn files<'a>(folder: &'a Path, robots: &'a [Robot; 2]) -> Vec<Door<'a>> {
     let grid = parse_movingai_map(&String::from_utf8(stored("maps/movingai_sample.map")).unwrap()).unwrap();
     let mesh =
         move |_: &Path| read_urdf(&folder.join("meshed.urdf")).map(drop).map_err(|error| shown(&error));
+    let table = |path: &Path| Table::read_parquet(path).map(drop).map_err(|error| error.to_string());
     fs::write(folder.join("mesh.stl"), MESH).unwrap();
     let mut doors = vec![
         document("problems.json", named.replacen('{', &head, 1), problem),
@@ -229,10 +234,13 @@ fn files<'a>(folder: &'a Path, robots: &'a [Robot; 2]) -> Vec<Door<'a>> {
         file(folder, "room.png", png(png::ColorType::Grayscale, 1), map),
         file(folder, "clear.png", png(png::ColorType::Rgba, 4), map),
         file(folder, "room.yaml", HEAD, map),
+        file(folder, "results.parquet", SNAPPY, table),
     ];
     for door in &mut doors {
         if ends(door.name, "png") {
             door.damage = damaged_png;
+        } else if ends(door.name, "parquet") {
+            door.damage = |stream, bytes| flipped(stream, bytes.to_vec());
         }
     }
     doors
@@ -250,15 +258,15 @@ fn specs(paper: &Path) -> Vec<Door<'_>> {
 }
 
 /// What was wrong with a case beside what [`fault`] finds: a refusal without a place, or a long one.
-fn told(door: &Door<'_>, message: &str) -> Result<(), String> {
+fn reported(door: &Door<'_>, message: &str) -> Result<(), String> {
     let most = if ends(door.name, "toml") { MOST_FAULTS * LONGEST_MESSAGE } else { LONGEST_MESSAGE };
     let is_file = door.name != "planner";
     // An image has no lines, and a part of a map's head is missing nowhere.
-    let is_told =
+    let is_reported =
         if is_file { message.contains(door.name) || is_located(message) } else { message.len() > 10 };
     match () {
         () if message.len() > most => Err(format!("it was refused in {} bytes", message.len())),
-        () if !is_told => Err(format!("it was refused without a place: {message}")),
+        () if !is_reported => Err(format!("it was refused without a place: {message}")),
         () => Ok(()),
     }
 }
@@ -279,11 +287,12 @@ fn no_damaged_file_of_another_program_or_line_of_a_planner_panics_hangs_or_is_re
         let is_sound = outcome.is_ok() || door.name == "planner";
         assert!(is_sound, "{}: {outcome:?}", door.name);
     }
-    let all = cases() - cases() / super::SPECS_OF;
-    let mut accepted = 0;
+    let cases = cases(|all| all - all / super::SPECS_OF);
+    let all = count(&cases);
+    let mut tally: BTreeMap<&str, [u64; 2]> = BTreeMap::new();
     let mut faults = Vec::new();
     answers.set(0);
-    for case in 0..all {
+    for case in cases {
         let mut stream = seed::stream(seed::derive(2027, &["doors", &case.to_string()]));
         let kind = &doors[[0, 0, 0, 0, 0, 0, 1, 1, 1, 2][stream.random_range(0..10)]];
         let door = &kind[stream.random_range(0..kind.len())];
@@ -292,17 +301,23 @@ fn no_damaged_file_of_another_program_or_line_of_a_planner_panics_hangs_or_is_re
         let work = || match (door.read)(&bytes) {
             Ok(()) => Ok(()),
             Err(message) => {
-                wrong.set(told(door, &message).err());
+                wrong.set(reported(door, &message).err());
                 Err("file.toml:1: judged by `told`".to_owned())
             }
         };
         let found = fault(work).and_then(|is_accepted| wrong.take().map_or(Ok(is_accepted), Err));
+        let [read, accepted] = tally.entry(door.name).or_default();
+        *read += 1;
         match found {
-            Ok(is_accepted) => accepted += u64::from(is_accepted),
+            Ok(is_accepted) => *accepted += u64::from(is_accepted),
             Err(what) => faults.push(format!("case {case}, {}: {what}", door.name)),
         }
     }
-    println!("{all} cases, {accepted} accepted, {} answered", answers.get());
+    let accepted: u64 = tally.values().map(|[_, accepted]| accepted).sum();
+    println!(
+        "{all} cases, {accepted} accepted, {} answered, by door [read, accepted]: {tally:?}",
+        answers.get()
+    );
     assert!(faults.is_empty(), "{} of {all} cases:\n{}", faults.len(), faults.join("\n"));
     assert!((all / 10..all * 9 / 10).contains(&accepted), "{accepted} of {all} were accepted");
     assert!(u64::from(answers.get()) > all / 100, "{} of {all} lines were answered", answers.get());

@@ -3,7 +3,7 @@
 //! reaches the reader.
 
 use super::damage::{damaged, flipped};
-use super::{cases, fault};
+use super::{cases, count, fault};
 use base::hash::sha256;
 use base::seed::{self, Stream};
 use rand::RngExt as _;
@@ -72,7 +72,9 @@ fn no_damaged_file_of_a_stored_run_panics_and_every_refusal_names_a_file() {
     used(&paper, copy.path()).unwrap();
     let mut faults = Vec::new();
     let mut accepted = 0;
-    for case in 0..cases() / 5 {
+    let cases = cases(|all| all / 5);
+    let all = count(&cases);
+    for case in cases {
         let mut stream = seed::stream(seed::derive(2025, &["stored", &case.to_string()]));
         let (path, bytes) = &files[stream.random_range(0..files.len())];
         let is_text = path.extension().is_some_and(|ending| ending == "toml");
@@ -94,6 +96,7 @@ fn no_damaged_file_of_a_stored_run_panics_and_every_refusal_names_a_file() {
         }
         write();
     }
+    println!("{all} cases, {accepted} accepted");
     assert!(faults.is_empty(), "{} cases:\n{}", faults.len(), faults.join("\n"));
-    assert!(accepted < cases() / 10, "{accepted} were accepted: what was damaged is not looked at");
+    assert!(accepted < all / 2, "{accepted} were accepted: what was damaged is not looked at");
 }

@@ -45,12 +45,12 @@ fn original_and_improved_stand_side_by_side_in_step_with_their_clearance() {
     for step in [0, steps / 3, 2 * steps / 3, steps] {
         browser.go(&file, &format!("replay={TRIAL}&step={step}"));
         browser.wait(&format!("return document.querySelector('[name=step]').value === '{step}'"));
-        let said = texts(&browser, ".stage figcaption");
-        assert_eq!(said.len(), 2, "{said:?}");
-        for ((said, label), clearance) in said.iter().zip(LABELS).zip(&clearances) {
+        let text = texts(&browser, ".stage figcaption");
+        assert_eq!(text.len(), 2, "{text:?}");
+        for ((text, label), clearance) in text.iter().zip(LABELS).zip(&clearances) {
             let now = clearance[frame(step, steps, clearance.len())];
-            assert!(said.starts_with(&format!("{label}: ")), "{said}");
-            assert!(said.ends_with(&format!(", clearance {now:.1} mm")), "step {step}: {said}, not {now}");
+            assert!(text.starts_with(&format!("{label}: ")), "{text}");
+            assert!(text.ends_with(&format!(", clearance {now:.1} mm")), "step {step}: {text}, not {now}");
         }
         let pixels = pixels(&browser);
         assert_eq!(pixels.len(), 2);
@@ -130,9 +130,9 @@ fn an_arm_in_contact_turns_red_and_a_replay_is_opened_from_a_file() {
         (serde_json::from_value(browser.run(RED)).unwrap(), texts(&browser, ".stage figcaption").remove(0))
     };
     for step in [39, 40, 41] {
-        let ([red, other], said) = at(step);
+        let ([red, other], message) = at(step);
         let is_touching = step == 40;
-        assert_eq!(said.ends_with(", in contact"), is_touching, "{step}: {said}");
+        assert_eq!(message.ends_with(", in contact"), is_touching, "{step}: {message}");
         assert_eq!(
             (red > 500, other),
             (is_touching, 0),
@@ -149,8 +149,8 @@ fn an_arm_in_contact_turns_red_and_a_replay_is_opened_from_a_file() {
 fn one_that_finds_no_path_stands_beside_the_one_that_does() {
     let Some(browser) = Browser::open([1280, 800]) else { return };
     browser.go(&page("fu2018"), "replay=length/cell/0/1/improved-a-star&step=20");
-    let said = texts(&browser, ".stage figcaption");
-    assert!(said[0] == "Original A*: no path" && said[1].starts_with("Improved A*: "), "{said:?}");
+    let text = texts(&browser, ".stage figcaption");
+    assert!(text[0] == "Original A*: no path" && text[1].starts_with("Improved A*: "), "{text:?}");
     assert!(texts(&browser, ".controls output")[0].contains("Original A*: no path"));
     assert_eq!(browser.console(), json!([]));
 }

@@ -30,9 +30,9 @@ fn success_curves_say_the_values_under_the_pointer() {
     for samples in [300, 800, 1400] {
         let share = f64::from(samples - 100) / 1400.0;
         browser.point("#success", &[[0, 0], [((share - 0.5) * width).round() as i32, 20]], false);
-        let said = legend();
+        let shown = legend();
         let value = |label: &str| -> f64 {
-            let text = said.get(label).unwrap_or_else(|| panic!("{label}: {said:?}"));
+            let text = shown.get(label).unwrap_or_else(|| panic!("{label}: {shown:?}"));
             text.split(' ')
                 .next()
                 .unwrap()
@@ -48,7 +48,7 @@ fn success_curves_say_the_values_under_the_pointer() {
             assert!((ours - found).abs() < 0.01, "{label}, {samples}: {found} on the page, {ours} as judged");
             let printed: f64 = judged.printed.as_ref().unwrap().parse().unwrap();
             assert_eq!(value(&format!("{label}: printed")), printed, "{label}, {samples}");
-            let band = &said[&format!("{label}: mean of 200 roadmaps")];
+            let band = &shown[&format!("{label}: mean of 200 roadmaps")];
             assert!(band.contains(" [") && band.ends_with(']'), "{band}");
         }
     }

@@ -32,7 +32,7 @@ pub struct Browser {
 /// A driver at work, and its port. It takes one number for both families of addresses, and ends where another driver took the second
 /// meanwhile: then it is started again.
 fn started(program: &Path) -> (Child, u16) {
-    let mut said = Vec::new();
+    let mut seen = Vec::new();
     for _ in 0..STARTS {
         let mut driver = Command::new(program)
             .arg("--port=0")
@@ -44,11 +44,11 @@ fn started(program: &Path) -> (Child, u16) {
             if let Some((_, port)) = line.split_once("started successfully on port ") {
                 return (driver, port.trim_end_matches('.').parse().unwrap());
             }
-            said.push(line);
+            seen.push(line);
         }
         driver.wait().unwrap();
     }
-    panic!("chromedriver names no port: {}", said.join("; "));
+    panic!("chromedriver names no port: {}", seen.join("; "));
 }
 
 impl Browser {
@@ -57,8 +57,8 @@ impl Browser {
         let chromium = program(&["chromium", "chromium-browser", "google-chrome"]);
         let (Some(chromium), Some(driver)) = (chromium, program(&["chromedriver"])) else {
             // Not by a macro, whose lines a test that passes keeps to itself.
-            let said = "skipped: Chromium or chromedriver is not installed, so no page was opened\n";
-            std::io::stderr().write_all(said.as_bytes()).unwrap();
+            let expected = "skipped: Chromium or chromedriver is not installed, so no page was opened\n";
+            std::io::stderr().write_all(expected.as_bytes()).unwrap();
             return None;
         };
         let profile = tempfile::tempdir().unwrap();
@@ -104,8 +104,9 @@ impl Browser {
         let mut length = 0;
         while reader.read_line(&mut line).unwrap() > 2 {
             let lower = line.to_ascii_lowercase();
-            length =
-                lower.strip_prefix("content-length:").map_or(length, |said| said.trim().parse().unwrap());
+            length = lower
+                .strip_prefix("content-length:")
+                .map_or(length, |message| message.trim().parse().unwrap());
             line.clear();
         }
         let mut answer = vec![0; length];

@@ -66,13 +66,13 @@ fn a_reading_that_is_chosen_shows_each_claims_class_under_it() {
 }
 
 #[test]
-fn a_combination_that_was_not_explored_is_said_and_leads_to_those_that_were() {
+fn a_combination_that_was_not_explored_is_reported_and_leads_to_those_that_were() {
     let Some(browser) = Browser::open([390, 844]) else { return };
     browser.go(&page("zhang"), "interpretation=meeting:both_closed,ties:lifo,nodes:closed,end:contact");
-    let said = "return document.querySelector('#interpretation output').textContent";
-    assert!(browser.run(said).as_str().unwrap().starts_with("This combination was not explored."));
+    let script = "return document.querySelector('#interpretation output').textContent";
+    assert!(browser.run(script).as_str().unwrap().starts_with("This combination was not explored."));
     browser.run("document.querySelector('#interpretation output button').click()");
-    assert!(browser.run(said).as_str().unwrap().starts_with("Interpretation "), "{}", browser.run(said));
+    assert!(browser.run(script).as_str().unwrap().starts_with("Interpretation "), "{}", browser.run(script));
     browser.run("document.querySelector('#interpretation [name=defaults]').click()");
     assert_eq!(browser.run("return location.hash"), json!("#interpretation="));
     browser.picture("zhang-interpretation-390");

@@ -19,10 +19,10 @@ fn text_of_a_paper_never_becomes_part_of_the_page() {
 }
 
 #[test]
-fn missing_stale_and_damaged_runs_are_said_in_the_first_line() {
+fn missing_stale_and_damaged_runs_are_reported_in_the_first_line() {
     let bench = Bench::new();
-    let said = bench.run(&["report", "mini", "--to", "pages"]);
-    assert_eq!(said.code, Some(2), "{}", said.err);
+    let output = bench.run(&["report", "mini", "--to", "pages"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
     let first = || first_line(&bench.at("pages/mini.html"));
     assert!(first().contains("Nothing is shown: ") && first().contains("no verdicts"), "{}", first());
 
@@ -56,7 +56,7 @@ const REPORT: [&str; 6] = ["report", "mini", "--out", "run", "--to", "pages"];
 const VERDICTS: &str = "run/data/runs/mini/verdicts.toml";
 
 #[test]
-fn verdicts_that_were_edited_by_hand_are_said_in_the_first_line() {
+fn verdicts_that_were_edited_by_hand_are_reported_in_the_first_line() {
     let bench = ran();
     let first = || first_line(&bench.at("pages/mini.html"));
     let whole = fs::read_to_string(bench.at(VERDICTS)).unwrap();
@@ -81,15 +81,15 @@ fn verdicts_that_were_edited_by_hand_are_said_in_the_first_line() {
 }
 
 #[test]
-fn records_that_are_newer_than_the_verdicts_are_said_in_the_first_line() {
+fn records_that_are_newer_than_the_verdicts_are_reported_in_the_first_line() {
     let bench = ran();
     let first = || first_line(&bench.at("pages/mini.html"));
     // The clock is read again, so that times differ though no trial does.
     bench.done(&["run", "mini", "--out", "run", "--fresh"]);
     bench.done(&REPORT);
-    let said =
+    let expected =
         "<p class=\"state\">Stale: records of study `draws` are others than the claims were judged from";
-    assert!(first().starts_with(said), "{}", first());
+    assert!(first().starts_with(expected), "{}", first());
     bench.done(&["judge", "mini", "--out", "run"]);
     bench.done(&REPORT);
     assert!(first().starts_with("<main>"), "{}", first());
@@ -133,8 +133,8 @@ fn the_second_seeds_outcome_stands_beside_the_verdict() {
                 continue;
             };
             let class = second.name().replace(' ', "-");
-            let said = format!("second seed: <span class=\"class {class}\">{}</span>", second.name());
-            assert!(line.contains(&said), "{}: {line}", judged.claim);
+            let message = format!("second seed: <span class=\"class {class}\">{}</span>", second.name());
+            assert!(line.contains(&message), "{}: {line}", judged.claim);
             (seen, others) = (seen + 1, others + usize::from(second != judged.outcome));
         }
     }

@@ -1,6 +1,7 @@
 //! Roadmaps of a particle among rectangles, some with the goal walled off; the oracle asks the verifier about every edge.
+//! For planners that sample by themselves it asks about every straight way between corners.
 
-use super::{Case, Posed, Subject, Truth, flood};
+use super::{Case, Posed, Subject, Truth, flood, samples};
 use base::seed;
 use engine::geometry::Vec2;
 use engine::geometry::planar::ConvexPolygon;
@@ -17,6 +18,17 @@ const RADIUS_MM: f64 = 30.0;
 
 /// How many samples there are; the settings of planners must say the same.
 const SAMPLES: usize = 40;
+
+/// How far beside a corner a path may pass it: the raster of the plane.
+const BESIDE_MM: f64 = 1.0 / 16.0;
+
+/// What the oracle knows of a case.
+pub struct Scene {
+    samples: Vec<Vec<f64>>,
+    plane: plane::Case,
+    /// No path in the whole plane is shorter; absent if there is none.
+    shortest_mm: Option<f64>,
+}
 
 /// Corners of a rectangle, counter-clockwise.
 type Corners = Vec<[f64; 2]>;
@@ -66,15 +78,45 @@ pub fn roadmap(number: u64) -> Case {
     };
     let samples: Vec<Sample> =
         (0..SAMPLES as u32).map(|drawn_after| Sample { config: free(&shut).to_vec(), drawn_after }).collect();
-    let places = samples.iter().map(|sample| sample.config.clone()).collect();
+    let scene = Scene {
+        samples: samples.iter().map(|sample| sample.config.clone()).collect(),
+        plane: plane::Case::new(&walls).unwrap(),
+        shortest_mm: shortest_mm([start, goal], &walls),
+    };
     let world = Roadmap::build(Local::Plane(shut), samples, Near::Places(RADIUS_MM), Counted::Accepted);
     Case {
         name: format!("roadmap {number}, {start:?} to {goal:?}"),
         world: World::Roadmap(Box::new(world)),
         start: start.to_vec(),
         goal: goal.to_vec(),
-        posed: Posed::Roadmap(places, plane::Case::new(&walls).unwrap()),
+        posed: Posed::Roadmap(scene),
     }
+}
+
+/// A bound below every path among rectangles: ways past their corners, which bend beside a corner instead of at it, and each of
+/// whose legs is as much shorter as two such bends can lengthen it.
+fn shortest_mm(ends: [[f64; 2]; 2], walls: &[Corners]) -> Option<f64> {
+    let plane = plane::Case::new(walls).unwrap();
+    let beside = |corners: &Corners| {
+        let middle = [0, 1].map(|axis| f64::midpoint(corners[0][axis], corners[2][axis]));
+        let away =
+            move |at: [f64; 2]| [0, 1].map(|axis| at[axis] + BESIDE_MM.copysign(at[axis] - middle[axis]));
+        corners.iter().map(|corner| away(*corner)).collect::<Vec<_>>()
+    };
+    let is_inside = |at: &[f64; 2]| at.iter().all(|x| (0.0..=SIDE_MM).contains(x));
+    let nodes: Vec<Vec<f64>> = (ends.into_iter().chain(walls.iter().flat_map(beside)))
+        .filter(is_inside)
+        .map(|at| at.to_vec())
+        .collect();
+    let moves = |from: usize| {
+        let leg = |to: usize| {
+            let ends = [&nodes[from], &nodes[to]];
+            let length_mm = plane.length_mm(&ends.map(Clone::clone), ends.map(Vec::as_slice)).ok()?;
+            Some((to, (length_mm - 2.0 * BESIDE_MM * std::f64::consts::SQRT_2).max(0.0)))
+        };
+        (0..nodes.len()).filter(|to| *to != from).filter_map(leg).collect()
+    };
+    flood(0, moves).0.get(&1).copied()
 }
 
 /// Which edges a planner may take, as its settings say.
@@ -101,16 +143,24 @@ impl Graph<'_> {
     }
 }
 
-fn graph<'a>(case: &'a Case, places: &'a [Vec<f64>], plane: &'a plane::Case, subject: &Subject) -> Graph<'a> {
-    let places = places.iter().chain([&case.start, &case.goal]).collect();
+fn graph<'a>(case: &'a Case, scene: &'a Scene, subject: &Subject) -> Graph<'a> {
+    let places = scene.samples.iter().chain([&case.start, &case.goal]).collect();
     let has_samples = subject.entry.columns.contains(&"expansions");
     let shot = subject.settings.table().get("goal_shot").and_then(|shot| shot.as_str());
-    Graph { places, plane, has_samples, shoots: !has_samples || shot == Some("before_expansion") }
+    Graph {
+        places,
+        plane: &scene.plane,
+        has_samples,
+        shoots: !has_samples || shot == Some("before_expansion"),
+    }
 }
 
-/// What is true in the graph that the subject's settings describe.
-pub fn truth(case: &Case, places: &[Vec<f64>], plane: &plane::Case, subject: &Subject) -> Truth {
-    let graph = graph(case, places, plane, subject);
+/// What is true in the graph that the subject's settings describe, or in the whole plane.
+pub fn truth(case: &Case, scene: &Scene, subject: &Subject) -> Truth {
+    if samples(subject) {
+        return Truth { optimum: scene.shortest_mm, is_exact: true, reachable: None };
+    }
+    let graph = graph(case, scene, subject);
     let (found, moves) = flood(SAMPLES as u32, |node| graph.edges(node));
     let optimum = found.get(&(SAMPLES as u32 + 1)).copied();
     let reachable = graph.has_samples.then_some((found.len() as u64, moves));
@@ -118,21 +168,15 @@ pub fn truth(case: &Case, places: &[Vec<f64>], plane: &plane::Case, subject: &Su
 }
 
 /// Why the verifier refuses `plan`'s path, or a leg of it that is no edge where all must be.
-pub fn refusal(
-    case: &Case,
-    places: &[Vec<f64>],
-    plane: &plane::Case,
-    plan: &Plan,
-    subject: Option<&Subject>,
-) -> Option<String> {
-    let length_mm = match plane.length_mm(&plan.path, [&case.start, &case.goal]) {
+pub fn refusal(case: &Case, scene: &Scene, plan: &Plan, subject: Option<&Subject>) -> Option<String> {
+    let length_mm = match scene.plane.length_mm(&plan.path, [&case.start, &case.goal]) {
         Ok(length_mm) => length_mm,
         Err(refusal) => return Some(refusal),
     };
     if !plan.cost.is_some_and(|cost| (cost - length_mm).abs() < 1e-9 * length_mm.max(1.0)) {
         return Some(format!("the claimed length is {:?} mm, the path's {length_mm} mm", plan.cost));
     }
-    let graph = graph(case, places, plane, subject?);
+    let graph = graph(case, scene, subject.filter(|subject| !samples(subject))?);
     let number = |at: &Vec<f64>| graph.places.iter().position(|place| *place == at).map(|n| n as u32);
     let is_edge = |pair: &[Vec<f64>]| {
         let (from, to) = (number(&pair[0]), number(&pair[1]));

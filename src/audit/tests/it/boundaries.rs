@@ -18,7 +18,7 @@ fn input(check: &str, keys: &str) -> String {
     }
 }
 
-/// A check, an input and what is said of it.
+/// A check, an input and its class.
 const LINES: [(&str, &str, Class); 27] = [
     ("order", r#"sample: mean = "0.7"; min = "1.0""#, Class::Impossible),
     ("order", r#"sample: mean = "1.0"; min = "1.0""#, Class::Possible),
@@ -88,15 +88,15 @@ fn each_check_draws_its_line_where_the_mathematics_draws_it() {
 #[test]
 fn a_length_with_cheap_diagonals_may_be_below_the_straight_line() {
     // Three diagonal moves of 1.4 are 4.2, and the straight line is 3√2.
-    let said = |moves: &str| {
+    let message = |moves: &str| {
         let table = format!("| p | length [{moves}, from=0:0, to=3:3] |\n|-|-|\n| A | 4.20 |\n");
         audited(&table, Format::Markdown, &Options::default())
     };
-    let cheap = said("a+b1.4");
+    let cheap = message("a+b1.4");
     assert!(!cheap.has_impossible(), "{cheap:?}");
     assert_eq!(cheap.tally["lattice"].applied, 1);
     // Of one cause with `lattice`, which tells it.
-    assert_eq!(said("a+b√2").tally["path_bound"].follows, 1);
+    assert_eq!(message("a+b√2").tally["path_bound"].follows, 1);
 }
 
 #[test]

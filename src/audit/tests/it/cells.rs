@@ -17,7 +17,7 @@ fn read(text: &str) -> String {
 
 #[test]
 fn numbers_keep_their_trailing_zeros_and_spreads() {
-    for (text, said) in [
+    for (text, expected) in [
         ("14.650", "14.650"),
         ("−0.5", "-0.5"),
         ("99.7%", "99.7"),
@@ -40,7 +40,7 @@ fn numbers_keep_their_trailing_zeros_and_spreads() {
         ("—", "missing"),
         ("N/A", "missing"),
     ] {
-        assert_eq!(read(text), said, "{text}");
+        assert_eq!(read(text), expected, "{text}");
     }
     assert_eq!(plain(" **$1.2$** "), ("1.2".to_owned(), true));
     for formulas in ["$t$ [ms] $\\downarrow$", "*a* and *b*", "\\textbf{a} \\textbf{b}"] {
@@ -51,7 +51,7 @@ fn numbers_keep_their_trailing_zeros_and_spreads() {
 
 #[test]
 fn what_is_no_number_says_why() {
-    for (text, said) in [
+    for (text, expected) in [
         ("1,234", "thousands separator or a decimal comma"),
         ("1,234,567", "has thousands separators"),
         ("1,234.5", "has thousands separators"),
@@ -72,6 +72,6 @@ fn what_is_no_number_says_why() {
         ("(", "is no number"),
     ] {
         let found = number(text).unwrap_err();
-        assert!(found.contains(said) && found.contains("accepted"), "{text}: {found}");
+        assert!(found.contains(expected) && found.contains("accepted"), "{text}: {found}");
     }
 }

@@ -36,21 +36,21 @@ fn the_same_table_in_markdown_gives_the_same_claims() {
 fn a_table_in_latex_is_audited_and_one_that_is_cut_off_is_refused_with_its_line() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("t.tex");
-    let said = |text: &str| {
+    let message = |text: &str| {
         fs::write(&file, text).unwrap();
         let done = run(&[file.to_str().unwrap()]);
         let both = [done.stdout, done.stderr].concat();
         (done.status.code(), String::from_utf8(both).unwrap())
     };
     let table = "\\begin{tabular}{lc}\nplanner & success [% of 250] \\\\\nA & 33.3 \\\\\nB & 33.2 \\\\\n\\end{tabular}\n";
-    let (code, found) = said(&table.replace("% of", "\\% of"));
+    let (code, found) = message(&table.replace("% of", "\\% of"));
     assert_eq!(code, Some(3), "{found}");
     assert!(found.contains(":3:2: impossible: success of A: 33.3"), "{found}");
     let (code, found) =
-        said(table.strip_suffix("\\end{tabular}\n").unwrap().replace("% of", "\\% of").as_str());
+        message(table.strip_suffix("\\end{tabular}\n").unwrap().replace("% of", "\\% of").as_str());
     assert_eq!(code, Some(2), "{found}");
     assert!(found.contains("the tabular has no `\\end{tabular}`"), "{found}");
-    let (code, found) = said(&table.replace("% of", "\\% of").replace("B & 33.2", "B & 33.2 & 1"));
+    let (code, found) = message(&table.replace("% of", "\\% of").replace("B & 33.2", "B & 33.2 & 1"));
     assert_eq!(code, Some(2), "{found}");
     assert!(found.contains("t.tex:4: 3 cells, where the header has 2"), "{found}");
 }

@@ -44,9 +44,9 @@ impl Bench {
 
     /// Runs the program, which must succeed, and gives what it printed.
     fn done(&self, arguments: &[&str]) -> String {
-        let said = self.run(arguments);
-        assert_eq!(said.code, Some(0), "{arguments:?}\n{}{}", said.out, said.err);
-        said.out
+        let output = self.run(arguments);
+        assert_eq!(output.code, Some(0), "{arguments:?}\n{}{}", output.out, output.err);
+        output.out
     }
 }
 
@@ -58,26 +58,26 @@ fn answer(output: &Output) -> Answer {
 const TABLE: &str = "| planner | success [% of 250] |\n|-|-|\n| A | 33.3 |\n| B | 33.2 |\n";
 
 #[test]
-fn an_impossible_table_is_told_in_a_line_with_exit_code_3() {
+fn an_impossible_table_is_reported_in_a_line_with_exit_code_3() {
     let bench = Bench::new();
     bench.write("t.md", TABLE.as_bytes());
-    let said = bench.run(&["t.md", "--certificates", "proofs"]);
-    assert_eq!(said.code, Some(3), "{}", said.err);
-    let first = said.out.lines().next().unwrap();
+    let output = bench.run(&["t.md", "--certificates", "proofs"]);
+    assert_eq!(output.code, Some(3), "{}", output.err);
+    let first = output.out.lines().next().unwrap();
     assert!(
         first.starts_with("t.md:3:2: impossible: success of A: 33.3 is the mean of no 250 values"),
         "{first}"
     );
-    assert_eq!(said.err, "replan: t.md: 1 finding is impossible under the premises named\n");
+    assert_eq!(output.err, "replan: t.md: 1 finding is impossible under the premises named\n");
     assert!(bench.at("proofs/001_3_grim.json").is_file());
 }
 
 #[test]
-fn a_possible_table_ends_with_0_and_shows_its_data_if_asked() {
+fn a_possible_table_ends_with_0_and_shows_its_data_on_request() {
     let bench = Bench::new();
     bench.write("t.md", TABLE.replace("33.3", "33.6").as_bytes());
-    let said = bench.done(&["t.md", "--witness"]);
-    assert!(said.contains("data (all of them, 1 of 100000 steps): 84 × 2/5 of 250"), "{said}");
+    let output = bench.done(&["t.md", "--witness"]);
+    assert!(output.contains("data (all of them, 1 of 100000 steps): 84 × 2/5 of 250"), "{output}");
     let json = bench.done(&["t.md", "--json"]);
     assert!(json.contains("\"check\": \"grim\"") && json.contains("\"power\""), "{json}");
     assert!(json.contains("\"guessed\"") && json.contains("planner [label]"), "{json}");
@@ -107,9 +107,9 @@ fn a_text_that_includes_others_says_that_they_were_not_read() {
     let bench = Bench::new();
     bench.write("numbers.tex", b"\\newcommand{\\nodes}{45}\n");
     bench.write("paper.tex", b"\\input{numbers}\nWe open \\nodes{} nodes.\n\\input{sections/two}\n");
-    let said = bench.run(&["--coverage", "paper.tex", "--macros", "numbers.tex"]);
-    assert_eq!(said.code, Some(3), "{}", said.err);
-    let unread: Vec<&str> = said.out.lines().filter(|line| line.contains("is included")).collect();
+    let output = bench.run(&["--coverage", "paper.tex", "--macros", "numbers.tex"]);
+    assert_eq!(output.code, Some(3), "{}", output.err);
+    let unread: Vec<&str> = output.out.lines().filter(|line| line.contains("is included")).collect();
     assert_eq!(unread, ["paper.tex: `sections/two` is included and was not read; ask about it by itself"]);
 }
 
@@ -118,34 +118,34 @@ fn standard_input_is_read_and_wrong_input_ends_with_2() {
     let bench = Bench::new();
     let mut child = bench.command(&["-"]).stdin(Stdio::piped()).spawn().unwrap();
     child.stdin.take().unwrap().write_all(TABLE.replace("33.3", "33,3").as_bytes()).unwrap();
-    let said = answer(&child.wait_with_output().unwrap());
-    assert_eq!(said.code, Some(2));
+    let output = answer(&child.wait_with_output().unwrap());
+    assert_eq!(output.code, Some(2));
     assert!(
-        said.err.starts_with("replan: stdin:3:2: column `success`: `33,3` has a decimal comma"),
+        output.err.starts_with("replan: stdin:3:2: column `success`: `33,3` has a decimal comma"),
         "{}",
-        said.err
+        output.err
     );
 }
 
 #[test]
-fn a_stub_of_a_csv_is_a_csv_and_no_data_can_not_be_asked_for() {
+fn a_stub_of_a_csv_is_a_csv_and_a_search_for_no_data_is_refused() {
     let bench = Bench::new();
     bench.write("t.csv", b"planner,Success rate (%),Time (s)\nA,33.2 %,1.2 s\n");
-    let said = bench.done(&["t.csv", "--stub", "header.csv"]);
+    let output = bench.done(&["t.csv", "--stub", "header.csv"]);
     let stub =
         "planner [label],Success rate (%) [% of ?, higher is better],Time (s) [mean, n=?, lower is better]";
     assert_eq!(std::fs::read_to_string(bench.at("header.csv")).unwrap(), format!("{stub}\n"));
-    assert!(said.contains(&format!("correct the header: {stub}")), "{said}");
-    let said = bench.run(&["t.csv", "--witness", "0"]);
-    assert_eq!(said.code, Some(2), "{}", said.err);
+    assert!(output.contains(&format!("correct the header: {stub}")), "{output}");
+    let output = bench.run(&["t.csv", "--witness", "0"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
 }
 
 #[test]
-fn a_spread_that_no_check_looks_at_is_asked_for() {
+fn a_spread_that_no_check_looks_at_is_reported() {
     let bench = Bench::new();
     bench.write("t.md", b"| p | success [% of 250] |\n|-|-|\n| A | 33.2 (1.2) |\n");
-    let said = bench.done(&["t.md"]);
-    let first = said.lines().next().unwrap();
+    let output = bench.done(&["t.md"]);
+    let first = output.lines().next().unwrap();
     assert_eq!(
         first,
         "t.md:3:2: column `success`: what stands behind 33.2 (1.2) is not looked at; say `±sd` if it is the deviation or `±se` if it is the standard error"
@@ -158,13 +158,13 @@ fn a_spread_that_no_check_looks_at_is_asked_for() {
 fn a_device_without_end_and_bytes_that_are_no_text_are_wrong_input() {
     let bench = Bench::new();
     bench.write("t.md", b"| a |\n|-|\n| \xff |\n");
-    for (file, told) in [
+    for (file, expected) in [
         ("/dev/zero", "/dev/zero: it holds more than 512 MiB; at most 512 MiB are accepted"),
         ("t.md", "t.md:3: byte 12 is not UTF-8; UTF-8 text is expected"),
         ("gone.md", "gone.md: No such file or directory"),
     ] {
-        let said = bench.run(&[file]);
-        assert!(said.code == Some(2) && said.err.contains(told), "{}", said.err);
+        let output = bench.run(&[file]);
+        assert!(output.code == Some(2) && output.err.contains(expected), "{}", output.err);
     }
 }
 
@@ -196,24 +196,27 @@ const FIRST: &str = "% made by `replan render mini --only numbers`\n";
 fn a_number_that_no_macro_backs_ends_with_3() {
     let bench = Bench::new();
     bench.write("paper.tex", b"We open 31415 nodes on eleven maps.\n");
-    let said = covered(&bench, FIRST, 45, true);
-    assert_eq!(said.code, Some(3));
-    let lines: Vec<&str> = said.out.lines().collect();
+    let output = covered(&bench, FIRST, 45, true);
+    assert_eq!(output.code, Some(3));
+    let lines: Vec<&str> = output.out.lines().collect();
     assert_eq!(
         lines,
         ["paper.tex:1:9: 31415 is backed by no macro", "paper.tex:1:24: eleven is backed by no macro"]
     );
     bench.write("paper.tex", b"We open many nodes on eleven maps. % typed: eleven\n");
-    let said = covered(&bench, FIRST, 45, true);
-    assert_eq!((said.code, &*said.out), (Some(0), ""), "{}", said.err);
+    let output = covered(&bench, FIRST, 45, true);
+    assert_eq!((output.code, &*output.out), (Some(0), ""), "{}", output.err);
 }
 
 #[test]
 fn a_macro_that_the_papers_plots_do_not_have_is_stale() {
     let bench = Bench::new();
     bench.write("paper.tex", b"No number.\n");
-    let said = covered(&bench, FIRST, 31415, true);
-    assert_eq!((said.code, &*said.out), (Some(3), "numbers.tex:2:1: \\nodes is 31415, but now it is 45\n"));
+    let output = covered(&bench, FIRST, 31415, true);
+    assert_eq!(
+        (output.code, &*output.out),
+        (Some(3), "numbers.tex:2:1: \\nodes is 31415, but now it is 45\n")
+    );
 }
 
 #[test]
@@ -225,14 +228,18 @@ fn macros_of_which_nobody_can_tell_whether_they_are_stale_do_not_pass() {
         ("% made by `replan render other --only numbers`\n", true, "its first line must be"),
         (FIRST, false, "not current: numbers.tex\n"),
     ] {
-        let said = covered(&bench, first, 45, is_current);
-        let told = format!("numbers.tex:1: whether its values are stale cannot be told; {why}");
-        assert!(said.code == Some(3) && said.out.starts_with(&told), "{}", said.out);
-        assert_eq!(said.out.lines().count(), 1);
+        let output = covered(&bench, first, 45, is_current);
+        let text = format!("numbers.tex:1: whether its values are stale is unknown; {why}");
+        assert!(output.code == Some(3) && output.out.starts_with(&text), "{}", output.out);
+        assert_eq!(output.out.lines().count(), 1);
     }
     let mut gone = bench.command(&["--coverage", "paper.tex", "--macros", "numbers.tex"]);
-    let said = answer(&gone.env("REPLAN", Path::new("no/such/replan")).output().unwrap());
-    assert!(said.out.contains("`no/such/replan`, which checks them, cannot be run: No such"), "{}", said.out);
+    let output = answer(&gone.env("REPLAN", Path::new("no/such/replan")).output().unwrap());
+    assert!(
+        output.out.contains("`no/such/replan`, which checks them, cannot be run: No such"),
+        "{}",
+        output.out
+    );
 }
 
 /// `bytes` with one to three places flipped, cut out, repeated, overwritten, or cut off.
@@ -266,13 +273,13 @@ fn damaged_files_end_with_findings_or_a_refusal_that_says_where() {
         let (name, whole) = [("t.md", TABLE), ("t.csv", CSV), ("t.toml", TOML)][seed as usize % 3];
         let bytes = damaged(whole.as_bytes(), &mut rng);
         bench.write(name, &bytes);
-        let said = bench.run(&[name]);
-        let code = said.code.filter(|code| [0, 2, 3].contains(code));
-        let code = code.unwrap_or_else(|| panic!("seed {seed}: {:?}\n{}", said.code, said.err)) as usize;
+        let output = bench.run(&[name]);
+        let code = output.code.filter(|code| [0, 2, 3].contains(code));
+        let code = code.unwrap_or_else(|| panic!("seed {seed}: {:?}\n{}", output.code, output.err)) as usize;
         codes[code] += 1;
-        let rest = said.err.strip_prefix(&format!("replan: {name}:")).unwrap_or_default();
+        let rest = output.err.strip_prefix(&format!("replan: {name}:")).unwrap_or_default();
         let is_located = code != 2 || rest.starts_with(|c: char| c.is_ascii_digit());
-        assert!(is_located, "seed {seed}: {}\n{:?}", said.err, String::from_utf8_lossy(&bytes));
+        assert!(is_located, "seed {seed}: {}\n{:?}", output.err, String::from_utf8_lossy(&bytes));
     }
     assert!(codes[0] > 20 && codes[2] > 100 && codes[3] > 50, "one-sided sample: {codes:?}");
 }

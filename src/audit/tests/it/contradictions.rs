@@ -1,6 +1,6 @@
-//! Annotations that contradict each other or themselves, and what is said of them.
+//! Annotations that contradict each other or themselves, and their messages.
 
-use crate::said::refused;
+use crate::wording::refused;
 use replan_audit::reader::{Format, read};
 /// Annotations of one column that contradict themselves, each with how the fault begins.
 const CONTRADICTORY: [(&str, &str); 12] = [
@@ -44,18 +44,18 @@ const CONSISTENT: [&str; 5] = [
 
 #[test]
 fn annotations_that_contradict_themselves_are_refused_and_not_called_impossible() {
-    for (annotation, said) in CONTRADICTORY {
+    for (annotation, expected) in CONTRADICTORY {
         let found = refused(&format!("p,x [{annotation}]\nA,2\n"), Format::Csv);
-        assert!(found.starts_with(said), "{annotation}: {found}");
+        assert!(found.starts_with(expected), "{annotation}: {found}");
     }
     for fine in CONSISTENT {
         read(&format!("p,x [{fine}]\nA,2\n"), Format::Csv)
             .unwrap_or_else(|faults| panic!("{fine}: {faults:?}"));
     }
     let columns = "p,x [mean, n=50],x [sd, n=40]\nA,2,1\n";
-    let said = "1:3: `x [mean, n=50]` and `x [sd, n=40]` contradict each other: both say how many values there are, and they \
+    let expected = "1:3: `x [mean, n=50]` and `x [sd, n=40]` contradict each other: both say how many values there are, and they \
                 are statistics of the same values";
-    assert!(refused(columns, Format::Csv).starts_with(said), "{}", refused(columns, Format::Csv));
+    assert!(refused(columns, Format::Csv).starts_with(expected), "{}", refused(columns, Format::Csv));
     let units = refused("p,x [mean s, n=50],x [sd ms]\nA,2,1\n", Format::Csv);
     assert!(units.contains("both say the unit"), "{units}");
     let parts = refused("p,a [% of 40, parts=w],b [% of 50, parts=w]\nA,60,40\n", Format::Csv);

@@ -9,7 +9,7 @@ fn lines(text: &str, current: Option<&str>) -> Vec<String> {
 }
 
 #[test]
-fn numbers_typed_by_hand_are_told_and_macros_are_not() {
+fn numbers_typed_by_hand_are_reported_and_macros_are_not() {
     let text = "\\documentclass[11pt]{article}\n\\begin{document}\nWe open \\nodes{} and not 69 nodes, cost 13.40.% 7\n\
                 As Table~\\ref{tab:2} and \\cite[p.~3]{hart1968} say, A2 and $x_1$, $10^{3}$, 50\\,\\%.\n\
                 \\includegraphics[width=0.5\\textwidth]{fig4}\\vspace{2pt} 12pt\n\\end{document}\n99\n";
@@ -26,7 +26,7 @@ fn numbers_typed_by_hand_are_told_and_macros_are_not() {
 }
 
 #[test]
-fn numbers_in_words_in_cells_of_several_columns_and_in_own_macros_are_told() {
+fn numbers_in_words_in_cells_of_several_columns_and_in_own_macros_are_reported() {
     let text = "\\newcommand{\\mine}{69}\n\\newcommand{\\size}[1]{\\fontsize{#1}{9}}\n\\begin{document}\n\
                 Twelve of \\multicolumn{2}{c}{88} and one \\textcolor{red!50}{77} in a 12cm gap, 12\\,345 or 1{,}234.\n\
                 \\begin{tabular}{p{3cm}}\\def\\two{2}\\href{a.b/7}{6}\n\\end{document}\n";
@@ -39,7 +39,7 @@ fn numbers_in_words_in_cells_of_several_columns_and_in_own_macros_are_told() {
 }
 
 #[test]
-fn fractions_ordinals_and_numbers_right_behind_a_command_are_told() {
+fn fractions_ordinals_and_numbers_right_behind_a_command_are_reported() {
     let text = "A $\\frac12$, \\tfrac{3}{4} or \\frac{\\nodes}{7} of them.\n\\bf12 is the 3rd, the fourth and two thirds.\n\
                 The first second counts; half $\\alpha2$. % typed: half\n";
     let found: Vec<String> =
@@ -59,20 +59,20 @@ fn fractions_ordinals_and_numbers_right_behind_a_command_are_told() {
 }
 
 #[test]
-fn a_macro_that_is_called_like_the_files_and_is_not_there_is_told() {
+fn a_macro_that_is_called_like_the_files_and_is_not_there_is_reported() {
     let file = "\\newcommand{\\zhangNodesOurs}{45}\n\\newcommand{\\zhangNodesPaper}{46}\n\\newcommand{\\zhangCostOurs}{13.40}\n";
-    let told = |text: &str| coverage(text, file, None).iter().map(ToString::to_string).collect::<Vec<_>>();
+    let message = |text: &str| coverage(text, file, None).iter().map(ToString::to_string).collect::<Vec<_>>();
     assert_eq!(
-        told("\\zhangNodesOurs{} of \\zhangNodesTheirs{}, \\alpha, \\zhang.\n"),
+        message("\\zhangNodesOurs{} of \\zhangNodesTheirs{}, \\alpha, \\zhang.\n"),
         ["1:22: \\zhangNodesTheirs is called like the macros of the file, and is not among them"]
     );
-    assert_eq!(told("\\newcommand{\\zhangMine}{x}\\zhangMine"), [""; 0]);
+    assert_eq!(message("\\newcommand{\\zhangMine}{x}\\zhangMine"), [""; 0]);
     // Two names that share nothing say nothing about a third.
     assert_eq!(coverage("\\nodesOld", MACROS, None), []);
 }
 
 #[test]
-fn what_a_comment_excuses_is_not_told() {
+fn what_a_comment_excuses_is_not_reported() {
     let text = "We compare two planners on 45 maps with 8 neighbours. % typed: two, 8\nTwo again. % typed\n";
     let expected =
         ["1:28: 45 is typed by hand; macros of this value: \\nodes", "2:1: Two is backed by no macro"];

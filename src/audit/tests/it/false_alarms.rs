@@ -23,7 +23,7 @@ fn fault(text: &str) -> String {
 }
 
 #[test]
-fn a_statistic_that_is_not_known_is_told_with_its_row() {
+fn a_statistic_that_is_not_known_is_reported_with_its_row() {
     let text = "s [statistic],time\nmean,5.0\n110%,4.0\nmax,7\ncount,3\n110%,-\n";
     let report = report_on(text);
     let lines = output::unseen("t", &report);
@@ -89,9 +89,9 @@ fn a_row_that_sums_up_the_others_is_no_proof() {
 fn a_name_of_two_columns_or_rows_is_not_taken_for_the_first() {
     let sides =
         "p,a [value],b [value],t [value, sum=a+b],a [value],b [value],t [value, sum=a+b]\nA,1,2,3,5,6,11\n";
-    let said =
+    let expected =
         "1:4: column `t` names the column `a`, of which there are 2; a name that stands once is accepted";
-    assert_eq!(fault(sides), said);
+    assert_eq!(fault(sides), expected);
     let counts = "p,n [value],x [mean, integers, n=n],n [value],y [mean, integers, n=n]\nA,3,2.33,4,2.25\n";
     assert!(fault(counts).starts_with("1:3: column `x` names the column `n`, of which there are 2"));
     // A name that a deviation has as well names the mean.
@@ -100,8 +100,8 @@ fn a_name_of_two_columns_or_rows_is_not_taken_for_the_first() {
     let relation = "[[table]]\nname = \"t\"\ntext = \"\"\"\n| map | planner | time [value] |\n|-|-|-|\n| M | A | 3.0 |\n| M | B | 6.0 |\n\
                     \"\"\"\n[[relation]]\ncheck = \"ratio\"\nvalue = \"2.0\"\nof = \"t/M/time\"\nover = \"3.0\"\n";
     let faults = audit(&read(relation, Format::Toml).unwrap(), &Options::default()).unwrap_err();
-    let said = "`of` is `t/M/time`, which names 2 cells; a name that stands once is accepted";
-    assert!(faults[0].message.ends_with(said), "{}", faults[0]);
+    let expected = "`of` is `t/M/time`, which names 2 cells; a name that stands once is accepted";
+    assert!(faults[0].message.ends_with(expected), "{}", faults[0]);
 }
 
 #[test]
@@ -149,7 +149,7 @@ fn ended(value: f64, decimals: i32, is_raised: bool) -> String {
 
 #[test]
 fn what_floats_cut_short_is_no_proof() {
-    let mut asked = 0;
+    let mut tried = 0;
     let mut doubted = 0;
     for n in 1..=100_u32 {
         for k in 0..=n {
@@ -161,18 +161,18 @@ fn what_floats_cut_short_is_no_proof() {
                     format!("share [% of {n}],mean [mean, integers, n={n}]\n{},{}\n", cells[0], cells[1]);
                 let report = report_on(&text);
                 assert!(!report.has_impossible(), "{k} of {n}\n{text}{report:?}");
-                asked += 1;
+                tried += 1;
                 doubted +=
-                    usize::from(report.findings.iter().any(|found| found.said.contains("floats make of")));
+                    usize::from(report.findings.iter().any(|found| found.text.contains("floats make of")));
             }
         }
     }
-    assert!(doubted > 50, "{doubted} of {asked} tables show nothing");
+    assert!(doubted > 50, "{doubted} of {tried} tables show nothing");
     // Two ways to compute 0.58 × 100 in floats are 57.99999999999999 and 58; nothing makes 57 of it by rounding to nearest.
     let cut = report_on("share [% of 50]\n57\n").findings.remove(0);
     assert_eq!(cut.class, Class::Signal);
-    let said = "no proof: a program that cuts off or rounds up 57.99999999999999, which floats make of 58, prints it";
-    assert!(cut.said.ends_with(said), "{}", cut.said);
+    let expected = "no proof: a program that cuts off or rounds up 57.99999999999999, which floats make of 58, prints it";
+    assert!(cut.text.ends_with(expected), "{}", cut.text);
     assert_eq!(classes("share [% of 50, rounding=nearest]\n57\n"), [Class::Impossible]);
     assert_eq!(classes("share [% of 50]\n51\n"), [Class::Impossible], "nothing makes 51 of 50 or 52");
 }

@@ -14,6 +14,6 @@ mod pages;
 mod people;
 mod power;
 mod report;
-mod said;
 mod simulation;
 mod witness;
+mod wording;

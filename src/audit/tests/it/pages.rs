@@ -98,7 +98,7 @@ fn section(title: &str, about: &str, report: &Report) -> String {
     let mut text = format!("## {title}\n\n{}\n\n", about.trim());
     for finding in report.findings.iter().filter(|finding| finding.class < Class::Possible) {
         text += &format!("- **{}** (`{}`): {}\n", finding.class.name(), finding.check, finding.name);
-        let mut lines: Vec<String> = finding.said.split("; ").map(str::to_owned).collect();
+        let mut lines: Vec<String> = finding.text.split("; ").map(str::to_owned).collect();
         lines.extend(finding.power.as_ref().map(|power| format!("the check {power}")));
         let mend = finding.mend.as_ref();
         lines.extend(

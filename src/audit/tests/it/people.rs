@@ -1,7 +1,7 @@
 //! Tables as people write them: what is read, what is refused with its cause and place, and what is found.
 
 use crate::report::audited;
-use crate::said::refused;
+use crate::wording::refused;
 use replan_audit::output;
 use replan_audit::reader::{Format, read, stub_line};
 use replan_audit::report::{Class, Options, Report};
@@ -29,15 +29,15 @@ fn found(text: &str) -> Vec<(&'static str, Class)> {
 }
 
 #[test]
-fn a_share_without_its_first_0_is_read_and_one_without_its_last_digits_is_asked_for() {
+fn a_share_without_its_first_0_is_read_and_one_without_its_last_digits_is_refused() {
     let shares =
         report(&table("planner | success [share of 24]", &["A | .042", "B | −.5", "C | +.500", "D | .51"]));
-    let said: Vec<(Class, &str)> = shares.findings.iter().map(|found| (found.class, &*found.said)).collect();
-    assert_eq!(said.len(), 4, "{said:?}");
-    assert!(said[0].0 == Class::Possible && said[0].1.starts_with("0.042 is printed by 1 ×"), "{said:?}");
-    assert!(said[1].0 == Class::Impossible && said[1].1.starts_with("-0.5 is outside"), "{said:?}");
-    assert!(said[2].0 == Class::Possible && said[2].1.starts_with("0.500 is printed by 12 ×"), "{said:?}");
-    assert!(said[3].0 == Class::Impossible && said[3].1.starts_with("0.51 is the mean of no"), "{said:?}");
+    let lines: Vec<(Class, &str)> = shares.findings.iter().map(|found| (found.class, &*found.text)).collect();
+    assert_eq!(lines.len(), 4, "{lines:?}");
+    assert!(lines[0].0 == Class::Possible && lines[0].1.starts_with("0.042 is printed by 1 ×"), "{lines:?}");
+    assert!(lines[1].0 == Class::Impossible && lines[1].1.starts_with("-0.5 is outside"), "{lines:?}");
+    assert!(lines[2].0 == Class::Possible && lines[2].1.starts_with("0.500 is printed by 12 ×"), "{lines:?}");
+    assert!(lines[3].0 == Class::Impossible && lines[3].1.starts_with("0.51 is the mean of no"), "{lines:?}");
     let point = refused(&table("planner | success [share of 24]", &["A | .042", "B | 1."]), Format::Markdown);
     assert!(
         point.starts_with(
@@ -47,7 +47,7 @@ fn a_share_without_its_first_0_is_read_and_one_without_its_last_digits_is_asked_
     );
 }
 
-/// Cells of a column, each with what is said of it.
+/// Cells of a column, each with the message about it.
 const CELLS: [(&str, &str, &str); 22] = [
     ("success [% of 30]", "91.1*", "`91.1*` has the mark `*` behind it"),
     ("success [% of 30]", "91.1†", "`91.1†` has the mark `†` behind it"),
@@ -75,16 +75,16 @@ const CELLS: [(&str, &str, &str); 22] = [
 
 #[test]
 fn a_cell_that_cannot_be_read_is_quoted_whole_with_its_cause() {
-    for (header, cell, said) in CELLS {
+    for (header, cell, expected) in CELLS {
         let text = table(&format!("planner | {header}"), &[&format!("A | {cell}")]);
-        if said.is_empty() {
+        if expected.is_empty() {
             assert_eq!(found(&text), [], "{text}");
             continue;
         }
         let fault = refused(&text, Format::Markdown);
         let name = header.split([' ', '[']).next().unwrap();
         assert!(
-            fault.starts_with(&format!("3:2: column `{name}")) && fault.contains(said),
+            fault.starts_with(&format!("3:2: column `{name}")) && fault.contains(expected),
             "{text}\n{fault}"
         );
     }
@@ -109,12 +109,12 @@ fn a_fraction_is_a_count_and_its_percentage_is_held_against_it() {
         &["A | 29/30 (96.7%)", "B | 28/30 (91.1%)", "C | 93.3 (28/30)", "D | 91.1"],
     );
     let wrong = report(&beside);
-    let said: Vec<(&str, Class, &str)> =
-        wrong.findings.iter().map(|found| (&*found.name, found.class, &*found.said)).collect();
-    assert_eq!(said[0], ("rate of A", Class::Possible, "96.7 is 29 of 30, which is 96.667"));
-    assert_eq!(said[1], ("rate of B", Class::Signal, "91.1 is not 28 of 30, which is 93.333"));
-    assert_eq!((said[2].0, said[2].1), ("rate of C", Class::Possible));
-    assert_eq!((said[3].0, said[3].1), ("rate of D", Class::Impossible));
+    let lines: Vec<(&str, Class, &str)> =
+        wrong.findings.iter().map(|found| (&*found.name, found.class, &*found.text)).collect();
+    assert_eq!(lines[0], ("rate of A", Class::Possible, "96.7 is 29 of 30, which is 96.667"));
+    assert_eq!(lines[1], ("rate of B", Class::Signal, "91.1 is not 28 of 30, which is 93.333"));
+    assert_eq!((lines[2].0, lines[2].1), ("rate of C", Class::Possible));
+    assert_eq!((lines[3].0, lines[3].1), ("rate of D", Class::Impossible));
     let guessed = table("planner | success", &["A | 29/30", "B | 31/30"]);
     let input = read(&guessed, Format::Markdown).unwrap();
     assert_eq!(stub_line(&input.tables[0]), "| planner [label] | success [count of 30, higher is better] |");
@@ -268,19 +268,21 @@ fn a_wrong_average_or_total_is_a_signal_and_a_right_one_is_none() {
     }
     assert_eq!(found(&rows("Overall", "72.0 | 500")), [("summary", Class::Signal); 2]);
     assert_eq!(found(&rows("Mean shift", "49.6 | 999")), [], "a method of its own");
-    let asked = "[[table]]\nname = \"t\"\ntext = \"\"\"\n| p | x [% of 250] |\n|-|-|\n| A | 33.2 |\n| B | 33.6 |\n| Mean | 33.4 |\n\"\"\"\n\
+    let related = "[[table]]\nname = \"t\"\ntext = \"\"\"\n| p | x [% of 250] |\n|-|-|\n| A | 33.2 |\n| B | 33.6 |\n| Mean | 33.4 |\n\"\"\"\n\
         [[relation]]\ncheck = \"grim\"\nvalue = \"t/Mean/x\"\nn = 250\nwhole = 100\n";
-    let asked = audited(asked, Format::Toml, &Options::default());
-    assert_eq!(asked.findings.len(), 1, "what a relation asks is answered, of a summary as well");
-    let said = report(&rows("Average", "49.2 | 150.3"))
+    let related = audited(related, Format::Toml, &Options::default());
+    assert_eq!(related.findings.len(), 1, "what a relation asks is answered, of a summary as well");
+    let average = report(&rows("Average", "49.2 | 150.3"))
         .findings
         .into_iter()
         .find(|found| found.class == Class::Signal)
         .unwrap();
     assert!(
-        said.name == "success of Average"
-            && said.said.starts_with("49.2 does not sum up the others: the mean of 3 is 47.6333 to 47.8333"),
-        "{said:?}"
+        average.name == "success of Average"
+            && average
+                .text
+                .starts_with("49.2 does not sum up the others: the mean of 3 is 47.6333 to 47.8333"),
+        "{average:?}"
     );
 }
 
@@ -388,7 +390,7 @@ fn decisions_stay_open_when_the_cases_of_a_table_are_used_up() {
     let [first, .., last] = report.findings.as_slice() else { panic!("{:?}", report.tally) };
     assert_eq!((first.class, last.class), (Class::Impossible, Class::Unchecked));
     assert_eq!(
-        last.said,
+        last.text,
         "not decided: the table's budget of 100000000 cases is used up; audit its rows in several files"
     );
 }

@@ -88,7 +88,7 @@ const WHOLE: [(&str, &str); 30] = [
 fn is_refused(found: &Finding, check: &str) -> bool {
     found.check == check
         && found.class < Class::Unchecked
-        && !found.said.contains("not if digits are rounded to nearest")
+        && !found.text.contains("not if digits are rounded to nearest")
 }
 
 #[test]
@@ -96,8 +96,8 @@ fn corrupted_numbers_are_caught_as_often_as_the_power_says() {
     let options = Options { keeps_possible: true, ..Options::default() };
     let fast = Options { skips_power: true, ..Options::default() };
     let mut rng = SmallRng::seed_from_u64(21);
-    let asked: BTreeSet<&str> = WHOLE.iter().map(|(check, _)| *check).collect();
-    assert!(REGISTRY.iter().all(|entry| asked.contains(entry.name)), "{asked:?}");
+    let checked: BTreeSet<&str> = WHOLE.iter().map(|(check, _)| *check).collect();
+    assert!(REGISTRY.iter().all(|entry| checked.contains(entry.name)), "{checked:?}");
     for (check, text) in WHOLE {
         let (before, rest) = text.split_once('{').unwrap();
         let (value, after) = rest.split_once('}').unwrap();
@@ -109,22 +109,22 @@ fn corrupted_numbers_are_caught_as_often_as_the_power_says() {
         let first = if is_sparse { first.with_zeros_left_out(6).unwrap() } else { first };
         // Each polyline is a search.
         let tries = if check == "any_angle_turns" { 100 } else { 2000 };
-        let mut asked = 0;
+        let mut tried = 0;
         let mut caught = 0;
         for _ in 0..tries {
             let units = rng.random_range(power.low.units()..=power.high.units());
             let Some(print) = first.with_units(units) else { continue };
-            asked += 1;
+            tried += 1;
             let report = audited(&format!("{before}{print}{after}"), Format::Toml, &fast);
             caught += u32::from(report.findings.iter().any(|found| is_refused(found, check)));
         }
-        let share = f64::from(caught) / f64::from(asked);
+        let share = f64::from(caught) / f64::from(tried);
         let stated = power.share();
         // A share that a sample shows as 1 is likely a little less.
         let likely = (power.refused as f64 + 1.0) / (power.tried as f64 + 2.0);
         // Four standard errors of a share of 2000, and of the sample that power is computed from.
         let margin =
-            4.0 * (likely * (1.0 - likely) * (1.0 / f64::from(asked) + 1.0 / power.tried as f64)).sqrt();
+            4.0 * (likely * (1.0 - likely) * (1.0 / f64::from(tried) + 1.0 / power.tried as f64)).sqrt();
         assert!(
             (share - stated).abs() <= margin + 1e-9,
             "{check}: {share} caught, {stated} stated, margin {margin}"

@@ -17,26 +17,26 @@ pub fn audited(text: &str, format: Format, options: &Options) -> Report {
 /// Findings that data cannot have: impossible, or a signal that no way to end digits explains.
 fn false_alarms(report: &Report) -> Vec<&Finding> {
     let is_wrong = |found: &&Finding| {
-        let is_about_ends = found.said.contains("not if digits are rounded to nearest");
+        let is_about_ends = found.text.contains("not if digits are rounded to nearest");
         found.class == Class::Impossible || found.class == Class::Signal && !is_about_ends
     };
     report.findings.iter().filter(is_wrong).collect()
 }
 
-/// How often each check was asked of the inputs of these seeds, none of which may be refused.
-fn asked_of_possible(seeds: std::ops::Range<u64>) -> BTreeMap<&'static str, usize> {
+/// How often each check ran on the inputs of these seeds; it may refuse none of them.
+fn runs_on_possible(seeds: std::ops::Range<u64>) -> BTreeMap<&'static str, usize> {
     let options = Options { skips_power: true, ..Options::default() };
-    let mut asked = BTreeMap::new();
+    let mut tried = BTreeMap::new();
     for seed in seeds {
         let (text, format) = input(seed);
         let report = audited(&text, format, &options);
         let wrong = false_alarms(&report);
         assert!(wrong.is_empty(), "seed {seed}\n{text}\n{wrong:#?}");
         for (check, tally) in &report.tally {
-            *asked.entry(*check).or_default() += tally.applied - tally.unchecked;
+            *tried.entry(*check).or_default() += tally.applied - tally.unchecked;
         }
     }
-    asked
+    tried
 }
 
 /// How many tables are simulated, unless `REPLAN_TABLES` says otherwise.
@@ -46,8 +46,7 @@ const TABLES: u64 = 20_000;
 fn no_table_that_was_printed_from_simulated_data_is_called_impossible() {
     let tables = std::env::var("REPLAN_TABLES").map_or(TABLES, |text| text.parse().unwrap());
     let halves = std::thread::scope(|scope| {
-        let halves =
-            [0..tables / 2, tables / 2..tables].map(|seeds| scope.spawn(|| asked_of_possible(seeds)));
+        let halves = [0..tables / 2, tables / 2..tables].map(|seeds| scope.spawn(|| runs_on_possible(seeds)));
         halves.map(|half| half.join().expect("a table is called impossible; its seed is told above"))
     });
     for entry in REGISTRY {
@@ -210,7 +209,7 @@ fn no_mutated_input_panics_and_every_fault_has_its_line() {
     assert!(read_ones > all / 12 && faulty > all / 12, "{read_ones} read and {faulty} faulty of {all}");
 }
 
-/// Wrong input, and how what is said of it begins.
+/// Wrong input, and how its message begins.
 const WRONG: [(&str, Format, &str); 23] = [
     ("a,b [% of 5]\n1,20\n2\n", Format::Csv, "3: 1 cells, where the header has 2"),
     ("a,b [% of 5]\nx,\"1,234\"\n", Format::Csv, "2:2: column `b`: `1,234` may have a thousands separator"),
@@ -278,11 +277,11 @@ const WRONG: [(&str, Format, &str); 23] = [
 ];
 
 #[test]
-fn bad_input_is_told_with_its_line_and_cell() {
-    for (text, format, said) in WRONG {
+fn bad_input_is_reported_with_its_line_and_cell() {
+    for (text, format, expected) in WRONG {
         let done = read(text, format).and_then(|input| audit(&input, &Options::default()));
         let faults = done.unwrap_err();
-        assert!(faults[0].to_string().starts_with(said), "{text}\n{said}\n{}", faults[0]);
+        assert!(faults[0].to_string().starts_with(expected), "{text}\n{expected}\n{}", faults[0]);
     }
     let relation = "\n[[relation]]\ncheck = \"grim\"\nvalue = \"t/A/b\"\nn = 3\n";
     let faults = audit(&read(relation, Format::Toml).unwrap(), &Options::default()).unwrap_err();
@@ -293,7 +292,7 @@ fn bad_input_is_told_with_its_line_and_cell() {
 }
 
 #[test]
-fn a_million_rows_are_read_and_the_faulty_one_is_told() {
+fn a_million_rows_are_read_and_the_faulty_one_is_reported() {
     let mut text = "name,success [% of 250]\n".to_owned();
     for row in 0..1_000_000 {
         text += &format!("p{row},{}\n", ["0.0", "0.4", "0.8", "1.2", "1.6"][row % 5]);

@@ -32,7 +32,7 @@ struct Style {
     decimals: u32,
     /// That many digits count, and zeros at the end are left out.
     significant: Option<usize>,
-    is_said: bool,
+    is_written: bool,
 }
 
 impl Style {
@@ -44,7 +44,12 @@ impl Style {
     /// One that leaves no zeros out.
     fn plain(rng: &mut SmallRng) -> Self {
         let rounding = ROUNDINGS[rng.random_range(0..5)];
-        Self { rounding, decimals: rng.random_range(0..4), significant: None, is_said: rng.random_bool(0.5) }
+        Self {
+            rounding,
+            decimals: rng.random_range(0..4),
+            significant: None,
+            is_written: rng.random_bool(0.5),
+        }
     }
 
     /// The same with other decimals.
@@ -54,7 +59,7 @@ impl Style {
 
     /// What the annotation says of it.
     fn annotation(&self) -> String {
-        let rounding = if self.is_said { format!(", rounding={}", self.rounding) } else { String::new() };
+        let rounding = if self.is_written { format!(", rounding={}", self.rounding) } else { String::new() };
         rounding + &self.significant.map_or(String::new(), |digits| format!(", digits={digits}"))
     }
 
@@ -191,7 +196,7 @@ impl Sheet {
     }
 }
 
-/// Moves to one of eight neighbours, of which the number of straight and diagonal ones, the displacement and the turns are told.
+/// Moves to one of eight neighbours. Printed of them: the straight and the diagonal ones, the displacement and the turns.
 struct Walk {
     moves: Vec<[i128; 2]>,
 }

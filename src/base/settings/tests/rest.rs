@@ -39,8 +39,11 @@ fn a_wrong_first_table_of_a_list_takes_no_other_with_it() {
     let (arm, rest) = document(text).read_rest::<Arm>(&mut faults).unwrap();
     assert_eq!(arm.joint, [Joint { lower: 2.0, speed: None }]);
     assert!(rest.is_part("joint") && rest.is_rest() && !rest.is_part("tool"));
-    let told = faults.error().to_string();
-    assert!(told.starts_with("a.toml:3:1: missing key `lower`") && told.lines().count() == 2, "{told}");
+    let message = faults.error().to_string();
+    assert!(
+        message.starts_with("a.toml:3:1: missing key `lower`") && message.lines().count() == 2,
+        "{message}"
+    );
 }
 
 #[test]
@@ -49,8 +52,8 @@ fn a_list_that_lacks_an_element_is_called_unread() {
     let mut faults = Faults::default();
     let (_, rest) = document(text).read_rest::<Arm>(&mut faults).unwrap();
     faults.add(rest.error_at("joint", "two joints are needed").about("joint"));
-    let told = faults.error().to_string();
-    assert!(told.starts_with("a.toml:3:10: `joint[0]` is 3") && told.lines().count() == 2, "{told}");
+    let message = faults.error().to_string();
+    assert!(message.starts_with("a.toml:3:10: `joint[0]` is 3") && message.lines().count() == 2, "{message}");
 }
 
 #[test]
@@ -73,10 +76,32 @@ fn a_key_is_found_by_the_steps_to_it_whatever_is_in_them() {
 }
 
 #[test]
-fn a_number_too_large_is_told_with_the_limit_and_without_the_way_it_is_written() {
-    let told = |text: &str| document(text).read::<Joint>().unwrap_err().to_string();
-    assert!(told("lower = 1e308\n").contains("`lower` is 1e308; a number from -1e9 to 1e9 is accepted"));
-    assert!(told("lower = 1\nspeed = 2_000_000_000\n").contains("is 2000000000; a number from 0 to 1e9 is"));
-    assert!(told("lower = 1\nspeed = -1.50\n").contains("is -1.5; a number of 0 or more is accepted"));
-    assert!(told("lower = -nan\n").contains("is nan; a finite number is accepted"));
+fn a_number_too_large_is_reported_with_the_limit_and_without_the_way_it_is_written() {
+    let message = |text: &str| document(text).read::<Joint>().unwrap_err().to_string();
+    assert!(message("lower = 1e308\n").contains("`lower` is 1e308; a number from -1e9 to 1e9 is accepted"));
+    assert!(
+        message("lower = 1\nspeed = 2_000_000_000\n").contains("is 2000000000; a number from 0 to 1e9 is")
+    );
+    assert!(message("lower = 1\nspeed = -1.50\n").contains("is -1.5; a number of 0 or more is accepted"));
+    assert!(message("lower = -nan\n").contains("is nan; a finite number is accepted"));
+}
+
+#[test]
+fn a_spec_too_large_is_refused_with_its_limit() {
+    let told = document(&"# no key\n".repeat(300_000)).read::<Joint>().unwrap_err().to_string();
+    assert!(told.contains("has 2700000 bytes; a spec of at most 2000000 is accepted"), "{told}");
+    let told = document(&"# no key\n".repeat(200_000)).read::<Joint>().unwrap_err().to_string();
+    assert!(told.contains("lower"), "{told}");
+}
+
+#[test]
+fn a_file_of_any_format_that_is_no_text_is_refused_at_its_first_bad_byte() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["a.toml", "a.json", "a.yaml", "a.urdf", "a.srdf"] {
+        let path = folder.path().join(name);
+        std::fs::write(&path, b"{\n\"a\": \"\xff\"}").unwrap();
+        let told = Document::open(&path).unwrap_err().to_string();
+        let place = "line 2, byte 8 of the file is not UTF-8; UTF-8 text is accepted";
+        assert!(told.ends_with(place) && told.contains(name), "{told}");
+    }
 }

@@ -53,8 +53,8 @@ impl Lines {
 
 /// The nearest points of two segments by eqs. 11 to 18 to the letter: `q` is the rod's segment, `p` the obstacle's.
 ///
-/// Eqs. 11 and 12 give s to the point of the rod and t to that of the obstacle; after eq. 16 s is what places the obstacle's point
-/// at one of its ends, and the point of the rod, found anew, is put at the wrong end where it lies beyond one: at q1 for t > 1, at q2
+/// Eqs. 11 and 12 give s to the point of the rod and t to that of the obstacle. After eq. 16 it is s that places the obstacle's point
+/// at one of its ends. The point of the rod, found anew, is put at the wrong end where it lies beyond one: at q1 for t > 1, at q2
 /// for t < 0. An s within 0 to 1 leaves the obstacle's point at t of eq. 12, wherever that is. Lines without one nearest pair start
 /// from the rod's first end.
 pub fn nearest_segment_segment_literal(rod: &Segment, side: &Segment) -> Nearest {

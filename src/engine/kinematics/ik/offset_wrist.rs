@@ -9,7 +9,7 @@
 //! the shoulder's offset has no configuration. Joints 1 and 2: see `reach`.
 //!
 //! # Source
-//! Derived from the rows as `form` rewrites them, to `alpha = (90°, 180°, 180°, -90°, 90°)`; with angles counted from upright,
+//! Derived from the rows as `form` rewrites them, to `alpha = (90°, 180°, 180°, -90°, 90°)`. With angles counted from upright,
 //! `k` along axis 2, `h` ahead of the arm and `n, o, a` the flange's axes, the formulas are those in the functions below.
 
 use super::{

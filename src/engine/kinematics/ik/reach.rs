@@ -1,8 +1,8 @@
 //! What both closed forms share: the turn of joint 1, and the triangle of the two links.
 //!
-//! What a pose leaves free keeps its reference: joint 1 where the wrist is on axis 1 and the arm has no shoulder offset, joint 2
-//! where links of equal length are folded onto each other and the wrist is on axis 2. At full stretch, fully folded, and at
-//! the shoulder offset's distance from axis 1, two branches coincide and both are given. Where the last two of these meet,
+//! What a pose leaves free keeps its reference. That is joint 1 where the wrist is on axis 1 and the arm has no shoulder offset,
+//! and joint 2 where links of equal length are folded onto each other and the wrist is on axis 2. At full stretch, fully folded,
+//! and at the shoulder offset's distance from axis 1, two branches coincide and both are given. Where the last two of these meet,
 //! rounding decides whether the pose is within reach.
 
 use crate::geometry::Vec3;

@@ -188,7 +188,37 @@ fn tool_length_m(source: &Source, length_mm: &Spanned<f64>) -> Result<f64, Setti
         let message = format!("tool.length_mm is {found}; accepted: 0 (no tool) or more");
         return Err(source.fault(&length_mm.span(), message));
     }
+    // No tool is shorter than 2 mm, and few are longer than 2 m.
+    if (f64::MIN_POSITIVE..2.0).contains(&found) {
+        let message = format!("tool.length_mm is {found}; {}", in_metres(found, "is it"));
+        return Err(source.fault(&length_mm.span(), message));
+    }
     Ok(1e-3 * found)
+}
+
+/// The longest link of an arm and its body are longer.
+const SHORT_MM: f64 = 10.0;
+
+/// Asks whether a length is in metres, for the end of a message.
+fn in_metres(found: f64, asked: &str) -> String {
+    format!("{asked} in metres? millimetres are accepted ({found} m is {} mm)", found * 1e3)
+}
+
+/// Asks whether a body is in metres: none of its capsules on links reaches as far as an arm does.
+fn body_in_metres(source: &Source, entry: &BodyEntry) -> Option<SettingsError> {
+    let size = |capsule: &Spanned<CapsuleEntry>| {
+        let CapsuleEntry { from_mm, to_mm, radius_mm, .. } = capsule.get_ref();
+        let ends = from_mm.iter().chain(to_mm).flatten();
+        let reach = ends.copied().reduce(|a, b| a.abs().max(b.abs()))?;
+        Some((reach.abs().max(*radius_mm.get_ref()), capsule.span()))
+    };
+    let (found, span) = entry.capsule.iter().filter_map(size).max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let message = format!(
+        "no capsule of body `{}` reaches farther than {found} mm; {}",
+        entry.name.get_ref(),
+        in_metres(found, "are lengths")
+    );
+    (f64::MIN_POSITIVE..SHORT_MM).contains(&found).then(|| source.fault(&span, message))
 }
 
 fn bodies(
@@ -224,6 +254,9 @@ fn body(source: &Source, entry: &BodyEntry, links: &Links) -> Result<Body, Setti
         faults.add(source.fault(&entry.name.span(), "the body has no capsule; accepted: at least one"));
     }
     let parts = faults.keep_each(entry.capsule.iter().map(|capsule| part(source, capsule, links)));
+    if let Some(asked) = body_in_metres(source, entry) {
+        faults.add(asked);
+    }
     faults.done()?;
     if let Some((index, off_m)) = links.chain.and_then(|chain| attached::first_off(&parts, chain)) {
         let Part { name, link, .. } = &parts[index];
@@ -297,7 +330,7 @@ fn self_pair(
     let found = [first, second].map(|name| faults.keep(index(name)));
     faults.done()?;
     let [first, second] = [first, second].map(Spanned::get_ref);
-    let found = found.map(|index| index.expect("a name that is unknown was told"));
+    let found = found.map(|index| index.expect("a name that is unknown was reported"));
     if found[0] == found[1] || parts[found[0]].link == parts[found[1]].link {
         let message =
             format!("self_pairs joins `{first}` and `{second}`; accepted: capsules on two different links");

@@ -110,12 +110,12 @@ const REFUSALS: &[(&str, &str, &str)] = &[
 
 #[test]
 fn a_file_that_cannot_be_is_refused_with_its_place_and_what_is_accepted() {
-    let said = |(find, put, expected): &(&str, &str, &str)| {
+    let message = |(find, put, expected): &(&str, &str, &str)| {
         let found = refusal(find, put);
-        let is_told = found.starts_with("up6.toml:") && found.contains(expected);
-        (!is_told).then(|| format!("`{found}` has no `{expected}`"))
+        let is_reported = found.starts_with("up6.toml:") && found.contains(expected);
+        (!is_reported).then(|| format!("`{found}` has no `{expected}`"))
     };
-    let missed: Vec<String> = REFUSALS.iter().filter_map(said).collect();
+    let missed: Vec<String> = REFUSALS.iter().filter_map(message).collect();
     assert!(missed.is_empty(), "{}", missed.join("\n"));
 }
 
@@ -133,19 +133,31 @@ fn scaled(keys: [&str; 2], by: f64) -> String {
 }
 
 #[test]
-fn rows_in_metres_and_limits_in_radians_are_asked_about() {
-    let said = |text: &str| Robot::parse(text, Path::new("up6.toml")).map_err(|error| error.to_string());
-    let metres = said(&scaled(["a_mm", "d_mm"], 1e-3)).unwrap_err();
-    let asked =
+fn rows_in_metres_and_limits_in_radians_are_queried() {
+    let message = |text: &str| Robot::parse(text, Path::new("up6.toml")).map_err(|error| error.to_string());
+    let metres = message(&scaled(["a_mm", "d_mm"], 1e-3)).unwrap_err();
+    let expected =
         "no link is longer than 0.64 mm; are lengths in metres? millimetres are accepted (0.64 m is 640 mm)";
-    assert!(metres.starts_with("up6.toml:") && metres.contains(asked), "{metres}");
-    let radians = said(&scaled(["lower_deg", "upper_deg"], 1_f64.to_radians())).unwrap_err();
-    let asked = "are limits in radians? degrees are accepted (6.28";
-    assert!(radians.starts_with("up6.toml:") && radians.contains(asked), "{radians}");
-    let turns = said(&scaled(["alpha_deg", "offset_deg"], 1_f64.to_radians())).unwrap_err();
-    let asked = "alpha_deg is -1.5707963267948966; is it in radians? degrees are accepted (-1.5707963267948966 rad is -90.0°)";
-    assert!(turns.starts_with("up6.toml:") && turns.contains(asked), "{turns}");
-    assert!(said(&scaled(["a_mm", "d_mm"], 0.1)).is_ok_and(|robot| robot.notes().is_empty()), "a small arm");
+    assert!(metres.starts_with("up6.toml:") && metres.contains(expected), "{metres}");
+    let radians = message(&scaled(["lower_deg", "upper_deg"], 1_f64.to_radians())).unwrap_err();
+    let expected = "are limits in radians? degrees are accepted (6.28";
+    assert!(radians.starts_with("up6.toml:") && radians.contains(expected), "{radians}");
+    let turns = message(&scaled(["alpha_deg", "offset_deg"], 1_f64.to_radians())).unwrap_err();
+    let expected = "alpha_deg is -1.5707963267948966; is it in radians? degrees are accepted (-1.5707963267948966 rad is -90.0°)";
+    assert!(turns.starts_with("up6.toml:") && turns.contains(expected), "{turns}");
+    let tool = message(&FILE.replacen("length_mm = 150", "length_mm = 0.15", 1)).unwrap_err();
+    let expected = "tool.length_mm is 0.15; is it in metres? millimetres are accepted (0.15 m is 150 mm)";
+    assert!(tool.starts_with("up6.toml:") && tool.contains(expected), "{tool}");
+    let bodies = &FILE[FILE.find("[[body]]").unwrap()..];
+    let thin = "[[body]]\nname = 'thin'\nself_pairs = []\n[[body.capsule]]\nname = 'arm'\nlink = 2\nfrom_mm = [-0.57, 0, 0]\n\
+        to_mm = [0, 0, 0]\nradius_mm = 0.09\n";
+    let body = message(&FILE.replacen(bodies, thin, 1)).unwrap_err();
+    let expected = "no capsule of body `thin` reaches farther than 0.57 mm; are lengths in metres?";
+    assert!(body.starts_with("up6.toml:") && body.contains(expected), "{body}");
+    assert!(
+        message(&scaled(["a_mm", "d_mm"], 0.1)).is_ok_and(|robot| robot.notes().is_empty()),
+        "a small arm"
+    );
 }
 
 #[test]
@@ -162,10 +174,10 @@ fn an_arm_has_six_joints_and_a_robot_a_body() {
 
 #[test]
 fn without_a_solver_the_most_special_one_that_fits_is_taken_and_says_why_no_other_was() {
-    let said = |text: &str| Robot::parse(text, Path::new("up6.toml")).unwrap().arm().solver().to_string();
-    assert_eq!(said(FILE), "inverse kinematics by `spherical_wrist`");
+    let message = |text: &str| Robot::parse(text, Path::new("up6.toml")).unwrap().arm().solver().to_string();
+    assert_eq!(message(FILE), "inverse kinematics by `spherical_wrist`");
     let open = FILE.replace("solver = \"spherical_wrist\"\n", "");
-    assert_eq!(said(&open), said(FILE));
+    assert_eq!(message(&open), message(FILE));
     assert_eq!(robot("ur5").arm().solver().to_string(), "inverse kinematics by `offset_wrist`");
     assert_eq!(robot("puma560").arm().solver().to_string(), "inverse kinematics by `spherical_wrist`");
     let general = open.replacen(
@@ -174,7 +186,7 @@ fn without_a_solver_the_most_special_one_that_fits_is_taken_and_says_why_no_othe
         1,
     );
     assert_eq!(
-        said(&general),
+        message(&general),
         "inverse kinematics by `numerical`, which may miss configurations; joint 1: a_mm is 150; accepted: 0, for the \
          solver `offset_wrist`; joint 5: d_mm is 9; accepted: 0, for the solver `spherical_wrist`"
     );
@@ -327,18 +339,18 @@ fn a_value_out_of_range_hides_no_fault_of_another_joint_or_capsule() {
         .replacen("radius_mm = 150", "radius_mm = -150", 1)
         .replacen("length_mm = 150", "length_mm = -150", 1);
     let refused = Robot::parse(&text, Path::new("up6.toml")).unwrap_err().to_string();
-    let told: Vec<&str> = refused.lines().filter(|line| line.starts_with("up6.toml:")).collect();
+    let lines: Vec<&str> = refused.lines().filter(|line| line.starts_with("up6.toml:")).collect();
     let parts = [
         "`lower_deg` is -1e308; a number from -3600 to 3600",
         "joint 5: upper_deg is 135; accepted: more than lower_deg",
         "tool.length_mm is -150",
         "the capsule's radius is -0.15",
     ];
-    assert!(told.len() == 4 && told.iter().zip(parts).all(|(line, part)| line.contains(part)), "{refused}");
+    assert!(lines.len() == 4 && lines.iter().zip(parts).all(|(line, part)| line.contains(part)), "{refused}");
 }
 
 #[test]
-fn a_speed_is_told_in_the_unit_that_it_is_given_in() {
+fn a_speed_is_reported_in_the_unit_that_it_is_given_in() {
     let refused = refusal("speed_deg_s = 140", "speed_rad_s = -2");
     assert!(
         refused.starts_with("up6.toml:25:15: joint 1: speed_rad_s is -2; accepted: more than 0"),

@@ -1,10 +1,11 @@
 //! Six-axis robots from URDF files: Denavit–Hartenberg rows from the axes of the joints, so that the closed forms fit them.
 //!
-//! The rows are those of the common normals of neighbouring axes; where two are parallel, the normal through the frame before. What
-//! stands before the first axis is the base, what stands behind the last the flange. Each solid becomes the capsule around it:
-//! exactly for spheres, with round ends for cylinders, and for boxes and meshes the least one along the longest side, so that
-//! contact is never missed and sometimes seen too early. Which links may touch, an SRDF file says; without one, two links that a joint
-//! joins are never held against each other, nor two parts that touch in every one of 200 configurations drawn from a written seed.
+//! The rows are those of the common normals of neighbouring axes; where two are parallel, the normal through the frame before.
+//! What stands before the first axis is the base, what stands behind the last the flange. Each solid becomes the capsule around
+//! it, exactly for spheres and with round ends for cylinders. Boxes and meshes become the least one along their longest side.
+//! Contact is never missed and sometimes seen too early. An SRDF file says which links may touch. Without one, two links that a
+//! joint joins are never held against each other, nor two parts that touch in every one of 200 configurations drawn from a
+//! written seed.
 
 use super::{Body, Part, Robot};
 use crate::geometry::{Capsule, Frame, Vec3};

@@ -39,8 +39,8 @@ impl Place {
 
     /// No point of a rod is farther than this from where it is at either end, while the joints turn evenly from `before`.
     ///
-    /// A point of the arm leaves the straight line between its ends by at most an eighth of its greatest second derivative,
-    /// which is the square of all turns together times the arm's length; points of a rod lie between its ends.
+    /// A point of the arm leaves the straight line between its ends by at most an eighth of its greatest second derivative, which
+    /// is the square of all turns together times the arm's length. Points of a rod lie between its ends.
     pub(super) fn moved_cm(&self, before: &Self, arm: &CarriedArm) -> f64 {
         let ends = self.rods.iter().zip(&before.rods).flat_map(|(now, then)| {
             [(now.segment.a, then.segment.a), (now.segment.b, then.segment.b)].map(|(a, b)| (a - b).norm())
@@ -60,7 +60,7 @@ mod tests {
     use std::path::Path;
 
     #[test]
-    fn no_rod_moves_farther_on_its_way_than_is_said() {
+    fn no_rod_moves_farther_on_its_way_than_its_bound() {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/robots/aubo_i10.toml");
         let support = Support::on_floor(Frame::IDENTITY);
         let arm = CarriedArm::new(&Robot::load(&file).unwrap(), "mesh", &support).unwrap();
@@ -79,15 +79,15 @@ mod tests {
             }
             let at = |share: f64| Place::new(&arm, &std::array::from_fn(|i| from[i] + share * turn[i]));
             let (start, end) = (at(0.0), at(1.0));
-            let said = end.moved_cm(&start, &arm);
+            let bound = end.moved_cm(&start, &arm);
             for share in [0.1, 0.3, 0.5, 0.7, 0.9, 1.0] {
                 let between = at(share);
                 for (rod, then) in between.rods.iter().zip(&start.rods) {
                     let moved = (rod.segment.at(0.4) - then.segment.at(0.4)).norm();
-                    assert!(moved <= said, "seed {seed} way {way} at {share}: {moved}, not {said}");
+                    assert!(moved <= bound, "seed {seed} way {way} at {share}: {moved}, not {bound}");
                     let ends = (rod.segment.b - then.segment.b).norm();
-                    assert!(ends <= said, "seed {seed} way {way} at {share}: {ends}, not {said}");
-                    tightest = tightest.min(said / ends.max(1e-3));
+                    assert!(ends <= bound, "seed {seed} way {way} at {share}: {ends}, not {bound}");
+                    tightest = tightest.min(bound / ends.max(1e-3));
                 }
             }
         }

@@ -185,10 +185,14 @@ fn a_multiple_of_the_unit_is_the_threshold_of_as_many_millimetres() {
     let mut differ = 0;
     for number in 0..30 {
         let world = world(number);
-        let asked = |threshold: &str| under(&world, threshold);
-        let half = asked("neighbour_times = 0.5");
-        assert_eq!(half.path, asked(&format!("neighbour_mm = {}", 0.5 * RADIUS_MM)).path, "roadmap {number}");
-        differ += u32::from(half.path != asked("neighbour_times = 1").path);
+        let planned = |threshold: &str| under(&world, threshold);
+        let half = planned("neighbour_times = 0.5");
+        assert_eq!(
+            half.path,
+            planned(&format!("neighbour_mm = {}", 0.5 * RADIUS_MM)).path,
+            "roadmap {number}"
+        );
+        differ += u32::from(half.path != planned("neighbour_times = 1").path);
     }
     assert!(differ > 5, "{differ} of 30 differ");
     let both = built(&format!("samples = 9\nneighbour_mm = 9\nneighbour_times = 1\ncost = 'hops'\n{NEVER}"));
@@ -233,7 +237,7 @@ fn only_a_search_by_length_for_itself_promises_a_shortest_path() {
 
 #[test]
 fn numbers_that_cannot_be_are_refused_by_name() {
-    for (samples, neighbour_mm, more, said) in [
+    for (samples, neighbour_mm, more, expected) in [
         ("0", "28.0", "", "`samples` is 0; a whole number from 1 to 4294967295 is accepted"),
         ("40", "0.0", "", "`neighbour_mm` is 0.0; a number above 0 is accepted"),
         ("40", "-1.0", "", "`neighbour_mm` is -1.0; a number above 0 is accepted"),
@@ -243,8 +247,8 @@ fn numbers_that_cannot_be_are_refused_by_name() {
     ] {
         let text =
             format!("samples = {samples}\nneighbour_mm = {neighbour_mm}\ncost = 'hops'\n{NEVER}\n{more}");
-        let message = built(&text).err().expect(said).to_string();
-        assert!(message.contains(said), "{said}\nis said: {message}");
+        let message = built(&text).err().expect(expected).to_string();
+        assert!(message.contains(expected), "{expected}\nis said: {message}");
     }
 }
 
@@ -253,14 +257,14 @@ fn at_any_distance_the_whole_radius_counts_whatever_the_threshold() {
     let mut differ = 0;
     for number in 0..30 {
         let world = world(number);
-        let asked = |threshold: &str| under(&world, threshold);
-        let far = asked("neighbour_times = 0.3\nany_distance = true");
-        assert_eq!(far.path, asked("neighbour_times = 1").path, "roadmap {number}");
+        let planned = |threshold: &str| under(&world, threshold);
+        let far = planned("neighbour_times = 0.3\nany_distance = true");
+        assert_eq!(far.path, planned("neighbour_times = 1").path, "roadmap {number}");
         assert_eq!(
-            asked("neighbour_times = 0.3\nany_distance = false").path,
-            asked("neighbour_times = 0.3").path
+            planned("neighbour_times = 0.3\nany_distance = false").path,
+            planned("neighbour_times = 0.3").path
         );
-        differ += u32::from(far.path != asked("neighbour_times = 0.3").path);
+        differ += u32::from(far.path != planned("neighbour_times = 0.3").path);
     }
     assert!(differ > 5, "{differ} of 30 differ");
 }

@@ -22,11 +22,8 @@ impl<F: Fn(u32, [i32; 2]) -> bool> Successors for Hops<F> {
     }
 
     fn kept(&mut self, cell: u32, dx: i32, reach: i32, free: u64) -> u64 {
-        let [told, before] = self.1;
-        assert!(
-            told == cell as i32 && dx < before,
-            "{cell} is told and its columns are asked from the right"
-        );
+        let [expected, before] = self.1;
+        assert!(expected == cell as i32 && dx < before, "column {dx} of cell {cell} comes out of order");
         self.1[1] = dx;
         let is_kept = |bit: &i32| free >> bit & 1 == 1 && self.0(cell, [dx, reach - bit]);
         (0..=2 * reach).filter(is_kept).fold(0, |kept, bit| kept | 1 << bit)
@@ -269,8 +266,8 @@ fn a_square_and_a_disc_with_as_many_points_give_paths_of_equal_length_where_hops
                 })
             };
             let [of_square, of_disc] = costs(&swept).map(|cost| cost.unwrap_or(f64::INFINITY));
-            let said = format!("seed {seed}, draw {draw}, {ends:?}: square {of_square}, disc {of_disc}");
-            assert!(of_square == of_disc || (of_square - of_disc).abs() < 1e-9, "{said}");
+            let text = format!("seed {seed}, draw {draw}, {ends:?}: square {of_square}, disc {of_disc}");
+            assert!(of_square == of_disc || (of_square - of_disc).abs() < 1e-9, "{text}");
             let [of_square, of_disc] = costs(&jumping).map(|cost| cost.unwrap_or(f64::INFINITY));
             solved += u32::from(of_disc.is_finite());
             shorter += u32::from(of_square < of_disc - 1e-9);

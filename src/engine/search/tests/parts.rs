@@ -101,16 +101,16 @@ fn a_budget_is_never_exceeded_and_a_popped_goal_needs_none() {
 fn a_shot_ends_the_search_with_the_way_so_far_and_the_goal() {
     let mut graph = Written::new(&[(0, 1, 1.0), (1, 2, 1.0), (2, 3, 1.0)]);
     let estimate = Combined { h: |_| 0.0, combine: sum };
-    let mut asked = Vec::new();
+    let mut tried = Vec::new();
     let mut shoot = |node: u32, g: f64| {
-        asked.push((node, g));
+        tried.push((node, g));
         (node == 1).then_some(Shot { goal: 7, cost: 2.5 })
     };
     let mut search = Search::new(Heap::default());
     let report =
         search.run(terms(&mut graph, &estimate, &mut ()), 0, |node| node == 7, Rules::default(), &mut shoot);
     assert_eq!(report.outcome, Outcome::Solved(Route { nodes: vec![0, 1, 7], cost: 3.5 }));
-    assert_eq!(asked, [(0, 0.0), (1, 1.0)]);
+    assert_eq!(tried, [(0, 0.0), (1, 1.0)]);
     let counters = Counters { opened: 2, closed: 2, expansions: 1, generated: 1, peak_open: 1 };
     assert_eq!(report.counters, counters);
 }

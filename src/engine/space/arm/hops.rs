@@ -28,7 +28,7 @@ impl Hops {
         self.known(cell, dx, bit, find) & bit != 0
     }
 
-    /// Those of the hops by `dx` columns from `cell` that are free, among those that are `asked` about; bit `i` is the hop
+    /// Those of the hops by `dx` columns from `cell` that are free, among those that are `wanted` about; bit `i` is the hop
     /// `reach - i` rows up.
     #[inline]
     pub(super) fn free(
@@ -36,29 +36,29 @@ impl Hops {
         cell: u32,
         dx: i32,
         reach: i32,
-        asked: u64,
+        wanted: u64,
         find: impl Fn([i32; 2]) -> bool,
     ) -> u64 {
         if reach <= REACH {
             let shift = REACH - reach;
-            return u64::from(self.known(cell, dx, (asked << shift) as u32, find)) >> shift;
+            return u64::from(self.known(cell, dx, (wanted << shift) as u32, find)) >> shift;
         }
-        let is_free = |bit: &i32| asked >> bit & 1 == 1 && self.is_free(cell, [dx, reach - bit], &find);
+        let is_free = |bit: &i32| wanted >> bit & 1 == 1 && self.is_free(cell, [dx, reach - bit], &find);
         (0..=2 * reach).filter(is_free).fold(0, |free, bit| free | 1 << bit)
     }
 
-    /// Those of the `asked` hops that are free.
+    /// Those of the `wanted` hops that are free.
     #[inline]
-    fn known(&self, cell: u32, dx: i32, asked: u32, find: impl Fn([i32; 2]) -> bool) -> u32 {
+    fn known(&self, cell: u32, dx: i32, wanted: u32, find: impl Fn([i32; 2]) -> bool) -> u32 {
         let word = &self.0[cell as usize * SIDE + (dx + REACH) as usize];
         let kept = word.load(Ordering::Relaxed);
-        let unknown = asked & !(kept >> 16);
+        let unknown = wanted & !(kept >> 16);
         if unknown == 0 {
-            return asked & kept;
+            return wanted & kept;
         }
         let is_free = |bit: &i32| unknown >> bit & 1 == 1 && find([dx, REACH - bit]);
         let found = (0..SIDE as i32).filter(is_free).fold(0, |free, bit| free | 1 << bit);
-        asked & (word.fetch_or(unknown << 16 | found, Ordering::Relaxed) | found)
+        wanted & (word.fetch_or(unknown << 16 | found, Ordering::Relaxed) | found)
     }
 }
 
@@ -68,12 +68,12 @@ mod tests {
     use std::cell::Cell;
 
     #[test]
-    fn a_hop_is_asked_about_once_and_long_ones_each_time() {
+    fn a_hop_is_checked_once_and_long_ones_each_time() {
         let hops = Hops::new(4);
-        let asked = Cell::new(0);
+        let checks = Cell::new(0);
         let ask = |cell, step, answer| {
             hops.is_free(cell, step, |_| {
-                asked.set(asked.get() + 1);
+                checks.set(checks.get() + 1);
                 answer
             })
         };
@@ -81,6 +81,6 @@ mod tests {
         assert!(!ask(3, [6, 6], false) && !ask(3, [6, 6], true), "and so is a hit");
         assert!(ask(0, [-6, 6], true) && !ask(1, [6, -6], false), "another step or cell is another hop");
         assert!(ask(0, [7, 0], true) && !ask(0, [7, 0], false), "too long to be kept");
-        assert_eq!(asked.get(), 6);
+        assert_eq!(checks.get(), 6);
     }
 }

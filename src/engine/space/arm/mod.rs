@@ -1,10 +1,10 @@
 //! The planar arm over a lattice of tip positions, among obstacles.
 //!
-//! The base is the origin; lengths are centimetres, angles radians. A state is a lattice point at which the tip
-//! stands, with the one posture that the elbow rule names. It is free if the arm reaches it outside of the inner
-//! radius and if both links (without width) and the tip are clear of every obstacle; what touching is, the world
-//! says ([`Touch`]). A motion is a hop between two free states: its end points alone are looked at, or both links are swept
-//! while the joints move evenly from one posture to the other or the tip moves along the straight line ([`HopRule`]).
+//! The base is the origin; lengths are centimetres, angles radians. A state is a lattice point at which the tip stands, with the
+//! one posture that the elbow rule names. It is free if the arm reaches it outside of the inner radius and if both links (without
+//! width) and the tip are clear of every obstacle; what touching is, the world says ([`Touch`]). A motion is a hop between two
+//! free states. Its end points alone are looked at, or both links are swept while the joints move evenly from one posture to the
+//! other or the tip moves along the straight line ([`HopRule`]).
 
 mod hops;
 mod lattice;

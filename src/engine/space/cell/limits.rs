@@ -1,4 +1,4 @@
-//! Limits and reach between two steps of a local path: a joint that bends there may leave its range and come back, and a wrist
+//! Limits and reach between two steps of a local path. A joint that bends there may leave its range and come back, and a wrist
 //! that passes the edge of its reach may be beyond it.
 
 use super::lines::{Lines, Rejection};
@@ -11,14 +11,14 @@ use std::f64::consts::{PI, TAU};
 /// The parts of a step at which limits and reach are checked where they are near; the verifier stops there too.
 pub(super) const PARTS: [f64; 3] = [0.25, 0.5, 0.75];
 
-/// How far the elbow is from being stretched or folded before the wrist cannot leave its reach between two steps. A way of
-/// 40 mm (20 mm of the tool and 4° of a hand of 300 mm) that begins and ends at the edge of a reach of 1.2 m bulges over it
-/// by 0.17 mm, which is 2° of the elbow; one around the hole of 80 mm in the middle by 2.5 mm, which is 2° too.
+/// How far the elbow is from being stretched or folded before the wrist cannot leave its reach between two steps. A way of 40 mm
+/// (20 mm of the tool and 4° of a hand of 300 mm) that begins and ends at the edge of a reach of 1.2 m bulges over it by 0.17 mm,
+/// which is 2° of the elbow. One around the hole of 80 mm in the middle bulges by 2.5 mm, which is 2° too.
 const EDGE_RAD: f64 = 0.05;
 
-/// How far a joint may bend out of what lies between its angles at two steps, 1°. A joint that turns back within a step passes
-/// no limit by the turn it makes: it comes and goes. What it strays by is at most an eighth of its second difference, and one of
-/// 8° is a jump where 5° are one; without this, paths that had turned back 0.003° beyond ±360° were found and then refused.
+/// How far a joint may bend out of what lies between its angles at two steps, 1°. A joint that turns back within a step passes no
+/// limit by the turn it makes: it comes and goes. What it strays by is at most an eighth of its second difference, and one of 8°
+/// is a jump where 5° are one. Without this, paths that had turned back 0.003° beyond ±360° were found and then refused.
 const STRAY_RAD: f64 = PI / 180.0;
 
 impl Lines {

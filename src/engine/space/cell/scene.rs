@@ -4,7 +4,7 @@ use crate::geometry::{Capsule, Convex, Frame, GeometryError, OrientedBox, Solid,
 use crate::kinematics::FARTHEST_MM;
 use crate::space::SupportEntry;
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
-use base::units::asked_in_degrees;
+use base::units::seems_in_radians;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::ops::Range;
@@ -128,15 +128,15 @@ fn wrong(error: &GeometryError) -> Wrong {
 impl BoxEntry {
     fn solid(&self) -> Result<Solid, Vec<Wrong>> {
         let turned_over = |axis: &usize| self.min_mm[*axis] >= self.max_mm[*axis];
-        let told = |axis: usize| {
+        let fault = |axis: usize| {
             let (low, high) = (self.min_mm[axis], self.max_mm[axis]);
             let message =
                 format!("`max_mm[{axis}]` is {high}; a number above `min_mm[{axis}]`, {low}, is accepted");
             (format!("max_mm.{axis}"), message)
         };
-        let asked =
-            asked_in_degrees("yaw_deg", &[self.yaw_deg]).map(|(_, message)| ("yaw_deg".to_owned(), message));
-        let faults: Vec<Wrong> = (0..3).filter(turned_over).map(told).chain(asked).collect();
+        let in_radians =
+            seems_in_radians("yaw_deg", &[self.yaw_deg]).map(|(_, message)| ("yaw_deg".to_owned(), message));
+        let faults: Vec<Wrong> = (0..3).filter(turned_over).map(fault).chain(in_radians).collect();
         if !faults.is_empty() {
             return Err(faults);
         }

@@ -1,9 +1,9 @@
 //! Which directions a search by jump points goes on in, from how it came: the pruning rules, tabulated.
 //!
-//! A neighbour n of x is pruned, x having been entered from p, if a way from p to n within the block of 3 × 3 cells
-//! round x, and not through x, costs no more than the way through x; if x was entered diagonally, only if it costs less.
-//! Diagonal moves therefore come before straight ones in the ways that are left. The definition holds under every
-//! corner rule, so that the tables are computed from it and no rule needs a list of its own.
+//! A neighbour n of x is pruned, x having been entered from p, if a way from p to n within the block of 3 × 3 cells round x, and
+//! not through x, costs no more than the way through x. If x was entered diagonally, that way must cost less. Diagonal moves
+//! therefore come before straight ones in the ways that are left. The definition holds under every corner rule, so that the
+//! tables are computed from it and no rule needs a list of its own.
 //!
 //! # Source
 //! Harabor & Grastien, *Online graph pruning for pathfinding on grid maps*, AAAI 2011, section 3 (corners may be cut);

@@ -119,7 +119,7 @@ fn a_point_that_cannot_be_an_end_is_refused_with_what_is_wrong() {
 }
 
 #[test]
-fn a_grown_box_keeps_its_corners_and_is_said_to_be_grown() {
+fn a_grown_box_keeps_its_corners_and_is_called_grown() {
     let body = Convex::cuboid(Vec3::repeat(10.0), Vec3::repeat(2.0)).unwrap();
     let domain = Aabb { min: Vec3::zeros(), max: Vec3::repeat(20.0) };
     let world = PolyhedraWorld::new(vec![body.clone()], domain, 1.0, 3.0).unwrap();

@@ -1,10 +1,11 @@
 //! What a roadmap stands on: configurations, their places, and local paths between them.
 
-use super::plane::PlaneMap;
+use super::plane::{PlaneMap, RASTER_MM};
 use crate::kinematics::{AXES, Joint, Joints};
-use crate::space::JointSpace;
 use crate::space::cell::{Lines, Path, Pose, Rejection, Scratch};
+use crate::space::{JointSpace, MotionMemory};
 use base::robot::Kind;
+use std::f64::consts::PI;
 
 /// The robot of a roadmap and the local paths it can take.
 #[derive(Debug)]
@@ -15,6 +16,20 @@ pub enum Local {
     Joints(Box<JointSpace>),
     /// A particle in the plane; configurations are [x, y] in millimetres.
     Plane(PlaneMap),
+}
+
+/// Buffers that are reused from motion to motion.
+#[derive(Debug, Default)]
+pub struct MotionScratch {
+    paths: Scratch,
+    memory: MotionMemory,
+}
+
+impl MotionScratch {
+    /// How many configurations were checked for contact.
+    pub fn checked(&self) -> u64 {
+        self.paths.checked()
+    }
 }
 
 /// A configuration, ready for local paths.
@@ -69,7 +84,7 @@ impl Local {
     }
 
     /// Which numbers of a configuration are angles that whole turns part from themselves.
-    pub(super) fn turn_on(&self) -> Vec<bool> {
+    pub fn turn_on(&self) -> Vec<bool> {
         match self {
             Self::Arm(lines) => {
                 lines.cell().robot().arm().chain().joints().iter().map(Joint::is_endless).collect()
@@ -99,6 +114,43 @@ impl Local {
             Self::Arm(lines) => lines.rules().path == Path::Tool,
             Self::Joints(_) => false,
             Self::Plane(_) => true,
+        }
+    }
+
+    /// The least and the greatest value of each number of a configuration; one turn for joints that turn without end.
+    pub fn limits(&self) -> Vec<[f64; 2]> {
+        let turn = |joint: &Joint| {
+            if joint.is_endless() { [-PI, PI] } else { [joint.lower_rad, joint.upper_rad] }
+        };
+        match self {
+            Self::Arm(lines) => lines.cell().robot().arm().chain().joints().iter().map(turn).collect(),
+            Self::Joints(space) => space.robot().joints.iter().map(|joint| joint.limits).collect(),
+            Self::Plane(map) => map.size_mm().map(|size| [0.0, size]).to_vec(),
+        }
+    }
+
+    /// Whether the local path from a configuration where the robot can be to another can be executed; a robot of any number of joints is
+    /// checked `finer` times as often as its step says.
+    pub fn goes(&self, [from, to]: [&[f64]; 2], finer: f64, scratch: &mut MotionScratch) -> bool {
+        match self {
+            Self::Joints(space) => {
+                let MotionScratch { paths, memory } = scratch;
+                space.goes([from, to], finer, memory, paths.count())
+            }
+            Self::Arm(_) | Self::Plane(_) => {
+                self.refusal(to).is_none()
+                    && self.join(&self.node(from), &self.node(to), &mut scratch.paths).is_ok()
+            }
+        }
+    }
+
+    /// A computed configuration as planners may use it: in the plane, the nearest point of the raster.
+    pub fn settled(&self, config: Vec<f64>) -> Vec<f64> {
+        match self {
+            Self::Arm(_) | Self::Joints(_) => config,
+            Self::Plane(_) => {
+                config.into_iter().map(|value| (value / RASTER_MM).round() * RASTER_MM).collect()
+            }
         }
     }
 

@@ -1,9 +1,9 @@
 //! Probabilistic roadmaps: samples in the order they were drawn, and the local paths between them.
 //!
-//! A roadmap is built once. Its first N samples are a roadmap too, and so are its edges up to any smaller radius; both are
-//! read off, nothing is built again. (Where so many nearest samples are neighbours, a part keeps the edges among its own.) A query adds its own start and goal and nothing else. What was found out about a
-//! pair of configurations is remembered, so that queries, sizes and contenders share it; it
-//! depends on the pair alone.
+//! A roadmap is built once. Its first N samples are a roadmap too, and so are its edges up to any smaller radius: both are read
+//! off, and nothing is built again. (Where so many nearest samples are neighbours, a part keeps the edges among its own.) A query
+//! adds its own start and goal and nothing else. What was found out about a pair of configurations is remembered, so that
+//! queries, sizes and contenders share it; it depends on the pair alone.
 
 mod local;
 mod near;
@@ -11,9 +11,9 @@ mod plane;
 #[cfg(test)]
 mod tests;
 
-pub use local::{Local, joints};
+pub use local::{Local, MotionScratch, joints};
 pub use near::Near;
-pub use plane::PlaneMap;
+pub use plane::{PlaneMap, RASTER_MM};
 
 use super::cell::{Rejection, Scratch};
 use local::Node;
@@ -58,13 +58,13 @@ impl Extent {
     pub fn lacks(&self, wanted: &Self) -> Option<String> {
         let samples = self.samples;
         if wanted.samples > samples {
-            let asked = wanted.samples;
-            return Some(format!("{asked} samples are requested; the roadmap was built with {samples}"));
+            let requested = wanted.samples;
+            return Some(format!("{requested} samples are requested; the roadmap was built with {samples}"));
         }
         let lacks = |wanted: Option<f64>, built: Option<f64>, unit: &str| {
-            let (asked, built) = wanted.zip(built).filter(|(asked, built)| asked > built)?;
+            let (requested, built) = wanted.zip(built).filter(|(requested, built)| requested > built)?;
             Some(format!(
-                "neighbours up to {asked} {unit} are requested; the roadmap was built up to {built} {unit}"
+                "neighbours up to {requested} {unit} are requested; the roadmap was built up to {built} {unit}"
             ))
         };
         let in_mm = lacks(wanted.radius_mm, self.radius_mm, "mm");

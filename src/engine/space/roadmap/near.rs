@@ -1,9 +1,9 @@
 //! Which samples are tried as neighbours: by the distance of their places, or by that of their configurations.
 //!
-//! Two configurations are as far apart as the root of the sum of squares of their coordinates' differences: radians for
-//! joints, with no turn taken off but for those that turn without end, which are taken the shorter way round; metres for joints that
-//! slide; and millimetres in the plane. All samples are measured in f32, sixteen side by side; those
-//! that may be near are measured again in f64, which decides.
+//! Two configurations are as far apart as the root of the sum of squares of their coordinates' differences. Joints count in
+//! radians, with no turn taken off but for those that turn without end, which are taken the shorter way round. Joints that slide
+//! count in metres, and the plane in millimetres. All samples are measured in f32, sixteen side by side; those that may be near
+//! are measured again in f64, which decides.
 
 use super::{Sample, distance_mm, square_mm2};
 use fearless_simd::{Level, dispatch};

@@ -6,6 +6,9 @@ use crate::geometry::planar::{
 };
 use base::text::listed;
 
+/// Samples, steps and ends lie on this raster, on which the verifier is exact.
+pub const RASTER_MM: f64 = 1.0 / 16.0;
+
 /// Polygons in the rectangle from the origin to `size_mm`; touching a polygon is contact.
 #[derive(Debug, Clone)]
 pub struct PlaneMap {

@@ -213,9 +213,9 @@ fn what_cannot_be_exported_leaves_nothing_and_says_why() {
         (["gallery", "--to", "xlsx"], 2, "[possible values: csv, parquet, ompl-log, planner-arena, posthoc"),
         (["fu2018", "--to", "posthoc"], 2, "`fu2018` has no stored search on a grid"),
     ] {
-        let said = export(&[&arguments[..], &["--out", out.to_str().unwrap()]].concat());
-        let err = String::from_utf8(said.stderr).unwrap();
-        assert_eq!(said.status.code(), Some(code), "{err}");
+        let output = export(&[&arguments[..], &["--out", out.to_str().unwrap()]].concat());
+        let err = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(code), "{err}");
         assert!(err.contains(message), "{err}");
         assert!(!out.exists(), "{arguments:?}");
     }

@@ -3,7 +3,7 @@
 use super::Query;
 use crate::name;
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned, none_called};
-use base::units::asked_in_degrees;
+use base::units::seems_in_radians;
 use engine::kinematics::Joints;
 use engine::space::cell::Cell;
 use schemars::JsonSchema;
@@ -60,7 +60,7 @@ pub(super) fn read_queries(written: &Arc<Document>) -> Result<Placed, SettingsEr
             return None;
         }
         let key = format!("an angle of pose `{}`", name.get_ref());
-        if let Some((index, message)) = asked_in_degrees(&key, found) {
+        if let Some((index, message)) = seems_in_radians(&key, found) {
             faults.add(document.error_at(&format!("pose_deg.{}.{index}", name.get_ref()), message));
             return None;
         }

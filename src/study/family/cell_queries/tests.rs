@@ -82,6 +82,18 @@ fn a_group_that_names_a_missing_pose_is_refused_with_the_poses_there_are() {
 }
 
 #[test]
+fn a_pose_that_seems_to_be_in_radians_is_asked_about() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "[pose_deg]\nA = [0, -1.5708, 0, 0, 1.5708, 0]\nB = [0, -90, 0, 0, 90, 0]\n[[group]]\nname = '1'\nfrom = 'A'\nto = 'B'\n";
+    std::fs::write(folder.path().join("groups.toml"), text).unwrap();
+    let refused = Posed::new(&settings("queries = 'groups.toml'"), &inputs(Some(folder.path())));
+    let message = refused.err().unwrap().to_string();
+    let asked =
+        "an angle of pose `A` is -1.5708; is it in radians? degrees are accepted (-1.5708 rad is -90.0°)";
+    assert!(message.contains("groups.toml:2:9") && message.contains(asked), "{message}");
+}
+
+#[test]
 fn a_start_in_collision_is_an_invalid_problem_and_the_other_groups_go_on() {
     let folder = tempfile::tempdir().unwrap();
     let text = "[pose_deg]\nfloor = [0, 0, 60, 0, 0, 0]\nbeyond = [171, -90, 0, 0, 90, 0]\nH = [0, -90, 0, 0, 90, 0]\n\

@@ -8,8 +8,8 @@ use engine::kinematics::robot::capsule_around;
 use engine::planner::Trace;
 use engine::space::JointSpace;
 
-/// Obstacles, of which the first is the floor if there is one, and the robot and its tip at each query's ends.
-pub(super) fn traces(space: &JointSpace, floor_m: Option<f64>, queries: &[Query]) -> Vec<Trace> {
+/// Obstacles, the first being the floor if there is one, and the robot and its tip at each query's ends.
+pub(in crate::family) fn traces(space: &JointSpace, floor_m: Option<f64>, queries: &[Query]) -> Vec<Trace> {
     let mut boxes = Vec::new();
     let mut rounds = Vec::new();
     for solid in space.obstacles().iter().skip(usize::from(floor_m.is_some())) {

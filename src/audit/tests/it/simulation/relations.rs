@@ -24,9 +24,10 @@ pub(super) fn document(rng: &mut SmallRng) -> String {
     text
 }
 
-/// A relation with its rounding, if that is said; the keys follow.
+/// A relation with its rounding, if that is written; the keys follow.
 fn relation(check: &str, style: &Style, keys: &str) -> String {
-    let rounding = if style.is_said { format!("rounding = \"{}\"\n", style.rounding) } else { String::new() };
+    let rounding =
+        if style.is_written { format!("rounding = \"{}\"\n", style.rounding) } else { String::new() };
     format!("[[relation]]\ncheck = \"{check}\"\n{rounding}{keys}\n")
 }
 

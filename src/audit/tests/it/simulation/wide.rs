@@ -56,8 +56,8 @@ fn statistics(rng: &mut SmallRng, sheet: &mut Sheet) {
         (0..sheet.rows).map(|_| if has_runs { rng.random_range(2..60) } else { common }).collect();
     let samples: Vec<Vec<i128>> = n.iter().map(|n| values(rng, *n)).collect();
     // Values are multiples of 1 / grain.
-    let (said, grain) = [("integers", 1), ("tick=1/4", 4), ("tick=0.1", 10)][rng.random_range(0..3)];
-    let mut of = format!("{said}, n={}", if has_runs { "runs".to_owned() } else { common.to_string() });
+    let (message, grain) = [("integers", 1), ("tick=1/4", 4), ("tick=0.1", 10)][rng.random_range(0..3)];
+    let mut of = format!("{message}, n={}", if has_runs { "runs".to_owned() } else { common.to_string() });
     if rng.random_bool(0.3) {
         let (least, most) =
             (samples.iter().flatten().min().unwrap(), samples.iter().flatten().max().unwrap());

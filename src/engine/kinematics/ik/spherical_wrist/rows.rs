@@ -9,8 +9,8 @@ use crate::geometry::lanes::{
     Frames, Lane, Point, PoseRows, Simd, SimdBase, SimdFloat, SimdMask, atan2, sincos,
 };
 
-/// Below these sines of wrist and elbow, and below as many metres of the wrist's centre from axis 1, angles lose more digits
-/// than the lanes may: an error grows by the inverse of each, and by both near a folded arm with a straight wrist.
+/// Below these sines of wrist and elbow, and below as many metres of the wrist's centre from axis 1, angles lose more digits than
+/// the lanes may. An error grows by the inverse of each, and by both near a folded arm with a straight wrist.
 const NEARLY_SINGULAR: f64 = 1e-2;
 /// How far the elbow's cosine must be beyond 1 to be out of reach; the scalar code allows for less.
 const BEYOND_REACH: f64 = 1e-9;

@@ -82,7 +82,7 @@ fn besides_the_other_wrist_all_have_the_other_elbow_or_joint_1_half_a_turn_away(
     let near = |a: f64, b: f64| wrapped(a - b).abs() < 1e-5;
     for (seed, (name, arm, _)) in (771..).zip(published()) {
         let mut stream = seed::stream(seed);
-        let mut told = 0;
+        let mut count = 0;
         for index in 0..2_000 {
             let q = draw(&mut stream, arm.chain());
             let Some(other) = arm.other_wrist(&q) else { continue };
@@ -96,12 +96,12 @@ fn besides_the_other_wrist_all_have_the_other_elbow_or_joint_1_half_a_turn_away(
                     assert!(near(there, -here), "{place}: {found:?}");
                 } else if branch.wrist() != own.wrist() {
                     assert!((0..6).all(|i| near(found[i], other[i])), "{place}: {found:?} and {other:?}");
-                    told += 1;
+                    count += 1;
                 }
             }
         }
         let has_law = name.starts_with("up6");
-        assert_eq!(told > 1_900, has_law, "{name}: {told}");
+        assert_eq!(count > 1_900, has_law, "{name}: {count}");
     }
 }
 

@@ -24,8 +24,8 @@ fn general() -> [(&'static str, Arm, &'static str); 3] {
 fn of_ten_thousand_reachable_poses_at_least_99_in_100_are_solved() {
     for (seed, (name, arm, reason)) in (761..).zip(general()) {
         assert_eq!((arm.solver().name, arm.solver().is_complete), ("numerical", false), "{name}");
-        let said = arm.solver().to_string();
-        assert!(said.contains("may miss configurations") && said.contains(reason), "{said}");
+        let text = arm.solver().to_string();
+        assert!(text.contains("may miss configurations") && text.contains(reason), "{text}");
         let mut stream = seed::stream(seed);
         let mut solved = 0;
         for index in 0..10_000 {
@@ -105,7 +105,7 @@ fn the_search_finds_what_a_closed_form_finds() {
 }
 
 #[test]
-fn what_is_out_of_reach_is_said_to_be() {
+fn what_is_out_of_reach_is_reported_as_such() {
     for (name, arm, _) in general() {
         let far = Frame::at(Vec3::new(2.0, 0.0, 0.5));
         assert!(arm.inverse_nearest(&far, &[0.1; AXES]).is_none(), "{name}");

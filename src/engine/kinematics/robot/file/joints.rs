@@ -1,6 +1,6 @@
 //! The joints of a robot file: each fault is reported at its own key, and all that are wrong at once.
 
-use super::{Convention, RobotFile, Source};
+use super::{Convention, RobotFile, SHORT_MM, Source, in_metres};
 use crate::{
     geometry::Frame,
     kinematics::{
@@ -9,7 +9,7 @@ use crate::{
     },
 };
 use base::settings::{Faults, SettingsError, Spanned};
-use base::units::asked_in_degrees;
+use base::units::seems_in_radians;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -76,8 +76,7 @@ type Quantity = (&'static str, f64);
 
 /// The message about an arm that is a thousandth of its size, or does not turn: it is written in metres or radians.
 fn other_units(source: &Source, entries: &[Spanned<JointEntry>]) -> Vec<SettingsError> {
-    // The longest link of an arm is longer, and some joint turns farther; metres and radians are less.
-    const SHORT_MM: f64 = 10.0;
+    // Some joint of an arm turns farther in degrees; radians are less.
     const LITTLE_DEG: f64 = 7.0;
     let greatest = |of: fn(&JointEntry) -> [Quantity; 2]| {
         let each = entries.iter().enumerate();
@@ -88,10 +87,7 @@ fn other_units(source: &Source, entries: &[Spanned<JointEntry>]) -> Vec<Settings
     let limits = |joint: &JointEntry| [("lower_deg", joint.lower_deg), ("upper_deg", joint.upper_deg)];
     let mut faults = Vec::new();
     if let Some((size, index, key)) = greatest(lengths).filter(|(size, ..)| *size < SHORT_MM) {
-        let message = format!(
-            "no link is longer than {size} mm; are lengths in metres? millimetres are accepted ({size} m is {} mm)",
-            size * 1e3
-        );
+        let message = format!("no link is longer than {size} mm; {}", in_metres(size, "are lengths"));
         faults.push(fault_at(source, index, key, message));
     }
     if let Some((size, index, key)) = greatest(limits).filter(|(size, ..)| *size < LITTLE_DEG) {
@@ -105,8 +101,8 @@ fn other_units(source: &Source, entries: &[Spanned<JointEntry>]) -> Vec<Settings
         [("alpha_deg", |joint| joint.alpha_deg), ("offset_deg", |joint| joint.offset_deg)];
     for (key, of) in turns {
         let angles: Vec<f64> = entries.iter().map(|entry| of(entry.get_ref())).collect();
-        let asked = asked_in_degrees(key, &angles);
-        faults.extend(asked.map(|(index, message)| fault_at(source, index, key, message)));
+        let in_radians = seems_in_radians(key, &angles);
+        faults.extend(in_radians.map(|(index, message)| fault_at(source, index, key, message)));
     }
     faults
 }

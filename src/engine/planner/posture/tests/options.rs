@@ -165,7 +165,7 @@ fn a_distance_clamped_to_nothing_has_an_infinite_potential_and_no_direction() {
 }
 
 #[test]
-fn only_the_clearest_branch_is_tried_if_asked() {
+fn only_the_clearest_branch_is_tried_on_request() {
     let world = beside();
     let polyhedra = world.as_polyhedra().unwrap();
     let arm = polyhedra.arm().unwrap();
@@ -184,7 +184,7 @@ fn only_the_clearest_branch_is_tried_if_asked() {
 }
 
 #[test]
-fn printed_distances_stand_in_for_the_exact_ones_if_asked() {
+fn printed_distances_stand_in_for_the_exact_ones_on_request() {
     let bodies = [Convex::cuboid(Vec3::new(70.0, 15.0, 48.0), Vec3::new(10.0, 14.0, 22.0)).unwrap()];
     let world = beside();
     let polyhedra = world.as_polyhedra().unwrap();

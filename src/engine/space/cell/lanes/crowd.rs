@@ -135,14 +135,14 @@ impl<'a> Crowd<'a> {
         Self { outline, known, placed: parts.clone(), boxes: parts, at_obstacles, pairs: Waiting::EMPTY }
     }
 
-    /// Looks at those of `states` that `is_asked` names.
+    /// Looks at those of `states` that `is_wanted` names.
     #[inline(always)]
-    fn look<S: Simd>(&mut self, simd: S, states: &[Joints], is_asked: impl Fn(&Joints) -> bool) {
+    fn look<S: Simd>(&mut self, simd: S, states: &[Joints], is_wanted: impl Fn(&Joints) -> bool) {
         self.known.clear();
         for (block, states) in states.chunks(ROUGH_LANES).enumerate() {
             let mut angles = [[0.0; ROUGH_LANES]; AXES];
             let mut shut = ALL;
-            for (lane, q) in states.iter().enumerate().filter(|(_, q)| is_asked(q)) {
+            for (lane, q) in states.iter().enumerate().filter(|(_, q)| is_wanted(q)) {
                 shut &= !(1 << lane);
                 for (row, angle) in angles.iter_mut().zip(q) {
                     row[lane] = *angle as f32;
@@ -277,8 +277,8 @@ impl Cell {
         let mut found = Vec::with_capacity(states.len());
         for states in states.chunks(CROWD) {
             let limits = self.robot.arm().chain();
-            let is_asked = |q: &Joints| limits.allows(q) && is_rough(q);
-            dispatch!(level(), simd => crowd.look(simd, states, is_asked));
+            let is_wanted = |q: &Joints| limits.allows(q) && is_rough(q);
+            dispatch!(level(), simd => crowd.look(simd, states, is_wanted));
             found.extend(states.iter().enumerate().map(|(state, q)| {
                 let Known { shut, unsure } = crowd.known[state / ROUGH_LANES];
                 let is_set = |bits: u8| bits >> (state % ROUGH_LANES) & 1 == 1;

@@ -14,7 +14,7 @@ use crate::space::cell::doubt::HALF_WAY;
 
 /// The number of each lane.
 pub(super) const NUMBERS: RoughRow = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
-/// By how much more than its greatest room a part is thickened where what is close is collected: the middle of a step is up to
+/// By how much more than its greatest room a part is thickened where what is close is collected. The middle of a step is up to
 /// half of it away from both ends, and what is near that counts as well.
 const ROOM_BETWEEN: f32 = 2.1;
 

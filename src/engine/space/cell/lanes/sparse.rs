@@ -52,12 +52,12 @@ impl Track {
         true
     }
 
-    /// By how much parts are thickened for all that lies between the configurations of a first look, and the boxes they
-    /// sweep; a step of the path is the `share` of one of the first look.
+    /// By how much parts are thickened for all that lies between the configurations of a first look, and the boxes they sweep. A
+    /// step of the path is the `share` of one of the first look.
     #[inline(always)]
     fn measure_between<S: Simd>(&mut self, simd: S, outline: &Outline, step: &[f32; AXES], share: f32) {
-        // A place is at most half a chord, and what the curve strays from it, from the nearer end; from there a step goes as
-        // far as its share of the longest chord, and of half the acceleration.
+        // A place is at most half a chord, and what the curve strays from it, from the nearer end. From there a step goes as far
+        // as its share of the longest chord, and of half the acceleration.
         let thickened = HALF_WAY as f32 * share;
         let of_way = (0.5 + thickened) * ROUNDED;
         let of_bend = (0.125 + 0.5 * thickened) * ROUNDED;

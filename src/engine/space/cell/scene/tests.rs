@@ -67,6 +67,14 @@ fn a_wrong_scene_says_which_obstacle_where_and_what_is_accepted() {
             ["s.toml:2:1", "than 0.9 mm from the origin; are lengths in metres?", "(0.9 m is 900 mm)"],
         ),
         (
+            "[[box]]\nname = 'b'\nmin_mm = [0, 0, 0]\nmax_mm = [50, 50, 50]\nyaw_deg = 0.7854\n",
+            ["s.toml:6:11", "`b`: yaw_deg is 0.7854; is it in radians?", "0.7854 rad is 45.0°"],
+        ),
+        (
+            "[support]\nunder = 'floor'\nbase_mm = [0, 0, 0]\nyaw_deg = 1.5708\n",
+            ["s.toml:5:11", "yaw_deg is 1.5708; is it in radians?", "1.5708 rad is 90.0°"],
+        ),
+        (
             "[[sphere]]\nname = 'k'\ncenter_mm = [0, nan, 0]\nradius_mm = 1\n",
             ["s.toml:4:17", "`center_mm[1]`", "finite"],
         ),
@@ -96,12 +104,15 @@ fn a_wrong_scene_says_which_obstacle_where_and_what_is_accepted() {
 
 #[test]
 fn a_value_of_the_wrong_kind_hides_no_fault_of_another_obstacle() {
-    let told = refusal(
+    let message = refusal(
         "[[box]]\nname = 'b'\nmin_mm = [0, 0, '0']\nmax_mm = [1, 2, 3]\n\
          [[box]]\nname = 'c'\nmin_mm = [0, 5, 7]\nmax_mm = [300, 2, 3]\n",
     );
-    let lines: Vec<&str> = told.lines().filter(|line| line.starts_with("s.toml:")).collect();
+    let lines: Vec<&str> = message.lines().filter(|line| line.starts_with("s.toml:")).collect();
     let parts =
         ["s.toml:4:17: `min_mm[2]` is \"0\"", "s.toml:9:16: obstacle `c`: `max_mm[1]`", "s.toml:9:19: "];
-    assert!(lines.len() == 3 && lines.iter().zip(parts).all(|(line, part)| line.starts_with(part)), "{told}");
+    assert!(
+        lines.len() == 3 && lines.iter().zip(parts).all(|(line, part)| line.starts_with(part)),
+        "{message}"
+    );
 }

@@ -17,8 +17,8 @@ fn zeros_left_out_are_a_premise_and_the_finding_says_what_the_typed_digits_allow
     let table = "| p | time [mean, integers, n=699, digits=6] |\n|-|-|\n| A | 67.408 |\n";
     let finding = found(table, Format::Markdown, "grim");
     assert_eq!(finding.class, Class::Impossible);
-    assert!(finding.said.starts_with("67.408 is the mean of no 699 values"), "{}", finding.said);
-    assert!(finding.said.ends_with("possible if the digits as typed are all there are"), "{}", finding.said);
+    assert!(finding.text.starts_with("67.408 is the mean of no 699 values"), "{}", finding.text);
+    assert!(finding.text.ends_with("possible if the digits as typed are all there are"), "{}", finding.text);
     let premise = finding.premises.last().unwrap();
     assert!(
         premise.ends_with("zeros at the end are left out, so that 67.408 is read as 67.4080"),
@@ -30,15 +30,15 @@ fn zeros_left_out_are_a_premise_and_the_finding_says_what_the_typed_digits_allow
     assert!(certificate["premises"].to_string().contains("67.4080"));
     assert_eq!(finding.mend.unwrap().to.to_string(), "67.4078");
     let both = found(&table.replace("67.408", "67.4"), Format::Markdown, "grim");
-    assert!(both.said.ends_with("; possible if the digits as typed are all there are"), "{}", both.said);
+    assert!(both.text.ends_with("; possible if the digits as typed are all there are"), "{}", both.text);
     let neither = found(&table.replace("n=699", "n=2"), Format::Markdown, "grim");
     assert!(
-        neither.said.ends_with("; impossible as well if the digits as typed are all there are"),
+        neither.text.ends_with("; impossible as well if the digits as typed are all there are"),
         "{}",
-        neither.said
+        neither.text
     );
     let typed = found(&table.replace(", digits=6", ""), Format::Markdown, "grim");
-    assert_eq!((typed.class, typed.said.contains("as typed")), (Class::Possible, false));
+    assert_eq!((typed.class, typed.text.contains("as typed")), (Class::Possible, false));
 }
 
 #[test]
@@ -49,7 +49,7 @@ fn a_deviation_below_0_is_impossible_without_mean_range_or_n() {
     for text in [column, behind, error] {
         let finding = found(text, Format::Csv, "sd_range");
         assert_eq!(
-            (finding.class, &*finding.said),
+            (finding.class, &*finding.text),
             (Class::Impossible, "-0.5 is below 0, as no deviation is"),
             "{text}"
         );
@@ -71,30 +71,30 @@ fn printed_ends_bound_the_values_behind_mean_and_deviation() {
     assert_eq!(ends("0", "4").class, Class::Possible);
     let bounded = ends("1", "3");
     assert_eq!(bounded.class, Class::Impossible, "from 1 to 3 the deviation is 1 at most");
-    assert!(bounded.said.contains("1 the least and 3 the greatest"), "{}", bounded.said);
+    assert!(bounded.text.contains("1 the least and 3 the greatest"), "{}", bounded.text);
     assert_eq!(bounded.certificate.unwrap()["given"]["printed_ends"], serde_json::json!([2, 3]));
 }
 
 #[test]
-fn what_stands_behind_plus_or_minus_is_asked_for_where_no_check_would_look_at_it() {
-    let asked = |text: &str| output::unread_spreads("t.csv", &read(text, Format::Csv).unwrap());
-    let said = asked("p,rate [% of 20]\nA,-\nB,25 ± 9\n");
+fn a_number_behind_plus_or_minus_that_no_check_looks_at_is_reported() {
+    let spreads = |text: &str| output::unread_spreads("t.csv", &read(text, Format::Csv).unwrap());
+    let message = spreads("p,rate [% of 20]\nA,-\nB,25 ± 9\n");
     let expected = "t.csv:3:2: column `rate`: what stands behind 25 ± 9 is not looked at; say `±sd` if it is the deviation or `±se` if it is the standard error";
-    assert_eq!(said, [expected]);
-    assert!(asked("p,length [value]\nA,2.5 (0.1)\n")[0].contains("`mean, n=N` and `±sd` or `±se`"));
-    assert!(asked("p,length [value, ±sd]\nA,2.5 (0.1)\n")[0].contains("`mean, n=N`"));
-    assert!(asked("s [statistic],time\nmean,2.5 (0.1)\n")[0].contains("a row of its own"));
+    assert_eq!(message, [expected]);
+    assert!(spreads("p,length [value]\nA,2.5 (0.1)\n")[0].contains("`mean, n=N` and `±sd` or `±se`"));
+    assert!(spreads("p,length [value, ±sd]\nA,2.5 (0.1)\n")[0].contains("`mean, n=N`"));
+    assert!(spreads("s [statistic],time\nmean,2.5 (0.1)\n")[0].contains("a row of its own"));
     for silent in
         ["p,rate [% of 20, ±se]\nA,25 ± 9\n", "p,time [mean, ±sd]\nA,2.5 (0.1)\n", "p,rate [% of 20]\nA,25\n"]
     {
-        assert!(asked(silent).is_empty(), "{silent}");
+        assert!(spreads(silent).is_empty(), "{silent}");
     }
 }
 
 #[test]
 fn what_is_not_decided_is_not_worded_as_a_claim() {
     let relation = |keys: &str| format!("[[relation]]\n{keys}\n");
-    for (keys, check, said) in [
+    for (keys, check, expected) in [
         (
             "check = \"turn_sum\"\nturns = \"90\"\nlength = \"6.50\"\nfrom = \"0:0\"\nto = \"3:5\"",
             "turn_sum",
@@ -122,7 +122,7 @@ fn what_is_not_decided_is_not_worded_as_a_claim() {
         ),
     ] {
         let finding = found(&relation(keys), Format::Toml, check);
-        assert_eq!((finding.class, &*finding.said), (Class::Unchecked, said));
+        assert_eq!((finding.class, &*finding.text), (Class::Unchecked, expected));
     }
 }
 
@@ -192,11 +192,11 @@ fn a_search_that_ends_without_data_says_so() {
 
 #[test]
 fn an_end_that_carries_a_proof_is_among_its_premises() {
-    for (end, mean, said) in [("most=2", "2.5", "at most 2"), ("least=1", "0.5", "at least 1")] {
+    for (end, mean, expected) in [("most=2", "2.5", "at most 2"), ("least=1", "0.5", "at least 1")] {
         let table = format!("| p | t [mean, integers, n=10, {end}] |\n|-|-|\n| A | {mean} |\n");
         let finding = found(&table, Format::Markdown, "grim");
         assert_eq!(finding.class, Class::Impossible);
-        assert!(finding.premises[0].contains(said), "{:?}", finding.premises);
+        assert!(finding.premises[0].contains(expected), "{:?}", finding.premises);
     }
 }
 
@@ -231,7 +231,7 @@ fn a_filled_stub_of_statistics_in_columns_of_their_own_is_checked() {
     assert_eq!(stub, expected);
     let filled = text.replace("planner,mean,sd,min,max", &stub.replace('?', "50"));
     let finding = found(&filled, Format::Csv, "sd_range");
-    assert_eq!(finding.class, Class::Impossible, "{}", finding.said);
+    assert_eq!(finding.class, Class::Impossible, "{}", finding.text);
     assert!(finding.name == "sd of A" && finding.premises[0].contains("same"), "{finding:?}");
     let long = "planner,time mean (n = 50),time std,iterations (mean),iterations (max)\nA,2.0,3.0,5,6\n";
     let stub = stub_line(&read(long, Format::Csv).unwrap().tables[0]);
@@ -252,8 +252,8 @@ fn what_rests_on_a_guess_is_a_signal_and_the_header_makes_it_a_proof() {
     assert_eq!((finding.class, finding.certificate), (Class::Signal, None));
     let premise = finding.premises.last().unwrap();
     assert!(premise.contains("`% of 250, higher is better` was guessed"), "{premise}");
-    let said = found(&text.replace("(% of 250)", "[% of 250]"), Format::Csv, "grim");
-    assert_eq!(said.class, Class::Impossible);
+    let message = found(&text.replace("(% of 250)", "[% of 250]"), Format::Csv, "grim");
+    assert_eq!(message.class, Class::Impossible);
     let runs = read("p,runs,success\nA,30,50.0\nB,-,33.3\n", Format::Csv).unwrap();
     assert_eq!(stub_line(&runs.tables[0]), "p [label],runs [value],success [% of runs, higher is better]");
     let comma = refused("p;success;time\nA;33,3;1.234,5\nB;90,0;2,5\n", Format::Csv);
@@ -263,13 +263,13 @@ fn what_rests_on_a_guess_is_a_signal_and_the_header_makes_it_a_proof() {
 }
 
 #[test]
-fn what_no_check_looked_at_is_told_with_what_to_write() {
+fn what_no_check_looked_at_is_reported_with_what_to_write() {
     let unseen = |text: &str| {
         let report = audited(text, Format::Csv, &Options::default());
         (output::unseen("t", &report), report.tally.len())
     };
-    let (lines, asked) = unseen("p,a [mean, n=50],b [sd],c [value],d [% of 20],e\nA,2.0,3.0,1,25,3\n");
-    assert_eq!(asked, 1, "the share is a k of 20");
+    let (lines, wanted) = unseen("p,a [mean, n=50],b [sd],c [value],d [% of 20],e\nA,2.0,3.0,1,25,3\n");
+    assert_eq!(wanted, 1, "the share is a k of 20");
     let starts: Vec<&str> = lines.iter().map(|line| line.split(": no check").next().unwrap()).collect();
     assert_eq!(starts, ["t:2:2: column `a`", "t:2:3: column `b`", "t:2:4: column `c`", "t:2:6: column `e`"]);
     let (lines, _) = unseen("p,a [mean, n=50]\nA,2.0\n");
@@ -281,7 +281,7 @@ fn what_no_check_looked_at_is_told_with_what_to_write() {
 }
 
 #[test]
-fn a_cause_is_told_once_with_what_follows_from_it() {
+fn a_cause_is_reported_once_with_what_follows_from_it() {
     let text = "p,x [mean, integers, n=10],x [sd],x [median]\nA,3.45,1.2,3\n";
     let report = audited(text, Format::Csv, &Options::default());
     let checks: Vec<&str> = report.findings.iter().map(|finding| finding.check).collect();
@@ -321,9 +321,9 @@ fn a_p_value_may_be_printed_as_a_bound() {
         (">=0.5", Class::Signal),
     ] {
         let finding = found(&relation(p), Format::Toml, "p_value");
-        assert_eq!(finding.class, class, "{}", finding.said);
+        assert_eq!(finding.class, class, "{}", finding.text);
     }
-    assert!(found(&relation("> 0.05"), Format::Toml, "p_value").said.starts_with("p > 0.05 for 90 of 100"));
+    assert!(found(&relation("> 0.05"), Format::Toml, "p_value").text.starts_with("p > 0.05 for 90 of 100"));
     assert!(refused("p,x [value]\nA,<0.1\n", Format::Csv).contains("is a bound and no printed value"));
 }
 

@@ -11,7 +11,7 @@ use std::process::Command;
 #[test]
 fn what_may_take_long_says_so_without_a_terminal_on_standard_error_alone() {
     let toy = Toy::unexplored(&[CITED]);
-    for (arguments, said) in [
+    for (arguments, expected) in [
         (&["run", "./toy", "--why"][..], "toy: looking for what has changed since it was run …"),
         (&["run", "./toy", "--fresh"], "draws: trials: 40 units …"),
         (&["judge", "./toy"], "toy: judging "),
@@ -23,11 +23,11 @@ fn what_may_take_long_says_so_without_a_terminal_on_standard_error_alone() {
         (&["export", "target/replan/toy", "--csv"], "reading its records and computing their statistics …"),
         (&["repro", "./toy", "--trial", "room/room/a-star"], "toy: running trial room/room/a-star …"),
     ] {
-        let told = toy.0.run(arguments);
-        assert_eq!(told.code, Some(0), "{arguments:?}: {}", told.err);
-        assert!(told.doing.iter().any(|line| line.contains(said)), "{arguments:?}: {:?}", told.doing);
-        assert!(!told.out.contains('…'), "{}", told.out);
-        assert!(!told.doing.concat().contains(['\r', '\x1b']), "{:?}", told.doing);
+        let output = toy.0.run(arguments);
+        assert_eq!(output.code, Some(0), "{arguments:?}: {}", output.err);
+        assert!(output.doing.iter().any(|line| line.contains(expected)), "{arguments:?}: {:?}", output.doing);
+        assert!(!output.out.contains('…'), "{}", output.out);
+        assert!(!output.doing.concat().contains(['\r', '\x1b']), "{:?}", output.doing);
     }
 }
 
@@ -55,40 +55,40 @@ fn a_name_that_is_nearly_right_is_answered_with_the_right_one() {
         (&["list", "studies", "mini/drawn"], "mini/draws"),
         (&["list", "studies", "draws"], "mini/draws"),
     ] {
-        let said = bench.run(arguments);
-        assert_eq!(said.code, Some(2), "{arguments:?}: {}{}", said.out, said.err);
-        assert!(said.err.contains(&format!(" (did you mean `{meant}`?)")), "{arguments:?}: {}", said.err);
+        let output = bench.run(arguments);
+        assert_eq!(output.code, Some(2), "{arguments:?}: {}{}", output.out, output.err);
+        assert!(output.err.contains(&format!(" (did you mean `{meant}`?)")), "{arguments:?}: {}", output.err);
     }
 }
 
 #[test]
 fn one_trial_is_not_called_trials() {
     let bench = Bench::new();
-    let said = bench.done(&["run", "./mini"]);
-    assert!(said.contains("\nroom: 1 trial\n"), "{said}");
-    let said = bench.done(&["check", "./mini", "--rerun", "1"]);
-    assert!(said.contains("  room: 1 trial run again on 1 thread equals its row\n"), "{said}");
+    let output = bench.done(&["run", "./mini"]);
+    assert!(output.contains("\nroom: 1 trial\n"), "{output}");
+    let output = bench.done(&["check", "./mini", "--rerun", "1"]);
+    assert!(output.contains("  room: 1 trial run again on 1 thread equals its row\n"), "{output}");
 }
 
 #[test]
 fn devices_are_refused_as_input_files() {
     let bench = Bench::new();
     bench.edit("mini/room.toml", "room.map.txt", "/dev/zero");
-    let said = bench.run(&["check", "./mini"]);
-    let told =
+    let output = bench.run(&["check", "./mini"]);
+    let expected =
         "input file `/dev/zero` is a device, a pipe or a socket (/dev/zero); a regular file is accepted";
-    assert!(said.code == Some(2) && said.err.contains(told), "{}", said.err);
+    assert!(output.code == Some(2) && output.err.contains(expected), "{}", output.err);
     std::os::unix::fs::symlink("/dev/zero", bench.at("mini/zero.toml")).unwrap();
-    let said = bench.run(&["check", "./mini"]);
-    let told = "mini/zero.toml: it is a device, a pipe or a socket; a regular file is accepted";
-    assert!(said.code == Some(2) && said.err.contains(told), "{}", said.err);
+    let output = bench.run(&["check", "./mini"]);
+    let expected = "mini/zero.toml: it is a device, a pipe or a socket; a regular file is accepted";
+    assert!(output.code == Some(2) && output.err.contains(expected), "{}", output.err);
 }
 
 #[test]
 fn a_lattice_of_too_many_points_is_refused_with_the_step_found_and_the_limit() {
     let bench = Bench::empty();
     bench.done(&["new", "./arm", "--from", "arm"]);
-    for (step, told) in [
+    for (step, expected) in [
         (
             "1e-9",
             "step_cm is 1e-9, which makes 1.0e11 points along x_cm alone; at most 1000000 in all are accepted",
@@ -98,8 +98,8 @@ fn a_lattice_of_too_many_points_is_refused_with_the_step_found_and_the_limit() {
     ] {
         let whole = fs::read(bench.at("arm/lengths.toml")).unwrap();
         bench.edit("arm/lengths.toml", "step_cm = 1\n", &format!("step_cm = {step}\n"));
-        let said = bench.run(&["check", "./arm"]);
-        assert!(said.code == Some(2) && said.err.contains(told), "{step}: {}", said.err);
+        let output = bench.run(&["check", "./arm"]);
+        assert!(output.code == Some(2) && output.err.contains(expected), "{step}: {}", output.err);
         bench.write("arm/lengths.toml", &whole);
     }
 }
@@ -121,18 +121,18 @@ fn every_kind_of_file_has_an_example_of_its_kind() {
 }
 
 #[test]
-fn a_paper_by_itself_is_told_with_its_studies_and_how_it_is_run() {
-    let said = listed(&["list", "papers", "zhang"]);
+fn a_paper_by_itself_is_listed_with_its_studies_and_how_it_is_run() {
+    let text = listed(&["list", "papers", "zhang"]);
     for part in
         ["\n  Y. Zhang, ", " claims, 6 studies\n", "\n  ensemble: How are ", "\n  replan repro zhang "]
     {
-        assert!(said.contains(part), "{part}\n{said}");
+        assert!(text.contains(part), "{part}\n{text}");
     }
 }
 
 #[test]
-fn a_study_by_itself_is_told_with_its_problems_contenders_and_trials() {
-    let said = listed(&["list", "studies", "movingai_sample/scenarios"]);
+fn a_study_by_itself_is_listed_with_its_problems_contenders_and_trials() {
+    let text = listed(&["list", "studies", "movingai_sample/scenarios"]);
     for part in [
         "\n  paper: ",
         "\n  120 trials under the default",
@@ -140,15 +140,15 @@ fn a_study_by_itself_is_told_with_its_problems_contenders_and_trials() {
         "\nContenders\n",
         ": astar; 1 seed\n",
     ] {
-        assert!(said.contains(part), "{part}\n{said}");
+        assert!(text.contains(part), "{part}\n{text}");
     }
 }
 
 /// What the program prints in the project's folder, of which no line is wider than 80 columns.
 fn listed(arguments: &[&str]) -> String {
     let mut list = Command::new(env!("CARGO_BIN_EXE_replan"));
-    let said = list.args(arguments).current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
-    let said = String::from_utf8(said.stdout).unwrap();
-    assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
-    said
+    let output = list.args(arguments).current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
+    let output = String::from_utf8(output.stdout).unwrap();
+    assert!(output.lines().all(|line| line.chars().count() <= 80), "{output}");
+    output
 }

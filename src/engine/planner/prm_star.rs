@@ -1,0 +1,152 @@
+//! PRM*: a roadmap of free samples, each joined with its `e (1 + 1 / d) ln n` nearest, searched as it grows.
+//!
+//! # Source
+//! Karaman & Frazzoli, *Int. J. Robotics Research* 30(7), 846 (2011), algorithm 4 with k-nearest neighbours, one sample at a time.
+
+use super::rrt_star::neighbour_count;
+use super::sampled::{Found, IMPROVING_COLUMNS, local, planned};
+use super::{Build, Entry, Invalid, Plan, Planner, Request};
+use crate::sampling::{Draw, DrawSetting, Motions, Tree};
+use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, SideInputs, Stop, Ties, Update, sum};
+use crate::space::WorldKind;
+use base::settings::Accepted;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "prm_star",
+    about: "a roadmap whose samples are joined with ever more nearest ones, searched whenever it has grown by a share",
+    revision: 1,
+    needs: WorldKind::Roadmap,
+    columns: IMPROVING_COLUMNS,
+    settings: Accepted::shape::<PrmStar>(),
+    example: r#"
+sampler = "halton"
+iterations = 1_000
+growth = 1.1
+"#,
+    build: Build::Planner(|settings| {
+        let read: PrmStar = settings.read()?;
+        Ok(Box::new(read))
+    }),
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct PrmStar {
+    /// Where samples come from.
+    sampler: DrawSetting,
+    /// Samples; the study's budget of expansions limits them as well.
+    #[schemars(range(min = 1, max = 10_000_000))]
+    iterations: u64,
+    /// The roadmap is searched after the first, and whenever there were so many times as many iterations as at the search before.
+    #[schemars(range(min = 1.001, max = 100))]
+    growth: f64,
+}
+
+/// The roadmap: a node's neighbours, each with how far it is.
+struct Roadmap {
+    nodes: Tree,
+    links: Vec<Vec<(u32, f64)>>,
+}
+
+impl Graph for &Roadmap {
+    type Cost = f64;
+
+    fn node_count(&self) -> usize {
+        self.links.len()
+    }
+
+    fn successors(&mut self, node: u32, mut visit: impl FnMut(u32, f64)) {
+        self.links[node as usize].iter().for_each(|(to, gap)| visit(*to, *gap));
+    }
+}
+
+impl Roadmap {
+    /// Adds a free configuration and joins it with those near.
+    fn add(&mut self, motions: &mut Motions<'_>, config: &[f64]) {
+        let near = self.nodes.nearest_of(config, neighbour_count(self.links.len(), config.len()));
+        let node = self.nodes.add(config, 0);
+        self.links.push(Vec::new());
+        for (other, gap) in near {
+            if motions.goes(self.nodes.config(other), config) {
+                self.links[node as usize].push((other, gap));
+                self.links[other as usize].push((node, gap));
+            }
+        }
+    }
+
+    /// Takes the link between two nodes away.
+    fn part(&mut self, [a, b]: [u32; 2]) {
+        self.links[a as usize].retain(|(to, _)| *to != b);
+        self.links[b as usize].retain(|(to, _)| *to != a);
+    }
+
+    /// The nodes of the shortest way from the first node to the second.
+    fn shortest(&self, motions: &Motions<'_>) -> Option<Vec<u32>> {
+        let h = |node: u32| motions.distance(self.nodes.config(node), self.nodes.config(1));
+        let mut graph = self;
+        let terms = SideInputs {
+            graph: &mut graph,
+            estimate: &Combined { h, combine: sum },
+            observer: &mut (),
+            update: Update::default(),
+        };
+        let rules = Rules { stop: Stop::GoalPopped, max_expansions: u64::MAX };
+        let report = Search::new(Heap::new(Ties::Fifo)).run(terms, 0, |node| node == 1, rules, &mut ());
+        if let Outcome::Solved(route) = report.outcome { Some(route.nodes) } else { None }
+    }
+}
+
+impl PrmStar {
+    fn search(&self, motions: &mut Motions<'_>, request: &Request<'_>) -> Found {
+        let mut found = Found::default();
+        let mut draw = Draw::new(self.sampler, request.seed);
+        let mut map = Roadmap { nodes: Tree::new(motions, request.start), links: vec![Vec::new()] };
+        map.add(motions, request.goal);
+        let limit = self.iterations.min(request.expansions);
+        let mut due = 1.0;
+        while found.iterations < limit {
+            found.iterations += 1;
+            let sample = motions.sample(&mut draw);
+            if local(request).refusal(&sample).is_none() {
+                map.add(motions, &sample);
+            }
+            if (found.iterations as f64) < due && found.iterations < limit {
+                continue;
+            }
+            due = found.iterations as f64 * self.growth;
+            while let Some(nodes) = map.shortest(motions) {
+                let path: Vec<Vec<f64>> = nodes.iter().map(|node| map.nodes.config(*node).to_vec()).collect();
+                let Some(leg) = motions.refused_leg(&path) else {
+                    if found.note(motions.length(&path)) {
+                        found.path = path;
+                    }
+                    break;
+                };
+                map.part([nodes[leg], nodes[leg + 1]]);
+            }
+        }
+        found.nodes = map.links.len();
+        found
+    }
+}
+
+impl Planner for PrmStar {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        planned(request, true, |motions| self.search(motions, request))
+    }
+
+    fn is_optimal(&self) -> bool {
+        false
+    }
+
+    fn is_complete(&self) -> bool {
+        false
+    }
+
+    fn draws(&self) -> bool {
+        self.sampler == DrawSetting::Seeded
+    }
+}

@@ -1,0 +1,233 @@
+//! RRT-Connect with VAMP's settings: balanced trees, dynamic domain, a Halton sequence.
+//!
+//! # Source
+//! Kuffner & `LaValle`, *RRT-Connect: An Efficient Approach to Single-Query Path Planning*, ICRA 2000; the balance of trees as in VAMP
+//! (Thomason, Kingston & Kavraki, *Motions in Microseconds via Vectorized Sampling-Based Planning*, ICRA 2024); the dynamic domain as in
+//! Yershova et al., ICRA 2005, and Jaillet et al., IROS 2005 (adaptive radius).
+
+use super::sampled::{COLUMNS, Found, extended, planned};
+use super::{Build, Entry, Invalid, Plan, Planner, Request};
+use crate::sampling::{Draw, DrawSetting, Motions, Tree};
+use crate::space::WorldKind;
+use base::settings::Accepted;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "rrt_connect",
+    about: "two trees, from start and goal, that grow to samples and to each other; dynamic domain, balance and sampler as settings",
+    revision: 1,
+    needs: WorldKind::Roadmap,
+    columns: COLUMNS,
+    settings: Accepted::shape::<RrtConnect>(),
+    example: r#"
+range = 2
+sampler = "halton"
+balance = 1
+dynamic_domain = { radius = 4, alpha = 0.0001, least_radius = 1 }
+first = "start"
+iterations = 100_000
+nodes = 100_000
+"#,
+    build: Build::Planner(|settings| {
+        let read: RrtConnect = settings.read()?;
+        Ok(Box::new(read))
+    }),
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct RrtConnect {
+    /// The longest step: the root of the sum of squares of radians and, of joints that slide, metres; millimetres in the plane.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    range: f64,
+    /// Where samples come from.
+    sampler: DrawSetting,
+    /// Trees take turns only while their sizes differ by less than this share of the one at hand; they always do if absent.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    balance: Option<f64>,
+    /// Nodes at obstacles draw samples from a ball around them alone; all draw from everywhere if absent.
+    dynamic_domain: Option<DynamicDomain>,
+    /// Whose tree grows first.
+    first: FirstTree,
+    /// Samples at most; the study's budget of expansions limits them as well.
+    #[schemars(range(min = 1))]
+    iterations: u64,
+    /// Nodes of both trees at most.
+    #[schemars(range(min = 2, max = 10_000_000))]
+    nodes: usize,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct DynamicDomain {
+    /// The radius of a node from which a first step failed, in the unit of `range`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    radius: f64,
+    /// By which share it grows with a step that is free, and shrinks with one that is not.
+    #[schemars(range(min = 0, max = 1))]
+    alpha: f64,
+    /// The least radius.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    least_radius: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum FirstTree {
+    /// The start's.
+    Start,
+    /// The goal's.
+    Goal,
+}
+
+/// One of the two trees, with the radius of each node.
+struct Side {
+    tree: Tree,
+    radii: Vec<f64>,
+}
+
+impl Side {
+    fn new(motions: &Motions<'_>, root: &[f64]) -> Self {
+        Self { tree: Tree::new(motions, root), radii: vec![f64::INFINITY] }
+    }
+
+    fn add(&mut self, config: &[f64], parent: u32) -> u32 {
+        self.radii.push(f64::INFINITY);
+        self.tree.add(config, parent)
+    }
+}
+
+impl DynamicDomain {
+    /// The radius after a step from a node that has this one.
+    fn after(&self, radius: f64, is_free: bool) -> f64 {
+        match (radius.is_finite(), is_free) {
+            (false, true) => radius,
+            (false, false) => self.radius,
+            (true, true) => radius * (1.0 + self.alpha),
+            (true, false) => (radius * (1.0 - self.alpha)).max(self.least_radius),
+        }
+    }
+}
+
+impl RrtConnect {
+    fn search(&self, motions: &mut Motions<'_>, request: &Request<'_>) -> Found {
+        let mut found = Found::default();
+        let straight = vec![request.start.to_vec(), request.goal.to_vec()];
+        if motions.goes(request.start, request.goal) && motions.refused_leg(&straight).is_none() {
+            found.path = straight;
+            return found;
+        }
+        let mut draw = Draw::new(self.sampler, request.seed);
+        let mut sides = [request.start, request.goal].map(|end| Side::new(motions, end));
+        // Before the first sample the trees take turns once.
+        let mut own = usize::from(self.first == FirstTree::Start);
+        let limit = self.iterations.min(request.expansions);
+        while found.iterations < limit && sides[0].tree.count() + sides[1].tree.count() < self.nodes {
+            found.iterations += 1;
+            let [size, other] = [own, 1 - own].map(|side| sides[side].tree.count() as f64);
+            if self.balance.is_none_or(|ratio| (size - other).abs() / size < ratio) {
+                own = 1 - own;
+            }
+            let sample = motions.sample(&mut draw);
+            if let Some(met) = self.grow(motions, &mut sides, own, &sample) {
+                let path = joined(&sides, own, met);
+                if motions.refused_leg(&path).is_none() {
+                    found.path = path;
+                    break;
+                }
+            }
+        }
+        found.nodes = sides.iter().map(|side| side.tree.count()).sum();
+        found
+    }
+
+    /// Grows one tree to a sample and then to the other tree; gives a node of each where they meet, the own first.
+    fn grow(
+        &self,
+        motions: &mut Motions<'_>,
+        sides: &mut [Side; 2],
+        own: usize,
+        sample: &[f64],
+    ) -> Option<[u32; 2]> {
+        let (near, distance) = sides[own].tree.nearest(sample);
+        let radius = sides[own].radii[near as usize];
+        if self.dynamic_domain.is_some() && radius < distance {
+            return None;
+        }
+        let step = extended(motions, &sides[own].tree, near, sample, self.range);
+        if let Some(domain) = &self.dynamic_domain {
+            sides[own].radii[near as usize] = domain.after(radius, step.is_some());
+        }
+        let mut last = sides[own].add(&step?, near);
+        let (target, distance) = sides[1 - own].tree.nearest(sides[own].tree.config(last));
+        let goal = sides[1 - own].tree.config(target).to_vec();
+        let from = sides[own].tree.config(last).to_vec();
+        let steps = (distance / self.range).ceil().max(1.0) as u32;
+        for step in 1..=steps {
+            let to = motions.between(&from, &goal, f64::from(step) / f64::from(steps));
+            if sides[0].tree.count() + sides[1].tree.count() >= self.nodes
+                || !motions.goes(sides[own].tree.config(last), &to)
+            {
+                return None;
+            }
+            last = sides[own].add(&to, last);
+        }
+        Some([last, target])
+    }
+}
+
+/// The path from start to goal over a node of each tree, which are at one place.
+fn joined(sides: &[Side; 2], own: usize, [last, target]: [u32; 2]) -> Vec<Vec<f64>> {
+    let mut path = sides[own].tree.path(last);
+    path.pop();
+    let mut rest = sides[1 - own].tree.path(target);
+    rest.reverse();
+    path.extend(rest);
+    if own == 1 {
+        path.reverse();
+    }
+    path
+}
+
+impl Planner for RrtConnect {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        planned(request, false, |motions| self.search(motions, request))
+    }
+
+    fn is_optimal(&self) -> bool {
+        false
+    }
+
+    fn is_complete(&self) -> bool {
+        false
+    }
+
+    fn draws(&self) -> bool {
+        self.sampler == DrawSetting::Seeded
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_radius_of_a_node_is_set_by_its_first_failed_step_and_then_follows_its_steps() {
+        let domain = DynamicDomain { radius: 4.0, alpha: 0.5, least_radius: 1.5 };
+        let after = |steps: &[bool]| {
+            steps.iter().fold(f64::INFINITY, |radius, is_free| domain.after(radius, *is_free))
+        };
+        for (steps, radius) in [
+            (&[true, true][..], f64::INFINITY),
+            (&[true, false], 4.0),
+            (&[false, true], 6.0),
+            (&[false, false], 2.0),
+            (&[false, false, false], 1.5),
+            (&[false, false, false, true], 2.25),
+        ] {
+            assert_eq!(after(steps), radius, "{steps:?}");
+        }
+    }
+}

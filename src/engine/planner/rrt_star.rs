@@ -1,0 +1,276 @@
+//! RRT*, on samples from everywhere or from where a shorter path can be.
+//!
+//! It goes on until its budget is spent. Informed samples come from the ellipsoid of what is on no longer way from start to goal than the
+//! best path so far; a joint that turns without end is taken the shorter way round there, so paths the other way round are then found
+//! no more.
+//!
+//! # Source
+//! Karaman & Frazzoli, *Int. J. Robotics Research* 30(7), 846 (2011), algorithm 6 with k-nearest neighbours; Gammell, Srinivasa &
+//! Barfoot, *Informed RRT\**, IROS 2014.
+
+use super::rrt::sample;
+use super::sampled::{Found, IMPROVING_COLUMNS, extended, planned};
+use super::{Build, Entry, Invalid, Plan, Planner, Request};
+use crate::sampling::{Draw, DrawSetting, Motions, Tree};
+use crate::space::WorldKind;
+use base::settings::Accepted;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "rrt_star",
+    about: "RRT that goes on: each new node takes the cheapest of its neighbours as parent and is offered to them; informed or not",
+    revision: 1,
+    needs: WorldKind::Roadmap,
+    columns: IMPROVING_COLUMNS,
+    settings: Accepted::shape::<RrtStar>(),
+    example: r#"
+range = 2
+sampler = "seeded"
+goal_share = 0.05
+iterations = 1_000
+informed = true
+"#,
+    build: Build::Planner(|settings| {
+        let read: RrtStar = settings.read()?;
+        if read.informed && read.sampler == DrawSetting::Halton {
+            let message = "informed samples are random; sampler = \"seeded\" is accepted";
+            return Err(settings.error_at("sampler", message));
+        }
+        Ok(Box::new(read))
+    }),
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct RrtStar {
+    /// The longest step: the root of the sum of squares of radians and, of joints that slide, metres; millimetres in the plane.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    range: f64,
+    /// Where samples come from.
+    sampler: DrawSetting,
+    /// The share of iterations whose sample is the goal, until there is a path.
+    #[schemars(range(min = 0, max = 1))]
+    goal_share: f64,
+    /// Samples; the study's budget of expansions limits them as well.
+    #[schemars(range(min = 1, max = 10_000_000))]
+    iterations: u64,
+    /// Whether samples after the first path come from where a shorter one can be.
+    informed: bool,
+}
+
+/// How many nearest nodes are neighbours among `count`: `e (1 + 1 / d) ln n`.
+pub(super) fn neighbour_count(count: usize, axes: usize) -> usize {
+    let factor = std::f64::consts::E * (1.0 + 1.0 / axes as f64);
+    (factor * libm::log(count as f64)).ceil().max(1.0) as usize
+}
+
+/// The tree of RRT*: what each node costs, and which were reached from it.
+struct Costs {
+    tree: Tree,
+    cost: Vec<f64>,
+    children: Vec<Vec<u32>>,
+}
+
+impl Costs {
+    fn new(tree: Tree) -> Self {
+        Self { tree, cost: vec![0.0], children: vec![Vec::new()] }
+    }
+
+    fn add(&mut self, config: &[f64], parent: u32, cost: f64) -> u32 {
+        let node = self.tree.add(config, parent);
+        self.children[parent as usize].push(node);
+        self.children.push(Vec::new());
+        self.cost.push(cost);
+        node
+    }
+
+    /// Makes `parent` the parent of a node, which costs less there, and all behind it with it.
+    fn rewire(&mut self, node: u32, parent: u32, cost: f64) {
+        let old = self.tree.parent(node);
+        self.children[old as usize].retain(|child| *child != node);
+        self.children[parent as usize].push(node);
+        self.tree.set_parent(node, parent);
+        let less = self.cost[node as usize] - cost;
+        let mut behind = vec![node];
+        while let Some(node) = behind.pop() {
+            self.cost[node as usize] -= less;
+            behind.extend_from_slice(&self.children[node as usize]);
+        }
+    }
+}
+
+/// How often an informed sample is drawn again that is outside the limits or the ellipsoid.
+const TRIES: u32 = 1000;
+
+/// A sample evenly from what is within the limits and on no way from start to goal that is longer than `length`.
+///
+/// The ellipsoid and the limits take turns as what is drawn from; a draw that is in both is the sample. So neither an ellipsoid much
+/// larger than the limits nor one much smaller takes many draws.
+fn informed(draw: &mut Draw, motions: &Motions<'_>, request: &Request<'_>, length: f64) -> Option<Vec<f64>> {
+    let way = |at: &Vec<f64>| motions.distance(request.start, at) + motions.distance(at, request.goal);
+    (0..TRIES).find_map(|_| {
+        in_ellipsoid(draw, motions, request, length)
+            .or_else(|| Some(motions.sample(draw)).filter(|sample| way(sample) <= length))
+    })
+}
+
+/// A sample evenly from the ellipsoid about start and goal of what is on no way longer than `length`; `None` outside the limits.
+fn in_ellipsoid(
+    draw: &mut Draw,
+    motions: &Motions<'_>,
+    request: &Request<'_>,
+    length: f64,
+) -> Option<Vec<f64>> {
+    let along = motions.change(request.start, request.goal);
+    let least = along.iter().map(|by| by * by).sum::<f64>().sqrt();
+    let narrow = (length * length - least * least).max(0.0).sqrt();
+    let mut ball = draw.in_ball(along.len());
+    for (axis, part) in ball.iter_mut().enumerate() {
+        *part *= 0.5 * if axis == 0 { length } else { narrow };
+    }
+    // The mirror that takes the first axis to the direction of the goal.
+    let mut normal: Vec<f64> = along.iter().map(|by| -by / least).collect();
+    normal[0] += 1.0;
+    let square: f64 = normal.iter().map(|part| part * part).sum();
+    if square > 0.0 {
+        let across = 2.0 * normal.iter().zip(&ball).map(|(a, b)| a * b).sum::<f64>() / square;
+        ball.iter_mut().zip(&normal).for_each(|(part, by)| *part -= across * by);
+    }
+    let middle = request.start.iter().zip(&along).map(|(start, by)| start + 0.5 * by);
+    let sample = motions.settled(middle.zip(ball).map(|(middle, by)| middle + by).collect());
+    let limits = motions.limits().iter().zip(motions.turn_on());
+    let is_within = sample
+        .iter()
+        .zip(limits)
+        .all(|(value, (limits, turns_on))| *turns_on || (limits[0]..=limits[1]).contains(value));
+    is_within.then_some(sample)
+}
+
+impl RrtStar {
+    fn search(&self, motions: &mut Motions<'_>, request: &Request<'_>) -> Found {
+        let mut found = Found::default();
+        let mut draw = Draw::new(self.sampler, request.seed);
+        let mut costs = Costs::new(Tree::new(motions, request.start));
+        // Nodes from which a free motion leads to the goal, each with its length.
+        let mut before_goal: Vec<(u32, f64)> = Vec::new();
+        while found.iterations < self.iterations.min(request.expansions) {
+            found.iterations += 1;
+            let length = found.incumbents.last().map(|(_, length)| *length);
+            let sample = match length {
+                Some(length) if self.informed => informed(&mut draw, motions, request, length),
+                Some(_) => Some(motions.sample(&mut draw)),
+                None => Some(sample(&mut draw, motions, request.goal, self.goal_share)),
+            };
+            let Some(sample) = sample else { continue };
+            let near = costs.tree.nearest(&sample).0;
+            let Some(step) = extended(motions, &costs.tree, near, &sample, self.range) else { continue };
+            let node = insert(motions, &mut costs, near, &step);
+            let to_goal = motions.distance(&step, request.goal);
+            if to_goal <= self.range && motions.goes(&step, request.goal) {
+                before_goal.push((node, to_goal));
+            }
+            let whole = |(node, rest): &(u32, f64)| costs.cost[*node as usize] + rest;
+            let Some(last) = before_goal.iter().copied().min_by(|a, b| whole(a).total_cmp(&whole(b))) else {
+                continue;
+            };
+            if length.is_some_and(|known| whole(&last) >= known) {
+                continue;
+            }
+            let mut path = costs.tree.path(last.0);
+            path.push(request.goal.to_vec());
+            path.dedup();
+            if motions.refused_leg(&path).is_none() {
+                found.note(whole(&last));
+                found.path = path;
+            } else {
+                before_goal.retain(|(node, _)| *node != last.0);
+            }
+        }
+        found.nodes = costs.tree.count();
+        found
+    }
+}
+
+/// Adds a node under the cheapest neighbour and offers it to the others.
+fn insert(motions: &mut Motions<'_>, costs: &mut Costs, nearest: u32, config: &[f64]) -> u32 {
+    let count = neighbour_count(costs.tree.count(), config.len());
+    let near = costs.tree.nearest_of(config, count);
+    let first = motions.distance(costs.tree.config(nearest), config);
+    let (mut parent, mut cost) = (nearest, costs.cost[nearest as usize] + first);
+    let mut joined = vec![nearest];
+    for (other, gap) in &near {
+        let through = costs.cost[*other as usize] + gap;
+        if through < cost && motions.goes(costs.tree.config(*other), config) {
+            (parent, cost) = (*other, through);
+            joined.push(*other);
+        }
+    }
+    let node = costs.add(config, parent, cost);
+    for (other, gap) in near {
+        let through = cost + gap;
+        let is_shorter = through < costs.cost[other as usize];
+        if is_shorter && (joined.contains(&other) || motions.goes(config, costs.tree.config(other))) {
+            costs.rewire(other, node, through);
+        }
+    }
+    node
+}
+
+impl Planner for RrtStar {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        planned(request, true, |motions| self.search(motions, request))
+    }
+
+    fn is_optimal(&self) -> bool {
+        false
+    }
+
+    fn is_complete(&self) -> bool {
+        false
+    }
+
+    fn draws(&self) -> bool {
+        self.sampler == DrawSetting::Seeded || self.goal_share > 0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::World;
+    use crate::space::roadmap::{Counted, Local, Near, PlaneMap, Roadmap};
+
+    #[test]
+    fn informed_samples_are_even_within_the_limits_and_on_no_longer_way() {
+        let local = Local::Plane(PlaneMap::new([100.0, 100.0], Vec::new()));
+        let roadmap = Roadmap::build(local, Vec::new(), Near::Places(0.0), Counted::Accepted);
+        let world = World::Roadmap(Box::new(roadmap));
+        let (start, goal) = ([20.0, 5.0], [80.0, 20.0]);
+        let request =
+            Request { world: &world, start: &start, goal: &goal, expansions: 1, seed: 1, trace: false };
+        let motions = Motions::new(super::super::sampled::local(&request));
+        // From a sliver of the square to nearly all of it.
+        for length in [62.5, 70.0, 100.0, 140.0] {
+            let mut draw = Draw::new(DrawSetting::Seeded, 11);
+            let way = |at: &[f64]| motions.distance(&start, at) + motions.distance(at, &goal);
+            let is_within =
+                |at: &Vec<f64>| at.iter().all(|x| (0.0..=100.0).contains(x)) && way(at) <= length + 0.2;
+            let samples: Vec<_> =
+                (0..4000).filter_map(|_| informed(&mut draw, &motions, &request, length)).collect();
+            assert_eq!(samples.len(), 4000, "seed 11, {length} mm: each draw gives one");
+            assert!(samples.iter().all(is_within), "seed 11, {length} mm");
+            let everywhere = std::iter::repeat_with(|| motions.sample(&mut draw));
+            let kept: Vec<_> = everywhere.filter(|at| way(at) <= length).take(4000).collect();
+            for (axis, middle) in [(0, 50.0), (1, 12.5), (1, 40.0)] {
+                let below = |points: &[Vec<f64>]| points.iter().filter(|at| at[axis] < middle).count();
+                let [below, known] = [&samples, &kept].map(|points| below(points));
+                assert!(
+                    below.abs_diff(known) < 160,
+                    "seed 11, {length} mm: {below} and {known} below {middle}"
+                );
+            }
+        }
+    }
+}

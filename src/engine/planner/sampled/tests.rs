@@ -1,0 +1,150 @@
+//! Planners that sample, around a wall whose shortest path is known.
+
+use super::super::{Build, Ending, Plan, Planner, Request, find};
+use crate::geometry::planar::ConvexPolygon;
+use crate::space::World;
+use crate::space::roadmap::{Counted, Local, Near, PlaneMap, RASTER_MM, Roadmap};
+use base::settings::Settings;
+
+/// Over both upper corners of the wall: two legs of 65 mm and its width.
+const SHORTEST_MM: f64 = 140.0;
+
+/// A square of 100 mm with bars from lower left to upper right corners.
+fn barred(bars: &[[f64; 4]]) -> World {
+    let polygon = |[x0, y0, x1, y1]: &[f64; 4]| {
+        let corners = [[*x0, *y0], [*x1, *y0], [*x1, *y1], [*x0, *y1]];
+        ConvexPolygon::new(corners.map(Into::into).to_vec()).expect("a bar is convex")
+    };
+    let local = Local::Plane(PlaneMap::new([100.0, 100.0], bars.iter().map(polygon).collect()));
+    World::Roadmap(Box::new(Roadmap::build(local, Vec::new(), Near::Places(0.0), Counted::Accepted)))
+}
+
+/// A square of 100 mm with a wall from below.
+fn world() -> World {
+    barred(&[[45.0, 0.0, 55.0, 80.0]])
+}
+
+fn planner(name: &str, settings: &str) -> Box<dyn Planner> {
+    let Build::Planner(build) = find(name).unwrap().build else { panic!("{name} is a planner") };
+    build(&Settings::composed("a test", settings.parse().unwrap())).unwrap()
+}
+
+fn plan(planner: &dyn Planner, world: &World, seed: u64) -> Plan {
+    let (start, goal) = ([20.0, 20.0], [80.0, 20.0]);
+    let request = Request { world, start: &start, goal: &goal, expansions: 100_000, seed, trace: true };
+    planner.plan(&request).unwrap()
+}
+
+const CONNECT: &str = "range = 20\nbalance = 1\nfirst = 'start'\niterations = 5000\nnodes = 5000\n";
+
+#[test]
+fn the_same_seed_gives_the_same_tree_and_another_one_only_where_samples_are_random() {
+    let world = world();
+    for (sampler, depends) in [("halton", false), ("seeded", true)] {
+        let planner = planner("rrt_connect", &format!("{CONNECT}sampler = '{sampler}'"));
+        assert_eq!(planner.draws(), depends);
+        let [one, again, other] = [1, 1, 2].map(|seed| plan(planner.as_ref(), &world, seed));
+        assert_eq!((one.ending, &one), (Ending::Solved, &again));
+        assert_eq!(one != other, depends, "{sampler}");
+    }
+}
+
+#[test]
+fn limits_end_a_search_without_a_path() {
+    let world = world();
+    for limits in ["iterations = 1\nnodes = 5000", "iterations = 5000\nnodes = 3"] {
+        let settings = format!("range = 1\nfirst = 'goal'\nsampler = 'halton'\n{limits}");
+        let plan = plan(planner("rrt_connect", &settings).as_ref(), &world, 1);
+        assert_eq!((plan.ending, plan.path.len(), plan.cost), (Ending::BudgetSpent, 0, None), "{limits}");
+    }
+}
+
+#[test]
+fn planners_that_go_on_come_near_the_shortest_path_and_each_path_they_note_is_shorter() {
+    let world = world();
+    for (name, settings) in [
+        ("rrt_star", "range = 20\nsampler = 'seeded'\ngoal_share = 0.05\niterations = 3000\ninformed = true"),
+        (
+            "rrt_star",
+            "range = 20\nsampler = 'halton'\ngoal_share = 0.05\niterations = 3000\ninformed = false",
+        ),
+        ("prm_star", "sampler = 'halton'\niterations = 1500\ngrowth = 1.5"),
+    ] {
+        let planner = planner(name, settings);
+        for seed in 0..3 {
+            let plan = plan(planner.as_ref(), &world, seed);
+            let cost = plan.cost.unwrap();
+            assert!((SHORTEST_MM..1.05 * SHORTEST_MM).contains(&cost), "{name}, seed {seed}: {cost} mm");
+            let incumbents = &plan.traces[0].values;
+            let noted: Vec<[f64; 2]> = incumbents.chunks(2).map(|pair| [pair[0], pair[1]]).collect();
+            assert!(noted.len() > 1, "{name}, seed {seed}: {noted:?}");
+            assert!(noted.windows(2).all(|pair| pair[0][0] <= pair[1][0] && pair[0][1] > pair[1][1]));
+            assert!(
+                (noted[noted.len() - 1][1] - cost).abs() < 1e-9,
+                "{name}, seed {seed}: {noted:?}, {cost}"
+            );
+            assert_eq!(plan.counts["incumbents"].as_f64(), noted.len() as f64);
+        }
+    }
+}
+
+/// Dynamic domains are for traps: most samples lie behind walls that surround the start. In the open they spare next to nothing.
+#[test]
+fn in_a_trap_a_dynamic_domain_spares_two_in_five_of_the_steps_that_fail() {
+    let trap = barred(&[
+        [10.0, 10.0, 12.0, 40.0],
+        [10.0, 10.0, 40.0, 12.0],
+        [10.0, 38.0, 40.0, 40.0],
+        [38.0, 10.0, 40.0, 24.0],
+        [38.0, 25.0, 40.0, 40.0],
+    ]);
+    let failed = |domain: &str| -> f64 {
+        let settings = format!(
+            "range = 20\nsampler = 'seeded'\nfirst = 'start'\niterations = 50_000\nnodes = 50_000\n{domain}"
+        );
+        let planner = planner("rrt_connect", &settings);
+        let failed = |seed| {
+            let plan = plan(planner.as_ref(), &trap, seed);
+            assert_eq!(plan.ending, Ending::Solved, "seed {seed}");
+            plan.counts["motions"].as_f64() - plan.counts["tree_nodes"].as_f64()
+        };
+        (0..20).map(failed).sum()
+    };
+    let [with, without] = ["dynamic_domain = { radius = 10, alpha = 0.1, least_radius = 5 }", ""].map(failed);
+    assert!(with < 0.6 * without, "{with} failed steps with a dynamic domain, {without} without");
+}
+
+/// Where the way past the wall is long, the ellipsoid holds the whole square, and informed samples are samples from everywhere.
+#[test]
+fn past_a_low_wall_informed_samples_come_nearer_to_the_shortest_path_than_samples_from_everywhere() {
+    let low = barred(&[[45.0, 0.0, 55.0, 22.0]]);
+    let shortest_mm = 2.0 * 629.0_f64.sqrt() + 10.0;
+    let above = |informed: bool| {
+        let settings = format!(
+            "range = 20\nsampler = 'seeded'\ngoal_share = 0.05\niterations = 300\ninformed = {informed}"
+        );
+        let planner = planner("rrt_star", &settings);
+        let cost = |seed| plan(planner.as_ref(), &low, seed).cost.unwrap();
+        (0..10).map(cost).sum::<f64>() / 10.0 - shortest_mm
+    };
+    let [informed, even] = [true, false].map(above);
+    assert!(
+        informed > 0.0 && informed < even / 3.0,
+        "{informed} mm above the shortest path, without {even} mm"
+    );
+}
+
+#[test]
+fn points_in_the_plane_lie_on_its_raster() {
+    let world = world();
+    for (name, settings) in [
+        ("rrt", "range = 7\nsampler = 'seeded'\ngoal_share = 0.05\niterations = 5000"),
+        ("rrt_connect", "range = 7\nsampler = 'halton'\nfirst = 'start'\niterations = 5000\nnodes = 5000"),
+        ("rrt_star", "range = 7\nsampler = 'seeded'\ngoal_share = 0.05\niterations = 1000\ninformed = true"),
+        ("prm_star", "sampler = 'halton'\niterations = 500\ngrowth = 1.5"),
+    ] {
+        let path = plan(planner(name, settings).as_ref(), &world, 3).path;
+        let is_on = |x: &f64| (x / RASTER_MM).fract() == 0.0;
+        assert!(path.len() > 2 && path.iter().flatten().all(is_on), "{name}: {path:?}");
+    }
+}

@@ -1,0 +1,374 @@
+//! Robots made of spheres, eight configurations at once.
+//!
+//! Places and distances run in f32. A comparison inside the error band of an obstacle, and one with a solid that lanes only bound (a
+//! cylinder's prism, a hull), leaves its configurations in doubt, and the scalar code decides those. So a verdict from here is the
+//! scalar code's. Spheres of one link are first compared by a ball around them all.
+#![expect(
+    clippy::inline_always,
+    reason = "lanes are compiled for the instructions of the function they end up in"
+)]
+
+use crate::geometry::Vec3;
+use crate::geometry::lanes::{
+    Frames, Point, ROUGH_LANES, ROUGHNESS, Rough, RoughRow, Select, Simd, SimdBase, SimdFloat, SimdMask,
+    sincos_rough,
+};
+use crate::kinematics::open_chain::{OpenChain, frame};
+use base::robot::{Kind, Robot};
+use base::solid::{Form, Solid, prism_radius_m};
+use nalgebra::Matrix3;
+
+/// The largest absolute joint value that is taken to f32, radians or metres.
+const MOST: f64 = 7.0;
+/// How far f32 may put a sphere of a robot off, metres.
+const PLACED_M: f64 = 2e-5;
+
+/// What a block of eight configurations comes to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Look {
+    /// One at least is in contact.
+    Contact,
+    /// None is in contact but those that are marked, which the scalar code decides.
+    FreeBut([bool; ROUGH_LANES]),
+}
+
+/// A joint: the fixed turn and place before it, after which it turns about or slides along z.
+#[derive(Debug, Clone)]
+struct LaneJoint {
+    axes: [[f32; 3]; 3],
+    origin: [f32; 3],
+    slides: bool,
+}
+
+/// The spheres of one link of the file.
+#[derive(Debug, Clone)]
+struct Link {
+    /// The joint that moves it, from 1; 0 is the base.
+    moved_by: usize,
+    ball: Ball,
+    spheres: Vec<Ball>,
+    /// The number of its first sphere among all.
+    first: usize,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Ball {
+    centre: [f32; 3],
+    radius: f32,
+}
+
+/// An obstacle, and how far distances from it may be off.
+#[derive(Debug, Clone)]
+struct Still {
+    axes: [[f32; 3]; 3],
+    origin: [f32; 3],
+    form: StillForm,
+    band: f32,
+}
+
+#[derive(Debug, Clone)]
+enum StillForm {
+    Box([f32; 3]),
+    /// The radius of the cylinder, that of the prism's corners, and half the length.
+    Cylinder([f32; 2], f32),
+    Sphere(f32),
+    /// All that is known is a ball around it.
+    Within(f32),
+}
+
+/// Two links, by their numbers, some of whose spheres must not touch.
+#[derive(Debug, Clone)]
+struct LinkPair {
+    links: [usize; 2],
+    spheres: Vec<[usize; 2]>,
+}
+
+/// A robot of spheres among obstacles.
+#[derive(Debug, Clone)]
+pub(super) struct Spheres {
+    joints: Vec<LaneJoint>,
+    links: Vec<Link>,
+    stills: Vec<Still>,
+    pairs: Vec<LinkPair>,
+}
+
+/// Buffers that are reused from block to block.
+#[derive(Debug, Default, Clone)]
+pub(super) struct Memory {
+    frames: Vec<[RoughRow; 12]>,
+    balls: Vec<[RoughRow; 3]>,
+    spheres: Vec<[RoughRow; 3]>,
+    is_placed: Vec<bool>,
+}
+
+fn rough(v: &Vec3) -> [f32; 3] {
+    [v.x as f32, v.y as f32, v.z as f32]
+}
+
+fn columns(turn: &Matrix3<f64>) -> [[f32; 3]; 3] {
+    std::array::from_fn(|i| rough(&turn.column(i).into_owned()))
+}
+
+/// A turn that takes z to `axis`, a unit vector.
+fn from_z(axis: &Vec3) -> Matrix3<f64> {
+    let aside = if axis.x.abs() < 0.5 { Vec3::x() } else { Vec3::y() };
+    let y = axis.cross(&aside).normalize();
+    Matrix3::from_columns(&[y.cross(axis), y, *axis])
+}
+
+/// A ball around spheres.
+fn around(spheres: &[(Vec3, f64)]) -> Ball {
+    let middle = spheres.iter().map(|(at, _)| at).sum::<Vec3>() / spheres.len() as f64;
+    let radius = spheres.iter().map(|(at, radius)| (at - middle).norm() + radius).fold(0.0, f64::max);
+    Ball { centre: rough(&middle), radius: radius as f32 }
+}
+
+impl Spheres {
+    /// `None` if a part of the robot is no sphere.
+    pub(super) fn new(
+        robot: &Robot,
+        chain: &OpenChain,
+        obstacles: &[Solid],
+        pairs: &[[usize; 2]],
+    ) -> Option<Self> {
+        let turns: Vec<Matrix3<f64>> = chain.joints().iter().map(|joint| from_z(&joint.axis)).collect();
+        let joint = |(index, joint): (usize, &crate::kinematics::open_chain::OpenJoint)| {
+            let back = index.checked_sub(1).map_or(Matrix3::identity(), |last| turns[last].transpose());
+            LaneJoint {
+                axes: columns(&(back * joint.before.rotation * turns[index])),
+                origin: rough(&(back * joint.before.origin)),
+                slides: joint.joint.kind == Kind::Slides,
+            }
+        };
+        let joints = chain.joints().iter().enumerate().map(joint).collect();
+        let mut links: Vec<(usize, &str, Vec<(Vec3, f64)>)> = Vec::new();
+        let mut places = Vec::new();
+        for ((moved_by, solid), owner) in robot.solids.iter().zip(&robot.owners) {
+            let Form::Sphere(radius) = solid.form else { return None };
+            let back = moved_by.checked_sub(1).map_or(Matrix3::identity(), |last| turns[last].transpose());
+            let sphere = (back * Vec3::from(solid.pose.origin_m), radius);
+            let known = links.iter().position(|(by, name, _)| by == moved_by && name == owner);
+            let link = known.unwrap_or_else(|| {
+                links.push((*moved_by, owner, Vec::new()));
+                links.len() - 1
+            });
+            places.push((link, links[link].2.len()));
+            links[link].2.push(sphere);
+        }
+        let mut first = 0;
+        let links: Vec<Link> = links
+            .into_iter()
+            .map(|(moved_by, _, spheres)| {
+                let own = spheres
+                    .iter()
+                    .map(|(at, radius)| Ball { centre: rough(at), radius: *radius as f32 })
+                    .collect();
+                first += spheres.len();
+                Link { moved_by, ball: around(&spheres), spheres: own, first: first - spheres.len() }
+            })
+            .collect();
+        let mut link_pairs: Vec<LinkPair> = Vec::new();
+        for pair in pairs {
+            let [(a, i), (b, j)] = pair.map(|solid| places[solid]);
+            let spheres = [links[a].first + i, links[b].first + j];
+            match link_pairs.iter_mut().find(|known| known.links == [a, b]) {
+                Some(known) => known.spheres.push(spheres),
+                None => link_pairs.push(LinkPair { links: [a, b], spheres: vec![spheres] }),
+            }
+        }
+        let stills = obstacles.iter().map(Still::new).collect();
+        Some(Self { joints, links, stills, pairs: link_pairs })
+    }
+
+    /// Whether f32 has digits enough for these values.
+    pub(super) fn takes(q: &[f64]) -> bool {
+        q.iter().all(|value| value.abs() <= MOST)
+    }
+
+    /// What eight configurations come to, whose joints are in `values`.
+    #[inline(always)]
+    pub(super) fn look<S: Simd>(&self, simd: S, values: &[RoughRow], memory: &mut Memory) -> Look {
+        self.place(simd, values, memory);
+        let mut doubt = Rough::splat(simd, 0.0);
+        for (index, link) in self.links.iter().enumerate().filter(|(_, link)| link.moved_by > 0) {
+            for still in &self.stills {
+                let centre = point(simd, &memory.balls[index]);
+                let least = still.squares(simd, &centre).0;
+                if !least.simd_lt(square(link.ball.radius + still.band)).any_true() {
+                    continue;
+                }
+                self.place_spheres(simd, index, memory);
+                for (sphere, at) in link.spheres.iter().zip(&memory.spheres[link.first..]) {
+                    let (least, most) = still.squares(simd, &point(simd, at));
+                    let near = least.simd_lt(square(sphere.radius + still.band));
+                    if near.any_true() {
+                        if most.simd_lt(square((sphere.radius - still.band).max(0.0))).any_true() {
+                            return Look::Contact;
+                        }
+                        doubt = near.select(Rough::splat(simd, 1.0), doubt);
+                    }
+                }
+            }
+        }
+        for pair in &self.pairs {
+            let [a, b] = pair.links;
+            let apart = point(simd, &memory.balls[a]) - point(simd, &memory.balls[b]);
+            let reach = self.links[a].ball.radius + self.links[b].ball.radius + BAND;
+            if !apart.dot(apart).simd_lt(square(reach)).any_true() {
+                continue;
+            }
+            self.place_spheres(simd, a, memory);
+            self.place_spheres(simd, b, memory);
+            for [i, j] in &pair.spheres {
+                let apart = point(simd, &memory.spheres[*i]) - point(simd, &memory.spheres[*j]);
+                let [i, j] = [(a, *i), (b, *j)];
+                let [r, s] =
+                    [i, j].map(|(link, i)| self.links[link].spheres[i - self.links[link].first].radius);
+                let gap = apart.dot(apart);
+                let near = gap.simd_lt(square(r + s + BAND));
+                if near.any_true() {
+                    if gap.simd_lt(square(r + s - BAND)).any_true() {
+                        return Look::Contact;
+                    }
+                    doubt = near.select(Rough::splat(simd, 1.0), doubt);
+                }
+            }
+        }
+        Look::FreeBut(doubt.to_array().map(|mark| mark > 0.5))
+    }
+
+    /// Writes the frames of all links and the balls around their spheres.
+    #[inline(always)]
+    fn place<S: Simd>(&self, simd: S, values: &[RoughRow], memory: &mut Memory) {
+        let spheres = self.links.last().map_or(0, |link| link.first + link.spheres.len());
+        memory.frames.resize(self.joints.len() + 1, [[0.0; ROUGH_LANES]; 12]);
+        memory.balls.resize(self.links.len(), [[0.0; ROUGH_LANES]; 3]);
+        memory.spheres.resize(spheres, [[0.0; ROUGH_LANES]; 3]);
+        memory.is_placed.clear();
+        memory.is_placed.resize(self.links.len(), false);
+        let unit = |i: usize| Point::splat_rough(simd, std::array::from_fn(|j| f32::from(u8::from(i == j))));
+        let mut at = Frames { axes: [unit(0), unit(1), unit(2)], origin: Point::splat_rough(simd, [0.0; 3]) };
+        store_frame(&at, &mut memory.frames[0]);
+        for (index, (joint, row)) in self.joints.iter().zip(values).enumerate() {
+            let [x, y, z] = joint.axes.map(|axis| direction(simd, &at.axes, axis));
+            let origin = at.origin + direction(simd, &at.axes, joint.origin);
+            let value = Rough::load_array_ref(simd, row);
+            at = if joint.slides {
+                Frames { axes: [x, y, z], origin: origin.plus(value, z) }
+            } else {
+                let (s, c) = sincos_rough(value);
+                Frames { axes: [x.scaled(c).plus(s, y), y.scaled(c) - x.scaled(s), z], origin }
+            };
+            store_frame(&at, &mut memory.frames[index + 1]);
+        }
+        for (link, ball) in self.links.iter().zip(&mut memory.balls) {
+            let at = load_frame(simd, &memory.frames[link.moved_by]);
+            store(at.origin + direction(simd, &at.axes, link.ball.centre), ball);
+        }
+    }
+
+    /// Writes where the spheres of a link are, unless they are written.
+    #[inline(always)]
+    fn place_spheres<S: Simd>(&self, simd: S, index: usize, memory: &mut Memory) {
+        if std::mem::replace(&mut memory.is_placed[index], true) {
+            return;
+        }
+        let link = &self.links[index];
+        let at = load_frame(simd, &memory.frames[link.moved_by]);
+        for (sphere, place) in link.spheres.iter().zip(&mut memory.spheres[link.first..]) {
+            store(at.origin + direction(simd, &at.axes, sphere.centre), place);
+        }
+    }
+}
+
+/// The band of distances between two spheres of a robot.
+const BAND: f32 = PLACED_M as f32;
+
+impl Still {
+    fn new(solid: &Solid) -> Self {
+        let at = frame(&solid.pose);
+        let (form, reach) = match &solid.form {
+            Form::Box(half) => (StillForm::Box(half.map(|x| x as f32)), Vec3::from(*half).norm()),
+            Form::Cylinder(radius, length) => {
+                let corner = prism_radius_m(*radius);
+                let radii = [*radius, corner].map(|x| x as f32);
+                (StillForm::Cylinder(radii, 0.5 * *length as f32), corner + length)
+            }
+            Form::Sphere(radius) => (StillForm::Sphere(*radius as f32), *radius),
+            Form::Hull(points) => {
+                let reach = points.iter().map(|point| Vec3::from(*point).norm()).fold(0.0, f64::max);
+                (StillForm::Within(reach as f32), reach)
+            }
+        };
+        let band = PLACED_M + ROUGHNESS * (at.origin.norm() + reach);
+        Self { axes: columns(&at.rotation), origin: rough(&at.origin), form, band: band as f32 }
+    }
+
+    /// At least and at most the squares of the distances from eight points.
+    #[inline(always)]
+    fn squares<S: Simd>(&self, simd: S, at: &Point<Rough<S>>) -> (Rough<S>, Rough<S>) {
+        let apart = *at - Point::splat_rough(simd, self.origin);
+        let zero = Rough::splat(simd, 0.0);
+        let along = |axis: usize| apart.dot(Point::splat_rough(simd, self.axes[axis]));
+        let beyond = |length: Rough<S>, half: f32| (length - half).max(zero);
+        match self.form {
+            StillForm::Box(half) => {
+                let [x, y, z] = [0, 1, 2].map(|axis| beyond(along(axis).abs(), half[axis]));
+                let square = x.mul_add(x, y.mul_add(y, z * z));
+                (square, square)
+            }
+            StillForm::Cylinder([inner, outer], half) => {
+                let (x, y) = (along(0), along(1));
+                let out = x.mul_add(x, y * y).sqrt();
+                let up = beyond(along(2).abs(), half);
+                let [most, least] = [inner, outer].map(|radius| beyond(out, radius));
+                (least.mul_add(least, up * up), most.mul_add(most, up * up))
+            }
+            StillForm::Sphere(radius) => {
+                let gap = beyond(apart.dot(apart).sqrt(), radius);
+                (gap * gap, gap * gap)
+            }
+            StillForm::Within(radius) => {
+                let gap = beyond(apart.dot(apart).sqrt(), radius);
+                (gap * gap, Rough::splat(simd, f32::INFINITY))
+            }
+        }
+    }
+}
+
+fn square(length: f32) -> f32 {
+    length * length
+}
+
+#[inline(always)]
+fn direction<S: Simd>(simd: S, [x, y, z]: &[Point<Rough<S>>; 3], [a, b, c]: [f32; 3]) -> Point<Rough<S>> {
+    let [a, b, c] = [a, b, c].map(|along| Rough::splat(simd, along));
+    x.scaled(a).plus(b, *y).plus(c, *z)
+}
+
+#[inline(always)]
+fn point<S: Simd>(simd: S, [x, y, z]: &[RoughRow; 3]) -> Point<Rough<S>> {
+    Point::load(simd, [x, y, z])
+}
+
+#[inline(always)]
+fn store<S: Simd>(at: Point<Rough<S>>, [x, y, z]: &mut [RoughRow; 3]) {
+    at.x.store_array(x);
+    at.y.store_array(y);
+    at.z.store_array(z);
+}
+
+#[inline(always)]
+fn store_frame<S: Simd>(at: &Frames<Rough<S>>, rows: &mut [RoughRow; 12]) {
+    let points = at.axes.into_iter().chain([at.origin]);
+    for (point, rows) in points.zip(rows.as_chunks_mut::<3>().0) {
+        store(point, rows);
+    }
+}
+
+#[inline(always)]
+fn load_frame<S: Simd>(simd: S, rows: &[RoughRow; 12]) -> Frames<Rough<S>> {
+    let [x, y, z, origin] =
+        std::array::from_fn(|i| Point::load(simd, [&rows[3 * i], &rows[3 * i + 1], &rows[3 * i + 2]]));
+    Frames { axes: [x, y, z], origin }
+}

@@ -1,0 +1,340 @@
+//! A set of problems for a robot of any number of axes, one an instance, in joint space and without a roadmap.
+//!
+//! A problem whose file is wrong, that its set calls invalid, or at whose start or goal the robot cannot be is a row with status
+//! `invalid_problem`: sets hold such problems, and papers count them.
+
+use super::input::input;
+use super::joint_queries::{contact, picture, queries, robot_notes, support, under};
+use super::{Entry, Family, Query};
+use crate::preprocessing::Preprocessing;
+use crate::preprocessing::nested_roadmap;
+use crate::{Inputs, StudyError};
+use base::problem::{Expected, Problem, ProblemSet};
+use base::robot::{Robot, read_urdf};
+use base::settings::{Accepted, Faults, Settings, SettingsError};
+use engine::planner::{Counts, Invalid, Value};
+use engine::space::roadmap::{Counted, Local, Near};
+use engine::space::{JointSpace, SelfContact, Support, SupportEntry, WorldKind};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "joint_problems",
+    about: "a set of problems (MotionBenchMaker's archive, or a problem file) for a robot (URDF), one an instance, for planners that sample",
+    instances: "problems",
+    revision: 1,
+    is_drawn: true,
+    preprocessing: nested_roadmap::ENTRY.name,
+    columns: COLUMNS,
+    settings: Accepted::shape::<JointProblems>(),
+    example: r#"
+robot = "data/robots/panda.urdf"
+problems = "data/scenes/shelf_panda.json"
+set = "shelf"
+support = { under = "floor", base_mm = [0, 0, 0], yaw_deg = 0 }
+self_contact = "neighbours"
+step_deg = 3
+"#,
+    build: |settings, inputs| Ok::<Box<dyn Family>, StudyError>(build(settings, inputs)?),
+};
+
+/// The columns of every trial: those of all joint spaces, and how many problems of the set are valid.
+const COLUMNS: &[&str] = &[
+    "path_length_mm",
+    "local_paths",
+    "joint_travel_deg",
+    "joint_length_rad",
+    "valid_problems",
+    "set_problems",
+];
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct JointProblems {
+    /// The robot, a URDF file.
+    robot: String,
+    /// The set: an archive (`.tar`) of `MoveIt` scenes and requests, or a problem file in YAML or JSON.
+    problems: String,
+    /// The problem set in it: of an archive, the folders whose names begin so, all if absent; of a file, the only one if absent.
+    set: Option<String>,
+    /// What is under the robot: the problems place everything from the robot's base and say nothing of a floor.
+    support: SupportEntry,
+    /// Which links of the robot may touch each other.
+    self_contact: SelfContactSetting,
+    /// The file that says it, an SRDF file; read under `srdf` alone.
+    srdf: Option<String>,
+    /// How far a joint may move between two configurations that are checked; a metre of a joint that slides counts as a radian.
+    #[schemars(range(min = 0.1, max = 180.0))]
+    step_deg: f64,
+    /// How files that are not in the repository are brought and known.
+    archive: Option<Archive>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum SelfContactSetting {
+    /// All may.
+    All,
+    /// Those that a joint joins.
+    Neighbours,
+    /// Those that the SRDF file says.
+    Srdf,
+}
+
+/// Files that a command brings: while they are missing, stored trials stay readable and no new ones run.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Archive {
+    /// The command.
+    install: String,
+    /// The file that says what they hold: a line each, SHA-256 and name, as `sha256sum` writes them.
+    sums: String,
+}
+
+struct Set {
+    robot: Robot,
+    problems: ProblemSet,
+    contact: SelfContact,
+    support: Support,
+    step_rad: f64,
+    queries: [Query; 1],
+    notes: Vec<String>,
+    inputs: Vec<PathBuf>,
+    /// How many problems are valid, once it was counted.
+    valid: OnceLock<u64>,
+}
+
+/// A set whose files are not there.
+struct Absent {
+    lacks: String,
+    queries: [Query; 1],
+    inputs: [PathBuf; 1],
+}
+
+/// The one query of a problem: its name is empty, its ends are the instance's.
+fn unposed() -> [Query; 1] {
+    [Query { name: String::new(), start: Vec::new(), goal: Vec::new() }]
+}
+
+fn build(settings: &Settings, inputs: &Inputs) -> Result<Box<dyn Family>, SettingsError> {
+    let read: JointProblems = settings.read()?;
+    let support = support(settings, &read.support)?;
+    let sums = match &read.archive {
+        None => None,
+        Some(archive) => match read.pinned(settings, inputs, archive)? {
+            Pinned::Lacks(lacks, inputs) => {
+                return Ok(Box::new(Absent { lacks, queries: unposed(), inputs }));
+            }
+            Pinned::As(sums) => Some(sums),
+        },
+    };
+    let mut faults = Faults::default();
+    let robot = faults.keep(input(settings, inputs, "robot", &read.robot, read_urdf));
+    let open = |path: &Path| ProblemSet::open(path, read.set.as_deref());
+    let problems = faults.keep(input(settings, inputs, "problems", &read.problems, open));
+    let srdf = read.srdf.as_deref().filter(|_| read.self_contact == SelfContactSetting::Srdf);
+    if srdf.is_none() && read.self_contact == SelfContactSetting::Srdf {
+        return Err(
+            settings.error_at("self_contact", "an SRDF file decides, and none is given; `srdf` is accepted")
+        );
+    }
+    let rule = (read.self_contact != SelfContactSetting::All, srdf);
+    let contact = robot.as_ref().and_then(|(_, robot)| faults.keep(contact(settings, inputs, robot, rule)));
+    let ((robot_file, robot), (problem_file, problems), (srdf_file, contact)) =
+        faults.or(robot.zip(problems).zip(contact).map(|((a, b), c)| (a, b, c)))?;
+    let files = [robot_file, problem_file].into_iter().chain(srdf_file);
+    // What the sums pin is known by them, whether it is there or not.
+    let inputs = sums.map_or_else(|| files.chain(robot.files.iter().cloned()).collect(), |sums| vec![sums]);
+    let notes = robot_notes(&read.robot, &robot, &contact, srdf);
+    let (step_rad, queries) = (read.step_deg.to_radians(), unposed());
+    Ok(Box::new(Set {
+        robot,
+        problems,
+        contact,
+        support,
+        step_rad,
+        queries,
+        notes,
+        inputs,
+        valid: OnceLock::new(),
+    }))
+}
+
+/// What became of files that sums pin.
+enum Pinned {
+    /// One is not there: which, and what helps; and the file of sums.
+    Lacks(String, [PathBuf; 1]),
+    /// All are as the file of sums says.
+    As(PathBuf),
+}
+
+impl JointProblems {
+    /// Holds the files against their sums.
+    fn pinned(
+        &self,
+        settings: &Settings,
+        inputs: &Inputs,
+        archive: &Archive,
+    ) -> Result<Pinned, SettingsError> {
+        let unreadable = |path: &Path, error: std::io::Error| SettingsError::Unreadable {
+            path: path.to_owned(),
+            reason: error.to_string(),
+        };
+        let (sums, text) = input(settings, inputs, "archive.sums", &archive.sums, |path| {
+            base::file::read_text(path).map_err(|error| unreadable(path, error))
+        })?;
+        let named =
+            [("robot", Some(&self.robot)), ("problems", Some(&self.problems)), ("srdf", self.srdf.as_ref())];
+        for (key, name) in named.into_iter().filter_map(|(key, name)| Some((key, name?))) {
+            let line = text.lines().find_map(|line| line.split_once("  ").filter(|(_, file)| file == name));
+            let Some((sum, _)) = line else {
+                let message =
+                    format!("`{}` has no sum for `{name}`; a file with one is accepted", archive.sums);
+                return Err(settings.error_at(key, message));
+            };
+            let Ok(path) = inputs.locate(name) else {
+                let lacks = format!("there is no file `{name}`; to install: {}", archive.install);
+                return Ok(Pinned::Lacks(lacks, [sums]));
+            };
+            let bytes = base::file::read(&path).map_err(|error| unreadable(&path, error))?;
+            if base::hash::sha256(&bytes) != *sum {
+                let message =
+                    format!("`{name}` is not what its sum says; to install it again: {}", archive.install);
+                return Err(settings.error_at(key, message));
+            }
+        }
+        Ok(Pinned::As(sums))
+    }
+}
+
+impl Set {
+    fn problem(&self, seed: u64) -> Result<Problem, Invalid> {
+        let expected = Expected {
+            robot: &self.robot.name,
+            joints: self.robot.joints.iter().map(|joint| joint.name.as_str()).collect(),
+        };
+        let index = usize::try_from(seed).unwrap_or(usize::MAX);
+        self.problems.problem(index, &expected).map_err(|error| Invalid(error.to_string()))
+    }
+
+    /// The robot among the obstacles of a problem.
+    fn space(&self, problem: &Problem) -> JointSpace {
+        let obstacles = under(&self.support).into_iter().chain(problem.obstacles.iter().cloned()).collect();
+        JointSpace::new(self.robot.clone(), obstacles, &self.contact, self.step_rad)
+    }
+
+    /// How many problems are valid: the robot can be at the start and at one goal at least.
+    fn valid(&self) -> u64 {
+        let is_valid = |problem: &Problem| {
+            let space = self.space(problem);
+            problem.is_valid
+                && space.is_free(&problem.start.joints)
+                && problem.goals.iter().any(|goal| space.is_free(&goal.joints))
+        };
+        let problems = (0..self.problems.count() as u64).filter_map(|index| self.problem(index).ok());
+        *self.valid.get_or_init(|| problems.filter(is_valid).count() as u64)
+    }
+}
+
+impl Family for Set {
+    fn world(&self) -> WorldKind {
+        WorldKind::Roadmap
+    }
+
+    fn numbers_instances(&self) -> bool {
+        true
+    }
+
+    fn prepare(&self, seed: u64) -> Result<Preprocessing, Invalid> {
+        let problem = self.problem(seed)?;
+        if !problem.is_valid {
+            return Err(Invalid("the problem set calls this problem invalid".to_owned()));
+        }
+        let queries = self.queries_for(seed);
+        let space = self.space(&problem);
+        let traces = picture::traces(&space, self.support.floor_m(), &queries);
+        let local = Local::Joints(Box::new(space));
+        let near = Near::Places(0.0);
+        let preprocessing = nested_roadmap::prepare(local, Vec::new(), 0, near, Counted::Accepted);
+        Ok(Preprocessing { traces, ..preprocessing })
+    }
+
+    fn queries(&self) -> &[Query] {
+        &self.queries
+    }
+
+    fn queries_for(&self, seed: u64) -> Vec<Query> {
+        let posed = self.problem(seed).map(|problem| queries(&problem));
+        // Where a problem has several goals the first is planned for, as a query of no name.
+        let first = posed.ok().and_then(|queries| queries.into_iter().next());
+        first.map_or_else(|| self.queries.to_vec(), |query| vec![Query { name: String::new(), ..query }])
+    }
+
+    fn draws_ends(&self) -> bool {
+        true
+    }
+
+    fn known(&self, _query: usize) -> Counts {
+        let total = self.problems.count() as u64;
+        Counts::from([("valid_problems", Value::Count(self.valid())), ("set_problems", Value::Count(total))])
+    }
+
+    fn cells(&self) -> u64 {
+        let obstacles = self
+            .problem(0)
+            .map_or(0, |problem| under(&self.support).into_iter().chain(problem.obstacles).count());
+        (self.robot.solids.len() + obstacles) as u64
+    }
+
+    fn notes(&self) -> Vec<String> {
+        self.notes.clone()
+    }
+
+    fn inputs(&self) -> &[PathBuf] {
+        &self.inputs
+    }
+}
+
+impl Family for Absent {
+    fn world(&self) -> WorldKind {
+        WorldKind::Roadmap
+    }
+
+    fn lacks(&self) -> Option<String> {
+        Some(self.lacks.clone())
+    }
+
+    fn numbers_instances(&self) -> bool {
+        true
+    }
+
+    fn prepare(&self, _seed: u64) -> Result<Preprocessing, Invalid> {
+        Err(Invalid(self.lacks.clone()))
+    }
+
+    fn queries(&self) -> &[Query] {
+        &self.queries
+    }
+
+    fn draws_ends(&self) -> bool {
+        true
+    }
+
+    fn cells(&self) -> u64 {
+        0
+    }
+
+    fn notes(&self) -> Vec<String> {
+        vec![self.lacks.clone()]
+    }
+
+    fn inputs(&self) -> &[PathBuf] {
+        &self.inputs
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,118 @@
+//! A small set of ours: what of it is valid, what is wrong and counted, and what happens while its files are missing.
+
+use super::*;
+use base::hash::sha256;
+use engine::planner::{Ending, Request, find};
+use engine::space::World;
+use std::fs;
+use tempfile::TempDir;
+
+/// Two joints that nod about y, each with a sphere 0.5 m out.
+const ROBOT: &str = r#"<robot name="nod">
+  <link name="base"/>
+  <link name="upper"><collision><origin xyz="0 0 0.5"/><geometry><sphere radius="0.1"/></geometry></collision></link>
+  <link name="lower"><collision><origin xyz="0 0 0.5"/><geometry><sphere radius="0.1"/></geometry></collision></link>
+  <joint name="one" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="0 1 0"/><limit lower="-3" upper="3"/></joint>
+  <joint name="two" type="revolute"><parent link="upper"/><child link="lower"/><origin xyz="0 0 1"/><axis xyz="0 1 0"/><limit lower="-3" upper="3"/></joint>
+</robot>"#;
+
+const SET: &str = r#"{"robot": "nod", "joints": ["two", "one"], "problems": {"wall": [
+  {"start": [0, 1.2], "goals": [[0, -1.2]], "sphere": [{"position": [0, 0, 1.5], "radius": 0.2}]},
+  {"start": [0, 0], "goals": [[0, -1.2]], "sphere": [{"position": [0, 0, 1.5], "radius": 0.2}]},
+  {"start": [0, 1.2], "goals": [[0, -1.2]], "valid": false},
+  {"start": [0, 120], "goals": [[0, -1.2]]}
+]}}"#;
+
+const SETTINGS: &str = r#"
+robot = "nod.urdf"
+problems = "set.json"
+support = { under = "nothing", base_mm = [0, 0, 0], yaw_deg = 0, why = "it hangs" }
+self_contact = "neighbours"
+step_deg = 2
+"#;
+
+fn folder(sums: &str) -> (TempDir, Inputs) {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in [("nod.urdf", ROBOT), ("set.json", SET), ("sums", sums)] {
+        fs::write(folder.path().join(name), text).unwrap();
+    }
+    let inputs = Inputs { roots: vec![folder.path().to_owned()] };
+    (folder, inputs)
+}
+
+fn settings(text: &str) -> Settings {
+    Settings::composed("a test", text.parse().unwrap())
+}
+
+fn built(text: &str, inputs: &Inputs) -> Result<Box<dyn Family>, String> {
+    build(&settings(text), inputs).map_err(|error| error.to_string())
+}
+
+#[test]
+fn each_problem_is_an_instance_and_what_is_wrong_with_one_is_counted() {
+    let (_folder, inputs) = folder("");
+    let family = built(SETTINGS, &inputs).unwrap();
+    let known = family.known(0);
+    let counted = ["valid_problems", "set_problems"].map(|name| known[name].as_f64());
+    assert_eq!(counted, [1.0, 4.0]);
+    let wrong = |index| family.prepare(index).err().map(|invalid| invalid.0).unwrap_or_default();
+    assert!(wrong(2).contains("the problem set calls this problem invalid"), "{}", wrong(2));
+    assert!(wrong(3).contains("is it in degrees? radians are accepted"), "{}", wrong(3));
+    assert!(wrong(4).contains("the set has 4"), "{}", wrong(4));
+    let planner = r#"
+range = 1
+sampler = "halton"
+balance = 1
+first = "start"
+iterations = 1000
+nodes = 1000
+"#;
+    let entry = find("rrt_connect").unwrap();
+    let engine::planner::Build::Planner(build) = entry.build else { panic!("it is a planner") };
+    let planner = build(&settings(planner)).unwrap();
+    let plan = |index| {
+        let world: World = family.prepare(index).unwrap().world;
+        let query = family.queries_for(index).remove(0);
+        let request = Request {
+            world: &world,
+            start: &query.start,
+            goal: &query.goal,
+            expansions: 1000,
+            seed: 0,
+            trace: false,
+        };
+        planner.plan(&request)
+    };
+    let solved = plan(0).unwrap();
+    assert_eq!(solved.ending, Ending::Solved);
+    // The values of each joint stand where the set names it.
+    assert_eq!(
+        (&solved.path[0][..], solved.path.last().unwrap().as_slice()),
+        (&[1.2, 0.0][..], &[-1.2, 0.0][..])
+    );
+    assert!(solved.counts["iterations"].as_f64() > 0.0, "the ball is in the way: {:?}", solved.counts);
+    assert_eq!(plan(0).unwrap(), solved);
+    let refused = plan(1).unwrap_err().0;
+    assert!(refused.contains("the start cannot be posed: part `lower"), "{refused}");
+}
+
+#[test]
+fn files_that_sums_pin_may_be_missing_and_must_be_what_the_sums_say() {
+    let pinned = format!("{SETTINGS}archive = {{ install = \"bring it\", sums = \"sums\" }}\n");
+    let sums = format!("{}  nod.urdf\n{}  set.json\n", sha256(ROBOT.as_bytes()), sha256(SET.as_bytes()));
+    let (folder, inputs) = folder(&sums);
+    let there = built(&pinned, &inputs).unwrap();
+    assert_eq!(there.lacks(), None);
+    fs::remove_file(folder.path().join("set.json")).unwrap();
+    let absent = built(&pinned, &inputs).unwrap();
+    assert_eq!(absent.lacks().unwrap(), "there is no file `set.json`; to install: bring it");
+    // What stored trials depend on is the same.
+    assert_eq!(there.inputs(), absent.inputs());
+    assert!(built(SETTINGS, &inputs).is_err(), "nothing brings it");
+    fs::write(folder.path().join("set.json"), SET.replace("1.2", "1.3")).unwrap();
+    let other = built(&pinned, &inputs).err().unwrap();
+    assert!(other.contains("`set.json` is not what its sum says; to install it again: bring it"), "{other}");
+    fs::write(folder.path().join("sums"), "").unwrap();
+    let unknown = built(&pinned, &inputs).err().unwrap();
+    assert!(unknown.contains("`sums` has no sum for `nod.urdf`"), "{unknown}");
+}
