@@ -50,7 +50,7 @@ const MM_PER_CM: f64 = 10.0;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SceneSettings {
-    /// The scene file; with a table `[drawn]`, a scene is drawn with each instance, in which every start and goal is free and reached.
+    /// The scene file; with a table `[drawn]`, a scene is drawn with each instance, at each start and goal of which the arm can stand.
     scene: String,
     /// What is laid over the scene file: elements of lists go by their number from 0 or their `name`.
     #[schemars(with = "Option<AnyTable>")]
@@ -242,6 +242,18 @@ fn is_reachable(world: &PolyhedraWorld, tip: &Vec3) -> bool {
     })
 }
 
+/// How far the arm keeps from everything at the ends of a drawn query.
+const CLEAR_CM: f64 = 0.1;
+
+/// Whether the arm, if there is one, stands clear of everything with `tip` and its tool down.
+fn can_stand(world: &PolyhedraWorld, tip: &Vec3) -> bool {
+    world.arm().is_none_or(|arm| {
+        let found = arm.arm().inverse(&CarriedArm::target(tip, &DOWN), &[0.0; 6]);
+        let clearance = |q| arm.clearance(q, world.bodies(), 2.0 * CLEAR_CM, false);
+        found.iter().any(|(_, q)| clearance(q) > CLEAR_CM)
+    })
+}
+
 impl Posed {
     /// The queries in `world` of the instance that belongs to `seed`; a written end stands for one of which a thousand draws give
     /// none.
@@ -270,14 +282,13 @@ impl Posed {
             let world = self.read.world(&self.settings, scene, self.robot.as_ref()).ok()?;
             let queries = self.scattered(&world, seed);
             let stands =
-                |end: &[f64]| world.free_point("end", end).is_ok_and(|point| is_reachable(&world, &point));
+                |end: &[f64]| world.free_point("end", end).is_ok_and(|point| can_stand(&world, &point));
             let is_kept = |query: &Query| {
                 query.ends().into_iter().all(stands) && self.read.line.keeps(query, world.obstacles())
             };
             queries.iter().all(is_kept).then_some((world, queries))
         });
-        instance
-            .ok_or_else(|| Invalid("no drawn scene left every start and goal free and reached".to_owned()))
+        instance.ok_or_else(|| Invalid("the arm stands at every start and goal of no drawn scene".to_owned()))
     }
 }
 
