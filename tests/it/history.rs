@@ -209,6 +209,18 @@ fn a_claim_that_is_renamed_keeps_its_history_and_one_that_is_new_or_gone_is_told
     let said = bench.done(&["repro", "./mini"]);
     assert!(said.contains("without a reason given: `other`."), "{said}");
     assert!(said.contains("Withdrawn after their data were seen: `ratio` (entry "), "{said}");
+    let reason = "\n[[withdrawn]]\nclaims = [\"ratio\"]\nwhy = \"`other` asks the same\"\n";
+    bench.write(PAPER, (named("other", "1.5") + reason).as_bytes());
+    let said = bench.done(&["repro", "./mini"]);
+    assert!(!said.contains("Withdrawn after"), "a reason is given: {said}");
+    bench.edit(PAPER, "[\"ratio\"]", "[\"other\"]");
+    let refused = bench.run(&["check", "./mini"]);
+    assert!(
+        refused.err.contains("claim `other` is withdrawn, and there is a claim of this name"),
+        "{}",
+        refused.err
+    );
+    bench.edit(PAPER, "[\"other\"]", "[\"ratio\"]");
     let shown = bench.done(&["show", "./mini", "other"]);
     assert!(shown.contains("written then, "), "{shown}");
 }
