@@ -187,7 +187,7 @@ fn judged(evidence: &Evidence<'_>, places: &Places, history: &History) -> Result
     let (verdicts, stored) = rayon::join(|| claims::judge(evidence), stored);
     let mut verdicts = verdicts?;
     across::apply(evidence.paper, &mut verdicts, &stored?);
-    history.apply(&mut verdicts);
+    history.apply(&mut verdicts, evidence.paper);
     Ok(verdicts)
 }
 
