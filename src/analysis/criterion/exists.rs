@@ -31,7 +31,7 @@ pub static ENTRY: Entry = Entry {
     name: "exists",
     about: "does any stored trial meet the printed number exactly, where other named claims are met too?",
     revision: |_| 1,
-    question: |_| Some("values found 1"),
+    question: |_| Some("values found 2"),
     settings: Accepted::shape::<Settings>(),
     example: r#"
 metric = "path_cost_cells"
@@ -241,15 +241,6 @@ impl<'a> Attained<'a> {
         seen.collect()
     }
 
-    /// The numbers that were seen, by problem.
-    fn by_problem<'e>(&'e self, evidence: &'e Evidence<'_>) -> BTreeMap<Problem<'e>, Vec<f64>> {
-        let mut all: BTreeMap<_, Vec<f64>> = BTreeMap::new();
-        for seen in self.seen(evidence) {
-            all.entry(seen.problem()).or_default().push(seen.value);
-        }
-        all
-    }
-
     /// Every trial on a problem where all given claims are met.
     pub fn eligible<'e>(&'e self, evidence: &'e Evidence<'_>) -> Vec<Seen<'e>> {
         let mut eligible = self.seen(evidence);
@@ -331,34 +322,20 @@ impl Attained<'_> {
         let nearest = || eligible.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
         met.map(|seen| (seen, true)).or_else(|| nearest().map(|seen| (seen, false)))
     }
-
-    /// Whether every given claim is met by some of its numbers on the problem of `part`: those of each end in an infinite one.
-    fn is_eligible(&self, part: &Number) -> bool {
-        let mut numbers = part.values.split(|number| number.is_infinite());
-        self.given.iter().all(|given| {
-            numbers.next().is_some_and(|numbers| numbers.iter().any(|number| given.is_met(*number)))
-        })
-    }
 }
 
 impl Criterion for Attained<'_> {
-    /// The numbers that were seen by each contender, equal ones once, in the order in which they were; each with the numbers of the given
-    /// claims on the same problem. Those on maps that were drawn until it held stand outside.
+    /// The numbers by each contender on problems where all given claims are met, equal ones once, in the order in which they were seen.
+    /// Those on maps that were drawn until it held stand outside.
     fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
-        let given: Vec<BTreeMap<Problem<'_>, Vec<f64>>> =
-            self.given.iter().map(|given| given.by_problem(evidence)).collect();
         let mut numbers = vec![Number::default()];
         let mut places = BTreeMap::new();
-        for seen in self.seen(evidence) {
-            let on_problem: Option<Vec<&Vec<f64>>> = given.iter().map(|of| of.get(&seen.problem())).collect();
-            let Some(on_problem) = on_problem else { continue };
-            let values: Vec<f64> =
-                on_problem.into_iter().flat_map(|of| of.iter().copied().chain([f64::INFINITY])).collect();
-            let bits: Vec<u64> = values.iter().chain([&seen.value]).map(|value| value.to_bits()).collect();
-            let place = *places.entry((seen.contender, seen.selected, bits)).or_insert(numbers.len());
+        for seen in self.eligible(evidence) {
+            let key = (seen.contender, seen.selected, seen.value.to_bits());
+            let place = *places.entry(key).or_insert(numbers.len());
             if place == numbers.len() {
                 let part = seen.contender.to_owned();
-                numbers.push(Number { part, value: Some(seen.value), values, ..Number::default() });
+                numbers.push(Number { part, value: Some(seen.value), ..Number::default() });
             }
             numbers[place].n += 1;
             numbers[place].outside += usize::from(seen.selected);
@@ -367,7 +344,7 @@ impl Criterion for Attained<'_> {
     }
 
     fn weigh(&self, numbers: &[Number]) -> CriterionResult {
-        let parts = parts(numbers, Ends::Measured).into_iter().filter(|part| self.is_eligible(part));
+        let parts = parts(numbers, Ends::Measured).into_iter();
         let (selected, eligible): (Vec<&Number>, Vec<&Number>) = parts.partition(|part| part.outside > 0);
         let value = |part: &&Number| part.value.unwrap_or_default();
         let count = |parts: &[&Number]| parts.iter().map(|part| part.n).sum::<usize>();
