@@ -100,9 +100,10 @@ impl<'a> Asked<'a> {
             let texts = decides.filter_map(|(_, name, settings)| stripped(criterion::find(name)?, settings));
             let texts: Vec<String> = texts.map(|(statistic, text)| format!("{statistic} {text}\n")).collect();
             // Where a number is looked for on problems that meet others, what those print decides which problems these are.
-            let print = (self.entry.name == criterion::EXISTS.name).then_some((&other.printed, &other.digits));
-            let what = (other.untestable.is_some(), &other.difference, print);
-            format!("{} {what:?}\n{}", other.id, texts.concat())
+            let is_met = self.entry.name == criterion::EXISTS.name;
+            let print = if is_met { format!(" {:?} {:?}", other.printed, other.digits) } else { String::new() };
+            let Claim { id, untestable, difference, .. } = other;
+            format!("{id} {} {difference:?}{print}\n{}", untestable.is_some(), texts.concat())
         };
         let others: String = named.into_iter().map(|place| of_other(&paper.claims[place])).collect();
         let text = format!("{} {} {statistic} {own}\n{others}", paper.id, claim.id);
