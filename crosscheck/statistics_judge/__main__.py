@@ -21,7 +21,10 @@ def main() -> int:
     words = parser.parse_args()
     request = json.loads(words.request.read_text(encoding="utf-8"))
     metrics = [Metric(**metric) for metric in request["metrics"]]
-    asked = [(Path(one["experiments"]), Path(one["runs"]), metrics) for one in request["papers"]]
+    asked = [
+        (Path(one["experiments"]), Path(one["runs"]), metrics, Path(one["explored"]))
+        for one in request["papers"]
+    ]
     differing = 0
     with Pool(words.jobs) as pool:
         for name, said in pool.imap(answer, asked, chunksize=1):
@@ -30,7 +33,7 @@ def main() -> int:
     return DIFFERS if differing else 0
 
 
-def answer(asked: tuple[Path, Path, list[Metric]]) -> tuple[str, Said]:
+def answer(asked: tuple[Path, Path, list[Metric], Path]) -> tuple[str, Said]:
     """One paper."""
     paper = Paper(*asked)
     return paper.id, compare(paper, recomputed(paper), toml(paper.runs / "verdicts.toml"))

@@ -1,4 +1,4 @@
-"""The verdict of a claim over all interpretations, from a paper's stored explorations."""
+"""The verdict of a claim over all interpretations, from what a paper's stored numbers amount to."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field

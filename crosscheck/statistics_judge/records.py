@@ -1,7 +1,7 @@
 """Papers, studies and stored trials as numpy arrays."""
 
-import gzip
 import itertools
+import json
 import operator
 import tomllib
 from collections.abc import Iterator
@@ -318,8 +318,9 @@ def keys_of(table: Table) -> list[tuple]:
 class Paper:
     """A paper's claims and studies."""
 
-    def __init__(self, folder: Path, runs: Path, metrics: list[Metric]) -> None:
-        """Read the specs."""
+    def __init__(self, folder: Path, runs: Path, metrics: list[Metric], explored: Path | None = None) -> None:
+        """Read the specs; `explored` has what the numbers of explorations amount to."""
+        self.explored = explored
         self.id = runs.name
         spec = toml(folder / "paper.toml")
         self.claims: list[dict[str, Any]] = claims_of(spec)
@@ -341,8 +342,9 @@ class Paper:
     @cached_property
     def explorations(self) -> list[dict[str, Any] | None]:
         """What exploring found, first and on the second seed; none where nothing is stored."""
-        paths = [self.runs / f"{name}.toml.gz" for name in ("explored", "second_seed")]
-        found = [toml(path) if path.is_file() else None for path in paths]
+        if self.explored is None:
+            return [None, None]
+        found: list[dict[str, Any] | None] = json.loads(self.explored.read_text(encoding="utf-8"))
         for claim in (claim for one in found if one is not None for claim in one["claims"].values()):
             claim["at"] = {
                 place: result for result in claim["results"] for place in result["interpretations"]
@@ -367,6 +369,6 @@ def studies(folder: Path, runs: Path) -> Iterator[Study]:
 
 
 def toml(path: Path) -> dict[str, Any]:
-    """A TOML file, which may be packed by gzip."""
-    with gzip.open(path) if path.suffix == ".gz" else path.open("rb") as file:
+    """A TOML file."""
+    with path.open("rb") as file:
         return tomllib.load(file)

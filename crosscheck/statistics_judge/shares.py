@@ -75,7 +75,7 @@ def equals(asked: Asked) -> Found:
 
 
 def on_every(asked: Asked) -> Found:
-    """It holds on every case: one counterexample ends it, and some equalities leave it open.
+    """It holds on every case: one counterexample ends it, as do equalities alone on enough cases; some leave it open.
 
     A case without an end might be the counterexample; paths that are refused have one where it is to be at
     most so much.
@@ -91,7 +91,7 @@ def on_every(asked: Asked) -> Found:
         return certain(FAILS, estimate)
     outcome = FAILS if kept == 0 else OPEN if equal else HOLDS
     cut = bool(counterexamples(cases, that).any())
-    few = outcome == HOLDS and needs_draws(cases, labels(asked.settings["of"]["problems"]))
+    few = outcome != OPEN and needs_draws(cases, labels(asked.settings["of"]["problems"]))
     return replace(certain(outcome, estimate), censored=frozenset([cut]), few=few)
 
 

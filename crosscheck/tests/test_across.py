@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import copy
-import gzip
-import shutil
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -18,11 +16,14 @@ from statistics_judge.shared_out import shares
 from statistics_judge.table import Results, of_meanings
 
 ROOT = Path(__file__).parents[2]
-EXPLORED = [path.parent.name for path in sorted(ROOT.glob("data/runs/*/explored.toml.gz"))]
+# What `replan crosscheck --statistics` gives the judge.
+GIVEN = ROOT / "target/replan/crosscheck"
+EXPLORED = [path.parent.name for path in sorted(ROOT.glob("data/runs/*/estimates.parquet"))]
 
 
-def paper(name: str, runs: Path | None = None) -> Paper:
-    return Paper(ROOT / "experiments" / name, runs or ROOT / "data/runs" / name, [])
+def paper(name: str, explored: Path | None = None) -> Paper:
+    given = explored or GIVEN / f"{name}.explored.json"
+    return Paper(ROOT / "experiments" / name, ROOT / "data/runs" / name, [], given)
 
 
 def stored(of: Paper) -> dict[str, Any]:
@@ -92,8 +93,7 @@ def test_a_combination_that_is_missing_and_a_second_outcome_made_wrong_are_notic
     assert any("verdicts.toml says nothing" in line for line in said(of, wrong))
     wrong = copy.deepcopy(verdicts)
     claim = next((claim for claim in wrong["claim"] if "second" in claim), None)
-    has_second = (ROOT / "data/runs" / name / "second_seed.toml.gz").exists()
-    assert (claim is not None) == has_second
+    assert (claim is not None) == (of.explorations[1] is not None)
     if claim is None:
         return
     claim["second"] = "holds" if claim["second"] != "holds" else "open"
@@ -103,20 +103,12 @@ def test_a_combination_that_is_missing_and_a_second_outcome_made_wrong_are_notic
 @pytest.mark.parametrize("name", EXPLORED)
 def test_an_exploration_that_was_changed_no_longer_agrees(name: str, tmp_path: Path) -> None:
     """An outcome is turned in what was explored, where all results of a claim say the same."""
-    runs = tmp_path / name
-    runs.mkdir()
-    stored_run = ROOT / "data/runs" / name
-    for pattern in ("*.toml.gz", "verdicts.toml", "*.manifest.toml"):
-        for file in stored_run.glob(pattern):
-            shutil.copy(file, runs / file.name)
-    text = gzip.decompress((runs / "explored.toml.gz").read_bytes()).decode()
-    turned = text
-    for before, after in (("reproduced", "not_reproduced"), ("holds", "contradicted")):
-        for key in ("class", "outcome"):
-            turned = turned.replace(f'{key} = "{before}"', f'{key} = "{after}"')
+    text = (GIVEN / f"{name}.explored.json").read_text(encoding="utf-8")
+    turned = text.replace('"outcome":"holds"', '"outcome":"contradicted"')
     assert turned != text
-    (runs / "explored.toml.gz").write_bytes(gzip.compress(turned.encode()))
-    of = paper(name, runs)
+    explored = tmp_path / "explored.json"
+    explored.write_text(turned, encoding="utf-8")
+    of = paper(name, explored)
     assert said(of, stored(of))
 
 

@@ -56,10 +56,14 @@ pub fn refused(instances: &[Instance<'_>]) -> usize {
     cases(instances).filter(refused).count()
 }
 
-/// How many cases are outside of a claim about what everyone who is compared solves, in words; `None` if none is.
-pub fn outside(instances: &[Instance<'_>]) -> Option<String> {
-    let count = cases(instances).filter(|case| !case.is_solved() && !case.is_unended()).count();
-    let both = if cases(instances).any(|case| case.base.is_some()) { "solved by both" } else { "solved" };
+/// How many cases are outside of a claim about what everyone who is compared solves.
+pub fn outside(instances: &[Instance<'_>]) -> usize {
+    cases(instances).filter(|case| !case.is_solved() && !case.is_unended()).count()
+}
+
+/// That so many cases are outside of a claim about `of`, in words; `None` if none is.
+pub fn outside_in_words(of: &Selection<'_>, count: usize) -> Option<String> {
+    let both = if of.against.is_some() { "solved by both" } else { "solved" };
     (count > 0).then(|| format!("{count} more cases are outside of the claim: not {both}"))
 }
 

@@ -1,24 +1,22 @@
 //! Judges every claim of a paper, and which claims hold together.
 
-use super::censored::refused_share;
-use super::context::{self, Context};
-use super::criterion::{self, Criterion};
-use super::criterion_result::CriterionResult;
-use super::evidence::{Evidence, Run, default_point};
+use super::asked::{Asked, CappedFinding, asked, premises};
+use super::context;
+use super::criterion;
+use super::evidence::{Evidence, default_point};
 use super::meaning;
 use super::metric;
-use super::outcome::{self, Caps, Outcome, Sessions};
+use super::outcome::{self, Caps, Outcome};
 use super::rule;
-use super::settle::{nothing_decides, parts_settle, settles};
+use super::settle::{nothing_decides, parts_settle};
 use super::tabulated;
 use super::together::together;
-use super::verdict::{ClaimVerdict, CriterionFinding, Estimate, Verdicts};
+use super::verdict::{ClaimVerdict, CriterionFinding, Verdicts};
 use super::verdict_rule::{Chosen, Verdict};
 use base::hash::sha256;
 use base::settings::{Faults, Settings, SettingsError, none_called};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-use study::Study;
 use study::paper::{Claim, Paper, Parts, PrintedTable, TestRole, names_of};
 use toml::Table;
 
@@ -43,9 +41,8 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
     let point = default_point(paper);
     for claim in &paper.claims {
         faults.keep(context::printed(paper, claim));
-        for (asked, name, settings) in claim.tests() {
-            let context = Context { claim, settings, paper, point: &point };
-            faults.keep(built(asked, name, &context).map(|_| ()));
+        for asked in asked(paper, claim, &point) {
+            faults.keep(asked);
         }
     }
     for cell in paper.tables.iter().flat_map(PrintedTable::cells) {
@@ -153,76 +150,14 @@ pub fn records(evidence: &Evidence<'_>) -> BTreeMap<String, String> {
     evidence.runs().map(|run| (run.study.name.clone(), run.manifest.records_hash())).collect()
 }
 
-/// The criterion or rule called `name`, built.
-fn built<'a>(
-    asked: TestRole,
-    name: &str,
-    context: &Context<'a>,
-) -> Result<Box<dyn Criterion + 'a>, SettingsError> {
-    let (what, registry, found) = match asked {
-        TestRole::Rule => ("rule", rule::REGISTRY, rule::find(name)),
-        TestRole::Decides | TestRole::Shown => ("criterion", criterion::REGISTRY, criterion::find(name)),
-    };
-    let key = match asked {
-        TestRole::Rule => "rule",
-        TestRole::Decides => "check",
-        TestRole::Shown => "shows",
-    };
-    let unknown = || {
-        let known = registry.iter().map(|entry| entry.name);
-        let message = format!("claim `{}`: {}", context.claim.id, none_called(what, name, known));
-        context.error_at_name(key, name, message)
-    };
-    (found.ok_or_else(unknown)?.build)(context)
-}
-
-/// A finding, how the trials behind it came about, and what they are.
-pub struct CappedFinding {
-    /// The finding.
-    pub finding: CriterionFinding,
-    /// What lowers its outcome.
-    pub caps: Caps,
-    /// The share of the paths that come back which the verifier refuses.
-    pub refused: f64,
-    /// Whether trials of all studies that it looks at ran under the interpretation.
-    pub is_covered: bool,
-    /// Every problem group that it looks at could be posed.
-    pub is_posed: bool,
-    /// A hash of the results that it rests on, if it was asked for.
-    pub results: String,
-    /// The studies that it looks at.
-    pub studies: Vec<String>,
-}
-
-/// What each criterion and rule of a claim finds that decides or is shown; with hashes of what they rest on only if
-/// `hashed`.
-///
-/// # Errors
-/// Those of [`validate`].
-pub fn capped_findings(
-    evidence: &Evidence<'_>,
-    claim: &Claim,
-    hashed: bool,
-) -> Result<Vec<CappedFinding>, SettingsError> {
-    let mut all = Vec::new();
-    for (asked, name, settings) in claim.tests() {
-        let context = Context { claim, settings, paper: evidence.paper, point: &evidence.point };
-        let criterion = built(asked, name, &context)?;
-        let mut one = of_criterion(name, &*criterion, evidence, claim);
-        if hashed && !one.studies.is_empty() {
-            one.results = sha256(criterion.results(evidence).as_bytes()).chars().take(16).collect();
-        }
-        if asked == TestRole::Shown {
-            (one.finding.outcome, one.finding.settles) = (None, None);
-        }
-        all.push(one);
-    }
-    Ok(all)
-}
-
 /// One claim by its own criteria and rules.
 fn judge_alone(evidence: &Evidence<'_>, claim: &Claim) -> Result<ClaimVerdict, SettingsError> {
-    let weighed = capped_findings(evidence, claim, false)?;
+    let weigh = |asked: Result<Asked<'_>, SettingsError>| {
+        let asked = asked?;
+        Ok(asked.weighed(&asked.numbers(evidence, false), evidence.polylines(), Some(evidence)))
+    };
+    let weighed: Vec<CappedFinding> =
+        asked(evidence.paper, claim, &evidence.point).map(weigh).collect::<Result<_, SettingsError>>()?;
     let chosen = chosen(&weighed);
     let findings: Vec<CriterionFinding> = weighed.into_iter().map(|one| one.finding).collect();
     let outcomes = findings.iter().filter_map(|finding| finding.outcome);
@@ -278,79 +213,6 @@ fn judged(
     }
 }
 
-fn finding(criterion: &str, found: CriterionResult, caps: Caps, not_run: &[String]) -> CriterionFinding {
-    let outcome = found.outcome.and_then(|outcome| outcome::of_finding(outcome, caps));
-    let settles = (outcome == Some(Outcome::Open)).then(|| match not_run {
-        [] => settles(&found, caps),
-        options => format!("trials under what cannot be run here: {}", options.join("; ")),
-    });
-    let mut because = found.because;
-    if caps.clock == Some(Sessions::OfAnother) {
-        because.push("a time of the authors' on their machine: our clock does not test it; what is counted is a claim of its own".to_owned());
-    }
-    let is_met = matches!(outcome, Some(Outcome::Holds | Outcome::Fitted | Outcome::Attainable));
-    because.extend(found.power.filter(|_| is_met));
-    CriterionFinding {
-        criterion: criterion.to_owned(),
-        outcome,
-        ours: found.ours,
-        trial: found.trial,
-        settles,
-        because,
-        premises: found.premises,
-    }
-}
-
-fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: &Claim) -> CappedFinding {
-    let mut found = of.find(evidence);
-    found.censored += of.selections().iter().map(|of| of.unended_left_out(evidence)).sum::<usize>();
-    let studies = of.studies();
-    let clock = of.is_clock().then(|| {
-        let (said, because) = sessions(of, evidence);
-        found.because.extend(because);
-        if evidence.paper.source.ours { said } else { Sessions::OfAnother }
-    });
-    let not_run = evidence.paper.not_run(claim, &studies);
-    let caps = Caps {
-        searched: studies.iter().any(|study| study.searched),
-        fitted: is_fitted(evidence.paper, claim, &studies),
-        existential: found.existential,
-        powerless: found.powerless,
-        censored: found.censored > 0,
-        few: found.needs.is_some(),
-        clock,
-        without_premises: !claim.is_meant(&evidence.point),
-        not_run: !not_run.is_empty(),
-    };
-    let studies = studies.iter().map(|study| study.name.clone()).collect();
-    let is_covered = of.is_covered(evidence);
-    let is_posed = of.is_posed(evidence);
-    found.premises.extend(premises(claim));
-    let finding = finding(name, found, caps, &not_run);
-    let refused = refused_share(&of.selections(), evidence);
-    CappedFinding { finding, caps, refused, is_covered, is_posed, results: String::new(), studies }
-}
-
-/// Whether something in `studies` was chosen to meet `claim`: it, the row of which it is a cell, or a claim that repeats its number.
-fn is_fitted(paper: &Paper, claim: &Claim, studies: &[&Study]) -> bool {
-    let fitted = studies.iter().flat_map(|study| &study.fitted_to).filter_map(|id| paper.claim(id));
-    let mut met = fitted.flat_map(|fitted| {
-        let cells = match &fitted.parts {
-            Parts::Cells(ids) => &ids[..],
-            _ => &[],
-        };
-        let is_own = |id: &&String| paper.whole_of(id).is_some_and(|whole| whole.id == fitted.id);
-        std::iter::once(fitted).chain(cells.iter().filter(is_own).filter_map(|id| paper.claim(id)))
-    });
-    met.any(|met| met.tests_alike(claim))
-}
-
-/// Where alone a claim is meant, an interpretation each.
-fn premises(claim: &Claim) -> impl Iterator<Item = String> {
-    let listed = |(id, options): (&String, &Vec<String>)| format!("{id} is {}", options.join(" or "));
-    claim.holds_when.iter().map(listed)
-}
-
 /// What would settle a claim of which nothing that was found decides: it is not meant under this interpretation, or is shown alone.
 fn set_what_settles(claim: &Claim, judged: &mut ClaimVerdict) {
     if judged.outcome == Outcome::Open && judged.findings.iter().all(|found| found.settles.is_none()) {
@@ -360,30 +222,6 @@ fn set_what_settles(claim: &Claim, judged: &mut ClaimVerdict) {
             last.settles = Some(nothing_decides(&premises, is_possible));
         }
     }
-}
-
-/// What the stored sessions of the clock say, each judged by itself, and what each of them found.
-fn sessions(of: &dyn Criterion, evidence: &Evidence<'_>) -> (Sessions, Option<String>) {
-    let stored = of.studies().iter().filter_map(|study| evidence.run(&study.name)).map(Run::sessions).min();
-    let found: Vec<CriterionResult> =
-        (1..=stored.unwrap_or(0)).map(|session| of.find(&evidence.in_session(session as u32))).collect();
-    let first = found.first().map(|found| found.outcome);
-    let said = if found.len() < outcome::SESSIONS {
-        Sessions::TooFew
-    } else if found.iter().all(|found| Some(found.outcome) == first) {
-        Sessions::Agree
-    } else {
-        Sessions::Disagree
-    };
-    let told = |ours: &Estimate| {
-        let interval = ours.interval.map(|[low, high]| format!(" [{low:.2}, {high:.2}]"));
-        format!("{:.2}{}", ours.value, interval.unwrap_or_default())
-    };
-    let numbers: Option<Vec<String>> = found.iter().map(|found| found.ours.as_ref().map(told)).collect();
-    let because = numbers
-        .filter(|numbers| !numbers.is_empty())
-        .map(|numbers| format!("sessions of the clock, each judged by itself: {}", numbers.join("; ")));
-    (said, because)
 }
 
 /// How the outcomes of a claim's parts make its own.

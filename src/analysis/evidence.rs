@@ -4,7 +4,6 @@ use super::metric::{self, Metric};
 use super::polylines::Polylines;
 use base::hash::sha256;
 use engine::planner::Trace;
-use proofs::turns::{Polyline, TurnQuery};
 use rayon::prelude::*;
 use stats::summary;
 use std::collections::BTreeMap;
@@ -106,13 +105,9 @@ impl<'a> Evidence<'a> {
         self
     }
 
-    /// [`shortest_polyline`](proofs::turns::shortest_polyline), searched once however many rules ask under however many
-    /// interpretations.
-    ///
-    /// # Panics
-    /// As that function.
-    pub fn shortest_polyline(&self, query: &TurnQuery) -> Option<Polyline> {
-        self.polylines.shortest(query)
+    /// The shortest polylines, searched once however many rules ask under however many interpretations.
+    pub fn polylines(&self) -> &Polylines {
+        &self.polylines
     }
 
     /// It, with polylines that an earlier command found and kept in `file`.

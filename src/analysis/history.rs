@@ -49,7 +49,8 @@ pub struct History {
     /// By study the hash of its records.
     records: BTreeMap<String, String>,
     remarks: Vec<String>,
-    withdrawn: Vec<String>,
+    /// Claims that are gone after their data had been seen, each with the entry that says so.
+    withdrawn: Vec<(String, usize)>,
 }
 
 #[derive(Deserialize)]
@@ -226,11 +227,13 @@ impl History {
         Ok(Verdicts { history: seal, ..verdicts })
     }
 
-    /// Says in `verdicts` when claims were changed.
-    pub fn apply(&self, verdicts: &mut Verdicts) {
+    /// Says in `verdicts` when claims of `paper` were changed, and which were withdrawn without a reason.
+    pub fn apply(&self, verdicts: &mut Verdicts, paper: &Paper) {
         verdicts.history = self.seal().map(str::to_owned);
         verdicts.remarks.clone_from(&self.remarks);
-        verdicts.withdrawn.clone_from(&self.withdrawn);
+        let is_unexplained = |gone: &&(String, usize)| !paper.explains_withdrawn(&gone.0);
+        let unexplained = self.withdrawn.iter().filter(is_unexplained);
+        verdicts.withdrawn = unexplained.map(|(id, entry)| format!("`{id}` (entry {entry})")).collect();
         for judged in &mut verdicts.claims {
             let known = self.claims.get(&judged.claim);
             judged.changes = known.map_or_else(Vec::new, |known| known.changes.clone());
@@ -344,7 +347,7 @@ impl History {
         }
         let is_seen = |known: &Known| known.stated.studies().any(|study| self.records.contains_key(study));
         let withdrawn = gone.into_iter().filter(|(_, known)| is_seen(known));
-        self.withdrawn.extend(withdrawn.map(|(id, _)| format!("`{id}` (entry {number})")));
+        self.withdrawn.extend(withdrawn.map(|(id, _)| (id.clone(), number)));
         self.records.extend(entry.records.clone());
     }
 }

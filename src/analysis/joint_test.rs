@@ -15,6 +15,31 @@ pub struct Apart {
     pub errors: f64,
 }
 
+/// Means of cells that share their instances, with what they vary by together.
+pub struct Products {
+    /// The means, by cell.
+    pub means: Vec<f64>,
+    /// The sums of products of what each instance is apart from the means, by cell and cell.
+    pub products: DMatrix<f64>,
+    /// How many instances.
+    pub units: usize,
+}
+
+impl Products {
+    /// Those of `instances`, the so many cells of each in one order.
+    ///
+    /// # Panics
+    /// If an instance lacks a cell.
+    pub fn new(instances: &[Vec<f64>], cells: usize) -> Self {
+        let units = instances.len();
+        let means: Vec<f64> = (0..cells)
+            .map(|cell| instances.iter().map(|instance| instance[cell]).sum::<f64>() / units as f64)
+            .collect();
+        let centred = DMatrix::from_fn(units, cells, |unit, cell| instances[unit][cell] - means[cell]);
+        Self { means, products: centred.tr_mul(&centred), units }
+    }
+}
+
 /// The joint test of printed means that share their instances.
 pub struct JointTest {
     /// Our means, by cell.
@@ -25,23 +50,17 @@ pub struct JointTest {
 }
 
 impl JointTest {
-    /// That of `instances`, the cells of each of ours in one order, against means of `printed_of` instances that are rounded by up to
-    /// `rounding` in each cell. None if there are not more instances than cells by [`FEWEST_NORMAL`].
-    ///
-    /// # Panics
-    /// If an instance lacks a cell.
-    pub fn new(instances: &[Vec<f64>], printed_of: usize, rounding: &[f64]) -> Option<Self> {
-        let (units, cells) = (instances.len(), rounding.len());
+    /// That of our own means against means of `printed_of` instances that are rounded by up to `rounding` in each cell. None if there are
+    /// not more instances than cells by [`FEWEST_NORMAL`].
+    pub fn new(ours: Products, printed_of: usize, rounding: &[f64]) -> Option<Self> {
+        let Products { means, products, units } = ours;
+        let cells = rounding.len();
         if cells == 0 || printed_of == 0 || units < cells + FEWEST_NORMAL {
             return None;
         }
-        let means: Vec<f64> = (0..cells)
-            .map(|cell| instances.iter().map(|instance| instance[cell]).sum::<f64>() / units as f64)
-            .collect();
-        let centred = DMatrix::from_fn(units, cells, |unit, cell| instances[unit][cell] - means[cell]);
         let scale = (1.0 / printed_of as f64 + 1.0 / units as f64) / (units - 1) as f64;
         let rounded = DVector::from_iterator(cells, rounding.iter().map(|half| half * half / 3.0));
-        let covariance = centred.tr_mul(&centred) * scale + DMatrix::from_diagonal(&rounded);
+        let covariance = products * scale + DMatrix::from_diagonal(&rounded);
         let root = covariance.clone().cholesky()?;
         Some(Self { means, covariance, root, units })
     }
@@ -117,7 +136,8 @@ mod tests {
         let (mut refused, mut seen, mut cells_seen) = (0, 0, 0);
         for _ in 0..400 {
             let theirs = mean_row(&correlated(&mut stream, 100));
-            let test = JointTest::new(&correlated(&mut stream, 200), 100, &[0.005; 3]).unwrap();
+            let test =
+                JointTest::new(Products::new(&correlated(&mut stream, 200), 3), 100, &[0.005; 3]).unwrap();
             let apart: Vec<f64> = theirs.iter().zip(&test.means).map(|(own, mean)| own - mean).collect();
             refused += u32::from(test.probability(test.statistic(&apart)) < 0.05);
             // The second cell less the first is off by half a unit; each cell by itself hides it.
@@ -133,10 +153,10 @@ mod tests {
     #[test]
     fn cells_that_are_equal_on_every_instance_are_apart_by_rounding_alone() {
         let instances: Vec<Vec<f64>> = (0..100).map(|i| vec![f64::from(i); 2]).collect();
-        let test = JointTest::new(&instances, 100, &[0.005; 2]).unwrap();
+        let test = JointTest::new(Products::new(&instances, 2), 100, &[0.005; 2]).unwrap();
         let p = |apart: [f64; 2]| test.probability(test.statistic(&apart));
         assert!(p([1.0, 1.0]) > 0.9, "{}", p([1.0, 1.0]));
         assert!(p([1.0, 1.004]) > 0.05 && p([1.0, 1.1]) < 1e-6, "{} {}", p([1.0, 1.004]), p([1.0, 1.1]));
-        assert!(JointTest::new(&instances[..31], 100, &[0.005; 2]).is_none());
+        assert!(JointTest::new(Products::new(&instances[..31], 2), 100, &[0.005; 2]).is_none());
     }
 }

@@ -8,6 +8,7 @@
 
 pub mod across;
 pub mod agreement;
+pub mod asked;
 mod censored;
 pub mod citation;
 pub mod claims;
@@ -16,14 +17,16 @@ pub mod context;
 pub mod criterion;
 pub mod criterion_result;
 pub mod difference;
+pub mod estimates;
 pub mod evidence;
 pub mod history;
 pub mod inclusion;
 pub mod joint_test;
 pub mod meaning;
 pub mod metric;
+pub mod number;
 pub mod outcome;
-mod polylines;
+pub mod polylines;
 pub mod rule;
 pub mod selection;
 pub mod selection_spec;

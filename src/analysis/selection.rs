@@ -238,16 +238,12 @@ impl<'a> Selection<'a> {
             .sum()
     }
 
-    /// Instances that it takes, of groups that are drawn, before what holds on each of them is firm; none if there are as many, or if
-    /// they were searched for: one then shows what can be.
-    pub fn needs_instances(&self, instances: &[Instance<'_>], fewest: usize) -> Option<usize> {
-        if self.study.searched {
-            return None;
-        }
-        let of_group = |group: &String| instances.iter().filter(|instance| instance.group == group).count();
-        let drawn: Vec<usize> =
-            self.groups.iter().filter(|group| self.study.is_drawn(group)).map(of_group).collect();
-        (!drawn.is_empty() && drawn.iter().sum::<usize>() < fewest).then_some(fewest)
+    /// The instances of groups that are drawn; none if no group is, or if they were searched for: one then shows what can be.
+    pub fn drawn(&self, instances: &[Instance<'_>]) -> Option<usize> {
+        let is_drawn = |group: &String| !self.study.searched && self.study.is_drawn(group);
+        let drawn: Vec<&String> = self.groups.iter().filter(|group| is_drawn(group)).collect();
+        let of_drawn = |instance: &&Instance<'_>| drawn.iter().any(|group| *group == instance.group);
+        (!drawn.is_empty()).then(|| instances.iter().filter(of_drawn).count())
     }
 
     fn all_instances<'e>(&self, evidence: &'e Evidence<'_>) -> Vec<Instance<'e>> {

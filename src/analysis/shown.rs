@@ -47,7 +47,8 @@ pub fn of_all(
 
 /// By how many per cent the mean changes against the other contender's: the reduction with its sign turned.
 pub fn change_percent(of: &Selection<'_>, evidence: &Evidence<'_>, names: &[&str]) -> Option<Estimate> {
-    of_all(OverallStatistic::ReductionPercent, of, evidence, names).map(turned)
+    let found = of_all(OverallStatistic::ReductionPercent, of, evidence, names)?;
+    Some(Estimate { value: 0.0 - found.value, interval: turned(found.interval), ..found })
 }
 
 /// The mean of each of the selection's contenders over the instances that all of them solve, and how many these are; the stream of
@@ -242,9 +243,12 @@ impl Curves {
     }
 }
 
-/// Of each case of one contender a column of its problem and what it saves against the other contender, in per cent.
-pub fn savings_along(of: &Selection<'_>, evidence: &Evidence<'_>, column: &str) -> Vec<[f64; 2]> {
-    let point = |case: &Case<'_>| Some([case.row.value(column)?, case.saving_percent()?]);
+/// Of each case of one contender a column of its problem and the ratio of its number to the other contender's, where both are above 0.
+pub fn ratios_along(of: &Selection<'_>, evidence: &Evidence<'_>, column: &str) -> Vec<[f64; 2]> {
+    let point = |case: &Case<'_>| {
+        let (base, own) = case.pair().filter(|(base, own)| *base > 0.0 && *own > 0.0)?;
+        Some([case.row.value(column)?, own / base])
+    };
     by_instance(&of.instances(evidence), point).concat()
 }
 

@@ -6,6 +6,7 @@ use super::censored::{ended, filled};
 use super::criterion_result::Narrows;
 use super::evidence::Run;
 use super::metric::Metric;
+use super::number::Number;
 use super::selection::{Case, Instance, Selection, by_instance, cases, is_unended, unended};
 use super::verdict::Estimate as VerdictEstimate;
 use base::seed;
@@ -17,7 +18,7 @@ pub use stats::interval::Interval;
 use stats::pooled;
 use stats::proportion::{clopper_pearson, mean_of_agreed};
 use stats::summary;
-pub(super) use stats::summary::{mean, median, quantile_type7 as quantile};
+pub(super) use stats::summary::{mean, median, quantile_type7 as quantile, standard_deviation};
 use std::collections::BTreeMap;
 use study::record::{Row, Status};
 
@@ -29,8 +30,8 @@ pub const LEVEL: f64 = 0.95;
 pub const FEWEST_INSTANCES: usize = 10;
 
 /// How the interval of an estimate was made, as sentences and captions say it.
-pub fn how(found: &Estimate) -> &'static str {
-    if found.is_agreed { AGREED } else { "bootstrap" }
+pub fn how(is_agreed: bool) -> &'static str {
+    if is_agreed { AGREED } else { "bootstrap" }
 }
 
 /// What the interval of instances that all agree is.
@@ -47,6 +48,17 @@ pub fn narrows(is_agreed: bool) -> Narrows {
 /// The instances that are needed, where there are fewer.
 pub fn needs(instances: usize) -> Option<usize> {
     (instances < FEWEST_INSTANCES).then_some(FEWEST_INSTANCES)
+}
+
+/// The instances that it takes before what holds on each of those that were `drawn` is firm, where there are fewer.
+pub fn too_few(drawn: Option<usize>) -> Option<usize> {
+    drawn.and_then(needs)
+}
+
+/// What so many instances that all tie say: how many more might not.
+pub fn tied(instances: usize) -> Option<String> {
+    let bound = clopper_pearson(0, instances, LEVEL)?;
+    Some(format!("every case ties: at most {:.1} % of instances could differ (95 %)", 100.0 * bound.high))
 }
 
 /// A bootstrap as every verdict makes it, with the stream of instances that belongs to `names`.
@@ -228,10 +240,9 @@ impl OverallStatistic {
     }
 }
 
-/// A reduction as a change, its sign turned.
-pub fn turned(reduction: Estimate) -> Estimate {
-    let Interval { low, high } = reduction.interval;
-    Estimate { value: 0.0 - reduction.value, interval: Interval::new(0.0 - high, 0.0 - low), ..reduction }
+/// The interval of a reduction as that of a change, its sign turned.
+pub fn turned(Interval { low, high }: Interval) -> Interval {
+    Interval::new(0.0 - high, 0.0 - low)
 }
 
 /// The median on the first group over that on the second, the interval from the ends of both; of a single instance the number
@@ -298,6 +309,19 @@ impl Share {
         let is_agreed = agreed.is_some();
         let is_exact = is_single || is_agreed && (hits == 0.0 || hits == chances);
         (chances > 0.0).then(|| Self { value: hits / chances, interval, is_exact, is_agreed, instances })
+    }
+
+    /// `number` with this share of the hits and chances by instance, if there is one.
+    pub fn counted(share: Option<Self>, counts: &[[f64; 2]], number: Number) -> Number {
+        let [hits, chances] = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
+        let Some(Self { value, interval, is_exact, is_agreed, instances }) = share else { return number };
+        Number { value: Some(value), interval, is_exact, is_agreed, n: instances, hits, chances, ..number }
+    }
+
+    /// That which a number has.
+    pub fn of(number: &Number) -> Option<Self> {
+        let &Number { value, interval, is_exact, is_agreed, n, .. } = number;
+        Some(Self { value: value?, interval, is_exact, is_agreed, instances: n })
     }
 
     /// It as our number beside a printed one: the share of `what`.

@@ -13,7 +13,7 @@ use serde::Deserialize;
 use std::collections::BTreeSet;
 use study::paper::results::{BlockSpec, CellSpec, ResultsSpec, Show};
 use study::paper::{Claim, Paper};
-use study::record::{PreprocessingRow, Row};
+use study::record::{PreprocessingRow, Row, Status};
 use study::{Interpretation, Study, name, recorded_mark};
 
 /// A table of results: its head and, block by block, its rows; a dash where there is nothing.
@@ -80,6 +80,10 @@ fn cell_of(run: &Run<'_>, group: &str, label: &str, cell: &CellSpec, metric: &Me
     let values = with_failures(&measured, metric.is_clock());
     let quantile = |share: f64| statistic::quantile(&values, share);
     let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    let ended = |status: Status| {
+        let count = rows.iter().filter(|row| row.status == status).count();
+        (!rows.is_empty()).then(|| number(100.0 * count as f64 / rows.len() as f64))
+    };
     let found = match cell.show {
         Show::Median => quantile(0.5).map(number),
         Show::Quartiles if values.len() < 2 => quantile(0.5).map(number),
@@ -89,10 +93,10 @@ fn cell_of(run: &Run<'_>, group: &str, label: &str, cell: &CellSpec, metric: &Me
             .collect::<Option<Vec<f64>>>()
             .map(|q| format!("{} [{}, {}]", number(q[0]), number(q[1]), number(q[2]))),
         Show::Percent => statistic::mean(&finite).map(|share| number(100.0 * share)),
-        Show::Solved => (!rows.is_empty()).then(|| {
-            let count = rows.iter().filter(|row| row.is_solved()).count();
-            number(100.0 * count as f64 / rows.len() as f64)
-        }),
+        Show::Solved => ended(Status::Solved),
+        Show::Refused => ended(Status::Rejected),
+        Show::NoPath => ended(Status::NoPath),
+        Show::Spent => ended(Status::BudgetSpent),
         Show::Failed => {
             let failed: Vec<f64> =
                 rows.iter().filter(|row| !row.is_solved()).filter_map(|row| run.value(row, metric)).collect();

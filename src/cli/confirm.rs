@@ -10,6 +10,7 @@ use super::rounds::{Halt, Round, Rounds, unless_planned};
 use super::{Failure, How, Which, command_line, counted, judge, verdicts};
 use crate::analysis::across::stored::Exploration;
 use crate::analysis::across::to_confirm;
+use crate::analysis::estimates::{Estimates, Explored};
 use crate::analysis::evidence::{Evidence, default_point};
 use crate::analysis::verdict::Verdicts;
 use clap::Args;
@@ -78,15 +79,16 @@ pub fn confirm(
         .map_or_else(|| scratch(&places, &paper, "confirm"), |rounds| Rounds::merged(&rounds.parts));
     let explorer = Explorer { rounds, second_seed: true, ..Explorer::new(&paper, &places, threads, folder) };
     let found = unless_planned(confirmed(&explorer))?;
-    let Some(second) = found.map(|found| Exploration { command, ..found }) else { return Ok(()) };
-    let path = Exploration::second(&places.runs);
-    second.write(&path)?;
+    let Some(second) = found.map(|found| Explored { command, ..found }) else { return Ok(()) };
+    let (trials, interpretations) = (second.trials, second.interpretations.len());
+    let stored = Estimates::read(&paper, &places.runs)?;
+    Estimates { second: Some(second), ..stored }.write(&places.runs)?;
     verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?, which);
     say!(
         "{} on the second seed, {} besides the default; what was found is in {}",
-        counted(second.trials as usize, ["trial", "trials"]),
-        counted(second.interpretations.len() - 1, ["interpretation", "interpretations"]),
-        path.display()
+        counted(trials as usize, ["trial", "trials"]),
+        counted(interpretations - 1, ["interpretation", "interpretations"]),
+        Estimates::path(&places.runs).display()
     );
     Ok(())
 }
@@ -110,7 +112,7 @@ fn check_seeds(paper: &Paper) -> Result<(), Failure> {
 }
 
 /// Every claim on the second seed: under the default interpretation with all instances, and under interpretations that turn a claim.
-fn confirmed(explorer: &Explorer<'_>) -> Result<Exploration, Halt> {
+fn confirmed(explorer: &Explorer<'_>) -> Result<Explored, Halt> {
     let paper = explorer.paper;
     let places = explorer.places;
     let default = default_point(paper);
@@ -123,9 +125,10 @@ fn confirmed(explorer: &Explorer<'_>) -> Result<Exploration, Halt> {
         stored.insert(study.name.clone(), run);
     }
     let evidence = Evidence::held(paper, default.clone(), stored);
-    let (mut found, _) = explorer.judge_under(evidence, std::slice::from_ref(&default))?;
+    let (mut found, _) = explorer.judge_under(&evidence, std::slice::from_ref(&default))?;
     let mut points = vec![default];
-    if let Some(first) = Exploration::read(&Exploration::first(&places.runs))? {
+    if let Some(first) = Estimates::read(paper, &places.runs)?.first {
+        let first = explorer.weighed(&first)?;
         let each = explorer.trials_each(most_instances, |_| true)?;
         let all = turned(paper, &verdicts, &first);
         let budget = paper.explore.as_ref().map_or(u64::MAX, |explore| explore.trials);
@@ -139,8 +142,7 @@ fn confirmed(explorer: &Explorer<'_>) -> Result<Exploration, Halt> {
             points.extend(some);
         }
     }
-    let all = Exploration::new(paper, &points, &found, &BTreeMap::new());
-    Ok(Exploration { trials: all_trials, ..all })
+    Ok(Explored { trials: all_trials, ..explorer.explored(&points, &found) })
 }
 
 /// How many trials the default interpretation takes on the second seed; refused if the paper's budget has no room for them.

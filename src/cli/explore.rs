@@ -7,7 +7,7 @@ use super::one_shard::OneShard;
 use super::places::Places;
 use super::rounds::{Round, Rounds, unless_planned};
 use super::{Failure, How, Which, command_line, counted, judge, verdicts};
-use crate::analysis::across::stored::Exploration;
+use crate::analysis::estimates::{Estimates, Explored};
 use crate::analysis::evidence::default_point;
 use clap::Args;
 use study::Interpretation;
@@ -86,15 +86,17 @@ pub fn explore(
     let _lock = Lock::take(&places.runs)?;
     let verdicts = judged(&paper, &places)?;
     let found = unless_planned(explorer.explore(&points, &budget, trials, &verdicts))?;
-    let Some(exploration) = found.map(|found| Exploration { command, ..found }) else { return Ok(()) };
-    let path = Exploration::first(&places.runs);
-    exploration.write(&path)?;
+    let Some(explored) = found.map(|found| Explored { command, ..found }) else { return Ok(()) };
+    let trials = explored.trials;
+    // What is damaged is made again, and what was found on the second seed is gone with it.
+    let stored = Estimates::read(&paper, &places.runs).unwrap_or_else(|_| Estimates::none(&paper));
+    Estimates { first: Some(explored), ..stored }.write(&places.runs)?;
     verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?, which);
     say!(
         "{} under {}; what was found is in {}",
-        counted(exploration.trials as usize, ["trial", "trials"]),
+        counted(trials as usize, ["trial", "trials"]),
         counted(points.len(), ["interpretation", "interpretations"]),
-        path.display()
+        Estimates::path(&places.runs).display()
     );
     Ok(())
 }

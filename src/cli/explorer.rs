@@ -6,17 +6,18 @@ use super::progress::{Bar, doing, safe_point, stop_flag};
 use super::rounds::{Halt, Round, Rounds};
 use super::sharded::Sharded;
 use super::{Failure, command_line, counted};
-use crate::analysis::across::glance::{Glance, glances};
-use crate::analysis::across::stored::Exploration;
+use crate::analysis::across::stored::{Exploration, differing, met_exactly};
 use crate::analysis::across::{compatible, near_a_flip};
 use crate::analysis::claims;
+use crate::analysis::estimates::{Explored, Measured, measured};
 use crate::analysis::evidence::{Evidence, default_point};
+use crate::analysis::polylines::Polylines;
 use crate::analysis::together::{greatest, together};
 use crate::analysis::verdict::{Together, Verdicts};
 use base::seed;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
-use study::explore::{Interpretations, interpretations};
+use study::explore::{Interpretations, interpretations, stamp};
 use study::lock::Lock;
 use study::manifest::Manifest;
 use study::paper::Paper;
@@ -25,9 +26,6 @@ use study::session::{self, Options};
 use study::spec::ExploreSpec;
 use study::store::{Records, read_numbers};
 use study::{Interpretation, Study};
-
-/// What every claim is found to be under one interpretation.
-pub type Glances = BTreeMap<String, Glance>;
 
 /// A study cut down to what is explored of it, and the study whose claims it answers.
 struct Ran<'p> {
@@ -191,33 +189,30 @@ impl<'p> Explorer<'p> {
         budget: &ExploreSpec,
         spent: u64,
         verdicts: &Verdicts,
-    ) -> Result<Exploration, Halt> {
+    ) -> Result<Explored, Halt> {
         let (early, late) = (self.studies_in(Round::First), self.studies_in(Round::Compatible));
         self.put_together(Round::First, points)?;
         let (mut found, mut sets) =
             self.judge_run(vec![self.stored(&early, points, Round::First)?], points)?;
-        let mut first = Exploration::new(self.paper, points, &found, &BTreeMap::new());
-        first.trials = spent;
+        let mut trials = spent;
         if !late.is_empty() {
             let each = self.trials_each(first_instances, |study| budget.is_late(&study.name))?;
+            let first = self.weighed(&self.explored(points, &found))?;
             let fits = compatible(self.paper, verdicts, &first);
-            let (places, some) = within(budget.trials, &mut first.trials, &each, points, fits);
+            let (places, some) = within(budget.trials, &mut trials, &each, points, fits);
             self.put_together(Round::Compatible, &some)?;
             let runs = vec![
                 self.stored(&early, points, Round::First)?,
                 self.stored(&late, &some, Round::Compatible)?,
             ];
-            let (glances, more) = self.judge_run(runs, &some)?;
+            let (measured, more) = self.judge_run(runs, &some)?;
             sets.extend(more);
-            places.into_iter().zip(glances).for_each(|(place, glances)| found[place] = glances);
-            first = Exploration {
-                trials: first.trials,
-                ..Exploration::new(self.paper, points, &found, &BTreeMap::new())
-            };
+            places.into_iter().zip(measured).for_each(|(place, measured)| found[place] = measured);
         }
-        let (with_more, trials) = self.once_more(points, budget, verdicts, &first)?;
-        let all = Exploration::new(self.paper, points, &found, &with_more);
-        Ok(Exploration { trials, together: greatest(sets), ..all })
+        let mut all = Explored { trials, ..self.explored(points, &found) };
+        let (with_more, trials) = self.once_more(points, budget, verdicts, &all)?;
+        all.add(with_more.iter().map(|(place, measured)| (*place, measured)), true);
+        Ok(Explored { trials, together: greatest(sets), ..all })
     }
 
     /// What is found with more instances, by the places of interpretations near a flip, and how many trials it took in all.
@@ -226,13 +221,13 @@ impl<'p> Explorer<'p> {
         points: &[Interpretation],
         budget: &ExploreSpec,
         verdicts: &Verdicts,
-        first: &Exploration,
-    ) -> Result<(BTreeMap<usize, Glances>, u64), Halt> {
+        first: &Explored,
+    ) -> Result<(BTreeMap<usize, Measured>, u64), Halt> {
         if self.paper.studies.iter().all(|study| most_instances(study) <= first_instances(study)) {
             return Ok((BTreeMap::new(), first.trials));
         }
         let mut trials = first.trials;
-        let mut near = near_a_flip(self.paper, verdicts, first);
+        let mut near = near_a_flip(self.paper, verdicts, &self.weighed(first)?);
         // What parts from the defaults with more instances is seen only beside them.
         near.extend((!near.is_empty()).then_some(0));
         let each = self.trials_each(most_instances, |_| true)?;
@@ -244,12 +239,32 @@ impl<'p> Explorer<'p> {
         Ok((places.into_iter().zip(found).collect(), trials))
     }
 
-    /// What every claim is under each of `points` from the trials of `round`, and which claims hold jointly there.
+    /// What was measured under `points`, all in this order.
+    pub fn explored(&self, points: &[Interpretation], found: &[Measured]) -> Explored {
+        let mut explored = Explored {
+            interpretations: points.iter().map(|point| differing(self.paper, point)).collect(),
+            studies: self.paper.studies.iter().map(|study| (study.name.clone(), stamp(study))).collect(),
+            meant: met_exactly(self.paper),
+            ..Explored::default()
+        };
+        explored.add(found.iter().enumerate(), false);
+        explored
+    }
+
+    /// What the numbers of an exploration say of every claim.
+    pub fn weighed(&self, explored: &Explored) -> Result<Exploration, Failure> {
+        let polylines = Polylines::kept_in(&judge::polylines(self.places));
+        let found = Exploration::weighed(self.paper, explored, &polylines)?;
+        polylines.keep();
+        Ok(found)
+    }
+
+    /// What every claim measures under each of `points` in the trials of `round`, and which claims hold jointly there.
     pub fn look(
         &self,
         points: &[Interpretation],
         round: Round,
-    ) -> Result<(Vec<Glances>, Vec<Together>), Halt> {
+    ) -> Result<(Vec<Measured>, Vec<Together>), Halt> {
         let studies = self.studies_in(round);
         self.put_together(round, points)?;
         Ok(self.judge_run(vec![self.stored(&studies, points, round)?], points)?)
@@ -278,34 +293,22 @@ impl<'p> Explorer<'p> {
         studies.iter().map(run).collect()
     }
 
-    /// Judges every claim under each of `points` by these records and the stored default run.
+    /// What every claim asks under each of `points` of these records and the stored default run.
     fn judge_run<'r>(
         &'r self,
         runs: Vec<Vec<(&'r Study, &'r Study, Manifest, Records)>>,
         points: &[Interpretation],
-    ) -> Result<(Vec<Glances>, Vec<Together>), Failure> {
+    ) -> Result<(Vec<Measured>, Vec<Together>), Failure> {
         let evidence = judge::read(self.paper, default_point(self.paper), self.places)?;
-        self.judge_under(evidence.with(runs.into_iter().flatten().collect()), points)
+        self.judge_under(&evidence.with(runs.into_iter().flatten().collect()), points)
     }
 
-    /// Judges every claim of `evidence` under each of `points`; polylines that are found are kept for the next command,
-    /// after Ctrl-C as well.
+    /// What every claim asks of `evidence` under each of `points`.
     pub fn judge_under(
-        &self,
-        evidence: Evidence<'_>,
-        points: &[Interpretation],
-    ) -> Result<(Vec<Glances>, Vec<Together>), Failure> {
-        let evidence = evidence.remembering(&judge::polylines(self.places));
-        let found = self.judge_each(&evidence, points);
-        evidence.keep_polylines();
-        found
-    }
-
-    fn judge_each(
         &self,
         evidence: &Evidence<'_>,
         points: &[Interpretation],
-    ) -> Result<(Vec<Glances>, Vec<Together>), Failure> {
+    ) -> Result<(Vec<Measured>, Vec<Together>), Failure> {
         let mut found = Vec::new();
         let mut sets = Vec::new();
         let bar = Bar::default();
@@ -317,7 +320,7 @@ impl<'p> Explorer<'p> {
         for point in points {
             safe_point(stop_flag(), "the trials are kept")?;
             let view = evidence.under(point.clone());
-            found.push(glances(&view)?);
+            found.push(measured(&view)?);
             sets.extend(together(&view)?);
             study::runner::Progress::step(&bar);
         }

@@ -4,11 +4,11 @@ use super::places::Places;
 use super::progress::doing;
 use super::stamp::{Stamp, hash_of};
 use super::{Again, Failure, How, Which, command_line, verdicts};
-use crate::analysis::across::stored::Exploration;
 use crate::analysis::across::{self, Stored};
 use crate::analysis::claims;
 use crate::analysis::compare::stored_studies;
 use crate::analysis::difference::differences;
+use crate::analysis::estimates::Estimates;
 use crate::analysis::evidence::{Evidence, default_point};
 use crate::analysis::history::History;
 use crate::analysis::verdict::Verdicts;
@@ -54,7 +54,7 @@ impl Judge {
 fn check(paper: &Paper, point: Interpretation, places: &Places) -> Result<(), Failure> {
     let stored = Verdicts::read_as_they_stand(&places.runs)?;
     let path = Verdicts::path(&places.runs);
-    check_explorations(&stored, places)?;
+    check_explorations(paper, &stored, places)?;
     let evidence = read(paper, point, places)?;
     check_manifests(&evidence, places)?;
     let history = History::read(&places.runs)?;
@@ -94,17 +94,19 @@ pub fn must_hold(verdicts: &Verdicts) -> Result<(), Failure> {
 }
 
 /// Refuses verdicts that rest on an exploration that is gone.
-fn check_explorations(stored: &Verdicts, places: &Places) -> Result<(), Failure> {
+fn check_explorations(paper: &Paper, stored: &Verdicts, places: &Places) -> Result<(), Failure> {
     let Some(explored) = &stored.explored else { return Ok(()) };
-    for (is_used, path, command) in [
-        (explored.interpretations > 0, Exploration::first(&places.runs), "explore"),
-        (explored.second_seed, Exploration::second(&places.runs), "confirm"),
+    let found = Estimates::read(paper, &places.runs)?;
+    for (is_used, is_there, command) in [
+        (explored.interpretations > 0, found.first.is_some(), "explore"),
+        (explored.second_seed, found.second.is_some(), "confirm"),
     ] {
-        if is_used && !path.exists() {
-            let path = path.display();
-            let paper = &stored.paper;
+        if is_used && !is_there {
+            let path = Estimates::path(&places.runs);
             let message = format!(
-                "{path}: is gone, and the stored verdicts rest on it; `replan {command} {paper}` makes it again"
+                "{}: what `{command}` found is gone, and the stored verdicts rest on it; `replan {command} {}` makes it again",
+                path.display(),
+                stored.paper
             );
             return Err(Failure::stale(message));
         }
@@ -156,7 +158,7 @@ pub fn judge_changes(
     again: Again,
 ) -> Result<Verdicts, Failure> {
     let runs = &places.runs;
-    let beside = [Exploration::first(runs), Exploration::second(runs), History::path(runs)];
+    let beside = [Estimates::path(runs), History::path(runs)];
     let stamp = || {
         let hashes = beside.iter().map(|path| hash_of(path).unwrap_or_default());
         let more: Vec<String> = hashes.chain([point.name().to_owned()]).collect();
@@ -176,11 +178,16 @@ pub fn judge_changes(
 fn judged(evidence: &Evidence<'_>, places: &Places, history: &History) -> Result<Verdicts, Failure> {
     let is_other =
         evidence.point != default_point(evidence.paper) || evidence.runs().any(|run| run.manifest.quick);
-    let stored = || if is_other { Ok(Stored::default()) } else { Stored::read(&places.runs) };
+    let stored = || {
+        if is_other {
+            return Ok(Stored::default());
+        }
+        Stored::read(evidence.paper, &places.runs, evidence.polylines())
+    };
     let (verdicts, stored) = rayon::join(|| claims::judge(evidence), stored);
     let mut verdicts = verdicts?;
     across::apply(evidence.paper, &mut verdicts, &stored?);
-    history.apply(&mut verdicts);
+    history.apply(&mut verdicts, evidence.paper);
     Ok(verdicts)
 }
 

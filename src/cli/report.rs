@@ -127,7 +127,7 @@ fn made(paper: &Paper, places: &Places, folder: &Path, has_index: bool) -> Resul
     let evidence = Evidence::read(paper, point, &places.runs)?;
     let figures = figures(paper, &places.plots);
     let rest = format!("{}-replays.zip", paper.id);
-    let stored = Stored::read(&places.runs)?;
+    let stored = Stored::read(paper, &places.runs, evidence.polylines())?;
     let made = page::page(&evidence, &verdicts, &stored, &figures, &places.inputs, &rest, has_index);
     evidence.traces_read()?;
     let made = made?;

@@ -58,16 +58,22 @@ pub(super) fn tallied(verdicts: &Verdicts, which: &Which) -> String {
     text
 }
 
+/// How many stale claims are named.
+const NAMED: usize = 6;
+
 /// What is to be known of interpretations and the second seed as a whole.
 fn explored(verdicts: &Verdicts, which: &Which) -> Vec<String> {
     let Some(explored) = &verdicts.explored else { return Vec::new() };
     let stale = |claims: &[String], what: &str, command: &str| {
-        let count = claims.len();
-        let verb = if claims.len() == 1 { "claim is" } else { "claims are" };
-        (count > 0).then(|| {
-            let command = which.command(command);
+        let command = which.command(command);
+        let verb = if claims.len() == 1 { "is" } else { "are" };
+        let names: Vec<String> = claims.iter().take(NAMED).map(|id| format!("`{id}`")).collect();
+        let more = claims.len().saturating_sub(NAMED);
+        let more = if more > 0 { format!(" and {more} more claims") } else { String::new() };
+        (!claims.is_empty()).then(|| {
             format!(
-                "{count} {verb} {what}: the claims or their studies have changed since; run `{command}` again"
+                "{}{more} {verb} {what}: what they ask is not among the estimates, or what their studies run has changed since; run `{command}` again",
+                names.join(", ")
             )
         })
     };

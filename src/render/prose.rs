@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn shares_over_readings_keep_a_digit_that_says_something() {
+    fn shares_over_interpretations_keep_a_digit_that_says_something() {
         assert_eq!(percents([0.0, 0.436]), "0 to 44 %");
         assert_eq!(percents([0.0051, 0.0149]), "0.5 to 1 %");
     }

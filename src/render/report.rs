@@ -33,7 +33,7 @@ pub struct Undrawn {
 const SECTIONS: [(&str, &str); 7] = [
     ("Claims", "claims"),
     ("What holds together", "together"),
-    ("Readings", "interpretations"),
+    ("Interpretations", "interpretations"),
     ("Changes after a run", "changes"),
     ("Further figures and tables", "figures"),
     ("Inventory", "inventory"),

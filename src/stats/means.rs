@@ -32,12 +32,22 @@ pub fn predicted_mean(values: &[f64], printed_of: usize, plan: Resampling) -> Op
     } else if units.min(printed_of) < FEWEST_NORMAL {
         resampled(values, value, printed_of, plan)
     } else {
-        let error = deviation * (1.0 / printed_of as f64 + 1.0 / units as f64).sqrt();
-        let half = student_multiplier(plan.level, (units - 1) as f64) * error;
-        Interval::new(value - half, value + half)
+        predicted_normal([value, deviation], units, printed_of, plan.level)
     };
     let value = if is_agreed { values[0] } else { value };
     Some(Estimate { value, interval, is_agreed, units, undefined: 0 })
+}
+
+/// [`predicted_mean`] of a mean and a standard deviation of so many `units` that are taken to be normal.
+pub fn predicted_normal(
+    [value, deviation]: [f64; 2],
+    units: usize,
+    printed_of: usize,
+    level: f64,
+) -> Interval {
+    let error = deviation * (1.0 / printed_of as f64 + 1.0 / units as f64).sqrt();
+    let half = student_multiplier(level, (units - 1) as f64) * error;
+    Interval::new(value - half, value + half)
 }
 
 /// The same where means are not taken to be normal.
@@ -55,12 +65,10 @@ fn resampled(values: &[f64], value: f64, printed_of: usize, plan: Resampling) ->
     Interval::new(end(tail), end(1.0 - tail))
 }
 
-/// Where the mean of all instances lies with probability `level`, from `values`; none below two.
-pub fn interval_of_mean(values: &[f64], level: f64) -> Option<Interval> {
-    let deviation = summary::standard_deviation(values)?;
-    let half =
-        student_multiplier(level, (values.len() - 1) as f64) * deviation / (values.len() as f64).sqrt();
-    summary::mean(values).map(|value| Interval::new(value - half, value + half))
+/// Where the mean of all instances lies with probability `level`, from the mean and the standard deviation of `units`, two or more.
+pub fn interval_of_mean([value, deviation]: [f64; 2], units: usize, level: f64) -> Interval {
+    let half = student_multiplier(level, (units - 1) as f64) * deviation / (units as f64).sqrt();
+    Interval::new(value - half, value + half)
 }
 
 #[cfg(test)]

@@ -240,6 +240,15 @@ impl Interpretation {
         InterpretationKey::new(moving.map(|choice| (choice.id.as_str().into(), option(choice))).collect())
     }
 
+    /// What the options let claims mean, whatever ran: the metrics of names and how printed digits end.
+    pub fn meaning(&self) -> String {
+        let options = self.changes.iter().map(|change| &change.option).filter(|option| option.sets_claims());
+        options
+            .map(|option| format!("{:?} {:?}\n", option.metric, option.digits))
+            .collect::<Vec<_>>()
+            .concat()
+    }
+
     /// How printed digits end, if an option says so.
     pub fn digits(&self) -> Option<Digits> {
         self.changes.iter().find_map(|change| change.option.digits)

@@ -13,6 +13,7 @@ pub mod results;
 mod rules;
 mod table_spec;
 mod tables;
+mod withdrawn;
 
 pub use self::claim::{Claim, Parts, TestRole, cells_named, printed_by};
 use self::claim::{ClaimSpec, claim};
@@ -25,6 +26,7 @@ use self::reply::ReplySpec;
 use self::results::ResultsSpec;
 use self::table_spec::TableSpec;
 pub use self::tables::{PrintedCell, PrintedRow, PrintedTable};
+pub use self::withdrawn::Withdrawn;
 pub use super::spec::Digits;
 use super::spec::{BudgetSpec, ChoiceSpec, ExploreSpec, StudySpec};
 use super::{Choice, Inputs, Interpretation, Shared, Study, StudyError, files};
@@ -76,6 +78,9 @@ struct PaperSpec {
     /// What authors and others reply to verdicts: it stands beside them.
     #[serde(default, rename = "reply")]
     replies: Vec<ReplySpec>,
+    /// Claims that it no longer has, with the reasons.
+    #[serde(default)]
+    withdrawn: Vec<Withdrawn>,
     /// The series, of those that figures have, that a contender is drawn as wherever it is drawn, by its label.
     #[serde(default)]
     series: BTreeMap<String, usize>,
@@ -191,6 +196,8 @@ pub struct Paper {
     pub results: Vec<ResultsSpec>,
     /// What authors and others reply to verdicts.
     pub replies: Vec<Reply>,
+    /// Claims that it no longer has, with the reasons.
+    pub withdrawn: Vec<Withdrawn>,
     /// The series, of those that figures have, that a contender is drawn as wherever it is drawn, by its label.
     pub series: BTreeMap<String, usize>,
     /// Its studies, in the order of their names.
@@ -348,6 +355,7 @@ impl Paper {
             cells,
             results: spec.results,
             replies: Vec::new(),
+            withdrawn: spec.withdrawn,
             series: spec.series,
             studies,
             others,
@@ -356,6 +364,7 @@ impl Paper {
             wholes,
         };
         paper.read_replies(&spec.replies, faults);
+        paper.check_withdrawn(faults);
         paper.check(&spec.claims, &spec.tables, faults);
         Ok(paper)
     }

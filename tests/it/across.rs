@@ -1,14 +1,15 @@
 //! Classes across interpretations, on a small paper through the whole program: run, explore, confirm, judge.
 
 use crate::paper::Bench;
-use flate2::Compression;
-use flate2::read::GzDecoder;
-use flate2::write::GzEncoder;
+use replan::analysis::across::Stored;
 use replan::analysis::across::stored::Exploration;
+use replan::analysis::estimates::Estimates;
 use replan::analysis::outcome::Outcome;
+use replan::analysis::polylines::Polylines;
 use replan::analysis::verdict::{ClaimVerdict, Verdicts};
 use std::fs;
-use std::io::{Read as _, Write as _};
+use study::Inputs;
+use study::paper::Paper;
 
 /// Where its runs are.
 pub const RUNS: &str = "target/replan/toy/data/runs/toy";
@@ -153,9 +154,21 @@ impl Toy {
         Self(bench)
     }
 
-    /// What is stored of its explorations: `explored.toml.gz` or `second_seed.toml.gz`.
-    pub fn stored(&self, name: &str) -> Exploration {
-        Exploration::read(&self.0.at(RUNS).join(name)).unwrap().unwrap()
+    /// What its explorations amount to.
+    fn stored(&self) -> Stored {
+        let folder = self.0.at("toy");
+        let paper = Paper::load(&folder, &Inputs { roots: vec![folder.clone()] }).unwrap();
+        Stored::read(&paper, &self.0.at(RUNS), &Polylines::default()).unwrap()
+    }
+
+    /// That of the first one.
+    pub fn first(&self) -> Exploration {
+        self.stored().first.unwrap()
+    }
+
+    /// That on the second seed.
+    pub fn second(&self) -> Exploration {
+        self.stored().second.unwrap()
     }
 
     fn verdicts(&self) -> Verdicts {
@@ -310,11 +323,36 @@ fn a_calibration_claim_takes_the_best_fit_of_all_and_does_not_vote_where_the_oth
 }
 
 #[test]
-fn what_changed_after_an_exploration_is_stale_and_judged_under_the_default_alone() {
+fn a_changed_margin_printed_number_or_criterion_of_the_same_numbers_needs_no_trial() {
+    let toy = Toy::new(&[CITED]);
+    let file = fs::read(toy.0.at(RUNS).join("estimates.parquet")).unwrap();
+    let outcome = |id: &str| toy.first().result(id, 0).unwrap().outcome;
+    assert_eq!([outcome("witness"), outcome("fewer")], [Outcome::Open, Outcome::Holds]);
+    // What is printed.
+    toy.0.edit("toy/paper.toml", "printed = \"24\"", "printed = \"4\"");
+    // A margin that the weight does not reach.
+    toy.0.edit("toy/paper.toml", "check.lower.of", "check.lower.by_percent = 99.0\ncheck.lower.of");
+    let said = toy.0.done(&["judge", "./toy"]);
+    assert!(!said.contains("default interpretation alone") && !said.contains("trials:"), "{said}");
+    assert_eq!(toy.verdicts().explored.unwrap().stale, [""; 0]);
+    assert_eq!([outcome("witness"), outcome("fewer")], [Outcome::Attainable, Outcome::SignOnly]);
+    // Another criterion of the same numbers: the reduction, held against bounds.
+    let lower = "check.lower.by_percent = 99.0\ncheck.lower.of = ";
+    let within = "check.within.accepted = [-1e6, 1e6]\ncheck.within.statistic = \"reduction_percent\"\ncheck.within.of = ";
+    toy.0.edit("toy/paper.toml", lower, within);
+    toy.0.done(&["judge", "./toy"]);
+    assert_eq!(toy.verdicts().explored.unwrap().stale, [""; 0]);
+    assert_eq!(toy.class_and_across("fewer"), pair("reproduced", "same under all 6"));
+    assert!(fs::read(toy.0.at(RUNS).join("estimates.parquet")).unwrap() == file, "it was explored again");
+    toy.0.done(&["judge", "./toy", "--check"]);
+}
+
+#[test]
+fn another_metric_or_selection_is_not_explored_and_the_claim_is_named() {
     let toy = Toy::new(&[]);
-    toy.0.edit("toy/paper.toml", "printed = \"24\"", "printed = \"23\"");
-    let output = toy.0.done(&["judge", "./toy"]);
-    assert!(output.contains("1 claim is judged under the default interpretation alone"), "{output}");
+    toy.0.edit("toy/paper.toml", "metric = \"expansions\", contenders", "metric = \"generated\", contenders");
+    let said = toy.0.done(&["judge", "./toy"]);
+    assert!(said.contains("`witness` is judged under the default interpretation alone"), "{said}");
     assert_eq!(toy.claim("witness").across, None);
     assert!(toy.claim("fewer").across.is_some());
     toy.0.edit("toy/draws.toml", "expansions = 10_000", "expansions = 9_999");
@@ -325,29 +363,33 @@ fn what_changed_after_an_exploration_is_stale_and_judged_under_the_default_alone
 }
 
 #[test]
-fn an_exploration_that_was_edited_is_refused_until_it_is_made_again() {
+fn estimates_that_were_edited_or_are_another_papers_are_refused_until_they_are_made_again() {
     let toy = Toy::new(&[CITED]);
-    let path = toy.0.at(RUNS).join("explored.toml.gz");
+    let path = toy.0.at(RUNS).join("estimates.parquet");
     let whole = fs::read(&path).unwrap();
-    let mut text = String::new();
-    GzDecoder::new(&whole[..]).read_to_string(&mut text).unwrap();
-    let edited = text.replacen("outcome = \"contradicted\"", "outcome = \"holds\"", 1);
-    assert_ne!(edited, text);
-    let unsealed = text.split_once('\n').unwrap().1.to_owned();
-    for wrong in [edited, unsealed] {
-        let mut packed = GzEncoder::new(Vec::new(), Compression::fast());
-        packed.write_all(wrong.as_bytes()).unwrap();
-        fs::write(&path, packed.finish().unwrap()).unwrap();
+    let mut turned = whole.clone();
+    turned[whole.len() / 2] ^= 1;
+    let cut = whole[..whole.len() / 2].to_vec();
+    let sealed = "estimates.parquet: is not what replan wrote: damaged, edited";
+    let refused = |why: &str| {
         for (command, code) in [(&["judge", "./toy", "--check"][..], 3), (&["judge", "./toy"], 2)] {
-            let output = toy.0.run(command);
-            assert_eq!(output.code, Some(code), "{}", output.err);
-            assert!(
-                output.err.contains("explored.toml.gz: is not what replan wrote: edited"),
-                "{}",
-                output.err
-            );
+            let said = toy.0.run(command);
+            assert_eq!(said.code, Some(code), "{}", said.err);
+            assert!(said.err.contains(why), "{}", said.err);
         }
+    };
+    for wrong in [turned, cut, b"by hand".to_vec(), Vec::new()] {
+        fs::write(&path, wrong).unwrap();
+        refused(sealed);
     }
+    let folder = toy.0.at("toy");
+    let paper = Paper::load(&folder, &Inputs { roots: vec![folder.clone()] }).unwrap();
+    fs::write(&path, &whole).unwrap();
+    let stored = Estimates::read(&paper, &toy.0.at(RUNS)).unwrap();
+    Estimates { paper: "another".to_owned(), ..stored }.write(&toy.0.at(RUNS)).unwrap();
+    refused("is of the paper `another`, not of `toy`");
+    toy.0.done(&["explore", "./toy"]);
+    assert!(fs::read(&path).unwrap() == whole, "what was refused is not made again as it was");
     fs::write(&path, whole).unwrap();
     toy.0.done(&["judge", "./toy", "--check"]);
 }
@@ -355,7 +397,7 @@ fn an_exploration_that_was_edited_is_refused_until_it_is_made_again() {
 #[test]
 fn exploring_once_more_runs_nothing_and_writes_the_same_bytes() {
     let toy = Toy::new(&[CITED]);
-    let path = toy.0.at(RUNS).join("explored.toml.gz");
+    let path = toy.0.at(RUNS).join("estimates.parquet");
     let before = fs::read(&path).unwrap();
     let output = toy.0.run(&["explore", "./toy"]);
     assert!(!output.err.contains("trials:"), "{}", output.err);
@@ -386,7 +428,7 @@ fn a_finding_that_asks_alone_gets_the_least_and_the_greatest_number_over_reading
     let hurried = "[choice.option.none]\nstage.astar = { weight = 0 }";
     let voting = "[choice.option.none]\npaper = \"section 1\"\nstage.astar = { weight = 0 }";
     let toy = Toy::new(&[(explored, report), (hurried, voting)]);
-    let own = &toy.stored("explored.toml.gz").claims["fewer"];
+    let own = &toy.first().claims["fewer"];
     let numbers: Vec<f64> = own.results.iter().skip(1).filter_map(|result| result.value).collect();
     let default = toy.claim("fewer").ours().unwrap().value;
     let end = |of: fn(f64, f64) -> f64| numbers.iter().copied().fold(default, of);

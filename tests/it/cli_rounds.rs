@@ -11,7 +11,7 @@ use std::process::Command;
 const LATE: (&str, &str) = ("trials = 100_000", "trials = 100_000\nwhere_compatible = [\"room\"]");
 const EDITS: [(&str, &str); 4] = [CITED, MORE, MET, LATE];
 /// What is found, and what claims are by it.
-const FOUND: [&str; 3] = ["explored.toml.gz", "second_seed.toml.gz", "verdicts.toml"];
+const FOUND: [&str; 2] = ["estimates.parquet", "verdicts.toml"];
 
 /// What is stored of `FOUND`.
 fn found(toy: &Toy) -> BTreeMap<&'static str, Vec<u8>> {
@@ -55,7 +55,7 @@ fn rounds(toy: &Toy, command: &str, numbers: &[usize], parts: &str) -> Vec<Strin
 fn explorations_and_confirmations_in_shards_find_what_one_machine_finds() {
     let calm = calm();
     let toy = Toy::unexplored(&EDITS);
-    assert_eq!(calm.len(), 3);
+    assert_eq!(calm.len(), 2);
     for numbers in [&[1][..], &[2, 1], &[3, 1, 2]] {
         let parts = |command: &str| format!("{command}-{}", numbers.len());
         assert_eq!(rounds(&toy, "explore", numbers, &parts("explore")), ["compatible", "round-2"]);

@@ -295,9 +295,9 @@ fn claims_are_judged_again_only_where_something_changed() {
     bench.edit("mini/draws.toml", "blocked_share = 0.3", "blocked_share = 0.2");
     assert!(is_judged() && !is_judged());
     // So is what an exploration has joined: one that cannot be read is noticed.
-    let explored = path.with_file_name("explored.toml.gz");
+    let explored = path.with_file_name("estimates.parquet");
     fs::write(&explored, b"torn").unwrap();
-    assert!(bench.run(&["repro", "./mini"]).err.contains("explored.toml.gz"));
+    assert!(bench.run(&["repro", "./mini"]).err.contains("estimates.parquet"));
     fs::remove_file(&explored).unwrap();
     assert!(!is_judged());
     // `judge` believes no stamp, nor does `--fresh`.

@@ -140,3 +140,19 @@ fn what_speaks_against_a_claim_names_a_trial_and_what_leaves_it_open_says_what_w
     }
     assert!(against > 40, "only {against} findings speak against claims");
 }
+
+#[test]
+fn the_ways_in_which_searches_end_add_up_to_all_of_them() {
+    let report = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("paper_repro.md")).unwrap();
+    let table = report.split("|  | Solved | Refused | No path | Budget spent |").nth(1).unwrap();
+    let rows = table.lines().skip(2).take_while(|line| line.starts_with('|'));
+    let shares =
+        |line: &str| line.split('|').filter_map(|cell| cell.trim().parse().ok()).collect::<Vec<f64>>();
+    let rows: Vec<Vec<f64>> = rows.map(shares).filter(|shares| !shares.is_empty()).collect();
+    for shares in &rows {
+        let sum: f64 = shares.iter().sum();
+        assert!(shares.len() == 4 && (sum - 100.0).abs() < 0.25, "{shares:?}");
+    }
+    let occurs = |way: usize| rows.iter().any(|shares| shares[way] > 0.0);
+    assert!(rows.len() == 8 && (0..4).all(occurs), "{rows:?}");
+}

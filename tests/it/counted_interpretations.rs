@@ -43,7 +43,7 @@ fn choices_of_one_study(room: &str, more: &[(&str, &str)]) -> Toy {
 #[test]
 fn a_reading_that_the_study_of_a_witness_does_not_have_is_not_looked_at_if_it_touches_its_contender() {
     let toy = choices_of_one_study("", &[]);
-    let first = toy.stored("explored.toml.gz");
+    let first = toy.first();
     let claim = &first.claims["witness"];
     let sights: Vec<(Sight, usize)> =
         claim.results.iter().map(|found| (found.sight, found.interpretations.len())).collect();
@@ -95,7 +95,7 @@ fn a_witness_by_a_contender_that_departs_counts_under_the_reading_that_it_depart
 fn what_contenders_depart_to_together_is_explored() {
     let both = DEPARTS.replace("{ hurry = \"none\" }", "{ hurry = \"none\", reach = \"both\" }");
     let toy = choices_of_one_study(&both, &[EITHER, ("sample = 20", "sample = 0")]);
-    let first = toy.stored("explored.toml.gz");
+    let first = toy.first();
     let together =
         [("hurry", "none"), ("reach", "both")].map(|(id, option)| (id.to_owned(), option.to_owned()));
     assert!(first.place(&together.into()).is_some(), "{:?}", first.interpretations);
@@ -143,7 +143,7 @@ fn a_reading_under_which_too_few_draws_are_solved_has_no_power_and_is_not_looked
          [choice.option]\nfifth = { problem = { blocked_share = 0.2 } }\nmost = { problem = { blocked_share = 0.65 } }\n\
          [[claim]]\nid = \"fewer\"";
     let toy = Toy::new(&[("[[claim]]\nid = \"fewer\"", crowd)]);
-    let first = toy.stored("explored.toml.gz");
+    let first = toy.first();
     let powerless: Vec<_> =
         first.claims["fewer"].results.iter().filter(|found| found.sight == Sight::Powerless).collect();
     assert!(!powerless.is_empty() && powerless.iter().all(|found| found.n < 10), "{powerless:?}");
@@ -283,7 +283,7 @@ fn a_reading_under_which_the_problem_cannot_be_posed_is_not_looked_at() {
     toy.0.write("toy/arm.toml", ARM.as_bytes());
     toy.0.done(&["run", "./toy"]);
     toy.0.done(&["explore", "./toy"]);
-    let first = toy.stored("explored.toml.gz");
+    let first = toy.first();
     let sights: Vec<(Sight, Outcome)> =
         first.claims["reach"].results.iter().map(|found| (found.sight, found.outcome)).collect();
     assert_eq!(sights, [(Sight::Looked, Outcome::Holds), (Sight::Powerless, Outcome::Open)]);
@@ -308,7 +308,7 @@ fn a_reading_whose_paths_the_verifier_refuses_is_set_apart_where_the_paper_calls
     let toy = Toy::new(&[sight]);
     let free = Toy::new(&[sight, free]);
     let refused = |toy: &Toy| toy.claim("shorter").across.map(|across| across.refused).unwrap_or_default();
-    let first = toy.stored("explored.toml.gz");
+    let first = toy.first();
     let shares: Vec<f64> = first.claims["shorter"].results.iter().map(|found| found.refused).collect();
     assert!(shares.contains(&0.0) && shares.iter().any(|share| *share > 0.05), "one-sided: {shares:?}");
     assert_eq!(refused(&toy), [""; 0]);

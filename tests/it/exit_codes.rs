@@ -73,8 +73,8 @@ fn verdicts_of_other_readings_are_stale_under_a_check() {
 #[test]
 fn an_exploration_that_was_edited_is_found_by_a_check_and_wrong_input_of_a_command() {
     let bench = reproduced();
-    bench.write(&format!("{STORED}/explored.toml.gz"), b"by hand");
-    let why = "explored.toml.gz: is no text packed by gzip";
+    bench.write(&format!("{STORED}/estimates.parquet"), b"by hand");
+    let why = "estimates.parquet: is not what replan wrote";
     assert!(ends(&bench, &["judge", "./mini", "--check"], 3).contains(why));
     assert!(ends(&bench, &["judge", "./mini"], 2).contains(why));
 }
@@ -92,17 +92,21 @@ fn an_exploration_that_is_gone_is_named_with_the_command_that_makes_it() {
     let toy = Toy::new(&[CITED]);
     toy.0.done(&["confirm", "./toy"]);
     toy.0.done(&["judge", "./toy", "--check"]);
-    for (file, command) in [("second_seed.toml.gz", "confirm"), ("explored.toml.gz", "explore")] {
-        let path = format!("{RUNS}/{file}");
-        let whole = fs::read(toy.0.at(&path)).unwrap();
-        fs::remove_file(toy.0.at(&path)).unwrap();
-        let text = ends(&toy.0, &["judge", "./toy", "--check"], 3);
-        let message = format!(
-            "replan: {path}: is gone, and the stored verdicts rest on it; `replan {command} toy` makes it again\n"
+    let path = format!("{RUNS}/estimates.parquet");
+    fs::remove_file(toy.0.at(&path)).unwrap();
+    for command in ["explore", "confirm"] {
+        let said = ends(&toy.0, &["judge", "./toy", "--check"], 3);
+        let told = format!(
+            "replan: {path}: what `{command}` found is gone, and the stored verdicts rest on it; `replan {command} toy` makes it again\n"
         );
-        assert_eq!(text, message);
-        toy.0.write(&path, &whole);
+        assert_eq!(said, told);
+        // The verdicts that `explore` judges rest on it alone.
+        let verdicts = toy.0.at(RUNS).join("verdicts.toml");
+        let before = fs::read(&verdicts).unwrap();
+        toy.0.done(&[command, "./toy"]);
+        fs::write(verdicts, before).unwrap();
     }
+    toy.0.done(&["judge", "./toy", "--check"]);
 }
 
 #[test]

@@ -86,7 +86,7 @@ fn commands_killed_at_random_moments_end_with_the_bytes_of_undisturbed_ones_and_
     let (again, _) = undisturbed();
     // Times and what is derived from them differ from run to run.
     let repeats: Vec<&PathBuf> = calm.keys().filter(|path| calm.get(*path) == again.get(*path)).collect();
-    for needed in ["draws.trials.parquet", "explored.toml.gz", "paper_repro.md", "exported/draws.trials.csv"]
+    for needed in ["draws.trials.parquet", "estimates.parquet", "paper_repro.md", "exported/draws.trials.csv"]
     {
         assert!(repeats.iter().any(|path| path.to_string_lossy().ends_with(needed)), "{needed}: {repeats:?}");
     }

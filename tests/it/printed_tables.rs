@@ -143,7 +143,6 @@ fn a_claim_that_moves_into_a_table_asks_the_same() {
     for claim in &apart.claims {
         let moved = paper.claim(&claim.id).unwrap();
         assert_eq!(meaning::hash(&apart, claim), meaning::hash(&paper, moved), "{}", claim.id);
-        // What was explored of it stays.
         assert_eq!(claim_hash(&apart, claim), claim_hash(&paper, moved), "{}", claim.id);
     }
     // Another margin is another question.

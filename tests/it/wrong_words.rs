@@ -249,9 +249,9 @@ pub const WRONG: &[Wrong] = &[
     wrong(
         "room",
         "kind = \"grid_search\"\ncaption = \"A search in a room.\"\nshows = [{ problems = \"room\", instances = 1 }]\nsettings = { problems = [\"room\"], contenders = [\"A*\"] }",
-        "kind = \"sweep_curves\"\ncaption = \"What is saved.\"\nsettings = { rows = [{ contender = \"A*\" }], saving = { problems = [\"room\"], metric = \"nodes\", \
-         contender = \"A*\", against = \"A*\", over = \"obstacles\" } }",
-        "mini/room.toml:27:21: `saving` takes no `rows` beside it",
+        "kind = \"sweep_curves\"\ncaption = \"What is saved.\"\nsettings = { rows = [{ contender = \"A*\" }], ratios = { problems = [\"room\"], metric = \"nodes\", \
+         contenders = [\"A*\"], against = \"A*\", over = \"obstacles\" } }",
+        "mini/room.toml:27:21: `ratios` takes no `rows` beside it",
     ),
     wrong("paper", "id = \"nodes\"", "id = \"cost\"", "another claim or cell is called `cost` already"),
     wrong(

@@ -1,14 +1,17 @@
-//! What is found about every claim under one interpretation, in the few numbers that are stored.
+//! What stored numbers say of every claim under each interpretation.
 
-use super::super::claims::{self, CappedFinding};
-use super::super::evidence::Evidence;
+use super::super::asked::{Asked, CappedFinding, asked};
+use super::super::claims;
+use super::super::number::Numbers;
 use super::super::outcome::{self, Caps, Outcome, Polarity};
+use super::super::polylines::Polylines;
 use base::hash::sha256;
 use base::settings::SettingsError;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
-use study::paper::Claim;
+use study::Interpretation;
+use study::paper::{Claim, Paper};
 
 /// Whether an outcome says something of a claim under an interpretation, the least first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -31,8 +34,6 @@ pub struct Glance {
     pub outcome: Outcome,
     /// Whether that says something.
     pub sight: Sight,
-    /// One witness would do.
-    pub existential: bool,
     /// Our number with its interval, and of how many instances.
     pub ours: Option<(f64, Option<[f64; 2]>, usize)>,
     /// The share of the paths that come back which the verifier refuses.
@@ -43,24 +44,85 @@ pub struct Glance {
     pub studies: BTreeSet<String>,
 }
 
-/// Every claim under the evidence's interpretation, by id.
+/// What every claim is found to be under one interpretation.
+pub type Glances = BTreeMap<String, Glance>;
+
+/// Every claim under each of `points`, by id: `answer` gives the numbers of a question under the interpretation at a place, and a name for
+/// them. A claim is left out where a question of its own, or of a part, has no answer.
 ///
 /// # Errors
-/// Those of [`validate`](claims::validate).
-pub fn glances(evidence: &Evidence<'_>) -> Result<BTreeMap<String, Glance>, SettingsError> {
-    let paper = evidence.paper;
-    let alone = |claim: &Claim| {
-        let glance = alone(claim, &claims::capped_findings(evidence, claim, true)?);
-        Ok((claim.id.clone(), meant(evidence, claim, glance)))
-    };
+/// Those of [`validate`](super::super::claims::validate).
+pub fn glances<'e>(
+    paper: &Paper,
+    points: &[Option<Interpretation>],
+    polylines: &Polylines,
+    answer: &(impl Fn(usize, &str) -> Option<(usize, &'e Numbers)> + Sync),
+) -> Result<Vec<Glances>, SettingsError> {
+    let of_claim = |claim: &Claim| weighed(paper, claim, points, polylines, answer);
     // Gathered in order before any error is passed on, so that it is the first claim's.
-    let found: Vec<Result<_, SettingsError>> = paper.claims.par_iter().map(alone).collect();
-    Ok(with_parts(evidence, found.into_iter().collect::<Result<_, _>>()?))
+    let alone: Vec<Result<_, SettingsError>> = paper.claims.par_iter().map(of_claim).collect();
+    let alone: Vec<Vec<Option<Glance>>> = alone.into_iter().collect::<Result<_, _>>()?;
+    let at = |place: usize| {
+        let of_claims = paper.claims.iter().zip(&alone);
+        let own = of_claims.filter_map(|(claim, all)| Some((claim.id.clone(), all[place].clone()?)));
+        points[place].as_ref().map(|point| with_parts(paper, point, own.collect())).unwrap_or_default()
+    };
+    Ok((0..points.len()).into_par_iter().map(at).collect())
+}
+
+/// What an interpretation lets claims mean, and whether the claim is meant there.
+type Meaning = (String, bool);
+
+/// One claim by its own criteria under each of `points`: those that mean the same by it and have equal numbers are weighed once.
+fn weighed<'e>(
+    paper: &Paper,
+    claim: &Claim,
+    points: &[Option<Interpretation>],
+    polylines: &Polylines,
+    answer: &impl Fn(usize, &str) -> Option<(usize, &'e Numbers)>,
+) -> Result<Vec<Option<Glance>>, SettingsError> {
+    let none =
+        Numbers { by_session: vec![Vec::new()], is_covered: true, is_posed: true, ..Numbers::default() };
+    let mut built: BTreeMap<Meaning, Vec<(Option<String>, Asked<'_>)>> = BTreeMap::new();
+    let mut known: BTreeMap<(Meaning, Vec<usize>), Glance> = BTreeMap::new();
+    let mut all = Vec::new();
+    for (place, point) in points.iter().enumerate() {
+        let Some(point) = point else {
+            all.push(None);
+            continue;
+        };
+        let meaning = (point.meaning(), claim.is_meant(point));
+        if !built.contains_key(&meaning) {
+            let decides =
+                asked(paper, claim, point).filter(|one| one.as_ref().map_or(true, |one| !one.is_shown()));
+            let built_now = decides.map(|one| one.map(|one| (one.question(), one)));
+            built.insert(meaning.clone(), built_now.collect::<Result<_, SettingsError>>()?);
+        }
+        let of_claim = &built[&meaning];
+        let numbers = |(question, _): &(Option<String>, Asked<'_>)| match question {
+            Some(question) => answer(place, question),
+            None => Some((usize::MAX, &none)),
+        };
+        let answers: Option<Vec<(usize, &Numbers)>> = of_claim.iter().map(numbers).collect();
+        let Some(answers) = answers else {
+            all.push(None);
+            continue;
+        };
+        let is_meant = meaning.1;
+        let key = (meaning, answers.iter().map(|(name, _)| *name).collect::<Vec<_>>());
+        let glance = known.entry(key).or_insert_with(|| {
+            let both = of_claim.iter().zip(&answers);
+            let weighed = both.map(|((_, asked), (_, numbers))| asked.weighed(numbers, polylines, None));
+            meant(claim, is_meant, alone(claim, &weighed.collect::<Vec<_>>()))
+        });
+        all.push(Some(glance.clone()));
+    }
+    Ok(all)
 }
 
 /// `glance`, but that nothing is found where the claim is not meant.
-fn meant(evidence: &Evidence<'_>, claim: &Claim, glance: Glance) -> Glance {
-    if claim.is_meant(&evidence.point) {
+fn meant(claim: &Claim, is_meant: bool, glance: Glance) -> Glance {
+    if is_meant {
         return glance;
     }
     let outcome = outcome::combined([], claim.untestable.is_some());
@@ -75,12 +137,9 @@ fn alone(claim: &Claim, weighed: &[CappedFinding]) -> Glance {
         weighed.iter().filter(|one| one.finding.outcome == Some(outcome)).collect();
     let sight = deciding.iter().map(|one| sight(one, outcome)).max().unwrap_or(Sight::Looked);
     let ours = deciding.iter().find_map(|one| one.finding.ours.as_ref());
-    let existential = weighed.iter().any(|one| decides(&one))
-        && weighed.iter().filter(decides).all(|one| one.caps.existential);
     Glance {
         outcome,
         sight,
-        existential,
         ours: ours.map(|ours| (ours.value, ours.interval, ours.n)),
         refused: weighed.iter().filter(decides).map(|one| one.refused).fold(0.0, f64::max),
         results: digest(weighed),
@@ -110,13 +169,16 @@ fn sight(one: &CappedFinding, outcome: Outcome) -> Sight {
 }
 
 /// Sentences of parts and rows of cells take what they are from theirs.
-fn with_parts(evidence: &Evidence<'_>, mut glances: BTreeMap<String, Glance>) -> BTreeMap<String, Glance> {
+fn with_parts(paper: &Paper, point: &Interpretation, mut glances: Glances) -> Glances {
     let alone = glances.clone();
-    for claim in &evidence.paper.claims {
+    for claim in &paper.claims {
         let Some((_, of, ids)) = claims::of_parts(claim) else { continue };
-        let parts: Vec<&Glance> = ids.iter().map(|id| &alone[id]).collect();
+        let parts: Option<Vec<&Glance>> = ids.iter().map(|id| alone.get(id)).collect();
+        let Some((parts, own)) = parts.zip(alone.get(&claim.id)) else {
+            glances.remove(&claim.id);
+            continue;
+        };
         let of_parts = of(&parts.iter().map(|part| part.outcome).collect::<Vec<_>>());
-        let own = &alone[&claim.id];
         let found = claim.tests().next().map(|_| own.outcome).into_iter().chain([of_parts]);
         let outcome = outcome::combined(found, claim.untestable.is_some());
         let alike = |part: &&&Glance| part.outcome.polarity() == outcome.polarity();
@@ -131,13 +193,12 @@ fn with_parts(evidence: &Evidence<'_>, mut glances: BTreeMap<String, Glance>) ->
         let whole = Glance {
             outcome,
             sight: sight.unwrap_or(Sight::Looked),
-            existential: parts.iter().all(|part| part.existential),
             ours: None,
             refused: parts.iter().map(|part| part.refused).fold(0.0, f64::max),
             results: sha256(results.as_bytes())[..12].to_owned(),
             studies: parts.iter().flat_map(|part| part.studies.iter().cloned()).collect(),
         };
-        glances.insert(claim.id.clone(), meant(evidence, claim, whole));
+        glances.insert(claim.id.clone(), meant(claim, claim.is_meant(point), whole));
     }
     glances
 }

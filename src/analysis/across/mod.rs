@@ -17,10 +17,12 @@ mod tested;
 pub mod touched;
 pub mod wording;
 
+use super::estimates::{Estimates, Explored};
 use super::outcome::{Outcome, Polarity};
+use super::polylines::Polylines;
 use super::settle::{MEANT, across_settles, meanings_settle};
 use super::together::greatest;
-use super::verdict::{Across, ClaimVerdict, Explored, Verdicts};
+use super::verdict::{Across, ClaimVerdict, Explored as Note, Verdicts};
 use super::verdict_rule::{Line, Results, Verdict, of_meanings};
 use count::{Counted, Group, VotingChoices};
 use std::collections::{BTreeMap, BTreeSet};
@@ -41,13 +43,17 @@ pub struct Stored {
 }
 
 impl Stored {
-    /// What is stored beside the runs in `folder`.
+    /// What is stored beside the runs in `folder`, by what the paper asks now; polylines that rules search for are remembered.
     ///
     /// # Errors
     /// [`StudyError::Touched`] if it cannot be understood.
-    pub fn read(folder: &Path) -> Result<Self, StudyError> {
-        let first = Exploration::read(&Exploration::first(folder))?;
-        Ok(Self { first, second: Exploration::read(&Exploration::second(folder))? })
+    pub fn read(paper: &Paper, folder: &Path, polylines: &Polylines) -> Result<Self, StudyError> {
+        let Estimates { first, second, .. } = Estimates::read(paper, folder)?;
+        let weighed = |explored: Option<Explored>| {
+            explored.map(|explored| Exploration::weighed(paper, &explored, polylines)).transpose()
+        };
+        let stored = weighed(first).and_then(|first| Ok(Self { first, second: weighed(second)? }));
+        stored.map_err(StudyError::from)
     }
 }
 
@@ -74,8 +80,8 @@ pub fn apply(paper: &Paper, verdicts: &mut Verdicts, stored: &Stored) {
 }
 
 /// What of the interpretations was explored.
-fn note(choices: &VotingChoices, stored: &Stored, outcomes: &BTreeMap<String, Outcome>) -> Explored {
-    let mut note = Explored::default();
+fn note(choices: &VotingChoices, stored: &Stored, outcomes: &BTreeMap<String, Outcome>) -> Note {
+    let mut note = Note::default();
     if let Some(first) = &stored.first {
         note.interpretations = first.interpretations.len();
         note.trials = first.trials;

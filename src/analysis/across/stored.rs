@@ -1,64 +1,68 @@
-//! What exploring a paper's choices found: a row for every claim and result, under the interpretations that give it.
+//! What exploring a paper's choices found of every claim: its results, and the interpretations that give each. They are weighed anew from the
+//! stored numbers whenever they are needed.
 
 use super::super::claims::claim_hash;
+use super::super::criterion::EXISTS;
+use super::super::estimates::Explored;
 use super::super::outcome::Outcome;
+use super::super::polylines::Polylines;
 use super::super::verdict::Together;
-use super::glance::{Glance, Sight};
+use super::glance::{Glance, Glances, Sight, glances};
 use base::hash::sha256;
-use base::settings::Document;
-use flate2::Compression;
-use flate2::read::GzDecoder;
-use flate2::write::GzEncoder;
-use serde::{Deserialize, Serialize};
+use base::settings::SettingsError;
+use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::File;
-use std::io::{Read as _, Write as _};
-use std::path::{Path, PathBuf};
 use study::explore::stamp;
 use study::paper::Paper;
-use study::store::write_whole;
-use study::{Interpretation, Study, StudyError};
+use study::{Interpretation, Study};
 
 /// Interpretations of a paper under which its claims were judged.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Exploration {
-    /// The paper.
-    pub paper: String,
-    /// The command that made it.
-    pub command: String,
     /// How many trials it took.
     pub trials: u64,
     /// The options that differ from the defaults of each choice, the default interpretation first.
     pub interpretations: Vec<BTreeMap<String, String>>,
     /// What the studies were when it was made, by name.
     pub studies: BTreeMap<String, String>,
-    /// The claims, by id.
-    #[serde(default)]
+    /// The claims, by id; those that ask what was not explored are left out.
     pub claims: BTreeMap<String, ExploredClaim>,
     /// Which claims hold jointly under some interpretation.
-    #[serde(default)]
     pub together: Vec<Together>,
 }
 
 /// A claim with all that was found about it.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct ExploredClaim {
-    /// What it said and how it was judged: a hash.
-    pub asked: String,
     /// The studies that it looks at.
     pub studies: BTreeSet<String>,
-    /// One witness would do.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub existential: bool,
     /// What was found, equal results once.
     pub results: Vec<ExploredResult>,
 }
 
+/// Every claim of `first` with its results; `more` are those of interpretations, by their places, that ran once more with more instances.
+fn claims(first: &[Glances], more: &BTreeMap<usize, Glances>) -> BTreeMap<String, ExploredClaim> {
+    let of_claim = |id: &String| {
+        let mut seen = Vec::new();
+        let mut studies = BTreeSet::new();
+        for (place, glances) in first.iter().enumerate() {
+            let Some(first) = glances.get(id) else { continue };
+            studies.extend(first.studies.iter().cloned());
+            seen.push((place, first, more.get(&place).and_then(|glances| glances.get(id))));
+        }
+        (id.clone(), ExploredClaim { studies, results: results(&seen) })
+    };
+    first.first().into_iter().flat_map(BTreeMap::keys).map(of_claim).collect()
+}
+
+/// A hash of what the claims mean that are met exactly, alone or together.
+pub fn met_exactly(paper: &Paper) -> String {
+    let asked = paper.claims.iter().filter(|claim| claim.check(EXISTS.name).is_some());
+    sha256(asked.map(|claim| claim_hash(paper, claim)).collect::<String>().as_bytes())[..16].to_owned()
+}
+
 /// What was found about a claim under some interpretations.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ExploredResult {
     /// The interpretations, by their places.
     pub interpretations: Vec<usize>,
@@ -67,28 +71,16 @@ pub struct ExploredResult {
     /// Whether that says something.
     pub sight: Sight,
     /// Our number.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
     /// Its interval.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interval: Option<[f64; 2]>,
     /// Of how many instances.
-    #[serde(default)]
     pub n: usize,
     /// The share of paths that the verifier refuses.
-    #[serde(default, skip_serializing_if = "is_zero")]
     pub refused: f64,
     /// A hash of the trials' results.
     pub results: String,
 }
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks with a reference")]
-fn is_zero(share: &f64) -> bool {
-    *share == 0.0
-}
-
-/// What stands before the hash of all that follows, in a file's first line.
-const SEAL: &str = "# sha256 of the lines below: ";
 
 /// A number to the digits that are shown of it.
 fn shown(value: f64) -> f64 {
@@ -108,87 +100,35 @@ pub fn differing(paper: &Paper, point: &Interpretation) -> BTreeMap<String, Stri
 }
 
 impl Exploration {
-    /// That of `glances` under `points`; `more` are those of points, by their places, that ran once more with more instances.
-    pub fn new(
-        paper: &Paper,
-        points: &[Interpretation],
-        glances: &[BTreeMap<String, Glance>],
-        more: &BTreeMap<usize, BTreeMap<String, Glance>>,
-    ) -> Self {
-        let of_claim = |id: &String| {
-            let mut seen = Vec::new();
-            let mut studies = BTreeSet::new();
-            let mut existential = false;
-            for (place, glances) in glances.iter().enumerate() {
-                let Some(first) = glances.get(id) else { continue };
-                existential |= first.existential;
-                studies.extend(first.studies.iter().cloned());
-                seen.push((place, first, more.get(&place).and_then(|glances| glances.get(id))));
-            }
-            let results = results(&seen);
-            let asked = paper.claim(id).map_or_else(String::new, |claim| claim_hash(paper, claim));
-            (id.clone(), ExploredClaim { asked, studies, existential, results })
-        };
-        let ids: BTreeSet<&String> = glances.iter().flat_map(BTreeMap::keys).collect();
-        Self {
-            paper: paper.id.clone(),
-            interpretations: points.iter().map(|point| differing(paper, point)).collect(),
-            studies: paper.studies.iter().map(|study| (study.name.clone(), stamp(study))).collect(),
-            claims: ids.into_iter().map(of_claim).collect(),
-            ..Self::default()
-        }
-    }
-
-    /// Where the first exploration of the paper whose runs are in `folder` lies.
-    pub fn first(folder: &Path) -> PathBuf {
-        folder.join("explored.toml.gz")
-    }
-
-    /// Where what was found on the second seed lies.
-    pub fn second(folder: &Path) -> PathBuf {
-        folder.join("second_seed.toml.gz")
-    }
-
-    /// The exploration in `path`, if there is one.
+    /// That which `stored` numbers amount to, by what the paper asks now.
     ///
     /// # Errors
-    /// [`StudyError::Touched`] if it was edited or cannot be understood.
-    pub fn read(path: &Path) -> Result<Option<Self>, StudyError> {
-        if !path.exists() {
-            return Ok(None);
-        }
-        let again = "explore or confirm the paper again";
-        let file = File::open(path).map_err(StudyError::io(path, "opening the file"))?;
-        let mut text = String::new();
-        let touched = |reason: &str| StudyError::Touched(format!("{}: {reason}; {again}", path.display()));
-        let unpacked = GzDecoder::new(file).read_to_string(&mut text);
-        unpacked.map_err(|error| touched(&format!("is no text packed by gzip ({error})")))?;
-        let sealed = text.strip_prefix(SEAL).and_then(|rest| rest.split_once('\n'));
-        if sealed.is_none_or(|(seal, body)| sha256(body.as_bytes()) != seal) {
-            return Err(touched("is not what replan wrote: edited, or of an older version"));
-        }
-        let read = Document::new(path, text).read_stored();
-        let found: Self = read.map_err(|error| StudyError::touched(error, again))?;
-        let beyond = |result: &ExploredResult| {
-            result.interpretations.iter().any(|place| *place >= found.interpretations.len())
+    /// Those of [`validate`](super::super::claims::validate).
+    pub fn weighed(paper: &Paper, stored: &Explored, polylines: &Polylines) -> Result<Self, SettingsError> {
+        let places = stored.places();
+        // A choice that the paper no longer has belongs to studies that have changed.
+        let point = |options| Interpretation::new(&paper.choices, options).ok();
+        let points: Vec<Option<Interpretation>> = stored.interpretations.iter().map(point).collect();
+        let under = |points: &[Option<Interpretation>], is_more: bool| {
+            let answer = |place: usize, question: &str| {
+                let at = *places.get(&(question, is_more, place))?;
+                Some((at, &stored.answers[at].numbers))
+            };
+            glances(paper, points, polylines, &answer)
         };
-        if found.claims.values().flat_map(|claim| &claim.results).any(beyond) {
-            return Err(touched("a result names an interpretation that is not listed"));
-        }
-        Ok(Some(found))
-    }
-
-    /// Writes it to `path`.
-    ///
-    /// # Errors
-    /// [`StudyError::Io`].
-    pub fn write(&self, path: &Path) -> Result<(), StudyError> {
-        let body = toml::to_string(self).expect("an exploration is strings, numbers and tables of them");
-        let text = format!("{SEAL}{}\n{body}", sha256(body.as_bytes()));
-        // A claim has a row for each result: a megabyte as text, a tenth of that packed.
-        let mut packed = GzEncoder::new(Vec::new(), Compression::best());
-        let packed = packed.write_all(text.as_bytes()).and_then(|()| packed.finish());
-        write_whole(path, &packed.map_err(StudyError::io(path, "packing the text"))?)
+        let first = under(&points, false)?;
+        let again: BTreeSet<usize> = stored.answers_with_more().collect();
+        let with_more: Vec<Option<Interpretation>> = points
+            .into_iter()
+            .enumerate()
+            .map(|(place, point)| point.filter(|_| again.contains(&place)))
+            .collect();
+        let more = under(&with_more, true)?.into_iter().enumerate();
+        let more = more.filter(|(place, _)| again.contains(place)).collect();
+        let together = if stored.meant == met_exactly(paper) { stored.together.clone() } else { Vec::new() };
+        let interpretations = stored.interpretations.clone();
+        let (trials, studies) = (stored.trials, stored.studies.clone());
+        Ok(Self { interpretations, trials, studies, together, claims: claims(&first, &more) })
     }
 
     /// The place of the interpretation with these options, if it was explored.
@@ -203,12 +143,12 @@ impl Exploration {
 
     /// Whether what is stored of the claim called `id` is of the claim and the studies as they are `now`.
     pub fn is_current(&self, now: &Now, id: &str) -> bool {
-        let Some((stored, asked)) = self.claims.get(id).zip(now.asked.get(id)) else { return false };
+        let Some(stored) = self.claims.get(id) else { return false };
         let is_as =
             |name: &String| now.studies.contains_key(name) && self.studies.get(name) == now.studies.get(name);
         // What stands for a study answers for it.
         let stands = now.stands_for.iter().filter(|(_, other)| stored.studies.contains(other));
-        stored.asked == *asked && stored.studies.iter().all(is_as) && stands.map(|(name, _)| name).all(is_as)
+        stored.studies.iter().all(is_as) && stands.map(|(name, _)| name).all(is_as)
     }
 
     /// The claims that it no longer speaks of.
@@ -223,8 +163,6 @@ impl Exploration {
 pub struct Now {
     /// The claims in their order.
     ids: Vec<String>,
-    /// What each says and how it is judged.
-    asked: BTreeMap<String, String>,
     /// The studies.
     studies: BTreeMap<String, String>,
     /// The studies that stand for another one, and that one.
@@ -240,7 +178,6 @@ impl Now {
         };
         Self {
             ids: paper.claims.iter().map(|claim| claim.id.clone()).collect(),
-            asked: paper.claims.iter().map(|claim| (claim.id.clone(), claim_hash(paper, claim))).collect(),
             studies: paper.studies.iter().map(|study| (study.name.clone(), stamp(study))).collect(),
             stands_for: paper.studies.iter().filter_map(stands).collect(),
         }

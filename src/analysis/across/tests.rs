@@ -238,7 +238,6 @@ fn glance(outcome: Outcome, n: usize, results: &str) -> Glance {
     Glance {
         outcome,
         sight: Sight::Looked,
-        existential: false,
         ours: Some((0.0, None, n)),
         refused: 0.0,
         results: results.to_owned(),

@@ -6,10 +6,11 @@ use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric::Metric;
+use crate::analysis::number::{Number, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Case, Instance, Selection, cases, most_cases};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{FEWEST_INSTANCES, Share, plan};
+use crate::analysis::statistic::{Share, plan, too_few};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -21,6 +22,7 @@ pub static ENTRY: Entry = Entry {
     name: "equals",
     about: "is a metric, on every trial, what another metric or another contender says that it is?",
     revision: |_| 4,
+    question: |_| Some("equal trials 1"),
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
@@ -70,6 +72,9 @@ impl<'a> Equals<'a> {
         Ok(Self { of, metric, truth, within: settings.within, plan: plan(&context.seed_names()) })
     }
 }
+
+/// How far the numbers are apart at most, and in per cent on the whole.
+const APART: &str = "apart";
 
 /// What all trials say.
 #[derive(Default)]
@@ -130,11 +135,24 @@ impl Equals<'_> {
 }
 
 impl Criterion for Equals<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
-        let Some(run) = self.of.run(evidence) else { return CriterionResult::default() };
+    fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
         let instances = self.of.instances(evidence);
-        let Tally { counts, worst, sums, wrong, unknown, broken } = self.tally(run, &instances);
-        let [same, all] = counts.iter().fold([0.0, 0.0], |sum, count| [sum[0] + count[0], sum[1] + count[1]]);
+        let Tally { counts, worst, sums, unknown, broken, .. } =
+            self.of.run(evidence).map(|run| self.tally(run, &instances)).unwrap_or_default();
+        let refused = cases(&instances).filter(|case| case.row.status == Status::Rejected).count();
+        let share = Share::new(&counts, most_cases(&instances), self.plan);
+        let percent = Some(100.0 * (sums[0] / sums[1] - 1.0)).filter(|percent| percent.is_finite());
+        let apart =
+            Number { part: APART.to_owned(), value: percent, greatest: Some(worst), ..Number::default() };
+        let drawn = self.of.drawn(&instances);
+        let whole =
+            Number { unended: unknown, above: broken, refused, drawn, ..Number::of_cases(&instances) };
+        vec![Share::counted(share, &counts, whole), apart]
+    }
+
+    fn weigh(&self, numbers: &[Number]) -> CriterionResult {
+        let found = whole(numbers);
+        let [same, all] = [found.hits, found.chances];
         let outcome = match (all > 0.0, same == all) {
             (false, _) => Outcome::Open,
             (true, true) => Outcome::Holds,
@@ -142,36 +160,36 @@ impl Criterion for Equals<'_> {
         };
         let metric = self.metric.label.to_lowercase();
         let truth = self.truth_name();
-        let whole = 100.0 * (sums[0] / sums[1] - 1.0);
-        let apart = if whole.is_finite() {
-            format!("; they are {worst:.4} apart at most, and {whole:+.2} % on the whole")
-        } else {
-            String::new()
-        };
+        let far = numbers.iter().find(|number| number.part == APART);
+        let apart = far.and_then(|far| far.greatest.zip(far.value)).map(|(worst, percent)| {
+            format!("; they are {worst:.4} apart at most, and {percent:+.2} % on the whole")
+        });
+        let apart = apart.unwrap_or_default();
         let mut because =
             vec![format!("{}: {metric} is {truth} on {same} of {all} trials{apart}", self.of.description())];
-        let refused = cases(&instances).filter(|case| case.row.status == Status::Rejected).count();
+        let refused = found.refused;
         because.extend((refused > 0).then(|| format!("{refused} of these paths the verifier refuses")));
-        because.extend(censored::outside(&instances).filter(|_| self.truth.is_none()));
-        let ours = Share::new(&counts, most_cases(&instances), self.plan).map(|share| {
+        because.extend(censored::outside_in_words(&self.of, found.outside).filter(|_| self.truth.is_none()));
+        let ours = Share::of(found).map(|share| {
             let what = format!("trials on which {metric} is {truth}");
             share.estimate(&what).of_cases([same as usize, all as usize])
         });
-        let trial = wrong.map(|row| run.trial(row));
         CriterionResult {
             outcome: Some(outcome),
             ours,
-            trial,
             because,
             units: "trials",
             // That something is wrong hangs on them only if nothing else is.
-            censored: if broken > 0 { 0 } else { unknown },
-            needs: self
-                .of
-                .needs_instances(&instances, FEWEST_INSTANCES)
-                .filter(|_| outcome == Outcome::Holds),
+            censored: if found.above > 0 { 0 } else { found.unended },
+            needs: too_few(found.drawn).filter(|_| outcome == Outcome::Holds),
             ..CriterionResult::default()
         }
+    }
+
+    fn show(&self, evidence: &Evidence<'_>, _: &[Number], found: &mut CriterionResult) {
+        let Some(run) = self.of.run(evidence) else { return };
+        let wrong = self.tally(run, &self.of.instances(evidence)).wrong;
+        found.trial = wrong.map(|row| run.trial(row));
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {

@@ -11,6 +11,7 @@ use crate::analysis::context::{CONTENDER_KEYS, Context};
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::{Evidence, Pair, Run, default_point};
 use crate::analysis::metric::Metric;
+use crate::analysis::number::{Ends, Number, parts};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection_spec::Labels;
 use crate::analysis::verdict::Estimate;
@@ -20,7 +21,7 @@ use proofs::exact::Print;
 use ran_under::ran_under;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use study::paper::Paper;
 use study::record::Row;
 use study::{Interpretation, Study};
@@ -30,6 +31,7 @@ pub static ENTRY: Entry = Entry {
     name: "exists",
     about: "does any stored trial meet the printed number exactly, where other named claims are met too?",
     revision: |_| 1,
+    question: |_| Some("values found 2"),
     settings: Accepted::shape::<Settings>(),
     example: r#"
 metric = "path_cost_cells"
@@ -312,46 +314,79 @@ fn places<'a>(
     Ok((places, metric))
 }
 
+impl Attained<'_> {
+    /// The trial that meets it first or, if none does, the nearest one; and whether it is met.
+    fn shown<'s, T>(&self, eligible: &'s [T], value: impl Fn(&T) -> f64) -> Option<(&'s T, bool)> {
+        let distance = |seen: &T| (value(seen) - self.print.printed.value()).abs();
+        let met = eligible.iter().find(|seen| self.is_met(value(seen)));
+        let nearest = || eligible.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        met.map(|seen| (seen, true)).or_else(|| nearest().map(|seen| (seen, false)))
+    }
+}
+
 impl Criterion for Attained<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
-        let (selected, eligible): (Vec<Seen<'_>>, Vec<Seen<'_>>) =
-            self.eligible(evidence).into_iter().partition(|seen| seen.selected);
-        let met: Vec<&Seen<'_>> = eligible.iter().filter(|seen| self.is_met(seen.value)).collect();
+    /// The numbers by each contender on problems where all given claims are met, equal ones once, in the order in which they were seen.
+    /// Those on maps that were drawn until it held stand outside.
+    fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
+        let mut numbers = vec![Number::default()];
+        let mut places = BTreeMap::new();
+        for seen in self.eligible(evidence) {
+            let key = (seen.contender, seen.selected, seen.value.to_bits());
+            let place = *places.entry(key).or_insert(numbers.len());
+            if place == numbers.len() {
+                let part = seen.contender.to_owned();
+                numbers.push(Number { part, value: Some(seen.value), ..Number::default() });
+            }
+            numbers[place].n += 1;
+            numbers[place].outside += usize::from(seen.selected);
+        }
+        numbers
+    }
+
+    fn weigh(&self, numbers: &[Number]) -> CriterionResult {
+        let parts = parts(numbers, Ends::Measured).into_iter();
+        let (selected, eligible): (Vec<&Number>, Vec<&Number>) = parts.partition(|part| part.outside > 0);
+        let value = |part: &&Number| part.value.unwrap_or_default();
+        let count = |parts: &[&Number]| parts.iter().map(|part| part.n).sum::<usize>();
+        let all = count(&eligible);
+        let met: Vec<&Number> = eligible.iter().copied().filter(|part| self.is_met(value(part))).collect();
         let given: Vec<&str> = self.given.iter().map(|given| given.claim).collect();
         let condition =
             if given.is_empty() { String::new() } else { format!(" on which {} hold", given.join(", ")) };
-        let distance = |seen: &Seen<'_>| (seen.value - self.print.printed.value()).abs();
-        let nearest = eligible.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
         let outcome = if met.is_empty() { Outcome::Open } else { Outcome::Holds };
         let mut found =
             CriterionResult { outcome: Some(outcome), existential: true, ..CriterionResult::default() };
-        if let Some(shown) = met.first().copied().or(nearest) {
-            found.trial = Some(shown.run.trial(shown.row));
-            let how = if met.is_empty() { "nearest" } else { "met" };
-            let what = format!("{how}, {} by {}", self.title(), shown.contender);
-            found.ours = Some(Estimate::bare(shown.value, what, eligible.len()));
-        }
-        let trials = match eligible.len() {
+        found.ours = self.shown(&eligible, value).map(|(shown, is_met)| {
+            let how = if is_met { "met" } else { "nearest" };
+            let what = format!("{how}, {} by {}", self.title(), shown.part);
+            Estimate::bare(value(shown), what, all)
+        });
+        let trials = match all {
             1 => "1 trial".to_owned(),
             count => format!("{count} trials"),
         };
         found.because.push(match met.first() {
-            Some(first) => format!(
-                "met by {} of {trials}{condition}; first by `{}` on {}",
-                met.len(),
-                first.contender,
-                first.run.problem(first.row)
-            ),
+            Some(first) => {
+                format!("met by {} of {trials}{condition}; first by `{}`", count(&met), first.part)
+            }
             None => format!("met by none of {trials}{condition}; this proves nothing either way"),
         });
-        let more = selected.len();
+        let more = count(&selected);
         found.because.extend((more > 0).then(|| {
             format!("{more} more trials are on maps that were drawn until it held, and do not count")
         }));
-        if met.is_empty() {
-            found.because.extend(self.met_elsewhere(evidence));
-        }
         found
+    }
+
+    fn show(&self, evidence: &Evidence<'_>, _: &[Number], found: &mut CriterionResult) {
+        let mut eligible = self.eligible(evidence);
+        eligible.retain(|seen| !seen.selected);
+        let shown = self.shown(&eligible, |seen| seen.value);
+        found.trial = shown.map(|(seen, _)| seen.run.trial(seen.row));
+        match shown {
+            Some((seen, true)) => found.because[0] += &format!(" on {}", seen.run.problem(seen.row)),
+            _ => found.because.extend(self.met_elsewhere(evidence)),
+        }
     }
 
     fn studies(&self) -> Vec<&Study> {

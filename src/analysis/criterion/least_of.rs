@@ -3,12 +3,13 @@
 //! Each comparison is a ratio of two medians with an interval; the largest ratio decides. Where it is asked for, what
 //! follows from one contender's steps including another's is stated and held against the runs, not estimated from them.
 
-use super::{Criterion, Entry};
+use super::{Criterion, Entry, without};
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::inclusion::Inclusion;
 use crate::analysis::metric::Metric;
+use crate::analysis::number::{Ends, Number, parts, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Selection, is_unended};
 use crate::analysis::selection_spec::SelectionSpec;
@@ -18,6 +19,7 @@ use base::settings::{Accepted, Faults, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::{self, Resampling};
+use stats::interval::Interval;
 use stats::paired::EQUAL;
 use stats::summary::median;
 use std::collections::{BTreeMap, BTreeSet};
@@ -28,6 +30,10 @@ pub static ENTRY: Entry = Entry {
     name: "least_of",
     about: "is a contender's median over seeds, failures infinite, below that of each other one on every problem?",
     revision: |_| 2,
+    question: |settings| {
+        without(settings, &["by_percent"]);
+        Some("ratios of medians 1")
+    },
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = ["maps"], metric = "expansions" }
@@ -77,29 +83,6 @@ struct Side {
     ended: Vec<f64>,
     median: f64,
     interval: [f64; 2],
-}
-
-/// One comparison: the median over the other's, its interval from the ends of both.
-struct Compared {
-    name: String,
-    trial: Option<String>,
-    medians: [f64; 2],
-    ratio: f64,
-    ends: [f64; 2],
-    /// Trials of either side.
-    trials: [usize; 2],
-    /// The problem itself was drawn, so that one trial is one of many.
-    is_drawn: bool,
-    inclusion: Inclusion,
-    keeps: bool,
-}
-
-impl Compared {
-    /// Whether something was drawn fewer times.
-    fn is_few(&self, fewest: usize) -> bool {
-        let least = if self.is_drawn { 1 } else { 2 };
-        self.trials.iter().any(|trials| (least..fewest).contains(trials))
-    }
 }
 
 impl<'a> LeastOf<'a> {
@@ -177,13 +160,17 @@ impl<'a> LeastOf<'a> {
 
     /// Every comparison that both sides were measured for, with what trials without an end would have given to those that are
     /// claimed to be lower and to the others.
-    fn compared(&self, run: &Run<'_>, unended: [f64; 2]) -> Vec<Compared> {
+    fn compared(&self, run: &Run<'_>, ends: Ends) -> Vec<Number> {
+        let unended = match ends {
+            Ends::Measured => [f64::INFINITY; 2],
+            Ends::Least => [0.0, f64::INFINITY],
+            Ends::Most => [f64::INFINITY, 0.0],
+        };
         let mut all = Vec::new();
         for problem in &self.of.groups {
             let sides = self.sides(run, problem, unended);
-            let compared =
-                (0..self.pairs.len()).filter_map(|index| self.compare(run, &sides, problem, index));
-            all.extend(compared);
+            let compared = (0..self.pairs.len()).filter_map(|index| self.compare(&sides, problem, index));
+            all.extend(compared.map(|compared| Number { ends, ..compared }));
         }
         all
     }
@@ -200,87 +187,142 @@ impl<'a> LeastOf<'a> {
     }
 
     /// What the comparisons say, if they are all that are asked for of what could be posed.
-    fn outcome(&self, run: &Run<'_>, all: &[Compared]) -> Outcome {
-        let is_complete = !all.is_empty() && all.len() == self.pairs.len() * self.posed(run).len();
-        if is_complete { outcome(all, self.limit()) } else { Outcome::Open }
+    fn outcome(&self, numbers: &[Number], ends: Ends) -> Outcome {
+        let all = compared(numbers, ends);
+        let posed = self.of.groups.len() - left_out(numbers).len();
+        let is_complete = !all.is_empty() && all.len() == self.pairs.len() * posed;
+        if is_complete { outcome(&all, self.limit()) } else { Outcome::Open }
     }
 
-    /// How many trials without an end could turn what was found: they are given 0 for the claim, and are infinite against it,
-    /// then the other way round.
-    fn censored(&self, run: &Run<'_>, found: Outcome) -> usize {
+    /// How many trials did not come to an end.
+    fn unended(&self, run: &Run<'_>) -> usize {
         let labels: BTreeSet<&String> = self.pairs.iter().flat_map(|(low, high)| [low, high]).collect();
         let cases = self.of.groups.iter().flat_map(|group| labels.iter().map(move |label| (group, *label)));
         let rows = cases.flat_map(|(group, label)| self.of.rows(run, group, label));
-        let unended = rows.filter(|row| is_unended(row)).count();
-        let mut ends = [[0.0, f64::INFINITY], [f64::INFINITY, 0.0]].into_iter();
-        let is_turned = unended > 0 && ends.any(|ends| self.outcome(run, &self.compared(run, ends)) != found);
-        if is_turned { unended } else { 0 }
+        rows.filter(|row| is_unended(row)).count()
     }
 
-    fn compare(
-        &self,
-        run: &Run<'_>,
-        sides: &BTreeMap<(usize, &str), Side>,
-        problem: &str,
-        index: usize,
-    ) -> Option<Compared> {
+    /// What a comparison is called.
+    fn name(&self, problem: &str, index: usize) -> String {
+        let (lower, higher) = &self.pairs[index];
+        format!("{lower} against {higher}, {problem}")
+    }
+
+    /// The problem and the pair that each comparison is of, by its name.
+    fn places(&self) -> BTreeMap<String, (&String, usize)> {
+        let of_group = |group| (0..self.pairs.len()).map(move |index| (group, index));
+        let all = self.of.groups.iter().flat_map(of_group);
+        all.map(|(group, index)| (self.name(group, index), (group, index))).collect()
+    }
+
+    /// The median of one side over the other's, its interval from the ends of both.
+    fn compare(&self, sides: &BTreeMap<(usize, &str), Side>, problem: &str, index: usize) -> Option<Number> {
         let (lower, higher) = &self.pairs[index];
         let (one, other) = (sides.get(&(0, lower.as_str()))?, sides.get(&(1, higher.as_str()))?);
         let [from, to] = [one.interval, other.interval];
-        let inclusion = self.inclusions[index];
-        let first = self.of.rows(run, problem, lower).into_iter().next();
-        Some(Compared {
-            name: format!("{lower} against {higher}, {problem}"),
-            trial: first.map(|row| run.trial(row)),
-            medians: [one.median, other.median],
-            ratio: ratio(one.median, other.median),
+        let trials = [one.values.len(), other.values.len()];
+        // A contender with one seed does not draw, unless the problem itself was drawn: one trial is then one of many.
+        let fewest = if self.of.study.is_drawn(problem) { 1 } else { 2 };
+        let keeps = self.inclusions[index].is_kept(&one.ended, &other.ended);
+        Some(Number {
+            part: self.name(problem, index),
+            value: Some(ratio(one.median, other.median)),
             // Wider than the interval of the ratio at either side's level, and so on the safe side.
-            ends: [ratio(from[0], to[1]), ratio(from[1], to[0])],
-            trials: [one.values.len(), other.values.len()],
-            is_drawn: self.of.study.is_drawn(problem),
-            inclusion,
-            keeps: inclusion.is_kept(&one.ended, &other.ended),
+            interval: Some(Interval::new(ratio(from[0], to[1]), ratio(from[1], to[0]))),
+            least: Some(one.median),
+            greatest: Some(other.median),
+            n: trials[0].max(trials[1]),
+            drawn: trials.into_iter().filter(|trials| *trials >= fewest).min(),
+            above: usize::from(!keeps),
+            ..Number::default()
         })
     }
 
-    fn because(&self, run: &Run<'_>, all: &[Compared]) -> Vec<String> {
+    fn because(&self, numbers: &[Number]) -> Vec<String> {
+        let all = compared(numbers, Ends::Measured);
         let label = self.metric.label.to_lowercase();
-        let met = all.iter().filter(|one| one.ratio < self.limit()).count();
+        let met = all.iter().filter(|one| one.value < Some(self.limit())).count();
         let by = if self.by_percent > 0.0 {
             format!(" by more than {} %", self.by_percent)
         } else {
             String::new()
         };
-        let posed = self.posed(run);
-        let all_of = self.pairs.len() * posed.len();
-        let left: Vec<&str> =
-            self.of.groups.iter().filter(|group| !posed.contains(group)).map(String::as_str).collect();
+        let left = left_out(numbers);
+        let all_of = self.pairs.len() * (self.of.groups.len() - left.len());
         let left =
             (!left.is_empty()).then(|| format!("left out, for it cannot be posed: {}", left.join(", ")));
         let mut because = vec![format!("in {met} of {all_of} comparisons the median {label} is less{by}")];
         because.extend(left);
-        because.extend(theorem(all));
+        because.extend(self.theorem(&all));
         because.extend(all.iter().map(|one| {
-            let [low, high] = one.medians;
-            format!("{}: {low:.4} against {high:.4}, ratio {:.3}", one.name, one.ratio)
+            let [low, high, ratio] = [one.least, one.greatest, one.value].map(Option::unwrap_or_default);
+            format!("{}: {low:.4} against {high:.4}, ratio {ratio:.3}", one.part)
         }));
         because
     }
+
+    /// What set inclusion says of the comparisons, where it says anything.
+    fn theorem(&self, all: &[&Number]) -> Option<String> {
+        let places = self.places();
+        let kinds =
+            all.iter().filter_map(|one| places.get(&one.part)).map(|(_, index)| self.inclusions[*index]);
+        let kinds: Vec<Inclusion> = kinds.collect();
+        let count = |kind| kinds.iter().filter(|own| **own == kind).count();
+        let (longer, shorter) = (count(Inclusion::NeverLonger), count(Inclusion::NeverShorter));
+        let equal = count(Inclusion::Equal);
+        let broken = all.iter().filter(|one| one.above > 0).count();
+        (longer + shorter + equal > 0).then(|| {
+            let kept = match broken {
+                0 => "the runs keep to both".to_owned(),
+                broken => format!("{broken} of them do not keep to it, so that the program is wrong"),
+            };
+            format!(
+                "by set inclusion, on any map, {longer} of {} cannot be longer (all steps of the other are its own) and {} cannot \
+                 be shorter; {kept}, and only the other {} are measured",
+                all.len(),
+                shorter + equal,
+                all.len() - longer - shorter - equal
+            )
+        })
+    }
+}
+
+/// The comparisons if cases without an end ended so.
+fn compared(numbers: &[Number], ends: Ends) -> Vec<&Number> {
+    parts(numbers, ends).into_iter().filter(|part| part.value.is_some()).collect()
+}
+
+/// The problems that could not be posed.
+fn left_out(numbers: &[Number]) -> Vec<&str> {
+    let parts = parts(numbers, Ends::Measured).into_iter();
+    parts.filter(|part| part.value.is_none()).map(|part| part.part.as_str()).collect()
+}
+
+/// The comparison that shows what was found: one that breaks a theorem, or else the largest.
+fn shown<'n>(all: &[&'n Number]) -> Option<&'n Number> {
+    let broken = all.iter().find(|one| one.above > 0).copied();
+    broken.or_else(|| largest(all))
+}
+
+fn largest<'n>(all: &[&'n Number]) -> Option<&'n Number> {
+    let ratio = |one: &Number| one.value.unwrap_or_default();
+    all.iter().copied().max_by(|a, b| ratio(a).total_cmp(&ratio(b)))
 }
 
 /// What comparisons say whose ratios are all claimed to be below `limit`; that one breaks a theorem speaks against all of it.
-fn outcome(all: &[Compared], limit: f64) -> Outcome {
-    if all.iter().any(|one| !one.keeps) {
+fn outcome(all: &[&Number], limit: f64) -> Outcome {
+    let intervals = || all.iter().filter_map(|one| one.interval);
+    if all.iter().any(|one| one.above > 0) {
         return Outcome::Fails;
     }
-    if all.iter().all(|one| one.ends[1] < limit) {
+    if intervals().all(|ends| ends.high < limit) {
         return Outcome::Holds;
     }
-    if all.iter().all(|one| one.ends[0] < limit) {
+    if intervals().all(|ends| ends.low < limit) {
         return Outcome::Open;
     }
     // Some ratio is certainly not below the margin; where every one is certainly below 1, the sign is right.
-    let is_less = all.iter().all(|one| one.ends[1] < 1.0);
+    let is_less = intervals().all(|ends| ends.high < 1.0);
     if is_less { Outcome::SignOnly } else { Outcome::Fails }
 }
 
@@ -290,56 +332,55 @@ fn ratio(a: f64, b: f64) -> f64 {
     if a == b || (ratio - 1.0).abs() <= EQUAL { 1.0 } else { ratio }
 }
 
-/// What set inclusion says of the comparisons, where it says anything.
-fn theorem(all: &[Compared]) -> Option<String> {
-    let count = |kind| all.iter().filter(|one| one.inclusion == kind).count();
-    let (longer, shorter) = (count(Inclusion::NeverLonger), count(Inclusion::NeverShorter));
-    let equal = count(Inclusion::Equal);
-    let broken = all.iter().filter(|one| !one.keeps).count();
-    (longer + shorter + equal > 0).then(|| {
-        let kept = match broken {
-            0 => "the runs keep to both".to_owned(),
-            broken => format!("{broken} of them do not keep to it, so that the program is wrong"),
-        };
-        format!(
-            "by set inclusion, on any map, {longer} of {} cannot be longer (all steps of the other are its own) and {} cannot \
-             be shorter; {kept}, and only the other {} are measured",
-            all.len(),
-            shorter + equal,
-            all.len() - longer - shorter - equal
-        )
-    })
-}
-
 impl Criterion for LeastOf<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
-        let Some(run) = self.of.run(evidence) else { return CriterionResult::default() };
-        let all = self.compared(run, [f64::INFINITY; 2]);
-        let outcome = self.outcome(run, &all);
-        let largest = all.iter().max_by(|a, b| a.ratio.total_cmp(&b.ratio));
-        let ours = largest.map(|one| {
+    /// Every comparison and every problem that could not be posed, a part each.
+    fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
+        let Some(run) = self.of.run(evidence) else { return vec![Number::default()] };
+        let unended = self.unended(run);
+        let posed = self.posed(run);
+        let left = self.of.groups.iter().filter(|group| !posed.contains(group));
+        let left = left.map(|group| Number { part: group.clone(), ..Number::default() });
+        let ends = Ends::ALL.into_iter().filter(|ends| *ends == Ends::Measured || unended > 0);
+        let compared = ends.flat_map(|ends| self.compared(run, ends));
+        std::iter::once(Number { unended, ..Number::default() }).chain(left).chain(compared).collect()
+    }
+
+    fn weigh(&self, numbers: &[Number]) -> CriterionResult {
+        let all = compared(numbers, Ends::Measured);
+        let outcome = self.outcome(numbers, Ends::Measured);
+        let ours = largest(&all).and_then(|one| one.found().zip(Some(one))).map(|((ratio, ends), one)| {
             let what = format!(
                 "% of the other's median {}, failures infinite, the largest of {}: {}",
                 self.metric.label.to_lowercase(),
                 all.len(),
-                one.name
+                one.part
             );
-            let is_finite = one.ends.iter().all(|end| end.is_finite());
-            let interval = is_finite.then_some(one.ends.map(|end| 100.0 * end));
-            Estimate { interval, ..Estimate::bare(100.0 * one.ratio, what, one.trials[0].max(one.trials[1])) }
+            let is_finite = ends.low.is_finite() && ends.high.is_finite();
+            let interval = is_finite.then_some([100.0 * ends.low, 100.0 * ends.high]);
+            Estimate { interval, ..Estimate::bare(100.0 * ratio, what, one.n) }
         });
-        let shown = all.iter().find(|one| !one.keeps).or(largest);
+        let unended = whole(numbers).unended;
+        let is_turned = unended > 0
+            && [Ends::Least, Ends::Most].into_iter().any(|ends| self.outcome(numbers, ends) != outcome);
+        let is_few = |one: &&Number| one.drawn.is_some_and(|trials| trials < FEWEST_SEEDS);
         CriterionResult {
             outcome: Some(outcome),
             ours,
-            trial: shown.and_then(|one| one.trial.clone()),
-            censored: self.censored(run, outcome),
-            because: self.because(run, &all),
+            censored: if is_turned { unended } else { 0 },
+            because: self.because(numbers),
             limits: vec![100.0 * self.limit()],
             units: "seeds",
-            needs: Some(FEWEST_SEEDS).filter(|fewest| all.iter().any(|one| one.is_few(*fewest))),
+            needs: Some(FEWEST_SEEDS).filter(|_| all.iter().any(is_few)),
             ..CriterionResult::default()
         }
+    }
+
+    fn show(&self, evidence: &Evidence<'_>, numbers: &[Number], found: &mut CriterionResult) {
+        let places = self.places();
+        let shown = shown(&compared(numbers, Ends::Measured)).and_then(|one| places.get(&one.part).copied());
+        let Some(((problem, index), run)) = shown.zip(self.of.run(evidence)) else { return };
+        let first = self.of.rows(run, problem, &self.pairs[index].0).into_iter().next();
+        found.trial = first.map(|row| run.trial(row));
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {

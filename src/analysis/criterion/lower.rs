@@ -1,25 +1,25 @@
 //! Whether one contender is lower (or higher) than another: sign and size over instances, or all along a sweep at once.
 
-use super::{Criterion, Entry};
-use crate::analysis::censored::{self, filled};
+use super::within::{OVERALL, overall};
+use super::{Criterion, Entry, without};
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::number::{Ends, Number, ended, parts, whole};
 use crate::analysis::outcome::Outcome;
-use crate::analysis::selection::{self, Case, Instance, Selection, is_unended, solved};
+use crate::analysis::selection::{self, Case, Instance, Selection, is_unended};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{
-    FEWEST_INSTANCES, LEVEL, OverallStatistic, how, narrows, needs, plan, turned,
+    FEWEST_INSTANCES, OverallStatistic, how, narrows, needs, plan, tied, turned,
 };
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stats::bands::{Band, sup_t_between};
-use stats::bootstrap::{Estimate as Estimated, Resampling};
+use stats::bootstrap::Resampling;
 use stats::interval::Interval;
-use stats::paired::{self, snapped};
-use stats::proportion::clopper_pearson;
+use stats::paired::snapped;
 use study::key::SweepKey;
 use study::name;
 use study::record::Row;
@@ -30,6 +30,14 @@ pub static ENTRY: Entry = Entry {
     name: "lower",
     about: "is a contender lower than another on average over instances, or solves it more all along a sweep?",
     revision: |_| 3,
+    question: |settings| {
+        without(settings, &["is", "by_percent"]);
+        if settings.get("of").and_then(|of| of.get("metric")).is_none() {
+            return Some("difference solved along a sweep 1");
+        }
+        settings.insert("statistic".to_owned(), "reduction_percent".into());
+        Some(OVERALL)
+    },
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", metric = "opened", contender = "Weighted A*", against = "A*" }
@@ -86,63 +94,55 @@ impl<'a> Lower<'a> {
         Ok(Self { of, way: settings.is, by_percent: settings.by_percent, plan })
     }
 
-    fn change(&self, pairs: &[Vec<(f64, f64)>]) -> Option<Estimated> {
-        OverallStatistic::ReductionPercent.of_pairs(pairs, self.plan).map(turned)
-    }
-
-    /// What pairs by instance say: a strict comparison that ties on every case is contradicted.
-    fn found(&self, change: &Estimated, pairs: &[Vec<(f64, f64)>]) -> Outcome {
-        if self.by_percent == 0.0 && is_tied(pairs) {
+    /// What the change of a contender says: a strict comparison that ties on every case is contradicted.
+    fn found(&self, change: Interval, is_tied: bool) -> Outcome {
+        if self.by_percent == 0.0 && is_tied {
             return Outcome::Fails;
         }
-        outcome(self.way, self.by_percent, change.interval)
+        outcome(self.way, self.by_percent, change)
     }
 
     /// The change over instances in a sentence, with how many of all cases go which way.
-    fn sentence(&self, metric: &str, change: &Estimated, pairs: &[Vec<(f64, f64)>]) -> String {
-        let Estimated { value, interval, units, .. } = change;
-        let signs = paired::signs(&pairs.concat());
+    fn sentence(
+        &self,
+        metric: &str,
+        (value, Interval { low, high }): (f64, Interval),
+        all: &Number,
+    ) -> String {
+        let &Number { below, equal, above, n, .. } = all;
         format!(
-            "{}: {metric} changes by {value:.2} % on the whole (95 % interval {:.2} to {:.2}, {} over {units} instances); lower on {}, \
-             equal on {}, higher on {} of {} cases{}",
+            "{}: {metric} changes by {value:.2} % on the whole (95 % interval {low:.2} to {high:.2}, {} over {n} instances); lower on \
+             {below}, equal on {equal}, higher on {above} of {} cases{}",
             self.of.description(),
-            interval.low,
-            interval.high,
-            how(change),
-            signs.lower,
-            signs.equal,
-            signs.higher,
-            signs.lower + signs.equal + signs.higher,
+            how(all.is_agreed),
+            below + equal + above,
             if self.of.all_ends { "" } else { " that both solve" },
         )
     }
 
     /// Over instances.
-    fn on_average(&self, evidence: &Evidence<'_>, metric: &str) -> CriterionResult {
-        let instances = self.of.instances(evidence);
-        let pairs = selection::pairs(&instances);
-        let Some(change) = self.change(&pairs) else {
-            return CriterionResult::too_few(pairs.len(), instances.len(), FEWEST_INSTANCES);
+    fn on_average(&self, numbers: &[Number], metric: &str) -> CriterionResult {
+        let all = whole(numbers);
+        let Some((value, interval)) = all.found().map(|(value, interval)| (0.0 - value, turned(interval)))
+        else {
+            return CriterionResult::too_few(all.measured, all.ran, FEWEST_INSTANCES);
         };
-        let Estimated { value, interval, units, .. } = change;
-        let found = self.found(&change, &pairs);
-        let is_other = |pairs: Vec<Vec<(f64, f64)>>| {
-            self.change(&pairs).is_some_and(|filled| self.found(&filled, &pairs) != found)
-        };
-        let is_turned = filled(&self.of, &instances).into_iter().any(is_other);
-        let what = format!("change of {metric} in %, {} 95 % over instances", how(&change));
-        let of_case = |case: &Case<'_>| case.saving_percent().map(|saving| -saving);
+        let found = self.found(interval, all.is_tied());
+        // What fills in for those that are missing ties with nothing.
+        let is_turned = ended(numbers).any(|filled| self.found(turned(filled), false) != found);
+        let what = format!("change of {metric} in %, {} 95 % over instances", how(all.is_agreed));
         CriterionResult {
             outcome: Some(found),
-            ours: Some(Estimate::new(value, interval, what, units).of_cases(solved(&instances))),
-            trial: selection::nearest(&self.of, evidence, &instances, of_case, value),
-            because: std::iter::once(self.sentence(metric, &change, &pairs)).chain(tied(&pairs)).collect(),
+            ours: Some(Estimate::new(value, interval, what, all.n).of_cases(all.cases())),
+            because: std::iter::once(self.sentence(metric, (value, interval), all))
+                .chain(all.is_tied().then(|| tied(all.measured)).flatten())
+                .collect(),
             limits: vec![0.0, if self.way == Way::Higher { self.by_percent } else { 0.0 - self.by_percent }],
             units: "instances",
-            needs: needs(units),
-            narrows: narrows(change.is_agreed),
-            censored: if is_turned { selection::censored(&instances) } else { 0 },
-            refused: censored::refused(&instances),
+            needs: needs(all.n),
+            narrows: narrows(all.is_agreed),
+            censored: if is_turned { all.censored } else { 0 },
+            refused: all.refused,
             ..CriterionResult::default()
         }
     }
@@ -167,67 +167,84 @@ impl<'a> Lower<'a> {
         sup_t_between(&self.curves(instances, unended), [-100.0, 100.0], self.plan)
     }
 
-    /// How many cases without an end could turn what was found along the sweep: as if the other alone solved them, then this one.
-    fn unended_along(&self, instances: &[Instance<'_>], outcome: Outcome) -> usize {
-        let unended = selection::unended(instances);
-        let is_other = |one: [bool; 2]| {
-            self.band(instances, one).is_some_and(|found| all_along(self.way, &found.band).0 != outcome)
-        };
-        let is_turned = unended > 0 && [[true, false], [false, true]].into_iter().any(is_other);
-        if is_turned { unended } else { 0 }
+    /// By how much more is solved at each point of the sweep; a part each, as it is and as if the other alone had solved what did not end,
+    /// then this one.
+    fn numbers_along(&self, evidence: &Evidence<'_>) -> Vec<Number> {
+        let instances = self.of.instances(evidence);
+        let n = self.curves(&instances, [false; 2]).len();
+        let mut numbers = vec![Number { n, ..Number::of_cases(&instances) }];
+        let unended = numbers[0].unended > 0;
+        for (ends, solved) in Ends::ALL.into_iter().zip([[false; 2], [true, false], [false, true]]) {
+            let band = self.band(&instances, solved).filter(|_| ends == Ends::Measured || unended);
+            let Some(Band { mean, band, .. }) = band else { continue };
+            let points = self.of.sweep_points().into_iter().zip(mean.into_iter().zip(band));
+            numbers.extend(points.map(|(point, (mean, interval))| {
+                let (part, value) = (name::sweep(&point), Some(mean));
+                Number { part, ends, value, interval: Some(interval), n, ..Number::default() }
+            }));
+        }
+        numbers
+    }
+
+    /// Where along the sweep the difference is least on the claim's side.
+    fn least(&self, points: &[&Number]) -> usize {
+        let sign = if self.way == Way::Higher { 1.0 } else { -1.0 };
+        let signed = |index: usize| sign * points[index].value.unwrap_or_default();
+        (0..points.len()).min_by(|a, b| signed(*a).total_cmp(&signed(*b))).unwrap_or(0)
+    }
+
+    /// What is found along the sweep if cases without an end ended so, and at how many points on the claim's side.
+    fn all_along(&self, numbers: &[Number], ends: Ends) -> Option<(Outcome, usize)> {
+        let band: Vec<Interval> =
+            parts(numbers, ends).into_iter().filter_map(|point| point.interval).collect();
+        (!band.is_empty()).then(|| all_along(self.way, &band))
     }
 
     /// Along the sweep.
-    fn along_sweep(&self, evidence: &Evidence<'_>) -> CriterionResult {
-        let instances = self.of.instances(evidence);
-        let units = self.curves(&instances, [false; 2]).len();
-        let Some(Band { mean, band, .. }) = self.band(&instances, [false; 2]) else {
-            return CriterionResult::too_few(units, instances.len(), FEWEST_INSTANCES);
+    fn along_sweep(&self, numbers: &[Number]) -> CriterionResult {
+        let all = whole(numbers);
+        let points = parts(numbers, Ends::Measured);
+        let Some((outcome, beyond)) = self.all_along(numbers, Ends::Measured) else {
+            return CriterionResult::too_few(all.n, all.ran, FEWEST_INSTANCES);
         };
-        let points = self.of.sweep_points();
-        let at = |index: usize| name::sweep(&points[index]);
-        let sign = if self.way == Way::Higher { 1.0 } else { -1.0 };
-        let signed = |index: usize| sign * mean[index];
-        let least = (0..mean.len()).min_by(|a, b| signed(*a).total_cmp(&signed(*b))).unwrap_or(0);
-        let (outcome, beyond) = all_along(self.way, &band);
+        let least = points[self.least(&points)];
+        let (mean, band) = least.found().expect("every point has a band");
         let because = format!(
-            "{}: the mean share of solved queries differs by {:.1} points (band {:.1} to {:.1}) at {}, where it is least on the claim's \
+            "{}: the mean share of solved queries differs by {mean:.1} points (band {:.1} to {:.1}) at {}, where it is least on the claim's \
              side; the simultaneous 95 % band over {} instances is on that side at {beyond} of {} points",
             self.of.description(),
-            mean[least],
-            band[least].low,
-            band[least].high,
-            at(least),
-            units,
-            band.len(),
+            band.low,
+            band.high,
+            least.part,
+            all.n,
+            points.len(),
         );
-        let what = format!("least mean difference in points, at {}, simultaneous 95 % band", at(least));
-        let against =
-            |case: &Case<'_>| case.row.key.sweep.has(&points[least]).then(|| sign * solved_more(case));
+        let what = format!("least mean difference in points, at {}, simultaneous 95 % band", least.part);
+        let is_turned = [Ends::Least, Ends::Most]
+            .into_iter()
+            .filter_map(|ends| self.all_along(numbers, ends))
+            .any(|(other, _)| other != outcome);
         CriterionResult {
             outcome: Some(outcome),
-            ours: Some(Estimate::new(mean[least], band[least], what, units).of_cases(solved(&instances))),
-            trial: selection::least(&self.of, evidence, &instances, against),
+            ours: Some(Estimate::new(mean, band, what, all.n).of_cases(all.cases())),
             because: vec![because],
             limits: vec![0.0],
             units: "instances",
-            censored: self.unended_along(&instances, outcome),
-            needs: needs(units),
+            censored: if is_turned { all.unended } else { 0 },
+            needs: needs(all.n),
             ..CriterionResult::default()
         }
     }
-}
 
-/// Whether both numbers of every case are equal.
-fn is_tied(pairs: &[Vec<(f64, f64)>]) -> bool {
-    let signs = paired::signs(&pairs.concat());
-    signs.equal > 0 && signs.lower + signs.higher == 0
-}
-
-/// What is said of cases that all tie: the most instances on which they might not.
-fn tied(pairs: &[Vec<(f64, f64)>]) -> Option<String> {
-    let bound = clopper_pearson(0, pairs.len(), LEVEL).filter(|_| is_tied(pairs))?;
-    Some(format!("every case ties: at most {:.1} % of instances could differ (95 %)", 100.0 * bound.high))
+    /// The trial that speaks least for the claim where along the sweep it is least.
+    fn shown_along(&self, evidence: &Evidence<'_>, numbers: &[Number]) -> Option<String> {
+        let points = parts(numbers, Ends::Measured);
+        let point =
+            self.of.sweep_points().into_iter().nth(self.least(&points)).filter(|_| !points.is_empty())?;
+        let sign = if self.way == Way::Higher { 1.0 } else { -1.0 };
+        let against = |case: &Case<'_>| case.row.key.sweep.has(&point).then(|| sign * solved_more(case));
+        selection::least(&self.of, evidence, &self.of.instances(evidence), against)
+    }
 }
 
 /// By how many a case is solved more than by the other: 1, 0 or -1.
@@ -272,11 +289,30 @@ fn outcome(way: Way, by_percent: f64, change: Interval) -> Outcome {
 }
 
 impl Criterion for Lower<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
+    fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
         match self.of.metric {
-            Some(metric) => self.on_average(evidence, &metric.label.to_lowercase()),
-            None => self.along_sweep(evidence),
+            Some(_) => overall(&self.of, OverallStatistic::ReductionPercent, self.plan, evidence),
+            None => self.numbers_along(evidence),
         }
+    }
+
+    fn weigh(&self, numbers: &[Number]) -> CriterionResult {
+        match self.of.metric {
+            Some(metric) => self.on_average(numbers, &metric.label.to_lowercase()),
+            None => self.along_sweep(numbers),
+        }
+    }
+
+    fn show(&self, evidence: &Evidence<'_>, numbers: &[Number], found: &mut CriterionResult) {
+        found.trial = if self.of.metric.is_none() {
+            self.shown_along(evidence, numbers)
+        } else {
+            let nearest = |change: f64| {
+                let of_case = |case: &Case<'_>| case.saving_percent().map(|saving| -saving);
+                selection::nearest(&self.of, evidence, &self.of.instances(evidence), of_case, change)
+            };
+            whole(numbers).value.and_then(|reduction| nearest(0.0 - reduction))
+        };
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {
@@ -330,7 +366,7 @@ mod tests {
                 .of_pairs(&vec![vec![pair]; instances], plan(&["agreed"]))
                 .unwrap();
             assert!(found.is_agreed && found.interval.half_width() > 0.0, "{found:?}");
-            outcome(Way::Lower, 10.0, turned(found).interval)
+            outcome(Way::Lower, 10.0, turned(found.interval))
         };
         assert_eq!(of((5.0, 5.0), 20), Outcome::Open, "one instance in six may differ");
         assert_eq!(of((5.0, 5.0), 200), Outcome::Fails, "a tenth less is out of reach");

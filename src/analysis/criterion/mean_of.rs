@@ -1,28 +1,36 @@
 //! Whether a printed mean could be that of so many instances like ours.
 
-use super::{Criterion, Entry};
-use crate::analysis::censored;
+use super::{Criterion, Entry, without};
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::{CriterionResult, refused_beyond};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
+use crate::analysis::number::{Ends, Number, whole};
 use crate::analysis::outcome::Outcome;
-use crate::analysis::selection::{self, Case, Instance, Selection, by_instance, solved};
+use crate::analysis::selection::{self, Case, Instance, Selection, by_instance};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{FEWEST_INSTANCES, LEVEL, mean, needs, plan};
+use crate::analysis::statistic::{FEWEST_INSTANCES, LEVEL, mean, needs, plan, standard_deviation};
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::Resampling;
 use stats::interval::Interval;
-use stats::means::{interval_of_mean, predicted_mean};
+use stats::means::{FEWEST_NORMAL, interval_of_mean, predicted_mean, predicted_normal};
+use toml::Value;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "mean_of",
     about: "could the printed number be the mean of so many instances like ours, with 95 % probability?",
     revision: |_| 1,
+    question: |settings| {
+        // A mean of few is resampled, and takes the instances one by one.
+        let few =
+            settings.get("instances").and_then(Value::as_integer).is_some_and(|n| n < FEWEST_NORMAL as i64);
+        without(settings, &["instances"]);
+        Some(if few { "means of few 1" } else { "means 1" })
+    },
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
@@ -85,64 +93,95 @@ impl<'a> MeanOf<'a> {
         }
     }
 
-    /// The mean number of each instance that has one.
-    fn values(&self, instances: &[Instance<'_>]) -> Vec<f64> {
-        let numbers = by_instance(instances, |case| self.number(case));
-        numbers.iter().filter_map(|numbers| mean(numbers)).collect()
+    /// The mean number of each instance that has one, as `number` takes it of a case, as all of them together.
+    fn means(
+        &self,
+        instances: &[Instance<'_>],
+        ends: Ends,
+        number: impl Fn(&Case<'_>) -> Option<f64>,
+    ) -> Number {
+        let numbers = by_instance(instances, number);
+        let values: Vec<f64> = numbers.iter().filter_map(|numbers| mean(numbers)).collect();
+        let first = values.first().copied();
+        let is_agreed = values.iter().all(|value| Some(*value) == first);
+        let n = values.len();
+        let value = if is_agreed { first } else { mean(&values) };
+        let (deviation, greatest) = (standard_deviation(&values), values.iter().copied().reduce(farther));
+        let is_few = n.min(self.instances) < FEWEST_NORMAL;
+        let values = if is_few { values } else { Vec::new() };
+        Number { ends, value, is_agreed, n, greatest, deviation, values, ..Number::default() }
+    }
+
+    /// Where a mean of as many instances as are printed lies.
+    fn predicted(&self, means: &Number) -> Option<Interval> {
+        let (value, deviation) = means.value.zip(means.deviation)?;
+        if means.is_agreed {
+            return Some(Interval::new(value, value));
+        }
+        if means.n.min(self.instances) < FEWEST_NORMAL {
+            return predicted_mean(&means.values, self.instances, self.plan).map(|found| found.interval);
+        }
+        Some(predicted_normal([value, deviation], means.n, self.instances, LEVEL))
     }
 
     /// What our instances say of the printed number.
-    fn outcome(&self, values: &[f64]) -> Option<Outcome> {
-        let predicted = predicted_mean(values, self.instances, self.plan)?.interval;
-        if predicted.meets(self.rounded) {
+    fn outcome(&self, means: &Number) -> Option<Outcome> {
+        if self.predicted(means)?.meets(self.rounded) {
             return Some(Outcome::Holds);
         }
-        let of_mean = interval_of_mean(values, LEVEL)?;
+        let of_mean = interval_of_mean([means.value?, means.deviation?], means.n, LEVEL);
         // Both say that the contender has more, or both that it has less.
         let is_same_sign = (of_mean.low * self.printed).min(of_mean.high * self.printed) > 0.0;
         Some(if self.of.against.is_some() && is_same_sign { Outcome::SignOnly } else { Outcome::Fails })
     }
 
-    /// How many cases without an end could turn what was found: those of each instance give the least, then more than all others.
-    fn censored(&self, instances: &[Instance<'_>], found: Outcome) -> usize {
-        let unended = selection::unended(instances);
-        let values = self.values(instances);
-        if unended == 0 {
-            return 0;
-        }
-        let far = values.iter().fold(0.0, |most: f64, value| most.max(value.abs())) * values.len() as f64;
-        let least = if self.of.against.is_some() { -far } else { 0.0 };
-        let filled = |end: f64| {
-            let number = |case: &Case<'_>| if case.is_unended() { Some(end) } else { self.number(case) };
-            let numbers = by_instance(instances, number);
-            self.outcome(&numbers.iter().filter_map(|numbers| mean(numbers)).collect::<Vec<_>>())
-        };
-        let is_turned = [least, far].into_iter().any(|end| filled(end) != Some(found));
+    /// How many cases without an end could turn what was found.
+    fn censored(&self, numbers: &[Number], found: Outcome) -> usize {
+        let is_turned = numbers[1..].iter().any(|ended| self.outcome(ended) != Some(found));
         // Ends that both refuse may do so on either side.
-        if is_turned || found != Outcome::Holds { unended } else { 0 }
+        if is_turned || found != Outcome::Holds { numbers[0].unended } else { 0 }
     }
 }
 
+/// The number that is farther from 0, without its sign.
+fn farther(one: f64, other: f64) -> f64 {
+    one.abs().max(other.abs())
+}
+
 impl Criterion for MeanOf<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
+    /// The mean of the instances, and what it would be if the cases without an end gave the least, then more than all others.
+    fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
         let instances = self.of.instances(evidence);
-        let values = self.values(&instances);
-        let found = predicted_mean(&values, self.instances, self.plan).zip(self.outcome(&values));
-        let Some((found, outcome)) = found else {
-            return CriterionResult::too_few(values.len(), instances.len(), FEWEST_INSTANCES)
-                .hanging_on(selection::unended(&instances));
+        let cases = Number::of_cases(&instances);
+        let Number { value, is_agreed, n, greatest, deviation, values, .. } =
+            self.means(&instances, Ends::Measured, |case| self.number(case));
+        let far = greatest.map_or(0.0, f64::abs) * n as f64;
+        let least = if self.of.against.is_some() { -far } else { 0.0 };
+        let ends = [(Ends::Least, least), (Ends::Most, far)].into_iter().filter(|_| cases.unended > 0);
+        let ended = ends.map(|(ends, end)| {
+            let number = |case: &Case<'_>| if case.is_unended() { Some(end) } else { self.number(case) };
+            self.means(&instances, ends, number)
+        });
+        let all = Number { value, is_agreed, n, greatest, deviation, values, ..cases };
+        std::iter::once(all).chain(ended).collect()
+    }
+
+    fn weigh(&self, numbers: &[Number]) -> CriterionResult {
+        let all = whole(numbers);
+        let Some((interval, outcome)) = self.predicted(all).zip(self.outcome(all)) else {
+            return CriterionResult::too_few(all.n, all.ran, FEWEST_INSTANCES).hanging_on(all.unended);
         };
+        let value = all.value.unwrap_or_default();
         let metric = self.metric.label.to_lowercase();
         let what = match &self.of.against {
             Some(_) => format!("mean difference of {metric}"),
             None => format!("mean of {metric}"),
         };
-        let Interval { low, high } = found.interval;
+        let Interval { low, high } = interval;
         let because = format!(
-            "{}: {what} {:.4} over {} instances; a mean of {} lies in [{low:.4}, {high:.4}] with 95 % probability; printed {}",
+            "{}: {what} {value:.4} over {} instances; a mean of {} lies in [{low:.4}, {high:.4}] with 95 % probability; printed {}",
             self.of.description(),
-            found.value,
-            found.units,
+            all.n,
             self.instances,
             self.printed
         );
@@ -151,18 +190,21 @@ impl Criterion for MeanOf<'_> {
         let shown = format!("{what}; the interval is that of a mean of {} instances, 95 %", self.instances);
         CriterionResult {
             outcome: Some(outcome),
-            ours: Some(
-                Estimate::new(found.value, found.interval, shown, found.units).of_cases(solved(&instances)),
-            ),
-            trial: selection::nearest(&self.of, evidence, &instances, |case| self.number(case), found.value),
+            ours: Some(Estimate::new(value, interval, shown, all.n).of_cases(all.cases())),
             because: vec![because],
             units: "instances",
-            censored: self.censored(&instances, outcome),
-            refused: censored::refused(&instances),
-            needs: needs(found.units).filter(|_| !found.is_agreed),
+            censored: if all.unended > 0 { self.censored(numbers, outcome) } else { 0 },
+            refused: all.refused,
+            needs: needs(all.n).filter(|_| !all.is_agreed),
             power: Some(refused_beyond(kept)),
             ..CriterionResult::default()
         }
+    }
+
+    fn show(&self, evidence: &Evidence<'_>, numbers: &[Number], found: &mut CriterionResult) {
+        let Some(value) = whole(numbers).value.filter(|_| found.ours.is_some()) else { return };
+        let instances = self.of.instances(evidence);
+        found.trial = selection::nearest(&self.of, evidence, &instances, |case| self.number(case), value);
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {

@@ -23,6 +23,8 @@ pub use one_instance::{Instances, instances, is_powerless};
 use super::context::Context;
 use super::criterion_result::CriterionResult;
 use super::evidence::{Evidence, Run};
+use super::number::Number;
+use super::polylines::Polylines;
 use super::selection::Selection;
 use base::settings::{Accepted, SettingsError};
 use study::Study;
@@ -30,8 +32,19 @@ use toml::Table;
 
 /// A criterion with its settings, every name looked up.
 pub trait Criterion {
-    /// What it finds in the stored runs as the evidence's interpretation, and session of the clock, show them.
-    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult;
+    /// The numbers that it weighs, as the evidence's interpretation, and session of the clock, show them.
+    fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number>;
+
+    /// What these numbers say of the claim; no trial is looked at.
+    fn weigh(&self, numbers: &[Number]) -> CriterionResult;
+
+    /// Adds the trial that shows what was found in `numbers`, and what trials alone can tell.
+    fn show(&self, _evidence: &Evidence<'_>, _numbers: &[Number], _found: &mut CriterionResult) {}
+
+    /// What arithmetic on printed numbers proves, of a rule; these polylines are remembered.
+    fn proof(&self, _polylines: &Polylines) -> Option<CriterionResult> {
+        None
+    }
 
     /// What it selects; none if it looks for trials in a way of its own.
     fn selections(&self) -> Vec<&Selection<'_>> {
@@ -100,6 +113,11 @@ fn selected(of: &Selection<'_>, run: &Run<'_>) -> String {
     text
 }
 
+/// Takes what is only weighed out of the settings.
+fn without(settings: &mut Table, keys: &[&str]) {
+    settings.retain(|key, _| keys.iter().all(|own| *own != key));
+}
+
 /// A registered criterion or rule.
 pub struct Entry {
     /// The name that claims use; also its file's name.
@@ -109,6 +127,9 @@ pub struct Entry {
     /// Raised whenever a change moves what it finds in the same trials, of the settings that it moves: what was found under interpretations
     /// is then asked again.
     pub revision: fn(&Table) -> u32,
+    /// What its numbers are called, with a revision, once what only weighs them is taken out of its settings: criteria that leave the same
+    /// share their numbers. None of a rule, which looks at no trial.
+    pub question: fn(&mut Table) -> Option<&'static str>,
     /// The shape of its settings, which documents them.
     pub settings: Accepted,
     /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.

@@ -5,11 +5,11 @@ use crate::analysis::censored;
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::{Evidence, Run};
+use crate::analysis::number::{Number, whole};
 use crate::analysis::outcome::Outcome;
-use crate::analysis::selection::{self, Case, Instance, Selection, cases, most_cases, solved};
+use crate::analysis::selection::{self, Case, Instance, Selection, cases, most_cases};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{FEWEST_INSTANCES, Share, plan};
-use crate::analysis::verdict::Estimate;
+use crate::analysis::statistic::{Share, plan, tied, too_few};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -21,7 +21,11 @@ use study::record::Row;
 pub static ENTRY: Entry = Entry {
     name: "on_every",
     about: "does it hold on every case that a contender is lower, within a bound, or solves what another solves?",
-    revision: |_| 4,
+    // Since 5, a few cases that all tie are too few.
+    revision: |settings| {
+        if settings.get("that").is_some_and(|that| that.as_str() == Some("lower")) { 5 } else { 4 }
+    },
+    question: |_| Some("every case 1"),
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", contender = "Weighted A*", against = "A*", metric = "opened" }
@@ -161,28 +165,30 @@ impl<'a> OnEvery<'a> {
     }
 }
 
-impl OnEvery<'_> {
-    /// The share of cases that speak for it, of `most` of an instance at most.
-    fn share(&self, said: &[Vec<(CaseOutcome, &Row)>], most: f64) -> Option<Estimate> {
-        let kept = |instance: &Vec<(CaseOutcome, &Row)>| {
-            instance.iter().filter(|(says, _)| *says == CaseOutcome::For).count()
-        };
-        let counts = said.iter().map(|instance| [kept(instance) as f64, instance.len() as f64]);
-        let share = Share::new(&counts.collect::<Vec<_>>(), most, self.plan)?;
-        Some(share.estimate(&format!("cases on which {}", self.claim())))
-    }
-}
-
 impl Criterion for OnEvery<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
-        let Some(run) = self.of.run(evidence) else { return CriterionResult::default() };
+    fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
         let instances = self.of.instances(evidence);
-        let said = self.outcomes(run, &instances);
-        let all = || said.iter().flatten();
-        let count = |wanted: CaseOutcome| all().filter(|(says, _)| *says == wanted).count();
-        let kept = count(CaseOutcome::For);
-        let equal = count(CaseOutcome::Equal);
-        let broken = count(CaseOutcome::Against);
+        let said = self.of.run(evidence).map(|run| self.outcomes(run, &instances)).unwrap_or_default();
+        let count = |wanted: CaseOutcome| said.iter().flatten().filter(|(says, _)| *says == wanted).count();
+        let hits_of = |instance: &Vec<(CaseOutcome, &Row)>| {
+            let hits = instance.iter().filter(|(says, _)| *says == CaseOutcome::For).count();
+            [hits as f64, instance.len() as f64]
+        };
+        let counts: Vec<[f64; 2]> = said.iter().map(hits_of).collect();
+        let whole = Number {
+            below: count(CaseOutcome::For),
+            equal: count(CaseOutcome::Equal),
+            above: count(CaseOutcome::Against),
+            unended: self.unknown(&instances),
+            drawn: self.of.drawn(&instances),
+            ..Number::of_cases(&instances)
+        };
+        vec![Share::counted(Share::new(&counts, most_cases(&instances), self.plan), &counts, whole)]
+    }
+
+    fn weigh(&self, numbers: &[Number]) -> CriterionResult {
+        let all = whole(numbers);
+        let (kept, equal, broken) = (all.below, all.equal, all.above);
         let outcome = match (kept, equal, broken) {
             (0, 0, 0) => Outcome::Open,
             (_, 0, 0) => Outcome::Holds,
@@ -191,8 +197,6 @@ impl Criterion for OnEvery<'_> {
             // One counterexample ends it, and so does a strict comparison that ties on every case.
             _ => Outcome::Fails,
         };
-        let counterexample = all().find(|(says, _)| *says == CaseOutcome::Against);
-        let shown = counterexample.or_else(|| all().find(|(says, _)| *says == CaseOutcome::Equal));
         let equally = if equal > 0 { format!(", equal on {equal}") } else { String::new() };
         let because = format!(
             "{}: {} on {kept} of {} cases{equally}, the contrary on {broken}",
@@ -201,23 +205,33 @@ impl Criterion for OnEvery<'_> {
             kept + equal + broken
         );
         // One counterexample is enough; that cases are equal is not.
-        let unknown = if broken > 0 { 0 } else { self.unknown(&instances) };
+        let unknown = if broken > 0 { 0 } else { all.unended };
         let left = (unknown > 0).then(|| format!("{unknown} more cases have no number to compare"));
-        let outside = censored::outside(&instances).filter(|_| self.that != Condition::Solved);
+        let outside =
+            censored::outside_in_words(&self.of, all.outside).filter(|_| self.that != Condition::Solved);
+        let tie = all.drawn.filter(|_| all.is_tied()).and_then(tied);
+        let share = Share::of(all).map(|share| share.estimate(&format!("cases on which {}", self.claim())));
         CriterionResult {
             outcome: Some(outcome),
             ties: if outcome == Outcome::Open { equal } else { 0 },
-            ours: self.share(&said, most_cases(&instances)).map(|ours| ours.of_cases(solved(&instances))),
-            trial: shown.map(|(_, row)| run.trial(row)),
-            because: std::iter::once(because).chain(left).chain(outside).collect(),
+            ours: share.map(|ours| ours.of_cases(all.cases())),
+            because: std::iter::once(because).chain(tie).chain(left).chain(outside).collect(),
             units: "cases",
             censored: unknown,
-            needs: self
-                .of
-                .needs_instances(&instances, FEWEST_INSTANCES)
-                .filter(|_| outcome == Outcome::Holds),
+            // One counterexample is enough; that the first few cases hold, or tie, is not.
+            needs: too_few(all.drawn).filter(|_| broken == 0 && outcome != Outcome::Open),
             ..CriterionResult::default()
         }
+    }
+
+    /// A counterexample or, where there is none, a case that is equal.
+    fn show(&self, evidence: &Evidence<'_>, _: &[Number], found: &mut CriterionResult) {
+        let Some(run) = self.of.run(evidence) else { return };
+        let instances = self.of.instances(evidence);
+        let said = self.outcomes(run, &instances);
+        let first = |wanted: CaseOutcome| said.iter().flatten().find(|(says, _)| *says == wanted);
+        let shown = first(CaseOutcome::Against).or_else(|| first(CaseOutcome::Equal));
+        found.trial = shown.map(|(_, row)| run.trial(row));
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {

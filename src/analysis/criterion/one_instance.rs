@@ -1,13 +1,14 @@
 //! Whether a printed number could be that of one more of our instances: a printed cell is one instance, not a mean.
 
-use super::{Criterion, Entry};
+use super::{Criterion, Entry, without};
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::{CriterionResult, refused_beyond};
 use crate::analysis::evidence::Evidence;
+use crate::analysis::number::{Ends, Number, whole};
 use crate::analysis::outcome::Outcome;
-use crate::analysis::selection::{self, Instance, Selection, solved};
+use crate::analysis::selection::{Instance, Selection};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{InstanceStatistic, LEVEL, plan};
+use crate::analysis::statistic::{InstanceStatistic, LEVEL, mean, plan};
 use crate::analysis::verdict::Estimate;
 use base::settings::{self, Accepted, SettingsError};
 use proofs::exact::Print;
@@ -26,6 +27,10 @@ pub static ENTRY: Entry = Entry {
     name: "one_instance",
     about: "does the printed number lie where one more instance of ours would, with 95 % probability?",
     revision: |_| 2,
+    question: |settings| {
+        without(settings, &["label", "premises"]);
+        Some("each instance 1")
+    },
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
@@ -80,7 +85,7 @@ pub fn instances(context: &Context<'_>, evidence: &Evidence<'_>) -> Result<Vec<I
     asked
         .map(|(_, settings)| {
             let one = OneInstance::new(&Context { settings, ..*context })?;
-            Ok(one.values(evidence, &one.of.instances(evidence)))
+            Ok(one.held(&one.numbers(evidence)))
         })
         .collect()
 }
@@ -129,69 +134,61 @@ impl<'a> OneInstance<'a> {
         }
     }
 
-    /// What the interval of one more instance says, of instances whose mean lies in `mean`.
-    fn outcome(&self, interval: Interval, mean: Interval) -> Outcome {
+    /// What the interval of one more instance says.
+    fn outcome(&self, interval: Interval, values: &[f64]) -> Outcome {
         let printed = self.print.printed.value();
-        match interval.contains(printed) {
-            true => Outcome::Holds,
-            // Both are savings, or both are losses.
-            false if self.of.against.is_some() && (mean.low * printed).min(mean.high * printed) > 0.0 => {
-                Outcome::SignOnly
-            }
-            false => Outcome::Fails,
+        if interval.contains(printed) {
+            return Outcome::Holds;
         }
+        let mean = bootstrap::mean(values, self.plan).filter(|_| self.of.against.is_some());
+        // Both are savings, or both are losses.
+        let is_same = |Interval { low, high }: Interval| (low * printed).min(high * printed) > 0.0;
+        if mean.is_some_and(|mean| is_same(mean.interval)) { Outcome::SignOnly } else { Outcome::Fails }
     }
 
-    /// How many cases without an end could turn what was found: instances of which one did not end are taken to lie above all
-    /// others, then below; where solved queries are counted, they are counted as solved.
-    fn censored(&self, drawn: &[Instance<'_>], found: Outcome) -> usize {
-        let number = |instance: &Instance<'_>, lost: f64| {
-            let unended = instance.cases.iter().filter(|case| case.is_unended()).count();
-            let own = self.statistic.value(instance);
-            if self.statistic == InstanceStatistic::SolvedPercent {
-                let more =
-                    if lost > 0.0 { 100.0 * unended as f64 / instance.cases.len() as f64 } else { 0.0 };
-                return own.map(|own| own + more);
-            }
-            // One more number would move a mean either way, a least one down and a greatest one up.
-            let is_moved = match self.statistic {
-                InstanceStatistic::Least => lost < 0.0,
-                InstanceStatistic::Greatest => lost > 0.0,
-                InstanceStatistic::Mean | InstanceStatistic::SolvedPercent => true,
-            };
-            if unended > 0 && (is_moved || own.is_none()) { Some(lost) } else { own }
+    /// The number of an instance if what did not end lies above all others, or below; where solved queries are counted, they are counted as
+    /// solved.
+    fn ended(&self, instance: &Instance<'_>, lost: f64) -> Option<f64> {
+        let unended = instance.cases.iter().filter(|case| case.is_unended()).count();
+        let own = self.statistic.value(instance);
+        if self.statistic == InstanceStatistic::SolvedPercent {
+            let more = if lost > 0.0 { 100.0 * unended as f64 / instance.cases.len() as f64 } else { 0.0 };
+            return own.map(|own| own + more);
+        }
+        // One more number would move a mean either way, a least one down and a greatest one up.
+        let is_moved = match self.statistic {
+            InstanceStatistic::Least => lost < 0.0,
+            InstanceStatistic::Greatest => lost > 0.0,
+            InstanceStatistic::Mean | InstanceStatistic::SolvedPercent => true,
         };
-        let interval = |lost: f64| {
-            let filled: Vec<f64> = drawn.iter().filter_map(|instance| number(instance, lost)).collect();
-            predictive(&filled, LEVEL)
-        };
-        let [Some(below), Some(above)] = [f64::NEG_INFINITY, f64::INFINITY].map(interval) else { return 0 };
+        if unended > 0 && (is_moved || own.is_none()) { Some(lost) } else { own }
+    }
+
+    /// How many cases without an end could turn what was found.
+    fn censored(&self, numbers: &[Number], found: Outcome) -> usize {
+        let filled: Option<Vec<Interval>> =
+            numbers[1..].iter().map(|ended| predictive(&ended.values, LEVEL)).collect();
+        let Some([below, above]) = filled.as_deref() else { return 0 };
         let printed = self.print.printed.value();
         // It may be ordinary if it lies between the two, and must be if it lies within both.
         let may_hold = below.low <= printed && printed <= above.high;
         let must_hold = below.contains(printed) && above.contains(printed);
         let turned = if found == Outcome::Holds { !must_hold } else { may_hold };
-        let unended = selection::unended(drawn);
-        if turned && unended > 0 { unended } else { 0 }
+        if turned { whole(numbers).unended } else { 0 }
     }
 
-    fn values(&self, evidence: &Evidence<'_>, drawn: &[Instance<'_>]) -> Instances {
-        let twin = |value: f64| {
-            if self.print.agrees(value) { self.print.printed.value() } else { value }
+    /// The instances that the printed number is held against.
+    fn held(&self, numbers: &[Number]) -> Instances {
+        let all = whole(numbers);
+        let twin = |value: &f64| {
+            if self.print.agrees(*value) { self.print.printed.value() } else { *value }
         };
-        let values: Vec<f64> =
-            drawn.iter().filter_map(|instance| self.statistic.value(instance)).map(twin).collect();
-        let unsolved = drawn.len() - values.len();
-        let tried: Vec<u64> = self.of.run(evidence).map_or_else(Vec::new, |run| {
-            let preprocessing = self.of.groups.iter().flat_map(|group| run.preprocessing(group));
-            preprocessing.filter_map(|row| Some(row.values.get("tries")?.as_f64() as u64)).collect()
-        });
-        let acceptance = (!tried.is_empty()).then(|| [tried.len() as u64, tried.iter().sum()]);
+        let values: Vec<f64> = all.values.iter().map(twin).collect();
         Instances {
             label: self.label.clone().unwrap_or_else(|| self.of.description()),
+            unsolved: all.ran - values.len(),
             values,
-            unsolved,
-            acceptance,
+            acceptance: (all.hits > 0.0).then_some([all.hits as u64, all.chances as u64]),
         }
     }
 }
@@ -242,18 +239,35 @@ fn place(rank: Rank, (share, interval): (f64, Interval), unsolved: &str) -> Stri
 }
 
 impl Criterion for OneInstance<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
+    fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
         let drawn = self.of.instances(evidence);
-        let instances = self.values(evidence, &drawn);
-        let about = bootstrap::mean(&instances.values, self.plan);
-        let (Some(interval), Some(about)) = (predictive(&instances.values, LEVEL), about) else {
+        let tried: Vec<f64> = self.of.run(evidence).map_or_else(Vec::new, |run| {
+            let preprocessing = self.of.groups.iter().flat_map(|group| run.preprocessing(group));
+            preprocessing.filter_map(|row| Some(row.values.get("tries")?.as_f64())).collect()
+        });
+        let values: Vec<f64> = drawn.iter().filter_map(|instance| self.statistic.value(instance)).collect();
+        let (hits, chances) = (tried.len() as f64, tried.iter().sum());
+        let all = Number { n: values.len(), values, hits, chances, ..Number::of_cases(&drawn) };
+        let ends = [(Ends::Least, f64::NEG_INFINITY), (Ends::Most, f64::INFINITY)];
+        let ended = ends.into_iter().filter(|_| all.unended > 0).map(|(ends, lost)| {
+            let values = drawn.iter().filter_map(|instance| self.ended(instance, lost)).collect();
+            Number { ends, values, ..Number::default() }
+        });
+        let ended: Vec<Number> = ended.collect();
+        std::iter::once(all).chain(ended).collect()
+    }
+
+    fn weigh(&self, numbers: &[Number]) -> CriterionResult {
+        let all = whole(numbers);
+        let instances = self.held(numbers);
+        let found = predictive(&instances.values, LEVEL).zip(mean(&instances.values));
+        let Some((interval, mean)) = found else {
             return CriterionResult {
                 premises: self.premises.clone(),
-                ..CriterionResult::too_few(instances.values.len(), drawn.len(), 39)
+                ..CriterionResult::too_few(instances.values.len(), all.ran, 39)
             };
         };
-        let outcome = self.outcome(interval, about.interval);
-        let mean = about.value;
+        let outcome = self.outcome(interval, &instances.values);
         let is_percent = self.statistic == InstanceStatistic::SolvedPercent || self.of.against.is_some();
         let powerless = is_percent && is_wide(interval);
         let mut because = vec![rank_sentence(&instances, self.print.printed)];
@@ -263,25 +277,31 @@ impl Criterion for OneInstance<'_> {
             )
         }));
         let what = format!("{}: mean, 95 % predictive interval of one more instance", self.title());
+        CriterionResult {
+            outcome: Some(outcome),
+            ours: Some(Estimate::new(mean, interval, what, instances.values.len()).of_cases(all.cases())),
+            because,
+            premises: self.premises.clone(),
+            powerless,
+            power: Some(refused_beyond(interval)),
+            censored: self.censored(numbers, outcome),
+            units: "instances",
+            ..CriterionResult::default()
+        }
+    }
+
+    fn show(&self, evidence: &Evidence<'_>, _: &[Number], found: &mut CriterionResult) {
+        if found.ours.is_none() {
+            return;
+        }
+        let drawn = self.of.instances(evidence);
         let apart = |instance: &&Instance<'_>| {
             self.statistic
                 .value(instance)
                 .map_or(f64::INFINITY, |own| (own - self.print.printed.value()).abs())
         };
         let nearest = drawn.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
-        let trial = self.of.trial(evidence, nearest.and_then(|instance| instance.cases.first()));
-        CriterionResult {
-            outcome: Some(outcome),
-            ours: Some(Estimate::new(mean, interval, what, instances.values.len()).of_cases(solved(&drawn))),
-            trial,
-            because,
-            premises: self.premises.clone(),
-            powerless,
-            power: Some(refused_beyond(interval)),
-            censored: self.censored(&drawn, outcome),
-            units: "instances",
-            ..CriterionResult::default()
-        }
+        found.trial = self.of.trial(evidence, nearest.and_then(|instance| instance.cases.first()));
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {

@@ -5,10 +5,11 @@ use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
+use crate::analysis::number::{Number, whole};
 use crate::analysis::outcome::Outcome;
-use crate::analysis::selection::{self, Selection, cases, solved};
+use crate::analysis::selection::{Selection, cases};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::FEWEST_INSTANCES;
+use crate::analysis::statistic::too_few;
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, SettingsError};
 use proofs::exact::Print;
@@ -21,6 +22,7 @@ pub static ENTRY: Entry = Entry {
     name: "prints_as",
     about: "does a number that is the same in every trial print as the paper's?",
     revision: |_| 3,
+    question: |_| Some("extremes 1"),
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
@@ -52,14 +54,24 @@ impl<'a> PrintsAs<'a> {
 }
 
 impl Criterion for PrintsAs<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
+    fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
         let instances = self.of.instances(evidence);
+        let values: Vec<f64> = cases(&instances).filter_map(|case| case.value).collect();
+        let extreme = |of: fn(f64, f64) -> f64| values.iter().copied().reduce(of);
+        vec![Number {
+            least: extreme(f64::min),
+            greatest: extreme(f64::max),
+            n: values.len(),
+            drawn: self.of.drawn(&instances),
+            ..Number::of_cases(&instances)
+        }]
+    }
+
+    fn weigh(&self, numbers: &[Number]) -> CriterionResult {
+        let found = whole(numbers);
         let who = self.of.description();
         let metric = self.metric.label.to_lowercase();
-        let values: Vec<f64> = cases(&instances).filter_map(|case| case.value).collect();
-        let [Some(low), Some(high)] =
-            [f64::min as fn(_, _) -> _, f64::max].map(|of| values.iter().copied().reduce(of))
-        else {
+        let Some((low, high)) = found.least.zip(found.greatest) else {
             return CriterionResult::open(format!("{who}: {metric} was not measured"));
         };
         let agree = [low, high].map(|value| self.print.agrees(value));
@@ -70,22 +82,22 @@ impl Criterion for PrintsAs<'_> {
         };
         let verb = if agree == [true, true] { "prints as" } else { "does not print as" };
         let number = if low == high { format!("{low:.6}") } else { format!("{low:.6} to {high:.6}") };
-        let first = cases(&instances).find(|case| case.value.is_some());
-        let ours = Estimate::bare(low, format!("{metric} of {}", self.of.contenders[0]), values.len());
+        let ours = Estimate::bare(low, format!("{metric} of {}", self.of.contenders[0]), found.n);
         CriterionResult {
             outcome: Some(outcome),
-            ours: Some(ours.of_cases(solved(&instances))),
-            trial: self.of.trial(evidence, first),
+            ours: Some(ours.of_cases(found.cases())),
             // One that would print so leaves open what is not the same in every trial.
-            censored: if outcome == Outcome::Open { 0 } else { selection::unended(&instances) },
+            censored: if outcome == Outcome::Open { 0 } else { found.unended },
             because: vec![format!("{who}: {metric} {number}, which {verb} {}", self.print.printed)],
             power: Some("power: any other printed number would have been refused".to_owned()),
-            needs: self
-                .of
-                .needs_instances(&instances, FEWEST_INSTANCES)
-                .filter(|_| outcome == Outcome::Holds),
+            needs: too_few(found.drawn).filter(|_| outcome == Outcome::Holds),
             ..CriterionResult::default()
         }
+    }
+
+    fn show(&self, evidence: &Evidence<'_>, _: &[Number], found: &mut CriterionResult) {
+        let instances = self.of.instances(evidence);
+        found.trial = self.of.trial(evidence, cases(&instances).find(|case| case.value.is_some()));
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {

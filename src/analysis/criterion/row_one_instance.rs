@@ -1,11 +1,12 @@
 //! Whether a printed row, as a whole, could be that of one more of our instances.
 
-use super::{Criterion, Entry};
+use super::{Criterion, Entry, without};
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::number::{Ends, Number, parts, whole};
 use crate::analysis::outcome::Outcome;
-use crate::analysis::selection::{self, Case, Instance, Selection, solved};
+use crate::analysis::selection::{Case, Instance, Selection};
 use crate::analysis::selection_spec::{Labels, SelectionSpec};
 use crate::analysis::statistic::InstanceStatistic;
 use crate::analysis::verdict::Estimate;
@@ -15,12 +16,19 @@ use serde::Deserialize;
 use stats::rows::{Level, Place, monotone_probability};
 use std::collections::BTreeMap;
 use study::key::SweepKey;
+use toml::Value;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "row_one_instance",
     about: "is a printed row as near to our mean row as our own instances are, in shape and in level?",
     revision: |_| 2,
+    question: |settings| {
+        without(settings, &["refused_below"]);
+        let rows = settings.get_mut("rows").and_then(Value::as_array_mut);
+        rows.into_iter().flatten().filter_map(Value::as_table_mut).for_each(|row| without(row, &["claims"]));
+        Some("rows of instances 1")
+    },
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", metric = "opened" }
@@ -168,13 +176,12 @@ impl RowOneInstance<'_> {
     }
 
     /// How many cases without an end could turn what was found: they count as solved; what they would have given else is not known.
-    fn censored(&self, drawn: &[Vec<Instance<'_>>], (level, outcome): (&Level, Outcome)) -> usize {
-        let unended: usize = drawn.iter().map(|instances| selection::unended(instances)).sum();
+    fn censored(&self, numbers: &[Number], (level, outcome): (&Level, Outcome)) -> usize {
+        let unended = whole(numbers).unended;
         if unended == 0 {
             return 0;
         }
-        let is_counted = self.rows.iter().all(|row| matches!(row.cells, Cells::Sweep(_)));
-        let filled = is_counted.then(|| self.placed(&self.cells(drawn, true))).flatten();
+        let filled = self.placed(&listed(numbers, Ends::Most));
         // A level that passes the row's on the way could be its.
         let is_turned = filled.is_none_or(|(_, other, _, filled)| {
             filled != outcome || (level.difference < 0.0) != (other.difference < 0.0)
@@ -235,30 +242,61 @@ impl RowOneInstance<'_> {
     }
 }
 
+/// The numbers of each cell, by cell.
+fn listed(numbers: &[Number], ends: Ends) -> Vec<Vec<f64>> {
+    parts(numbers, ends).into_iter().map(|cell| cell.values.clone()).collect()
+}
+
 impl Criterion for RowOneInstance<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
+    /// The numbers of each cell, a part each.
+    fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
         let drawn: Vec<Vec<Instance<'_>>> = self.rows.iter().map(|row| row.of.instances(evidence)).collect();
-        let cells = self.cells(&drawn, false);
+        let counts: Vec<Number> = drawn.iter().map(|instances| Number::of_cases(instances)).collect();
+        let ran = counts.iter().map(|row| row.ran).max().unwrap_or(0);
+        let unended = counts.iter().map(|row| row.unended).sum();
+        let is_counted = self.rows.iter().all(|row| matches!(row.cells, Cells::Sweep(_)));
+        let cells = |ends: Ends| {
+            let cells = self.cells(&drawn, ends == Ends::Most).into_iter().enumerate();
+            let of_cell = move |(cell, values): (usize, Vec<f64>)| Number {
+                part: format!("cell {}", cell + 1),
+                ends,
+                n: values.len(),
+                values,
+                ..Number::default()
+            };
+            cells.map(of_cell).collect::<Vec<_>>()
+        };
+        let measured = cells(Ends::Measured);
+        let n = measured.iter().map(|cell| cell.n).min().unwrap_or(0);
+        let solved = if unended > 0 && is_counted { cells(Ends::Most) } else { Vec::new() };
+        let all = counts.into_iter().next().unwrap_or_default();
+        let all = Number { n, ran, unended, ..all };
+        std::iter::once(all).chain(measured).chain(solved).collect()
+    }
+
+    fn weigh(&self, numbers: &[Number]) -> CriterionResult {
+        let all = whole(numbers);
+        let cells = listed(numbers, Ends::Measured);
         let Some((place, level, rank, outcome)) = self.placed(&cells) else {
-            let ran = drawn.iter().map(Vec::len).max().unwrap_or(0);
-            return CriterionResult::too_few(
-                cells.iter().map(Vec::len).min().unwrap_or(0),
-                ran,
-                self.fewest(),
-            );
+            return CriterionResult::too_few(all.n, all.ran, self.fewest());
         };
         let judged = rank.min(level.rank.p_two_sided());
         let n = place.instances;
         let ours = Estimate::bare(judged, "the lesser rank, of shape or level", n);
         CriterionResult {
             outcome: Some(outcome),
-            censored: self.censored(&drawn, (&level, outcome)),
-            ours: Some(ours.of_cases(solved(&drawn[0]))),
-            trial: self.shown(evidence, &drawn[0]),
+            censored: self.censored(numbers, (&level, outcome)),
+            ours: Some(ours.of_cases(all.cases())),
             because: self.because(&place, &level, rank, &cells),
             units: "instances",
             needs: Some(self.fewest()).filter(|fewest| n < *fewest),
             ..CriterionResult::default()
+        }
+    }
+
+    fn show(&self, evidence: &Evidence<'_>, _: &[Number], found: &mut CriterionResult) {
+        if found.ours.is_some() {
+            found.trial = self.shown(evidence, &self.rows[0].of.instances(evidence));
         }
     }
 

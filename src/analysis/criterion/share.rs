@@ -1,12 +1,13 @@
 //! A share with its interval: of trials solved or with a mark, of events, of instances on which something holds throughout.
 
-use super::{Criterion, Entry};
-use crate::analysis::censored::outside;
+use super::{Criterion, Entry, without};
+use crate::analysis::censored::outside_in_words;
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::number::{Ends, Number, ended, whole};
 use crate::analysis::outcome::Outcome;
-use crate::analysis::selection::{Case, Instance, Selection, cases, is_unended, most_cases, solved};
+use crate::analysis::selection::{Case, Instance, Selection, cases, is_unended, most_cases};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{Share, narrows, needs, plan};
 use base::settings::{Accepted, SettingsError};
@@ -26,6 +27,10 @@ pub static ENTRY: Entry = Entry {
     name: "share",
     about: "does a share lie within bounds: of trials solved or with a mark, of events, of instances?",
     revision: |settings| if is_of_solved(settings) { 4 } else { 3 },
+    question: |settings| {
+        without(settings, &["accepted"]);
+        Some("share 1")
+    },
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = ["maps"], contender = "A*" }
@@ -187,10 +192,10 @@ impl<'a> Counted<'a> {
     }
 
     /// How many cases are outside of a claim about what is solved, in words.
-    fn outside(&self, instances: &[Instance<'_>]) -> Option<String> {
+    fn outside(&self, count: usize) -> Option<String> {
         let is_of_solved =
             matches!(self.settings.hits, Hits::Above | Hits::Lower | Hits::Higher | Hits::LowerThroughout);
-        outside(instances).filter(|_| is_of_solved)
+        outside_in_words(&self.of, count).filter(|_| is_of_solved)
     }
 
     /// Hits and chances of one instance; its cases of which nothing is known left out, or all as hits or as misses.
@@ -220,21 +225,27 @@ impl<'a> Counted<'a> {
         }
     }
 
-    /// How many cases of which nothing is known could turn what was found: all are counted as hits, then all as misses.
-    fn censored(&self, instances: &[Instance<'_>], outcome: Option<Outcome>) -> usize {
-        let unknown = cases(instances).filter(|case| self.is_unknown(case)).count();
+    /// The share of instances whose cases of which nothing is known are left out, or all hits or misses.
+    fn share(&self, instances: &[Instance<'_>], unknown: Option<bool>) -> (Vec<[f64; 2]>, Option<Share>) {
+        let counts: Vec<[f64; 2]> =
+            instances.iter().map(|instance| self.of_instance(instance, unknown)).collect();
+        let share = Share::new(&counts, self.most(instances), self.plan);
+        (counts, share)
+    }
+
+    /// How many cases of which nothing is known could turn what was found: all are counted as misses, then all as hits.
+    fn censored(&self, numbers: &[Number], outcome: Option<Outcome>) -> usize {
+        let unknown = whole(numbers).unended;
         // How many events there would have been is not known even as a bound.
         if unknown == 0 || self.settings.hits == Hits::Events {
             return unknown;
         }
-        let interval = |is_hit: bool| {
-            let counts: Vec<[f64; 2]> =
-                instances.iter().map(|instance| self.of_instance(instance, Some(is_hit))).collect();
-            Share::new(&counts, self.most(instances), self.plan).and_then(|share| share.interval)
-        };
         // All that the share may be: anything from the one interval to the other.
-        let widest = interval(false).zip(interval(true)).map(|(none, all)| Interval::new(none.low, all.high));
-        let turned = widest.is_some_and(|widest| self.outcome(widest) != outcome);
+        let ends: Vec<Interval> = ended(numbers).collect();
+        let turned = match &ends[..] {
+            [none, all] => self.outcome(Interval::new(none.low, all.high)) != outcome,
+            _ => false,
+        };
         if turned { unknown } else { 0 }
     }
 
@@ -278,7 +289,7 @@ impl Counted<'_> {
         if named.is_empty() { hits.to_owned() } else { format!("{hits} ({named})") }
     }
 
-    fn because(&self, share: &Share, [hits, chances]: [f64; 2]) -> String {
+    fn because(&self, share: &Share, &Number { hits, chances, .. }: &Number) -> String {
         let [low, high] = share.interval.map_or([f64::NAN; 2], |i| [100.0 * i.low, 100.0 * i.high]);
         let interval =
             if low.is_nan() { String::new() } else { format!(" (95 % interval {low:.2} to {high:.2})") };
@@ -330,35 +341,47 @@ fn without_numbers(text: &str) -> String {
 }
 
 impl Criterion for Counted<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
+    fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
         let instances = self.of.instances(evidence);
-        let counts: Vec<[f64; 2]> =
-            instances.iter().map(|instance| self.of_instance(instance, None)).collect();
-        let Some(share) = Share::new(&counts, self.most(&instances), self.plan) else {
-            let because = format!("{}: nothing to count {} among", self.of.description(), self.description());
-            return CriterionResult {
-                outcome: self.settings.accepted.map(|_| Outcome::Open),
-                ..CriterionResult::open(because)
-            };
-        };
-        let total = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
+        let unended = cases(&instances).filter(|case| self.is_unknown(case)).count();
+        let (counts, share) = self.share(&instances, None);
+        let mut numbers =
+            vec![Share::counted(share, &counts, Number { unended, ..Number::of_cases(&instances) })];
+        if unended > 0 && self.settings.hits != Hits::Events {
+            let interval = |is_hit| self.share(&instances, Some(is_hit)).1.and_then(|share| share.interval);
+            if let Some((none, all)) = interval(false).zip(interval(true)) {
+                numbers.extend([Number::ended(Ends::Least, none), Number::ended(Ends::Most, all)]);
+            }
+        }
+        numbers
+    }
+
+    fn weigh(&self, numbers: &[Number]) -> CriterionResult {
+        let all = whole(numbers);
         let undecided = self.settings.accepted.map(|_| Outcome::Open);
+        let Some(share) = Share::of(all) else {
+            let because = format!("{}: nothing to count {} among", self.of.description(), self.description());
+            return CriterionResult { outcome: undecided, ..CriterionResult::open(because) };
+        };
         let outcome = share.interval.map_or(undecided, |interval| self.outcome(interval));
         CriterionResult {
             outcome,
-            ours: Some(share.estimate(&self.description()).of_cases(solved(&instances))),
-            trial: self.shown(evidence, &instances, share.value),
-            because: std::iter::once(self.because(&share, total))
-                .chain(self.outside(&instances))
-                .chain(self.refusals(&instances))
-                .collect(),
+            ours: Some(share.estimate(&self.description()).of_cases(all.cases())),
+            because: std::iter::once(self.because(&share, all)).chain(self.outside(all.outside)).collect(),
             limits: self.settings.accepted.map_or_else(Vec::new, |accepted| accepted.to_vec()),
             units: "instances",
-            censored: self.censored(&instances, outcome),
+            censored: self.censored(numbers, outcome),
             needs: needs(share.instances).filter(|_| !share.is_exact),
             narrows: narrows(share.is_agreed),
             ..CriterionResult::default()
         }
+    }
+
+    fn show(&self, evidence: &Evidence<'_>, numbers: &[Number], found: &mut CriterionResult) {
+        let Some(share) = whole(numbers).value else { return };
+        let instances = self.of.instances(evidence);
+        found.trial = self.shown(evidence, &instances, share);
+        found.because.extend(self.refusals(&instances));
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {

@@ -5,16 +5,18 @@
 //! one interpretation and does not say which, so the size of the test is shared out among all that it may mean.
 
 use super::mean_of::{self, MeanOf};
-use super::{Criterion, Entry};
+use super::{Criterion, Entry, without};
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::joint_test::{Apart, JointTest};
+use crate::analysis::joint_test::{Apart, JointTest, Products};
+use crate::analysis::number::{Ends, Number, parts, whole};
 use crate::analysis::outcome::Outcome;
-use crate::analysis::selection::{self, Selection, by_instance, solved};
+use crate::analysis::selection::{self, Instance, Selection, by_instance};
 use crate::analysis::statistic::mean;
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, Faults, SettingsError};
+use nalgebra::DMatrix;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::beta::combined;
@@ -27,6 +29,10 @@ pub static ENTRY: Entry = Entry {
     name: "table_means",
     about: "could the printed means of a table, taken together, be those of so many instances like ours?",
     revision: |_| 1,
+    question: |settings| {
+        without(settings, &["refused_below"]);
+        Some("means of a table 1")
+    },
     settings: Accepted::shape::<Settings>(),
     example: r#"
 in = [{ study = "compare", claims = ["table1.astar.length"] }]
@@ -153,7 +159,7 @@ impl<'a> TableMeans<'a> {
     fn units<'e>(row: &[Cell<'a>], evidence: &'e Evidence<'_>) -> Vec<Vec<f64>> {
         let of_cell = |cell: &Cell<'a>| -> BTreeMap<Unit<'e>, f64> {
             let instances = cell.mean.of.instances(evidence);
-            let number = |instance: &selection::Instance<'e>| {
+            let number = |instance: &Instance<'e>| {
                 let numbers = by_instance(std::slice::from_ref(instance), |case| cell.mean.number(case));
                 let first = instance.cases.first()?.row;
                 Some(((instance.group, first.instance(), first.key.repeat), mean(numbers.first()?)?))
@@ -165,22 +171,45 @@ impl<'a> TableMeans<'a> {
         cells.first().into_iter().flat_map(BTreeMap::keys).filter_map(whole).collect()
     }
 
-    /// What a row gives; `None` of too few instances.
-    fn row<'s>(row: &'s [Cell<'a>], evidence: &Evidence<'_>) -> Option<RowResult<'s>> {
+    /// The mean of each cell of a row, a part each: one that is the same on all instances is exact, and others come with the products with
+    /// them.
+    fn means(row: &[Cell<'a>], evidence: &Evidence<'_>) -> Vec<Number> {
         let units = Self::units(row, evidence);
-        let first = units.first()?;
-        let is_exact = |cell: &usize| units.iter().all(|unit| unit[*cell] == first[*cell]);
-        let (exact, moving): (Vec<usize>, Vec<usize>) = (0..row.len()).partition(is_exact);
-        let prints = |cell: usize| row[cell].mean.rounded.contains(first[cell]);
+        let first = units.first();
+        let is_exact =
+            |cell: &usize| units.iter().all(|unit| first.is_some_and(|first| unit[*cell] == first[*cell]));
+        let moving: Vec<usize> = (0..row.len()).filter(|cell| !is_exact(cell)).collect();
+        let instances: Vec<Vec<f64>> =
+            units.iter().map(|unit| moving.iter().map(|cell| unit[*cell]).collect()).collect();
+        let Products { means, products, units: n } = Products::new(&instances, moving.len());
+        let of_cell = |cell: usize| {
+            let at = moving.iter().position(|own| *own == cell);
+            Number {
+                part: row[cell].id.to_owned(),
+                value: at.map(|at| means[at]).or_else(|| Some(first?[cell])),
+                is_agreed: at.is_none(),
+                n,
+                values: at.map_or_else(Vec::new, |at| products.row(at).iter().copied().collect()),
+                ..Number::default()
+            }
+        };
+        (0..row.len()).map(of_cell).collect()
+    }
+
+    /// What a row gives, from the mean of each of its cells; `None` of too few instances.
+    fn row<'s>(row: &'s [Cell<'a>], found: &[&Number]) -> Option<RowResult<'s>> {
+        let units = found.first()?.n;
+        let ours: Vec<f64> = found.iter().map(|cell| cell.value).collect::<Option<_>>()?;
+        let (exact, moving): (Vec<usize>, Vec<usize>) =
+            (0..row.len()).partition(|cell| found[*cell].is_agreed);
+        let prints = |cell: usize| row[cell].mean.rounded.contains(ours[cell]);
         let refused: Vec<&str> =
             exact.iter().filter(|cell| !prints(**cell)).map(|cell| row[*cell].id).collect();
         let first_refused = exact.iter().copied().find(|cell| !prints(*cell)).unwrap_or_default();
         let label = row[0].mean.of.groups.join(", ");
-        let instances: Vec<Vec<f64>> =
-            units.iter().map(|unit| moving.iter().map(|cell| unit[*cell]).collect()).collect();
         let rounding: Vec<f64> = moving.iter().map(|cell| row[*cell].mean.rounded.half_width()).collect();
         let p_exact = f64::from(u8::from(refused.is_empty()));
-        if moving.is_empty() && units.len() >= FEWEST_NORMAL {
+        if moving.is_empty() && units >= FEWEST_NORMAL {
             let loudest = Vec::new();
             return Some(RowResult {
                 label,
@@ -192,7 +221,11 @@ impl<'a> TableMeans<'a> {
                 power: None,
             });
         }
-        let test = JointTest::new(&instances, row[0].mean.instances, &rounding)?;
+        let means = moving.iter().map(|cell| ours[*cell]).collect();
+        let products =
+            DMatrix::from_fn(moving.len(), moving.len(), |one, other| found[moving[one]].values[other]);
+        let ours = Products { means, products, units };
+        let test = JointTest::new(ours, row[0].mean.instances, &rounding)?;
         let apart: Vec<f64> =
             moving.iter().zip(&test.means).map(|(cell, own)| row[*cell].mean.printed - own).collect();
         let statistic = test.statistic(&apart);
@@ -206,8 +239,16 @@ impl<'a> TableMeans<'a> {
         let farthest = if refused.is_empty() { far } else { first_refused };
         let p = test.probability(statistic) * p_exact;
         let at_one = test.statistic(&test.means);
-        let shape = Some((statistic, moving.len(), units.len()));
+        let shape = Some((statistic, moving.len(), units));
         Some(RowResult { label, p, test: shape, loudest, farthest, refused, power: Some((test, at_one)) })
+    }
+
+    /// What each row gives; `None` if one has too few instances.
+    fn row_results(&self, numbers: &[Number]) -> Option<Vec<RowResult<'_>>> {
+        let mut cells = parts(numbers, Ends::Measured).into_iter();
+        let row = |row: &'_ Vec<Cell<'a>>| cells.by_ref().take(row.len()).collect::<Vec<_>>();
+        let found: Vec<Vec<&Number>> = self.rows.iter().map(row).collect();
+        self.rows.iter().zip(found).map(|(row, found)| Self::row(row, &found)).collect()
     }
 
     /// From how many per cent on a table that is off by as much in every cell would have been refused.
@@ -273,33 +314,42 @@ impl TableMeans<'_> {
 }
 
 impl Criterion for TableMeans<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
+    fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
         let drawn: Vec<_> = self.selections().iter().map(|of| of.instances(evidence)).collect();
-        let least = drawn.iter().map(Vec::len).min().unwrap_or(0);
-        let unended = drawn.iter().map(|instances| selection::unended(instances)).sum();
-        let found: Option<Vec<RowResult<'_>>> =
-            self.rows.iter().map(|row| Self::row(row, evidence)).collect();
-        let Some(rows) = found else {
+        let ran = drawn.iter().map(Vec::len).min().unwrap_or(0);
+        let all = Number { ran, ..Number::of_cases(&drawn.into_iter().flatten().collect::<Vec<_>>()) };
+        let cells = self.rows.iter().flat_map(|row| Self::means(row, evidence));
+        std::iter::once(all).chain(cells).collect()
+    }
+
+    fn weigh(&self, numbers: &[Number]) -> CriterionResult {
+        let all = whole(numbers);
+        let Some(rows) = self.row_results(numbers) else {
             let widest = self.rows.iter().map(Vec::len).max().unwrap_or(0);
-            return CriterionResult::too_few(least, least, widest + FEWEST_NORMAL).hanging_on(unended);
+            return CriterionResult::too_few(all.ran, all.ran, widest + FEWEST_NORMAL)
+                .hanging_on(all.unended);
         };
         let p = combined(&rows.iter().map(|row| row.p).collect::<Vec<_>>());
         let is_kept = self.judged(p) >= self.refused_below;
-        let ours = Estimate::bare(p, "p of the joint test of all cells", least);
+        let ours = Estimate::bare(p, "p of the joint test of all cells", all.ran);
         let power = self.power_percent(&rows).map(|percent| {
             format!("power: a table whose cells are all off by {percent:.1} % would have been refused")
         });
         CriterionResult {
             outcome: Some(if is_kept { Outcome::Holds } else { Outcome::Fails }),
-            ours: Some(ours.of_cases(solved(&drawn.into_iter().flatten().collect::<Vec<_>>()))),
-            trial: self.shown(&rows, evidence),
+            ours: Some(ours.of_cases(all.cases())),
             because: self.because(&rows, p),
             units: "instances",
-            censored: unended,
+            censored: all.unended,
             powerless: power.is_none() && is_kept && rows.iter().any(|row| row.test.is_some()),
             power,
             ..CriterionResult::default()
         }
+    }
+
+    fn show(&self, evidence: &Evidence<'_>, numbers: &[Number], found: &mut CriterionResult) {
+        let rows = self.row_results(numbers);
+        found.trial = rows.and_then(|rows| self.shown(&rows, evidence));
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {

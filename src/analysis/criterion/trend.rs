@@ -1,12 +1,13 @@
 //! Whether a metric, or a saving, grows along a column.
 
-use super::{Criterion, Entry};
+use super::{Criterion, Entry, without};
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
+use crate::analysis::number::{Ends, Number, ended, whole};
 use crate::analysis::outcome::Outcome;
-use crate::analysis::selection::{self, Case, Instance, Selection, by_instance, cases, solved};
+use crate::analysis::selection::{self, Case, Instance, Selection, by_instance, cases};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_INSTANCES, needs, plan};
 use crate::analysis::verdict::Estimate;
@@ -23,6 +24,10 @@ pub static ENTRY: Entry = Entry {
     name: "trend",
     about: "does a metric, or what a contender saves, grow along a column? the slope over instances, with medians",
     revision: |_| 3,
+    question: |settings| {
+        without(settings, &["rising"]);
+        Some("slope 1")
+    },
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", contender = "A*", metric = "opened" }
@@ -65,28 +70,26 @@ impl<'a> Trend<'a> {
         Ok(Self { of, metric, over: settings.over, rising: settings.rising, plan })
     }
 
-    /// How many cases without an end could turn what was found: each is given a number below or above all that were seen
-    /// together, whichever goes against a slope that rises, then against one that falls.
-    fn censored(&self, instances: &[Instance<'_>], outcome: Outcome) -> usize {
+    /// The slopes if each case without an end had a number below or above all that were seen together, whichever goes against a slope that
+    /// rises, then against one that falls.
+    fn slopes_ended(&self, instances: &[Instance<'_>]) -> Vec<Interval> {
         let seen: Vec<(f64, f64)> = cases(instances).filter_map(|case| self.point(case)).collect();
         let middle = summary::mean(&seen.iter().map(|(x, _)| *x).collect::<Vec<_>>());
-        let Some(middle) = middle else { return 0 };
+        let Some(middle) = middle.filter(|_| selection::unended(instances) > 0) else { return Vec::new() };
         let least = seen.iter().fold(0.0, |least: f64, (_, y)| least.min(*y));
         let most = seen.iter().fold(0.0, |most: f64, (_, y)| most.max(y.abs())) * seen.len() as f64;
         // One whose place is not known either may stand anywhere.
         let is_lost = |case: &Case<'_>| case.is_unended() && case.row.value(&self.over).is_none();
         if cases(instances).any(is_lost) {
-            return selection::unended(instances);
+            return vec![Interval::new(f64::NEG_INFINITY, f64::INFINITY)];
         }
         let number = |case: &Case<'_>, rising: bool| {
             let place = case.row.value(&self.over).filter(|_| case.is_unended());
             self.point(case).or_else(|| place.map(|x| (x, if (x > middle) == rising { most } else { least })))
         };
-        let turned = [true, false].into_iter().any(|rising| {
-            let points = by_instance(instances, |case| number(case, rising));
-            pooled::slope(&points, self.plan).is_some_and(|found| self.outcome(found.interval) != outcome)
-        });
-        if turned { selection::unended(instances) } else { 0 }
+        let slope =
+            |rising: bool| pooled::slope(&by_instance(instances, |case| number(case, rising)), self.plan);
+        [true, false].into_iter().filter_map(slope).map(|found| found.interval).collect()
     }
 
     /// The trial that does most for the slope that was found.
@@ -118,45 +121,57 @@ impl<'a> Trend<'a> {
 }
 
 impl Criterion for Trend<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
+    fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
         let instances = self.of.instances(evidence);
         let points = by_instance(&instances, |case| self.point(case));
-        let Some(found) = pooled::slope(&points, self.plan) else {
-            return CriterionResult::too_few(points.len(), instances.len(), FEWEST_INSTANCES);
+        let values = summary::medians_by_thirds(&points.concat());
+        let counted = Number { measured: points.len(), values, ..Number::of_cases(&instances) };
+        let whole = counted.estimated(pooled::slope(&points, self.plan));
+        let others = [Ends::Least, Ends::Most].into_iter().zip(self.slopes_ended(&instances));
+        std::iter::once(whole).chain(others.map(|(ends, interval)| Number::ended(ends, interval))).collect()
+    }
+
+    fn weigh(&self, numbers: &[Number]) -> CriterionResult {
+        let all = whole(numbers);
+        let Some((value, interval)) = all.found() else {
+            return CriterionResult::too_few(all.measured, all.ran, FEWEST_INSTANCES);
         };
-        let outcome = self.outcome(found.interval);
+        let outcome = self.outcome(interval);
         let metric = self.metric.label.to_lowercase();
         let (subject, unit) = match &self.of.against {
             Some(_) => (format!("saving in {metric}"), "points"),
             None => (metric, self.metric.unit),
         };
         let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-        let medians = summary::medians_by_thirds(&points.concat());
-        let medians = medians.iter().map(|median| format!("{median:.3}")).collect::<Vec<_>>().join(", ");
+        let medians = all.values.iter().map(|median| format!("{median:.3}")).collect::<Vec<_>>().join(", ");
         let because = format!(
-            "{}: {subject} along {} changes by {:+.4}{unit} each (95 % interval {:+.4} to {:+.4}, {} instances); medians by thirds of {} {}",
+            "{}: {subject} along {} changes by {value:+.4}{unit} each (95 % interval {:+.4} to {:+.4}, {} instances); medians by thirds of {} {}",
             self.of.description(),
             self.over,
-            found.value,
-            found.interval.low,
-            found.interval.high,
-            found.units,
+            interval.low,
+            interval.high,
+            all.n,
             self.over,
             medians,
         );
         let what =
             format!("slope of {subject} along {}:{unit} each, bootstrap 95 % over instances", self.over);
+        let is_turned = ended(numbers).any(|slope| self.outcome(slope) != outcome);
         CriterionResult {
             outcome: Some(outcome),
-            ours: Some(Estimate::from_bootstrap(found, what).of_cases(solved(&instances))),
-            trial: self.shown(evidence, &instances, outcome),
+            ours: Some(Estimate::new(value, interval, what, all.n).of_cases(all.cases())),
             because: vec![because],
             limits: vec![0.0],
             units: "instances",
-            censored: self.censored(&instances, outcome),
-            needs: needs(found.units),
+            censored: if is_turned { all.unended } else { 0 },
+            needs: needs(all.n),
             ..CriterionResult::default()
         }
+    }
+
+    fn show(&self, evidence: &Evidence<'_>, _: &[Number], found: &mut CriterionResult) {
+        let outcome = found.outcome.filter(|_| found.ours.is_some());
+        found.trial = outcome.and_then(|outcome| self.shown(evidence, &self.of.instances(evidence), outcome));
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {

@@ -1,20 +1,20 @@
 //! Whether the interval of a statistic lies within a margin about the printed number, or within accepted bounds.
 
-use super::{Criterion, Entry};
-use crate::analysis::censored;
+use super::{Criterion, Entry, without};
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::{CriterionResult, refused_beyond};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
+use crate::analysis::number::{Ends, Number, ended, parts, whole};
 use crate::analysis::outcome::Outcome;
-use crate::analysis::selection::{self, Instance, Selection, solved};
+use crate::analysis::selection::{self, Instance, Selection};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_INSTANCES, OverallStatistic, how, narrows, needs, plan};
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bootstrap::{Estimate as Estimated, Resampling};
+use stats::bootstrap::Resampling;
 use stats::interval::Interval;
 use stats::paired::{self, snapped};
 
@@ -23,6 +23,10 @@ pub static ENTRY: Entry = Entry {
     name: "within",
     about: "does the interval of a mean, median, deviation, ratio or reduction lie within a margin or within bounds?",
     revision: |_| 4,
+    question: |settings| {
+        without(settings, &["margin", "printed_ratio", "accepted"]);
+        Some(OVERALL)
+    },
     settings: Accepted::shape::<Settings>(),
     example: r#"
 of = { study = "compare", problems = "maps", contender = "Weighted A*", against = "A*", metric = "opened" }
@@ -56,6 +60,43 @@ struct Within<'a> {
     /// The printed number, if it is what the margin is about.
     printed: Option<f64>,
     plan: Resampling,
+}
+
+/// What the numbers of a statistic over all instances are called.
+pub(super) const OVERALL: &str = "overall 1";
+
+/// A statistic over all instances, what it would be if cases without a number had any that they may have had and, of two contenders, how
+/// many cases go which way.
+pub(super) fn overall(
+    of: &Selection<'_>,
+    statistic: OverallStatistic,
+    plan: Resampling,
+    evidence: &Evidence<'_>,
+) -> Vec<Number> {
+    let instances = of.instances(evidence);
+    let pairs = selection::pairs(&instances);
+    let signs = paired::signs(&pairs.concat());
+    let has_number = |instance: &&Instance<'_>| instance.cases.iter().any(|case| case.value.is_some());
+    let measured =
+        if statistic.is_paired() { pairs.len() } else { instances.iter().filter(has_number).count() };
+    let counted = Number {
+        measured,
+        below: signs.lower,
+        equal: signs.equal,
+        above: signs.higher,
+        ..Number::of_cases(&instances)
+    };
+    let mut numbers = vec![counted.estimated(statistic.estimate(&instances, plan))];
+    let others = [Ends::Least, Ends::Most].into_iter().zip(statistic.otherwise(of, &instances, plan));
+    numbers.extend(others.map(|(ends, interval)| Number::ended(ends, interval)));
+    let of_group = |group: &String| {
+        let n = instances.iter().filter(|instance| instance.group == group).count();
+        let drawn = of.study.is_drawn(group).then_some(n);
+        Number { part: group.clone(), n, drawn, ..Number::default() }
+    };
+    let is_parted = statistic == OverallStatistic::RatioOfGroups;
+    numbers.extend(of.groups.iter().filter(|_| is_parted).map(of_group));
+    numbers
 }
 
 /// Means nearer to each other than by this share are equal: neither is the lower one.
@@ -129,13 +170,13 @@ impl<'a> Within<'a> {
     }
 
     /// Instances of which there are too few; of two groups each needs as many, but for one in which nothing is drawn.
-    fn needs(&self, instances: &[Instance<'_>], units: usize) -> Option<usize> {
-        if self.statistic != OverallStatistic::RatioOfGroups {
-            return needs(units);
+    fn needs(numbers: &[Number]) -> Option<usize> {
+        let groups = parts(numbers, Ends::Measured);
+        if groups.is_empty() {
+            return needs(whole(numbers).n);
         }
-        let of_group = |group: &String| instances.iter().filter(|instance| instance.group == group).count();
-        let is_enough = |group: &String| of_group(group) == 1 && !self.of.study.is_drawn(group);
-        self.of.groups.iter().filter(|group| !is_enough(group)).find_map(|group| needs(of_group(group)))
+        let is_enough = |group: &&Number| group.n == 1 && group.drawn.is_none();
+        groups.into_iter().filter(|group| !is_enough(group)).find_map(|group| needs(group.n))
     }
 
     /// The printed values that an interval of ours would not refuse.
@@ -144,21 +185,17 @@ impl<'a> Within<'a> {
         Interval::new(found.low - margin, found.high + margin)
     }
 
-    fn estimated(&self, instances: &[Instance<'_>]) -> Option<Estimated> {
-        self.statistic.estimate(instances, self.plan)
-    }
-
     /// How many cases without a number could turn what was found.
-    fn censored(&self, instances: &[Instance<'_>], found: Interval, outcome: Outcome) -> usize {
-        let others = self.statistic.otherwise(&self.of, instances, self.plan);
+    fn censored(&self, numbers: &[Number], found: Interval, outcome: Outcome) -> usize {
         // What they may make of it reaches from the one to the other: two that both fail may do so on either side.
         let both = |one: Interval, two: Interval| Interval::new(one.low.min(two.low), one.high.max(two.high));
-        let whole = others.iter().copied().fold(found, both);
-        let turned = others.into_iter().chain([whole]).any(|interval| self.outcome(interval) != outcome);
+        let reach = ended(numbers).fold(found, both);
+        let turned = ended(numbers).chain([reach]).any(|interval| self.outcome(interval) != outcome);
+        let cases = whole(numbers);
         match turned {
             false => 0,
-            true if self.statistic.is_paired() => selection::censored(instances),
-            true => selection::unended(instances),
+            true if self.statistic.is_paired() => cases.censored,
+            true => cases.unended,
         }
     }
 }
@@ -171,55 +208,49 @@ fn on_bounds(accepted: Interval, found: Interval) -> Interval {
 }
 
 impl Criterion for Within<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
-        let instances = self.of.instances(evidence);
-        let Some(found) = self.estimated(&instances).filter(|found| found.interval.low.is_finite()) else {
-            let counted =
-                instances.iter().filter(|instance| instance.cases.iter().any(|case| case.value.is_some()));
-            return CriterionResult::too_few(counted.count(), instances.len(), FEWEST_INSTANCES)
-                .hanging_on(selection::unended(&instances));
+    fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
+        overall(&self.of, self.statistic, self.plan, evidence)
+    }
+
+    fn weigh(&self, numbers: &[Number]) -> CriterionResult {
+        let all = whole(numbers);
+        let Some((value, interval)) = all.found().filter(|(_, interval)| interval.low.is_finite()) else {
+            return CriterionResult::too_few(all.measured, all.ran, FEWEST_INSTANCES).hanging_on(all.unended);
         };
-        let outcome = self.outcome(found.interval);
+        let outcome = self.outcome(interval);
         let metric = self.metric.label.to_lowercase();
-        let what = format!("{} of {metric}, {} 95 % over instances", self.statistic.name(), how(&found));
-        let Interval { low, high } = found.interval;
+        let what =
+            format!("{} of {metric}, {} 95 % over instances", self.statistic.name(), how(all.is_agreed));
+        let Interval { low, high } = interval;
         let accepted = match self.printed {
             Some(printed) => format!("printed {printed}, margin {}", self.accepted.high - printed),
             None => format!("accepted {} to {}", self.accepted.low, self.accepted.high),
         };
-        let agreed = if found.is_agreed { " that all agree" } else { "" };
+        let agreed = if all.is_agreed { " that all agree" } else { "" };
         let because = format!(
-            "{}: {} of {metric} {:.4} (95 % interval {low:.4} to {high:.4}, {} instances{agreed}); {accepted}",
+            "{}: {} of {metric} {value:.4} (95 % interval {low:.4} to {high:.4}, {} instances{agreed}); {accepted}",
             self.of.description(),
             self.statistic.name(),
-            found.value,
-            found.units,
+            all.n,
         );
-        let ours = Estimate::new(found.value, found.interval, what, found.units).of_cases(solved(&instances));
         CriterionResult {
             outcome: Some(outcome),
-            ours: Some(ours),
-            trial: self.shown(evidence, &instances, found.value),
+            ours: Some(Estimate::new(value, interval, what, all.n).of_cases(all.cases())),
             because: vec![because],
             limits: vec![self.accepted.low, self.accepted.high],
             units: "instances",
-            censored: self.censored(&instances, found.interval, outcome),
-            refused: censored::refused(&instances),
-            needs: self.needs(&instances, found.units),
-            power: self.printed.map(|_| refused_beyond(self.printed_within(found.interval))),
-            narrows: narrows(found.is_agreed),
+            censored: self.censored(numbers, interval, outcome),
+            refused: all.refused,
+            needs: Self::needs(numbers),
+            power: self.printed.map(|_| refused_beyond(self.printed_within(interval))),
+            narrows: narrows(all.is_agreed),
             ..CriterionResult::default()
         }
     }
 
-    fn selections(&self) -> Vec<&Selection<'_>> {
-        vec![&self.of]
-    }
-}
-
-impl Within<'_> {
     /// The trial whose own number is nearest to the statistic.
-    fn shown(&self, evidence: &Evidence<'_>, instances: &[Instance<'_>], value: f64) -> Option<String> {
+    fn show(&self, evidence: &Evidence<'_>, numbers: &[Number], found: &mut CriterionResult) {
+        let Some(value) = whole(numbers).value.filter(|_| found.ours.is_some()) else { return };
         let own = |case: &selection::Case<'_>| match self.statistic {
             OverallStatistic::Ratio => {
                 case.pair().filter(|(base, _)| *base > 0.0).map(|(base, own)| own / base)
@@ -227,7 +258,11 @@ impl Within<'_> {
             OverallStatistic::ReductionPercent => case.saving_percent(),
             _ => case.value,
         };
-        selection::nearest(&self.of, evidence, instances, own, value)
+        found.trial = selection::nearest(&self.of, evidence, &self.of.instances(evidence), own, value);
+    }
+
+    fn selections(&self) -> Vec<&Selection<'_>> {
+        vec![&self.of]
     }
 }
 

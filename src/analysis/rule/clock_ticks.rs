@@ -13,6 +13,7 @@ pub static ENTRY: Entry = Entry {
     name: "clock_ticks",
     about: "is a printed time a whole number of ticks of a clock, and how likely is that by chance?",
     revision: |_| 1,
+    question: |_| None,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 tick_s = [1, 100]

@@ -13,6 +13,7 @@ pub static ENTRY: Entry = Entry {
     name: "count_bound",
     about: "is a printed count at most what A* with the Euclidean heuristic can open or close on any map?",
     revision: |_| 1,
+    question: |_| None,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 size = [40, 40]

@@ -15,6 +15,7 @@ pub static ENTRY: Entry = Entry {
     name: "formula",
     about: "does a formula of the paper, evaluated as printed, give what the text says of it?",
     revision: |_| 1,
+    question: |_| None,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 name = "forbidden_disc"

@@ -12,6 +12,7 @@ pub static ENTRY: Entry = Entry {
     name: "joint_length_turn",
     about: "has any polyline through cell centres both a printed length and a printed turn sum?",
     revision: |_| 1,
+    question: |_| None,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 size = [40, 40]
@@ -42,8 +43,8 @@ longest = 15.0
             }
         };
         let ends = Ends { size, start, goal };
-        Ok(rule(move |evidence| {
-            let shortest = &|query: &_| evidence.shortest_polyline(query);
+        Ok(rule(move |polylines| {
+            let shortest = &|query: &_| polylines.shortest(query);
             refused(proof::joint_length_turn(&Search { ends, turn, meant, longest, shortest }, length))
         }))
     },

@@ -11,6 +11,7 @@ pub static ENTRY: Entry = Entry {
     name: "largest_saving",
     about: "is a printed saving on a printed length possible for any path between start and goal?",
     revision: |_| 1,
+    question: |_| None,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 baseline = "table1.astar.length"

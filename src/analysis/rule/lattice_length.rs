@@ -14,6 +14,7 @@ pub static ENTRY: Entry = Entry {
     name: "lattice_length",
     about: "is a printed length a + b√2 for any 8-connected path between the cells, rounded or truncated?",
     revision: |_| 1,
+    question: |_| None,
     settings: Accepted::shape::<Settings>(),
     example: "start = [2, 2]\ngoal = [36, 30]",
     build: |context| {

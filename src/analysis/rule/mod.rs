@@ -18,22 +18,32 @@ use super::context::Context;
 use super::criterion::{Criterion, Entry};
 use super::criterion_result::CriterionResult;
 use super::evidence::Evidence;
+use super::number::Number;
 use super::outcome::Outcome;
+use super::polylines::Polylines;
 use super::verdict::POSSIBLE;
 use base::settings::SettingsError;
 use proofs::proof::Proof;
 
-/// A rule: a criterion that selects no trial. The evidence only remembers what other claims have asked.
+/// A rule: a criterion that selects no trial. Polylines only remember what other claims have asked.
 struct Rule<F>(F);
 
-impl<F: Fn(&Evidence<'_>) -> CriterionResult> Criterion for Rule<F> {
-    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
-        (self.0)(evidence)
+impl<F: Fn(&Polylines) -> CriterionResult> Criterion for Rule<F> {
+    fn numbers(&self, _evidence: &Evidence<'_>) -> Vec<Number> {
+        Vec::new()
+    }
+
+    fn weigh(&self, _numbers: &[Number]) -> CriterionResult {
+        CriterionResult::default()
+    }
+
+    fn proof(&self, polylines: &Polylines) -> Option<CriterionResult> {
+        Some((self.0)(polylines))
     }
 }
 
 /// The rule that finds this.
-fn rule<'a>(find: impl Fn(&Evidence<'_>) -> CriterionResult + 'a) -> Box<dyn Criterion + 'a> {
+fn rule<'a>(find: impl Fn(&Polylines) -> CriterionResult + 'a) -> Box<dyn Criterion + 'a> {
     Box::new(Rule(find))
 }
 

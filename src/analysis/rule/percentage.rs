@@ -11,6 +11,7 @@ pub static ENTRY: Entry = Entry {
     name: "percentage",
     about: "is a printed reduction what the printed cells give?",
     revision: |_| 1,
+    question: |_| None,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 before = "table1.astar.length"

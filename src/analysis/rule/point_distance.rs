@@ -13,6 +13,7 @@ pub static ENTRY: Entry = Entry {
     name: "point_distance",
     about: "is a printed distance that between two printed points?",
     revision: |_| 1,
+    question: |_| None,
     settings: Accepted::shape::<Settings>(),
     example: "
 from = [2.5, 2.5]

@@ -12,6 +12,7 @@ pub static ENTRY: Entry = Entry {
     name: "turn_needs_length",
     about: "how long is a polyline through cell centres with a printed turn sum at least, and is that below a printed length?",
     revision: |_| 1,
+    question: |_| None,
     settings: Accepted::shape::<Settings>(),
     example: r#"
 size = [40, 40]
@@ -32,8 +33,8 @@ longest = 15.0
         let is_exterior = context.known_metric(&read.metric)?.name == read.exterior;
         let meant = if is_exterior { Convention::Exterior } else { Convention::Interior };
         let ends = Ends { size, start, goal };
-        Ok(rule(move |evidence| {
-            let shortest = &|query: &_| evidence.shortest_polyline(query);
+        Ok(rule(move |polylines| {
+            let shortest = &|query: &_| polylines.shortest(query);
             let search = Search { ends, turn, meant, longest, shortest };
             refused(proof::turn_needs_length(&search, against, shorter))
         }))

@@ -1,13 +1,18 @@
 //! `replan crosscheck --statistics`: estimates, intervals, outcomes and verdicts before a judge in Python.
 //!
-//! The judge knows what metrics mean and where papers lie, and nothing else of what is computed here.
+//! The judge knows what metrics mean, where papers lie and what the numbers of explorations amount to, whose trials are not kept;
+//! nothing else of what is computed here.
 
+use super::super::judge::polylines;
+use super::super::load::load;
 use super::super::places::{Places, home, papers};
 use super::super::progress::doing;
-use super::super::{Failure, Which};
+use super::super::{Failure, How, Which};
 use super::FOLDER;
 use super::python::Judge;
+use crate::analysis::across::Stored;
 use crate::analysis::metric::{METRICS, Metric};
+use crate::analysis::polylines::Polylines;
 use crate::analysis::verdict::Verdicts;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -38,9 +43,12 @@ pub fn run(paper: Option<&str>, out: Option<&Path>, python: Option<&str>) -> Res
         }
     }
     let judge = Judge::ready(python, &home(None)?.join(FOLDER))?;
-    let request = out.unwrap_or(Path::new("")).join(FOLDER).join(REQUEST);
-    std::fs::create_dir_all(request.parent().unwrap_or(Path::new("")))?;
-    write_whole(&request, format!("{:#}\n", request_json(&places)).as_bytes())?;
+    let folder = out.unwrap_or(Path::new("")).join(FOLDER);
+    std::fs::create_dir_all(&folder)?;
+    let explored =
+        places.iter().map(|places| write_explored(places, &folder)).collect::<Result<Vec<_>, _>>()?;
+    let request = folder.join(REQUEST);
+    write_whole(&request, format!("{:#}\n", request_json(&places, &explored)).as_bytes())?;
     doing("computing the statistics of stored runs again");
     if judge.recompute(&request)? {
         return Ok(());
@@ -48,8 +56,18 @@ pub fn run(paper: Option<&str>, out: Option<&Path>, python: Option<&str>) -> Res
     Err(Failure::stale("the statistics computed again differ from verdicts.toml"))
 }
 
-/// The request: every metric, and where the papers and their runs lie.
-fn request_json(places: &[Places]) -> Value {
+/// Writes what the explorations of a paper amount to, first and on the second seed, into `folder`.
+fn write_explored(places: &Places, folder: &Path) -> Result<PathBuf, Failure> {
+    let paper = load(places, &How::plain(None))?;
+    let Stored { first, second } =
+        Stored::read(&paper, &places.runs, &Polylines::kept_in(&polylines(places)))?;
+    let path = folder.join(format!("{}.explored.json", paper.id));
+    write_whole(&path, format!("{}\n", json!([first, second])).as_bytes())?;
+    Ok(path)
+}
+
+/// The request: every metric, where the papers and their runs lie, and what was explored of each.
+fn request_json(places: &[Places], explored: &[PathBuf]) -> Value {
     let of_metric = |metric: &Metric| {
         json!({
             "name": metric.name,
@@ -61,12 +79,13 @@ fn request_json(places: &[Places]) -> Value {
             "status": metric.is_status(),
         })
     };
-    let of_paper = |places: &Places| {
-        let [experiments, runs] = [&places.folder, &places.runs].map(|path: &PathBuf| path.to_string_lossy());
-        json!({ "experiments": experiments, "runs": runs })
+    let of_paper = |(places, explored): (&Places, &PathBuf)| {
+        let paths = [&places.folder, &places.runs, explored];
+        let [experiments, runs, explored] = paths.map(|path: &PathBuf| path.to_string_lossy());
+        json!({ "experiments": experiments, "runs": runs, "explored": explored })
     };
     json!({
         "metrics": METRICS.iter().map(of_metric).collect::<Vec<_>>(),
-        "papers": places.iter().map(of_paper).collect::<Vec<_>>(),
+        "papers": places.iter().zip(explored).map(of_paper).collect::<Vec<_>>(),
     })
 }

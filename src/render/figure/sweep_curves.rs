@@ -1,8 +1,8 @@
 //! Shares of solved queries or metrics along a sweep, one curve a contender, printed rows on top; or one contender's in several
-//! studies, or its saving along a column of the problem.
+//! studies, or ratios to one contender along a column of the problem.
 
 mod across;
-mod saving;
+mod ratios;
 
 use super::{CurveLine, Curves, Entry, Kind, Scene, ask, unit};
 use crate::analysis::metric::Metric;
@@ -25,7 +25,7 @@ use study::{Study, sweeps_of};
 pub static ENTRY: Entry = Entry {
     name: "sweep_curves",
     about: "along a sweep: shares of solved queries with simultaneous bands or instance by instance, printed rows on top; or metrics, \
-            several studies, a saving along a column",
+            several studies, ratios along a column",
     statistic: "Shares count unsolved queries; {n}.",
     settings: Accepted::shape::<Read>(),
     example: r#"
@@ -39,7 +39,7 @@ rows = [
 "#,
     build: |settings, study, paper| {
         let mut read: Read = settings.read()?;
-        Ok(match (read.across.take(), read.saving.take()) {
+        Ok(match (read.across.take(), read.ratios.take()) {
             (None, None) => Box::new(SweepCurves::new(read, settings, study, paper)?),
             (Some(across), None) => {
                 read.lacks(
@@ -50,7 +50,7 @@ rows = [
                 read.has(settings, &["sweep", "axis"])?;
                 Box::new(across.built((read.sweep, read.axis), settings, study, paper)?)
             }
-            (None, Some(saving)) => {
+            (None, Some(ratios)) => {
                 let others = [
                     "problems",
                     "sweep",
@@ -61,11 +61,11 @@ rows = [
                     "printed_ratio",
                     "levels",
                 ];
-                read.lacks(settings, "saving", &others)?;
-                Box::new(saving.built(settings, study)?)
+                read.lacks(settings, "ratios", &others)?;
+                Box::new(ratios.built(settings, study)?)
             }
             (Some(_), Some(_)) => {
-                return Err(settings.error_at("saving", "across or saving is accepted, not both"));
+                return Err(settings.error_at("ratios", "across or ratios is accepted, not both"));
             }
         })
     },
@@ -91,15 +91,15 @@ struct Read {
     levels: Vec<Level>,
     /// In place of rows: one contender's shares, one curve a study.
     across: Option<across::Across>,
-    /// In place of a sweep and rows: one contender's saving over another along a column of the problem, instance by instance.
-    saving: Option<saving::Saving>,
+    /// In place of a sweep and rows: contenders' ratios to another one along a column of the problem, instance by instance.
+    ratios: Option<ratios::Ratios>,
     /// Draws every instance's own curve beside their mean, one panel a contender.
     #[serde(default)]
     single_instances: bool,
     /// Metrics on a logarithmic scale, one panel each, in place of shares of solved queries.
     #[serde(default)]
     metrics: Vec<String>,
-    /// A printed ratio of the other rows to the first one, drawn as a line over the first row's numbers of a metric.
+    /// A printed ratio of the other rows to the first one, drawn as a line; the metric's panel then shows such ratios.
     printed_ratio: Option<PrintedRatio>,
 }
 
@@ -334,11 +334,17 @@ impl SweepCurves {
             };
             trials.iter().filter_map(point).collect()
         };
-        let curves: Vec<_> = self.rows.iter().map(curve).collect();
+        let mut curves: Vec<_> = self.rows.iter().map(curve).collect();
+        let mut title = metric.title();
         let own = self.read.printed_ratio.as_ref().filter(|printed| printed.metric == metric.name);
         let printed = own.map(|PrintedRatio { ratio, .. }| {
-            let line = curves[0].iter().map(|[x, y]| [*x, y * ratio]).collect::<Vec<_>>();
-            (line, format!("printed: {ratio} times {}", self.rows[0].contender))
+            let first = std::mem::take(&mut curves[0]);
+            for curve in &mut curves {
+                *curve = ratios(curve, &first);
+            }
+            title = format!("{} over {}'s", metric.label.to_lowercase(), self.rows[0].contender);
+            let line = first.iter().map(|[x, _]| [*x, *ratio]).collect::<Vec<_>>();
+            (line, format!("printed: {ratio}"))
         });
         let all = || curves.iter().chain(printed.iter().map(|(line, _)| line)).flatten();
         let low = all().map(|point| point[1]).fold(f64::INFINITY, f64::min);
@@ -347,8 +353,10 @@ impl SweepCurves {
             return Err(RenderError::NotStored { what: format!("values of `{}`", metric.name) });
         }
         let x = Axis::over(self.read.axis.clone(), all().map(|point| point[0]));
-        let mut panel = Panel::new(metric.label, x, Axis::log(metric.title(), low / 1.5, high * 1.5)?);
-        for (index, (curve, row)) in curves.into_iter().zip(&self.rows).enumerate() {
+        let mut panel = Panel::new(metric.label, x, Axis::log(title, low / 1.5, high * 1.5)?);
+        let drawn =
+            curves.into_iter().zip(&self.rows).enumerate().filter(|(_, (curve, _))| !curve.is_empty());
+        for (index, (curve, row)) in drawn {
             let line = Line::through(curve, series_stroke(index)).marked(series_marker(index));
             panel.add(line.labelled(row.contender.clone()));
         }
@@ -358,6 +366,15 @@ impl SweepCurves {
         }
         Ok(panel)
     }
+}
+
+/// The ratios of `curve` to `first` where both have a point.
+fn ratios(curve: &[[f64; 2]], first: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let over = |[x, y]: &[f64; 2]| {
+        let [_, base] = first.iter().find(|[at, base]| at == x && *base > 0.0)?;
+        Some([*x, y / base])
+    };
+    curve.iter().filter_map(over).collect()
 }
 
 impl Kind for SweepCurves {

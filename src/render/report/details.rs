@@ -92,6 +92,10 @@ impl Page<'_> {
         for (why, claims) in claims {
             *text += &item(0, &format!("{}: {}.", links(&claims), markdown(&why)));
         }
+        for withdrawn in &self.evidence.paper.withdrawn {
+            let ids: Vec<String> = withdrawn.claims.iter().map(|id| format!("`{}`", id.get_ref())).collect();
+            *text += &item(0, &format!("Withdrawn, {}: {}.", ids.join(", "), markdown(&withdrawn.why)));
+        }
     }
 
     /// Figures and tables that the chapter does not show.

@@ -1,7 +1,9 @@
 //! One scene of polyhedra from a file, with written queries, or queries drawn from balls around them; with an arm,
-//! or without.
+//! or without; a file with drawn numbers gives a scene with each instance.
 
+use super::drawn_scene::DrawnScene;
 use super::input::{input, load_robot, load_scene};
+use super::random_polyhedra::Line;
 use super::{ArmPlacement, Entry, Family, Query};
 use crate::preprocessing::{Preprocessing, polyhedra};
 use crate::verification::CARRIED_COLUMNS;
@@ -48,7 +50,7 @@ const MM_PER_CM: f64 = 10.0;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SceneSettings {
-    /// The scene file.
+    /// The scene file; with a table `[drawn]`, a scene is drawn with each instance, at each start and goal of which the arm can stand.
     scene: String,
     /// What is laid over the scene file: elements of lists go by their number from 0 or their `name`.
     #[schemars(with = "Option<AnyTable>")]
@@ -61,6 +63,9 @@ struct SceneSettings {
     queries: Vec<QuerySettings>,
     /// Each draw's start and goal lie in balls of this radius about the written ones.
     scatter_cm: Option<f64>,
+    /// Which drawn scenes are kept, by the straight lines from starts to goals.
+    #[serde(default)]
+    line: Line,
     /// Whether a point on an obstacle's face is blocked.
     #[serde(default)]
     contact: Contact,
@@ -114,9 +119,14 @@ impl QuerySettings {
 }
 
 struct Posed {
+    settings: Settings,
+    read: SceneSettings,
+    robot: Option<Robot>,
+    /// The world; that in the middle of its bounds if the scene is drawn.
     world: PolyhedraWorld,
+    /// How the scene is drawn, if it is.
+    drawn: Option<DrawnScene>,
     queries: Vec<Query>,
-    scatter_cm: Option<f64>,
     inputs: Vec<PathBuf>,
 }
 
@@ -124,7 +134,11 @@ fn posed(settings: &Settings, inputs: &Inputs) -> Result<Posed, StudyError> {
     let read: SceneSettings = settings.read()?;
     let mut faults = Faults::default();
     let scene = faults.keep(input(settings, inputs, "scene", &read.scene, |file| {
-        load_scene(settings, file, read.scene_with.as_ref(), parse_scene)
+        load_scene(settings, file, read.scene_with.as_ref(), |document| {
+            let drawn = DrawnScene::read(document)?;
+            let middle = drawn.as_ref().map(DrawnScene::middle);
+            Ok((parse_scene(middle.as_ref().unwrap_or(document))?, drawn))
+        })
     }));
     let robot = faults.keep(read.robot(settings, inputs)).flatten();
     if let Some(radius) = read.scatter_cm
@@ -133,12 +147,20 @@ fn posed(settings: &Settings, inputs: &Inputs) -> Result<Posed, StudyError> {
         let message = format!("scatter_cm is {radius}; more than 0 is accepted");
         faults.add(settings.error_at("scatter_cm", message));
     }
-    let (file, scene) = faults.or(scene)?;
-    let world = read.world(settings, scene, robot.as_ref().map(|(_, robot)| robot))?;
-    let files = std::iter::once(file).chain(robot.map(|(file, _)| file)).collect();
+    let (file, (scene, drawn)) = faults.or(scene)?;
+    let (robot_file, robot) = robot.unzip();
+    if read.line == Line::Blocked && drawn.is_none() {
+        let message = "line keeps drawn scenes; a scene with a table `[drawn]` is accepted";
+        return Err(settings.error_at("line", message).into());
+    }
+    let world = read.world(settings, scene, robot.as_ref())?;
     let queries: Vec<Query> = read.queries.iter().map(QuerySettings::query).collect();
-    check(settings, &world, &queries)?;
-    Ok(Posed { world, queries, scatter_cm: read.scatter_cm, inputs: files })
+    // In a drawn scene every instance sees to it.
+    if drawn.is_none() {
+        check(settings, &world, &queries)?;
+    }
+    let inputs = std::iter::once(file).chain(robot_file).collect();
+    Ok(Posed { settings: settings.clone(), read, robot, world, drawn, queries, inputs })
 }
 
 impl SceneSettings {
@@ -220,21 +242,64 @@ fn is_reachable(world: &PolyhedraWorld, tip: &Vec3) -> bool {
     })
 }
 
+/// How far the arm keeps from everything at the ends of a drawn query.
+const CLEAR_CM: f64 = 0.1;
+
+/// Whether the arm, if there is one, stands clear of everything with `tip` and its tool down.
+fn can_stand(world: &PolyhedraWorld, tip: &Vec3) -> bool {
+    world.arm().is_none_or(|arm| {
+        let found = arm.arm().inverse(&CarriedArm::target(tip, &DOWN), &[0.0; 6]);
+        let clearance = |q| arm.clearance(q, world.bodies(), 2.0 * CLEAR_CM, false);
+        found.iter().any(|(_, q)| clearance(q) > CLEAR_CM)
+    })
+}
+
 impl Posed {
-    /// A free and reachable point in the ball about `center`; the center itself if a thousand draws find none.
-    fn near(&self, stream: &mut seed::Stream, center: &[f64], radius: f64) -> Vec<f64> {
-        for _ in 0..1000 {
-            let offset = Vec3::from_fn(|_, _| stream.random_range(-radius..=radius));
-            let point = Vec3::new(center[0], center[1], center[2]) + offset;
-            if offset.norm() <= radius
-                && self.world.free_point("point", point.as_slice()).is_ok()
-                && is_reachable(&self.world, &point)
-            {
-                return point.as_slice().to_vec();
-            }
-        }
-        center.to_vec()
+    /// The queries in `world` of the instance that belongs to `seed`; a written end stands for one of which a thousand draws give
+    /// none.
+    fn scattered(&self, world: &PolyhedraWorld, seed: u64) -> Vec<Query> {
+        let Some(radius) = self.read.scatter_cm else { return self.queries.clone() };
+        let mut stream = seed::stream(seed);
+        let mut near = |center: &[f64]| {
+            let found = (0..1000).find_map(|_| near(world, &mut stream, center, radius));
+            found.unwrap_or_else(|| center.to_vec())
+        };
+        let mut drawn = |query: &Query| Query {
+            name: query.name.clone(),
+            start: near(&query.start),
+            goal: near(&query.goal),
+        };
+        self.queries.iter().map(&mut drawn).collect()
     }
+
+    /// The world of the instance that belongs to `seed`, and its queries.
+    fn instance(&self, seed: u64) -> Result<(PolyhedraWorld, Vec<Query>), Invalid> {
+        let Some(drawn) = &self.drawn else {
+            return Ok((self.world.clone(), self.scattered(&self.world, seed)));
+        };
+        let instance = drawn.draw(seed, |document| {
+            let scene = parse_scene(document).ok()?;
+            let world = self.read.world(&self.settings, scene, self.robot.as_ref()).ok()?;
+            let queries = self.scattered(&world, seed);
+            let stands =
+                |end: &[f64]| world.free_point("end", end).is_ok_and(|point| can_stand(&world, &point));
+            let is_kept = |query: &Query| {
+                query.ends().into_iter().all(stands) && self.read.line.keeps(query, world.obstacles())
+            };
+            queries.iter().all(is_kept).then_some((world, queries))
+        });
+        instance.ok_or_else(|| Invalid("the arm stands at every start and goal of no drawn scene".to_owned()))
+    }
+}
+
+/// A point in the ball about `center`, if the one that is drawn is free and reached.
+fn near(world: &PolyhedraWorld, stream: &mut seed::Stream, center: &[f64], radius: f64) -> Option<Vec<f64>> {
+    let offset = Vec3::from_fn(|_, _| stream.random_range(-radius..=radius));
+    let point = Vec3::new(center[0], center[1], center[2]) + offset;
+    let stands = offset.norm() <= radius
+        && world.free_point("point", point.as_slice()).is_ok()
+        && is_reachable(world, &point);
+    stands.then(|| point.as_slice().to_vec())
 }
 
 impl Family for Posed {
@@ -242,8 +307,12 @@ impl Family for Posed {
         if self.world.arm().is_some() { WorldKind::ArmAmongPolyhedra } else { WorldKind::Polyhedra }
     }
 
-    fn prepare(&self, _seed: u64) -> Result<Preprocessing, Invalid> {
-        Ok(polyhedra::prepare(self.world.clone()))
+    fn prepare(&self, seed: u64) -> Result<Preprocessing, Invalid> {
+        let world = match self.drawn {
+            None => self.world.clone(),
+            Some(_) => self.instance(seed)?.0,
+        };
+        Ok(polyhedra::prepare(world))
     }
 
     fn queries(&self) -> &[Query] {
@@ -251,14 +320,12 @@ impl Family for Posed {
     }
 
     fn queries_for(&self, seed: u64) -> Vec<Query> {
-        let Some(radius) = self.scatter_cm else { return self.queries.clone() };
-        let mut stream = seed::stream(seed);
-        let mut drawn = |query: &Query| Query {
-            name: query.name.clone(),
-            start: self.near(&mut stream, &query.start, radius),
-            goal: self.near(&mut stream, &query.goal, radius),
-        };
-        self.queries.iter().map(&mut drawn).collect()
+        // A scene that cannot be drawn is refused by `prepare`, with the reason; its queries are never planned.
+        self.instance(seed).map_or_else(|_| self.queries.clone(), |(_, queries)| queries)
+    }
+
+    fn draws_ends(&self) -> bool {
+        self.drawn.is_some()
     }
 
     fn cells(&self) -> u64 {
@@ -266,7 +333,7 @@ impl Family for Posed {
     }
 
     fn stance(&self, q_rad: &[f64]) -> Option<ArmPlacement> {
-        let arm = self.world.arm()?;
+        let arm = self.world.arm().filter(|_| self.drawn.is_none())?;
         let q = joints(q_rad)?;
         let mm = |point: &Vec3| -> [f64; 3] { (point * MM_PER_CM).into() };
         let capsule = |rod: &Capsule| {
@@ -326,6 +393,10 @@ mod tests {
             ("step_cm = 999".to_owned(), ["tang_c1.toml: step is 999", "at most the domain's shortest side"]),
             ("step_cm = 0".to_owned(), ["step is 0", "more than 0"]),
             ("growth_cm = -1".to_owned(), ["grow by -1", "0 or more is accepted"]),
+            (
+                "line = 'blocked'".to_owned(),
+                ["line keeps drawn scenes", "a scene with a table `[drawn]` is accepted"],
+            ),
             ("scatter_cm = 0".to_owned(), ["scatter_cm is 0", "more than 0 is accepted"]),
             ("body = 'bones'".to_owned(), ["no body `bones`", "it has paper, mesh"]),
             ("scene = 'data/scenes/none.toml'".to_owned(), ["`data/scenes/none.toml`", "does not exist"]),
@@ -352,6 +423,37 @@ mod tests {
             let refused = build("", &[alone]).err().unwrap();
             assert!(refused.contains("robot and body are given together or not at all"), "{refused}");
         }
+    }
+
+    #[test]
+    fn a_drawn_scene_changes_with_the_seed_alone_and_leaves_its_ends_free() {
+        let drawn = |line: &str| {
+            build(&format!("scene = 'data/scenes/tang_drawn.toml'\nline = '{line}'\nscatter_cm = 10\n"), &[])
+        };
+        let (any, blocked) = (drawn("any").unwrap(), drawn("blocked").unwrap());
+        let world = |family: &dyn Family, seed: u64| match family.prepare(seed).unwrap().world {
+            engine::space::World::Polyhedra(world) => *world,
+            _ => panic!("seed {seed}"),
+        };
+        let mut free_lines = 0;
+        for seed in 0..6 {
+            for family in [&any, &blocked] {
+                let (query, world) = (&family.queries_for(seed)[0], world(family.as_ref(), seed));
+                assert_eq!(*query, family.queries_for(seed)[0], "seed {seed}");
+                assert!(
+                    query.ends().into_iter().all(|end| world.free_point("end", end).is_ok()),
+                    "seed {seed}"
+                );
+            }
+            let corner = |seed| world(any.as_ref(), seed).bodies()[0].vertices()[0];
+            assert!(corner(seed) == corner(seed) && corner(seed) != corner(seed + 1), "seed {seed}");
+            let line = |family: &dyn Family| {
+                Line::Blocked.keeps(&family.queries_for(seed)[0], world(family, seed).obstacles())
+            };
+            assert!(line(blocked.as_ref()), "seed {seed}");
+            free_lines += usize::from(!line(any.as_ref()));
+        }
+        assert!(free_lines > 0, "no line is free");
     }
 
     #[test]

@@ -12,7 +12,7 @@ use engine::planner::Invalid;
 use engine::space::{PolyhedraWorld, WorldKind};
 use rand::RngExt as _;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -87,13 +87,22 @@ struct DrawnQuery {
 }
 
 /// Which environments are kept, by the straight line from start to goal.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-enum Line {
+pub(super) enum Line {
     /// All.
+    #[default]
     Any,
     /// Those in which an obstacle is in its way; the others are drawn again, query and obstacles alike.
     Blocked,
+}
+
+impl Line {
+    /// Whether an environment with `query` and these obstacles is kept.
+    pub(super) fn keeps(self, query: &Query, obstacles: &[Convex]) -> bool {
+        let way = Segment::new(point(&query.start), point(&query.goal));
+        self == Self::Any || obstacles.iter().any(|body| distance_segment_convex(&way, body) == 0.0)
+    }
 }
 
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
@@ -228,9 +237,7 @@ impl RandomPolyhedra {
         for _ in 0..TRIES {
             let query = self.query(&mut stream, drawn);
             let bodies = self.bodies(&mut stream, std::slice::from_ref(&query))?;
-            let way = Segment::new(point(&query.start), point(&query.goal));
-            let in_the_way = |body: &Convex| distance_segment_convex(&way, body) == 0.0;
-            if drawn.line == Line::Any || bodies.iter().any(in_the_way) {
+            if drawn.line.keeps(&query, &bodies) {
                 return Ok((bodies, query));
             }
         }

@@ -67,6 +67,12 @@ pub enum Show {
     Percent,
     /// The share of trials that were solved, in percent.
     Solved,
+    /// The share of trials whose path the verifier refused, in percent.
+    Refused,
+    /// The share of trials that ended without a path and had nothing left to try, in percent.
+    NoPath,
+    /// The share of trials that spent their budget, in percent.
+    Spent,
     /// The median over trials that were not solved.
     Failed,
     /// The value of the first trial that has one, whatever its status.

@@ -24,6 +24,23 @@ fn a_strict_comparison_that_ties_on_every_case_is_contradicted_with_a_bound() {
 }
 
 #[test]
+fn what_ties_on_every_case_is_contradicted_where_enough_cases_are_drawn() {
+    let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+    let found = |cases: usize| {
+        let all = pairs(&[(cases, At(5.0), At(5.0))]);
+        let one = judged("on_every", &format!("{of}\nthat = \"lower\""), Made::Plainly, all);
+        (one.outcome.name(), one.findings[0].because.join("; "))
+    };
+    let (outcome, because) = found(40);
+    let bound = "every case ties: at most 8.8 % of instances could differ";
+    assert!(outcome == "contradicted" && because.contains(bound), "{outcome}: {because}");
+    for few in [1, 9] {
+        assert_eq!(found(few).0, "open", "{few} instances");
+    }
+    assert_eq!(found(10).0, "contradicted");
+}
+
+#[test]
 fn what_ties_on_some_cases_and_is_never_the_contrary_is_open_and_names_the_ties() {
     let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
     let all = [(30, At(4.0), At(5.0)), (7, At(5.0), At(5.0))];

@@ -2,17 +2,24 @@
 
 use super::driver::Browser;
 use super::{SHOWN, page};
+use replan::analysis::across::Stored;
 use replan::analysis::across::stored::Exploration;
+use replan::analysis::polylines::Polylines;
 use replan::analysis::verdict::{ClaimVerdict, Effect, Verdicts};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
+use study::Inputs;
+use study::paper::Paper;
 
 fn runs() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("data/runs/zhang")
 }
 
 fn explored() -> Exploration {
-    Exploration::read(&Exploration::first(&runs())).unwrap().unwrap()
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folder = root.join("experiments/zhang");
+    let paper = Paper::load(&folder, &Inputs { roots: vec![folder.clone(), root.to_owned()] }).unwrap();
+    Stored::read(&paper, &runs(), &Polylines::default()).unwrap().first.unwrap()
 }
 
 /// The class of each claim under the interpretation that is chosen, by the claim's id.

@@ -6,6 +6,7 @@ use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric::Metric;
+use crate::analysis::number::{Ends, Number, parts, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::is_unended;
 use crate::analysis::selection_spec::Labels;
@@ -51,37 +52,50 @@ impl Differs<'_> {
     }
 }
 
+impl Differs<'_> {
+    /// The numbers by set.
+    fn in_sets<'n>(&self, numbers: &'n [Number]) -> Vec<Vec<&'n Number>> {
+        let mut all = parts(numbers, Ends::Measured).into_iter();
+        self.sets.iter().map(|set| all.by_ref().take(set.len()).collect()).collect()
+    }
+}
+
+/// Whether all problems of a set have a number, and not the same.
+fn differs(set: &[&Number]) -> bool {
+    let values: Option<Vec<f64>> = set.iter().map(|number| number.value).collect();
+    values.is_some_and(|values| values.iter().any(|value| (value - values[0]).abs() > 1e-9))
+}
+
 impl Criterion for Differs<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> CriterionResult {
-        let Some(run) = evidence.run(&self.study.name) else { return CriterionResult::default() };
+    /// The median on each problem.
+    fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
+        let Some(run) = evidence.run(&self.study.name) else { return vec![Number::default()] };
+        let problems: Vec<&String> = self.sets.iter().flatten().collect();
+        let cut = problems.iter().flat_map(|group| self.rows(run, group)).filter(|row| is_unended(row));
+        let of_problem = |problem: &&String| {
+            let part = (*problem).clone();
+            Number { part, value: self.median(run, problem), ..Number::default() }
+        };
+        let whole = Number { unended: cut.count(), ..Number::default() };
+        std::iter::once(whole).chain(problems.iter().map(of_problem)).collect()
+    }
+
+    fn weigh(&self, numbers: &[Number]) -> CriterionResult {
         let mut found = CriterionResult { existential: true, ..CriterionResult::default() };
-        let mut differ = 0;
-        let mut alike = None;
-        for set in &self.sets {
-            let values: Vec<Option<f64>> = set.iter().map(|problem| self.median(run, problem)).collect();
-            let spelled = |(problem, value): (&String, &Option<f64>)| match value {
-                Some(value) => format!("{problem} {value:.4}"),
-                None => format!("{problem} –"),
-            };
-            found.because.push(set.iter().zip(&values).map(spelled).collect::<Vec<_>>().join(", "));
-            let known: Vec<f64> = values.into_iter().flatten().collect();
-            let is_other = |value: &f64| (value - known[0]).abs() > 1e-9;
-            let differs = known.len() == set.len() && known.iter().any(is_other);
-            differ += usize::from(differs);
-            alike = alike.or(set.last().filter(|_| !differs));
-        }
+        let spelled = |number: &&Number| match number.value {
+            Some(value) => format!("{} {value:.4}", number.part),
+            None => format!("{} –", number.part),
+        };
+        let sets = self.in_sets(numbers);
+        let differ = sets.iter().filter(|set| differs(set)).count();
+        let lines = sets.iter().map(|set| set.iter().map(spelled).collect::<Vec<_>>().join(", "));
+        found.because.extend(lines);
         found.outcome = Some(match differ {
             0 => Outcome::Fails,
             all if all == self.sets.len() => Outcome::Holds,
             _ => Outcome::SignOnly,
         });
-        let cut =
-            self.sets.iter().flatten().flat_map(|group| self.rows(run, group)).filter(|row| is_unended(row));
-        found.censored = cut.count();
-        // A problem that should have given another number, where there is one.
-        let shown = alike.or(self.sets.iter().flatten().next());
-        let first = shown.and_then(|group| self.rows(run, group).into_iter().next());
-        found.trial = first.map(|row| run.trial(row));
+        found.censored = whole(numbers).unended;
         let metric = self.metric.label.to_lowercase();
         found.because.push(format!(
             "{metric} of {} differs in {differ} of {} sets",
@@ -89,6 +103,16 @@ impl Criterion for Differs<'_> {
             self.sets.len()
         ));
         found
+    }
+
+    /// A problem that should have given another number, where there is one.
+    fn show(&self, evidence: &Evidence<'_>, numbers: &[Number], found: &mut CriterionResult) {
+        let Some(run) = evidence.run(&self.study.name) else { return };
+        let sets = self.in_sets(numbers);
+        let alike = sets.iter().find(|set| !differs(set)).and_then(|set| set.last());
+        let shown = alike.or_else(|| sets.first()?.first());
+        let first = shown.and_then(|number| self.rows(run, &number.part).into_iter().next());
+        found.trial = first.map(|row| run.trial(row));
     }
 
     fn studies(&self) -> Vec<&Study> {

@@ -1,0 +1,172 @@
+//! Numbers of stored trials under one interpretation: all that a criterion weighs, and all that is stored of what was explored.
+//!
+//! A criterion takes its numbers of the trials once. Whatever it then holds them against (a margin, what the paper prints) needs no trial.
+//! The first number of each list is the whole; others are its parts, or what it would be if cases without an end had ended.
+
+use super::censored::{outside, refused};
+use super::selection::{Instance, censored, solved, unended};
+use stats::bootstrap::Estimate;
+use stats::interval::Interval;
+
+/// What cases without an end, or without a number that they may have had, are taken to have given.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Ends {
+    /// Nothing.
+    #[default]
+    Measured,
+    /// What goes one way most: the least numbers, misses, or a difference against the contender.
+    Least,
+    /// What goes the other way most.
+    Most,
+}
+
+impl Ends {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Measured, Self::Least, Self::Most];
+
+    /// Its name in the table of estimates.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Measured => "measured",
+            Self::Least => "least",
+            Self::Most => "most",
+        }
+    }
+}
+
+/// One number with its interval, and what it rests on.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Number {
+    /// What it is of, where several are asked at once: a comparison, a point of a sweep, a cell; empty of the whole.
+    pub part: String,
+    /// What cases without an end are taken to have given.
+    pub ends: Ends,
+    /// The number.
+    pub value: Option<f64>,
+    /// Its interval.
+    pub interval: Option<Interval>,
+    /// Whether all instances agree on it.
+    pub is_agreed: bool,
+    /// Whether the interval is exact, however few the instances.
+    pub is_exact: bool,
+    /// The independent units that it rests on.
+    pub n: usize,
+    /// The instances that ran.
+    pub ran: usize,
+    /// The instances that have what is compared.
+    pub measured: usize,
+    /// The instances of groups that are drawn; none if no group is.
+    pub drawn: Option<usize>,
+    /// Cases that are solved by everyone who is compared.
+    pub solved: usize,
+    /// Cases.
+    pub total: usize,
+    /// Cases that did not come to an end and could be otherwise.
+    pub unended: usize,
+    /// Cases without a number that they might have had.
+    pub censored: usize,
+    /// Cases of which the verifier refuses a path.
+    pub refused: usize,
+    /// Cases outside of a claim about what is solved.
+    pub outside: usize,
+    /// Cases below what they are compared with, or that speak for what is asked.
+    pub below: usize,
+    /// Cases that are equal.
+    pub equal: usize,
+    /// Cases above, or that speak against it.
+    pub above: usize,
+    /// Hits.
+    pub hits: f64,
+    /// Chances.
+    pub chances: f64,
+    /// The least number.
+    pub least: Option<f64>,
+    /// The greatest.
+    pub greatest: Option<f64>,
+    /// The standard deviation over the units.
+    pub deviation: Option<f64>,
+    /// Numbers in order, where one alone does not say enough: one an instance, or a cell's products with others.
+    pub values: Vec<f64>,
+}
+
+impl Number {
+    /// What is counted of all cases of `instances`.
+    pub fn of_cases(instances: &[Instance<'_>]) -> Self {
+        let [solved, total] = solved(instances);
+        Self {
+            ran: instances.len(),
+            solved,
+            total,
+            unended: unended(instances),
+            censored: censored(instances),
+            refused: refused(instances),
+            outside: outside(instances),
+            ..Self::default()
+        }
+    }
+
+    /// It with an estimate, if there is one.
+    #[must_use]
+    pub fn estimated(self, found: Option<Estimate>) -> Self {
+        let Some(Estimate { value, interval, is_agreed, units, .. }) = found else { return self };
+        Self { value: Some(value), interval: Some(interval), is_agreed, n: units, ..self }
+    }
+
+    /// A value with its interval if cases without an end had given this.
+    pub fn ended(ends: Ends, interval: Interval) -> Self {
+        Self { ends, interval: Some(interval), ..Self::default() }
+    }
+
+    /// Whether both numbers of every case are equal.
+    pub fn is_tied(&self) -> bool {
+        self.equal > 0 && self.below + self.above == 0
+    }
+
+    /// The value with its interval.
+    pub fn found(&self) -> Option<(f64, Interval)> {
+        self.value.zip(self.interval)
+    }
+
+    /// The cases that are solved, and all.
+    pub fn cases(&self) -> [usize; 2] {
+        [self.solved, self.total]
+    }
+}
+
+/// The intervals of the whole if cases without an end had ended.
+pub fn ended(numbers: &[Number]) -> impl Iterator<Item = Interval> {
+    let ended = numbers.iter().filter(|number| number.ends != Ends::Measured && number.part.is_empty());
+    ended.filter_map(|number| number.interval)
+}
+
+/// The parts, as cases that ended so give them.
+pub fn parts(numbers: &[Number], ends: Ends) -> Vec<&Number> {
+    numbers.iter().filter(|number| number.ends == ends && !number.part.is_empty()).collect()
+}
+
+/// The whole as it was measured.
+///
+/// # Panics
+/// If there is none: a criterion's numbers begin with it.
+pub fn whole(numbers: &[Number]) -> &Number {
+    &numbers[0]
+}
+
+/// The numbers of one question under one interpretation, and how the trials behind them came about.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Numbers {
+    /// The numbers; of what rests on the clock those of each stored session, the first alone if none is stored.
+    pub by_session: Vec<Vec<Number>>,
+    /// The stored sessions of the clock; 0 of what rests on none.
+    pub sessions: usize,
+    /// Whether trials of all studies that it looks at ran under the interpretation.
+    pub is_covered: bool,
+    /// Whether every problem group that it looks at could be posed.
+    pub is_posed: bool,
+    /// The share of the paths that come back which the verifier refuses.
+    pub refused: f64,
+    /// Cases without an end in instances that do not count.
+    pub left_out: usize,
+    /// A hash of the trials' results, if it was asked for.
+    pub trials: String,
+}
