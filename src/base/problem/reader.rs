@@ -15,7 +15,7 @@ const KINDS: [&str; 3] = ["box", "cylinder", "sphere"];
 const GOALS: [&str; 3] = ["goals", "goal_ik", "goal"];
 /// Two rotations of one solid are the same if they take no axis further apart than this.
 const SAME: f64 = 1e-2;
-/// Words of keys that may change the robot, what stands around it, or what is asked: a key with one of them that is not read is refused.
+/// Words of keys that may change the robot, what stands around it, or the query: a key with one of them that is not read is refused.
 const MEANT: [&str; 40] = [
     "attach",
     "attached",
@@ -295,7 +295,7 @@ impl Reader<'_> {
     }
 }
 
-/// Whether a word of the key is about the robot, what stands around it, or what is asked.
+/// Whether a word of the key is about the robot, what stands around it, or the query.
 fn may_change_the_problem(key: &str) -> bool {
     let lower = key.to_lowercase();
     lower.split(|c: char| !c.is_alphabetic()).any(|word| {

@@ -353,93 +353,87 @@ fn a_scene_and_its_request_are_the_problem_that_vamp_makes_of_them() {
     }
 }
 
+/// A change of a scene, and the message about it.
+const WRONG_SCENES: &[(&str, &str, &str)] = &[
+    ("name: \"\"", "robot_state_diff: [1]", "scene.yaml:5:19: `robot_state_diff` is not read"),
+    (
+        "[lift, turn], position: [0, 0]}",
+        "[lift], position: [0]}, attached_collision_objects: [{id: cup}]",
+        "`attached_collision_objects` is not read",
+    ),
+    ("    - id: ball\n", "    - id: ball\n      meshes: [{vertices: [0]}]\n", "`meshes` is not read"),
+    ("type: sphere", "type: cone", "a primitive is a `cone`; box, cylinder and sphere are accepted"),
+    (
+        "translation: [0, 0, 0]",
+        "translation: [0, 0, 1]",
+        "the translation of a frame is not that of the robot's base",
+    ),
+    ("panda", "fetch", "the problems are for the robot `fetch`"),
+    (
+        "- header: {frame_id: world}",
+        "- header: {frame_id: table}",
+        "scene.yaml:8:26: the frame is `table`; that of the robot's base is accepted: `base`, `world`",
+    ),
+    (
+        "{frame_id: base}",
+        "{frame_id: map}",
+        "the frame is `map`; that of the robot's base is accepted: `base`",
+    ),
+    ("translation: [0, 0, 0]", "scale: 2, translation: [0, 0, 0]", "`scale` is not read; an empty one and"),
+    ("position: [0, 0]}", "position: [0, 0], foo: 3}", "`foo` is not read; an empty one and name, position"),
+    ("position: [0, 0]}", "position: [0]}", "1 numbers for 2 joints"),
+    ("dimensions: [0.14, 0.02]", "dimensions: [140, 20]", "is it in millimetres"),
+];
+
+/// A change of a request, and the message about it.
+const WRONG_REQUESTS: &[(&str, &str, &str)] = &[
+    ("joint_name: lift", "joint_name: drop", "the goal has no joint `lift` of `panda`"),
+    ("finger, lift", "finger, drop", "the start has no joint `lift` of `panda`"),
+    ("position: -0.25", "position: -45", "is it in degrees"),
+    (
+        "position: -0.25",
+        "posture: 0.2, position: -0.25",
+        "`posture` is not read; an empty one and joint_name",
+    ),
+    (
+        "position: -0.25",
+        "tolerance_above: 0.2, position: -0.25",
+        "tolerance_above is 0.2; 0 to 0.001 is accepted: a goal is one configuration",
+    ),
+    (
+        "position: -0.25",
+        "tolerance_below: -1, position: -0.25",
+        "tolerance_below is -1; 0 to 0.001 is accepted",
+    ),
+    ("joint_name: turn", "joint_name: lift", "the goal gives joint `lift` twice; once is accepted"),
+    ("finger, lift", "lift, lift", "the start gives joint `lift` twice; once is accepted"),
+    (
+        "position: [1.5",
+        "joint_units: deg, position: [1.5",
+        "`joint_units` is not read; an empty one and name",
+    ),
+    (
+        "position: [1.5",
+        "velocity: [0, 0, 1], position: [1.5",
+        "`velocity` is not read; an empty one and name",
+    ),
+    ("[1.5, 0.04, 0.0]", "[1.5, 0.04]", "2 numbers for 3 joints"),
+    (
+        "joint_state:",
+        "multi_dof_joint_state: {joint_names: [base], transforms: [{translation: [1, 0, 0], rotation: [0, 0, 0, 1]}]}, joint_state:",
+        "the translation of a frame is not that of the robot's base",
+    ),
+    ("group_name: arm", "path_constraints: {name: up}", "request.yaml:1:19: `path_constraints` is not read"),
+];
+
 #[test]
 fn what_a_scene_or_a_request_holds_besides_is_refused_at_its_place() {
-    for (from, to, message) in [
-        ("name: \"\"", "robot_state_diff: [1]", "scene.yaml:5:19: `robot_state_diff` is not read"),
-        (
-            "[lift, turn], position: [0, 0]}",
-            "[lift], position: [0]}, attached_collision_objects: [{id: cup}]",
-            "`attached_collision_objects` is not read",
-        ),
-        ("    - id: ball\n", "    - id: ball\n      meshes: [{vertices: [0]}]\n", "`meshes` is not read"),
-        ("type: sphere", "type: cone", "a primitive is a `cone`; box, cylinder and sphere are accepted"),
-        (
-            "translation: [0, 0, 0]",
-            "translation: [0, 0, 1]",
-            "the translation of a frame is not that of the robot's base",
-        ),
-        ("panda", "fetch", "the problems are for the robot `fetch`"),
-        (
-            "- header: {frame_id: world}",
-            "- header: {frame_id: table}",
-            "scene.yaml:8:26: the frame is `table`; that of the robot's base is accepted: `base`, `world`",
-        ),
-        (
-            "{frame_id: base}",
-            "{frame_id: map}",
-            "the frame is `map`; that of the robot's base is accepted: `base`",
-        ),
-        (
-            "translation: [0, 0, 0]",
-            "scale: 2, translation: [0, 0, 0]",
-            "`scale` is not read; an empty one and",
-        ),
-        (
-            "position: [0, 0]}",
-            "position: [0, 0], foo: 3}",
-            "`foo` is not read; an empty one and name, position",
-        ),
-        ("position: [0, 0]}", "position: [0]}", "1 numbers for 2 joints"),
-        ("dimensions: [0.14, 0.02]", "dimensions: [140, 20]", "is it in millimetres"),
-    ] {
+    for (from, to, message) in WRONG_SCENES {
         assert!(SCENE.contains(from), "{from}");
         let error = moveit(&SCENE.replacen(from, to, 1), REQUEST).unwrap_err();
         assert!(error.contains(message), "should say {message}\nsays {error}");
     }
-    for (from, to, message) in [
-        ("joint_name: lift", "joint_name: drop", "the goal has no joint `lift` of `panda`"),
-        ("finger, lift", "finger, drop", "the start has no joint `lift` of `panda`"),
-        ("position: -0.25", "position: -45", "is it in degrees"),
-        (
-            "position: -0.25",
-            "posture: 0.2, position: -0.25",
-            "`posture` is not read; an empty one and joint_name",
-        ),
-        (
-            "position: -0.25",
-            "tolerance_above: 0.2, position: -0.25",
-            "tolerance_above is 0.2; 0 to 0.001 is accepted: a goal is one configuration",
-        ),
-        (
-            "position: -0.25",
-            "tolerance_below: -1, position: -0.25",
-            "tolerance_below is -1; 0 to 0.001 is accepted",
-        ),
-        ("joint_name: turn", "joint_name: lift", "the goal gives joint `lift` twice; once is accepted"),
-        ("finger, lift", "lift, lift", "the start gives joint `lift` twice; once is accepted"),
-        (
-            "position: [1.5",
-            "joint_units: deg, position: [1.5",
-            "`joint_units` is not read; an empty one and name",
-        ),
-        (
-            "position: [1.5",
-            "velocity: [0, 0, 1], position: [1.5",
-            "`velocity` is not read; an empty one and name",
-        ),
-        ("[1.5, 0.04, 0.0]", "[1.5, 0.04]", "2 numbers for 3 joints"),
-        (
-            "joint_state:",
-            "multi_dof_joint_state: {joint_names: [base], transforms: [{translation: [1, 0, 0], rotation: [0, 0, 0, 1]}]}, joint_state:",
-            "the translation of a frame is not that of the robot's base",
-        ),
-        (
-            "group_name: arm",
-            "path_constraints: {name: up}",
-            "request.yaml:1:19: `path_constraints` is not read",
-        ),
-    ] {
+    for (from, to, message) in WRONG_REQUESTS {
         assert!(REQUEST.contains(from), "{from}");
         let error = moveit(SCENE, &REQUEST.replacen(from, to, 1)).unwrap_err();
         assert!(error.contains(message), "should say {message}\nsays {error}");
