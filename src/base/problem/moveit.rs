@@ -75,7 +75,7 @@ impl Reader<'_> {
     }
 
     /// The solids, and the numbers of joints in the state of the robot.
-    fn scene<'n>(self, root: &'n Node) -> Result<(Vec<Solid>, Vec<(&'n str, f64)>), SettingsError> {
+    fn scene(self, root: &Node) -> Result<(Vec<Solid>, Vec<(&str, f64)>), SettingsError> {
         self.moveit_rest(root, &["robot_model_name", "world", "robot_state", "fixed_frame_transforms"])?;
         let state = self.yaml.find(root, "robot_state")?;
         let joints = state.map_or(Ok(Vec::new()), |state| self.state(state))?;
@@ -116,7 +116,7 @@ impl Reader<'_> {
     }
 
     /// The numbers of the joints of a state. One in which the base is moved would be another problem.
-    fn state<'n>(self, state: &'n Node) -> Result<Vec<(&'n str, f64)>, SettingsError> {
+    fn state(self, state: &Node) -> Result<Vec<(&str, f64)>, SettingsError> {
         self.moveit_rest(state, &["joint_state", "multi_dof_joint_state"])?;
         if let Some(base) = self.yaml.find(state, "multi_dof_joint_state")? {
             self.moveit_rest(base, &["joint_names", "transforms"])?;
