@@ -185,10 +185,10 @@ fn folder(paper: &str) -> Result<(PathBuf, PathBuf, bool), Failure> {
     let is_name = matches!(given.components().collect::<Vec<_>>()[..], [Component::Normal(_)]);
     let project = home(None)?;
     let named = project.join(EXPERIMENTS).join(given);
-    if is_name && named.join("paper.toml").exists() {
+    if is_name && named.join("paper.toml").is_file() {
         return Ok((named, project, false));
     }
-    if !given.join("paper.toml").exists() {
+    if !given.join("paper.toml").is_file() {
         return Err(unknown(paper));
     }
     let home = home(Some(given))?;

@@ -254,7 +254,7 @@ impl Paper {
         faults: &mut Faults,
     ) -> Result<Option<Self>, StudyError> {
         let path = folder.join("paper.toml");
-        if !path.exists() {
+        if !path.is_file() {
             let what =
                 "no such file; a paper is a folder with a paper.toml and one TOML file a study".to_owned();
             return Err(StudyError::Missing { path, what });
