@@ -74,7 +74,7 @@ fn a_wrong_scene_says_which_obstacle_where_and_what_is_accepted() {
             "[[box]]\nname = 'b'\nmin_mm = [0.1, 0, 0]\nmax_mm = [0.6, 0.3, 0.2]\n\
              [[sphere]]\nname = 'k'\ncenter_mm = [0, 0, 900]\nradius_mm = 100\n",
             [
-                "s.toml:5:11",
+                "s.toml:5:10",
                 "`b`: no side is longer than 0.5 mm; are lengths in metres?",
                 "(0.5 m is 500 mm)",
             ],
