@@ -1,7 +1,9 @@
 //! How stored verdicts differ from those that the stored records give, claim by claim.
 
+use super::outcome::Outcome;
 use super::verdict::{ClaimVerdict, CriterionFinding, Verdicts};
-use std::fmt::Debug;
+use serde::Serialize;
+use serde_json::Value;
 
 /// What is not in `stored` as it is in `now`, one sentence each, every claim named; empty if they are equal.
 pub fn differences(stored: &Verdicts, now: &Verdicts) -> Vec<String> {
@@ -74,7 +76,13 @@ fn of_claim(stored: &ClaimVerdict, now: &ClaimVerdict) -> Option<String> {
 fn of_finding(stored: &CriterionFinding, now: &CriterionFinding) -> Option<String> {
     let check = &now.criterion;
     unlike("criterion", &stored.criterion, check)
-        .or_else(|| unlike(&format!("outcome of `{check}`"), &stored.outcome, &now.outcome))
+        .or_else(|| {
+            unlike(
+                &format!("outcome of `{check}`"),
+                &stored.outcome.map(Outcome::name),
+                &now.outcome.map(Outcome::name),
+            )
+        })
         .or_else(|| unlike(&format!("number of `{check}`"), &number(stored), &number(now)))
         .or_else(|| (stored != now).then(|| format!("the reasons of `{check}` read otherwise")))
 }
@@ -92,6 +100,15 @@ fn number(of: &CriterionFinding) -> String {
     )
 }
 
-fn unlike<T: PartialEq + Debug>(what: &str, stored: &T, now: &T) -> Option<String> {
-    (stored != now).then(|| format!("{what}: stored {stored:?}, judged {now:?}"))
+fn unlike<T: PartialEq + Serialize>(what: &str, stored: &T, now: &T) -> Option<String> {
+    (stored != now).then(|| format!("{what}: stored {}, judged {}", shown(stored), shown(now)))
+}
+
+/// A value as a message shows it: text in backticks, what is absent as `none`, all else as JSON.
+fn shown(value: &impl Serialize) -> String {
+    match serde_json::to_value(value) {
+        Ok(Value::String(text)) => format!("`{text}`"),
+        Ok(Value::Null) | Err(_) => "none".to_owned(),
+        Ok(other) => other.to_string(),
+    }
 }

@@ -251,6 +251,9 @@ fn read(path: &Path) -> Result<String, Failure> {
         let most = MOST_BYTES >> 20;
         return Err(wrong(format!("it holds more than {most} MiB; at most {most} MiB are accepted")));
     }
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+        return Err(wrong("it is UTF-16 text; UTF-8 text is expected".to_owned()));
+    }
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let line = error.as_bytes()[..at].split(|byte| *byte == b'\n').count();

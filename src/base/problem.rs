@@ -10,8 +10,8 @@
 //! A problem has `box` (`position`, `orientation_euler_xyz` about fixed axes, `half_extents`), `cylinder` and `sphere` lists,
 //! `start`, `goals` and whether it is `valid`.
 //!
-//! A key that is neither read nor in the table of ignored keys is refused if it may be an obstacle or is nearly one that is read,
-//! and noted otherwise.
+//! `robot` and `joints` may stand beside the sets or in a problem. A key that is neither read nor in the table of ignored keys is refused if
+//! it is nearly one that is read or its words are those of geometry, units, limits or the query. Others are noted.
 //!
 //! `MoveIt`'s scenes and requests are read in pairs ([`parse_moveit`]), a whole set at once by [`ProblemSet`].
 //!
@@ -26,9 +26,11 @@ pub use set::ProblemSet;
 
 use crate::settings::{Document, SettingsError};
 use crate::solid::{Solid, Source};
+use crate::text::brief;
 use crate::yaml::{Node, Yaml};
 use reader::Reader;
 use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -45,6 +47,8 @@ pub struct Problem {
     pub is_valid: bool,
     /// What a reader of results should know of how it was taken, a sentence each.
     pub notes: Vec<String>,
+    /// The keys of its file that are ignored.
+    pub ignored: BTreeSet<String>,
 }
 
 /// An end of a problem, and where it stands in the file.
@@ -61,6 +65,8 @@ pub struct Ended {
 pub struct Expected<'a> {
     /// The robot's name.
     pub robot: &'a str,
+    /// The name of its base link.
+    pub base: &'a str,
     /// The names of its joints, base first.
     pub joints: Vec<&'a str>,
 }
@@ -79,8 +85,8 @@ impl ProblemFile {
     /// A syntax error; half a problem of `MoveIt`.
     pub fn parse(document: Arc<Document>) -> Result<Self, SettingsError> {
         let root = Yaml::parse(&document)?;
-        let notes = RefCell::default();
-        refuse_moveit(Reader { yaml: Yaml(Source(&document)), notes: &notes }, &root)?;
+        let seen = RefCell::default();
+        refuse_moveit(Reader { yaml: Yaml(Source(&document)), base: None, seen: &seen }, &root)?;
         Ok(Self { document, root })
     }
 
@@ -89,18 +95,24 @@ impl ProblemFile {
     /// # Errors
     /// There is no such set, or there are several and none is named.
     pub fn count(&self, set: Option<&str>) -> Result<usize, SettingsError> {
-        let notes = RefCell::default();
-        let reader = Reader { yaml: Yaml(Source(&self.document)), notes: &notes };
+        let seen = RefCell::default();
+        let reader = Reader { yaml: Yaml(Source(&self.document)), base: None, seen: &seen };
         Ok(reader.yaml.list(self.chosen(reader, set)?)?.len())
     }
 
     fn chosen(&self, reader: Reader<'_>, set: Option<&str>) -> Result<&Node, SettingsError> {
-        let sets = reader.yaml.find(&self.root, "problems")?.unwrap_or(&self.root);
-        match (set, reader.yaml.table(sets)?) {
-            (Some(name), _) => reader.yaml.get(sets, name),
-            (None, [(_, only)]) => Ok(only),
-            (None, several) => {
-                let known: Vec<&str> = several.iter().map(|(name, _)| name.as_str()).collect();
+        let under = reader.yaml.find(&self.root, "problems")?;
+        let sets = under.unwrap_or(&self.root);
+        if let Some(name) = set {
+            return reader.yaml.get(sets, name);
+        }
+        let all = reader.yaml.table(sets)?.iter();
+        let named: Vec<_> = all.filter(|(_, node)| under.is_some() || node.may_be_set()).collect();
+        match named[..] {
+            [(_, only)] => Ok(only),
+            [] => Err(reader.fault(sets, "the file has no set of problems; a list of tables is accepted")),
+            _ => {
+                let known: Vec<&str> = named.iter().map(|(name, _)| name.as_str()).collect();
                 let message =
                     format!("the file holds the sets `{}`; the name of one is accepted", known.join("`, `"));
                 Err(reader.fault(sets, message))
@@ -121,14 +133,13 @@ impl ProblemFile {
         expected: Option<&Expected<'_>>,
     ) -> Result<Problem, SettingsError> {
         let Self { document, root } = self;
-        let notes = RefCell::default();
-        let reader = Reader { yaml: Yaml(Source(document)), notes: &notes };
-        let mut order = expected.map(|expected| (0..expected.joints.len()).collect());
-        if reader.yaml.find(root, "problems")?.is_some() {
-            reader.rest(root, &["problems", "robot", "joints"], false)?;
-            if let Some(expected) = expected {
-                check_robot(reader, root, "robot", expected.robot)?;
-                order = named_order(reader, root, expected)?.or(order);
+        let seen = RefCell::default();
+        let base = expected.map(|expected| expected.base);
+        let reader = Reader { yaml: Yaml(Source(document)), base, seen: &seen };
+        let is_beside = reader.yaml.find(root, "problems")?.is_some();
+        for (key, node) in reader.yaml.table(root)? {
+            if is_beside || !node.may_be_set() {
+                reader.unread(key, node, &["problems", "robot", "joints"], false)?;
             }
         }
         let chosen = self.chosen(reader, set)?;
@@ -138,8 +149,15 @@ impl ProblemFile {
                 format!("problem {index} is requested; the set has {}, counted from 0", problems.len());
             return Err(reader.fault(chosen, message));
         };
+        let mut order = expected.map(|expected| (0..expected.joints.len()).collect());
+        // What a problem itself names comes after what its file names.
+        for named in [root, problem] {
+            let Some(expected) = expected else { break };
+            check_robot(reader, named, "robot", expected.robot)?;
+            order = named_order(reader, named, expected)?.or(order);
+        }
         let problem = reader.problem(problem, order.as_deref())?;
-        Ok(Problem { notes: notes.into_inner().into_iter().collect(), ..problem })
+        Ok(seen.into_inner().of(problem))
     }
 }
 
@@ -160,15 +178,15 @@ fn refuse_moveit(reader: Reader<'_>, root: &Node) -> Result<(), SettingsError> {
     Err(reader.fault(root, message))
 }
 
-/// Refuses problems for another robot. Names that differ in case and punctuation alone, or contain each other, are one.
+/// Refuses problems for another robot. Names that differ in case, `_` and `-` alone are one.
 fn check_robot(reader: Reader<'_>, root: &Node, key: &str, robot: &str) -> Result<(), SettingsError> {
     let Some(node) = reader.yaml.find(root, key)? else { return Ok(()) };
-    let plain = |name: &str| name.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase();
+    let plain = |name: &str| name.replace(['_', '-'], "").to_lowercase();
     let found = reader.yaml.word(node)?;
-    let [own, other] = [robot, found].map(plain);
-    if own.contains(&other) || other.contains(&own) {
+    if plain(robot) == plain(found) {
         return Ok(());
     }
+    let found = brief(found);
     let message =
         format!("the problems are for the robot `{found}`; `{robot}` is accepted, as the URDF file calls it");
     Err(reader.fault(node, message))
@@ -178,7 +196,7 @@ fn check_robot(reader: Reader<'_>, root: &Node, key: &str, robot: &str) -> Resul
 fn named_order(
     reader: Reader<'_>,
     root: &Node,
-    Expected { robot, joints }: &Expected<'_>,
+    Expected { robot, joints, .. }: &Expected<'_>,
 ) -> Result<Option<Vec<usize>>, SettingsError> {
     let Some(node) = reader.yaml.find(root, "joints")? else { return Ok(None) };
     let listed = reader.yaml.list(node)?;

@@ -23,6 +23,12 @@ pub fn decoded(bytes: Vec<u8>) -> Result<String, String> {
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
         return Err("it is UTF-16 text; UTF-8 text is accepted".to_owned());
     }
+    // Without a mark: of plain letters one byte in two is 0.
+    let begin = &bytes[..bytes.len().min(64)];
+    let zeros = |from: usize| begin.iter().skip(from).step_by(2).filter(|byte| **byte == 0).count();
+    if bytes.len() > 3 && (zeros(0) == 0) != (zeros(1) == 0) && 4 * (zeros(0) + zeros(1)) > begin.len() {
+        return Err("it seems to be UTF-16 text without a byte-order mark; UTF-8 text is accepted".to_owned());
+    }
     let text = String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let line = error.as_bytes()[..at].split(|byte| *byte == b'\n').count();
@@ -172,6 +178,10 @@ mod tests {
         }
         let utf16: Vec<u8> = "\u{feff}a".encode_utf16().flat_map(u16::to_le_bytes).collect();
         assert_eq!(decoded(utf16).unwrap_err(), "it is UTF-16 text; UTF-8 text is accepted");
+        let bare: Vec<u8> = "größe: 1\n".encode_utf16().flat_map(u16::to_be_bytes).collect();
+        let unmarked = "it seems to be UTF-16 text without a byte-order mark; UTF-8 text is accepted";
+        assert_eq!(decoded(bare).unwrap_err(), unmarked);
+        assert_eq!(decoded(b"a\0\0\0b".to_vec()).unwrap(), "a\0\0\0b");
         let latin = decoded(b"type\nm\xfcller".to_vec()).unwrap_err();
         assert_eq!(latin, "line 2, byte 6 of the file is not UTF-8; UTF-8 text is accepted");
     }

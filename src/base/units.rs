@@ -1,26 +1,34 @@
 //! Angles in degrees that seem to be written in radians.
 
-use std::f64::consts::{FRAC_PI_4, TAU};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
 /// How near to a multiple of an eighth of a turn an angle is that was rounded to two digits behind the point.
 const ROUNDED_RAD: f64 = 2e-3;
 
+/// How near to a multiple of a quarter of a turn an angle is that was rounded to four digits behind the point.
+const FOUR_DIGITS_RAD: f64 = 5e-5;
+
 /// The first of `angles_deg` that seems to be in radians, by its number, with the message about the key `key`.
 ///
-/// It is a multiple of an eighth of a turn as it is written in radians, and no angle is beyond a turn in radians.
+/// It is a multiple of a quarter of a turn in radians to four digits; or one of an eighth to two, and no angle is beyond a turn in radians.
 pub fn seems_in_radians(key: &str, angles_deg: &[f64]) -> Option<(usize, String)> {
     let is_eighth = |angle: &f64| {
         let eighths = (angle / FRAC_PI_4).round();
         eighths != 0.0 && (angle - eighths * FRAC_PI_4).abs() < ROUNDED_RAD
     };
-    let index = angles_deg.iter().position(is_eighth)?;
     let is_small = |angle: &f64| angle.abs() < TAU + ROUNDED_RAD;
+    let is_quarter = |angle: &f64| {
+        let quarters = (angle / FRAC_PI_2).round();
+        quarters != 0.0 && is_small(angle) && (angle - quarters * FRAC_PI_2).abs() < FOUR_DIGITS_RAD
+    };
+    let certain = angles_deg.iter().position(is_quarter);
+    let index = certain.or_else(|| angles_deg.iter().position(is_eighth))?;
     let angle = angles_deg[index];
     let message = format!(
         "{key} is {angle}; is it in radians? degrees are accepted ({angle} rad is {:.1}°)",
         angle.to_degrees()
     );
-    angles_deg.iter().all(is_small).then_some((index, message))
+    (certain.is_some() || angles_deg.iter().all(is_small)).then_some((index, message))
 }
 
 #[cfg(test)]
@@ -34,7 +42,10 @@ mod tests {
             ("3.14", Some(0)),
             ("-0.785", Some(0)),
             ("0.3 6.2832", Some(1)),
-            ("90 1.5708", None),
+            ("90 1.5708", Some(1)),
+            ("90 0 -3.1416", Some(2)),
+            ("90 1.57", None),
+            ("355 90", None),
             ("1.5 3 6", None),
             ("0 0", None),
             ("", None),

@@ -10,6 +10,9 @@ use std::ops::Range;
 /// How many lists and tables may stand in each other: dropping a value takes stack for each.
 const DEEPEST: usize = 64;
 
+/// How YAML writes that there is no value, and what the parser makes of a key without one.
+const NOTHING: &str = "~";
+
 /// A value and where it stands.
 #[derive(Debug, Clone)]
 pub(crate) struct Node {
@@ -177,10 +180,16 @@ impl Node {
     /// Whether it holds nothing: no element, no key, no word.
     pub fn is_empty(&self) -> bool {
         match &self.data {
-            Data::Word(word) => word.is_empty(),
+            Data::Word(word) => word.is_empty() || word == NOTHING,
             Data::List(elements) => elements.is_empty(),
             Data::Table(entries) => entries.is_empty(),
         }
+    }
+
+    /// Whether it may be a set of problems: a list of tables, or one that is empty.
+    pub fn may_be_set(&self) -> bool {
+        matches!(&self.data, Data::List(elements) if elements.is_empty())
+            || self.is_list() && self.has_tables()
     }
 
     /// Whether it is a table or a list that holds one.
@@ -191,6 +200,7 @@ impl Node {
 
     fn what(&self) -> String {
         match &self.data {
+            Data::Word(word) if word.is_empty() || word == NOTHING => "nothing".to_owned(),
             Data::Word(word) => format!("`{}`", brief(word)),
             Data::List(elements) => format!("a list of {}", elements.len()),
             Data::Table(_) => "a table".to_owned(),

@@ -121,7 +121,7 @@ impl Trial {
         Ok(Some(hello))
     }
 
-    /// Poses every query of one world; how many were solved.
+    /// Poses every query of one world; how many were solved by paths that the verifier accepts.
     fn world(&mut self, kind: Kind, world: &World, queries: &[Posed], hello: &Hello) -> usize {
         say!("{kind}");
         let mut solved = 0;
@@ -139,8 +139,8 @@ impl Trial {
                 .then(|| format!("{} s were not enough{}", self.program.limits.time_s, talk.hint()));
             self.keeps(&format!("{what} ends in time"), late);
             if talk.end == End::Solved {
-                solved += 1;
                 let refused = refusal(world, query, &talk);
+                solved += usize::from(refused.is_none());
                 self.keeps(&format!("{what} is solved and the verifier accepts its path"), refused);
             }
             if hello.deterministic {

@@ -258,6 +258,7 @@ mod tests {
         let solid = Solid { name: "rod".to_owned(), pose: place(0.0, 0.5), form: Form::Cylinder(0.05, 1.0) };
         Robot {
             name: "rod".to_owned(),
+            base: "base".to_owned(),
             joints: vec![joint],
             solids: vec![(1, solid)],
             owners: vec!["rod".to_owned()],

@@ -279,6 +279,9 @@ fn conformance_keeps_count_of_what_is_broken_and_its_exit_code_says_so() {
             output.err
         );
         assert_eq!(output.code, Some(3), "{name}: {}", output.err);
+        if name == "nowhere" {
+            assert!(output.out.contains("BROKEN  some query is solved: none was"), "{}", output.out);
+        }
     }
     let honest = r#"hello; query; printf '{"type":"result","id":%s,"status":"no_path"}\n' "$id"; query"#;
     bench.write("outside/honest.sh", format!("{PRELUDE}{honest}\n").as_bytes());

@@ -123,10 +123,11 @@ fn whatever_else_is_edited_in_stored_verdicts_is_caught_and_named() {
             "claim `lengths.astar`: reproduced as stored, but number of `equals`: stored ",
         ),
         ("on 60 of 60 trials", "on 61 of 61 trials", "but the reasons of `equals` read otherwise"),
+        ("criterion = \"equals\"", "criterion = \"share\"", "but criterion: stored `share`, judged `equals`"),
         (
-            "criterion = \"equals\"",
-            "criterion = \"share\"",
-            "but criterion: stored \"share\", judged \"equals\"",
+            "criterion = \"equals\"\noutcome = \"holds\"",
+            "criterion = \"equals\"\noutcome = \"contradicted\"",
+            "but outcome of `equals`: stored `contradicted`, judged `holds`",
         ),
         (
             "says = \"A*",

@@ -128,6 +128,7 @@ fn check_tells_what_capsules_stand_for_and_that_a_search_may_miss_configurations
     for note in [
         "  my.urdf: the capsules around them stand for its solids (boxes: 1; cylinders: 8; meshes, by the hulls of their STL \
          vertices: 1); contact is never missed and sometimes seen too early\n",
+        "  my.urdf: ignored keys: `limit/@effort`; docs/FILES.md has the reasons\n",
         "  my.urdf: inverse kinematics by `numerical`, which may miss configurations; ",
     ] {
         assert!(output.contains(note), "no `{note}` in\n{output}");

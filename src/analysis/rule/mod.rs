@@ -23,6 +23,7 @@ use super::outcome::Outcome;
 use super::polylines::Polylines;
 use super::verdict::POSSIBLE;
 use base::settings::SettingsError;
+use base::text::listed;
 use proofs::proof::Proof;
 
 /// A rule: a criterion that selects no trial. Polylines only remember what other claims have asked.
@@ -74,7 +75,7 @@ fn decided(proof: Proof) -> CriterionResult {
 /// Refuses a grid or a length that a search for polylines would not come to the end of.
 fn check_search(context: &Context<'_>, size: [i32; 2], longest: f64) -> Result<(), SettingsError> {
     if !size.iter().all(|side| (1..=200).contains(side)) {
-        let message = format!("size is {size:?}; 1 to 200 columns and rows are accepted");
+        let message = format!("size is {}; 1 to 200 columns and rows are accepted", listed(size));
         return Err(context.settings.error_at("size", message));
     }
     if !(0.0..=200.0).contains(&longest) {

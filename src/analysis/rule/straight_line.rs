@@ -2,6 +2,7 @@
 
 use super::{Entry, refused, rule};
 use base::settings::Accepted;
+use base::text::listed;
 use proofs::bounds::apart;
 use proofs::exact::parse;
 use proofs::proof;
@@ -23,7 +24,8 @@ goal = [36.0, 30.0]
         let Settings { start, goal, size } = context.settings.read()?;
         let exact = |key: &str, point: [f64; 2]| {
             let read = |at: f64| parse(&at.to_string());
-            let message = format!("`{key}` is {point:?}; two coordinates of up to 15 digits are accepted");
+            let message =
+                format!("`{key}` is {}; two coordinates of up to 15 digits are accepted", listed(point));
             read(point[0]).zip(read(point[1])).ok_or_else(|| context.settings.error_at(key, message))
         };
         let apart = apart(exact("start", start)?.into(), exact("goal", goal)?.into());

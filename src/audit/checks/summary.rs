@@ -85,8 +85,10 @@ fn word(name: &str) -> Option<Word> {
     let start =
         ["of", "over", "across"].iter().find_map(|word| Some(alone.split_once(&format!(" {word} "))?.0));
     match start.unwrap_or(alone).trim() {
-        "average" | "averaged" | "averages" | "avg" | "mean" | "means" => Some(Word::Mean),
-        "sum" | "total" | "totals" | "grand total" => Some(Word::Sum),
+        "average" | "averaged" | "averages" | "avg" | "mean" | "means" | "arithmetic mean" | "ø" => {
+            Some(Word::Mean)
+        }
+        "sum" | "total" | "totals" | "grand total" | "subtotal" | "sub-total" => Some(Word::Sum),
         "overall" => Some(Word::Either),
         _ => None,
     }
@@ -235,17 +237,26 @@ fn weights(table: &Table, column: usize, rows: &[usize]) -> Vec<Exact> {
     let n = |row: usize| match &table.columns[column].meaning.n {
         Some(Count::Number(_)) => Some(whole(1)),
         Some(Count::Column(name)) => Some(table.print(row, named_by(&table.columns, column, name)?)?.value()),
-        None => table.rows[row][column].k_of_n.map(|[_, n]| count(n)),
+        None => table.rows[row][column].k_of_n.map(|[_, n]| count(n)).or_else(|| {
+            let named = table.columns.iter().position(is_count)?;
+            Some(table.print(row, named)?.value())
+        }),
     };
     let all = rows.iter().map(|row| n(*row).filter(|n| *n > whole(0))).collect::<Option<Vec<Exact>>>();
     all.map_or_else(Vec::new, |all| std::iter::once(whole(0)).chain(all).collect())
+}
+
+/// Whether a column is called as numbers of trials are, though no other column says that it has them.
+fn is_count(column: &Column) -> bool {
+    let name = column.name.trim().trim_start_matches('#').trim().to_lowercase();
+    column.meaning.kind == Kind::Value && ["n", "runs", "trials", "instances"].contains(&name.as_str())
 }
 
 /// How numbers of a column may follow from others of it; `None` where no mean or sum does.
 fn forms(table: &Table, at: usize, word: Word) -> Option<Vec<Form>> {
     let Column { name, meaning, .. } = &table.columns[at];
     let is_n = table.columns.iter().any(|column| column.meaning.n == Some(Count::Column(name.clone())));
-    if is_n {
+    if is_n || is_count(&table.columns[at]) {
         return Some(vec![Form::Mean, Form::Sum]);
     }
     if is_quotient(table, at) {

@@ -117,6 +117,12 @@ mod tests {
             "",
             "/room.yaml:1:1: there is no `resolution`; found are `image`, `origin`, `negate`",
         ),
+        ("room.png", "/dev/zero", "it is a device, a pipe or a socket; a regular file is accepted"),
+        (
+            "negate: 0",
+            "negate:",
+            "/room.yaml:4:7: negate is nothing; true or false, yes or no, 1 or 0 is accepted",
+        ),
         ("0.05", "0", "/room.yaml:2:13: resolution has the size 0; sizes above 0 are accepted"),
         ("0.05", "50", "/room.yaml:2:13: resolution has the length 50 m; is it in millimetres?"),
         (
@@ -216,11 +222,12 @@ mod tests {
             assert_eq!(middle_is_free(colour, pixel, negate).0, is_free, "{pixel:?}, negate: {negate}");
         }
         let (_, notes) = middle_is_free(Rgba, &[255; 4], false);
-        assert_eq!(notes.len(), 1, "{notes:?}");
+        assert_eq!(notes.len(), 2, "{notes:?}");
         assert!(
             notes[0].starts_with("/room.png: opacity counts as a fourth colour, as in map_server"),
             "{notes:?}"
         );
-        assert!(middle_is_free(Rgb, &[255; 3], false).1.is_empty());
+        let ignored = "/room.yaml: ignored keys: `resolution`; docs/FILES.md has the reasons";
+        assert_eq!(middle_is_free(Rgb, &[255; 3], false).1, [ignored]);
     }
 }

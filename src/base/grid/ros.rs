@@ -9,6 +9,7 @@
 //! ros-planning/navigation and in `map_io.cpp` of ros-navigation/navigation2, which agree but for palettes.
 
 use super::image::Image;
+use crate::ignored::{ignored_note, is_ignored};
 use crate::settings::{Document, SettingsError};
 use crate::solid::Source;
 use crate::yaml::{Node, Yaml};
@@ -19,6 +20,8 @@ pub(super) struct Head {
     /// The image.
     pub(super) image: PathBuf,
     is_negated: bool,
+    /// What is ignored of the file, in a sentence.
+    ignored: Option<String>,
     free_below: f64,
 }
 
@@ -45,13 +48,15 @@ impl Head {
         }
         let named = yaml.get(&root, "image")?;
         let image = path.parent().unwrap_or(Path::new("")).join(yaml.word(named)?);
-        if !image.is_file() {
+        if !image.exists() {
             let message =
                 format!("there is no image `{}`; looked for {}", yaml.word(named)?, image.display());
             return Err(yaml.0.fault(&named.at, message));
         }
         let is_negated = yaml.find(&root, "negate")?.map_or(Ok(false), |node| yaml.truth(node, "negate"))?;
-        Ok(Self { image, is_negated, free_below: free_below(yaml, &root)? })
+        let ignored = root.keys().filter(|key| is_ignored("ROS map", key)).map(str::to_owned).collect();
+        let ignored = ignored_note(&ignored).map(|note| format!("{}: {note}", path.display()));
+        Ok(Self { image, is_negated, ignored, free_below: free_below(yaml, &root)? })
     }
 
     /// Whether a pixel as bright as this is free.
@@ -69,7 +74,7 @@ impl Head {
         let palette = image.has_palette.then(|| {
             format!("{name}: its palette's colours are taken, as in nav2; map_server takes the numbers of the colours")
         });
-        opacity.into_iter().chain(palette).collect()
+        opacity.into_iter().chain(palette).chain(self.ignored.clone()).collect()
     }
 }
 

@@ -1,18 +1,25 @@
 //! One problem as `MoveIt` stores it: a scene (`moveit_msgs/PlanningScene`) and a request (`moveit_msgs/MotionPlanRequest`), in YAML.
 //!
 //! Of a scene the collision objects are read: `primitives` (box, cylinder by height and radius, sphere) at `primitive_poses`, in the frame of
-//! the object's `pose` if it has one; quaternions are x, y, z, w. Of a request the start and each goal in joints are read. What could move or
-//! hold something and is not read is refused unless it is empty.
+//! the object's `pose` if it has one; quaternions are x, y, z, w. Of a request the start and each goal in joints are read. What is neither
+//! read nor in the table of ignored keys is refused unless it is empty.
 //!
 //! Source: the message definitions of `moveit_msgs`; sets as `MotionBenchMaker` ships them.
 
-use super::reader::Reader;
+use super::reader::{Reader, Seen};
 use super::{Ended, Expected, Problem, check_robot};
 use crate::ignored::is_ignored;
 use crate::settings::{Document, SettingsError};
 use crate::solid::{Form, Pose, Solid, Source};
+use crate::text::brief;
 use crate::yaml::{Node, Yaml};
 use std::cell::RefCell;
+use std::collections::BTreeSet;
+
+/// How far from its position a goal may be in a joint.
+const TOLERANCES: [&str; 2] = ["tolerance_above", "tolerance_below"];
+/// A tolerance up to this means the position itself: `MoveIt`'s own is 1e-4.
+const EXACT: f64 = 1e-3;
 
 /// The problem of a scene and a request. Starts and goals are in the order of the robot's joints.
 ///
@@ -23,22 +30,42 @@ pub fn parse_moveit(
     request: &Document,
     expected: &Expected<'_>,
 ) -> Result<Problem, SettingsError> {
-    let notes = RefCell::default();
+    let seen: RefCell<Seen> = RefCell::default();
     let root = Yaml::parse(scene)?;
-    let reader = Reader { yaml: Yaml(Source(scene)), notes: &notes };
+    let reader = Reader { yaml: Yaml(Source(scene)), base: Some(expected.base), seen: &seen };
     check_robot(reader, &root, "robot_model_name", expected.robot)?;
-    let obstacles = reader.scene(&root)?;
-    let root = Yaml::parse(request)?;
-    let reader = Reader { yaml: Yaml(Source(request)), notes: &notes };
-    let (start, goals) = reader.request(&root, expected)?;
-    Ok(Problem { obstacles, start, goals, is_valid: true, notes: notes.into_inner().into_iter().collect() })
+    let (obstacles, state) = reader.scene(&root)?;
+    let other = Yaml::parse(request)?;
+    let reader = Reader { yaml: Yaml(Source(request)), ..reader };
+    let (start, goals) = reader.request(&other, expected)?;
+    let differs = |(name, value): &(&str, f64)| {
+        let same = expected.joints.iter().zip(&start.joints).find(|(joint, _)| *joint == name);
+        same.is_some_and(|(_, start)| start != value)
+    };
+    if state.iter().any(differs) {
+        reader.note(
+            "the start is that of the request; the `robot_state` of the scene is another one".to_owned(),
+        );
+    }
+    let problem =
+        Problem { obstacles, start, goals, is_valid: true, notes: Vec::new(), ignored: BTreeSet::new() };
+    Ok(seen.into_inner().of(problem))
 }
 
 impl Reader<'_> {
     /// Refuses every key that is neither read nor in the table of ignored keys, unless nothing stands under it.
     fn moveit_rest(self, of: &Node, read: &[&str]) -> Result<(), SettingsError> {
         for (key, node) in self.yaml.table(of)? {
-            if !read.contains(&key.as_str()) && !is_ignored("MoveIt", key) && !node.is_empty() {
+            if read.contains(&key.as_str()) || node.is_empty() {
+                continue;
+            }
+            let is_idle = match key.as_str() {
+                "velocity" | "effort" => self.yaml.numbers(node, key)?.iter().all(|number| *number == 0.0),
+                _ => true,
+            };
+            if is_idle && is_ignored("MoveIt", key) {
+                self.ignore(key);
+            } else {
                 let message =
                     format!("`{key}` is not read; an empty one and {} are accepted", read.join(", "));
                 return Err(self.fault(node, message));
@@ -47,36 +74,74 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn scene(self, root: &Node) -> Result<Vec<Solid>, SettingsError> {
+    /// The solids, and the numbers of joints in the state of the robot.
+    fn scene(self, root: &Node) -> Result<(Vec<Solid>, Vec<(&str, f64)>), SettingsError> {
         self.moveit_rest(root, &["robot_model_name", "world", "robot_state", "fixed_frame_transforms"])?;
-        if let Some(state) = self.yaml.find(root, "robot_state")? {
-            self.state(state)?;
-        }
+        let state = self.yaml.find(root, "robot_state")?;
+        let joints = state.map_or(Ok(Vec::new()), |state| self.state(state))?;
+        let mut still = vec!["", self.base.unwrap_or_default()];
         if let Some(frames) = self.yaml.find(root, "fixed_frame_transforms")? {
             for frame in self.yaml.list(frames)? {
+                self.moveit_rest(frame, &["child_frame_id", "transform"])?;
                 self.refuse_moved(self.yaml.get(frame, "transform")?)?;
+                self.refuse_frame(frame, &still)?;
+                still.extend(
+                    self.yaml.find(frame, "child_frame_id")?.map(|name| self.yaml.word(name)).transpose()?,
+                );
             }
         }
         let world = self.yaml.get(root, "world")?;
         self.moveit_rest(world, &["collision_objects"])?;
         let mut solids = Vec::new();
         for object in self.yaml.list(self.yaml.get(world, "collision_objects")?)? {
+            self.refuse_frame(object, &still)?;
             self.object(object, &mut solids)?;
         }
-        Ok(solids)
+        Ok((solids, joints))
     }
 
-    /// A state in which the base is moved would be another problem.
-    fn state(self, state: &Node) -> Result<(), SettingsError> {
+    /// Refuses what stands in a frame that is not the robot's base, by its own name or that of one that moves nothing.
+    fn refuse_frame(self, of: &Node, still: &[&str]) -> Result<(), SettingsError> {
+        let header = self.yaml.find(of, "header")?;
+        let frame = header.map_or(Ok(None), |header| self.yaml.find(header, "frame_id"))?;
+        let Some(frame) = frame else { return Ok(()) };
+        let name = self.yaml.word(frame)?;
+        if still.contains(&name) {
+            return Ok(());
+        }
+        let accepted = still[1..].join("`, `");
+        let message =
+            format!("the frame is `{}`; that of the robot's base is accepted: `{accepted}`", brief(name));
+        Err(self.fault(frame, message))
+    }
+
+    /// The numbers of the joints of a state. One in which the base is moved would be another problem.
+    fn state(self, state: &Node) -> Result<Vec<(&str, f64)>, SettingsError> {
         self.moveit_rest(state, &["joint_state", "multi_dof_joint_state"])?;
-        let Some(base) = self.yaml.find(state, "multi_dof_joint_state")? else { return Ok(()) };
-        self.moveit_rest(base, &["joint_names", "transforms"])?;
-        let Some(transforms) = self.yaml.find(base, "transforms")? else { return Ok(()) };
-        self.yaml.list(transforms)?.iter().try_for_each(|transform| self.refuse_moved(transform))
+        if let Some(base) = self.yaml.find(state, "multi_dof_joint_state")? {
+            self.moveit_rest(base, &["joint_names", "transforms"])?;
+            let transforms = self.yaml.find(base, "transforms")?;
+            let transforms = transforms.map_or(Ok(&[][..]), |transforms| self.yaml.list(transforms))?;
+            transforms.iter().try_for_each(|transform| self.refuse_moved(transform))?;
+        }
+        let joints = self.yaml.find(state, "joint_state")?.filter(|joints| !joints.is_empty());
+        let Some(joints) = joints else { return Ok(Vec::new()) };
+        self.moveit_rest(joints, &["name", "position"])?;
+        let (names_at, values_at) = (self.yaml.get(joints, "name")?, self.yaml.get(joints, "position")?);
+        let names = self.yaml.list(names_at)?.iter().map(|name| self.yaml.word(name));
+        let names: Vec<&str> = names.collect::<Result<_, _>>()?;
+        let values = self.yaml.numbers(values_at, "position")?;
+        if names.len() != values.len() {
+            let message =
+                format!("{} numbers for {} joints; one each is accepted", values.len(), names.len());
+            return Err(self.fault(values_at, message));
+        }
+        Ok(names.into_iter().zip(values).collect())
     }
 
     /// A frame that is another than the robot's base would move all.
     fn refuse_moved(self, transform: &Node) -> Result<(), SettingsError> {
+        self.moveit_rest(transform, &["translation", "rotation"])?;
         for (key, still) in [("translation", &[0.0; 3][..]), ("rotation", &[0.0, 0.0, 0.0, 1.0])] {
             let node = self.yaml.get(transform, key)?;
             if self.yaml.numbers(node, key)? != still {
@@ -149,19 +214,13 @@ impl Reader<'_> {
     fn request(self, root: &Node, expected: &Expected<'_>) -> Result<(Ended, Vec<Ended>), SettingsError> {
         self.moveit_rest(root, &["start_state", "goal_constraints"])?;
         let start = self.yaml.get(root, "start_state")?;
-        self.state(start)?;
-        let state = self.yaml.get(start, "joint_state")?;
-        let (names_at, values_at) = (self.yaml.get(state, "name")?, self.yaml.get(state, "position")?);
-        let names = self.yaml.list(names_at)?.iter().map(|name| self.yaml.word(name));
-        let names: Vec<&str> = names.collect::<Result<_, _>>()?;
-        let values = self.yaml.numbers(values_at, "position")?;
-        if names.len() != values.len() {
-            let message =
-                format!("{} numbers for {} joints; one each is accepted", values.len(), names.len());
-            return Err(self.fault(values_at, message));
+        let named = self.state(start)?;
+        let others = named.iter().map(|(name, _)| *name).filter(|name| !expected.joints.contains(name));
+        let others = others.collect::<Vec<_>>().join("`, `");
+        if !others.is_empty() {
+            self.note(format!("joints of the start that do not move in `{}`: `{others}`", expected.robot));
         }
-        let named: Vec<(&str, f64)> = names.into_iter().zip(values).collect();
-        let start = self.in_order(state, "start", &named, expected)?;
+        let start = self.in_order(self.yaml.get(start, "joint_state")?, "start", &named, expected)?;
         let goals_at = self.yaml.get(root, "goal_constraints")?;
         let goals = self.yaml.list(goals_at)?.iter().map(|goal| self.goal(goal, expected));
         let goals: Vec<Ended> = goals.collect::<Result<_, _>>()?;
@@ -175,6 +234,18 @@ impl Reader<'_> {
         self.moveit_rest(goal, &["joint_constraints"])?;
         let mut named = Vec::new();
         for joint in self.yaml.list(self.yaml.get(goal, "joint_constraints")?)? {
+            self.moveit_rest(joint, &[&["joint_name", "position"], &TOLERANCES[..]].concat())?;
+            for key in TOLERANCES {
+                let Some(node) = self.yaml.find(joint, key)? else { continue };
+                let tolerance = self.yaml.number(node, key)?;
+                if !(0.0..=EXACT).contains(&tolerance) {
+                    let message = format!(
+                        "{key} is {tolerance}; 0 to {EXACT} is accepted: a goal is one configuration"
+                    );
+                    return Err(self.fault(node, message));
+                }
+                self.ignore(key);
+            }
             let name = self.yaml.word(self.yaml.get(joint, "joint_name")?)?;
             let position = self.yaml.get(joint, "position")?;
             named.push((name, self.yaml.number(position, "position")?));
@@ -190,6 +261,14 @@ impl Reader<'_> {
         named: &[(&str, f64)],
         expected: &Expected<'_>,
     ) -> Result<Ended, SettingsError> {
+        for (index, (name, _)) in named.iter().enumerate() {
+            if named[..index].iter().any(|(other, _)| other == name) {
+                let name = brief(name);
+                return Err(
+                    self.fault(at, format!("the {what} gives joint `{name}` twice; once is accepted"))
+                );
+            }
+        }
         let value = |joint: &&str| {
             let missing = || {
                 let robot = expected.robot;

@@ -4,6 +4,7 @@ use super::{Ended, Problem};
 use crate::ignored::is_ignored;
 use crate::settings::{SettingsError, did_you_mean};
 use crate::solid::{Form, Pose, Solid};
+use crate::text::brief;
 use crate::yaml::{Node, Yaml, unknown};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -14,12 +15,71 @@ const KINDS: [&str; 3] = ["box", "cylinder", "sphere"];
 const GOALS: [&str; 3] = ["goals", "goal_ik", "goal"];
 /// Two rotations of one solid are the same if they take no axis further apart than this.
 const SAME: f64 = 1e-2;
+/// Words of keys that may change the robot, what stands around it, or the query: a key with one of them that is not read is refused.
+const MEANT: [&str; 40] = [
+    "attach",
+    "attached",
+    "attachment",
+    "base",
+    "buffer",
+    "capsule",
+    "clearance",
+    "cloud",
+    "cone",
+    "constraint",
+    "cuboid",
+    "deg",
+    "degree",
+    "ellipsoid",
+    "frame",
+    "goal",
+    "gripper",
+    "inflation",
+    "joint",
+    "limit",
+    "link",
+    "margin",
+    "mesh",
+    "object",
+    "obstacle",
+    "octomap",
+    "offset",
+    "pad",
+    "padding",
+    "plane",
+    "pointcloud",
+    "points",
+    "pose",
+    "robot",
+    "scale",
+    "start",
+    "tolerance",
+    "transform",
+    "unit",
+    "voxel",
+];
 
-/// The file, and the notes on it.
+/// What was seen in a file and is not read.
+#[derive(Default)]
+pub(super) struct Seen {
+    notes: BTreeSet<String>,
+    ignored: BTreeSet<String>,
+}
+
+impl Seen {
+    /// The problem, with it.
+    pub(super) fn of(self, problem: Problem) -> Problem {
+        Problem { notes: self.notes.into_iter().collect(), ignored: self.ignored, ..problem }
+    }
+}
+
+/// The file, and what was seen in it.
 #[derive(Clone, Copy)]
 pub(super) struct Reader<'a> {
     pub(super) yaml: Yaml<'a>,
-    pub(super) notes: &'a RefCell<BTreeSet<String>>,
+    /// The name of the robot's base link, if there is a robot.
+    pub(super) base: Option<&'a str>,
+    pub(super) seen: &'a RefCell<Seen>,
 }
 
 impl Reader<'_> {
@@ -27,25 +87,50 @@ impl Reader<'_> {
         self.yaml.0.fault(&at.at, message)
     }
 
-    fn note(self, message: String) {
-        self.notes.borrow_mut().insert(message);
+    pub(super) fn note(self, message: String) {
+        self.seen.borrow_mut().notes.insert(message);
     }
 
-    /// Looks at the keys that are not read. Those in the table of ignored keys are passed over. One that is nearly written like one
-    /// that is read is refused, and so is one with tables under it if that `may_be_solids`. All others are noted.
-    pub(super) fn rest(self, of: &Node, read: &[&str], may_be_solids: bool) -> Result<(), SettingsError> {
-        for (key, node) in self.yaml.table(of)? {
-            if read.contains(&key.as_str()) || is_ignored("problem", key) {
-                continue;
-            }
-            if may_be_solids && node.has_tables() {
-                let message = format!("obstacles are `{key}`; {} are accepted", KINDS.join(", "));
-                return Err(self.fault(node, message));
-            }
-            if !did_you_mean(key, read.iter().copied()).is_empty() {
-                return Err(self.fault(node, unknown(key, read)));
-            }
-            self.note(format!("`{key}` is not known and not used"));
+    pub(super) fn ignore(self, key: &str) {
+        self.seen.borrow_mut().ignored.insert(key.to_owned());
+    }
+
+    /// Looks at a key that may be none of those that are read. One in the table of ignored keys is passed over. One that is nearly written
+    /// like one that is read or that may change the problem is refused, and so is one with tables under it if that `may_be_solids`.
+    /// Another is noted.
+    pub(super) fn unread(
+        self,
+        key: &str,
+        node: &Node,
+        read: &[&str],
+        may_be_solids: bool,
+    ) -> Result<(), SettingsError> {
+        if read.contains(&key) {
+            return Ok(());
+        }
+        if is_ignored("problem", key) {
+            self.ignore(key);
+            return if key == "world_frame" { self.frame(node) } else { Ok(()) };
+        }
+        if may_be_solids && node.has_tables() {
+            let message = format!("obstacles are `{}`; {} are accepted", brief(key), KINDS.join(", "));
+            return Err(self.fault(node, message));
+        }
+        if !did_you_mean(key, read.iter().copied()).is_empty() || may_change_the_problem(key) {
+            return Err(self.fault(node, unknown(key, read)));
+        }
+        self.note(format!("`{}` is not known and not used", brief(key)));
+        Ok(())
+    }
+
+    /// Notes a frame of another name than the robot's base.
+    fn frame(self, node: &Node) -> Result<(), SettingsError> {
+        let frame = self.yaml.word(node)?;
+        if let Some(base) = self.base.filter(|base| *base != frame) {
+            let frame = brief(frame);
+            self.note(format!(
+                "poses in the frame `{frame}` are taken as relative to the robot's base `{base}`"
+            ));
         }
         Ok(())
     }
@@ -54,14 +139,17 @@ impl Reader<'_> {
     pub(super) fn problem(self, problem: &Node, order: Option<&[usize]>) -> Result<Problem, SettingsError> {
         let written = self.yaml.find(problem, "obstacles")?;
         let solids = if written.is_some() { &["obstacles"][..] } else { &KINDS };
-        self.rest(problem, &[&GOALS[..], solids, &["start", "valid"]].concat(), true)?;
+        let read = [&GOALS[..], solids, &["start", "valid", "robot", "joints"]].concat();
+        for (key, node) in self.yaml.table(problem)? {
+            self.unread(key, node, &read, true)?;
+        }
         let obstacles =
             written.map_or_else(|| self.vamp(problem), |obstacles| self.robometrics(obstacles))?;
         let start = self.ended(self.yaml.get(problem, "start")?, "start", order)?;
         let valid = self.yaml.find(problem, "valid")?;
         let is_valid = valid.map_or(Ok(true), |valid| self.yaml.truth(valid, "valid"))?;
         let goals = self.goals(problem, order)?;
-        Ok(Problem { obstacles, start, goals, is_valid, notes: Vec::new() })
+        Ok(Problem { obstacles, start, goals, is_valid, notes: Vec::new(), ignored: BTreeSet::new() })
     }
 
     fn goals(self, problem: &Node, order: Option<&[usize]>) -> Result<Vec<Ended>, SettingsError> {
@@ -190,6 +278,7 @@ impl Reader<'_> {
         }
         let [one, other] = [&pose, &by_angles].map(|pose| pose.rotation.concat());
         if one.iter().zip(other).all(|(a, b)| (a - b).abs() <= SAME) {
+            self.ignore(QUATERNION);
             return Ok(by_angles);
         }
         let message =
@@ -204,4 +293,13 @@ impl Reader<'_> {
         }
         pose
     }
+}
+
+/// Whether a word of the key is about the robot, what stands around it, or the query.
+fn may_change_the_problem(key: &str) -> bool {
+    let lower = key.to_lowercase();
+    lower.split(|c: char| !c.is_alphabetic()).any(|word| {
+        let one = word.strip_suffix("es").filter(|one| MEANT.contains(one)).or(word.strip_suffix('s'));
+        MEANT.contains(&word) || one.is_some_and(|one| MEANT.contains(&one))
+    })
 }

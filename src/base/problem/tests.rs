@@ -35,7 +35,7 @@ const VAMP: &str = r#"{"robot": "panda", "problems": {"shelf": [{"index": 1, "st
       "sphere": [{"name": "ball", "position": [0, 1, 0], "radius": 0.1}]}]}}"#;
 
 fn read(text: &str, set: Option<&str>, index: usize) -> Result<Problem, String> {
-    let expected = Expected { robot: "panda", joints: vec!["lift", "turn"] };
+    let expected = Expected { robot: "panda", base: "base", joints: vec!["lift", "turn"] };
     ProblemFile::parse(Document::new(Path::new("p.json"), text.to_owned()))
         .and_then(|file| file.problem(set, index, Some(&expected)))
         .map_err(|e| e.to_string())
@@ -150,7 +150,7 @@ fn what_is_wrong_with_a_problem_is_reported_at_its_place() {
 /// What stands before the problems of VAMP's form, and the start in the order of the chain or the message about it.
 const NAMED: &[(&str, Result<[f64; 2], &str>)] = &[
     ("", Ok([0.0, 1.5])),
-    (r#""robot": "Panda-Arm", "joints": ["turn", "lift"],"#, Ok([1.5, 0.0])),
+    (r#""robot": "PAN-da", "joints": ["turn", "lift"],"#, Ok([1.5, 0.0])),
     (
         r#""joints": ["turn", "nod"],"#,
         Err("p.json:1:21: `panda` has no joint `nod` that moves; it has lift, turn"),
@@ -161,6 +161,14 @@ const NAMED: &[(&str, Result<[f64; 2], &str>)] = &[
         Err("p.json:1:12: joint `lift` of `panda` is missing; all joints are accepted"),
     ),
     (r#""robot": "ur5","#, Err("the problems are for the robot `ur5`; `panda` is accepted")),
+    (r#""robot": "pand","#, Err("the problems are for the robot `pand`; `panda` is accepted")),
+    (r#""robot": "panda10","#, Err("the problems are for the robot `panda10`; `panda` is accepted")),
+    (r#""robot": "","#, Err("the problems are for the robot ``; `panda` is accepted")),
+    (
+        r#""joint_names": ["turn", "lift"],"#,
+        Err("unknown key `joint_names`; accepted: problems, robot, joints"),
+    ),
+    (r#""units": "mm","#, Err("unknown key `units`; accepted: problems, robot, joints")),
     (
         r#""jonts": ["turn", "lift"],"#,
         Err("unknown key `jonts` (did you mean `joints`?); accepted: problems, robot"),
@@ -178,12 +186,46 @@ fn numbers_go_to_the_joints_that_the_file_names_and_other_robots_are_refused() {
             }
             (found, expected) => panic!("{before}: should be {expected:?}\nis {found:?}"),
         }
+        // Beside the sets of the other form, which have no name for all of them, it is the same.
+        let plain = before.trim_end_matches(',').replace('"', "");
+        let text = ROBOMETRICS.replace("- - [0.1, 0.2]", "- [0.1, 0.2]");
+        let other = read(
+            &format!("{}\n{text}", plain.replace("], ", "]\n").replace("da, ", "da\n")),
+            Some("shelf_panda"),
+            1,
+        );
+        assert_eq!(other.is_ok(), expected.is_ok(), "{before}: {other:?}");
+        if let (Ok(other), Ok(start)) = (&other, expected) {
+            assert_eq!(other.start.joints, start, "{before}");
+        }
     }
+    let named = VAMP.replacen("\"index\": 1", "\"joints\": [\"turn\", \"lift\"], \"robot\": \"panda\"", 1);
+    assert_eq!(read(&named, None, 0).unwrap().start.joints, [1.5, 0.0]);
 }
 
 /// A change of the file in VAMP's form, and the message about it; nothing if it is taken, and then its notes.
 const KEYS: &[(&str, &str, Result<&[&str], &str>)] = &[
     ("\"index\": 1", "\"valid\": false, \"index\": 1", Ok(&[])),
+    ("\"index\": 1", "\"robot\": \"ur5\"", Err("the problems are for the robot `ur5`; `panda` is accepted")),
+    (
+        "\"index\": 1",
+        "\"joint_names\": [\"turn\", \"lift\"]",
+        Err("unknown key `joint_names`; accepted: goals"),
+    ),
+    ("\"index\": 1", "\"mesh\": \"a.stl\"", Err("unknown key `mesh`; accepted: goals, goal_ik, goal, box")),
+    ("\"index\": 1", "\"pointcloud\": [[0, 0, 1]]", Err("unknown key `pointcloud`; accepted: ")),
+    ("\"index\": 1", "\"padding\": 0.1", Err("unknown key `padding`; accepted: ")),
+    ("\"index\": 1", "\"attached\": [\"cup\"]", Err("unknown key `attached`; accepted: ")),
+    ("\"index\": 1", "\"attached_meshes\": 1", Err("unknown key `attached_meshes`; accepted: ")),
+    ("\"index\": 1", "\"units\": \"mm\"", Err("unknown key `units`; accepted: ")),
+    ("\"index\": 1", "\"unit\": \"deg\"", Err("unknown key `unit`; accepted: ")),
+    ("\"index\": 1", "\"author\": \"us\"", Ok(&["`author` is not known and not used"])),
+    ("\"index\": 1", "\"world_frame\": \"base\"", Ok(&[])),
+    (
+        "\"index\": 1",
+        "\"world_frame\": \"table_top\"",
+        Ok(&["poses in the frame `table_top` are taken as relative to the robot's base `base`"]),
+    ),
     ("\"index\": 1", "\"valid\": 7", Err("valid is `7`; true or false, yes or no, 1 or 0 is accepted")),
     ("\"index\": 1", "\"vaild\": false", Err("unknown key `vaild` (did you mean `valid`?)")),
     (
@@ -250,6 +292,13 @@ fn every_key_of_a_problem_is_read_ignored_for_a_reason_noted_or_refused() {
             (Ok(problem), Ok(notes)) => {
                 assert_eq!(problem.notes, *notes, "{to}");
                 assert_eq!(problem.is_valid, !to.contains("false"), "{to}");
+                let ignored = ["index", "orientation_quat_xyzw", "world_frame"];
+                let text = VAMP.replacen(from, to, 1);
+                let is_there = |key: &&str| {
+                    text.contains(*key) && (*key != ignored[1] || text.contains("euler_xyz\": [0, 0, 1.57"))
+                };
+                let ignored: Vec<&str> = ignored.into_iter().filter(is_there).collect();
+                assert_eq!(problem.ignored.iter().collect::<Vec<_>>(), ignored, "{to}");
             }
             (Err(error), Err(expected)) => {
                 assert!(error.contains(expected), "should say {expected}\nsays {error}");
@@ -262,11 +311,12 @@ fn every_key_of_a_problem_is_read_ignored_for_a_reason_noted_or_refused() {
 const SCENE: &str = "robot_model_name: panda
 robot_state: {joint_state: {name: [lift, turn], position: [0, 0]}}
 allowed_collision_matrix: {entry_names: [hand]}
-fixed_frame_transforms: [{child_frame_id: world, transform: {translation: [0, 0, 0], rotation: [0, 0, 0, 1]}}]
+fixed_frame_transforms: [{header: {frame_id: base}, child_frame_id: world, transform: {translation: [0, 0, 0], rotation: [0, 0, 0, 1]}}]
 name: \"\"
 world:
   collision_objects:
-    - id: plank
+    - header: {frame_id: world}
+      id: plank
       pose: {position: [0.5, 0, 0], orientation: [0, 0, 0.7071067811865476, 0.7071067811865476]}
       primitives: [{type: box, dimensions: [1.2, 1.0, 0.04]}]
       primitive_poses: [{position: [0, 0, 0.2], orientation: [0, 0, 0, 1]}]
@@ -285,7 +335,7 @@ goal_constraints:
 ";
 
 fn moveit(scene: &str, request: &str) -> Result<Problem, String> {
-    let expected = Expected { robot: "panda", joints: vec!["lift", "turn"] };
+    let expected = Expected { robot: "panda", base: "base", joints: vec!["lift", "turn"] };
     let [scene, request] = [("scene.yaml", scene), ("request.yaml", request)]
         .map(|(path, text)| Document::new(Path::new(path), text.to_owned()));
     parse_moveit(&scene, &request, &expected).map_err(|e| e.to_string())
@@ -303,49 +353,117 @@ fn a_scene_and_its_request_are_the_problem_that_vamp_makes_of_them() {
     }
 }
 
+/// A change of a scene, and the message about it.
+const WRONG_SCENES: &[(&str, &str, &str)] = &[
+    ("name: \"\"", "robot_state_diff: [1]", "scene.yaml:5:19: `robot_state_diff` is not read"),
+    (
+        "[lift, turn], position: [0, 0]}",
+        "[lift], position: [0]}, attached_collision_objects: [{id: cup}]",
+        "`attached_collision_objects` is not read",
+    ),
+    ("    - id: ball\n", "    - id: ball\n      meshes: [{vertices: [0]}]\n", "`meshes` is not read"),
+    ("type: sphere", "type: cone", "a primitive is a `cone`; box, cylinder and sphere are accepted"),
+    (
+        "translation: [0, 0, 0]",
+        "translation: [0, 0, 1]",
+        "the translation of a frame is not that of the robot's base",
+    ),
+    ("panda", "fetch", "the problems are for the robot `fetch`"),
+    (
+        "- header: {frame_id: world}",
+        "- header: {frame_id: table}",
+        "scene.yaml:8:26: the frame is `table`; that of the robot's base is accepted: `base`, `world`",
+    ),
+    (
+        "{frame_id: base}",
+        "{frame_id: map}",
+        "the frame is `map`; that of the robot's base is accepted: `base`",
+    ),
+    ("translation: [0, 0, 0]", "scale: 2, translation: [0, 0, 0]", "`scale` is not read; an empty one and"),
+    ("position: [0, 0]}", "position: [0, 0], foo: 3}", "`foo` is not read; an empty one and name, position"),
+    ("position: [0, 0]}", "position: [0]}", "1 numbers for 2 joints"),
+    ("dimensions: [0.14, 0.02]", "dimensions: [140, 20]", "is it in millimetres"),
+];
+
+/// A change of a request, and the message about it.
+const WRONG_REQUESTS: &[(&str, &str, &str)] = &[
+    ("joint_name: lift", "joint_name: drop", "the goal has no joint `lift` of `panda`"),
+    ("finger, lift", "finger, drop", "the start has no joint `lift` of `panda`"),
+    ("position: -0.25", "position: -45", "is it in degrees"),
+    (
+        "position: -0.25",
+        "posture: 0.2, position: -0.25",
+        "`posture` is not read; an empty one and joint_name",
+    ),
+    (
+        "position: -0.25",
+        "tolerance_above: 0.2, position: -0.25",
+        "tolerance_above is 0.2; 0 to 0.001 is accepted: a goal is one configuration",
+    ),
+    (
+        "position: -0.25",
+        "tolerance_below: -1, position: -0.25",
+        "tolerance_below is -1; 0 to 0.001 is accepted",
+    ),
+    ("joint_name: turn", "joint_name: lift", "the goal gives joint `lift` twice; once is accepted"),
+    ("finger, lift", "lift, lift", "the start gives joint `lift` twice; once is accepted"),
+    (
+        "position: [1.5",
+        "joint_units: deg, position: [1.5",
+        "`joint_units` is not read; an empty one and name",
+    ),
+    (
+        "position: [1.5",
+        "velocity: [0, 0, 1], position: [1.5",
+        "`velocity` is not read; an empty one and name",
+    ),
+    ("[1.5, 0.04, 0.0]", "[1.5, 0.04]", "2 numbers for 3 joints"),
+    (
+        "joint_state:",
+        "multi_dof_joint_state: {joint_names: [base], transforms: [{translation: [1, 0, 0], rotation: [0, 0, 0, 1]}]}, joint_state:",
+        "the translation of a frame is not that of the robot's base",
+    ),
+    ("group_name: arm", "path_constraints: {name: up}", "request.yaml:1:19: `path_constraints` is not read"),
+];
+
 #[test]
 fn what_a_scene_or_a_request_holds_besides_is_refused_at_its_place() {
-    for (from, to, message) in [
-        ("name: \"\"", "robot_state_diff: [1]", "scene.yaml:5:19: `robot_state_diff` is not read"),
-        (
-            "[lift, turn], position: [0, 0]}",
-            "[lift], position: [0]}, attached_collision_objects: [{id: cup}]",
-            "`attached_collision_objects` is not read",
-        ),
-        ("    - id: ball\n", "    - id: ball\n      meshes: [{vertices: [0]}]\n", "`meshes` is not read"),
-        ("type: sphere", "type: cone", "a primitive is a `cone`; box, cylinder and sphere are accepted"),
-        (
-            "translation: [0, 0, 0]",
-            "translation: [0, 0, 1]",
-            "the translation of a frame is not that of the robot's base",
-        ),
-        ("panda", "fetch", "the problems are for the robot `fetch`"),
-        ("dimensions: [0.14, 0.02]", "dimensions: [140, 20]", "is it in millimetres"),
-    ] {
+    for (from, to, message) in WRONG_SCENES {
         assert!(SCENE.contains(from), "{from}");
         let error = moveit(&SCENE.replacen(from, to, 1), REQUEST).unwrap_err();
         assert!(error.contains(message), "should say {message}\nsays {error}");
     }
-    for (from, to, message) in [
-        ("joint_name: lift", "joint_name: drop", "the goal has no joint `lift` of `panda`"),
-        ("finger, lift", "finger, drop", "the start has no joint `lift` of `panda`"),
-        ("position: -0.25", "position: -45", "is it in degrees"),
-        ("[1.5, 0.04, 0.0]", "[1.5, 0.04]", "2 numbers for 3 joints"),
-        (
-            "joint_state:",
-            "multi_dof_joint_state: {joint_names: [base], transforms: [{translation: [1, 0, 0], rotation: [0, 0, 0, 1]}]}, joint_state:",
-            "the translation of a frame is not that of the robot's base",
-        ),
-        (
-            "group_name: arm",
-            "path_constraints: {name: up}",
-            "request.yaml:1:19: `path_constraints` is not read",
-        ),
-    ] {
+    for (from, to, message) in WRONG_REQUESTS {
         assert!(REQUEST.contains(from), "{from}");
         let error = moveit(SCENE, &REQUEST.replacen(from, to, 1)).unwrap_err();
         assert!(error.contains(message), "should say {message}\nsays {error}");
     }
+}
+
+#[test]
+fn what_of_a_scene_and_a_request_is_ignored_is_named() {
+    let request = REQUEST.replacen(
+        "position: -0.25",
+        "position: -0.25, tolerance_above: 0.0001, tolerance_below: 0, weight: 1",
+        1,
+    );
+    let request = request.replacen("position: [1.5", "velocity: [0, 0, 0], effort: [], position: [1.5", 1);
+    let problem = moveit(SCENE, &request).unwrap();
+    let ignored = [
+        "allowed_collision_matrix",
+        "group_name",
+        "header",
+        "tolerance_above",
+        "tolerance_below",
+        "velocity",
+        "weight",
+    ];
+    assert_eq!(problem.ignored.iter().collect::<Vec<_>>(), ignored);
+    let differs = "the start is that of the request; the `robot_state` of the scene is another one";
+    let fixed = "joints of the start that do not move in `panda`: `finger`";
+    assert_eq!(problem.notes, [fixed, differs]);
+    let same = SCENE.replacen("position: [0, 0]}", "position: [0, 1.5]}", 1);
+    assert_eq!(moveit(&same, REQUEST).unwrap().notes, [fixed]);
 }
 
 /// An archive of files.
@@ -377,7 +495,7 @@ fn an_archive_of_pairs_is_a_set_and_a_fault_in_one_leaves_the_others() {
         ("problems/readme.txt", "text"),
     ];
     std::fs::write(&path, tar(&files)).unwrap();
-    let expected = Expected { robot: "panda", joints: vec!["lift", "turn"] };
+    let expected = Expected { robot: "panda", base: "base", joints: vec!["lift", "turn"] };
     let all = ProblemSet::open(&path, None).unwrap();
     assert_eq!(all.count(), 3);
     let said = |index| {

@@ -1,10 +1,11 @@
 //! Elements and attributes of XML files, each fault at its place: the XML library keeps the places of both.
 
-use crate::ignored::is_ignored;
-use crate::settings::{Document, SettingsError};
+use crate::ignored::{ignored_in, ignored_note, is_ignored};
+use crate::settings::{Document, SettingsError, did_you_mean};
 use crate::solid::Source;
-use roxmltree::{Error, Node, NodeType};
-use std::collections::BTreeMap;
+use crate::yaml::unknown;
+use roxmltree::{Error, Node};
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// An XML file that is read.
@@ -46,31 +47,78 @@ fn parsed_to(text: &str, place: roxmltree::TextPos) -> Range<usize> {
     at..at
 }
 
-/// What below `root` is neither in `read`, by element, nor in the table of ignored keys: a sentence for each kind.
-pub(super) fn unread(root: Node<'_, '_>, format: &str, read: &[(&str, &[&str])]) -> Vec<String> {
-    let mut found: BTreeMap<String, usize> = BTreeMap::new();
-    let mut left = vec![root];
-    while let Some(node) = left.pop() {
+/// Elements that may stand in another more than once.
+const MANY: [&str; 4] = ["link", "joint", "collision", "disable_collisions"];
+
+/// A file of the format, held against the keys that are read, by element, and the table of ignored keys.
+pub(super) struct Keys<'a> {
+    pub(super) xml: Elements<'a>,
+    pub(super) format: &'static str,
+    pub(super) read: &'static [(&'static str, &'static [&'static str])],
+}
+
+/// What of a file is not read.
+#[derive(Default)]
+struct Unread {
+    ignored: BTreeSet<String>,
+    /// How often each key is there that is not known.
+    unknown: BTreeMap<String, usize>,
+}
+
+impl Keys<'_> {
+    /// What below `root` is not read, a sentence each.
+    ///
+    /// # Errors
+    /// A key that is not known, but for one of the root that is near to none that is read; an element that is there twice.
+    pub(super) fn unread(&self, root: Node<'_, '_>) -> Result<Vec<String>, SettingsError> {
+        let mut unread = Unread::default();
+        self.element(root, &mut unread)?;
+        let message = |(way, count): (String, usize)| {
+            let times = if count == 1 { String::new() } else { format!(" ({count} times)") };
+            format!("`{way}` is not known and not used{times}")
+        };
+        Ok(ignored_note(&unread.ignored).into_iter().chain(unread.unknown.into_iter().map(message)).collect())
+    }
+
+    fn element(&self, node: Node<'_, '_>, unread: &mut Unread) -> Result<(), SettingsError> {
         let name = node.tag_name().name();
-        let known = read.iter().find(|(element, _)| *element == name).map_or(&[][..], |(_, known)| known);
-        let attributes = node.attributes().map(|attribute| (format!("@{}", attribute.name()), None));
-        let children = node.children().filter(|child| child.node_type() == NodeType::Element);
-        for (key, child) in
-            attributes.chain(children.map(|child| (child.tag_name().name().to_owned(), Some(child))))
-        {
-            let way = format!("{name}/{key}");
-            if known.contains(&key.as_str()) {
-                left.extend(child);
-            } else if !is_ignored(format, &way) {
-                *found.entry(way).or_default() += 1;
+        let read = self.read.iter().find(|(element, _)| *element == name).map_or(&[][..], |(_, read)| read);
+        let attributes = node.attributes().map(|at| (format!("@{}", at.name()), at.range(), None));
+        let children = node.children().filter(Node::is_element);
+        let children = children.map(|child| (child.tag_name().name().to_owned(), child.range(), Some(child)));
+        let mut seen = BTreeSet::new();
+        for (key, at, child) in attributes.chain(children) {
+            let is_read = read.contains(&key.as_str()) && !means_nothing(node, &key);
+            // A solid of another kind is refused where solids are read.
+            let is_solid = name == "geometry" && child.is_some();
+            if is_read || is_solid {
+                let once = if is_solid { "solid" } else { &key };
+                if child.is_some() && !MANY.contains(&once) && !seen.insert(once.to_owned()) {
+                    return Err(self.xml.fault(&at, format!("a second {once} in `{name}`; one is accepted")));
+                }
+                child.map_or(Ok(()), |child| self.element(child, unread))?;
+            } else if is_ignored(self.format, &format!("{name}/{key}")) {
+                unread.ignored.insert(format!("{name}/{key}"));
+            } else if name != "robot" || !did_you_mean(&key, read.iter().copied()).is_empty() {
+                let accepted: Vec<&str> = read.iter().copied().chain(ignored_in(self.format, name)).collect();
+                return Err(self.xml.fault(&at, format!("`{name}`: {}", unknown(&key, &accepted))));
+            } else {
+                *unread.unknown.entry(format!("{name}/{key}")).or_default() += 1;
             }
         }
+        Ok(())
     }
-    let message = |(way, count): (String, usize)| {
-        let times = if count == 1 { String::new() } else { format!(" ({count} times)") };
-        format!("`{way}` is not known and not used{times}")
-    };
-    found.into_iter().map(message).collect()
+}
+
+/// Whether a key that is read means nothing here: how a fixed joint would move, limits of one that turns without end.
+fn means_nothing(of: Node<'_, '_>, key: &str) -> bool {
+    let is =
+        |joint: Option<Node<'_, '_>>, kind| joint.is_some_and(|node| node.attribute("type") == Some(kind));
+    match of.tag_name().name() {
+        "joint" => matches!(key, "axis" | "limit" | "mimic") && is(Some(of), "fixed"),
+        "limit" => matches!(key, "@lower" | "@upper") && is(of.parent(), "continuous"),
+        _ => false,
+    }
 }
 
 impl Elements<'_> {

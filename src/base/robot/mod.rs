@@ -24,6 +24,8 @@ use std::path::PathBuf;
 pub struct Robot {
     /// Its name.
     pub name: String,
+    /// The name of the link that no joint leads to.
+    pub base: String,
     /// The joints that move, base first.
     pub joints: Vec<Joint>,
     /// The solids that stand for its links, each with the number of the link that it is fixed to.
@@ -34,7 +36,7 @@ pub struct Robot {
     pub tip: Pose,
     /// The files that were read besides the robot's own: meshes.
     pub files: Vec<PathBuf>,
-    /// What of the file was not known and not used, a sentence each.
+    /// What of the file is not used, a sentence each.
     pub notes: Vec<String>,
 }
 

@@ -3,7 +3,7 @@
 //! Source: the page "SRDF" of <https://wiki.ros.org/srdf>: pairs under `disable_collisions` are not checked, all others are.
 
 use super::Robot;
-use super::elements::{Elements, elements, parsed, unread};
+use super::elements::{Elements, Keys, elements, parsed};
 use crate::settings::{Document, SettingsError};
 use crate::solid::Source;
 use std::collections::BTreeSet;
@@ -54,12 +54,12 @@ pub fn parse_srdf(document: &Document, robot: &Robot) -> Result<MayTouch, Settin
         let message = format!("the file is of the robot `{name}`; `{}` is accepted", robot.name);
         return Err(xml.fault(&root.range(), message));
     }
-    let decides = |name: &str| name.contains("collisions") && name != "disable_collisions";
+    let decides = |name: &str| name.contains("collision") && name != "disable_collisions";
     if let Some(other) = root.children().find(|node| decides(node.tag_name().name())) {
         let message = format!("`{}` is not read; `disable_collisions` is accepted", other.tag_name().name());
         return Err(xml.fault(&other.range(), message));
     }
-    let mut notes = unread(root, "SRDF", READ);
+    let mut notes = Keys { xml, format: "SRDF", read: READ }.unread(root)?;
     let mut pairs = BTreeSet::new();
     let mut unknown = BTreeSet::new();
     for pair in elements(root, "disable_collisions") {

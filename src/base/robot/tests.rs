@@ -189,6 +189,65 @@ const WRONG: &[(&str, &str, &str)] = &[
         "/two.urdf:20:3: no joints lead from the base to link `arm`; one chain is accepted",
     ),
     (
+        "rpy=\"0 0 1.5708\"",
+        "quat_xyzw=\"0 0 0 1\"",
+        "/two.urdf:7:27: `origin`: unknown key `@quat_xyzw`; accepted: @xyz, @rpy",
+    ),
+    (
+        "rpy=\"0 1.5708 0\"",
+        "ryp=\"0 1 0\"",
+        "`origin`: unknown key `@ryp` (did you mean `@rpy`?); accepted: @xyz",
+    ),
+    (
+        "<origin xyz=\"0.3 0 0\"/>",
+        "<orgin/>",
+        "`joint`: unknown key `orgin` (did you mean `origin`?); accepted: ",
+    ),
+    ("<axis xyz=\"0 1 0\"/>", "<axes/>", "`joint`: unknown key `axes` (did you mean `axis`?); accepted: "),
+    ("<axis xyz=\"0 1 0\"/>", "<axis frame=\"x\"/>", "`axis`: unknown key `@frame`; accepted: @xyz"),
+    (
+        "upper=\"2\"",
+        "upper=\"2\" soft=\"1\"",
+        "`limit`: unknown key `@soft`; accepted: @lower, @upper, @velocity, @effort",
+    ),
+    (
+        "<link name=\"plate\"/>",
+        "<link name=\"plate\"><colision/></link>",
+        "`link`: unknown key `colision` (did you mean `collision`?); accepted: @name, collision, visual",
+    ),
+    (
+        "<link name=\"plate\"/>",
+        "<link name=\"plate\"><capsule/></link>",
+        "`link`: unknown key `capsule`; accepted: ",
+    ),
+    ("<box size", "<box scale=\"2\" size", "`box`: unknown key `@scale`; accepted: @size"),
+    (
+        "</robot>",
+        "<jiont/></robot>",
+        "`robot`: unknown key `jiont` (did you mean `joint`?); accepted: @name, @version",
+    ),
+    (
+        "<origin xyz=\"0.3 0 0\"/>",
+        "<origin/><origin/>",
+        "/two.urdf:11:86: a second origin in `joint`; one is accepted",
+    ),
+    ("<axis xyz=\"0 1 0\"/>", "<axis/><axis/>", "a second axis in `joint`; one is accepted"),
+    (
+        "<limit effort=\"1\" velocity=\"1\"/>",
+        "<limit/><limit/>",
+        "a second limit in `joint`; one is accepted",
+    ),
+    (
+        "<sphere radius=\"0.1\"/>",
+        "<sphere radius=\"0.1\"/><cone/>",
+        "a second solid in `geometry`; one is accepted",
+    ),
+    (
+        "<robot name=\"two\">",
+        "<robot name=\"two\" version=\"1.1\">",
+        "/two.urdf:3:19: version is `1.1`; `1.0` is accepted",
+    ),
+    (
         "<link name=\"plate\"/>",
         "<link name=\"plate\"/><link name=\"lost\"/>",
         "no joint leads to link `lost`, nor to `base`; one base is accepted",
@@ -279,7 +338,13 @@ const RIGHT: &[(&str, &str)] = &[
     ),
     (
         "<link name=\"tool\"/>",
-        "<link name=\"tool\"><visual/><inertial/></link><transmission name=\"t\"/><gazebo/>",
+        "<link name=\"tool\"><visual><origin ryp=\"0\"/></visual><inertial/></link><transmission name=\"t\"/><gazebo/><material/>",
+    ),
+    ("<robot name=\"two\">", "<robot name=\"two\" version=\"1.0\">"),
+    ("effort=\"1\" velocity=\"3\"", "effort=\"1\" velocity=\"3\" acceleration=\"4\" jerk=\"5\""),
+    (
+        "<parent link=\"plate\"/>",
+        "<axis xyz=\"0 0 1\"/><limit lower=\"0\" upper=\"0\"/><dynamics damping=\"1\"/><parent link=\"plate\"/>",
     ),
 ];
 
@@ -291,7 +356,8 @@ fn what_the_format_leaves_open_is_read_as_it_says() {
         let robot = read(&ARM.replacen(from, to, 1), FOOT.as_bytes()).unwrap();
         let without_speed = |robot: &Robot| {
             let joints = robot.joints.iter().map(|joint| Joint { speed: None, ..joint.clone() });
-            Robot { joints: joints.collect(), files: Vec::new(), ..robot.clone() }
+            let (base, notes) = (String::new(), Vec::new());
+            Robot { joints: joints.collect(), files: Vec::new(), base, notes, ..robot.clone() }
         };
         assert_eq!(without_speed(&robot), without_speed(&plain), "{to}");
     }
@@ -309,14 +375,21 @@ fn what_the_format_leaves_open_is_read_as_it_says() {
 }
 
 #[test]
-fn what_the_format_does_not_have_is_noted_by_name() {
+fn keys_that_are_ignored_and_elements_of_the_root_that_are_not_known_are_noted_by_name() {
+    let ignored = |keys: &str| format!("ignored keys: {keys}; docs/FILES.md has the reasons");
+    let robot = read(ARM, FOOT.as_bytes()).unwrap();
+    assert_eq!((robot.base.as_str(), robot.notes), ("base", vec![ignored("`limit/@effort`")]));
     let text = ARM
-        .replacen("<link name=\"plate\"/>", "<link name=\"plate\"><capsule/></link>", 1)
-        .replace("<axis ", "<axis frame=\"x\" ");
-    let notes =
-        ["`axis/@frame` is not known and not used (2 times)", "`link/capsule` is not known and not used"];
-    assert_eq!(read(&text, FOOT.as_bytes()).unwrap().notes, notes);
-    assert!(read(ARM, FOOT.as_bytes()).unwrap().notes.is_empty());
+        .replacen(
+            "<link name=\"tool\"/>",
+            "<link name=\"tool\"><visual/></link><transmission/><loop/><loop/>",
+            1,
+        )
+        .replacen("<limit effort=\"1\"", "<limit lower=\"-1\" effort=\"1\"", 1)
+        .replacen("<joint name=\"cam\" type=\"fixed\">", "<joint name=\"cam\" type=\"fixed\"><axis/>", 1);
+    let keys = "`joint/axis`, `limit/@effort`, `limit/@lower`, `link/visual`, `robot/transmission`";
+    let unknown = "`robot/loop` is not known and not used (2 times)".to_owned();
+    assert_eq!(read(&text, FOOT.as_bytes()).unwrap().notes, [ignored(keys), unknown]);
 }
 
 #[test]
@@ -362,10 +435,14 @@ fn links_that_an_srdf_file_lets_touch_are_read_and_its_other_elements_are_known_
                 <disable_collisions link1=\"mast\" link2=\"base\" reason=\"Adjacent\"/></robot>";
     let read = pairs(srdf).unwrap();
     assert!(read.allows("base", "mast") && read.allows("mast", "base") && !read.allows("base", "arm"));
-    assert!(read.notes.is_empty(), "{:?}", read.notes);
+    let ignored = "ignored keys: `disable_collisions/@reason`, `robot/group`; docs/FILES.md has the reasons";
+    assert_eq!(read.notes, [ignored]);
     let lost = pairs(&srdf.replace("\"base\"", "\"finger\"").replace("<group", "<pose")).unwrap();
-    let notes =
-        ["`robot/pose` is not known and not used", "no solid stands for the links `finger` of its pairs"];
+    let notes = [
+        "ignored keys: `disable_collisions/@reason`; docs/FILES.md has the reasons",
+        "`robot/pose` is not known and not used",
+        "no solid stands for the links `finger` of its pairs",
+    ];
     assert_eq!(lost.notes, notes);
     for (from, to, expected) in [
         ("\"two\"", "\"three\"", "two.srdf:1:1: the file is of the robot `three`; `two` is accepted"),
@@ -378,6 +455,21 @@ fn links_that_an_srdf_file_lets_touch_are_read_and_its_other_elements_are_known_
             "link2=\"base\"",
             "",
             "two.srdf:2:1: the element `disable_collisions` has no `link2`; one is accepted",
+        ),
+        (
+            "disable_collisions",
+            "disable_collision",
+            "`disable_collision` is not read; `disable_collisions` is",
+        ),
+        (
+            "disable_collisions",
+            "disable_collisons",
+            "two.srdf:2:1: `robot`: unknown key `disable_collisons` (did you mean `disable_collisions`?)",
+        ),
+        (
+            "reason",
+            "raeson",
+            "`disable_collisions`: unknown key `@raeson` (did you mean `@reason`?); accepted: ",
         ),
         ("\"mast\"", "\"${side}\"", "this is xacro"),
     ] {

@@ -1,13 +1,14 @@
 //! URDF files: the chain from the root link to the last one, with what is fixed to its links.
 //!
 //! Read are `link` with its `collision` solids (boxes, cylinders, spheres; a mesh is taken for the convex hull of its STL vertices)
-//! and `joint` (`revolute`, `continuous`, `prismatic`, `fixed`). What else the format has is in the table of ignored keys; what it does
-//! not have is noted. Every fault is reported at its place.
+//! and `joint` (`revolute`, `continuous`, `prismatic`, `fixed`). What else the format has is in the table of ignored keys. What it does
+//! not have is refused, but for elements of `robot` itself, which are noted. Every fault is reported at its place.
 //!
-//! Source: the XML format of wiki.ros.org/urdf/XML (link, joint).
+//! Source: the XML format of wiki.ros.org/urdf/XML (link, joint), version 1.0. Version 1.1 (ros/urdfdom, pull request 235) adds `quat_xyzw`
+//! to `origin`; it is refused.
 
 use super::Robot;
-use super::elements::{Elements, parsed, unread};
+use super::elements::{Elements, Keys, parsed, place};
 use super::tree::Tree;
 use super::walk;
 use crate::settings::{Document, SettingsError};
@@ -16,7 +17,7 @@ use std::path::Path;
 
 /// What is read, by element.
 const READ: &[(&str, &[&str])] = &[
-    ("robot", &["@name", "link", "joint"]),
+    ("robot", &["@name", "@version", "link", "joint"]),
     ("link", &["@name", "collision"]),
     ("collision", &["origin", "geometry"]),
     ("geometry", &["box", "cylinder", "sphere", "mesh"]),
@@ -48,6 +49,12 @@ pub fn read_urdf(path: &Path) -> Result<Robot, SettingsError> {
 pub fn parse_urdf(document: &Document) -> Result<Robot, SettingsError> {
     let parsed = parsed(document)?;
     let root = parsed.root_element();
-    let robot = walk::robot(&Tree::new(Elements(Source(document)), root)?)?;
-    Ok(Robot { notes: unread(root, "URDF", READ), ..robot })
+    let xml = Elements(Source(document));
+    if let Some(version) = root.attribute("version").filter(|version| *version != "1.0") {
+        let message = format!("version is `{}`; `1.0` is accepted", crate::text::brief(version));
+        return Err(xml.fault(&place(root, "version"), message));
+    }
+    let notes = Keys { xml, format: "URDF", read: READ }.unread(root)?;
+    let robot = walk::robot(&Tree::new(xml, root)?)?;
+    Ok(Robot { notes, ..robot })
 }

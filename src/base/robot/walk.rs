@@ -14,6 +14,7 @@ use std::path::Path;
 pub(super) fn robot(tree: &Tree<'_, '_>) -> Result<Robot, SettingsError> {
     let robot = Robot {
         name: tree.root.attribute("name").unwrap_or("robot").to_owned(),
+        base: tree.base()?.to_owned(),
         joints: Vec::new(),
         solids: Vec::new(),
         owners: Vec::new(),
@@ -168,7 +169,7 @@ impl<'a, 'input> Walk<'_, 'a, 'input> {
             return Err(xml.fault(&at, format!("the mesh `{given}` is no STL file; STL files are accepted")));
         }
         let tried = stl::places(xml.0.0.path(), given);
-        let Some(file) = tried.iter().find(|path| path.is_file()) else {
+        let Some(file) = tried.iter().find(|path| path.exists()) else {
             let places: Vec<String> = tried.iter().map(|path| path.display().to_string()).collect();
             return Err(
                 xml.fault(&at, format!("there is no mesh `{given}`; looked for {}", places.join(", ")))

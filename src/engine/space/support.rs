@@ -53,6 +53,9 @@ pub enum SupportEntry {
     },
 }
 
+/// A base that is not at the origin is farther from it.
+const NEAR_MM: f64 = 2.0;
+
 /// Where an arm stands and what is under it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Support {
@@ -72,6 +75,16 @@ impl SupportEntry {
             self;
         if let Some((_, message)) = seems_in_radians("yaw_deg", &[*yaw_deg]) {
             return Err(("yaw_deg", message));
+        }
+        let (Self::Floor { base_mm, .. } | Self::Pedestal { base_mm, .. } | Self::Nothing { base_mm, .. }) =
+            self;
+        let farthest = base_mm.iter().fold(0.0_f64, |farthest, at| farthest.max(at.abs()));
+        if farthest > 0.0 && farthest < NEAR_MM {
+            let message = format!(
+                "base_mm reaches {farthest} mm from the origin; is it in metres? millimetres are accepted ({farthest} m is {} mm)",
+                farthest * 1e3
+            );
+            return Err(("base_mm", message));
         }
         match self {
             Self::Floor { base_mm, yaw_deg } => {

@@ -9,6 +9,7 @@ use super::{Entry, Family, Query};
 use crate::preprocessing::Preprocessing;
 use crate::preprocessing::nested_roadmap;
 use crate::{Inputs, StudyError};
+use base::ignored::ignored_note;
 use base::problem::{Expected, Problem, ProblemSet};
 use base::robot::{Robot, read_urdf};
 use base::settings::{Accepted, Faults, Settings, SettingsError};
@@ -17,6 +18,7 @@ use engine::space::roadmap::{Counted, Local, Near};
 use engine::space::{JointSpace, SelfContact, Support, SupportEntry, WorldKind};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
@@ -97,6 +99,8 @@ struct Archive {
 struct Set {
     robot: Robot,
     problems: ProblemSet,
+    /// The name of its file.
+    problem_file: String,
     contact: SelfContact,
     support: Support,
     step_rad: f64,
@@ -159,6 +163,7 @@ fn build(settings: &Settings, inputs: &Inputs) -> Result<Box<dyn Family>, Settin
     Ok(Box::new(Set {
         robot,
         problems,
+        problem_file: read.problems,
         contact,
         support,
         step_rad,
@@ -220,6 +225,7 @@ impl Set {
     fn problem(&self, seed: u64) -> Result<Problem, Invalid> {
         let expected = Expected {
             robot: &self.robot.name,
+            base: &self.robot.base,
             joints: self.robot.joints.iter().map(|joint| joint.name.as_str()).collect(),
         };
         let index = usize::try_from(seed).unwrap_or(usize::MAX);
@@ -293,7 +299,15 @@ impl Family for Set {
     }
 
     fn notes(&self) -> Vec<String> {
-        self.notes.clone()
+        let (mut notes, mut ignored) = (BTreeSet::new(), BTreeSet::new());
+        let problems = (0..self.problems.count() as u64).filter_map(|index| self.problem(index).ok());
+        for problem in problems {
+            notes.extend(problem.notes);
+            ignored.extend(problem.ignored);
+        }
+        let of_problems = notes.into_iter().chain(ignored_note(&ignored));
+        let of_problems = of_problems.map(|note| format!("{}: {note}", self.problem_file));
+        self.notes.iter().cloned().chain(of_problems).collect()
     }
 
     fn inputs(&self) -> &[PathBuf] {

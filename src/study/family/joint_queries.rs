@@ -9,6 +9,7 @@ use crate::preprocessing::Preprocessing;
 use crate::preprocessing::nested_roadmap::{self, Neighbours};
 use crate::verification::roadmap::JOINT_COLUMNS;
 use crate::{Inputs, StudyError};
+use base::ignored::ignored_note;
 use base::problem::{Ended, Expected, Problem, ProblemFile};
 use base::robot::{Robot, read_srdf, read_urdf};
 use base::seed::{self, Stream};
@@ -119,6 +120,7 @@ impl Posed {
         let robot = faults.keep(input(settings, inputs, "robot", &read.robot, read_urdf));
         let expected = robot.as_ref().map(|(_, robot)| Expected {
             robot: &robot.name,
+            base: &robot.base,
             joints: robot.joints.iter().map(|joint| joint.name.as_str()).collect(),
         });
         let problem = faults.keep(input(settings, inputs, "problem", &read.problem, |file| {
@@ -193,7 +195,8 @@ impl JointQueries {
     /// What a reader of results should know of how the files were taken.
     fn notes(&self, robot: &Robot, problem: &Problem, contact: &SelfContact) -> Vec<String> {
         let mut notes = robot_notes(&self.robot, robot, contact, self.srdf.as_deref());
-        notes.extend(problem.notes.iter().map(|note| format!("{}: {note}", self.problem)));
+        let of_problem = problem.notes.iter().cloned().chain(ignored_note(&problem.ignored));
+        notes.extend(of_problem.map(|note| format!("{}: {note}", self.problem)));
         if !problem.is_valid {
             let index = self.index;
             notes.push(format!(

@@ -9,6 +9,7 @@ use super::{Entry, Family, Query};
 use crate::StudyError;
 use crate::preprocessing::{Preprocessing, lattice};
 use base::grid::{Scenario, Vertices, read_movingai_map, read_scenarios};
+use base::ignored::ignored_note;
 use base::settings::{Accepted, Faults};
 use engine::planner::{Counts, Invalid, Value};
 use engine::space::{LatticeWorld, WorldKind};
@@ -146,7 +147,9 @@ impl Family for Posed {
         let without =
             self.scenarios.iter().filter(|scenario| scenario.optimal_length_cells.is_none()).count();
         let note = || format!("{}: {without} of its queries have no path, it says", self.files[1].display());
-        (without > 0).then(note).into_iter().collect()
+        let ignored = ignored_note(&["bucket".to_owned()].into());
+        let ignored = ignored.map(|note| format!("{}: {note}", self.files[1].display()));
+        (without > 0).then(note).into_iter().chain(ignored).collect()
     }
 
     fn cells(&self) -> u64 {

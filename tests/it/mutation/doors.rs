@@ -201,7 +201,7 @@ fn files<'a>(folder: &'a Path, robots: &'a [Robot; 2]) -> Vec<Door<'a>> {
     let [ur5, panda] = robots;
     let problem = move |document: &Arc<Document>| {
         let joints = panda.joints.iter().map(|joint| joint.name.as_str()).collect();
-        let expected = Expected { robot: &panda.name, joints };
+        let expected = Expected { robot: &panda.name, base: &panda.base, joints };
         let file = ProblemFile::parse(document.clone()).map_err(|error| shown(&error))?;
         file.problem(None, 0, Some(&expected)).map(drop).map_err(|error| shown(&error))
     };

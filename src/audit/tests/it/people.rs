@@ -253,13 +253,23 @@ fn a_wrong_average_or_total_is_a_signal_and_a_right_one_is_none() {
             &["A | 33.2 | 100", "B | 50.0 | 150", "C | 60.0 | 201", &format!("{word} | {value}")],
         )
     };
-    for word in ["Average", "Mean", "Avg.", "**Average**", "mean:", "Average (3 maps)", "Mean over maps"] {
+    for word in [
+        "Average",
+        "Mean",
+        "Avg.",
+        "**Average**",
+        "mean:",
+        "Average (3 maps)",
+        "Mean over maps",
+        "Ø",
+        "Arithmetic mean",
+    ] {
         assert_eq!(found(&rows(word, "47.7 | 150.3")), [], "{word}");
         assert_eq!(found(&rows(word, "49.2 | 150.3")), [("summary", Class::Signal)], "{word}");
         assert_eq!(found(&rows(word, "47.7 | 451")), [("summary", Class::Signal)], "{word}");
         assert_eq!(found(&rows(word, "72.0 | 150")), [("summary", Class::Signal)], "{word} above every row");
     }
-    for word in ["Total", "Sum", "TOTAL"] {
+    for word in ["Total", "Sum", "TOTAL", "Subtotal"] {
         assert_eq!(found(&rows(word, "- | 451")), [], "{word}");
         assert_eq!(found(&rows(word, "- | 415")), [("summary", Class::Signal)], "{word}");
     }
@@ -267,6 +277,16 @@ fn a_wrong_average_or_total_is_a_signal_and_a_right_one_is_none() {
         assert_eq!(found(&rows("Overall", right)), [], "{right}");
     }
     assert_eq!(found(&rows("Overall", "72.0 | 500")), [("summary", Class::Signal); 2]);
+    let counted = |n: &str, last: &str| {
+        table(
+            &format!("planner | {n} | time [mean, unit=ms]"),
+            &["A | 10 | 1.0", "B | 90 | 2.0", &format!("Average | 100 | {last}")],
+        )
+    };
+    for n in ["n", "# trials", "Runs"] {
+        assert_eq!(found(&counted(n, "1.9")), [], "{n}: 100 is the sum, 1.9 the mean by trials");
+        assert_eq!(found(&counted(n, "1.2")), [("summary", Class::Signal)], "{n}");
+    }
     assert_eq!(found(&rows("Mean shift", "49.6 | 999")), [], "a method of its own");
     let related = "[[table]]\nname = \"t\"\ntext = \"\"\"\n| p | x [% of 250] |\n|-|-|\n| A | 33.2 |\n| B | 33.6 |\n| Mean | 33.4 |\n\"\"\"\n\
         [[relation]]\ncheck = \"grim\"\nvalue = \"t/Mean/x\"\nn = 250\nwhole = 100\n";

@@ -204,7 +204,10 @@ fn in_metres(found: f64, asked: &str) -> String {
     format!("{asked} in metres? millimetres are accepted ({found} m is {} mm)", found * 1e3)
 }
 
-/// Asks whether a body is in metres: none of its capsules on links reaches as far as an arm does.
+/// The thickest capsule of a body is thicker.
+const THIN_MM: f64 = 1.0;
+
+/// Asks whether a body is in metres: none of its capsules on links reaches as far as an arm does, or all are thin as wires.
 fn body_in_metres(source: &Source, entry: &BodyEntry) -> Option<SettingsError> {
     let size = |capsule: &Spanned<CapsuleEntry>| {
         let CapsuleEntry { from_mm, to_mm, radius_mm, .. } = capsule.get_ref();
@@ -218,7 +221,18 @@ fn body_in_metres(source: &Source, entry: &BodyEntry) -> Option<SettingsError> {
         entry.name.get_ref(),
         in_metres(found, "are lengths")
     );
-    (f64::MIN_POSITIVE..SHORT_MM).contains(&found).then(|| source.fault(&span, message))
+    if (f64::MIN_POSITIVE..SHORT_MM).contains(&found) {
+        return Some(source.fault(&span, message));
+    }
+    let radii = entry.capsule.iter().map(|capsule| &capsule.get_ref().radius_mm);
+    let thickest = radii.max_by(|a, b| a.get_ref().total_cmp(b.get_ref()))?;
+    let radius = *thickest.get_ref();
+    let message = format!(
+        "no capsule of body `{}` has a radius above {radius} mm; {}",
+        entry.name.get_ref(),
+        in_metres(radius, "are radii")
+    );
+    (f64::MIN_POSITIVE..THIN_MM).contains(&radius).then(|| source.fault(&thickest.span(), message))
 }
 
 fn bodies(

@@ -154,6 +154,9 @@ fn rows_in_metres_and_limits_in_radians_are_queried() {
     let body = message(&FILE.replacen(bodies, thin, 1)).unwrap_err();
     let expected = "no capsule of body `thin` reaches farther than 0.57 mm; are lengths in metres?";
     assert!(body.starts_with("up6.toml:") && body.contains(expected), "{body}");
+    let wires = message(&FILE.replacen(bodies, &thin.replace("0.57", "570"), 1)).unwrap_err();
+    let expected = "no capsule of body `thin` has a radius above 0.09 mm; are radii in metres? millimetres are accepted (0.09 m";
+    assert!(wires.starts_with("up6.toml:") && wires.contains(expected), "{wires}");
     assert!(
         message(&scaled(["a_mm", "d_mm"], 0.1)).is_ok_and(|robot| robot.notes().is_empty()),
         "a small arm"

@@ -68,6 +68,7 @@ pub(super) fn robot(
         files: read.files.clone(),
         notes: enclosed(&read.solids)
             .into_iter()
+            .chain(read.notes.iter().cloned())
             .chain(may_touch.iter().flat_map(|file| file.notes.clone()))
             .collect(),
     })

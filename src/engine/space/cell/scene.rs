@@ -125,6 +125,9 @@ fn wrong(error: &GeometryError) -> Wrong {
     (place, format!("{error} (lengths in metres)"))
 }
 
+/// The longest side of a box is longer.
+const SMALL_MM: f64 = 2.0;
+
 impl BoxEntry {
     fn solid(&self) -> Result<Solid, Vec<Wrong>> {
         let turned_over = |axis: &usize| self.min_mm[*axis] >= self.max_mm[*axis];
@@ -136,7 +139,17 @@ impl BoxEntry {
         };
         let in_radians =
             seems_in_radians("yaw_deg", &[self.yaw_deg]).map(|(_, message)| ("yaw_deg".to_owned(), message));
-        let faults: Vec<Wrong> = (0..3).filter(turned_over).map(fault).chain(in_radians).collect();
+        let sides: [f64; 3] = std::array::from_fn(|axis| self.max_mm[axis] - self.min_mm[axis]);
+        let longest = sides.into_iter().fold(0.0, f64::max);
+        let in_metres = (f64::MIN_POSITIVE..SMALL_MM).contains(&longest).then(|| {
+            let message = format!(
+                "no side is longer than {longest} mm; are lengths in metres? millimetres are accepted ({longest} m is {} mm)",
+                longest * 1e3
+            );
+            ("max_mm".to_owned(), message)
+        });
+        let faults = (0..3).filter(turned_over).map(fault).chain(in_radians).chain(in_metres);
+        let faults: Vec<Wrong> = faults.collect();
         if !faults.is_empty() {
             return Err(faults);
         }

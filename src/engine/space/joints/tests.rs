@@ -18,6 +18,7 @@ fn seven() -> Robot {
     let rod = |i: usize| Solid { name: format!("rod {i}"), pose: up(0.1), form: Form::Cylinder(0.03, 0.18) };
     Robot {
         name: "seven".to_owned(),
+        base: "base".to_owned(),
         joints: (0..7).map(joint).collect(),
         solids: (0..=7).map(|i| (i, rod(i))).collect(),
         owners: (0..=7).map(|i| rod(i).name).collect(),

@@ -17,7 +17,7 @@ const ROBOT: &str = r#"<robot name="nod">
 </robot>"#;
 
 const SET: &str = r#"{"robot": "nod", "joints": ["two", "one"], "problems": {"wall": [
-  {"start": [0, 1.2], "goals": [[0, -1.2]], "sphere": [{"position": [0, 0, 1.5], "radius": 0.2}]},
+  {"index": 7, "start": [0, 1.2], "goals": [[0, -1.2]], "sphere": [{"position": [0, 0, 1.5], "radius": 0.2}]},
   {"start": [0, 0], "goals": [[0, -1.2]], "sphere": [{"position": [0, 0, 1.5], "radius": 0.2}]},
   {"start": [0, 1.2], "goals": [[0, -1.2]], "valid": false},
   {"start": [0, 120], "goals": [[0, -1.2]]}
@@ -55,6 +55,7 @@ fn each_problem_is_an_instance_and_what_is_wrong_with_one_is_counted() {
     let known = family.known(0);
     let counted = ["valid_problems", "set_problems"].map(|name| known[name].as_f64());
     assert_eq!(counted, [1.0, 4.0]);
+    assert_eq!(family.notes(), ["set.json: ignored keys: `index`; docs/FILES.md has the reasons"]);
     let wrong = |index| family.prepare(index).err().map(|invalid| invalid.0).unwrap_or_default();
     assert!(wrong(2).contains("the problem set calls this problem invalid"), "{}", wrong(2));
     assert!(wrong(3).contains("is it in degrees? radians are accepted"), "{}", wrong(3));

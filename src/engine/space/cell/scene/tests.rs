@@ -71,6 +71,19 @@ fn a_wrong_scene_says_which_obstacle_where_and_what_is_accepted() {
             ["s.toml:6:11", "`b`: yaw_deg is 0.7854; is it in radians?", "0.7854 rad is 45.0°"],
         ),
         (
+            "[[box]]\nname = 'b'\nmin_mm = [0.1, 0, 0]\nmax_mm = [0.6, 0.3, 0.2]\n\
+             [[sphere]]\nname = 'k'\ncenter_mm = [0, 0, 900]\nradius_mm = 100\n",
+            [
+                "s.toml:5:10",
+                "`b`: no side is longer than 0.5 mm; are lengths in metres?",
+                "(0.5 m is 500 mm)",
+            ],
+        ),
+        (
+            "[support]\nunder = 'floor'\nbase_mm = [0.5, -0.2, 0]\nyaw_deg = 0\n",
+            ["s.toml:4:11", "base_mm reaches 0.5 mm from the origin; is it in metres?", "(0.5 m is 500 mm)"],
+        ),
+        (
             "[support]\nunder = 'floor'\nbase_mm = [0, 0, 0]\nyaw_deg = 1.5708\n",
             ["s.toml:5:11", "yaw_deg is 1.5708; is it in radians?", "1.5708 rad is 90.0°"],
         ),
