@@ -3,7 +3,8 @@
 use super::{Ends, Proof};
 use crate::exact::Print;
 use crate::neighbourhood;
-use crate::turns::{Convention, Polyline, TurnQuery};
+use crate::turns::{Cell, Convention, Polyline, TurnQuery};
+use rayon::prelude::*;
 use stats::interval::Interval;
 
 /// Polylines between printed ends that turn by a printed sum.
@@ -26,32 +27,45 @@ pub struct Search<'a> {
 const BOTH: [(Convention, &str); 2] =
     [(Convention::Exterior, "exterior"), (Convention::Interior, "interior")];
 
-/// Whether the start, and whether the goal, may be any neighbour of its cell: neither.
-const AS_PRINTED: [bool; 2] = [false, false];
-/// The start alone.
-const START_NEAR: [bool; 2] = [true, false];
-/// The goal alone.
-const GOAL_NEAR: [bool; 2] = [false, true];
+/// What a path may have other than as printed.
+#[derive(Clone, Copy)]
+struct Varied {
+    /// Whether the start, and whether the goal, may be any neighbour of its cell.
+    near: [bool; 2],
+    /// The heading from which the first move turns; none as printed.
+    heading: Option<Cell>,
+}
+
+const AS_PRINTED: Varied = Varied { near: [false, false], heading: None };
+const START_NEAR: Varied = Varied { near: [true, false], ..AS_PRINTED };
+const GOAL_NEAR: Varied = Varied { near: [false, true], ..AS_PRINTED };
+
+/// The path as printed, but that its first move turns from each of the eight headings in turn.
+fn turning_from_headings() -> Vec<Varied> {
+    let steps = neighbourhood([1, 1], [3, 3]).into_iter().map(|[x, y]| [x - 1, y - 1]);
+    let headings = steps.filter(|step| *step != [0, 0]);
+    headings.map(|heading| Varied { heading: Some(heading), ..AS_PRINTED }).collect()
+}
 
 impl Search<'_> {
-    /// The shortest polyline with a turn sum and a length in the windows; `near` says which ends may be their neighbours.
+    /// The shortest polyline with a turn sum and a length in the windows.
     fn find(
         &self,
         convention: Convention,
         turn_deg: Interval,
         length: Interval,
-        near: [bool; 2],
+        Varied { near, heading }: Varied,
     ) -> Option<Polyline> {
         let Ends { size, start, goal } = self.ends;
         let cells = |cell, near| if near { neighbourhood(cell, size) } else { vec![cell] };
         let (starts, goals) = (cells(start, near[0]), cells(goal, near[1]));
-        (self.shortest)(&TurnQuery { size, starts, goals, convention, turn_deg, length })
+        (self.shortest)(&TurnQuery { size, starts, goals, heading, convention, turn_deg, length })
     }
 
     /// The least length with a turn sum in the window.
-    fn least(&self, convention: Convention, turn_deg: Interval, near: [bool; 2]) -> Option<f64> {
+    fn least(&self, convention: Convention, turn_deg: Interval, varied: Varied) -> Option<f64> {
         let length = Interval::new(0.0, self.longest);
-        self.find(convention, turn_deg, length, near).map(|found| found.length)
+        self.find(convention, turn_deg, length, varied).map(|found| found.length)
     }
 
     fn premises(&self, sums: &str) -> Vec<String> {
@@ -99,21 +113,30 @@ fn both_impossible(
             format!("{name} angles: no path of up to {} cells has a turn sum of {turn}", search.longest)
         }
     };
-    let pair = |near| search.find(convention, search.turn.interval(), length.interval(), near);
+    let pair = |varied| search.find(convention, search.turn.interval(), length.interval(), varied);
     let both = format!("{} and {turn}", length.printed);
     if let Some(found) = pair(AS_PRINTED) {
         let met = format!("{name} angles: {both} are met together by {:?}", found.cells);
         return (false, vec![alone, met]);
     }
     let moved = [("start", START_NEAR), ("goal", GOAL_NEAR)];
-    let rescued = moved.into_iter().filter(|(_, near)| pair(*near).is_some()).map(|(end, _)| end);
+    let rescued = moved.into_iter().filter(|(_, varied)| pair(*varied).is_some()).map(|(end, _)| end);
     let rescued = rescued.collect::<Vec<_>>().join(" or the ");
     let ends = if rescued.is_empty() {
         "nor with the start or the goal moved to any of its eight neighbours".to_owned()
     } else {
         format!("but moving the {rescued} to a neighbour would allow it")
     };
-    (true, vec![alone, format!("{name} angles: no polyline has {both}, {ends}")])
+    let turning = turning_from_headings().into_par_iter().filter(|varied| pair(*varied).is_some());
+    let turning: Vec<String> =
+        turning.filter_map(|varied| varied.heading).map(|heading| format!("{heading:?}")).collect();
+    let headings = if turning.is_empty() {
+        format!("no polyline has {both} if the first move turns from one of the eight headings")
+    } else {
+        format!("a first move that turns from heading {} would allow {both}", turning.join(" or "))
+    };
+    let printed = format!("{name} angles: no polyline has {both}, {ends}");
+    (true, vec![alone, printed, format!("{name} angles: {headings}")])
 }
 
 /// How long a polyline through cell centres with the printed turn sum is at least, beside another printed length. Refused if
@@ -134,16 +157,26 @@ pub fn turn_needs_length(search: &Search<'_>, beside: Print, is_shorter: bool) -
         is_longer && convention == search.meant
     });
     let is_refused = is_shorter && longer != [false; 2];
-    because.extend(is_refused.then(|| {
-        let least = |near| search.least(search.meant, search.turn.interval(), near);
+    if is_refused {
+        let least = |varied| search.least(search.meant, search.turn.interval(), varied);
         let (start, goal) = rayon::join(|| least(START_NEAR), || least(GOAL_NEAR));
         let least = [start, goal].into_iter().flatten().fold(f64::INFINITY, f64::min);
         let rests = if least > beside.interval().high { "does not rest" } else { "rests" };
-        format!(
+        because.push(format!(
             "with the start or the goal moved to one of its eight neighbours such a path is at least {least:.4} cells long, \
              so the proof {rests} on the printed ends"
-        )
-    }));
+        ));
+        let no_longer = Interval::new(0.0, beside.interval().high);
+        let is_rescued = turning_from_headings()
+            .into_par_iter()
+            .any(|varied| search.find(search.meant, search.turn.interval(), no_longer, varied).is_some());
+        let (is, rests) = if is_rescued { ("may be no", "rests") } else { ("is", "does not rest") };
+        because.push(format!(
+            "with a first move that turns from one of the eight headings such a path {is} longer than {}, so the proof {rests} \
+             on its turning from none",
+            beside.printed
+        ));
+    }
     Proof { is_possible: !is_refused, because, premises: search.premises(sums) }
 }
 
