@@ -9,6 +9,7 @@ use engine::space::cell::Cell;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -71,6 +72,7 @@ pub(super) fn read_queries(written: &Arc<Document>) -> Result<Placed, SettingsEr
         Some(Query { name: group.name.get_ref().clone(), start: start?, goal: goal? })
     };
     let queries: Vec<Query> = file.groups.iter().filter_map(query).collect();
+    faults.keep(all_in_degrees(&file.pose_deg, &document));
     for (place, message) in name::repeated(file.groups.iter().map(|group| group.name.get_ref().as_str())) {
         faults.add(document.error(file.groups[place].name.span(), message));
     }
@@ -79,6 +81,22 @@ pub(super) fn read_queries(written: &Arc<Document>) -> Result<Placed, SettingsEr
     }
     let places = file.groups.iter().map(|group| [group.from.span(), group.to.span()]).collect();
     faults.or(Some((queries, places)))
+}
+
+/// That some pose turns some joint farther than a turn in radians: an arm hardly moves in as many degrees.
+fn all_in_degrees(poses: &BTreeMap<String, Joints>, document: &Document) -> Result<(), SettingsError> {
+    let angles = poses.iter().flat_map(|(name, pose)| pose.iter().enumerate().map(move |at| (name, at)));
+    let farthest = angles.max_by(|(_, a), (_, b)| a.1.abs().total_cmp(&b.1.abs()));
+    let Some((name, (index, angle))) = farthest else { return Ok(()) };
+    let is_plain = poses.values().flatten().all(|angle| angle.fract() == 0.0);
+    if is_plain || angle.abs() > TAU {
+        return Ok(());
+    }
+    let message = format!(
+        "no pose turns a joint beyond {angle}°; are poses in radians? degrees are accepted ({angle} rad is {:.1}°)",
+        angle.to_degrees()
+    );
+    Err(document.error_at(&format!("pose_deg.{name}.{index}"), message))
 }
 
 /// That the arm can stand at all ends of queries in `cell`.
