@@ -83,17 +83,21 @@ pub(super) fn read_queries(written: &Arc<Document>) -> Result<Placed, SettingsEr
     faults.or(Some((queries, places)))
 }
 
-/// That some pose turns some joint farther than a turn in radians: an arm hardly moves in as many degrees.
+/// That poses are in degrees: some joint turns farther than a turn in radians, in every pose that turns half of its joints by more
+/// than 1, and in some pose of the file.
 fn all_in_degrees(poses: &BTreeMap<String, Joints>, document: &Document) -> Result<(), SettingsError> {
-    let angles = poses.iter().flat_map(|(name, pose)| pose.iter().enumerate().map(move |at| (name, at)));
-    let farthest = angles.max_by(|(_, a), (_, b)| a.1.abs().total_cmp(&b.1.abs()));
-    let Some((name, (index, angle))) = farthest else { return Ok(()) };
-    let is_plain = poses.values().flatten().all(|angle| angle.fract() == 0.0);
-    if is_plain || angle.abs() > TAU {
-        return Ok(());
-    }
+    let farthest = |pose: &Joints| {
+        let angles = pose.iter().copied().enumerate();
+        angles.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).expect("a pose has six angles")
+    };
+    let is_plain = |pose: &Joints| pose.iter().all(|angle| angle.fract() == 0.0);
+    let is_bent = |pose: &Joints| pose.iter().filter(|angle| angle.abs() > 1.0).count() >= pose.len() / 2;
+    let in_all = poses.values().all(|pose| farthest(pose).1.abs() <= TAU);
+    let mut small = poses.iter().filter(|(_, pose)| farthest(pose).1.abs() <= TAU && !is_plain(pose));
+    let Some((name, pose)) = small.find(|(_, pose)| in_all || is_bent(pose)) else { return Ok(()) };
+    let (index, angle) = farthest(pose);
     let message = format!(
-        "no pose turns a joint beyond {angle}°; are poses in radians? degrees are accepted ({angle} rad is {:.1}°)",
+        "pose `{name}` turns no joint beyond {angle}°; is it in radians? degrees are accepted ({angle} rad is {:.1}°)",
         angle.to_degrees()
     );
     Err(document.error_at(&format!("pose_deg.{name}.{index}"), message))

@@ -94,17 +94,21 @@ fn a_pose_that_seems_to_be_in_radians_is_asked_about() {
         "an angle of pose `A` is -1.5708; is it in radians? degrees are accepted (-1.5708 rad is -90.0°)";
     assert!(message.contains("groups.toml:2:9") && message.contains(asked), "{message}");
     // No right angle is among these.
-    let text = text.replace("0, -1.5708, 0, 0, 1.5708, 0", "2.1, -1.05, 1.3, -2, -1.2, 0.1");
-    let small = text.replace("0, -90, 0, 0, 90, 0", "0, -1, 0, 0, 1, 0");
-    std::fs::write(folder.path().join("groups.toml"), small).unwrap();
-    let refused = Posed::new(&settings("queries = 'groups.toml'"), &inputs(Some(folder.path())));
-    let message = refused.err().unwrap().to_string();
-    let asked =
-        "no pose turns a joint beyond 2.1°; are poses in radians? degrees are accepted (2.1 rad is 120.3°)";
-    assert!(message.contains("groups.toml:2:6") && message.contains(asked), "{message}");
-    std::fs::write(folder.path().join("groups.toml"), text).unwrap();
-    let message = Posed::new(&settings("queries = 'groups.toml'"), &inputs(Some(folder.path()))).err();
-    assert!(message.is_none_or(|error| !error.to_string().contains("in radians?")), "90 is in degrees");
+    let asked = "pose `A` turns no joint beyond 2.1°; is it in radians? degrees are accepted (2.1 rad is 120.3°)";
+    let pose = "0, -1.5708, 0, 0, 1.5708, 0";
+    for (small, other, is_asked) in [
+        ("2.1, -1.05, 1.3, -2, -1.2, 0.1", "0, -90, 0, 0, 90, 0", true),
+        ("2.1, 0, 0, 0, 0, 0", "0, -1, 0, 0, 1, 0", true),
+        ("2.1, 0, 0, 0, 0, 0", "0, -90, 0, 0, 90, 0", false),
+        ("2, -1, 1, -2, -1, 0", "0, -1, 0, 0, 1, 0", false),
+    ] {
+        let text = text.replace(pose, small).replace("0, -90, 0, 0, 90, 0", other);
+        std::fs::write(folder.path().join("groups.toml"), text).unwrap();
+        let refused = Posed::new(&settings("queries = 'groups.toml'"), &inputs(Some(folder.path())));
+        let message = refused.err().map_or_else(String::new, |error| error.to_string());
+        assert_eq!(message.contains(asked), is_asked, "{small}: {message}");
+        assert_eq!(message.contains("groups.toml:2:6"), is_asked, "{small}: {message}");
+    }
 }
 
 #[test]
