@@ -193,7 +193,7 @@ enum Freedom {
 /// A robot that was read.
 enum Loaded {
     /// By rows, or of six joints that turn.
-    Serial(Robot),
+    Serial(Box<Robot>),
     /// By a URDF file with other joints, and which of its links may touch.
     Open(base::robot::Robot, MayTouch),
 }
@@ -277,12 +277,12 @@ impl Spec {
         let file = self.located(&format!("robot.{index}.file"), &robot.file, inputs)?;
         let ending = file.extension().and_then(|ending| ending.to_str());
         let loaded = match (ending, &robot.srdf) {
-            (Some("toml"), None) => Robot::load(&file).map(Loaded::Serial),
+            (Some("toml"), None) => Robot::load(&file).map(|robot| Loaded::Serial(Box::new(robot))),
             (Some("urdf"), Some(srdf)) => {
                 let srdf = self.located(&format!("robot.{index}.srdf"), srdf, inputs)?;
                 let open = read_urdf(&file)?;
                 if open.joints.len() == AXES && open.joints.iter().all(|joint| joint.kind != Kind::Slides) {
-                    Robot::load_with_srdf(&file, &srdf).map(Loaded::Serial)
+                    Robot::load_with_srdf(&file, &srdf).map(|robot| Loaded::Serial(Box::new(robot)))
                 } else {
                     let may_touch = read_srdf(&srdf, &open)?;
                     Ok(Loaded::Open(open, may_touch))

@@ -141,7 +141,7 @@ fn polyhedra(path: &Path) -> Result<(Vec<Convex>, Support, Stills), SettingsErro
 }
 
 /// `part|obstacle` for parts that the scene can touch, then `part|part` in alphabetical order.
-fn pair_names(parts: &[(&str, bool)], stills: &Stills, self_pairs: &[[usize; 2]]) -> Vec<String> {
+fn pair_names(parts: &[(&str, bool)], stills: &[(String, Solid)], self_pairs: &[[usize; 2]]) -> Vec<String> {
     let exposed = parts.iter().filter(|(_, is_exposed)| *is_exposed);
     let outer = exposed.flat_map(|(part, _)| stills.iter().map(move |(still, _)| format!("{part}|{still}")));
     let own = self_pairs.iter().map(|pair| {
@@ -152,7 +152,7 @@ fn pair_names(parts: &[(&str, bool)], stills: &Stills, self_pairs: &[[usize; 2]]
 }
 
 /// The gaps of the same pairs in the same order, metres.
-fn gaps_m(parts: &[(Capsule, bool)], stills: &Stills, self_pairs: &[[usize; 2]]) -> Vec<f64> {
+fn gaps_m(parts: &[(Capsule, bool)], stills: &[(String, Solid)], self_pairs: &[[usize; 2]]) -> Vec<f64> {
     let exposed = parts.iter().filter(|(_, is_exposed)| *is_exposed);
     let to_still =
         |capsule: &Capsule, solid: &Solid| distance_segment_solid(&capsule.segment, solid) - capsule.radius;

@@ -28,6 +28,7 @@ impl Capsule {
     }
 
     /// The same where `frame` is.
+    #[must_use]
     pub fn placed(&self, frame: &Frame) -> Self {
         let [a, b] = [self.segment.a, self.segment.b].map(|end| frame.point(&end));
         Self { segment: Segment::new(a, b), radius: self.radius }
