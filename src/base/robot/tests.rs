@@ -220,6 +220,16 @@ const WRONG: &[(&str, &str, &str)] = &[
         "<link name=\"plate\"><capsule/></link>",
         "`link`: unknown key `capsule`; accepted: ",
     ),
+    (
+        "<sphere radius=\"0.1\"/>",
+        "<capsule radius=\"0.1\" length=\"1\"/>",
+        "/two.urdf:20:41: a solid is `capsule`; box, cylinder, sphere and mesh are accepted",
+    ),
+    (
+        "<axis xyz=\"0 0 2\"/>",
+        "<axle/><axis xyz=\"0 0 2\"/>",
+        "accepted: @name, @type, parent, child, origin, axis, limit, mimic, dynamics, safety_controller, calibration",
+    ),
     ("<box size", "<box scale=\"2\" size", "`box`: unknown key `@scale`; accepted: @size"),
     (
         "</robot>",

@@ -12,6 +12,7 @@ use crate::{
     },
 };
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned, did_you_mean};
+use base::units::seems_in_metres;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, de::IgnoredAny};
 use std::{collections::BTreeSet, ops::Range, path::Path};
@@ -189,8 +190,7 @@ fn tool_length_m(source: &Source, length_mm: &Spanned<f64>) -> Result<f64, Setti
         return Err(source.fault(&length_mm.span(), message));
     }
     // No tool is shorter than 2 mm, and few are longer than 2 m.
-    if (f64::MIN_POSITIVE..2.0).contains(&found) {
-        let message = format!("tool.length_mm is {found}; {}", in_metres(found, "is it"));
+    if let Some(message) = seems_in_metres("tool.length_mm", found) {
         return Err(source.fault(&length_mm.span(), message));
     }
     Ok(1e-3 * found)
