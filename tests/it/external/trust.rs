@@ -62,9 +62,9 @@ fn trust_is_remembered_until_a_program_changes_and_for_one_folder_alone() {
     is_refused(&bench, &["run", "./outside", "--record"]);
     bench.done(&["run", "./outside", "--record", "--trust"]);
     again(&bench);
-    bench.edit("outside/study.toml", "time_s = 0.5", "time_s = 0.6");
+    bench.edit("outside/study.toml", "time_s = 60.0", "time_s = 61.0");
     is_refused(&bench, &["run", "./outside"]);
-    bench.edit("outside/study.toml", "time_s = 0.6", "time_s = 0.5");
+    bench.edit("outside/study.toml", "time_s = 61.0", "time_s = 60.0");
     fs::create_dir(bench.at("other")).unwrap();
     fs::rename(bench.at("outside"), bench.at("other/outside")).unwrap();
     bench.write("outside/good.sh", &fs::read(bench.at("other/outside/good.sh")).unwrap());
