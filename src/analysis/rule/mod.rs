@@ -29,7 +29,7 @@ use proofs::proof::Proof;
 /// A rule: a criterion that selects no trial. Polylines only remember what other claims have asked.
 struct Rule<F>(F);
 
-impl<F: Fn(&Polylines) -> CriterionResult> Criterion for Rule<F> {
+impl<F: Fn(&Polylines, bool) -> CriterionResult> Criterion for Rule<F> {
     fn numbers(&self, _evidence: &Evidence<'_>) -> Vec<Number> {
         Vec::new()
     }
@@ -38,13 +38,13 @@ impl<F: Fn(&Polylines) -> CriterionResult> Criterion for Rule<F> {
         CriterionResult::default()
     }
 
-    fn proof(&self, polylines: &Polylines) -> Option<CriterionResult> {
-        Some((self.0)(polylines))
+    fn proof(&self, polylines: &Polylines, is_explained: bool) -> Option<CriterionResult> {
+        Some((self.0)(polylines, is_explained))
     }
 }
 
 /// The rule that finds this.
-fn rule<'a>(find: impl Fn(&Polylines) -> CriterionResult + 'a) -> Box<dyn Criterion + 'a> {
+fn rule<'a>(find: impl Fn(&Polylines, bool) -> CriterionResult + 'a) -> Box<dyn Criterion + 'a> {
     Box::new(Rule(find))
 }
 

@@ -16,6 +16,8 @@ pub struct Search<'a> {
     pub meant: Convention,
     /// How far to look, cells.
     pub longest: f64,
+    /// Whether reasons are given: they take most of the time, since they also say what the other convention and other ends give.
+    pub is_explained: bool,
     /// Gives the shortest polyline; it may remember what it has found.
     pub shortest: &'a (dyn Fn(&TurnQuery) -> Option<Polyline> + Sync),
 }
@@ -66,13 +68,18 @@ impl Search<'_> {
 
 /// Whether any polyline through cell centres has both the printed length and the printed turn sum.
 pub fn joint_length_turn(search: &Search<'_>, length: Print) -> Proof {
+    let sums = "its cost is its Euclidean length in cells; its turn sum adds one angle at every bend";
+    if !search.is_explained {
+        let is_possible =
+            search.find(search.meant, search.turn.interval(), length.interval(), AS_PRINTED).is_some();
+        return Proof { is_possible, because: Vec::new(), premises: search.premises(sums) };
+    }
     let mut because = Vec::new();
     let impossible = BOTH.map(|(convention, name)| {
         let (is_impossible, reasons) = both_impossible(search, length, convention, name);
         because.extend(reasons);
         is_impossible && convention == search.meant
     });
-    let sums = "its cost is its Euclidean length in cells; its turn sum adds one angle at every bend";
     Proof { is_possible: impossible == [false; 2], because, premises: search.premises(sums) }
 }
 
@@ -112,6 +119,14 @@ fn both_impossible(
 /// How long a polyline through cell centres with the printed turn sum is at least, beside another printed length. Refused if
 /// `is_shorter` says that the path is claimed to be shorter than that, and it cannot be.
 pub fn turn_needs_length(search: &Search<'_>, beside: Print, is_shorter: bool) -> Proof {
+    let sums = "lengths are Euclidean, in cells; a turn sum adds one angle at every bend";
+    if !search.is_explained {
+        let high = beside.interval().high;
+        let length = Interval::new(0.0, high.min(search.longest));
+        let found = search.find(search.meant, search.turn.interval(), length, AS_PRINTED);
+        let is_possible = !is_shorter || found.is_some_and(|found| found.length <= high);
+        return Proof { is_possible, because: Vec::new(), premises: search.premises(sums) };
+    }
     let mut because = Vec::new();
     let longer = BOTH.map(|(convention, name)| {
         let (is_longer, reason) = needed(search, beside, convention, name);
@@ -129,7 +144,6 @@ pub fn turn_needs_length(search: &Search<'_>, beside: Print, is_shorter: bool) -
              so the proof {rests} on the printed ends"
         )
     }));
-    let sums = "lengths are Euclidean, in cells; a turn sum adds one angle at every bend";
     Proof { is_possible: !is_refused, because, premises: search.premises(sums) }
 }
 
@@ -153,4 +167,43 @@ fn needed(search: &Search<'_>, beside: Print, convention: Convention, name: &str
          {or_further}"
     );
     (least[0].is_none_or(|least| least > beside.interval().high), text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::printed::Digits;
+    use crate::turns::shortest_polyline;
+
+    #[test]
+    fn what_is_refused_does_not_depend_on_whether_it_is_explained() {
+        let print = |text: &str, digits| Print { printed: text.parse().unwrap(), digits };
+        let mut seen = [false; 4];
+        for (text, length) in
+            [("45.00", "7.2"), ("45.00", "6.0"), ("90.00", "6.99"), ("81.87", "8.94"), ("30.00", "5.0")]
+        {
+            for meant in [Convention::Exterior, Convention::Interior] {
+                for digits in [Digits::Rounded, Digits::Truncated] {
+                    let both = [true, false].map(|is_explained| {
+                        let search = Search {
+                            ends: Ends { size: [8, 8], start: [0, 0], goal: [5, 3] },
+                            turn: print(text, digits),
+                            meant,
+                            longest: 9.0,
+                            is_explained,
+                            shortest: &shortest_polyline,
+                        };
+                        let length = print(length, digits);
+                        [joint_length_turn(&search, length), turn_needs_length(&search, length, true)]
+                            .map(|proof| proof.is_possible)
+                    });
+                    assert_eq!(both[0], both[1], "{text} {length} {meant:?} {digits:?}");
+                    let [joint, needs] = both[0];
+                    seen[usize::from(joint)] = true;
+                    seen[2 + usize::from(needs)] = true;
+                }
+            }
+        }
+        assert_eq!(seen, [true; 4], "an answer never came out");
+    }
 }
