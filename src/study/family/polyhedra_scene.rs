@@ -382,12 +382,21 @@ mod tests {
         robot = 'data/robots/aubo_i10.toml'\nbody = 'paper'\nscatter_cm = 5\n\
         queries = [{ start = [70, -46, 36], goal = [70, 41, 51] }]\n";
 
+    /// Start and goal of the study of drawn scenes, in the middle of their balls.
+    const DRAWN_ENDS: &str = "queries = [{ start = [61, -44, 40], goal = [61, 42, 46] }]";
+
     fn build(changes: &str, without: &[&str]) -> Result<Box<dyn Family>, String> {
         let mut table = PLAIN.parse::<Table>().unwrap();
         table.retain(|key, _| !without.contains(&key));
         table.extend(changes.parse::<Table>().unwrap());
         let inputs = Inputs { roots: vec![PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))] };
         (ENTRY.build)(&Settings::composed("plain", table), &inputs).map_err(|e| e.to_string())
+    }
+
+    /// The family of drawn scenes, with this `line`.
+    fn drawn(line: &str) -> Box<dyn Family> {
+        let scene = "scene = 'data/scenes/tang_drawn.toml'\nscatter_cm = 10";
+        build(&format!("{scene}\nline = '{line}'\n{DRAWN_ENDS}"), &[]).unwrap()
     }
 
     #[test]
@@ -448,16 +457,13 @@ mod tests {
 
     #[test]
     fn a_drawn_scene_changes_with_the_seed_alone_and_leaves_its_ends_free() {
-        let drawn = |line: &str| {
-            build(&format!("scene = 'data/scenes/tang_drawn.toml'\nline = '{line}'\nscatter_cm = 10\n"), &[])
-        };
-        let (any, blocked) = (drawn("any").unwrap(), drawn("blocked").unwrap());
+        let (any, blocked) = (drawn("any"), drawn("blocked"));
         let world = |family: &dyn Family, seed: u64| match family.prepare(seed).unwrap().world {
             engine::space::World::Polyhedra(world) => *world,
             _ => panic!("seed {seed}"),
         };
         let mut free_lines = 0;
-        for seed in 0..6 {
+        for seed in 0..20 {
             for family in [&any, &blocked] {
                 let (query, world) = (&family.queries_for(seed)[0], world(family.as_ref(), seed));
                 assert_eq!(*query, family.queries_for(seed)[0], "seed {seed}");
@@ -475,6 +481,28 @@ mod tests {
             free_lines += usize::from(!line(any.as_ref()));
         }
         assert!(free_lines > 0, "no line is free");
+    }
+
+    #[test]
+    fn the_scenes_that_the_cross_check_reads_are_those_that_the_study_draws() {
+        let vertices = |bodies: &[engine::geometry::Convex]| -> Vec<Vec3> {
+            bodies.iter().flat_map(|body| body.vertices().to_vec()).collect()
+        };
+        // The seeds of number 7 of the group `drawn` and number 4 of `drawn, blocked` of the study `drawn_scenes`.
+        for (file, line, seed) in [
+            ("tang_drawn_7", "any", 4_165_450_341_848_544_698),
+            ("tang_drawn_blocked_4", "blocked", 1_618_639_161_523_250_425),
+        ] {
+            let engine::space::World::Polyhedra(world) = drawn(line).prepare(seed).unwrap().world else {
+                panic!("{file}: no polyhedra");
+            };
+            let path = format!("{}/../../data/scenes/{file}.toml", env!("CARGO_MANIFEST_DIR"));
+            let written = parse_scene(&base::settings::Document::open(path.as_ref()).unwrap()).unwrap();
+            let (drawn, written) = (vertices(world.bodies()), vertices(&written.bodies));
+            let is_same = drawn.len() == written.len()
+                && drawn.iter().zip(&written).all(|(drawn, written)| (drawn - written).norm() < 1e-9);
+            assert!(is_same, "{file}: the corners are {drawn:?}");
+        }
     }
 
     #[test]
