@@ -127,7 +127,12 @@ fn both_impossible(
     } else {
         format!("but moving the {rescued} to a neighbour would allow it")
     };
-    let turning = turning_from_headings().into_par_iter().filter(|varied| pair(*varied).is_some());
+    // The search without a least length keeps much less, so it runs first.
+    let no_longer = Interval::new(0.0, length.interval().high);
+    let alone_from =
+        |varied: &Varied| search.find(convention, search.turn.interval(), no_longer, *varied).is_some();
+    let turning = turning_from_headings().into_par_iter().filter(alone_from);
+    let turning = turning.filter(|varied| pair(*varied).is_some());
     let turning: Vec<String> =
         turning.filter_map(|varied| varied.heading).map(|heading| format!("{heading:?}")).collect();
     let headings = if turning.is_empty() {
