@@ -195,7 +195,7 @@ enum Loaded {
     /// By rows, or of six joints that turn.
     Serial(Box<Robot>),
     /// By a URDF file with other joints, and which of its links may touch.
-    Open(base::robot::Robot, MayTouch),
+    Open(Box<base::robot::Robot>, MayTouch),
 }
 
 /// A cross-check as its paper poses it.
@@ -285,7 +285,7 @@ impl Spec {
                     Robot::load_with_srdf(&file, &srdf).map(|robot| Loaded::Serial(Box::new(robot)))
                 } else {
                     let may_touch = read_srdf(&srdf, &open)?;
-                    Ok(Loaded::Open(open, may_touch))
+                    Ok(Loaded::Open(Box::new(open), may_touch))
                 }
             }
             _ => {
