@@ -5,7 +5,7 @@ use super::{alive, bench, soon, soon_within};
 use crate::paper::Bench;
 use std::path::PathBuf;
 use std::process::{Child, Command};
-use std::time::Instant;
+use study::clock::now_ns;
 
 /// A run at work on one planner.
 struct AtWork {
@@ -173,10 +173,10 @@ fn whatever_a_planner_does_an_interrupt_ends_replan_with_all_its_planners() {
             let mut at_work = AtWork::start(name, &script.replace("77001", "77005"), "");
             at_work.await_planner(name);
             assert!(!at_work.has_ended(), "{name}: replan did not wait for its planner");
-            let begun = Instant::now();
+            let begun = now_ns();
             at_work.signal(signal);
             assert!(soon_within(GRANTED_S, || at_work.has_ended()), "{name}: replan goes on after {signal}");
-            eprintln!("{signal} {name}: {:.1} s", begun.elapsed().as_secs_f64());
+            eprintln!("{signal} {name}: {:.1} s", (now_ns() - begun) as f64 * 1e-9);
             assert_eq!(at_work.run.wait().unwrap().code(), Some(130), "{name} {signal}");
             let left = || [alive(&format!("outside/{name}.sh")), alive("sleep 77005")].concat();
             assert!(soon(|| left().is_empty()), "{name} {signal}: left alone: {:?}", left());
