@@ -8,7 +8,7 @@ mod cpu;
 
 use base::seed;
 use cpu::CpuTime;
-use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
+use criterion::{Criterion, criterion_group, criterion_main};
 use rand::RngExt as _;
 use replan_engine::sampling::Index;
 use rstar::RTree;
@@ -48,15 +48,17 @@ fn tree(count: usize) -> Vec<Config> {
 
 fn indexed(configs: &[Config]) -> Index {
     let mut index = Index::new(&[false; AXES]);
-    configs.iter().for_each(|config| {
+    for config in configs {
         index.add(config);
-    });
+    }
     index
 }
 
 fn in_rstar(configs: &[Config]) -> RTree<Config> {
     let mut tree = RTree::new();
-    configs.iter().for_each(|config| tree.insert(*config));
+    for config in configs {
+        tree.insert(*config);
+    }
     tree
 }
 
@@ -90,12 +92,8 @@ fn benches(c: &mut Criterion<CpuTime>) {
         group.bench_function("plain", |b| b.iter(|| plain(&configs, black_box(next()))));
         group.bench_function("rstar", |b| b.iter(|| rstar.nearest_neighbor(*black_box(next()))));
         if count < 1_000_000 {
-            group.bench_function("grow", |b| {
-                b.iter_batched(|| (), |()| indexed(&configs), BatchSize::PerIteration)
-            });
-            group.bench_function("rstar_grow", |b| {
-                b.iter_batched(|| (), |()| in_rstar(&configs), BatchSize::PerIteration);
-            });
+            group.bench_function("grow", |b| b.iter(|| indexed(&configs)));
+            group.bench_function("rstar_grow", |b| b.iter(|| in_rstar(&configs)));
         }
         group.finish();
     }

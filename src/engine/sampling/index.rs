@@ -33,6 +33,8 @@ pub struct Index {
     turn_on: Vec<bool>,
     /// All coordinates, point by point.
     points: Vec<f64>,
+    /// Which points are near nothing any more.
+    hidden: Vec<bool>,
     /// From the largest to the smallest, no two of a size.
     packs: Vec<Pack>,
     /// The points in no pack, by group, then by coordinate; what fills the last group is infinitely far.
@@ -60,12 +62,18 @@ struct Waiting {
 impl Index {
     /// An index without points; `turn_on` says which coordinates are angles that whole turns part from themselves.
     pub fn new(turn_on: &[bool]) -> Self {
-        Self { turn_on: turn_on.to_vec(), points: Vec::new(), packs: Vec::new(), newest: Vec::new() }
+        Self {
+            turn_on: turn_on.to_vec(),
+            points: Vec::new(),
+            hidden: Vec::new(),
+            packs: Vec::new(),
+            newest: Vec::new(),
+        }
     }
 
     /// How many points it has.
     pub fn count(&self) -> usize {
-        self.points.len() / self.turn_on.len()
+        self.hidden.len()
     }
 
     /// A point.
@@ -78,6 +86,7 @@ impl Index {
     pub fn add(&mut self, point: &[f64]) -> u32 {
         let (number, axes) = (self.count(), self.turn_on.len());
         self.points.extend_from_slice(point);
+        self.hidden.push(false);
         let lane = number % GROUP;
         if lane == 0 {
             self.newest.resize(self.newest.len() + axes, [f64::INFINITY; GROUP]);
@@ -96,6 +105,16 @@ impl Index {
             self.packs.push(Pack::new(numbers, &self.points, &self.turn_on));
         }
         number as u32
+    }
+
+    /// Hides a point: it keeps its number and is near nothing any more.
+    pub fn hide(&mut self, number: u32) {
+        self.hidden[number as usize] = true;
+    }
+
+    /// Whether a point is hidden.
+    pub fn is_hidden(&self, number: u32) -> bool {
+        self.hidden[number as usize]
     }
 
     /// The point nearest to a configuration, and how far it is; (0, infinity) without points.
@@ -125,7 +144,14 @@ impl Index {
     }
 
     /// Shows every point that is at most as far as `visit` last answered.
-    fn search(&self, config: &[f64], visit: impl FnMut(Rank) -> u64) {
+    fn search(&self, config: &[f64], mut visit: impl FnMut(Rank) -> u64) {
+        let mut last = f64::INFINITY.to_bits();
+        let visit = |rank: Rank| {
+            if !self.is_hidden(rank.1) {
+                last = visit(rank);
+            }
+            last
+        };
         dispatch!(level(), _simd => self.descend(config, visit));
     }
 

@@ -121,6 +121,27 @@ fn an_index_finds_what_measuring_every_point_finds_also_among_equally_far_ones()
 }
 
 #[test]
+fn what_is_cut_off_is_near_nothing_any_more() {
+    let local = plane();
+    let motions = Motions::new(&local);
+    let mut tree = Tree::new(&motions, &[0.0, 0.0]);
+    // Two branches of 600 nodes: one lies in packs, and both are reached over the root.
+    let branch = |tree: &mut Tree, y: f64| {
+        let first = tree.add(&[0.1, y], 0);
+        (1..600).fold(first, |parent, step| tree.add(&[f64::from(step) * 0.1, y], parent));
+        first
+    };
+    let [low, high] = [10.0, 20.0].map(|y| branch(&mut tree, y));
+    let at = [30.0, 11.0];
+    assert_eq!(tree.config(tree.nearest(&at).0), [30.0, 10.0]);
+    tree.cut(low);
+    assert_eq!(tree.config(tree.nearest(&at).0), [30.0, 20.0]);
+    assert!(tree.nearest_of(&at, 700).iter().all(|(node, _)| *node == 0 || *node >= high));
+    tree.cut(high);
+    assert_eq!((tree.nearest(&at).0, tree.nearest_of(&at, 700).len()), (0, 1));
+}
+
+#[test]
 fn simplified_paths_keep_their_ends_are_free_and_no_longer() {
     let local = plane();
     let rules = (

@@ -43,16 +43,31 @@ impl Tree {
         self.parents[node as usize] = parent;
     }
 
-    /// The configurations from the root to a node.
-    pub fn path(&self, node: u32) -> Vec<Vec<f64>> {
-        let mut path = vec![self.config(node).to_vec()];
+    /// The nodes from the root to a node.
+    pub fn way(&self, node: u32) -> Vec<u32> {
+        let mut way = vec![node];
         let mut at = node;
         while self.parent(at) != at {
             at = self.parent(at);
-            path.push(self.config(at).to_vec());
+            way.push(at);
         }
-        path.reverse();
-        path
+        way.reverse();
+        way
+    }
+
+    /// The configurations from the root to a node.
+    pub fn path(&self, node: u32) -> Vec<Vec<f64>> {
+        self.way(node).into_iter().map(|node| self.config(node).to_vec()).collect()
+    }
+
+    /// Cuts off a node, whose parent was never changed, with all that were reached over it: they are near nothing any more.
+    pub fn cut(&mut self, node: u32) {
+        self.configs.hide(node);
+        for later in node + 1..self.count() as u32 {
+            if self.configs.is_hidden(self.parent(later)) {
+                self.configs.hide(later);
+            }
+        }
     }
 
     /// The node nearest to a configuration, and how far it is; the older of two that are equally far.
