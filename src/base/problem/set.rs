@@ -79,6 +79,14 @@ impl ProblemSet {
         }
     }
 
+    /// The name of the folder that the problem of this number lies in; `None` outside archives.
+    pub fn folder(&self, index: usize) -> Option<&str> {
+        let Held::Archive(pairs) = &self.0 else { return None };
+        let pair = pairs.get(index)?;
+        let (path, _) = pair.scene.as_ref().or(pair.request.as_ref())?;
+        path.parent()?.file_name()?.to_str()
+    }
+
     /// The problem of this number, from 0.
     ///
     /// # Errors

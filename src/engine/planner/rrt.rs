@@ -16,7 +16,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "rrt",
     about: "a tree that grows from the start to samples until a step reaches the goal",
-    revision: 1,
+    revision: 2,
     needs: WorldKind::Roadmap,
     columns: COLUMNS,
     settings: Accepted::shape::<Rrt>(),
@@ -64,9 +64,13 @@ impl SampledSearch for Rrt {
             if motions.distance(&step, request.goal) <= self.range && motions.goes(&step, request.goal) {
                 let mut path = tree.path(node);
                 path.push(request.goal.to_vec());
-                path.dedup();
-                if motions.refused_leg(&path).is_none() {
-                    found.path = path;
+                match motions.refused_leg(&path) {
+                    None => {
+                        path.dedup();
+                        found.path = path;
+                    }
+                    // The last leg is of no tree; the node before the goal is cut off for it.
+                    Some(leg) => tree.cut(tree.way(node)[(leg + 1).min(path.len() - 2)]),
                 }
             }
         }

@@ -17,7 +17,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "rrt_connect",
     about: "two trees, from start and goal, that grow to samples and to each other; dynamic domain, balance and sampler as settings",
-    revision: 1,
+    revision: 2,
     needs: WorldKind::Roadmap,
     columns: COLUMNS,
     settings: Accepted::shape::<RrtConnect>(),
@@ -134,11 +134,13 @@ impl SampledSearch for RrtConnect {
             }
             let sample = motions.sample(&mut draw);
             if let Some(met) = self.grow(motions, &mut sides, own, &sample) {
-                let path = joined(&sides, own, met);
-                if motions.refused_leg(&path).is_none() {
+                let (path, ends) = joined(&sides, own, met);
+                let Some(leg) = motions.refused_leg(&path) else {
                     found.path = path;
                     break;
-                }
+                };
+                let (side, node) = ends[leg];
+                sides[side].tree.cut(node);
             }
         }
         found.nodes = sides.iter().map(|side| side.tree.count()).sum();
@@ -186,22 +188,49 @@ impl RrtConnect {
     }
 }
 
-/// The path from start to goal over a node of each tree, which are at one place.
-fn joined(sides: &[Side; 2], own: usize, [last, target]: [u32; 2]) -> Vec<Vec<f64>> {
-    let mut path = sides[own].tree.path(last);
-    path.pop();
-    let mut rest = sides[1 - own].tree.path(target);
-    rest.reverse();
-    path.extend(rest);
+/// The path from start to goal over a node of each tree, which are at one place; and of each leg the tree that it is of, and its node there
+/// that is farther from the root.
+fn joined(sides: &[Side; 2], own: usize, [last, target]: [u32; 2]) -> (Vec<Vec<f64>>, Vec<(usize, u32)>) {
+    let there = sides[own].tree.way(last);
+    let mut back = sides[1 - own].tree.way(target);
+    back.reverse();
+    let configs = |side: usize, way: &[u32]| -> Vec<Vec<f64>> {
+        way.iter().map(|node| sides[side].tree.config(*node).to_vec()).collect()
+    };
+    let mut path = [configs(own, &there[..there.len() - 1]), configs(1 - own, &back)].concat();
+    let ends = there[1..].iter().map(|node| (own, *node));
+    let mut ends: Vec<_> = ends.chain(back[..back.len() - 1].iter().map(|node| (1 - own, *node))).collect();
     if own == 1 {
         path.reverse();
+        ends.reverse();
     }
-    path
+    (path, ends)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::space::roadmap::{Local, PlaneMap};
+
+    #[test]
+    fn each_leg_of_a_joined_path_has_the_node_that_its_tree_loses_if_it_is_refused() {
+        let local = Local::Plane(PlaneMap::new([100.0, 100.0], Vec::new()));
+        let motions = Motions::new(&local);
+        let mut sides = [[0.0, 0.0], [90.0, 0.0]].map(|end| Side::new(&motions, &end));
+        let last = (1..=3).fold(0, |parent, step| sides[0].add(&[f64::from(step) * 20.0, 0.0], parent));
+        let other = sides[1].add(&[75.0, 0.0], 0);
+        let target = sides[1].add(&[60.0, 0.0], other);
+        for (own, met) in [(0, [last, target]), (1, [target, last])] {
+            let (path, ends) = joined(&sides, own, met);
+            let along: Vec<f64> = path.iter().map(|config| config[0]).collect();
+            assert_eq!(along, [0.0, 20.0, 40.0, 60.0, 75.0, 90.0]);
+            assert_eq!(ends.len(), 5);
+            for (leg, (side, node)) in ends.into_iter().enumerate() {
+                let far = sides[side].tree.config(node)[0];
+                assert_eq!(far, along[if side == 0 { leg + 1 } else { leg }], "leg {leg}, own tree {own}");
+            }
+        }
+    }
 
     #[test]
     fn the_radius_of_a_node_is_set_by_its_first_failed_step_and_then_follows_its_steps() {

@@ -5,6 +5,7 @@
 //! clock; a run is decided by its settings and its seed.
 
 mod draw;
+mod index;
 mod motions;
 mod simplify;
 #[cfg(test)]
@@ -12,6 +13,7 @@ mod tests;
 mod tree;
 
 pub use draw::{Draw, DrawSetting};
+pub use index::Index;
 pub use motions::Motions;
 pub use simplify::{BSpline, Operation, Reduce, simplify};
 pub use tree::Tree;

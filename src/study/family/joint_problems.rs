@@ -13,6 +13,7 @@ use base::ignored::ignored_note;
 use base::problem::{Expected, Problem, ProblemSet};
 use base::robot::{Robot, read_urdf};
 use base::settings::{Accepted, Faults, Settings, SettingsError};
+use base::solid::{Form, Pose, Solid};
 use engine::planner::{Counts, Invalid, Value};
 use engine::space::roadmap::{Counted, Local, Near};
 use engine::space::{JointSpace, SelfContact, Support, SupportEntry, WorldKind};
@@ -73,6 +74,11 @@ struct JointProblems {
     /// How far a joint may move between two configurations that are checked; a metre of a joint that slides counts as a radian.
     #[schemars(range(min = 0.1, max = 180.0))]
     step_deg: f64,
+    /// What stands for cylinders of the problems; prisms if absent.
+    cylinders: Option<CylinderSetting>,
+    /// The beginning of the names of those folders of an archive in which boxes stand for cylinders instead; none do if absent. It is read
+    /// under `capsules` alone.
+    boxes_in: Option<String>,
     /// How files that are not in the repository are brought and known.
     archive: Option<Archive>,
 }
@@ -86,6 +92,15 @@ enum SelfContactSetting {
     Neighbours,
     /// Those that the SRDF file says.
     Srdf,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum CylinderSetting {
+    /// Prisms of 24 sides around them.
+    Prisms,
+    /// The same with a ball about the middle of each end.
+    Capsules,
 }
 
 /// Files that a command brings: while they are missing, stored trials stay readable and no new ones run.
@@ -108,6 +123,8 @@ struct Set {
     contact: SelfContact,
     support: Support,
     step_rad: f64,
+    cylinders: CylinderSetting,
+    boxes_in: Option<String>,
     queries: [Query; 1],
     notes: Vec<String>,
     inputs: Vec<PathBuf>,
@@ -172,6 +189,8 @@ fn build(settings: &Settings, inputs: &Inputs) -> Result<Box<dyn Family>, Settin
         contact,
         support,
         step_rad,
+        cylinders: read.cylinders.unwrap_or(CylinderSetting::Prisms),
+        boxes_in: read.boxes_in,
         queries,
         notes,
         inputs,
@@ -226,6 +245,24 @@ impl JointProblems {
     }
 }
 
+/// What stands for a solid where cylinders are capsules, or boxes.
+fn closed(solid: Solid, as_boxes: bool) -> Vec<Solid> {
+    let Form::Cylinder(radius_m, length_m) = solid.form else { return vec![solid] };
+    if as_boxes {
+        return vec![Solid { form: Form::Box([radius_m, radius_m, 0.5 * length_m]), ..solid }];
+    }
+    let ball = |end: f64| {
+        let origin_m = solid.pose.point([0.0, 0.0, 0.5 * end * length_m]);
+        Solid {
+            name: solid.name.clone(),
+            pose: Pose { origin_m, ..solid.pose },
+            form: Form::Sphere(radius_m),
+        }
+    };
+    let [bottom, top] = [-1.0, 1.0].map(ball);
+    vec![solid, bottom, top]
+}
+
 impl Set {
     fn problem(&self, seed: u64) -> Result<Problem, Invalid> {
         let expected = Expected {
@@ -234,7 +271,14 @@ impl Set {
             joints: self.robot.joints.iter().map(|joint| joint.name.as_str()).collect(),
         };
         let index = usize::try_from(seed).unwrap_or(usize::MAX);
-        self.problems.problem(index, &expected).map_err(|error| Invalid(error.to_string()))
+        let problem = self.problems.problem(index, &expected).map_err(|error| Invalid(error.to_string()))?;
+        if self.cylinders == CylinderSetting::Prisms {
+            return Ok(problem);
+        }
+        let folder = self.problems.folder(index).unwrap_or_default();
+        let as_boxes = self.boxes_in.as_ref().is_some_and(|begin| folder.starts_with(begin));
+        let obstacles = problem.obstacles.into_iter().flat_map(|solid| closed(solid, as_boxes)).collect();
+        Ok(Problem { obstacles, ..problem })
     }
 
     /// The robot among the obstacles of a problem.

@@ -117,3 +117,51 @@ fn files_that_sums_pin_may_be_missing_and_must_be_what_the_sums_say() {
     let unknown = built(&pinned, &inputs).err().unwrap();
     assert!(unknown.contains("`sums` has no sum for `nod.urdf`"), "{unknown}");
 }
+
+/// One scene and one request as an archive, in this folder.
+fn archive(folder: &str) -> Vec<u8> {
+    let scene = r"
+robot_model_name: nod
+world:
+  collision_objects:
+    - id: can
+      primitives: [{type: cylinder, dimensions: [0.2, 0.2]}]
+      primitive_poses: [{position: [0, 0, 1.75], orientation: [0, 0, 0, 1]}]
+";
+    let request = r"
+start_state: {joint_state: {name: [one, two], position: [0, 0]}}
+goal_constraints: [{joint_constraints: [{joint_name: one, position: 1.2}, {joint_name: two, position: 0}]}]
+";
+    let mut bytes = Vec::new();
+    for (name, text) in [("scene0001.yaml", scene), ("request0001.yaml", request)] {
+        let mut header = [0; 512];
+        for (at, field) in [(0, format!("{folder}/{name}")), (124, format!("{:011o}", text.len()))] {
+            header[at..at + field.len()].copy_from_slice(field.as_bytes());
+        }
+        header[156] = b'0';
+        bytes.extend(header);
+        bytes.extend(text.as_bytes());
+        bytes.resize(bytes.len().next_multiple_of(512), 0);
+    }
+    bytes
+}
+
+/// Between the highest ball of the robot, up to 1.6 m, and the lower end of the can at 1.65 m there is room; a ball of 0.2 m about that end
+/// fills it.
+#[test]
+fn balls_close_the_ends_of_cylinders_where_they_are_capsules_but_not_where_boxes_stand_for_them() {
+    let (folder, inputs) = folder("");
+    let archived = SETTINGS.replace("set.json", "set.tar");
+    for (name, cylinders, valid, solids) in [
+        ("can_nod", "", 1.0, 1),
+        ("can_nod", "cylinders = \"prisms\"\nboxes_in = \"can\"", 1.0, 1),
+        ("can_nod", "cylinders = \"capsules\"", 0.0, 3),
+        ("can_nod", "cylinders = \"capsules\"\nboxes_in = \"box\"", 0.0, 3),
+        ("box_nod", "cylinders = \"capsules\"\nboxes_in = \"box\"", 1.0, 1),
+    ] {
+        fs::write(folder.path().join("set.tar"), archive(name)).unwrap();
+        let family = built(&format!("{archived}{cylinders}"), &inputs).unwrap();
+        let found = (family.known(0)["valid_problems"].as_f64(), family.cells());
+        assert_eq!(found, (valid, solids + 2), "{name}, {cylinders}");
+    }
+}
