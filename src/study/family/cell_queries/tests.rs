@@ -94,7 +94,8 @@ fn a_pose_that_seems_to_be_in_radians_is_asked_about() {
         "an angle of pose `A` is -1.5708; is it in radians? degrees are accepted (-1.5708 rad is -90.0°)";
     assert!(message.contains("groups.toml:2:9") && message.contains(asked), "{message}");
     // No right angle is among these.
-    let asked = "pose `A` turns no joint beyond 2.1°; is it in radians? degrees are accepted (2.1 rad is 120.3°)";
+    let asked =
+        "pose `A` turns no joint beyond 2.1°; is it in radians? degrees are accepted (2.1 rad is 120.3°)";
     let pose = "0, -1.5708, 0, 0, 1.5708, 0";
     for (small, other, is_asked) in [
         ("2.1, -1.05, 1.3, -2, -1.2, 0.1", "0, -90, 0, 0, 90, 0", true),
