@@ -13,8 +13,8 @@ use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use tried::{
-    COUNTING, CUT_IN, DRIFT, FED_BY, FOLLOWING, LOOK_AT_POINTS, OFF, SETTINGS, WITHOUT_TRACES,
-    is_among, names,
+    COUNTING, CUT_IN, DRIFT, FED_BY, FOLLOWING, LOOK_AT_POINTS, OFF, SETTINGS, WITHOUT_TRACES, is_among,
+    names,
 };
 
 const PLENTY: u64 = 100_000;
