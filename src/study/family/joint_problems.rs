@@ -364,7 +364,7 @@ impl Family for Set {
         let refused = refused.first().map(|first| {
             let first = first.lines().next().unwrap_or_default();
             format!(
-                "{} of {count} problems are refused and count as invalid; the first: {first}",
+                "refused problems, which count as invalid: {} of {count}; the first: {first}",
                 refused.len()
             )
         });
