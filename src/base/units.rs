@@ -11,9 +11,21 @@ const CERTAIN_DIGITS: usize = 3;
 /// A tool, a block or a way is longer.
 const SHORT_MM: f64 = 2.0;
 
+/// No link or obstacle has a smaller radius, and neighbours are farther apart.
+const THIN_MM: f64 = 1.0;
+
 /// The message about a length under the key `key` that seems to be in metres: it is above 0 and shorter than two millimetres.
 pub fn seems_in_metres(key: &str, length_mm: f64) -> Option<String> {
-    (f64::MIN_POSITIVE..SHORT_MM).contains(&length_mm).then(|| {
+    below(SHORT_MM, key, length_mm)
+}
+
+/// The message about a `radius_mm` that seems to be in metres: it is above 0 and below a millimetre.
+pub fn radius_in_metres(radius_mm: f64) -> Option<String> {
+    below(THIN_MM, "radius_mm", radius_mm)
+}
+
+fn below(least_mm: f64, key: &str, length_mm: f64) -> Option<String> {
+    (f64::MIN_POSITIVE..least_mm).contains(&length_mm).then(|| {
         format!(
             "{key} is {length_mm}; is it in metres? millimetres are accepted ({length_mm} m is {} mm)",
             length_mm * 1e3
@@ -84,6 +96,11 @@ mod tests {
             [0.0, 2.0, 150.0].map(|length_mm| seems_in_metres("tool_mm", length_mm)),
             [None, None, None]
         );
+        assert_eq!(
+            radius_in_metres(0.075).unwrap(),
+            "radius_mm is 0.075; is it in metres? millimetres are accepted (0.075 m is 75 mm)"
+        );
+        assert_eq!([-1.0, 0.0, 1.0, 75.0].map(radius_in_metres), [None, None, None, None]);
         let message = seems_in_radians("yaw_deg", &["1.5708".parse().unwrap()]).unwrap().1;
         assert_eq!(
             message,

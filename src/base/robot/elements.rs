@@ -20,6 +20,9 @@ pub(super) fn parsed(document: &Document) -> Result<roxmltree::Document<'_>, Set
         let at = parsed_to(document.text(), error.pos());
         match &error {
             Error::UnknownNamespace(prefix, _) if prefix == "xacro" => xacro(&at),
+            Error::DtdDetected => {
+                source.fault(&at, "a document type, `<!DOCTYPE`, is given; XML without one is accepted")
+            }
             _ => source.fault(&at, format!("this is no XML: {error}")),
         }
     })?;

@@ -77,6 +77,11 @@ fn welded_links_are_one_and_everything_is_placed_in_the_frame_of_its_joint() {
 const WRONG: &[(&str, &str, &str)] = &[
     ("</robot>", "</robo>", "/two.urdf:27:1: this is no XML: expected 'robot' tag, not 'robo' at 27:1"),
     (
+        "<robot name=\"two\">",
+        "<!DOCTYPE robot [<!ENTITY w \"0.2\">]><robot name=\"two\">",
+        "a document type, `<!DOCTYPE`, is given; XML without one is accepted",
+    ),
+    (
         "size=\"0.2 0.2 0.1\"",
         "size=\"${w} 0.2 0.1\"",
         "/two.urdf:4:47: this is xacro; what `xacro` makes of it is accepted",

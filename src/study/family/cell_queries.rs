@@ -243,8 +243,10 @@ impl CellQueries {
         if !self.obstacles {
             return Ok(scene.cleared());
         }
-        let raised =
-            |scene: Scene, (name, height_mm): (&String, &f64)| scene.with_height(name, height_mm * 1e-3);
+        let raised = |scene: Scene, (name, height_mm): (&String, &f64)| {
+            let in_metres = seems_in_metres(&format!("heights_mm.{name}"), *height_mm);
+            in_metres.map_or_else(|| scene.with_height(name, height_mm * 1e-3), Err)
+        };
         self.heights_mm.iter().try_fold(scene, raised)
     }
 
@@ -321,8 +323,7 @@ impl Posed {
     fn new(settings: &Settings, inputs: &Inputs) -> Result<Self, SettingsError> {
         let read: CellQueries = settings.read()?;
         let CellQueries { radius_mm, radius_deg, nearest, .. } = read;
-        let radius_mm = radius_mm.map(|radius_mm| radius_mm * read.times());
-        let near = Neighbours { radius_mm, radius_deg, nearest }.rule(settings)?;
+        let near = Neighbours { radius_mm, radius_deg, nearest }.rule(settings, read.times())?;
         let mut faults = Faults::default();
         for (key, angle_deg) in [("jump_deg", read.jump_deg), ("turn_deg", read.turn_deg)] {
             let in_radians = seems_in_radians(key, &[angle_deg]);

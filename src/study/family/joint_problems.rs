@@ -350,9 +350,11 @@ impl Family for Set {
     fn notes(&self) -> Vec<String> {
         let (mut notes, mut ignored, mut refused) = (BTreeSet::new(), BTreeSet::new(), Vec::new());
         let count = self.problems.count();
+        let mut called_invalid = 0;
         for index in 0..count as u64 {
             match self.problem(index) {
                 Ok(problem) => {
+                    called_invalid += u64::from(!problem.is_valid);
                     notes.extend(problem.notes);
                     ignored.extend(problem.ignored);
                 }
@@ -366,8 +368,16 @@ impl Family for Set {
                 refused.len()
             )
         });
+        let called_invalid = (called_invalid > 0).then(|| {
+            format!("the set calls {called_invalid} of {count} problems invalid; they count as such")
+        });
         let renamed = renamed(self.robot_name.as_deref(), &self.robot);
-        let of_problems = notes.into_iter().chain(ignored_note(&ignored)).chain(renamed).chain(refused);
+        let of_problems = notes
+            .into_iter()
+            .chain(ignored_note(&ignored))
+            .chain(renamed)
+            .chain(called_invalid)
+            .chain(refused);
         let of_problems = of_problems.map(|note| format!("{}: {note}", self.problem_file));
         self.notes.iter().cloned().chain(of_problems).collect()
     }

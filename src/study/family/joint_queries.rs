@@ -117,7 +117,7 @@ impl Posed {
     fn new(settings: &Settings, inputs: &Inputs) -> Result<Self, SettingsError> {
         let read: JointQueries = settings.read()?;
         let JointQueries { radius_mm, radius_deg, nearest, .. } = read;
-        let near = Neighbours { radius_mm, radius_deg, nearest }.rule(settings)?;
+        let near = Neighbours { radius_mm, radius_deg, nearest }.rule(settings, 1.0)?;
         let mut faults = Faults::default();
         let robot = faults.keep(input(settings, inputs, "robot", &read.robot, read_urdf));
         let expected = robot.as_ref().map(|(_, robot)| Expected {

@@ -50,10 +50,21 @@ fn numbers_that_cannot_be_are_refused_by_name() {
         ("speed = { tool_mm_s = -1, acceleration_mm_s2 = 1 }", ["tool_mm_s` is -1", "above 0"]),
         ("tool_mm = 0", ["tool_mm", "capsule"]),
         ("tool_mm = 0.15", ["tool_mm is 0.15", "is it in metres? millimetres are accepted"]),
+        (
+            "radius_mm = 0.5",
+            ["radius_mm is 0.5", "is it in metres? millimetres are accepted (0.5 m is 500 mm)"],
+        ),
         ("turn_deg = 3.14159", ["turn_deg is 3.14159", "is it in radians? degrees are accepted"]),
         ("scene = 'data/none.toml'", ["data/none.toml", "does not exist"]),
         ("radius = 3", ["radius", "radius_mm"]),
         ("region = 'half'", ["half", "around_poses"]),
+        (
+            "heights_mm = { 'ground obstacle' = 0.42 }",
+            [
+                "heights_mm.ground obstacle is 0.42",
+                "is it in metres? millimetres are accepted (0.42 m is 420 mm)",
+            ],
+        ),
         ("heights_mm = { storage = 9 }", ["no box `storage`", "ground obstacle"]),
     ] {
         let message = Posed::new(&settings(over), &inputs(None)).err().expect(over).to_string();
