@@ -63,9 +63,18 @@ pub fn is_living(pid: i32) -> bool {
     Pid::from_raw(pid).is_some_and(|pid| test_kill_process(pid) != Err(Errno::SRCH))
 }
 
-/// The numbers of processes in a message.
-pub fn listed(processes: &[i32]) -> String {
-    processes.iter().map(i32::to_string).collect::<Vec<_>>().join(", ")
+/// Names the processes that are `left` on standard error.
+pub fn name_survivors(left: &[i32]) {
+    if let Some(message) = survivors(left) {
+        eprintln!("{message}");
+    }
+}
+
+/// That processes are `left`; nothing if none is.
+fn survivors(left: &[i32]) -> Option<String> {
+    let listed: Vec<String> = left.iter().map(i32::to_string).collect();
+    let named = || format!("replan: processes of planners that could not be ended: {}", listed.join(", "));
+    (!left.is_empty()).then(named)
 }
 
 /// Kills the planner `root` and all its descendants; those that survive.
@@ -152,6 +161,13 @@ mod tests {
     use super::*;
     use std::os::unix::process::CommandExt as _;
     use std::process::Command;
+
+    #[test]
+    fn survivors_are_named_by_number() {
+        let message = "replan: processes of planners that could not be ended: 7, 11";
+        assert_eq!(survivors(&[7, 11]).as_deref(), Some(message));
+        assert_eq!(survivors(&[]), None);
+    }
 
     #[test]
     fn without_proc_a_group_is_seen_until_its_last_process_is_killed() {

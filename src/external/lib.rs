@@ -20,7 +20,7 @@ pub mod world;
 
 pub use answer::{MOST_QUESTIONS, QuestionCounts, Space, Unanswered};
 pub use describe::describe;
-pub use end::{end_planners, is_living, listed};
+pub use end::{end_planners, is_living, name_survivors};
 pub use interrupt::{interrupt, is_interrupted};
 pub use linux::launcher;
 pub use process::{Clock, Process, Program, Start, read_message};

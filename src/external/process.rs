@@ -1,6 +1,6 @@
 //! A running planner: its program, its pipes, and the limits that hold for it.
 
-use super::end::end_all;
+use super::end::{end_all, name_survivors};
 use super::interrupt::{self, MARK, guard};
 use super::launch::launch;
 use super::linux::close_control_group;
@@ -238,10 +238,7 @@ impl Process {
 
 impl Drop for Process {
     fn drop(&mut self) {
-        let left = end_all(&mut self.child, &self.mark);
-        if !left.is_empty() {
-            eprintln!("processes of a planner that could not be ended: {}", crate::end::listed(&left));
-        }
+        name_survivors(&end_all(&mut self.child, &self.mark));
         close_control_group(&self.mark);
         interrupt::forget(&self.mark);
     }

@@ -4,8 +4,19 @@ use super::scripts::Case;
 use super::{alive, bench, soon, soon_within};
 use crate::paper::Bench;
 use std::path::PathBuf;
-use std::process::{Child, Command};
+use std::process::{Child, Command, Stdio};
 use study::clock::now_ns;
+
+const RUN: [&str; 3] = ["run", "./outside", "--trust"];
+
+/// A paper with one planner, which is waited for for an hour.
+fn patient(name: &'static str, script: &str) -> Bench {
+    let script = script.to_owned().leak();
+    let bench = bench(&[&Case { name, script, status: "", reason: "" }]);
+    bench.edit("outside/study.toml", "time_s = 60.0", "time_s = 3600.0");
+    bench.edit("outside/study.toml", "output_mb = 4", "output_mb = 1000");
+    bench
+}
 
 /// A run at work on one planner.
 struct AtWork {
@@ -16,11 +27,8 @@ struct AtWork {
 impl AtWork {
     /// Waits until the planner has made the file `ready` in the folder that it was started in.
     fn start(name: &'static str, script: &str, control_groups: &str) -> Self {
-        let script = script.to_owned().leak();
-        let bench = bench(&[&Case { name, script, status: "", reason: "" }]);
-        bench.edit("outside/study.toml", "time_s = 60.0", "time_s = 3600.0");
-        bench.edit("outside/study.toml", "output_mb = 4", "output_mb = 1000");
-        let mut command = bench.command(&["run", "./outside", "--trust"]);
+        let bench = patient(name, script);
+        let mut command = bench.command(&RUN);
         let run = command.env("REPLAN_CONTROL_GROUPS", control_groups).spawn().unwrap();
         Self { bench, run }
     }
@@ -132,6 +140,43 @@ fn where_there_are_control_groups_nothing_outlives_a_replan_that_is_killed() {
     let root = mounts.lines().find(|line| line.contains(" cgroup2 ")).unwrap().split(' ').nth(1).unwrap();
     let place = format!("{root}{}", group.display());
     assert!(soon(|| !std::path::Path::new(&place).exists()), "{place} is left");
+}
+
+/// Starts a process of another user, and waits until it is one.
+const OF_ANOTHER: &str = "hello; query; setpriv --reuid=65534 --clear-groups sleep 600.01 & another=$!
+  until grep -q 'Uid:.65534' /proc/$another/status; do sleep 0.01; done; echo $another > another
+  : > ready";
+
+#[test]
+fn processes_that_replan_may_not_kill_are_named_at_the_end_and_after_an_interrupt() {
+    let without_right = ["--bounding-set=-kill", "setpriv", "--reuid=65534", "--clear-groups", "true"];
+    if !Command::new("setpriv").args(without_right).status().is_ok_and(|status| status.success()) {
+        eprintln!("no process of another user can be started here: that survivors are named is not tested");
+        return;
+    }
+    for (name, then, code) in [("done", "straight; query", 0), ("at-work", "sleep 600.02", 130)] {
+        let bench = patient(name, &format!("{OF_ANOTHER}; {then}"));
+        let replan = bench.command(&RUN);
+        let mut run = Command::new("setpriv");
+        run.arg(without_right[0]).arg(replan.get_program()).args(RUN).current_dir(bench.at(""));
+        run.env("XDG_STATE_HOME", bench.at("state")).env("REPLAN_CONTROL_GROUPS", "off");
+        let run = run.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        let at_work = AtWork { bench, run };
+        at_work.await_planner(name);
+        if code == 130 {
+            at_work.signal("INT");
+        }
+        let AtWork { bench, run } = at_work;
+        let output = bench.output(&run.wait_with_output().unwrap());
+        let another = std::fs::read_to_string(bench.at("another")).unwrap();
+        let survivors = alive("sleep 600.01");
+        end_all("sleep 600.01");
+        assert_eq!(output.code, Some(code), "{}", output.err);
+        assert_eq!(survivors, ["sleep 600.01 "], "it was killed");
+        let named = format!("replan: processes of planners that could not be ended: {another}");
+        assert!(output.err.contains(&named), "{named}{}", output.err);
+        assert!(soon(|| alive("sleep 600.02").is_empty()), "{name}: one that can be killed was not");
+    }
 }
 
 /// Ends what a test has started and replan cannot end.
