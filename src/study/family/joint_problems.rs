@@ -368,9 +368,8 @@ impl Family for Set {
                 refused.len()
             )
         });
-        let called_invalid = (called_invalid > 0).then(|| {
-            format!("the set calls {called_invalid} of {count} problems invalid; they count as such")
-        });
+        let called_invalid = (called_invalid > 0)
+            .then(|| format!("problems that the set calls invalid: {called_invalid} of {count}"));
         let renamed = renamed(self.robot_name.as_deref(), &self.robot);
         let of_problems = notes
             .into_iter()

@@ -56,7 +56,6 @@ fn each_problem_is_an_instance_and_what_is_wrong_with_one_is_counted() {
     let counted = ["valid_problems", "set_problems"].map(|name| known[name].as_f64());
     assert_eq!(counted, [1.0, 4.0]);
     let notes = family.notes();
-    let notes = family.notes();
     let [ignored, called, refused] = &notes[..] else { panic!("{notes:?}") };
     assert_eq!(ignored, "set.json: ignored keys: `index`; docs/FILES.md has the reasons");
     assert_eq!(called, "set.json: problems that the set calls invalid: 1 of 4");
