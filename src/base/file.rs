@@ -24,6 +24,19 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     read_all(&mut File::open(path)?)
 }
 
+/// How a message goes on that begins with the name of a file that is not there.
+pub fn missing(path: &Path) -> &'static str {
+    let mut at = path.to_owned();
+    let mut follows = || std::fs::read_link(&at).map(|to| at = at.with_file_name("").join(to)).is_ok();
+    // Systems follow 40 links or fewer.
+    let followed = (0..40).take_while(|_| follows()).count();
+    match followed {
+        0 => "does not exist",
+        40 => "is a link, and links go in a circle",
+        _ => "is a link to a file that does not exist",
+    }
+}
+
 /// As [`read`], as text: see [`text::decoded`].
 ///
 /// # Errors
@@ -72,6 +85,20 @@ mod tests {
         assert!(read(folder.path()).is_err(), "a folder");
         let message = read(Path::new("/dev/zero")).unwrap_err().to_string();
         assert_eq!(message, "it is a device, a pipe or a socket; a regular file is accepted");
+    }
+
+    #[test]
+    fn links_that_lead_nowhere_are_no_missing_files() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        for (to, link) in
+            [("itself", "itself"), ("there", "here"), ("here", "there"), ("gone", "last"), ("last", "first")]
+        {
+            std::os::unix::fs::symlink(to, at(link)).unwrap();
+        }
+        let said = ["itself", "here", "first", "gone"].map(|name| missing(&at(name)));
+        let circle = "is a link, and links go in a circle";
+        assert_eq!(said, [circle, circle, "is a link to a file that does not exist", "does not exist"]);
     }
 
     #[test]

@@ -43,12 +43,22 @@ pub struct Problem {
     pub start: Ended,
     /// The goals, at least one.
     pub goals: Vec<Ended>,
+    /// What it or its file calls the robot.
+    pub robot: Option<String>,
     /// Whether the set calls it valid; what says nothing of it is.
     pub is_valid: bool,
     /// What a reader of results should know of how it was taken, a sentence each.
     pub notes: Vec<String>,
     /// The keys of its file that are ignored.
     pub ignored: BTreeSet<String>,
+}
+
+impl Problem {
+    /// One of which nothing was seen beside what is planned.
+    fn new(obstacles: Vec<Solid>, start: Ended, goals: Vec<Ended>) -> Self {
+        let (notes, ignored) = (Vec::new(), BTreeSet::new());
+        Self { obstacles, start, goals, robot: None, is_valid: true, notes, ignored }
+    }
 }
 
 /// An end of a problem, and where it stands in the file.
@@ -120,6 +130,11 @@ impl ProblemFile {
         }
     }
 
+    /// `message` about the bytes `at` of the file.
+    pub(super) fn fault(&self, at: Range<usize>, message: String) -> SettingsError {
+        self.document.error(at, message)
+    }
+
     /// The problem number `index`, from 0, of the set called `set`; of the only set, if none is named. Starts and goals are in
     /// the order of the robot's joints; without a robot nothing is checked of them.
     ///
@@ -184,6 +199,7 @@ fn check_robot(reader: Reader<'_>, root: &Node, key: &str, robot: &str) -> Resul
     let plain = |name: &str| name.replace(['_', '-'], "").to_lowercase();
     let found = reader.yaml.word(node)?;
     if plain(robot) == plain(found) {
+        reader.seen.borrow_mut().robot = Some(found.to_owned());
         return Ok(());
     }
     let found = brief(found);

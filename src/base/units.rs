@@ -19,9 +19,17 @@ pub fn seems_in_metres(key: &str, length_mm: f64) -> Option<String> {
     below(SHORT_MM, key, length_mm)
 }
 
-/// The message about a `radius_mm` that seems to be in metres: it is above 0 and below a millimetre.
-pub fn radius_in_metres(radius_mm: f64) -> Option<String> {
-    below(THIN_MM, "radius_mm", radius_mm)
+/// The message about a radius or a distance of neighbours under the key `key` that seems to be in metres: it is above 0 and below a
+/// millimetre.
+pub fn radius_in_metres(key: &str, radius_mm: f64) -> Option<String> {
+    below(THIN_MM, key, radius_mm)
+}
+
+/// The message about points under the keys `keys` that seem to be in metres: some coordinate is not 0, and all are below two millimetres.
+pub fn points_in_metres<'a>(keys: &str, points_mm: impl IntoIterator<Item = &'a f64>) -> Option<String> {
+    let farthest_mm =
+        points_mm.into_iter().fold(0.0, |farthest: f64, coordinate| farthest.max(coordinate.abs()));
+    seems_in_metres(&format!("the greatest coordinate of {keys}"), farthest_mm)
 }
 
 fn below(least_mm: f64, key: &str, length_mm: f64) -> Option<String> {
@@ -97,10 +105,19 @@ mod tests {
             [None, None, None]
         );
         assert_eq!(
-            radius_in_metres(0.075).unwrap(),
+            radius_in_metres("radius_mm", 0.075).unwrap(),
             "radius_mm is 0.075; is it in metres? millimetres are accepted (0.075 m is 75 mm)"
         );
-        assert_eq!([-1.0, 0.0, 1.0, 75.0].map(radius_in_metres), [None, None, None, None]);
+        for radius_mm in [-1.0, 0.0, 1.0, 75.0] {
+            assert_eq!(radius_in_metres("radius_mm", radius_mm), None);
+        }
+        assert_eq!(
+            points_in_metres("from_mm and to_mm", &[0.0, -0.4, 0.0, 0.3]).unwrap(),
+            "the greatest coordinate of from_mm and to_mm is 0.4; is it in metres? millimetres are accepted (0.4 m is 400 mm)"
+        );
+        for points_mm in [[0.0; 3], [0.3, 0.0, -80.0]] {
+            assert_eq!(points_in_metres("from_mm and to_mm", &points_mm), None);
+        }
         let message = seems_in_radians("yaw_deg", &["1.5708".parse().unwrap()]).unwrap().1;
         assert_eq!(
             message,

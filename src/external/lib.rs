@@ -24,4 +24,4 @@ pub use end::{end_planners, is_living, name_survivors};
 pub use interrupt::{interrupt, is_interrupted};
 pub use linux::launcher;
 pub use process::{Clock, Process, Program, Start, read_message};
-pub use talk::{COUNTERS, End, Query, Talk, greet, solve};
+pub use talk::{End, Query, Talk, greet, solve};

@@ -3,7 +3,6 @@
 use super::world::{Kind, Pose, World};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 /// The version of the protocol.
 pub const PROTOCOL: u32 = 1;
@@ -166,16 +165,60 @@ pub struct QueryResult {
     pub id: u64,
     /// How it ended.
     pub status: Status,
-    /// From start to goal; empty unless solved.
+    /// From start to goal; one beside another status refuses the result.
     #[serde(default)]
     pub path: Vec<Vec<f64>>,
-    /// The path's cost in the world's unit; the verifier refuses one that is not the path's. Absent if it was not worked out.
+    /// The path's cost in the world's unit; the verifier refuses one that is not the path's. Absent if it was not worked out, and
+    /// where there is no path.
     #[serde(default)]
     pub cost: Option<f64>,
-    /// What the planner counted. Known names become columns: `expansions`, `iterations`, `samples`, whole numbers, and
-    /// `own_wall_ns`; a number that is none of its column refuses the result.
+    /// What the planner counted.
     #[serde(default)]
-    pub counters: BTreeMap<String, f64>,
+    pub counters: Counters,
+}
+
+/// What a planner counted, each perhaps: a column each. Another name, or a number that is none of its column, refuses the result.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Counters {
+    /// Expanded nodes, a whole number.
+    pub expansions: Option<f64>,
+    /// Iterations, a whole number.
+    pub iterations: Option<f64>,
+    /// Samples, a whole number.
+    pub samples: Option<f64>,
+    /// Its time by its own clock.
+    pub own_wall_ns: Option<f64>,
+}
+
+impl Counters {
+    /// No whole number above it is certain in JSON as most languages read it: 2⁵³.
+    const MOST: f64 = 9_007_199_254_740_992.0;
+
+    /// Each by the name of its column.
+    pub fn named(&self) -> [(&'static str, Option<f64>); 4] {
+        let Self { expansions, iterations, samples, own_wall_ns } = *self;
+        [
+            ("expansions", expansions),
+            ("iterations", iterations),
+            ("samples", samples),
+            ("own_wall_ns", own_wall_ns),
+        ]
+    }
+
+    /// The first one that its column cannot hold, and what is accepted there.
+    pub(super) fn misfit(&self) -> Option<(&'static str, &'static str)> {
+        self.named().into_iter().find_map(|(name, value)| {
+            let value = value?;
+            let (fits, accepted) = if name.ends_with("_ns") {
+                (value >= 0.0, "a number of 0 or more")
+            } else {
+                let fits = value.fract() == 0.0 && (0.0..=Self::MOST).contains(&value);
+                (fits, "a whole number from 0 to 2^53")
+            };
+            (!fits).then_some((name, accepted))
+        })
+    }
 }
 
 /// How a query ended, by the planner.

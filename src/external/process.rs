@@ -5,7 +5,8 @@ use super::interrupt::{self, MARK, guard};
 use super::launch::launch;
 use super::linux::close_control_group;
 use super::message::{FromPlanner, Hello, Limits, ToPlanner};
-use base::text::{around, one_line};
+use base::settings::did_you_mean;
+use base::text::{around, brief, one_line};
 use std::collections::VecDeque;
 use std::io::{BufRead, BufReader, ErrorKind, PipeReader, Read, Write};
 use std::os::unix::process::CommandExt as _;
@@ -259,7 +260,21 @@ pub fn read_message(line: &[u8]) -> Result<FromPlanner, String> {
             at + 1
         )
     })?;
-    serde_json::from_str(text).map_err(|error| no_message(text, &error))
+    let message = serde_json::from_str(text).map_err(|error| no_message(text, &error))?;
+    if let FromPlanner::Result(found) = &message
+        && let Some((name, accepted)) = found.counters.misfit()
+    {
+        let written = counter(text, name);
+        return Err(format!("the planner counts {} `{name}`; {accepted} is accepted", brief(written)));
+    }
+    Ok(message)
+}
+
+/// The counter called `name` as the planner wrote it: to the last digit.
+fn counter<'a>(line: &'a str, name: &str) -> &'a str {
+    let (_, after) = line.rsplit_once(&format!("\"{name}\"")).unwrap_or_default();
+    let number = after.trim_start().trim_start_matches(':').trim_start();
+    number.split([',', '}', ' ', '\t']).next().unwrap_or_default()
 }
 
 /// What is wrong with a line, shown around its place; numbers that other languages write and JSON has none of by name.
@@ -276,10 +291,14 @@ fn no_message(line: &str, error: &serde_json::Error) -> String {
     format!("the planner wrote `{}`, which is no message: {why}", around(line, column))
 }
 
-/// A message of the JSON library, with words for Rust's types of numbers.
+/// A message of the JSON library, with words for Rust's types of numbers and the name that one may be meant for that is unknown.
 fn in_words(message: &str) -> String {
     let whole = "expected a whole number of 0 or more";
+    let mut names = message.split('`').skip(1).step_by(2);
+    let unknown = names.next().filter(|_| message.starts_with("unknown "));
+    let hint = unknown.map_or_else(String::new, |name| did_you_mean(name, names));
     message
+        .replacen("`, expected", &format!("`{hint}, expected"), 1)
         .replace("expected u64", whole)
         .replace("expected u32", whole)
         .replace("expected f64", "expected a number")

@@ -2,11 +2,10 @@
 
 use super::answer::{QuestionCounts, Space, Unanswered};
 use super::interrupt::is_interrupted;
-use super::message::{FromPlanner, Hello, Limits, PROTOCOL, QueryResult, Solve, Status, ToPlanner};
+use super::message::{Counters, FromPlanner, Hello, Limits, PROTOCOL, QueryResult, Solve, Status, ToPlanner};
 use super::process::{Clock, Process, Program};
 use super::world::World;
 use base::text::listed;
-use std::collections::BTreeMap;
 use std::time::Duration;
 
 /// A result is waited for this much longer than a planner is given, so that one that looks at the clock itself is not cut off
@@ -19,13 +18,6 @@ const LOOK: Duration = Duration::from_millis(50);
 
 /// What keeps most planners silent that are at work.
 const SILENT: &str = "; it wrote nothing: an output that is buffered must be flushed after each line";
-
-/// The counters that become columns of whole numbers.
-const WHOLE: [&str; 3] = ["expansions", "iterations", "samples"];
-/// The counters that become columns.
-pub const COUNTERS: [&str; 4] = [WHOLE[0], WHOLE[1], WHOLE[2], "own_wall_ns"];
-/// No whole number above it is certain in JSON as most languages read it.
-const MOST_COUNTED: f64 = 9_007_199_254_740_992.0;
 
 /// How a conversation ended.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,7 +44,7 @@ pub struct Talk {
     /// The cost that the planner claims.
     pub cost: Option<f64>,
     /// What it counted.
-    pub counters: BTreeMap<String, f64>,
+    pub counters: Counters,
     /// Incumbents that its own questions would have been answered for: seconds since the query, and the path.
     pub incumbents: Vec<(f64, Vec<Vec<f64>>)>,
     /// Questions.
@@ -75,7 +67,7 @@ impl Talk {
             end,
             path: Vec::new(),
             cost: None,
-            counters: BTreeMap::new(),
+            counters: Counters::default(),
             incumbents: Vec::new(),
             questions: QuestionCounts::default(),
             wall_ns: 0,
@@ -188,19 +180,6 @@ pub fn solve(
     Talk { log: process.log(), was_silent, ..held.finish(end) }
 }
 
-/// Refuses what a counter's column cannot hold.
-fn check_counters(counters: &BTreeMap<String, f64>) -> Result<(), String> {
-    for (name, value) in counters {
-        let is_whole = WHOLE.contains(&name.as_str());
-        let accepted = if is_whole { "a whole number from 0 to 2^53" } else { "a number of 0 or more" };
-        let fits = *value >= 0.0 && (!is_whole || (value.fract() == 0.0 && *value <= MOST_COUNTED));
-        if COUNTERS.contains(&name.as_str()) && !(fits && value.is_finite()) {
-            return Err(format!("the planner counts {value} `{name}`; {accepted} is accepted"));
-        }
-    }
-    Ok(())
-}
-
 struct Conversation<'a, 'w> {
     id: u64,
     limits: Limits,
@@ -271,17 +250,22 @@ impl Conversation<'_, '_> {
     fn result(&mut self, found: QueryResult) -> Result<End, String> {
         self.own(found.id)?;
         self.check(&found.path)?;
-        check_counters(&found.counters)?;
         self.talk.counters = found.counters;
-        Ok(match found.status {
+        let (end, status) = match found.status {
             Status::Solved => {
                 (self.talk.path, self.talk.cost) = (found.path, found.cost);
-                End::Solved
+                return Ok(End::Solved);
             }
-            Status::NoPath => End::NoPath,
-            Status::BudgetSpent => End::BudgetSpent,
-            Status::TimeSpent => End::TimeSpent,
-        })
+            Status::NoPath => (End::NoPath, "no_path"),
+            Status::BudgetSpent => (End::BudgetSpent, "budget_spent"),
+            Status::TimeSpent => (End::TimeSpent, "time_spent"),
+        };
+        let surplus = match (found.path.len(), found.cost) {
+            (0, None) => return Ok(end),
+            (0, Some(cost)) => format!("a cost, {cost}"),
+            (points, _) => format!("a path of {points} points"),
+        };
+        Err(format!("the planner's result is `{status}` with {surplus}; it is accepted with `solved` alone"))
     }
 
     fn finish(mut self, end: End) -> Talk {

@@ -1,5 +1,6 @@
 //! Where input files named by specs are found.
 
+use base::file::missing;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -30,6 +31,13 @@ impl Inputs {
             return Err(format!(
                 "input file `{name}` is a device, a pipe or a socket ({}); a regular file is accepted",
                 other.display()
+            ));
+        }
+        if let Some(link) = tried.iter().find(|path| path.is_symlink()) {
+            let found = missing(link);
+            return Err(format!(
+                "input file `{name}` {found} ({}); a regular file is accepted",
+                link.display()
             ));
         }
         let places: Vec<String> = tried.iter().map(|path| path.display().to_string()).collect();

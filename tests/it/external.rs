@@ -238,7 +238,17 @@ fn without_its_program_a_run_says_what_to_install_and_stored_trials_stay_readabl
 
 #[test]
 fn conformance_keeps_count_of_what_is_broken_and_its_exit_code_says_so() {
-    let cases = ["crash", "other-id", "rubbish-first", "no-cost", "counter-in-parts", "nowhere", "hang"];
+    let cases = [
+        "crash",
+        "other-id",
+        "rubbish-first",
+        "no-cost",
+        "counter-in-parts",
+        "unknown-counter",
+        "no-path-with-a-path",
+        "nowhere",
+        "hang",
+    ];
     let bench = bench(&CASES.iter().filter(|case| cases.contains(&case.name)).collect::<Vec<_>>());
     for (name, broken) in [
         ("crash", "BROKEN  query 1 ends with a result: the planner ended before its result"),
@@ -248,6 +258,11 @@ fn conformance_keeps_count_of_what_is_broken_and_its_exit_code_says_so() {
         (
             "counter-in-parts",
             "BROKEN  query 1 ends with a result: the planner counts 1.5 `samples`; a whole number",
+        ),
+        ("unknown-counter", "unknown field `expansion` (did you mean `expansions`?)"),
+        (
+            "no-path-with-a-path",
+            "BROKEN  query 1 ends with a result: the planner's result is `no_path` with a path of 2 points",
         ),
         (
             "nowhere",

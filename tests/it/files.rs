@@ -107,6 +107,11 @@ fn joint_group(name: &str) -> String {
     )
 }
 
+/// The same as a set of problems.
+const SET: &str = "\n[[problems]]\nlabel = \"set\"\nfamily = \"joint_problems\"\ninstances = 1\n[problems.settings]\n\
+    robot = \"arm.urdf\"\nproblems = \"arm.json\"\nself_contact = \"all\"\nstep_deg = 4\n\
+    support = { under = \"nothing\", why = \"a test\", base_mm = [0, 0, 0], yaw_deg = 0 }\n";
+
 /// A study of these groups of problems and one contender.
 pub fn study(groups: &str, contender: &str) -> String {
     format!(
@@ -170,9 +175,6 @@ fn a_study_says_that_problems_call_its_robot_otherwise_and_names_problems_that_a
     let robot = ROBOT.replace("[low]", "revolute").replace("[along]", NODS).replace("[limit]", TURN);
     bench.write("files/arm.urdf", robot.as_bytes());
     bench.write("files/arm.json", THERE.replacen('{', "{\"robot\": \"double\", ", 1).as_bytes());
-    let set = "\n[[problems]]\nlabel = \"set\"\nfamily = \"joint_problems\"\ninstances = 1\n[problems.settings]\n\
-               robot = \"arm.urdf\"\nproblems = \"arm.json\"\nself_contact = \"all\"\nstep_deg = 4\n\
-               support = { under = \"nothing\", why = \"a test\", base_mm = [0, 0, 0], yaw_deg = 0 }\n";
     let one = joint_group("arm");
     let written = |groups: &str| {
         let named = groups.replace("robot = \"arm.urdf\"", "robot = \"arm.urdf\"\nrobot_name = \"double\"");
@@ -188,7 +190,7 @@ fn a_study_says_that_problems_call_its_robot_otherwise_and_names_problems_that_a
     bench.write("files/arms.toml", named.as_bytes());
     let output = bench.done(&["check", "./files"]);
     assert!(output.contains(note), "{output}");
-    let [as_it_is, named] = written(set);
+    let [as_it_is, named] = written(SET);
     bench.write("files/arms.toml", as_it_is.as_bytes());
     let output = bench.done(&["check", "./files"]);
     let refused = "arm.json: refused problems, which count as invalid: 1 of 1; the first: ";
@@ -196,6 +198,34 @@ fn a_study_says_that_problems_call_its_robot_otherwise_and_names_problems_that_a
     bench.write("files/arms.toml", named.as_bytes());
     let output = bench.done(&["check", "./files"]);
     assert!(output.contains(note) && !output.contains("refused"), "{output}");
+    bench.write("files/arm.json", THERE.as_bytes());
+    for groups in [&one, SET] {
+        bench.write("files/arms.toml", written(groups)[1].as_bytes());
+        let output = bench.done(&["check", "./files"]);
+        let note = "arm.json: it names no robot, so `robot_name` is not used";
+        assert!(output.contains(note) && !output.contains("taken as"), "{output}");
+    }
+}
+
+#[test]
+fn check_names_starts_and_goals_beyond_the_limits_of_a_joint() {
+    let bench = Bench::empty();
+    bench.write("files/paper.toml", PAPER.as_bytes());
+    let robot = ROBOT.replace("[low]", "revolute").replace("[along]", NODS).replace("[limit]", TURN);
+    bench.write("files/arm.urdf", robot.as_bytes());
+    let beyond = THERE.replace("-0.4", "-3.25");
+    bench.write("files/arm.json", beyond.as_bytes());
+    bench.write("files/arms.toml", study(&joint_group("arm"), STRAIGHT).as_bytes());
+    let expected = "arm.json:1:60: the goal cannot be posed: joint `low` is at -3.25 rad, outside -3 to 3";
+    let output = bench.run(&["check", "./files"]);
+    assert!(output.code == Some(2) && output.err.contains(expected), "{}", output.err);
+    bench.write("files/arms.toml", study(SET, STRAIGHT).as_bytes());
+    let output = bench.done(&["check", "./files"]);
+    let refused = "arm.json: refused problems, which count as invalid: 1 of 1; the first: ";
+    assert!(output.contains(refused) && output.contains(expected), "{output}");
+    bench.done(&["run", "./files"]);
+    let (_, records) = reuse::stored(&bench.at("target/replan/files/data/runs/files"), "arms").unwrap();
+    assert_eq!(records.batch.rows[0].status.name(), "invalid_problem");
 }
 
 #[test]

@@ -41,7 +41,8 @@ class Limits:
 
 @dataclass(frozen=True)
 class Result:
-    """How a query ended. A cost is in the world's unit; leave it out if you did not work it out."""
+    """How a query ended. A cost is in the world's unit; leave it out if you did not work it out. Counters are `expansions`,
+    `iterations`, `samples` and `own_wall_ns`; replan refuses others."""
 
     status: str
     path: Path = ()

@@ -11,7 +11,7 @@ use crate::reader::unit;
 use crate::sample::groups;
 use crate::statistic::Statistic;
 use crate::table::{Column, Fault, Quoted, Table, named_by, quoted};
-use proofs::exact::{Exact, Print, Span, add, div, whole};
+use proofs::exact::{Exact, Print, Span, add, div, float, whole};
 use std::cell::Cell;
 
 /// The registry's entry.
@@ -50,6 +50,10 @@ enum Form {
     /// A mean of some weights, or a quotient of sums.
     Between,
     Sum,
+    /// The geometric mean, of numbers above 0.
+    Geometric,
+    /// The harmonic mean, of numbers above 0.
+    Harmonic,
 }
 
 impl Form {
@@ -59,8 +63,31 @@ impl Form {
             Self::Pooled => "the mean by number of trials",
             Self::Between => "between the least and the greatest",
             Self::Sum => "the sum",
+            Self::Geometric => "the geometric mean",
+            Self::Harmonic => "the harmonic mean",
         }
     }
+
+    /// The geometric or harmonic mean of numbers of 0 or more, in floats.
+    fn mean_of(self, numbers: impl ExactSizeIterator<Item = f64>) -> f64 {
+        let count = numbers.len() as f64;
+        match self {
+            Self::Harmonic => count / numbers.map(|number| 1.0 / number).sum::<f64>(),
+            _ => libm::exp(numbers.map(libm::log).sum::<f64>() / count),
+        }
+    }
+}
+
+/// Means that an `Average` may be without its name saying so.
+const OTHER_MEANS: [Form; 2] = [Form::Geometric, Form::Harmonic];
+
+/// A span around one that floats work out, wider by more than they lose.
+fn around_floats([low, high]: [f64; 2]) -> Option<Span> {
+    const SCALE: i64 = 1_000_000_000;
+    let scaled = |end: f64| (end.abs() < 1e28).then_some(end * SCALE as f64);
+    let [low, high] = [scaled(low * (1.0 - 1e-9))?.floor(), scaled(high * (1.0 + 1e-9))?.ceil()];
+    let [low, high] = [low, high].map(|end| Exact::new(end as i128, SCALE.into()));
+    Some(Span::closed(low, high))
 }
 
 struct Summary {
@@ -210,6 +237,7 @@ fn of_row(
     if weights.is_empty() && forms.contains(&Form::Pooled) && word != Word::Mean {
         forms.push(Form::Between);
     }
+    forms.extend(OTHER_MEANS.iter().filter(|_| word != Word::Sum));
     let numbers = std::iter::once(&row).chain(&rows).map(|row| quoted(index, table, *row, column));
     Some(Summary {
         numbers: numbers.collect::<Option<_>>()?,
@@ -341,6 +369,7 @@ fn of_column(index: usize, table: &Table, row: usize, at: usize) -> Option<Summa
     if word == Word::Either {
         forms.push(Form::Between);
     }
+    forms.extend(OTHER_MEANS.iter().filter(|_| word != Word::Sum));
     let numbers = std::iter::once(&at).chain(&columns).map(|column| quoted(index, table, row, *column));
     Some(Summary {
         numbers: numbers.collect::<Option<_>>()?,
@@ -369,6 +398,13 @@ impl Summary {
             let low = choice.iter().map(|at| spans[*at].low).min()?;
             return Some(Span::closed(low, choice.iter().map(|at| spans[*at].high).max()?));
         }
+        if OTHER_MEANS.contains(&form) {
+            let ends =
+                choice.iter().map(|at| [spans[*at].low, spans[*at].high].map(|end| float(end).max(0.0)));
+            let low = form.mean_of(ends.clone().map(|[low, _]| low));
+            let high = form.mean_of(ends.map(|[_, high]| high));
+            return around_floats([low, high]);
+        }
         let weight = |at: usize| if form == Form::Pooled { self.weights[at] } else { whole(1) };
         let all = choice.iter().try_fold(whole(0), |all, at| add(all, weight(*at)))?;
         let add_weighted = |sum: Span, at: &usize| sum.plus(&spans[*at].times(weight(*at))?);
@@ -382,7 +418,11 @@ impl Summary {
         self.steps.set(self.steps.get() + prints.len() as u64);
         let pairs = self.choices.iter().flat_map(|choice| self.forms.iter().map(move |form| (choice, *form)));
         let needs = pairs.filter(|(_, form)| *form != Form::Pooled || !self.weights.is_empty());
-        needs.map(move |(choice, form)| (form, choice.len(), self.allowed(&spans, choice, form)))
+        needs.filter_map(move |(choice, form)| {
+            let is_positive = || choice.iter().all(|at| spans[*at].high > whole(0));
+            let is_there = !OTHER_MEANS.contains(&form) || is_positive();
+            is_there.then(|| (form, choice.len(), self.allowed(&spans, choice, form)))
+        })
     }
 }
 

@@ -65,8 +65,16 @@ pub enum GridError {
     Text {
         /// Line in the file, from 1.
         line: usize,
-        /// What stands there; empty at the end of the file.
+        /// What stands there.
         found: String,
+        /// What may stand there.
+        accepted: String,
+    },
+    /// A file ends before a line of its head.
+    #[error("the file {}; accepted is {accepted}", ending(*line))]
+    Ends {
+        /// The line that it has not, from 1.
+        line: usize,
         /// What may stand there.
         accepted: String,
     },
@@ -90,6 +98,11 @@ pub enum GridError {
         /// What is wrong in it.
         source: Box<GridError>,
     },
+}
+
+/// Where a file ends that has no line of this number, from 1.
+fn ending(line: usize) -> String {
+    if line == 1 { "is empty".to_owned() } else { format!("ends before line {line}") }
 }
 
 /// Reads the file at `path` and parses it, so that every error names the file once.

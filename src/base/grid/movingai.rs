@@ -38,10 +38,13 @@ pub struct Scenario {
 pub fn parse_movingai_map(text: &str) -> Result<Grid2, GridError> {
     let lines: Vec<&str> = text.trim_end().lines().map(str::trim_end).collect();
     let words = |index: usize| lines.get(index).map_or(Vec::new(), |line| line.split_whitespace().collect());
-    let wrong = |index: usize, accepted: &str| GridError::Text {
-        line: index + 1,
-        found: words(index).join(" "),
-        accepted: format!("`{accepted}`"),
+    let wrong = |index: usize, accepted: &str| {
+        let (line, accepted) = (index + 1, format!("`{accepted}`"));
+        if index < lines.len() {
+            GridError::Text { line, found: words(index).join(" "), accepted }
+        } else {
+            GridError::Ends { line, accepted }
+        }
     };
     let side = |index: usize, name: &str| match words(index)[..] {
         [key, value] if key == name => value.parse().map_err(|_| wrong(index, &format!("{name} N"))),
@@ -216,7 +219,9 @@ mod tests {
     fn bad_maps_are_refused_with_line_and_what_is_accepted() {
         let letters = "`.` `G` `S` (passable) and `@` `O` `T` `W` (blocked)";
         for (text, message) in [
-            (String::new(), "line 1: found ``; accepted is `type octile`".to_owned()),
+            (String::new(), "the file is empty; accepted is `type octile`".to_owned()),
+            ("\n \n".to_owned(), "the file is empty; accepted is `type octile`".to_owned()),
+            ("type octile\n".to_owned(), "the file ends before line 2; accepted is `height N`".to_owned()),
             (MAP.replace("octile", "tile"), "line 1: found `type tile`; accepted is `type octile`".into()),
             (
                 MAP.replace("height 2", "height two"),

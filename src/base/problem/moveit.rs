@@ -14,7 +14,6 @@ use crate::solid::{Form, Pose, Solid, Source};
 use crate::text::brief;
 use crate::yaml::{Node, Yaml};
 use std::cell::RefCell;
-use std::collections::BTreeSet;
 
 /// How far from its position a goal may be in a joint.
 const TOLERANCES: [&str; 2] = ["tolerance_above", "tolerance_below"];
@@ -47,9 +46,7 @@ pub fn parse_moveit(
             "the start is that of the request; the `robot_state` of the scene is another one".to_owned(),
         );
     }
-    let problem =
-        Problem { obstacles, start, goals, is_valid: true, notes: Vec::new(), ignored: BTreeSet::new() };
-    Ok(seen.into_inner().of(problem))
+    Ok(seen.into_inner().of(Problem::new(obstacles, start, goals)))
 }
 
 impl Reader<'_> {

@@ -62,6 +62,8 @@ const MEANT: [&str; 40] = [
 /// What was seen in a file and is not read.
 #[derive(Default)]
 pub(super) struct Seen {
+    /// What the robot is called, if it is named.
+    pub(super) robot: Option<String>,
     notes: BTreeSet<String>,
     ignored: BTreeSet<String>,
 }
@@ -69,7 +71,8 @@ pub(super) struct Seen {
 impl Seen {
     /// The problem, with it.
     pub(super) fn of(self, problem: Problem) -> Problem {
-        Problem { notes: self.notes.into_iter().collect(), ignored: self.ignored, ..problem }
+        let Self { robot, notes, ignored } = self;
+        Problem { robot, notes: notes.into_iter().collect(), ignored, ..problem }
     }
 }
 
@@ -149,7 +152,7 @@ impl Reader<'_> {
         let valid = self.yaml.find(problem, "valid")?;
         let is_valid = valid.map_or(Ok(true), |valid| self.yaml.truth(valid, "valid"))?;
         let goals = self.goals(problem, order)?;
-        Ok(Problem { obstacles, start, goals, is_valid, notes: Vec::new(), ignored: BTreeSet::new() })
+        Ok(Problem { is_valid, ..Problem::new(obstacles, start, goals) })
     }
 
     fn goals(self, problem: &Node, order: Option<&[usize]>) -> Result<Vec<Ended>, SettingsError> {

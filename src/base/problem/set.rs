@@ -9,7 +9,9 @@ use crate::file;
 use crate::settings::{Document, SettingsError};
 use crate::text;
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A set of problems.
 #[derive(Debug)]
@@ -87,6 +89,17 @@ impl ProblemSet {
         path.parent()?.file_name()?.to_str()
     }
 
+    /// `message` about the end of the problem of this number that stands `at`.
+    pub fn fault(&self, index: usize, at: Range<usize>, message: String) -> SettingsError {
+        match &self.0 {
+            Held::File { file, .. } => file.fault(at, message),
+            Held::Archive(pairs) => {
+                let request = pairs.get(index).and_then(|pair| pair.request.clone()).unwrap_or_default();
+                document(&request).error(at, message)
+            }
+        }
+    }
+
     /// The problem of this number, from 0.
     ///
     /// # Errors
@@ -96,7 +109,6 @@ impl ProblemSet {
             Held::File { file, set } => file.problem(set.as_deref(), index, Some(expected)),
             Held::Archive(pairs) => {
                 let pair = pairs.get(index).cloned().unwrap_or_default();
-                let document = |(path, text): &(PathBuf, String)| Document::new(path, text.clone());
                 match (&pair.scene, &pair.request) {
                     (Some(scene), Some(request)) => {
                         parse_moveit(&document(scene), &document(request), expected)
@@ -118,6 +130,11 @@ impl ProblemSet {
             }
         }
     }
+}
+
+/// A scene or a request, to be read.
+fn document((path, text): &(PathBuf, String)) -> Arc<Document> {
+    Document::new(path, text.clone())
 }
 
 /// The regular files of an archive in the form of POSIX (ustar), by name.

@@ -75,6 +75,14 @@ impl Joint {
         if self.kind == Kind::TurnsOn { value.is_finite() } else { (lower..=upper).contains(&value) }
     }
 
+    /// Why it may not be at `value`, if it may not.
+    pub fn refusal(&self, value: f64) -> Option<String> {
+        let Self { name, kind, limits: [lower, upper], .. } = self;
+        let unit = if *kind == Kind::Slides { "m" } else { "rad" };
+        (!self.allows(value))
+            .then(|| format!("joint `{name}` is at {value} {unit}, outside {lower} to {upper}"))
+    }
+
     /// How far it moves from one value to another, with a sign; one that turns on goes the shorter way round.
     pub fn change(&self, from: f64, to: f64) -> f64 {
         let change = to - from;

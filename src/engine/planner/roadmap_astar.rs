@@ -8,6 +8,7 @@ use crate::search::{
 use crate::space::WorldKind;
 use crate::space::roadmap::{Extent, Roadmap};
 use base::settings::Accepted;
+use base::units::radius_in_metres;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -46,6 +47,9 @@ path = "parents"
         let read: RoadmapAstar = settings.read()?;
         if read.neighbour_mm.is_some() == read.neighbour_times.is_some() {
             return Err(settings.error("exactly one of neighbour_mm and neighbour_times is accepted"));
+        }
+        if let Some(message) = read.neighbour_mm.and_then(|found| radius_in_metres("neighbour_mm", found)) {
+            return Err(settings.error_at("neighbour_mm", message));
         }
         Ok(Box::new(read))
     }),

@@ -12,7 +12,7 @@ mod tests;
 use crate::geometry::lanes::{ROUGH_LANES, RoughRow, dispatch, level};
 use crate::geometry::{Frame, Placed, Rounded, Vec3, intersects_placed_placed};
 use crate::kinematics::open_chain::OpenChain;
-use base::robot::{Kind, MayTouch, Robot};
+use base::robot::{MayTouch, Robot};
 use base::solid::Solid;
 use lanes::{Look, Spheres};
 
@@ -112,10 +112,7 @@ impl JointSpace {
     /// Why the robot cannot be at `q`; `None` if it can.
     pub fn refusal(&self, q: &[f64]) -> Option<String> {
         if let Some(joint) = self.chain.outside(q) {
-            let name = &self.robot.joints[joint].name;
-            let [lower, upper] = self.robot.joints[joint].limits;
-            let unit = if self.robot.joints[joint].kind == Kind::Slides { "m" } else { "rad" };
-            return Some(format!("joint `{name}` is at {} {unit}, outside {lower} to {upper}", q[joint]));
+            return self.robot.joints[joint].refusal(q[joint]);
         }
         let frames = self.chain.frames(q);
         let name = |part: usize| &self.robot.solids[part].1.name;

@@ -250,6 +250,18 @@ impl CellQueries {
         self.heights_mm.iter().try_fold(scene, raised)
     }
 
+    /// That the tool's speed does not seem to be in metres.
+    fn accept_speed(&self, settings: &Settings) -> Result<(), SettingsError> {
+        let Some(SpeedSetting { tool_mm_s, acceleration_mm_s2 }) = self.speed else { return Ok(()) };
+        let mut faults = Faults::default();
+        for (key, found) in [("speed.tool_mm_s", tool_mm_s), ("speed.acceleration_mm_s2", acceleration_mm_s2)]
+        {
+            let in_metres = seems_in_metres(key, found);
+            faults.keep(in_metres.map_or(Ok(()), |message| Err(settings.error_at(key, message))));
+        }
+        faults.done()
+    }
+
     /// How queries are drawn, if they are.
     fn drawn(&self, settings: &Settings) -> Result<Option<Ends>, SettingsError> {
         let count = match &self.queries {
@@ -329,6 +341,7 @@ impl Posed {
             let in_radians = seems_in_radians(key, &[angle_deg]);
             faults.keep(in_radians.map_or(Ok(()), |(_, message)| Err(settings.error_at(key, message))));
         }
+        faults.keep(read.accept_speed(settings));
         let robot = faults
             .keep(input(settings, inputs, "robot", &read.robot, |file| read.robot(settings, inputs, file)));
         let scene = faults.keep(input(settings, inputs, "scene", &read.scene, |file| {

@@ -8,6 +8,7 @@ use super::Query;
 use base::seed::{self, Stream};
 use base::settings::{Faults, Settings, SettingsError};
 use base::text::listed;
+use base::units::points_in_metres;
 use engine::planner::Invalid;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -156,6 +157,13 @@ impl SpaceLimits {
             .map(|(axis, limit)| (axis, limit.map(Limit::range), whole));
         within(settings, key, &limits)
     }
+
+    /// The message about limits under `key` that seem to be in metres.
+    fn in_metres(&self, key: &str) -> Option<String> {
+        let limits: Vec<f64> =
+            [self.x, self.y, self.z].into_iter().flatten().flat_map(Limit::range).collect();
+        points_in_metres(key, &limits)
+    }
 }
 
 /// The place within the limits of `axes`: each has its name, its limits and the widest that are accepted, which stand in for
@@ -251,7 +259,11 @@ impl Ends {
                 );
                 faults.add(settings.error_at(key, message));
             }
-            faults.keep(limits.unwrap_or_default().place(settings, key))
+            let limits = limits.unwrap_or_default();
+            if let Some(message) = limits.in_metres(key) {
+                faults.add(settings.error_at(key, message));
+            }
+            faults.keep(limits.place(settings, key))
         });
         let (start, goal) = faults.or(start.zip(goal))?;
         let error_at =

@@ -287,6 +287,18 @@ impl Set {
         JointSpace::new(self.robot.clone(), obstacles, &self.contact, self.step_rad)
     }
 
+    /// That a start or goal that is planned for is beyond the limits of a joint, at its place.
+    fn beyond(&self, index: usize, problem: &Problem) -> Option<String> {
+        let ends = [("start", Some(&problem.start)), ("goal", problem.goals.first())];
+        ends.into_iter().find_map(|(what, end)| {
+            let end = end?;
+            let refusal =
+                self.robot.joints.iter().zip(&end.joints).find_map(|(joint, at)| joint.refusal(*at))?;
+            let message = format!("the {what} cannot be posed: {refusal}");
+            Some(self.problems.fault(index, end.at.clone(), message).to_string())
+        })
+    }
+
     /// How many problems are valid: the robot can be at the start and at one goal at least.
     fn valid(&self) -> u64 {
         let is_valid = |problem: &Problem| {
@@ -350,15 +362,20 @@ impl Family for Set {
     fn notes(&self) -> Vec<String> {
         let (mut notes, mut ignored, mut refused) = (BTreeSet::new(), BTreeSet::new(), Vec::new());
         let count = self.problems.count();
-        let mut called_invalid = 0;
-        for index in 0..count as u64 {
-            match self.problem(index) {
+        let (mut called_invalid, mut named, mut is_read) = (0, None, true);
+        for index in 0..count {
+            match self.problem(index as u64) {
                 Ok(problem) => {
                     called_invalid += u64::from(!problem.is_valid);
+                    refused.extend(self.beyond(index, &problem).filter(|_| problem.is_valid));
+                    named = named.or(problem.robot);
                     notes.extend(problem.notes);
                     ignored.extend(problem.ignored);
                 }
-                Err(Invalid(message)) => refused.push(message),
+                Err(Invalid(message)) => {
+                    is_read = false;
+                    refused.push(message);
+                }
             }
         }
         let refused = refused.first().map(|first| {
@@ -370,7 +387,9 @@ impl Family for Set {
         });
         let called_invalid = (called_invalid > 0)
             .then(|| format!("problems that the set calls invalid: {called_invalid} of {count}"));
-        let renamed = renamed(self.robot_name.as_deref(), &self.robot);
+        // What refused problems call the robot is not known.
+        let is_known = self.robot_name.is_some() && (named.is_some() || is_read);
+        let renamed = is_known.then(|| renamed(&self.robot, named.as_deref()));
         let of_problems = notes
             .into_iter()
             .chain(ignored_note(&ignored))

@@ -193,11 +193,14 @@ pub(super) fn robot_notes(
     notes
 }
 
-/// That the problems call the robot otherwise than its URDF file, if the study says so.
-pub(super) fn renamed(name: Option<&str>, robot: &Robot) -> Option<String> {
-    name.map(|name| {
-        format!("its robot `{name}` is taken as `{}` of the URDF file, as `robot_name` says", robot.name)
-    })
+/// What became of a `robot_name` of the study where the problems call their robot `found`.
+pub(super) fn renamed(robot: &Robot, found: Option<&str>) -> String {
+    match found {
+        None => "it names no robot, so `robot_name` is not used".to_owned(),
+        Some(found) => {
+            format!("its robot `{found}` is taken as `{}` of the URDF file, as `robot_name` says", robot.name)
+        }
+    }
 }
 
 impl JointQueries {
@@ -206,9 +209,9 @@ impl JointQueries {
         let mut notes = robot_notes(&self.robot, robot, contact, self.srdf.as_deref());
         let of_problem = problem.notes.iter().cloned().chain(ignored_note(&problem.ignored));
         notes.extend(of_problem.map(|note| format!("{}: {note}", self.problem)));
-        notes.extend(
-            renamed(self.robot_name.as_deref(), robot).map(|note| format!("{}: {note}", self.problem)),
-        );
+        if self.robot_name.is_some() {
+            notes.push(format!("{}: {}", self.problem, renamed(robot, problem.robot.as_deref())));
+        }
         if !problem.is_valid {
             let index = self.index;
             notes.push(format!(

@@ -5,15 +5,15 @@
 //! on a clock and on a program of others.
 
 use crate::clock;
+use base::file::missing;
 use base::settings::{Accepted, Settings, SettingsError};
 use base::text::listed;
 use engine::planner::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Trace, Value};
 use engine::space::WorldKind;
 use external::message::{Limits, Seeding};
-use external::{COUNTERS, End, Process, Program, Query, Space, Talk, describe, greet, solve};
+use external::{End, Process, Program, Query, Space, Talk, describe, greet, solve};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -102,7 +102,7 @@ impl External {
             settings.read()?;
         let files: Vec<PathBuf> = files.into_iter().map(PathBuf::from).collect();
         if let Some(gone) = files.iter().find(|file| !file.is_file()) {
-            let message = format!("the planner's file `{}` does not exist", gone.display());
+            let message = format!("the planner's file `{}` {}", gone.display(), missing(gone));
             return Err(settings.error_at("files", message));
         }
         let limits = Limits { time_s, memory_mb: memory_mb.into(), output_mb: output_mb.into() };
@@ -240,10 +240,9 @@ fn counts(talk: &Talk) -> Counts {
         ("solve_wall_ns", Value::Real(talk.wall_ns as f64)),
         ("answer_wall_ns", Value::Real(talk.answering_ns as f64)),
     ]);
-    let counters: &BTreeMap<String, f64> = &talk.counters;
-    for name in COUNTERS {
-        let Some(found) = counters.get(name) else { continue };
-        let value = if name.ends_with("_ns") { Value::Real(*found) } else { Value::Count(*found as u64) };
+    for (name, found) in talk.counters.named() {
+        let Some(found) = found else { continue };
+        let value = if name.ends_with("_ns") { Value::Real(found) } else { Value::Count(found as u64) };
         counts.insert(name, value);
     }
     counts

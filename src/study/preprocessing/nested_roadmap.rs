@@ -79,7 +79,8 @@ impl Neighbours {
 /// # Errors
 /// It does.
 pub fn accept_radius(settings: &Settings, radius_mm: f64) -> Result<(), SettingsError> {
-    radius_in_metres(radius_mm).map_or(Ok(()), |message| Err(settings.error_at("radius_mm", message)))
+    radius_in_metres("radius_mm", radius_mm)
+        .map_or(Ok(()), |message| Err(settings.error_at("radius_mm", message)))
 }
 
 /// How large a roadmap of so many samples is that is built up to `times` its unit.

@@ -131,7 +131,19 @@ pub const CASES: &[Case] = &[
         "counter-too-large",
         r#"hello; query; result "[$start,$goal]" ',"counters":{"expansions":1e17}'; query"#,
         "crashed",
-        "the planner counts 100000000000000000 `expansions`; a whole number from 0 to 2^53 is accepted",
+        "the planner counts 1e17 `expansions`; a whole number from 0 to 2^53 is accepted",
+    ),
+    case(
+        "counter-of-many-digits",
+        r#"hello; query; result "[$start,$goal]" ',"counters":{"expansions" : 1208925819614629174706176 }'; query"#,
+        "crashed",
+        "the planner counts 1208925819614629174706176 `expansions`; a whole number from 0 to 2^53 is accepted",
+    ),
+    case(
+        "counter-twice",
+        r#"hello; query; result "[$start,$goal]" ',"counters":{"samples":1,"samples":2}'; query"#,
+        "crashed",
+        "which is no message: duplicate field `samples`",
     ),
     case(
         "counter-in-parts",
@@ -146,10 +158,28 @@ pub const CASES: &[Case] = &[
         "the planner counts -1 `own_wall_ns`; a number of 0 or more is accepted",
     ),
     case(
-        "counters-of-its-own",
-        r#"hello; query; result "[$start,$goal]" ',"counters":{"own_wall_ns":0.5,"mine":-1.5}'; query"#,
+        "counters",
+        r#"hello; query; result "[$start,$goal]" ',"counters":{"own_wall_ns":0.5,"samples":3.0,"iterations":null}'; query"#,
         "solved",
         "",
+    ),
+    case(
+        "unknown-counter",
+        r#"hello; query; result "[$start,$goal]" ',"counters":{"expansion":3}'; query"#,
+        "crashed",
+        "unknown field `expansion` (did you mean `expansions`?), expected one of `expansions`, `iterations`",
+    ),
+    case(
+        "no-path-with-a-path",
+        r#"hello; query; printf '{"type":"result","id":%s,"status":"no_path","path":[%s,%s]}\n' "$id" "$start" "$goal"; query"#,
+        "crashed",
+        "the planner's result is `no_path` with a path of 2 points; it is accepted with `solved` alone",
+    ),
+    case(
+        "budget-with-a-cost",
+        r#"hello; query; printf '{"type":"result","id":%s,"status":"budget_spent","cost":7}\n' "$id"; query"#,
+        "crashed",
+        "the planner's result is `budget_spent` with a cost, 7; it is accepted with `solved` alone",
     ),
     case(
         "empty-question",

@@ -366,7 +366,7 @@ fn an_average_may_be_of_its_block_of_its_planner_or_weighted_by_trials() {
         )
     };
     assert_eq!(found(&spread("2.5")), []);
-    assert_eq!(found(&spread("2.2")), [("summary", Class::Signal)], "a deviation is no row to sum up");
+    assert_eq!(found(&spread("2.9")), [("summary", Class::Signal)], "a deviation is no row to sum up");
     let first =
         |first: &str| table("map | time [value]", &[&format!("Average | {first}"), "a | 1.0", "b | 4.0"]);
     assert_eq!(found(&first("2.5")), []);
@@ -375,6 +375,43 @@ fn an_average_may_be_of_its_block_of_its_planner_or_weighted_by_trials() {
     assert_eq!(found(&gaps), [], "a failure may count as anything");
     let speeds = table("map | speed-up [value]", &["a | 1.0", "b | 4.0", "Average | 2.0"]);
     assert_eq!(found(&speeds), [], "the geometric mean");
+}
+
+#[test]
+fn an_average_that_is_the_geometric_or_the_harmonic_mean_is_no_signal() {
+    let rows = |name: &str, last: &str| {
+        let last = format!("{name} | {last}");
+        table("map | time (ms) [value]", &["a | 1.0", "b | 10.0", "c | 40.0", &last])
+    };
+    for name in ["Average", "Mean", "Overall"] {
+        for right in ["17.0", "7.4", "2.7"] {
+            assert_eq!(found(&rows(name, right)), [], "{name} {right}");
+        }
+    }
+    for wrong in ["6.5", "8.2", "2.0", "3.5", "16.0"] {
+        assert_eq!(found(&rows("Average", wrong)), [("summary", Class::Signal)], "{wrong}");
+    }
+    assert_eq!(found(&rows("Total", "7.4")), [("summary", Class::Signal)], "a sum has one meaning");
+    let columns = |last: &str| {
+        table("planner | a (ms) | b (ms) | Average (ms)", &[&format!("A | 10.0 | 40.0 | {last}")])
+    };
+    for right in ["25.0", "20.0", "16.0"] {
+        assert_eq!(found(&columns(right)), [], "{right}");
+    }
+    assert_eq!(found(&columns("22.0")), [("summary", Class::Signal)]);
+    for (first, last) in [("0.0", "17.0"), ("-1.0", "7.4")] {
+        let below =
+            table("map | x [value]", &[&format!("a | {first}"), "b | 40.0", &format!("Average | {last}")]);
+        assert_eq!(found(&below), [("summary", Class::Signal)], "{first} has no such mean");
+    }
+    let long: Vec<String> = (1..=900).map(|row| format!("r{row} | {row}.00")).collect();
+    let long = |last: &str| {
+        let rows: Vec<&str> = long.iter().map(String::as_str).chain([last]).collect();
+        found(&table("map | x [value]", &rows))
+    };
+    // The geometric mean of 1 to 900 is e^(ln 900! / 900) = 332.68.
+    assert_eq!(long("Average | 332.7"), []);
+    assert_eq!(long("Average | 333.0"), [("summary", Class::Signal)]);
 }
 
 #[test]

@@ -12,7 +12,7 @@ use crate::{
     },
 };
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned, did_you_mean};
-use base::units::{radius_in_metres, seems_in_metres};
+use base::units::{points_in_metres, radius_in_metres, seems_in_metres};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, de::IgnoredAny};
 use std::{collections::BTreeSet, ops::Range, path::Path};
@@ -244,9 +244,13 @@ fn body(source: &Source, entry: &BodyEntry, links: &Links) -> Result<Body, Setti
     let mut names = BTreeSet::new();
     let mut faults = Faults::default();
     for capsule in &entry.capsule {
-        let CapsuleEntry { name, radius_mm, .. } = capsule.get_ref();
-        if let Some(asked) = radius_in_metres(*radius_mm.get_ref()) {
-            faults.add(source.fault(&radius_mm.span(), format!("capsule `{}`: {asked}", name.get_ref())));
+        let CapsuleEntry { name, radius_mm, from_mm, to_mm, .. } = capsule.get_ref();
+        let about = |asked: String| format!("capsule `{}`: {asked}", name.get_ref());
+        if let Some(asked) = radius_in_metres("radius_mm", *radius_mm.get_ref()) {
+            faults.add(source.fault(&radius_mm.span(), about(asked)));
+        }
+        if let Some(asked) = points_in_metres("from_mm and to_mm", from_mm.iter().chain(to_mm).flatten()) {
+            faults.add(source.fault(&capsule.span(), about(asked)));
         }
         if !names.insert(name) {
             let message = format!("capsule `{}` is given twice; accepted: a name of its own", name.get_ref());

@@ -163,6 +163,9 @@ fn rows_in_metres_and_limits_in_radians_are_queried() {
     let wire = message(&FILE.replacen("radius_mm = 75", "radius_mm = 0.075", 1)).unwrap_err();
     let expected = ": radius_mm is 0.075; is it in metres? millimetres are accepted (0.075 m is 75 mm)";
     assert!(wire.starts_with("up6.toml:") && wire.contains(expected), "{wire}");
+    let rod = message(&FILE.replacen("from_mm = [-570, 0, 0]", "from_mm = [-0.57, 0, 0]", 1)).unwrap_err();
+    let expected = ": the greatest coordinate of from_mm and to_mm is 0.57; is it in metres?";
+    assert!(rod.starts_with("up6.toml:") && rod.contains(expected), "{rod}");
     assert!(
         message(&scaled(["a_mm", "d_mm"], 0.1)).is_ok_and(|robot| robot.notes().is_empty()),
         "a small arm"

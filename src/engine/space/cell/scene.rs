@@ -4,7 +4,7 @@ use crate::geometry::{Capsule, Convex, Frame, GeometryError, OrientedBox, Solid,
 use crate::kinematics::FARTHEST_MM;
 use crate::space::SupportEntry;
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
-use base::units::{radius_in_metres, seems_in_metres, seems_in_radians};
+use base::units::{points_in_metres, radius_in_metres, seems_in_metres, seems_in_radians};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::ops::Range;
@@ -125,17 +125,14 @@ fn wrong(error: &GeometryError) -> Wrong {
     (place, format!("{error} (lengths in metres)"))
 }
 
-/// A solid that can be, if no length at `key` seems to be in metres.
-fn in_mm(
-    key: &str,
-    in_metres: Option<String>,
+/// A solid that can be, if no length seems to be in metres: what is wrong with those that do, by their keys.
+fn in_mm<const N: usize>(
+    in_metres: [(&str, Option<String>); N],
     solid: Result<Solid, GeometryError>,
 ) -> Result<Solid, Vec<Wrong>> {
-    let asked = in_metres.map(|message| (key.to_owned(), message));
-    match (asked, solid) {
-        (None, Ok(solid)) => Ok(solid),
-        (asked, solid) => Err(asked.into_iter().chain(solid.err().as_ref().map(wrong)).collect()),
-    }
+    let asked = in_metres.into_iter().filter_map(|(key, message)| Some((key.to_owned(), message?)));
+    let faults: Vec<Wrong> = asked.chain(solid.as_ref().err().map(wrong)).collect();
+    solid.ok().filter(|_| faults.is_empty()).ok_or(faults)
 }
 
 /// The longest side of a box is longer.
@@ -176,7 +173,7 @@ impl BoxEntry {
 impl SphereEntry {
     fn solid(&self) -> Result<Solid, Vec<Wrong>> {
         let solid = Sphere::new(metres(self.center_mm), self.radius_mm * 1e-3);
-        in_mm("radius_mm", radius_in_metres(self.radius_mm), solid.map(Solid::Sphere))
+        in_mm([("radius_mm", radius_in_metres("radius_mm", self.radius_mm))], solid.map(Solid::Sphere))
     }
 }
 
@@ -184,7 +181,9 @@ impl CapsuleEntry {
     fn solid(&self) -> Result<Solid, Vec<Wrong>> {
         let radius_m = self.radius_mm * 1e-3;
         let solid = Capsule::new(metres(self.from_mm), metres(self.to_mm), radius_m);
-        in_mm("radius_mm", radius_in_metres(self.radius_mm), solid.map(Solid::Capsule))
+        let ends = points_in_metres("from_mm and to_mm", self.from_mm.iter().chain(&self.to_mm));
+        let radius = radius_in_metres("radius_mm", self.radius_mm);
+        in_mm([("from_mm", ends), ("radius_mm", radius)], solid.map(Solid::Capsule))
     }
 }
 
@@ -197,7 +196,7 @@ impl ConvexEntry {
         };
         let widest = (0..3).map(reach).fold(0.0, f64::max);
         let in_metres = seems_in_metres("the greatest extent of vertices_mm", widest);
-        in_mm("vertices_mm", in_metres, Convex::from_vertices(vertices).map(Solid::Convex))
+        in_mm([("vertices_mm", in_metres)], Convex::from_vertices(vertices).map(Solid::Convex))
     }
 }
 

@@ -54,6 +54,21 @@ fn numbers_that_cannot_be_are_refused_by_name() {
             "radius_mm = 0.5",
             ["radius_mm is 0.5", "is it in metres? millimetres are accepted (0.5 m is 500 mm)"],
         ),
+        (
+            "queries = 2\nstart_mm = { x = [0, 0.5], z = [0.3, 0.9] }",
+            ["the greatest coordinate of start_mm is 0.9", "is it in metres? millimetres are accepted"],
+        ),
+        (
+            "speed = { tool_mm_s = 0.5, acceleration_mm_s2 = 2000 }",
+            ["speed.tool_mm_s is 0.5", "is it in metres? millimetres are accepted (0.5 m is 500 mm)"],
+        ),
+        (
+            "speed = { tool_mm_s = 500, acceleration_mm_s2 = 1.5 }",
+            [
+                "speed.acceleration_mm_s2 is 1.5",
+                "is it in metres? millimetres are accepted (1.5 m is 1500 mm)",
+            ],
+        ),
         ("turn_deg = 3.14159", ["turn_deg is 3.14159", "is it in radians? degrees are accepted"]),
         ("scene = 'data/none.toml'", ["data/none.toml", "does not exist"]),
         ("radius = 3", ["radius", "radius_mm"]),

@@ -20,7 +20,8 @@ const SET: &str = r#"{"robot": "nod", "joints": ["two", "one"], "problems": {"wa
   {"index": 7, "start": [0, 1.2], "goals": [[0, -1.2]], "sphere": [{"position": [0, 0, 1.5], "radius": 0.2}]},
   {"start": [0, 0], "goals": [[0, -1.2]], "sphere": [{"position": [0, 0, 1.5], "radius": 0.2}]},
   {"start": [0, 1.2], "goals": [[0, -1.2]], "valid": false},
-  {"start": [0, 120], "goals": [[0, -1.2]]}
+  {"start": [0, 120], "goals": [[0, -1.2]]},
+  {"start": [0, 1.2], "goals": [[0, -3.5]]}
 ]}}"#;
 
 const SETTINGS: &str = r#"
@@ -48,23 +49,34 @@ fn built(text: &str, inputs: &Inputs) -> Result<Box<dyn Family>, String> {
     build(&settings(text), inputs).map_err(|error| error.to_string())
 }
 
+/// The notes on this set.
+fn notes_on(set: &str) -> Vec<String> {
+    let (folder, inputs) = folder("");
+    fs::write(folder.path().join("set.json"), set).unwrap();
+    built(SETTINGS, &inputs).unwrap().notes()
+}
+
 #[test]
 fn each_problem_is_an_instance_and_what_is_wrong_with_one_is_counted() {
     let (_folder, inputs) = folder("");
     let family = built(SETTINGS, &inputs).unwrap();
     let known = family.known(0);
     let counted = ["valid_problems", "set_problems"].map(|name| known[name].as_f64());
-    assert_eq!(counted, [1.0, 4.0]);
+    assert_eq!(counted, [1.0, 5.0]);
     let notes = family.notes();
     let [ignored, called, refused] = &notes[..] else { panic!("{notes:?}") };
     assert_eq!(ignored, "set.json: ignored keys: `index`; docs/FILES.md has the reasons");
-    assert_eq!(called, "set.json: problems that the set calls invalid: 1 of 4");
-    let expected = "set.json: refused problems, which count as invalid: 1 of 4; the first: ";
+    assert_eq!(called, "set.json: problems that the set calls invalid: 1 of 5");
+    let expected = "set.json: refused problems, which count as invalid: 2 of 5; the first: ";
     assert!(refused.starts_with(expected) && refused.contains("set.json:5:13: "), "{refused}");
     let wrong = |index| family.prepare(index).err().map(|invalid| invalid.0).unwrap_or_default();
     assert!(wrong(2).contains("the problem set calls this problem invalid"), "{}", wrong(2));
     assert!(wrong(3).contains("is it in degrees? radians are accepted"), "{}", wrong(3));
-    assert!(wrong(4).contains("the set has 4"), "{}", wrong(4));
+    assert!(wrong(5).contains("the set has 5"), "{}", wrong(5));
+    let limited = notes_on(&SET.replace("120", "1.2")).pop().unwrap();
+    let expected = "1 of 5; the first: ";
+    let place = "set.json:6:33: the goal cannot be posed: joint `one` is at -3.5 rad, outside -3 to 3";
+    assert!(limited.contains(expected) && limited.contains(place), "{limited}");
     let planner = r#"
 range = 1
 sampler = "halton"
@@ -100,6 +112,8 @@ nodes = 1000
     assert_eq!(plan(0).unwrap(), solved);
     let refused = plan(1).unwrap_err().0;
     assert!(refused.contains("the start cannot be posed: part `lower"), "{refused}");
+    let beyond = plan(4).unwrap_err().0;
+    assert!(beyond.contains("the goal cannot be posed: joint `one` is at -3.5 rad"), "{beyond}");
 }
 
 #[test]
