@@ -96,9 +96,9 @@ mod tests {
         {
             std::os::unix::fs::symlink(to, at(link)).unwrap();
         }
-        let said = ["itself", "here", "first", "gone"].map(|name| missing(&at(name)));
+        let found = ["itself", "here", "first", "gone"].map(|name| missing(&at(name)));
         let circle = "is a link, and links go in a circle";
-        assert_eq!(said, [circle, circle, "is a link to a file that does not exist", "does not exist"]);
+        assert_eq!(found, [circle, circle, "is a link to a file that does not exist", "does not exist"]);
     }
 
     #[test]

@@ -54,7 +54,7 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// One of which nothing was seen beside what is planned.
+    /// One with nothing to note.
     fn new(obstacles: Vec<Solid>, start: Ended, goals: Vec<Ended>) -> Self {
         let (notes, ignored) = (Vec::new(), BTreeSet::new());
         Self { obstacles, start, goals, robot: None, is_valid: true, notes, ignored }

@@ -387,7 +387,7 @@ impl Family for Set {
         });
         let called_invalid = (called_invalid > 0)
             .then(|| format!("problems that the set calls invalid: {called_invalid} of {count}"));
-        // What refused problems call the robot is not known.
+        // Refused problems may call the robot anything.
         let is_known = self.robot_name.is_some() && (named.is_some() || is_read);
         let renamed = is_known.then(|| renamed(&self.robot, named.as_deref()));
         let of_problems = notes
