@@ -192,8 +192,8 @@ pub struct Counters {
 }
 
 impl Counters {
-    /// No whole number above it is certain in JSON as most languages read it: 2⁵³.
-    const MOST: f64 = 9_007_199_254_740_992.0;
+    /// From here on most languages, this one too, round whole numbers of JSON: 2⁵³.
+    const TOO_MANY: f64 = 9_007_199_254_740_992.0;
 
     /// Each by the name of its column.
     pub fn named(&self) -> [(&'static str, Option<f64>); 4] {
@@ -213,8 +213,8 @@ impl Counters {
             let (fits, accepted) = if name.ends_with("_ns") {
                 (value >= 0.0, "a number of 0 or more")
             } else {
-                let fits = value.fract() == 0.0 && (0.0..=Self::MOST).contains(&value);
-                (fits, "a whole number from 0 to 2^53")
+                let fits = value.fract() == 0.0 && (0.0..Self::TOO_MANY).contains(&value);
+                (fits, "a whole number of 0 or more and below 2^53")
             };
             (!fits).then_some((name, accepted))
         })

@@ -116,6 +116,8 @@ fn every_way_to_misbehave_is_the_status_of_one_row_and_costs_no_other_trial() {
         }
         assert_eq!(rows["cut-off"].value("is_cut_off"), Some(1.0));
         assert_eq!(rows["good"].value("is_cut_off"), Some(0.0));
+        let counters = ["own_wall_ns", "samples", "iterations"].map(|name| rows["counters"].value(name));
+        assert_eq!(counters.map(|found| found.map(f64::to_bits)), [Some(0), Some(3_f64.to_bits()), None]);
         let named = String::from_utf8_lossy(&run.stderr).into_owned();
         let is_over = || alive("fork-chain.sh on").is_empty();
         assert!(soon(is_over) || named.contains("could not be ended"), "a chain of forks goes on: {named}");

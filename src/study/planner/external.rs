@@ -242,7 +242,8 @@ fn counts(talk: &Talk) -> Counts {
     ]);
     for (name, found) in talk.counters.named() {
         let Some(found) = found else { continue };
-        let value = if name.ends_with("_ns") { Value::Real(found) } else { Value::Count(found as u64) };
+        // The sum makes 0 of -0.
+        let value = if name.ends_with("_ns") { Value::Real(found + 0.0) } else { Value::Count(found as u64) };
         counts.insert(name, value);
     }
     counts

@@ -131,13 +131,13 @@ pub const CASES: &[Case] = &[
         "counter-too-large",
         r#"hello; query; result "[$start,$goal]" ',"counters":{"expansions":1e17}'; query"#,
         "crashed",
-        "the planner counts 1e17 `expansions`; a whole number from 0 to 2^53 is accepted",
+        "the planner counts 1e17 `expansions`; a whole number of 0 or more and below 2^53 is accepted",
     ),
     case(
         "counter-of-many-digits",
-        r#"hello; query; result "[$start,$goal]" ',"counters":{"expansions" : 1208925819614629174706176 }'; query"#,
+        r#"hello; query; result "[$start,$goal]" ',"counters":{"expansions" : 9007199254740993 }'; query"#,
         "crashed",
-        "the planner counts 1208925819614629174706176 `expansions`; a whole number from 0 to 2^53 is accepted",
+        "the planner counts 9007199254740993 `expansions`; a whole number of 0 or more and below 2^53 is accepted",
     ),
     case(
         "counter-twice",
@@ -149,7 +149,7 @@ pub const CASES: &[Case] = &[
         "counter-in-parts",
         r#"hello; query; result "[$start,$goal]" ',"counters":{"samples":1.5}'; query"#,
         "crashed",
-        "the planner counts 1.5 `samples`; a whole number from 0",
+        "the planner counts 1.5 `samples`; a whole number of 0 or more",
     ),
     case(
         "counter-below-0",
@@ -159,7 +159,7 @@ pub const CASES: &[Case] = &[
     ),
     case(
         "counters",
-        r#"hello; query; result "[$start,$goal]" ',"counters":{"own_wall_ns":0.5,"samples":3.0,"iterations":null}'; query"#,
+        r#"hello; query; result "[$start,$goal]" ',"counters":{"own_wall_ns":-0.0,"samples":3.0,"iterations":null}'; query"#,
         "solved",
         "",
     ),
