@@ -216,7 +216,7 @@ fn check_names_starts_and_goals_beyond_the_limits_of_a_joint() {
     let beyond = THERE.replace("-0.4", "-3.25");
     bench.write("files/arm.json", beyond.as_bytes());
     bench.write("files/arms.toml", study(&joint_group("arm"), STRAIGHT).as_bytes());
-    let expected = "arm.json:1:60: the goal cannot be posed: joint `low` is at -3.25 rad, outside -3 to 3";
+    let expected = "arm.json:1:55: the goal cannot be posed: joint `low` is at -3.25 rad, outside -3 to 3";
     let output = bench.run(&["check", "./files"]);
     assert!(output.code == Some(2) && output.err.contains(expected), "{}", output.err);
     bench.write("files/arms.toml", study(SET, STRAIGHT).as_bytes());

@@ -89,11 +89,7 @@ fn a_wrong_scene_says_which_obstacle_where_and_what_is_accepted() {
         ),
         (
             "[[capsule]]\nname = 'c'\nfrom_mm = [0.3, 0, 0.9]\nto_mm = [0.3, 0, 0.1]\nradius_mm = 50\n",
-            [
-                "s.toml:4:11",
-                "`c`: the greatest coordinate of from_mm and to_mm is 0.9; is it in metres?",
-                "(0.9 m is 900 mm)",
-            ],
+            ["s.toml:4:11", "coordinate of from_mm and to_mm is 0.9; is it in metres?", "(0.9 m is 900 mm)"],
         ),
         (
             "[[convex]]\nname = 'p'\nvertices_mm = [[0, 0, 0], [0.3, 0, 0], [0, 0.2, 0], [0, 0, 0.25]]\n\
