@@ -1,7 +1,7 @@
 //! Seven axes among a ball, and spheres in lanes against the scalar code.
 
 use super::*;
-use base::robot::Joint;
+use base::robot::{Joint, Kind};
 use base::solid::{Form, Pose};
 
 /// Seven joints in a row that turn about z, y, z, ..., each with a rod of 0.2 m.
