@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cached_property, partial
 from typing import Any
 
 from statistics_judge.classes import OPEN, SPEAKS, stored_outcome
@@ -198,13 +198,19 @@ class Across:
         lines = (line for finding in findings for line in finding["because"])
         return next((line for line in lines if line.startswith("possible: ")), None)
 
+    @cached_property
+    def voting(self) -> list[int]:
+        """The places of the interpretations that the paper may mean and that can be run."""
+        assert self.first is not None
+        interpretations = self.first["interpretations"]
+        return [
+            at for at, one in enumerate(interpretations) if all(choice.votes(one) for choice in self.choices)
+        ]
+
     def counted(self, claim: str) -> Counted:
         """The interpretations that vote and are compatible, with equal results once."""
         assert self.first is not None
-        interpretations = self.first["interpretations"]
-        voting = [
-            at for at, one in enumerate(interpretations) if all(choice.votes(one) for choice in self.choices)
-        ]
+        voting = self.voting
         judged = self.compatible(voting, *self.calibrating(claim))
         none_compatible = bool(voting) and not judged
         judged = voting if none_compatible else judged

@@ -5,13 +5,14 @@
 
 mod tried;
 
-use crate::worlds::{Case, Subject, samples, worlds};
+use crate::worlds::{Case, Subject, Truth, samples, worlds};
 use base::settings::Settings;
 use engine::planner::{self, Build, Ending, Entry, Invalid, Plan, Planner, Request, Stage};
 use engine::space::WorldKind;
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::LazyLock;
 use tried::{
     COUNTING, CUT_IN, DRIFT, FED_BY, FOLLOWING, LOOK_AT_POINTS, OFF, SETTINGS, WITHOUT_TRACES, is_among,
     names,
@@ -42,9 +43,40 @@ fn planners() -> Vec<Subject> {
     built
 }
 
+/// A planner on every world of its sample.
+struct Tried {
+    subject: Subject,
+    /// Its plan and what is true of the query, world by world.
+    plans: Vec<(&'static Case, Plan, Truth)>,
+}
+
+impl Tried {
+    /// The world at this place of the sample of `kind`, and the plan on it.
+    fn on(&self, kind: WorldKind, at: usize) -> (&'static Case, Plan) {
+        let case = &worlds(kind)[at];
+        let planned = || plan(self.subject.planner.as_ref(), case);
+        (case, if kind == self.subject.entry.needs { self.plans[at].1.clone() } else { planned() })
+    }
+}
+
+/// Every planner with each of its settings, on every world of its sample; planned once for all tests.
+fn tried() -> &'static [Tried] {
+    static TRIED: LazyLock<Vec<Tried>> = LazyLock::new(|| {
+        let planners = planners();
+        // No thread of the pool draws the worlds that another waits for.
+        planners.iter().for_each(|subject| _ = worlds(subject.entry.needs));
+        let on = |subject: Subject| {
+            let planned = |case| (case, plan(subject.planner.as_ref(), case), case.truth(&subject));
+            Tried { plans: worlds(subject.entry.needs).iter().map(planned).collect(), subject }
+        };
+        planners.into_par_iter().map(on).collect()
+    });
+    &TRIED
+}
+
 /// Every planner that searches, so that it has a budget and counters.
-fn searching() -> Vec<Subject> {
-    planners().into_iter().filter(|subject| subject.entry.columns.contains(&"expansions")).collect()
+fn searching() -> impl Iterator<Item = &'static Tried> {
+    tried().iter().filter(|tried| tried.subject.entry.columns.contains(&"expansions"))
 }
 
 /// A stage with the settings that it was built from.
@@ -128,17 +160,14 @@ fn a_plan_depends_on_the_seed_only_if_its_planner_says_that_it_draws() {
 
 #[test]
 fn planners_find_a_path_exactly_where_their_graph_has_one() {
-    for subject in planners() {
+    for Tried { subject, plans } in tried() {
         let mut solved = 0;
         let mut walled = 0;
-        let cases = worlds(subject.entry.needs);
-        for case in cases {
-            let plan = plan(subject.planner.as_ref(), case);
-            let truth = case.truth(&subject);
+        for (case, plan, truth) in plans {
             let what = format!("{} on {}", subject.name, case.name);
             let found = plan.ending == Ending::Solved;
             // Without a path, planners that sample go on until their budget is spent.
-            let goes_on = samples(&subject) && truth.optimum.is_none();
+            let goes_on = samples(subject) && truth.optimum.is_none();
             assert!(plan.ending != Ending::BudgetSpent || goes_on, "{what}: the budget was spent");
             assert!(!found || truth.optimum.is_some(), "{what}: a path where there is none");
             assert!(!truth.is_exact || found == truth.optimum.is_some(), "{what}");
@@ -147,10 +176,10 @@ fn planners_find_a_path_exactly_where_their_graph_has_one() {
             walled += usize::from(truth.optimum.is_none());
         }
         assert!(
-            solved * 5 > cases.len() && walled * 20 > cases.len(),
+            solved * 5 > plans.len() && walled * 20 > plans.len(),
             "{}: {solved} solved, {walled} walled off of {}",
             subject.name,
-            cases.len()
+            plans.len()
         );
     }
 }
@@ -182,14 +211,12 @@ fn a_goal_that_is_the_start_is_reached_at_no_cost() {
 fn no_planner_is_refused_and_optimal_ones_cost_what_the_oracle_finds() {
     let mut above = BTreeMap::new();
     let mut excused = BTreeSet::new();
-    for subject in planners() {
-        for case in worlds(subject.entry.needs) {
+    for Tried { subject, plans } in tried() {
+        for (case, plan, truth) in plans {
             let above = above.entry(case.world.kind()).or_insert(0);
-            let plan = plan(subject.planner.as_ref(), case);
-            let truth = case.truth(&subject);
             let Some((cost, optimum)) = plan.cost.zip(truth.optimum) else { continue };
             let what = format!("{} on {}", subject.name, case.name);
-            if let Some(refusal) = case.refusal(&plan, &subject) {
+            if let Some(refusal) = case.refusal(plan, subject) {
                 assert!(is_among(LOOK_AT_POINTS, subject.entry, &subject.settings), "{what}: {refusal}");
                 excused.insert(subject.entry.name);
             }
@@ -225,16 +252,15 @@ fn astar_expands_less_than_dijkstra_so_that_its_heuristic_is_not_zero() {
 
 #[test]
 fn a_budget_is_kept_to_the_last_expansion() {
-    for Subject { name, entry, planner, .. } in searching() {
+    for Tried { subject: Subject { name, planner, .. }, plans } in searching() {
         let mut spent = 0;
-        for case in worlds(entry.needs).iter().step_by(3) {
-            let free = plan(planner.as_ref(), case);
-            let full = count(&free, "expansions");
+        for (case, free, _) in plans.iter().step_by(3) {
+            let full = count(free, "expansions");
             for budget in BTreeSet::from([0, 1, 2, full / 2, full.saturating_sub(1), full, full + 1]) {
                 let plan = planner.plan(&request(case, budget, false)).unwrap();
                 let what = format!("{name} on {} with {budget} of {full} expansions", case.name);
                 if budget > full {
-                    assert_eq!(plan, free, "{what}");
+                    assert_eq!(plan, *free, "{what}");
                 } else if budget < full {
                     assert_eq!(plan.ending, Ending::BudgetSpent, "{what}");
                     assert_eq!((plan.cost, plan.path.len()), (None, 0), "{what}");
@@ -249,10 +275,10 @@ fn a_budget_is_kept_to_the_last_expansion() {
 
 #[test]
 fn counters_are_what_the_world_saw() {
-    for subject in searching() {
+    for Tried { subject, plans } in searching() {
         let mut exhausted = 0;
         let mut is_counted = false;
-        for case in worlds(subject.entry.needs) {
+        for (case, _, truth) in plans {
             let plan = subject.planner.plan(&request(case, PLENTY, true)).unwrap();
             let what = format!("{} on {}: {:?}", subject.name, case.name, plan.counts);
             for list in ["opened", "closed"] {
@@ -271,9 +297,8 @@ fn counters_are_what_the_world_saw() {
             if columns.contains(&"closed") {
                 assert!(count(&plan, "closed") <= count(&plan, "opened"), "{what}");
             }
-            let reachable = case.truth(&subject).reachable;
-            is_counted |= reachable.is_some();
-            if let (Ending::NoPath, Some((nodes, moves))) = (plan.ending, reachable) {
+            is_counted |= truth.reachable.is_some();
+            if let (Ending::NoPath, Some((nodes, moves))) = (plan.ending, truth.reachable) {
                 let counted = ["opened", "closed", "expansions", "generated"].map(|c| count(&plan, c));
                 assert_eq!(counted, [nodes, nodes, nodes, moves], "{what}");
                 exhausted += 1;
@@ -300,11 +325,11 @@ fn a_start_or_goal_that_is_blocked_or_outside_is_invalid() {
 }
 
 /// Every planner that searches, whose paths are accepted and are what the stage takes.
-fn feeding(entry: &Entry) -> Vec<Subject> {
+fn feeding(entry: &Entry) -> impl Iterator<Item = &'static Tried> {
     let kind = FED_BY.iter().find(|(fed, _)| *fed == entry.name).map_or(entry.needs, |(_, kind)| *kind);
-    let mut feeding = searching();
-    feeding.retain(|s| s.entry.needs == kind && !is_among(LOOK_AT_POINTS, s.entry, &s.settings));
-    feeding
+    searching().filter(move |Tried { subject, .. }| {
+        subject.entry.needs == kind && !is_among(LOOK_AT_POINTS, subject.entry, &subject.settings)
+    })
 }
 
 /// What the stage makes of a plan, which is the same with tracing and on two threads at once and keeps all counts.
@@ -327,11 +352,11 @@ fn stages_keep_ends_and_truth_without_lengthening() {
         let Tidier { name, entry, settings, .. } = &tidier;
         let mut solved = 0;
         let mut better = 0;
-        let feeding = feeding(entry);
         let follows = FOLLOWING.contains(&entry.name);
-        for (subject, case) in feeding.iter().flat_map(|s| worlds(entry.needs).iter().map(move |c| (s, c))) {
-            let raw = plan(subject.planner.as_ref(), case);
-            let what = format!("{name} after {} on {}", subject.name, case.name);
+        let places = 0..worlds(entry.needs).len();
+        for (tried, at) in feeding(entry).flat_map(|tried| places.clone().map(move |at| (tried, at))) {
+            let (case, raw) = tried.on(entry.needs, at);
+            let what = format!("{name} after {} on {}", tried.subject.name, case.name);
             let tidied = tidied(&tidier, &request(case, PLENTY, false), &raw, &what);
             let counts_only = COUNTING.contains(&entry.name);
             if counts_only || raw.ending != Ending::Solved {

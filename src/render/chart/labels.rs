@@ -87,13 +87,14 @@ fn passes([from, to]: [[f64; 2]; 2], room: Rect) -> bool {
     let (mut low, mut high) = (0.0_f64, 1.0_f64);
     for axis in 0..2 {
         let along = to[axis] - from[axis];
-        let [a, b] = sides[axis].map(|side| (side - from[axis]) / along);
         if along == 0.0 {
             if !(sides[axis][0]..=sides[axis][1]).contains(&from[axis]) {
                 return false;
             }
             continue;
         }
+        let a = (sides[axis][0] - from[axis]) / along;
+        let b = (sides[axis][1] - from[axis]) / along;
         (low, high) = (low.max(a.min(b)), high.min(a.max(b)));
     }
     low <= high
@@ -119,13 +120,32 @@ impl<'p> Choice<'p> {
         Self { places, alone: places.iter().enumerate().map(cost).collect() }
     }
 
-    /// What it costs that name `own` stands at its place `at`, beside all others that have one.
-    fn cost(&self, own: usize, at: usize, taken: &[Option<usize>]) -> f64 {
-        let beside = |(other, stands): (usize, &Option<usize>)| {
-            let place = stands.filter(|_| other != own).map(|stands| &self.places[other][stands])?;
-            Some(self.places[own][at].against(place))
-        };
-        self.alone[own][at] + taken.iter().enumerate().filter_map(beside).sum::<f64>()
+    /// What it costs that name `own` stands at its place `at`, beside all others that have one; from `most` on, some number
+    /// that is no less.
+    fn cost(&self, own: usize, at: usize, taken: &[Option<usize>], most: f64) -> f64 {
+        let alone = self.alone[own][at];
+        let mut beside = 0.0;
+        for (other, stands) in taken.iter().enumerate() {
+            if alone + beside >= most {
+                break;
+            }
+            if let Some(stands) = stands.filter(|_| other != own) {
+                beside += self.places[own][at].against(&self.places[other][stands]);
+            }
+        }
+        alone + beside
+    }
+
+    /// The cheapest place of name `own` beside all others that have one; of equal ones the first.
+    fn cheapest(&self, own: usize, taken: &[Option<usize>]) -> Option<usize> {
+        let (mut least, mut cheapest) = (f64::INFINITY, None);
+        for at in 0..self.places[own].len() {
+            let cost = self.cost(own, at, taken, least);
+            if cost < least {
+                (least, cheapest) = (cost, Some(at));
+            }
+        }
+        cheapest
     }
 
     /// Each name in turn, name `first` first, takes the cheapest of its places, until none moves; and what that costs.
@@ -135,14 +155,15 @@ impl<'p> Choice<'p> {
         for _ in 0..ROUNDS {
             let before = taken.clone();
             for own in (0..count).map(|turn| (first + turn * step) % count) {
-                let cost = |at: &usize| self.cost(own, *at, &taken);
-                taken[own] = (0..self.places[own].len()).min_by(|a, b| cost(a).total_cmp(&cost(b)));
+                taken[own] = self.cheapest(own, &taken);
             }
             if taken == before {
                 break;
             }
         }
-        let cost = |(own, at): (usize, &Option<usize>)| at.map_or(0.0, |at| self.cost(own, at, &taken));
+        let cost = |(own, at): (usize, &Option<usize>)| {
+            at.map_or(0.0, |at| self.cost(own, at, &taken, f64::INFINITY))
+        };
         let all = taken.iter().enumerate().map(cost).sum();
         (all, taken)
     }
