@@ -117,6 +117,10 @@ fn reasons(pair: [&ClaimVerdict; 2], defaults: &[DefaultPair]) -> Vec<String> {
     if depends[0] != depends[1] {
         reasons.push(format!("depends on: {} and {}", or_none(&depends[0]), or_none(&depends[1])));
     }
+    let printed = pair.map(|claim| claim.printed.clone().unwrap_or_default());
+    if printed[0] != printed[1] {
+        reasons.push(format!("printed: {} and {}", or_none(&printed[0]), or_none(&printed[1])));
+    }
     // A choice that is known to do nothing to either side does not explain the difference.
     let touches = |default: &&DefaultPair| {
         pair.iter().any(|claim| {
@@ -124,6 +128,13 @@ fn reasons(pair: [&ClaimVerdict; 2], defaults: &[DefaultPair]) -> Vec<String> {
         })
     };
     reasons.extend(defaults.iter().filter(touches).map(DefaultPair::said));
+    if reasons.is_empty() {
+        // The same criterion with other settings, as a margin, or with other parts.
+        let because = pair.map(|claim| claim.findings.iter().flat_map(|finding| &finding.because));
+        let [first, second] = because;
+        let other = first.zip(second).find(|(first, second)| first != second);
+        reasons.extend(other.map(|(first, second)| format!("evidence: {first}; and {second}")));
+    }
     reasons
 }
 

@@ -98,6 +98,11 @@ pub static METRICS: &[Metric] = &[
     metric("opened_distinct", "Opened nodes, each once", "", Better::Lower),
     metric("optimal_cost_cells", "Optimal cost", "cells", Better::Neither),
     metric("optimal_length_cm", "Optimal length", "cm", Better::Neither),
+    Metric {
+        column: "own_wall_ns",
+        scale: 1e-6,
+        ..metric("own_time_ms", "Planning time by its own clock", "ms", Better::Lower)
+    },
     metric("path_cost_cells", "Path cost", "cells", Better::Lower),
     metric("path_length_cm", "Path length", "cm", Better::Lower),
     metric("path_length_mm", "Path length", "mm", Better::Lower),
@@ -216,6 +221,11 @@ impl Metric {
     /// Whether it is read from the clock.
     pub fn is_clock(&self) -> bool {
         self.column == clock::COLUMN
+    }
+
+    /// Whether a clock decides it, ours or a planner's own: it differs between machines and sessions.
+    pub fn is_time(&self) -> bool {
+        self.column.ends_with("_wall_ns")
     }
 }
 

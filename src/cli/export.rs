@@ -22,7 +22,7 @@ pub struct Export {
     /// The same as `--to csv`
     #[arg(long)]
     csv: bool,
-    /// The format
+    /// The format; an RO-Crate is what `replan pack` writes
     #[arg(long, value_name = "FORMAT", required_unless_present = "csv", conflicts_with = "csv")]
     to: Option<Format>,
     /// Write into this folder; below target/replan/export/ if absent

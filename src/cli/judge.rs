@@ -41,7 +41,7 @@ impl Judge {
         let paper = super::load::load(&places, &how)?;
         let point = how.interpretation(&paper.choices)?;
         if self.check {
-            return check(&paper, point, &places).map_err(Failure::in_check);
+            return check(&paper, point, &places);
         }
         let _lock = if places.runs.is_dir() { Some(Lock::take(&places.runs)?) } else { None };
         let judged = judge(&paper, point, &places)?;
@@ -51,7 +51,11 @@ impl Judge {
 }
 
 /// Judges again and refuses stored verdicts that are not what comes out, to the byte.
-fn check(paper: &Paper, point: Interpretation, places: &Places) -> Result<(), Failure> {
+pub(super) fn check(paper: &Paper, point: Interpretation, places: &Places) -> Result<(), Failure> {
+    compare(paper, point, places).map_err(Failure::in_check)
+}
+
+fn compare(paper: &Paper, point: Interpretation, places: &Places) -> Result<(), Failure> {
     let stored = Verdicts::read_as_they_stand(&places.runs)?;
     let path = Verdicts::path(&places.runs);
     check_explorations(paper, &stored, places)?;

@@ -5,8 +5,8 @@
 //! `replan check PACK` verify.
 
 use super::places::Places;
-use super::progress::doing;
-use super::{Failure, How, Which, report};
+use super::progress::{doing, stop_flag};
+use super::{Failure, How, Which, judge, render, report};
 use crate::analysis::compare::stored_studies;
 use crate::analysis::verdict::Verdicts;
 use base::hash::sha256;
@@ -41,6 +41,9 @@ const SUMS: &str = "SHA256SUMS";
 /// The file that makes a folder an RO-Crate.
 const METADATA: &str = "ro-crate-metadata.json";
 
+/// The licence of replan itself, by its address.
+const OWN_LICENSE: &str = concat!("https://spdx.org/licenses/", env!("CARGO_PKG_LICENSE"));
+
 fn day(text: &str) -> Result<String, String> {
     if is_day(text) { Ok(text.to_owned()) } else { Err("a day as 2026-01-31 is accepted".to_owned()) }
 }
@@ -59,6 +62,9 @@ impl Pack {
         let paper = super::load::load(&places, &How::plain(None))?;
         let verdicts = Verdicts::read(&places.runs)?;
         super::export::check_stored(&places.runs)?;
+        // What the README promises a reviewer: verdicts follow from records, tables and figures from both.
+        judge::check(&paper, How::plain(None).interpretation(&paper.choices)?, &places)?;
+        render::check(&paper, &places, None, stop_flag())?;
         doing(&format!("{}: writing its page", paper.id));
         let page = tempfolder(&self.to)?;
         let written = report::write(&places, &page, false).1;
@@ -68,7 +74,7 @@ impl Pack {
         let mut files = files?;
         let license = self.license(&places, &files)?;
         files.insert("README.md".to_owned(), readme(&paper, &verdicts).into_bytes());
-        let metadata = self.metadata(&paper, &verdicts, &license, &files);
+        let metadata = self.metadata(&paper, &verdicts, &license, &files, &makers(&places.runs)?);
         files.insert(METADATA.to_owned(), format!("{metadata:#}\n").into_bytes());
         let sums = files.iter().map(|(name, bytes)| format!("{}  {name}\n", sha256(bytes)));
         let sums = sums.collect::<Vec<_>>().concat();
@@ -110,6 +116,7 @@ impl Pack {
         verdicts: &Verdicts,
         license: &str,
         files: &BTreeMap<String, Vec<u8>>,
+        makers: &str,
     ) -> Value {
         let reference = |id: &str| json!({ "@id": id });
         let part = |(name, bytes): (&String, &Vec<u8>)| {
@@ -141,19 +148,23 @@ impl Pack {
                 "datePublished": self.date, "license": reference(license), "hasPart": all,
                 "version": seal(verdicts), "mentions": reference("#run"), "isBasedOn": reference("#paper"),
             }),
-            json!({ "@id": "#paper", "@type": "ScholarlyArticle", "name": title, "creditText": paper.source.authors }),
             json!({
                 "@id": "#replan", "@type": "SoftwareApplication", "name": "replan",
-                "version": env!("CARGO_PKG_VERSION"),
+                "version": env!("CARGO_PKG_VERSION"), "license": reference(OWN_LICENSE),
             }),
             json!({
-                "@id": "#run", "@type": "CreateAction", "name": verdicts.command, "instrument": reference("#replan"),
-                "object": of("experiments/"), "result": of("data/runs/"),
+                "@id": "#run", "@type": "CreateAction", "name": verdicts.command, "description": makers,
+                "instrument": reference("#replan"), "object": of("experiments/"), "result": of("data/runs/"),
             }),
         ];
-        if license != "LICENSE" {
-            graph.push(json!({ "@id": license, "@type": "CreativeWork", "name": "Licence", "description": "The licence of this pack." }));
+        let mut about = json!({ "@id": "#paper", "@type": "ScholarlyArticle", "name": title });
+        if let Some(authors) = &paper.source.authors {
+            about["creditText"] = authors.as_str().into();
         }
+        graph.push(about);
+        let addresses = BTreeSet::from([OWN_LICENSE, license]).into_iter().filter(|one| *one != "LICENSE");
+        let license = |one| json!({ "@id": one, "@type": "CreativeWork", "name": "Licence", "description": "A licence, by its address." });
+        graph.extend(addresses.map(license));
         graph.extend(files.iter().map(part));
         json!({ "@context": "https://w3id.org/ro/crate/1.1/context", "@graph": graph })
     }
@@ -187,6 +198,19 @@ fn files(paper: &Paper, places: &Places, page: &Path) -> Result<BTreeMap<String,
         files.insert("LICENSE".to_owned(), read(&license)?);
     }
     Ok(files)
+}
+
+/// The programs and processors that made the records in `runs`, in words.
+fn makers(runs: &Path) -> Result<String, Failure> {
+    let mut makers = BTreeSet::new();
+    for study in stored_studies(runs) {
+        let Manifest { made_by, elsewhere, .. } = Manifest::read(runs, &study)?;
+        let revision = made_by.git.map(|git| format!("revision {git}"));
+        let by = [Some(format!("replan {}", made_by.replan)), revision, made_by.rustc, made_by.cpu];
+        let own = by.into_iter().flatten().collect::<Vec<_>>().join(", ");
+        makers.insert(elsewhere.map_or(own, |file| format!("recorded elsewhere, in {file}")));
+    }
+    Ok(makers.into_iter().collect::<Vec<_>>().join("; "))
 }
 
 /// The version by which these verdicts can be cited: it changes with any of them.

@@ -35,8 +35,7 @@ impl Render {
         let paper = super::load::load(&places, &how)?;
         let stop = stop_flag();
         if self.check {
-            let drawn = draw(&paper, &places, self.only.as_deref(), stop);
-            return drawn.and_then(|drawn| check(&paper, &places, &drawn)).map_err(Failure::in_check);
+            return check(&paper, &places, self.only.as_deref(), stop);
         }
         check_report(&paper, &places)?;
         let _lock = if places.runs.is_dir() { Some(Lock::take(&places.runs)?) } else { None };
@@ -121,7 +120,18 @@ fn put(paper: &Paper, places: &Places, drawn: &Drawn, stop: &AtomicBool) -> Resu
     Ok(())
 }
 
-fn check(paper: &Paper, places: &Places, drawn: &Drawn) -> Result<(), Failure> {
+/// Draws again and refuses stored files that are not what comes out.
+pub(super) fn check(
+    paper: &Paper,
+    places: &Places,
+    only: Option<&str>,
+    stop: &AtomicBool,
+) -> Result<(), Failure> {
+    let drawn = draw(paper, places, only, stop);
+    drawn.and_then(|drawn| compare(paper, places, &drawn)).map_err(Failure::in_check)
+}
+
+fn compare(paper: &Paper, places: &Places, drawn: &Drawn) -> Result<(), Failure> {
     all_drawn(&drawn.outputs)?;
     let files = &drawn.outputs.files;
     let mut stale = output::stale(&places.plots, files);

@@ -6,7 +6,6 @@
 
 use base::text::one_line;
 use replan::analysis::compare::StoredRun;
-use replan::cli::Failure;
 use std::collections::{BTreeMap, BTreeSet};
 use study::column::{self, Kind};
 use study::key::TrialKey;
@@ -74,11 +73,6 @@ pub struct Experiment {
 }
 
 impl Experiment {
-    /// The name of its log.
-    pub fn file(&self) -> String {
-        format!("{}.log", study::slug(&self.name))
-    }
-
     /// The most runs that a planner has.
     pub fn most_runs(&self) -> usize {
         self.planners.iter().map(|planner| planner.runs.len()).max().unwrap_or_default()
@@ -86,21 +80,12 @@ impl Experiment {
 }
 
 /// Every experiment of a stored run, in the order of records.
-///
-/// # Errors
-/// Two problem groups that files cannot keep apart.
-pub fn experiments(run: &StoredRun) -> Result<Vec<Experiment>, Failure> {
+pub fn experiments(run: &StoredRun) -> Vec<Experiment> {
     let mut all = Vec::new();
     for (study, (manifest, records)) in &run.studies {
         let times = first_times(&records.times);
-        let mut groups: Vec<(String, Vec<&Row>)> = Vec::new();
-        for row in &records.batch.rows {
-            let name = group_name(study, manifest, &row.key);
-            match groups.last_mut() {
-                Some((last, rows)) if *last == name => rows.push(row),
-                _ => groups.push((name, vec![row])),
-            }
-        }
+        let rows: Vec<&Row> = records.batch.rows.iter().collect();
+        let groups = grouped(&rows, |row| group_name(study, manifest, &row.key));
         all.extend(groups.into_iter().map(|(name, rows)| Experiment {
             name,
             seed: manifest.seed,
@@ -109,15 +94,22 @@ pub fn experiments(run: &StoredRun) -> Result<Vec<Experiment>, Failure> {
             planners: planners(&rows, &times),
         }));
     }
-    let mut files = BTreeSet::new();
-    match all.iter().find(|experiment| !files.insert(experiment.file())) {
-        Some(twice) => Err(Failure::input(format!(
-            "`{}` and another problem group would both be {}; labels with other letters are accepted",
-            twice.name,
-            twice.file()
-        ))),
-        None => Ok(all),
+    all
+}
+
+/// Rows by their names, in the order in which the names come first: instances of one name need not follow each other.
+fn grouped<'r>(rows: &[&'r Row], name: impl Fn(&Row) -> String) -> Vec<(String, Vec<&'r Row>)> {
+    let mut groups: Vec<(String, Vec<&Row>)> = Vec::new();
+    let mut places = BTreeMap::new();
+    for row in rows {
+        let name = name(row);
+        let place = *places.entry(name.clone()).or_insert(groups.len());
+        match groups.get_mut(place) {
+            Some((_, own)) => own.push(row),
+            None => groups.push((name, vec![row])),
+        }
     }
+    groups
 }
 
 fn group_name(study: &str, manifest: &Manifest, key: &TrialKey) -> String {
@@ -154,16 +146,11 @@ fn first_times(times: &[Timing]) -> BTreeMap<&TrialKey, f64> {
 }
 
 fn planners(rows: &[&Row], times: &BTreeMap<&TrialKey, f64>) -> Vec<PlannerRuns> {
-    let mut by_name: Vec<(String, Vec<&Row>)> = Vec::new();
-    for row in rows {
+    let of = |row: &Row| {
         let at = row.key.sweep.after(&row.key.on.sweep);
-        let name = one_line(&name::group(&row.key.contender, &at));
-        match by_name.iter_mut().find(|(known, _)| *known == name) {
-            Some((_, own)) => own.push(row),
-            None => by_name.push((name, vec![row])),
-        }
-    }
-    by_name.into_iter().map(|(name, rows)| planner(name, &rows, times)).collect()
+        one_line(&name::group(&row.key.contender, &at))
+    };
+    grouped(rows, of).into_iter().map(|(name, rows)| planner(name, &rows, times)).collect()
 }
 
 fn planner(name: String, rows: &[&Row], times: &BTreeMap<&TrialKey, f64>) -> PlannerRuns {

@@ -5,12 +5,14 @@
 
 mod arena;
 mod benchmark;
+mod file_names;
 mod frames;
 mod log;
 mod posthoc;
 
 use benchmark::experiments;
 use clap::Parser;
+use file_names::FileNames;
 use replan::analysis::compare::StoredRun;
 use replan::cli::Failure;
 use replan::cli::export::{Export, Format, Stage, stage_csv};
@@ -38,14 +40,16 @@ fn stage(format: Format, staged: &mut Staged, out: &Path, folder: &Path, run: &S
         Format::Csv => stage_csv(staged, out, folder, run),
         Format::Parquet => frames::stage(staged, out, folder, run),
         Format::OmplLog => {
-            let all = experiments(run)?;
+            let all = experiments(run);
+            let mut names = FileNames::default();
             for experiment in &all {
-                staged.add(&out.join(experiment.file()), log::text(experiment).as_bytes())?;
+                let file = out.join(names.next(&experiment.name, ".log"));
+                staged.add(&file, log::text(experiment).as_bytes())?;
             }
             Ok(format!("{} benchmark logs are", all.len()))
         }
         Format::PlannerArena => {
-            let all = experiments(run)?;
+            let all = experiments(run);
             let bytes = arena::database(&all).map_err(|error| Failure::input(format!("SQLite: {error}")))?;
             staged.add(&out.join("plannerarena.db"), &bytes)?;
             Ok(format!("plannerarena.db with {} experiments is", all.len()))

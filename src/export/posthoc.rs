@@ -3,6 +3,7 @@
 //! Version 1.4.0 of its format: events in their order, and a view that draws each as a cell. Our traces hold in which order cells
 //! were opened and closed, and not from where: events have no parent. The y of posthoc points down and ours up, so rows are turned.
 
+use crate::file_names::FileNames;
 use replan::analysis::compare::StoredRun;
 use replan::cli::Failure;
 use serde_json::{Value, json};
@@ -35,6 +36,7 @@ events:
 /// A damaged file of traces, no search on a grid, or the file system.
 pub fn stage(staged: &mut Staged, out: &Path, folder: &Path, run: &StoredRun) -> Result<String, Failure> {
     let mut count = 0;
+    let mut file_names = FileNames::default();
     for (study, (manifest, _)) in &run.studies {
         let mut traces = KeptTraces::stored(folder, study, &manifest.files)?;
         let owners: Vec<Owner> = traces.owners()?.into_iter().cloned().collect();
@@ -57,7 +59,7 @@ pub fn stage(staged: &mut Staged, out: &Path, folder: &Path, run: &StoredRun) ->
             let names = study::name::Names::default();
             let name = format!("{study}/{}", names.trial(key));
             let lines: Vec<String> = events.iter().map(|event| format!("  - {event}\n")).collect();
-            let file = out.join(format!("{}.trace.yaml", study::slug(&name)));
+            let file = out.join(file_names.next(&name, ".trace.yaml"));
             staged.add(&file, format!("{VIEWS}{}", lines.concat()).as_bytes())?;
             count += 1;
         }

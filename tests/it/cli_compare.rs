@@ -163,6 +163,25 @@ fn a_spreadsheet_computes_no_label_of_an_export() {
 }
 
 #[test]
+fn the_evidence_shows_what_differs_between_two_encodings_with_other_margins() {
+    let bench = Bench::empty();
+    bench.done(&["new", "maps", "--from", "grid"]);
+    bench.done(&["repro", "./maps", "--out", "a"]);
+    bench.edit("maps/paper.toml", "margin = 5", "margin = 50");
+    bench.done(&["repro", "./maps", "--out", "b"]);
+    let text = bench.done(&["compare", "a", "b", "--verdicts", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let differ = || json["claims"].as_array().unwrap().iter().filter(|pair| pair["is_same"] == false);
+    assert!(differ().count() >= 2, "{text}");
+    for pair in differ() {
+        assert!(!pair["because"].as_array().unwrap().is_empty(), "{pair}");
+    }
+    let saving = differ().find(|pair| pair["ids"][0] == "table1.weighted.saving").unwrap();
+    let because = saving["because"][0].as_str().unwrap();
+    assert!(because.starts_with("evidence: ") && because.contains("margin 50"), "{because}");
+}
+
+#[test]
 fn what_cannot_be_compared_is_reported() {
     let bench = Bench::new();
     bench.done(&["run", "./mini", "--out", "a"]);

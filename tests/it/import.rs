@@ -139,6 +139,12 @@ fn a_log_of_ompl_is_compared_and_gated() {
     assert!(output.out.contains("recorded elsewhere, with unknown seeds"), "{}", output.out);
     let gated = bench.run(&["compare", "a", "b", "--gate", "solved -1%"]);
     assert!(gated.out.contains("gate solved -1%: bench: geometric_PRM: "), "{}{}", gated.out, gated.err);
+    let within =
+        bench.done(&["compare", "a", "--contenders", "geometric_RRTConnect", "geometric_PRM", "--markdown"]);
+    assert!(within.contains("own_time_ms"), "{within}");
+    let between = bench.done(&["compare", "a", "b", "--gate", "own_time_ms +5%"]);
+    let words = between.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("each run has one session of the clock"), "{between}");
 }
 
 #[test]
@@ -205,6 +211,13 @@ fn a_table_or_a_mapping_that_does_not_fit_is_refused_at_its_place() {
             COLUMNS.to_owned(),
             "line 3 is the same trial as line 2: `A*` on instance `b` of `maps`, repeat 0",
         ),
+        ("map,planner,ok,n\nb,A*,1,9\n,A*,1,8\n", COLUMNS.to_owned(), "line 3: the instance has no name"),
+        ("map,planner,ok,n\nb,,1,9\n", COLUMNS.to_owned(), "line 2: the contender has no name"),
+        (
+            "map,planner,ok,n\nb,A*,1,9\na,A*,1,\"8\n",
+            COLUMNS.to_owned(),
+            "line 3: a `\"` that opens a cell has no other that ends it",
+        ),
     ] {
         bench.write("results.csv", results.as_bytes());
         bench.write("columns.toml", columns.as_bytes());
@@ -221,6 +234,24 @@ fn a_table_or_a_mapping_that_does_not_fit_is_refused_at_its_place() {
         assert_eq!(output.code, Some(2), "{message}: {}{}", output.out, output.err);
         assert!(output.err.contains(message), "{message}\nis not in\n{}", output.err);
         assert!(!bench.at("there").exists(), "{message}");
+    }
+}
+
+#[test]
+fn a_database_of_planner_arena_is_named_in_every_format() {
+    let bench = Bench::empty();
+    bench.write("columns.toml", COLUMNS.as_bytes());
+    bench.write("arena.db", b"SQLite format 3\0\x10\0\x01\x01\0\x40\x20\x20");
+    for from in ["csv", "parquet", "ompl-log"] {
+        let output =
+            bench.run(&["import", "arena.db", "--from", from, "--columns", "columns.toml", "--out", "there"]);
+        assert_eq!(output.code, Some(2), "{from}: {}", output.out);
+        assert!(
+            output.err.contains("arena.db: is an SQLite database, as Planner Arena has"),
+            "{}",
+            output.err
+        );
+        assert!(!bench.at("there").exists());
     }
 }
 

@@ -59,6 +59,35 @@ fn every_file_of_a_pack_is_described_in_its_crate() {
         (&"2026-01-31".into(), &"https://spdx.org/licenses/MIT".into())
     );
     assert_eq!(named("SoftwareApplication").len(), 1);
+    let one = |id: &str| {
+        let mut found = graph.iter().filter(|one| one["@id"] == id);
+        (found.next().unwrap(), found.count())
+    };
+    let (replan, others) = one("#replan");
+    assert_eq!((replan["license"]["@id"].as_str(), others), (Some("https://spdx.org/licenses/MIT"), 0));
+    assert_eq!(one("https://spdx.org/licenses/MIT").1, 0, "an address stands there once");
+    let (run, _) = one("#run");
+    assert!(run["description"].as_str().unwrap().starts_with("replan "), "{run}");
+    assert!(one("#paper").0.get("creditText").is_none_or(Value::is_string));
+}
+
+#[test]
+fn a_pack_is_refused_whose_verdicts_or_figures_are_not_of_today() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini"]);
+    let refused = |message: &str| {
+        let output = bench.run(&PACK);
+        assert_eq!(output.code, Some(3), "{message}: {}", output.err);
+        assert!(output.err.contains(message), "{message}\nis not in\n{}", output.err);
+        assert!(!bench.at("pack").exists(), "{message}");
+    };
+    bench.edit("mini/paper.toml", "is = \"lower\"", "is = \"higher\"");
+    refused("verdicts.toml: not what the stored run gives");
+    bench.edit("mini/paper.toml", "is = \"higher\"", "is = \"lower\"");
+    fs::remove_file(bench.at("target/replan/mini/plots/mini/table1.tex")).unwrap();
+    refused("table1.tex");
+    bench.done(&["render", "./mini"]);
+    bench.done(&PACK);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 """Planner Arena's own package reads an exported database, and OMPL's way of reading logs an exported log."""
 
 import sys
+from importlib.metadata import version
 from pathlib import Path
 
 from plannerarena.database import load_database
@@ -23,4 +24,4 @@ def runs_in(log: Path) -> int:
 
 in_logs = sum(runs_in(log) for log in logs.glob("*.log"))
 assert in_logs == runs.height, f"{in_logs} runs in logs, {runs.height} in the database"
-print(f"Planner Arena reads {runs.height} runs of {len(arena['problem_names'])} experiments; the logs have as many")
+print(f"Planner Arena {version('plannerarena')} reads {runs.height} runs of {len(arena['problem_names'])} experiments; the logs have as many")

@@ -3,6 +3,7 @@
 import io
 import sys
 from email.message import Message
+from importlib.metadata import version
 from importlib.resources import files
 from urllib.response import addinfourl
 
@@ -39,4 +40,4 @@ for issue in issues:
 assert not issues, "the pack is no RO-Crate 1.1"
 checks = len(result.executed_checks)
 assert checks > 20, f"only {checks} checks ran"
-print(f"the RO-Crate validator passes the pack: {checks} checks of RO-Crate 1.1")
+print(f"roc-validator {version('roc-validator')} passes the pack: {checks} checks of RO-Crate 1.1")

@@ -100,7 +100,7 @@ pub struct Sample<'r> {
     pub metric: &'static str,
     pub unit: &'static str,
     pub better: Better,
-    pub is_clock: bool,
+    pub is_time: bool,
     pub one_sided: [usize; 2],
     /// Both numbers of each pair by unit; a side that did not solve the problem has a number worse than any.
     by_unit: BTreeMap<Unit<'r>, Vec<(f64, f64)>>,
@@ -128,7 +128,7 @@ impl<'r> Sample<'r> {
     ) -> Self {
         let readers = times.map(|times| metric.reader(|row| times.get(&row.key).copied()));
         let mut sample = Self::empty(study, contender, metric.name, metric.unit, metric.better);
-        sample.is_clock = metric.is_clock();
+        sample.is_time = metric.is_time();
         let failed = sample.worse() * FAILED;
         for pair in pairs {
             let is_solved = pair.rows.map(|row| row.status == Status::Solved);
@@ -159,8 +159,8 @@ impl<'r> Sample<'r> {
     ) -> Self {
         let one_sided = [0, 0];
         let by_unit = BTreeMap::new();
-        let is_clock = false;
-        Self { study, contender, metric, unit, better, is_clock, one_sided, by_unit }
+        let is_time = false;
+        Self { study, contender, metric, unit, better, is_time, one_sided, by_unit }
     }
 
     /// 1 if a larger number is worse, −1 if a smaller one is.

@@ -147,7 +147,7 @@ fn verdict(
     of_two_runs: bool,
 ) -> (Outcome, Option<usize>, Option<String>) {
     let cannot = |more, why: String| (Outcome::CannotTell, more, Some(why));
-    if sample.is_clock && of_two_runs {
+    if sample.is_time && of_two_runs {
         let why = "each run has one session of the clock, and what a session does to all of its interpretations is in no interval";
         return cannot(None, why.to_owned());
     }

@@ -153,6 +153,11 @@ impl Mapping {
             let wrong = |place: usize, message: String| {
                 table.error(&format!("{}, column `{}`: {message}", table.place(*line), table.heads[place]))
             };
+            let (group, instance, contender) = (group(cells), cells[instance].clone(), contender(cells));
+            let names = [("group", &group), ("instance", &instance), ("contender", &contender)];
+            if let Some((key, _)) = names.iter().find(|(_, name)| name.is_empty()) {
+                return Err(table.error(&format!("{}: the {key} has no name", table.place(*line))));
+            }
             let status = status.map_or(Ok(Status::Solved), |(place, status): (usize, &StatusColumn)| {
                 status.of(&cells[place]).map_err(|message| wrong(place, message))
             })?;
@@ -176,7 +181,7 @@ impl Mapping {
                     .map_err(|_| wrong(place, format!("`{}` is no count from 0", cells[place])))
             })?;
             let on = Arc::new(InstanceKey {
-                group: group(cells).as_str().into(),
+                group: group.as_str().into(),
                 sweep: SweepKey::default(),
                 instance: 0,
                 interpretation: InterpretationKey::default(),
@@ -184,7 +189,7 @@ impl Mapping {
             let key = TrialKey {
                 on,
                 query: None,
-                contender: contender(cells).as_str().into(),
+                contender: contender.as_str().into(),
                 sweep: SweepKey::default(),
                 repeat,
             };
@@ -192,9 +197,9 @@ impl Mapping {
                 (status != Status::Solved).then(|| "as its table says; recorded elsewhere".to_owned());
             Ok(Trial {
                 line: *line,
-                group: group(cells),
-                instance: cells[instance].clone(),
-                contender: contender(cells),
+                group,
+                instance,
+                contender,
                 repeat,
                 row: Row { key, seed: None, status, reason, values },
             })

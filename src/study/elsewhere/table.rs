@@ -61,6 +61,13 @@ impl Table {
             let line = record.position().map_or(0, |position| position.line() as usize);
             if table.heads.is_empty() { table.heads = cells } else { table.rows.push((line, cells)) }
         }
+        // The reader takes the end of the file for the quote that is missing.
+        if text.matches('"').count() % 2 == 1 {
+            let line = table.rows.last().map_or(1, |(line, _)| *line);
+            return Err(
+                table.error(&format!("line {line}: a `\"` that opens a cell has no other that ends it"))
+            );
+        }
         table.checked()
     }
 
@@ -148,7 +155,12 @@ impl Table {
     }
 }
 
-/// The bytes of the file at `path`.
+/// The bytes of the file at `path`, which is no database.
 pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, StudyError> {
-    base::file::read(path).map_err(StudyError::io(path, "reading the table"))
+    let bytes = base::file::read(path).map_err(StudyError::io(path, "reading the table"))?;
+    if bytes.starts_with(b"SQLite format 3\0") {
+        let what = "is an SQLite database, as Planner Arena has; the benchmark logs that it was made of are accepted";
+        return Err(StudyError::Missing { path: path.to_owned(), what: what.to_owned() });
+    }
+    Ok(bytes)
 }

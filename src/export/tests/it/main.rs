@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use study::elsewhere::{Imported, Mapping, Table};
+use study::elsewhere::{Imported, Mapping, Table, read_log};
 use study::parquet::FrameReader;
 use study::store::Staged;
 use tempfile::TempDir;
@@ -186,11 +186,7 @@ fn names_that_sql_or_a_log_could_take_for_more_come_back_as_they_are() {
                    [status]\ncolumn = \"map\"\nmeans = { solved = [\"1\"] }\n";
     fs::write(at("columns.toml"), columns).unwrap();
     let mapping = Mapping::read(&at("columns.toml")).unwrap();
-    let imported = Imported::new(&Table::read_csv(&at("results.csv")).unwrap(), &mapping).unwrap();
-    let mut staged = Staged::default();
-    imported.stage_alone(&mut staged, &at("run"), "results", "a test".to_owned()).unwrap();
-    staged.put().unwrap();
-    let run = at("run");
+    let run = imported(folder.path(), &Table::read_csv(&at("results.csv")).unwrap(), &mapping);
     let out = exported(run.to_str().unwrap(), "planner-arena");
     let arena = Connection::open(out.path().join("plannerarena.db")).unwrap();
     let mut query = arena.prepare("SELECT name FROM plannerConfigs ORDER BY id").unwrap();
@@ -202,6 +198,84 @@ fn names_that_sql_or_a_log_could_take_for_more_come_back_as_they_are() {
     let log = fs::read_dir(out.path()).unwrap().next().unwrap().unwrap().path();
     let planners = parsed(&fs::read_to_string(log).unwrap());
     assert_eq!(planners.into_keys().collect::<BTreeSet<_>>(), names.map(str::to_owned).into());
+}
+
+/// A stored run of a table, below `folder`; `columns` says which are keys and metrics.
+fn imported(folder: &Path, table: &Table, mapping: &Mapping) -> PathBuf {
+    let mut staged = Staged::default();
+    let run = folder.join("run");
+    Imported::new(table, mapping)
+        .unwrap()
+        .stage_alone(&mut staged, &run, "results", "a test".to_owned())
+        .unwrap();
+    staged.put().unwrap();
+    run
+}
+
+#[test]
+fn labels_that_are_long_or_spelled_alike_have_a_file_each() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let long = "corridor ".repeat(60);
+    let labels = [format!("{long} one"), format!("{long} two"), "a b".to_owned(), "a-b".to_owned()];
+    let rows = labels.iter().map(|label| format!("{label},1\n")).collect::<String>();
+    fs::write(at("results.csv"), format!("suite,map\n{rows}")).unwrap();
+    let columns = "group = { column = \"suite\" }\ninstance = \"map\"\ncontender = { is = \"A*\" }\n";
+    fs::write(at("columns.toml"), columns).unwrap();
+    let mapping = Mapping::read(&at("columns.toml")).unwrap();
+    let run = imported(folder.path(), &Table::read_csv(&at("results.csv")).unwrap(), &mapping);
+    let out = exported(run.to_str().unwrap(), "ompl-log");
+    let logs: Vec<String> = fs::read_dir(out.path())
+        .unwrap()
+        .map(|entry| fs::read_to_string(entry.unwrap().path()).unwrap())
+        .collect();
+    assert_eq!(logs.len(), labels.len());
+    for label in labels {
+        let head = format!("\nExperiment results/{}\n", label.replace(' ', "_"));
+        assert_eq!(logs.iter().filter(|log| log.contains(&head)).count(), 1, "{label}");
+    }
+    let out = exported(run.to_str().unwrap(), "planner-arena");
+    let arena = Connection::open(out.path().join("plannerarena.db")).unwrap();
+    let groups: i64 = arena.query_row("SELECT count(*) FROM experiments", [], |row| row.get(0)).unwrap();
+    assert_eq!(groups, 4);
+}
+
+#[test]
+fn a_log_comes_back_with_every_trial_its_end_and_its_numbers() {
+    let out = exported("baselines", "ompl-log");
+    let folder = tempfile::tempdir().unwrap();
+    let columns = folder.path().join("columns.toml");
+    let keys = "group = { is = \"\" }\ninstance = \"run\"\ncontender = { column = \"planner\" }\n";
+    fs::write(&columns, format!("{keys}[metric]\npath_cost_cells = {{ column = \"path_cost_cells\" }}\n"))
+        .unwrap();
+    let log = read_log(&out.path().join("grids-cells.log")).unwrap();
+    let more = Mapping::read(&columns).unwrap();
+    let mapping = Mapping::of_log("cells", log.statuses, |head| log.table.has(head), Some(more));
+    let run = imported(folder.path(), &log.table, &mapping);
+    let back = FrameReader::open(File::open(run.join("results.trials.parquet")).unwrap());
+    let (back, ours) = (back.unwrap().frame().unwrap(), stored("grids"));
+    assert_eq!(back.height(), ours.height());
+    let numbers = |frame: &DataFrame, contender: &str| {
+        let names = frame.column("contender").unwrap().str().unwrap();
+        let own = frame.filter(&names.iter().map(|name| name == Some(contender)).collect()).unwrap();
+        let statuses = own.column("status").unwrap().str().unwrap();
+        let solved = statuses.iter().filter(|status| *status == Some("solved")).count();
+        let costs: Vec<Option<f64>> = own.column("path_cost_cells").unwrap().f64().unwrap().iter().collect();
+        (solved, costs)
+    };
+    let names = ours.column("contender").unwrap().str().unwrap();
+    let contenders: BTreeSet<&str> = names.iter().flatten().collect();
+    assert!(contenders.len() > 2, "{contenders:?}");
+    for contender in contenders {
+        let (solved, costs) = numbers(&back, contender);
+        assert_eq!(
+            (solved, &costs),
+            (numbers(&ours, contender).0, &numbers(&ours, contender).1),
+            "{contender}"
+        );
+        assert!(solved > 0 && costs.iter().flatten().count() >= solved, "{contender}");
+    }
+    assert!(back.column("own_wall_ns").unwrap().null_count() < back.height());
 }
 
 #[test]
