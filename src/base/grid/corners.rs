@@ -25,15 +25,14 @@ pub enum Vertices {
 /// The corners of `cells` as a grid of their own: a corner is blocked if no free cell touches it.
 pub fn corner_vertices(cells: &Grid2) -> Grid2 {
     let [width, height] = [cells.width() + 1, cells.height() + 1];
-    let blocked = (0..width * height).map(|corner| around(cells, xy(width, corner)) == 0).collect();
+    let blocked = all_around(cells).into_iter().map(|free| free == 0).collect();
     Grid2 { width, height, blocked }
 }
 
 /// The legal moves from corner to corner: along an edge beside which a cell is free, and across a free cell.
 pub fn corner_moves(cells: &Grid2) -> Moves {
-    let [width, height] = [cells.width() + 1, cells.height() + 1];
-    let mask = |corner| MASKS[usize::from(around(cells, xy(width, corner)))];
-    Moves::from_masks(width, (0..width * height).map(mask).collect())
+    let masks = all_around(cells).into_iter().map(|free| MASKS[usize::from(free)]).collect();
+    Moves::from_masks(cells.width() + 1, masks)
 }
 
 /// Whether corner `to` of `cells` is seen from corner `from`, with no cells outside the map.
@@ -81,14 +80,20 @@ fn is_open(cells: &Grid2, one: [i32; 2], other: [i32; 2]) -> bool {
     [one, other].iter().any(|[x, y]| cells.is_free_xy(*x, *y))
 }
 
-fn xy(width: u32, corner: u32) -> [i32; 2] {
-    [(corner % width) as i32, (corner / width) as i32]
-}
-
-/// Which of the four cells around a corner are free: bits for the upper right, the lower right, the upper left, the lower left one.
-fn around(cells: &Grid2, [x, y]: [i32; 2]) -> u8 {
-    let places = [[x, y], [x, y - 1], [x - 1, y], [x - 1, y - 1]];
-    (0..).zip(places).fold(0, |bits, (bit, [x, y])| bits | u8::from(cells.is_free_xy(x, y)) << bit)
+/// Which of the four cells around each corner are free: bits for the upper right, the lower right, the upper left, the lower left one.
+fn all_around(cells: &Grid2) -> Vec<u8> {
+    let mut all = Vec::with_capacity((cells.width() as usize + 1) * (cells.height() as usize + 1));
+    for y in 0..=cells.height() as i32 {
+        let [upper, lower] = [cells.blocked_row(y), cells.blocked_row(y - 1)];
+        let is_free = |row: &[bool], x: usize| u8::from(row.get(x).is_some_and(|blocked| !blocked));
+        let mut left = 0;
+        for x in 0..=cells.width() as usize {
+            let right = is_free(upper, x) | is_free(lower, x) << 1;
+            all.push(left << 2 | right);
+            left = right;
+        }
+    }
+    all
 }
 
 /// The moves from a corner, by which cells around it are free.
@@ -99,7 +104,7 @@ static MASKS: [u8; 16] = {
         let mut bit = 0;
         while bit < 8 {
             let [dx, dy] = DIRECTIONS[bit];
-            // The cells beside the step, as bits of `around`.
+            // The cells beside the step, as bits of what is free around the corner.
             let right = 0b0011;
             let upper = 0b0101;
             let columns = if dx == 0 {
@@ -156,7 +161,7 @@ mod tests {
         let [mut seen, mut hidden] = [0, 0];
         for seed in 0..30 {
             let cells = independent_cells(&mut seed::stream(seed), [6, 5], 0.25, &[]).unwrap();
-            let corners: Vec<[i32; 2]> = (0..42).map(|corner| xy(7, corner)).collect();
+            let corners: Vec<[i32; 2]> = (0..42).map(|corner| [corner % 7, corner / 7]).collect();
             let pairs = corners.iter().flat_map(|a| corners.iter().map(move |b| (*a, *b)));
             for (from, to) in pairs.filter(|(from, to)| from != to) {
                 let expected = is_clear(&cells, from, to);

@@ -64,12 +64,15 @@ impl Moves {
     pub fn from_masks(width: u32, masks: Vec<u8>) -> Self {
         assert!(masks.len().is_multiple_of(width as usize), "{} masks in rows of {width}", masks.len());
         let moves = Self { width, masks };
+        let steps = DIRECTIONS.map(|[dx, dy]| dy * width as i32 + dx);
         for cell in 0..moves.cell_count() {
-            let has_reverse = |to: u32| moves.from_cell(to).any(|(back, _)| back == cell);
-            assert!(
-                moves.from_cell(cell).all(|(to, _)| has_reverse(to)),
-                "a move from {cell} has no reverse"
-            );
+            let mut left = moves.mask(cell);
+            while left != 0 {
+                let bit = left.trailing_zeros() as usize;
+                left &= left - 1;
+                let back = moves.mask(cell.wrapping_add_signed(steps[bit])) >> (7 - bit);
+                assert!(back & 1 == 1, "a move from {cell} has no reverse");
+            }
         }
         moves
     }
