@@ -118,20 +118,20 @@ fn files_that_sums_pin_may_be_missing_and_must_be_what_the_sums_say() {
     assert!(unknown.contains("`sums` has no sum for `nod.urdf`"), "{unknown}");
 }
 
-/// One scene and one request as an archive, in the folder `DIR`.
+/// One scene and one request as an archive, in this folder.
 fn archive(folder: &str) -> Vec<u8> {
-    let scene = r#"
+    let scene = r"
 robot_model_name: nod
 world:
   collision_objects:
     - id: can
       primitives: [{type: cylinder, dimensions: [0.2, 0.2]}]
       primitive_poses: [{position: [0, 0, 1.75], orientation: [0, 0, 0, 1]}]
-"#;
-    let request = r#"
+";
+    let request = r"
 start_state: {joint_state: {name: [one, two], position: [0, 0]}}
 goal_constraints: [{joint_constraints: [{joint_name: one, position: 1.2}, {joint_name: two, position: 0}]}]
-"#;
+";
     let mut bytes = Vec::new();
     for (name, text) in [("scene0001.yaml", scene), ("request0001.yaml", request)] {
         let mut header = [0; 512];
