@@ -7,21 +7,23 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from judge.located import Fault
-from judge.robots import Model, Numbers
+from judge.robots import Model, Numbers, Row
 
 NEWTON_STEPS = 30
 REACHED = 1e-10
 """How far from its target a tool may be, in metres and radians."""
 
 
-def moved(angle_rad: Numbers, alpha_rad: float, a_m: float, d_m: float) -> Numbers:
+def moved(row: Row, value: Numbers) -> Numbers:
     """The frame after one joint and link, in the frame before."""
-    sine, cosine = np.sin(angle_rad), np.cos(angle_rad)
-    twisted = np.array([0.0, np.sin(alpha_rad), np.cos(alpha_rad)])
-    frame = np.zeros((len(angle_rad), 4, 4))
-    frame[:, 0] = np.stack([cosine, -sine * twisted[2], sine * twisted[1], a_m * cosine], axis=1)
-    frame[:, 1] = np.stack([sine, cosine * twisted[2], -cosine * twisted[1], a_m * sine], axis=1)
-    frame[:, 2] = [0.0, twisted[1], twisted[2], d_m]
+    turn, slide = (0.0 * value, value) if row.slides else (value, 0.0)
+    sine, cosine = np.sin(turn + row.offset_rad), np.cos(turn + row.offset_rad)
+    twisted = np.array([0.0, np.sin(row.alpha_rad), np.cos(row.alpha_rad)])
+    frame = np.zeros((len(value), 4, 4))
+    frame[:, 0] = np.stack([cosine, -sine * twisted[2], sine * twisted[1], row.a_m * cosine], axis=1)
+    frame[:, 1] = np.stack([sine, cosine * twisted[2], -cosine * twisted[1], row.a_m * sine], axis=1)
+    frame[:, 2, :3] = twisted
+    frame[:, 2, 3] = row.d_m + slide
     frame[:, 3, 3] = 1.0
     return frame
 
@@ -30,24 +32,26 @@ def frames(model: Model, q_rad: Numbers) -> Numbers:
     """The frames of the base, of every link and of the tool, for each configuration."""
     now = np.broadcast_to(model.base, (len(q_rad), 4, 4))
     found = [now]
-    for row, angle in zip(model.rows, q_rad.T, strict=True):
-        now = now @ moved(angle + row.offset_rad, row.alpha_rad, row.a_m, row.d_m)
+    for row, value in zip(model.rows, q_rad.T, strict=True):
+        now = now @ moved(row, value)
         found.append(now)
     return np.stack([*found, now @ model.tool()], axis=1)
 
 
-def jacobian(placed: Numbers, frame: int) -> Numbers:
+def jacobian(model: Model, placed: Numbers, frame: int) -> Numbers:
     """How the origin of a frame moves and turns with each joint: six rows, for each configuration."""
     joints = placed[:, :-2]
     axes, origins = joints[:, :, :3, 2], joints[:, :, :3, 3]
     arms = placed[:, frame, None, :3, 3] - origins
-    return np.concatenate([np.cross(axes, arms), axes], axis=2).transpose(0, 2, 1)
+    slides = np.array([row.slides for row in model.rows])[:, None]
+    ways, turns = np.where(slides, axes, np.cross(axes, arms)), np.where(slides, 0.0, axes)
+    return np.concatenate([ways, turns], axis=2).transpose(0, 2, 1)
 
 
 def determinant(model: Model, q_rad: Numbers) -> Numbers:
     """The determinant of the last link's Jacobian, 0 at a singular pose; in the plane that of its place alone."""
     joints = len(model.rows)
-    found = jacobian(frames(model, q_rad), joints)
+    found = jacobian(model, frames(model, q_rad), joints)
     return np.asarray(np.linalg.det(found[:, :2] if joints == 2 else found))
 
 
@@ -68,7 +72,7 @@ def straight_tool(model: Model, start: Numbers, end: Numbers, share: float) -> N
         far = np.abs(error).max(axis=1) > REACHED
         if not far.any():
             return q_rad
-        slopes = np.linalg.pinv(jacobian(placed, len(model.rows) + 1)[far], rcond=1e-9)
+        slopes = np.linalg.pinv(jacobian(model, placed, len(model.rows) + 1)[far], rcond=1e-9)
         q_rad[far] += (slopes @ error[far, :, None])[:, :, 0]
     q_rad[far] = np.nan
     return q_rad

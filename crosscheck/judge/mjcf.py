@@ -1,7 +1,7 @@
 """Models in MuJoCo's own language (MJCF).
 
 The numbers are those of the robot and scene files, with all their digits, and each Denavit-Hartenberg row is two
-nested bodies: one that turns about `0 0 1`, one that is moved by `(a, 0, d)` and twisted about x.
+nested bodies: one that turns about `0 0 1` or slides along it, one that is moved by `(a, 0, d)` and twisted about x.
 
 MuJoCo's capsule-box primitive misses a capsule whose axis pierces deep through the box, so boxes are given as
 meshes of eight vertices. Links and obstacles meet by masks, parts of the robot by explicit pairs.
@@ -62,13 +62,18 @@ def robot(model: Model) -> list[str]:
     for link, row in enumerate(model.rows, 1):
         lines += [
             f'    <body name="turned_{link}" axisangle="0 0 1 {number(row.offset_rad)}">',
-            f'      <joint name="joint_{link}" axis="0 0 1"{limits(row)}/>',
+            f'      <joint name="joint_{link}"{kind(row)} axis="0 0 1"{limits(row)}/>',
             '      <inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>',
             f'    <body name="link_{link}" pos="{numbers((row.a_m, 0.0, row.d_m))}" '
             f'axisangle="1 0 0 {number(row.alpha_rad)}">',
             *geoms(model, link),
         ]
     return [*lines, f'    <body name="tool" {tool_place(model)}/>', "    " + "</body>" * (2 * len(model.rows) + 1)]
+
+
+def kind(row: Row) -> str:
+    """The kind of a joint, unless it turns."""
+    return ' type="slide"' if row.slides else ""
 
 
 def limits(row: Row) -> str:
@@ -90,22 +95,24 @@ def geoms(model: Model, link: int) -> list[str]:
     for part in (part for part in model.parts if part.link == link):
         lines.append(f"      {part_geom(part)}")
         if part.radius_m < SEEN_M:
-            ends = f"{numbers(part.ends_m[0])} {numbers(part.ends_m[1])}"
-            lines.append(
-                f'      <geom type="capsule" fromto="{ends}" size="{SEEN_M}" contype="0" conaffinity="0" '
-                f'mass="0" rgba="{ARM}"/>'
-            )
+            lines.append(f'      <geom {part_shape(part, SEEN_M)} contype="0" conaffinity="0" mass="0" rgba="{ARM}"/>')
     return lines
 
 
 def part_geom(part: Part) -> str:
     """A capsule of the robot."""
-    ends = f"{numbers(part.ends_m[0])} {numbers(part.ends_m[1])}"
     return (
-        f'<geom name={quoteattr(f"part:{part.name}")} type="capsule" fromto="{ends}" '
-        f'size="{number(part.radius_m)}" contype="{int(part.exposed)}" conaffinity="0" mass="0" '
-        f'rgba="{ARM if part.exposed else OWN}"/>'
+        f"<geom name={quoteattr(f'part:{part.name}')} {part_shape(part, part.radius_m)} "
+        f'contype="{int(part.exposed)}" conaffinity="0" mass="0" rgba="{ARM if part.exposed else OWN}"/>'
     )
+
+
+def part_shape(part: Part, radius_m: float) -> str:
+    """A capsule, or a ball where its ends are one: MuJoCo refuses capsules without an axis."""
+    start, end = part.ends_m
+    if start == end:
+        return f'type="sphere" pos="{numbers(start)}" size="{number(radius_m)}"'
+    return f'type="capsule" fromto="{numbers(start)} {numbers(end)}" size="{number(radius_m)}"'
 
 
 def still_geom(index: int, still: Still) -> str:

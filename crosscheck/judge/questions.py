@@ -28,6 +28,8 @@ NEAREST_M = 2e-6
 DRAWS = 40
 """Draws per wanted configuration after which a search ends."""
 HALVINGS = 60
+DETERMINED = (2, 6)
+"""Numbers of joints whose Jacobian has a determinant: those of a place in the plane, and of a pose."""
 BEYOND_RAD = (1e-9, 0.1)
 """How far beyond a limit the limit questions go, and how near to it."""
 
@@ -126,7 +128,9 @@ def crossing(start: Numbers, end: Numbers, value: Callable[[Numbers], float]) ->
 
 
 def singular(model: Model, count: int, stream: Stream) -> Numbers:
-    """Where the Jacobian's determinant changes sign on a straight joint line."""
+    """Where the Jacobian's determinant changes sign on a straight joint line; nowhere if it has none."""
+    if len(model.rows) not in DETERMINED:
+        return np.empty((0, len(model.rows)))
     start, end = (drawn(model, stream, count * DRAWS) for _ in range(2))
     sign = np.sign(determinant(model, start))
     changes = np.flatnonzero(sign * determinant(model, end) < 0)[:count]

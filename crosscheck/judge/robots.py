@@ -20,7 +20,7 @@ Point = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Row:
-    """One joint with its link."""
+    """One joint with its link; one that slides has metres where others have radians."""
 
     alpha_rad: float
     a_m: float
@@ -29,6 +29,7 @@ class Row:
     limits_rad: tuple[float, float]
     """Within these it is drawn; one that turns without end has no others."""
     is_endless: bool = False
+    slides: bool = False
 
 
 @dataclass(frozen=True)

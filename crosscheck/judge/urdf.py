@@ -1,4 +1,4 @@
-"""Six-axis robots in URDF files as rows and capsules, and the pairs of links that an SRDF file lets touch.
+"""Robots in URDF files as rows and capsules, and the pairs of links that an SRDF file lets touch.
 
 A row leads from one joint's axis to the next along their common normal; where two axes are parallel, along the normal
 through the frame before. What stands before the first axis is the base, what stands behind the last the flange. Spheres
@@ -19,7 +19,8 @@ from judge.located import Fault
 from judge.robots import Model, Numbers, Part, Point, Row
 from judge.scenes import Still
 
-AXES = 6
+KINDS = ("revolute", "continuous", "prismatic")
+"""Joints that are judged."""
 BODY = "urdf"
 """What the only body of a URDF robot is called."""
 RIGHT_RAD = 5e-6
@@ -30,11 +31,12 @@ PARALLEL = 1e-9
 
 @dataclass(frozen=True)
 class Joint:
-    """A joint that moves: its frame in that of the joint before, its axis, and its limits if it has any."""
+    """A joint that moves: its frame in that of the joint before, its axis, and its limits (radians, metres) if any."""
 
     before: Numbers
     axis: Numbers
-    limits_rad: tuple[float, float] | None
+    limits: tuple[float, float] | None
+    slides: bool
 
 
 @dataclass(frozen=True)
@@ -87,12 +89,14 @@ class Chain:
     def moving(self, joint: ET.Element, before: Numbers) -> Joint:
         """A joint that moves."""
         kind, name = joint.attrib["type"], joint.attrib["name"]
-        if kind not in {"revolute", "continuous"}:
-            raise Fault(f"{self.path}: joint `{name}` is {kind}; revolute, continuous and fixed joints are judged")
+        if kind not in KINDS:
+            raise Fault(f"{self.path}: joint `{name}` is {kind}; {', '.join(KINDS)} and fixed joints are judged")
+        if joint.find("mimic") is not None:
+            raise Fault(f"{self.path}: joint `{name}` follows another by `mimic`; joints of their own are judged")
         axis = np.array(numbers(joint.find("axis"), "xyz", "1 0 0"))
-        limit = one(joint, "limit").attrib if kind == "revolute" else None
+        limit = None if kind == "continuous" else one(joint, "limit").attrib
         limits = None if limit is None else (float(limit.get("lower", 0)), float(limit.get("upper", 0)))
-        return Joint(before, axis / np.linalg.norm(axis), limits)
+        return Joint(before, axis / np.linalg.norm(axis), limits, slides=kind == "prismatic")
 
     def capsule(self, geometry: ET.Element, name: str) -> tuple[Numbers, float]:
         """The ends and the radius of the capsule around a solid."""
@@ -109,7 +113,7 @@ class Chain:
         raise Fault(f"{self.path}: the solid `{name}` is a {shape.tag}; box, cylinder and sphere are judged")
 
     def frames(self) -> list[Numbers]:
-        """The frames of the base and of all joints where every angle is 0."""
+        """The frames of the base and of all joints where every joint is at 0."""
         found = [np.eye(4)]
         for joint in self.joints:
             found.append(found[-1] @ joint.before)
@@ -167,7 +171,7 @@ def ahead(at: Numbers, point: Numbers, z: Numbers) -> Numbers:
 
 
 def links_of(chain: Chain) -> list[Numbers]:
-    """The frames of base and links where every angle is 0, as rows lead from each to the next."""
+    """The frames of base and links where every joint is at 0, as rows lead from each to the next."""
     frames = chain.frames()[1:]
     axes = [frame[:3, :3] @ joint.axis for frame, joint in zip(frames, chain.joints, strict=True)]
     side = np.array([1.0, 0.0, 0.0]) if abs(axes[0][0]) < 0.9 else np.array([0.0, 1.0, 0.0])
@@ -178,8 +182,8 @@ def links_of(chain: Chain) -> list[Numbers]:
     return [*found, found[-1]]
 
 
-def row_between(at: Numbers, following: Numbers, limits_rad: tuple[float, float] | None) -> Row:
-    """The row that leads from one frame to the next."""
+def row_between(at: Numbers, following: Numbers, joint: Joint) -> Row:
+    """The row of a joint, which leads from one frame to the next."""
 
     def turned(start: Numbers, end: Numbers, about: Numbers) -> float:
         return float(np.arctan2(np.cross(start, end) @ about, start @ end))
@@ -188,18 +192,19 @@ def row_between(at: Numbers, following: Numbers, limits_rad: tuple[float, float]
     alpha = turned(at[:3, 2], following[:3, 2], following[:3, 0])
     offset = turned(at[:3, 0], following[:3, 0], at[:3, 2])
     a, d = float(apart @ following[:3, 0]), float(apart @ at[:3, 2])
-    return Row(alpha, a, d, offset, limits_rad or (-np.pi, np.pi), is_endless=limits_rad is None)
+    limits, is_endless = joint.limits or (-np.pi, np.pi), joint.limits is None
+    return Row(alpha, a, d, offset, limits, is_endless, joint.slides)
 
 
 def read_urdf(path: Path, srdf: Path, name: str, base: Numbers, stills: tuple[Still, ...]) -> Model:
     """The robot in the file at `path`, whose links may touch as the file at `srdf` says."""
     root = parsed(path)
     chain = Chain(path, root)
-    if len(chain.joints) != AXES:
-        raise Fault(f"{path}: {len(chain.joints)} joints move; {AXES} are judged")
+    if not chain.joints:
+        raise Fault(f"{path}: no joint moves; one is judged at least")
     links, frames = links_of(chain), chain.frames()
     pairs = zip(links, links[1:], chain.joints, strict=False)
-    rows = tuple(row_between(at, following, joint.limits_rad) for at, following, joint in pairs)
+    rows = tuple(row_between(at, following, joint) for at, following, joint in pairs)
     parts = tuple(part_of(solid, np.linalg.inv(links[solid.joint]) @ frames[solid.joint]) for solid in chain.solids)
     flange = np.linalg.inv(links[-1]) @ frames[-1] @ chain.tip
     return Model(name, base @ links[0], rows, 0.0, parts, tuple(held(chain, root, srdf)), stills, flange=flange)

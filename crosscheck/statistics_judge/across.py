@@ -276,7 +276,7 @@ class Across:
                 continue
             full = self.default.get(claim) if place == 0 else None
             way = SPEAKS[full or stored_outcome(found)]
-            if way < 0 or (found["sight"] == "powerless" and full is None):
+            if way < 0 or (found["sight"] in ("powerless", "few") and full is None):
                 return None
             holds += way > 0
         return holds

@@ -318,7 +318,7 @@ def keys_of(table: Table) -> list[tuple]:
 class Paper:
     """A paper's claims and studies."""
 
-    def __init__(self, folder: Path, runs: Path, metrics: list[Metric], explored: Path | None = None) -> None:
+    def __init__(self, folder: Path, runs: Path, metrics: list[Metric], explored: Path) -> None:
         """Read the specs; `explored` has what the numbers of explorations amount to."""
         self.explored = explored
         self.id = runs.name
@@ -342,8 +342,6 @@ class Paper:
     @cached_property
     def explorations(self) -> list[dict[str, Any] | None]:
         """What exploring found, first and on the second seed; none where nothing is stored."""
-        if self.explored is None:
-            return [None, None]
         found: list[dict[str, Any] | None] = json.loads(self.explored.read_text(encoding="utf-8"))
         for claim in (claim for one in found if one is not None for claim in one["claims"].values()):
             claim["at"] = {

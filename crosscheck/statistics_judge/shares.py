@@ -7,7 +7,7 @@ import numpy as np
 from statistics_judge.classes import FAILS, HOLDS, OPEN
 from statistics_judge.found import FEWEST_INSTANCES, Asked, Estimate, Found, certain, hangs, outcomes
 from statistics_judge.intervals import agreed, clopper_pearson, hull, sums_by_unit, weighted_share
-from statistics_judge.records import Flags, Reals
+from statistics_judge.records import Flags, Places, Reals
 from statistics_judge.selection import Cases, groups_of, is_drawn, labels
 
 # Numbers no farther apart are equal.
@@ -138,7 +138,7 @@ def share_within(asked: Asked) -> Found:
     """A share lies within bounds."""
     cases, settings = asked.cases(), asked.settings
     hits, chances = by_unit(asked, cases)
-    few = {"lower_throughout": 1.0, "solved_more": 1.0, "events": 0.0}
+    few = {"lower_throughout": 1.0, "solved_more": 1.0, "solved_more_throughout": 1.0, "events": 0.0}
     most = few.get(settings["hits"], most_cases(cases))
     estimate = with_cases(share(hits, chances, most, asked.seed), cases.solved_of_all())
     if "accepted" not in settings:
@@ -172,14 +172,17 @@ def unknown(asked: Asked, cases: Cases) -> Flags:
     kind = asked.settings["hits"]
     if kind in ("marked", "events"):
         return cases.unended & (hits_of(asked, cases)[1] == 0)
-    return cases.unended
+    # What the other contender solves is none of its failures.
+    return cases.unended & ~cases.base_solved if kind == "cured" else cases.unended
 
 
 def by_unit(asked: Asked, cases: Cases, given: bool | None = None) -> tuple[Reals, Reals]:
     """Hits and chances of each unit; cases of which nothing is known are left out, or all hits or misses."""
     kind = asked.settings["hits"]
     if kind == "solved_more":
-        return solves_more(cases, given)
+        return solves_more(cases, given, np.zeros(len(cases.own), dtype=np.int64))
+    if kind == "solved_more_throughout":
+        return solves_more(cases, given, cases.study.sweep[0][cases.own])
     hits, chances = hits_of(asked, cases)
     if given is not None:
         lost = unknown(asked, cases)
@@ -190,16 +193,18 @@ def by_unit(asked: Asked, cases: Cases, given: bool | None = None) -> tuple[Real
     return hits, chances
 
 
-def solves_more(cases: Cases, given: bool | None) -> tuple[Reals, Reals]:
-    """Whether more cases of each unit are solved than by the other contender.
+def solves_more(cases: Cases, given: bool | None, point: Places) -> tuple[Reals, Reals]:
+    """Whether more cases of each unit are solved than by the other contender at every point that it has.
 
     What did not end is solved by this one alone, or by the other alone, if that is given.
     """
     assert cases.base is not None
     own = cases.ended_as(cases.own, given is True).astype(float)
     base = cases.ended_as(cases.base, given is False).astype(float)
-    more, count = sums_by_unit(cases.unit, cases.units, own - base, np.ones(len(own)))
-    return (more > 0).astype(float), (count > 0).astype(float)
+    pairs, at = np.unique(np.stack([cases.unit, point]), axis=1, return_inverse=True)
+    [more] = sums_by_unit(at.ravel(), pairs.shape[1], own - base)
+    missed, count = sums_by_unit(pairs[0], cases.units, (more <= 0).astype(float), np.ones(pairs.shape[1]))
+    return ((missed == 0) & (count > 0)).astype(float), (count > 0).astype(float)
 
 
 def hits_of(asked: Asked, cases: Cases) -> tuple[Reals, Reals]:
@@ -226,6 +231,8 @@ def hits_of(asked: Asked, cases: Cases) -> tuple[Reals, Reals]:
         hit, known = gap < -EQUAL, cases.paired
     elif kind == "higher":
         hit, known = gap > EQUAL, cases.paired
+    elif kind == "cured":
+        hit, known = cases.own_solved, ~cases.base_solved & ~cases.cut()[1]
     else:
         raise ValueError(f"share: hits = {kind!r} is not known here")
     return (hit & known).astype(float), known.astype(float)

@@ -15,7 +15,8 @@ from judge.chapter import Frame, chapter, table
 from judge.compare import Outcome, compare_case, promise_broken
 from judge.located import Fault
 
-KEPT = Path(__file__).parent / "fixtures/up6-in-room"
+FIXTURES = Path(__file__).parent / "fixtures"
+KEPT = FIXTURES / "up6-in-room"
 FRAME = Frame("judged", "viewer", "No picture.", None)
 
 
@@ -66,6 +67,27 @@ def rows_of(case: Path, kind: str) -> list[int]:
     """The rows of one kind of configuration."""
     kinds = pq.read_table(case / "scene.questions.parquet")["kind"].to_pylist()
     return [row for row, found in enumerate(kinds) if found == kind]
+
+
+def test_both_sides_agree_on_a_robot_that_slides_and_every_error_on_purpose_is_noticed(
+    tmp_path: Path,
+) -> None:
+    folder = tmp_path / "gantry-in-room"
+    shutil.copytree(FIXTURES / folder.name, folder)
+    for model in folder.glob("*.xml"):
+        answer_model(model)
+    outcome = compare_case(folder)
+    assert outcome.is_agreed, outcome.listed()
+    assert [control.is_caught for control in outcome.controls] == [True] * 3
+    asked = {(line.question, line.kind): line for line in outcome.lines}
+    for kind in ("random", "within 1 mm of contact"):
+        assert 0 < (asked["contact", kind].in_contact or 0) < asked["contact", kind].asked, kind
+    assert asked["limit", "joint limits"].asked == 24
+    assert asked["frame", "paths"].asked > 0
+    # A slide that is longer by a tenth of a millimetre is noticed in gaps and frames alike.
+    for part, column in (("gaps", "hand|box"), ("frames", "link_3.x")):
+        edit(folder / f"replan.{part}.parquet", column, raised(1, 1e-4))
+        assert not compare_case(folder).is_agreed, part
 
 
 def test_both_sides_agree_and_every_error_on_purpose_is_noticed(case: Path) -> None:

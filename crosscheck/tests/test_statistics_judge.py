@@ -133,12 +133,17 @@ def metrics() -> list[Metric]:
 Judged = list[tuple[Paper, list[Claim], dict]]
 
 
+def explored(name: str) -> Path:
+    """What `replan crosscheck --statistics` gives the judge of a paper's explorations."""
+    return ROOT / f"target/replan/crosscheck/{name}.explored.json"
+
+
 @pytest.fixture(scope="module")
 def judged(metrics: list[Metric]) -> Judged:
     """Every paper with what is recomputed of it and what is stored."""
     found = []
     for path in sorted(ROOT.glob("experiments/*/paper.toml")):
-        paper = Paper(path.parent, ROOT / "data/runs" / path.parent.name, metrics)
+        paper = Paper(path.parent, ROOT / "data/runs" / path.parent.name, metrics, explored(path.parent.name))
         found.append((paper, recomputed(paper), stored(paper)))
     return found
 
@@ -253,7 +258,11 @@ def test_findings_that_are_missing_and_other_claims_are_noticed(judged: Judged) 
 def test_the_command_ends_with_3_where_something_differs(tmp_path: Path, metrics: list[Metric]) -> None:
     runs = tmp_path / "movingai_sample"
     shutil.copytree(ROOT / "data/runs/movingai_sample", runs)
-    paper = {"experiments": str(ROOT / "experiments/movingai_sample"), "runs": str(runs)}
+    paper = {
+        "experiments": str(ROOT / "experiments/movingai_sample"),
+        "runs": str(runs),
+        "explored": str(explored("movingai_sample")),
+    }
     request = tmp_path / "request.json"
     request.write_text(
         json.dumps({"metrics": [vars(of) for of in metrics], "papers": [paper]}), encoding="utf-8"

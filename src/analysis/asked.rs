@@ -101,7 +101,8 @@ impl<'a> Asked<'a> {
             let texts: Vec<String> = texts.map(|(statistic, text)| format!("{statistic} {text}\n")).collect();
             // Where a number is looked for on problems that meet others, what those print decides which problems these are.
             let is_met = self.entry.name == criterion::EXISTS.name;
-            let print = if is_met { format!(" {:?} {:?}", other.printed, other.digits) } else { String::new() };
+            let print =
+                if is_met { format!(" {:?} {:?}", other.printed, other.digits) } else { String::new() };
             let Claim { id, untestable, difference, .. } = other;
             format!("{id} {} {difference:?}{print}\n{}", untestable.is_some(), texts.concat())
         };
@@ -138,7 +139,7 @@ impl<'a> Asked<'a> {
     ) -> CappedFinding {
         let of = &*self.criterion;
         let Context { paper, claim, point, .. } = self.context;
-        let weigh = |one: &[Number]| of.proof(polylines).unwrap_or_else(|| of.weigh(one));
+        let weigh = |one: &[Number]| of.proof(polylines, evidence.is_some()).unwrap_or_else(|| of.weigh(one));
         let first = &numbers.by_session[0];
         let mut found = weigh(first);
         if let Some(evidence) = evidence {

@@ -29,6 +29,7 @@ pub struct Evidence<'a> {
 }
 
 /// The stored run of one study, as seen under one interpretation.
+#[derive(Clone)]
 pub struct Run<'a> {
     /// The study.
     pub study: &'a Study,
@@ -190,15 +191,13 @@ impl<'a> Run<'a> {
     }
 
     fn under(&self, point: &Interpretation) -> Self {
-        Self {
-            study: self.study,
-            manifest: self.manifest.clone(),
-            records: self.records.clone(),
-            kept: self.kept.clone(),
-            interpretation: point.for_trials(&self.study.choices).key(&self.study.choices),
-            session: self.session,
-            index: self.index.clone(),
-        }
+        let interpretation = point.for_trials(&self.study.choices).key(&self.study.choices);
+        Self { interpretation, ..self.clone() }
+    }
+
+    /// The run with the times of one stored session of the clock, from 1.
+    pub(super) fn in_session(&self, session: u32) -> Self {
+        Self { session, ..self.clone() }
     }
 
     /// How many sessions of the clock are stored.

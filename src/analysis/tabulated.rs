@@ -76,8 +76,11 @@ fn cell_of(run: &Run<'_>, group: &str, label: &str, cell: &CellSpec, metric: &Me
         if value.is_finite() { format!("{value:.*}", cell.decimals) } else { "∞".to_owned() }
     };
     let rows = run.rows(group, label);
-    let measured: Vec<_> = rows.iter().map(|row| (row.is_solved(), run.value(row, metric))).collect();
-    let values = with_failures(&measured, metric.is_clock());
+    let measured = |run: &Run<'_>| {
+        let measured: Vec<_> = rows.iter().map(|row| (row.is_solved(), run.value(row, metric))).collect();
+        with_failures(&measured, metric.is_clock())
+    };
+    let values = measured(run);
     let quantile = |share: f64| statistic::quantile(&values, share);
     let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
     let ended = |status: Status| {
@@ -92,6 +95,10 @@ fn cell_of(run: &Run<'_>, group: &str, label: &str, cell: &CellSpec, metric: &Me
             .into_iter()
             .collect::<Option<Vec<f64>>>()
             .map(|q| format!("{} [{}, {}]", number(q[0]), number(q[1]), number(q[2]))),
+        Show::Sessions => (1..=run.sessions())
+            .map(|session| statistic::median(&measured(&run.in_session(session as u32))).map(number))
+            .collect::<Option<Vec<String>>>()
+            .map(|medians| medians.join(" · ")),
         Show::Percent => statistic::mean(&finite).map(|share| number(100.0 * share)),
         Show::Solved => ended(Status::Solved),
         Show::Refused => ended(Status::Rejected),

@@ -3,6 +3,7 @@
 //! Exit codes: 0 done; 1 the system refused; 2 wrong words on the command line or wrong input; 3 findings. A finding is
 //! something that is impossible under the premises named, or a number or macro of a text to look at.
 
+use base::{file, text};
 use clap::Parser;
 use replan_audit::input::Input;
 use replan_audit::reader::{self, Format};
@@ -11,7 +12,7 @@ use replan_audit::table::Fault;
 use replan_audit::witness::Budget;
 use replan_audit::{claims, coverage, output};
 use std::fs;
-use std::io::{self, Read, Write as _};
+use std::io::{self, Write as _};
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -234,29 +235,13 @@ fn refused(path: &Path, error: &io::Error) -> Failure {
     Failure(1, format!("{}: {error}", path.display()))
 }
 
-/// The most bytes that are read: a device never ends.
-const MOST_BYTES: u64 = 1 << 29;
-
 /// The text of a file, a pipe (`replan audit <(command)`) or standard input.
 fn read(path: &Path) -> Result<String, Failure> {
-    let wrong = |what: String| Failure(2, format!("{}: {what}", path.display()));
-    let from: io::Result<Box<dyn Read>> = match path.to_str() {
-        Some("-") => Ok(Box::new(io::stdin())),
-        _ => fs::File::open(path).map(|file| Box::new(file) as Box<dyn Read>),
+    let bytes = if path == Path::new("-") {
+        file::read_all(&mut io::stdin())
+    } else {
+        fs::File::open(path).and_then(|mut file| file::read_all(&mut file))
     };
-    let mut bytes = Vec::new();
-    from.and_then(|from| from.take(MOST_BYTES + 1).read_to_end(&mut bytes))
-        .map_err(|error| wrong(format!("{error}; a readable text file is expected")))?;
-    if bytes.len() as u64 > MOST_BYTES {
-        let most = MOST_BYTES >> 20;
-        return Err(wrong(format!("it holds more than {most} MiB; at most {most} MiB are accepted")));
-    }
-    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
-        return Err(wrong("it is UTF-16 text; UTF-8 text is expected".to_owned()));
-    }
-    String::from_utf8(bytes).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        let line = error.as_bytes()[..at].split(|byte| *byte == b'\n').count();
-        Failure(2, format!("{}:{line}: byte {at} is not UTF-8; UTF-8 text is expected", path.display()))
-    })
+    let text = bytes.map_err(|error| error.to_string()).and_then(text::decoded);
+    text.map_err(|what| Failure(2, format!("{}: {what}", path.display())))
 }

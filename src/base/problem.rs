@@ -187,8 +187,9 @@ fn check_robot(reader: Reader<'_>, root: &Node, key: &str, robot: &str) -> Resul
         return Ok(());
     }
     let found = brief(found);
-    let message =
-        format!("the problems are for the robot `{found}`; `{robot}` is accepted, as the URDF file calls it");
+    let message = format!(
+        "the problems are for the robot `{found}`; `{robot}` is accepted (a study says by `robot_name` what problems call its robot)"
+    );
     Err(reader.fault(node, message))
 }
 

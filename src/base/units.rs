@@ -1,16 +1,42 @@
-//! Angles in degrees that seem to be written in radians.
+//! Angles in degrees that seem to be written in radians, and lengths in millimetres that seem to be in metres.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
 /// How near to a multiple of an eighth of a turn an angle is that was rounded to two digits behind the point.
 const ROUNDED_RAD: f64 = 2e-3;
 
-/// How near to a multiple of a quarter of a turn an angle is that was rounded to four digits behind the point.
-const FOUR_DIGITS_RAD: f64 = 5e-5;
+/// So many digits behind the point make a multiple of a quarter of a turn in radians certain.
+const CERTAIN_DIGITS: usize = 3;
+
+/// A tool, a block or a way is longer.
+const SHORT_MM: f64 = 2.0;
+
+/// No link or obstacle has a smaller radius, and neighbours are farther apart.
+const THIN_MM: f64 = 1.0;
+
+/// The message about a length under the key `key` that seems to be in metres: it is above 0 and shorter than two millimetres.
+pub fn seems_in_metres(key: &str, length_mm: f64) -> Option<String> {
+    below(SHORT_MM, key, length_mm)
+}
+
+/// The message about a `radius_mm` that seems to be in metres: it is above 0 and below a millimetre.
+pub fn radius_in_metres(radius_mm: f64) -> Option<String> {
+    below(THIN_MM, "radius_mm", radius_mm)
+}
+
+fn below(least_mm: f64, key: &str, length_mm: f64) -> Option<String> {
+    (f64::MIN_POSITIVE..least_mm).contains(&length_mm).then(|| {
+        format!(
+            "{key} is {length_mm}; is it in metres? millimetres are accepted ({length_mm} m is {} mm)",
+            length_mm * 1e3
+        )
+    })
+}
 
 /// The first of `angles_deg` that seems to be in radians, by its number, with the message about the key `key`.
 ///
-/// It is a multiple of a quarter of a turn in radians to four digits; or one of an eighth to two, and no angle is beyond a turn in radians.
+/// It is a multiple of a quarter of a turn in radians to three digits or more, rounded or cut; or one of an eighth to two, and no angle is
+/// beyond a turn in radians.
 pub fn seems_in_radians(key: &str, angles_deg: &[f64]) -> Option<(usize, String)> {
     let is_eighth = |angle: &f64| {
         let eighths = (angle / FRAC_PI_4).round();
@@ -19,7 +45,11 @@ pub fn seems_in_radians(key: &str, angles_deg: &[f64]) -> Option<(usize, String)
     let is_small = |angle: &f64| angle.abs() < TAU + ROUNDED_RAD;
     let is_quarter = |angle: &f64| {
         let quarters = (angle / FRAC_PI_2).round();
-        quarters != 0.0 && is_small(angle) && (angle - quarters * FRAC_PI_2).abs() < FOUR_DIGITS_RAD
+        let written = angle.to_string();
+        let digits = written.split_once('.').map_or(0, |(_, digits)| digits.len());
+        let last = libm::pow(10.0, -(digits.min(12) as f64));
+        let is_near = (angle - quarters * FRAC_PI_2).abs() < last;
+        quarters != 0.0 && is_small(angle) && digits >= CERTAIN_DIGITS && is_near
     };
     let certain = angles_deg.iter().position(is_quarter);
     let index = certain.or_else(|| angles_deg.iter().position(is_eighth))?;
@@ -36,7 +66,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn right_angles_in_radians_are_queried_and_small_angles_in_degrees_are_not() {
+    fn right_angles_in_radians_and_short_tools_are_queried_and_small_angles_in_degrees_are_not() {
         for (text, index) in [
             ("0 1.5708 -1.5708", Some(1)),
             ("3.14", Some(0)),
@@ -44,7 +74,12 @@ mod tests {
             ("0.3 6.2832", Some(1)),
             ("90 1.5708", Some(1)),
             ("90 0 -3.1416", Some(2)),
+            ("90 1.571", Some(1)),
+            ("90 3.1415", Some(1)),
+            ("90 -1.570796326794897", Some(1)),
             ("90 1.57", None),
+            ("90 1.575", None),
+            ("90 1.5718", None),
             ("355 90", None),
             ("1.5 3 6", None),
             ("0 0", None),
@@ -53,6 +88,19 @@ mod tests {
             let angles: Vec<f64> = text.split_whitespace().map(|angle| angle.parse().unwrap()).collect();
             assert_eq!(seems_in_radians("alpha_deg", &angles).map(|message| message.0), index, "{text}");
         }
+        assert_eq!(
+            seems_in_metres("tool_mm", 0.15).unwrap(),
+            "tool_mm is 0.15; is it in metres? millimetres are accepted (0.15 m is 150 mm)"
+        );
+        assert_eq!(
+            [0.0, 2.0, 150.0].map(|length_mm| seems_in_metres("tool_mm", length_mm)),
+            [None, None, None]
+        );
+        assert_eq!(
+            radius_in_metres(0.075).unwrap(),
+            "radius_mm is 0.075; is it in metres? millimetres are accepted (0.075 m is 75 mm)"
+        );
+        assert_eq!([-1.0, 0.0, 1.0, 75.0].map(radius_in_metres), [None, None, None, None]);
         let message = seems_in_radians("yaw_deg", &["1.5708".parse().unwrap()]).unwrap().1;
         assert_eq!(
             message,

@@ -5,10 +5,12 @@ use super::crosscheck::Spec;
 use super::load::gather;
 use super::places::{Places, papers};
 use super::progress::doing;
+use super::verdicts::refused_paths;
 use super::{Failure, Which, all, counted, pack};
 use crate::analysis::compare::stored_studies;
 use crate::analysis::evidence::default_point;
 use crate::analysis::history::History;
+use crate::analysis::verdict::Verdicts;
 use base::settings::Faults;
 use clap::Args;
 use std::collections::BTreeSet;
@@ -66,7 +68,9 @@ impl Check {
             counted(paper.claims.len(), ["claim", "claims"]),
             counted(paper.inventory.len(), ["inventory row", "inventory rows"])
         );
-        for note in notes(&paper, &places) {
+        // Verdicts that are missing or damaged are for `judge` to report.
+        let refused = Verdicts::read(&places.runs).ok().and_then(|verdicts| refused_paths(&verdicts));
+        for note in notes(&paper, &places).into_iter().chain(refused) {
             say!("  {note}");
         }
         history(&places).map_err(Failure::in_check)?;

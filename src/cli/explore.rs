@@ -31,7 +31,7 @@ pub struct Explore {
     threads: Option<u32>,
     #[command(flatten)]
     consent: Consent,
-    /// Print what would run, and run nothing
+    /// Print what would run and the most that it takes, and run nothing
     #[arg(long, conflicts_with = "shard")]
     plan: bool,
     /// Run only this shard of N of the current round and keep it below --out for `replan merge`
@@ -63,7 +63,29 @@ fn plan(which: &Which) -> Result<(), Failure> {
     let places = Places::find(which, "")?;
     let paper = load(&places, &How::plain(None))?;
     let explorer = Explorer::new(&paper, &places, None, scratch(&places, &paper, "explore"));
-    explorer.affordable(&budget(&paper)?).map(drop)
+    let budget = budget(&paper)?;
+    let (points, trials) = explorer.affordable(&budget)?;
+    let (more, seconds) = explorer.most_beyond(&points, budget.trials - trials)?;
+    say!(
+        "{}: then, with more instances where an outcome is near a flip, at most {}",
+        paper.id,
+        counted(more as usize, ["trial", "trials"])
+    );
+    say!(
+        "{}: in all at most about {} of one core, if each search opened all that there is",
+        paper.id,
+        lasting(seconds)
+    );
+    Ok(())
+}
+
+/// A time in the unit that suits it.
+fn lasting(seconds: f64) -> String {
+    match seconds {
+        ..120.0 => format!("{} s", seconds.ceil()),
+        ..7_200.0 => format!("{} minutes", (seconds / 60.0).ceil()),
+        _ => format!("{:.1} hours", seconds / 3_600.0),
+    }
 }
 
 /// Explores the paper that `which` names on this machine, or as far as the parts in `rounds` go; `command` is kept with what

@@ -117,11 +117,40 @@ impl<'p> Explorer<'p> {
         Ok((chosen, trials))
     }
 
+    /// Whether `study` runs where interpretations are compatible alone.
+    fn is_late(&self, study: &Study) -> bool {
+        self.paper.explore.as_ref().is_some_and(|all| all.is_late(&study.name))
+    }
+
+    /// Whether some study runs more instances where an outcome is near a flip.
+    fn draws_more(&self) -> bool {
+        self.paper.studies.iter().any(|study| most_instances(study) > first_instances(study))
+    }
+
+    /// The most trials that run beyond the first round where `room` trials are left, and the most seconds of one core for all rounds.
+    pub fn most_beyond(&self, points: &[Interpretation], room: u64) -> Result<(u64, f64), Failure> {
+        let seconds = |round: Round| {
+            let each = self.studies_in(round).into_iter().map(|ran| {
+                let points = ran.study.as_trials_see(points).len() as f64;
+                Ok(points * ran.study.work(&self.places.inputs)?.seconds)
+            });
+            each.sum::<Result<f64, Failure>>()
+        };
+        let mut wanted = trials(&self.trials_each(first_instances, |study| self.is_late(study))?, points);
+        let mut more = seconds(Round::Compatible)?;
+        if self.draws_more() {
+            wanted += trials(&self.trials_each(most_instances, |_| true)?, points);
+            more += seconds(Round::Again)?;
+        }
+        let beyond = wanted.min(room);
+        let share = if wanted > 0 { beyond as f64 / wanted as f64 } else { 0.0 };
+        Ok((beyond, seconds(Round::First)? + share * more))
+    }
+
     /// The studies that run in `round`.
     fn studies_in(&self, round: Round) -> Vec<Ran<'p>> {
-        let is_late = |study: &Study| self.paper.explore.as_ref().is_some_and(|all| all.is_late(&study.name));
         let first = |late: bool| {
-            self.studies(first_instances).into_iter().filter(|ran| is_late(&ran.study) == late).collect()
+            self.studies(first_instances).into_iter().filter(|ran| self.is_late(&ran.study) == late).collect()
         };
         match round {
             Round::First => first(false),
@@ -223,7 +252,7 @@ impl<'p> Explorer<'p> {
         verdicts: &Verdicts,
         first: &Explored,
     ) -> Result<(BTreeMap<usize, Measured>, u64), Halt> {
-        if self.paper.studies.iter().all(|study| most_instances(study) <= first_instances(study)) {
+        if !self.draws_more() {
             return Ok((BTreeMap::new(), first.trials));
         }
         let mut trials = first.trials;

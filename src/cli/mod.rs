@@ -322,6 +322,9 @@ fn all(results: Vec<Result<(), Failure>>, what: &str) -> Result<(), Failure> {
 
 /// Runs the command that the process was called with.
 pub fn run() -> ExitCode {
+    if let Some(code) = external::launcher() {
+        return code;
+    }
     if let Some(message) = renamed(std::env::args().skip(1)) {
         let _ = writeln!(io::stderr(), "replan: {message}");
         return ExitCode::from(2);

@@ -188,8 +188,11 @@ fn folder(paper: &str) -> Result<(PathBuf, PathBuf, bool), Failure> {
     if is_name && named.join("paper.toml").is_file() {
         return Ok((named, project, false));
     }
-    if !given.join("paper.toml").is_file() {
-        return Err(unknown(paper));
+    let file = given.join("paper.toml");
+    if !file.is_file() {
+        // A pipe or a device is there, and is no paper.
+        let is_special = fs::metadata(&file).is_ok_and(|found| !found.is_dir());
+        return Err(if is_special { irregular(&file) } else { unknown(paper) });
     }
     let home = home(Some(given))?;
     let absolute = fs::canonicalize(given)?;
@@ -241,6 +244,11 @@ pub fn papers() -> Vec<String> {
 fn paper_id(folder: &Path) -> Result<String, Failure> {
     let absolute = fs::canonicalize(folder)?;
     Ok(absolute.file_name().unwrap_or_default().to_string_lossy().into_owned())
+}
+
+fn irregular(file: &Path) -> Failure {
+    let cause = base::file::read(file).err().map_or_else(String::new, |error| error.to_string());
+    Failure::input(format!("{}: {cause}", file.display()))
 }
 
 fn unknown(name: &str) -> Failure {

@@ -35,14 +35,11 @@ pub fn stop_flag() -> &'static AtomicBool {
 }
 
 /// How long work may take to end by itself after an interrupt.
-const PATIENCE: Duration = Duration::from_millis(1400);
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Ends the process and every planner from outside. Files are whole, whenever that is.
 fn end_at_once() -> ! {
-    let left = external::end_planners();
-    if !left.is_empty() {
-        eprintln!("replan: processes of planners that could not be ended: {}", external::listed(&left));
-    }
+    external::name_survivors(&external::end_planners());
     eprintln!("replan: interrupted: what was finished is kept; the same command goes on from there");
     std::process::exit(130);
 }

@@ -82,14 +82,19 @@ fn explored(verdicts: &Verdicts, which: &Which) -> Vec<String> {
     });
     let interpretations = stale(&explored.stale, "judged under the default interpretation alone", "explore");
     let second = stale(&explored.second_stale, "without a second seed", "confirm");
-    let refused = (!explored.refused.is_empty()).then(|| {
+    [compatible, interpretations, second, refused_paths(verdicts)].into_iter().flatten().collect()
+}
+
+/// Under which options the verifier refused many paths, if under any.
+pub fn refused_paths(verdicts: &Verdicts) -> Option<String> {
+    let refused = &verdicts.explored.as_ref()?.refused;
+    (!refused.is_empty()).then(|| {
         format!(
             "the verifier refuses many paths under {}: where the paper calls its paths free, `refused_above_percent` in [explore] sets \
              such interpretations apart",
-            explored.refused.join(", ")
+            refused.join(", ")
         )
-    });
-    [compatible, interpretations, second, refused].into_iter().flatten().collect()
+    })
 }
 
 /// A row: the claim, what is printed and ours, how many cases were solved of all, and the verdict.

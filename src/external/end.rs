@@ -1,17 +1,18 @@
 //! Ends a planner with every process that it started, also those that made a session of their own.
 //!
-//! Its processes are found in `/proc` (elsewhere its group alone is ended): children of children, members of its process group, and whoever inherited the mark that
-//! its environment bears. One that cleared its environment, left the group and outlived its parents became a child of replan, and
-//! is ended with the last planner at work. All are stopped before any is killed: who is stopped does not fork.
+//! Its processes are the members of its control group, where it has one. Beside them, or without, they are found in `/proc`: children
+//! of children, members of its process group, and whoever inherited the mark that its environment bears. One that cleared its
+//! environment, left the group and outlived its parents became a child of replan, and is ended with the last planner at work. All are
+//! stopped before any is killed: who is stopped does not fork. Elsewhere than on Linux the process group alone is ended.
 
 use super::interrupt::{MARK, is_guard, planners};
+use super::linux::{has_variable, in_control_group, kill_control_group, processes};
 use rustix::io::Errno;
 use rustix::process::{
     Pid, Signal, WaitOptions, getpgrp, getpid, kill_process, kill_process_group, test_kill_process,
     test_kill_process_group, waitpid,
 };
 use std::collections::BTreeSet;
-use std::fs;
 use std::process::Child;
 use std::thread::sleep;
 use std::time::Duration;
@@ -24,7 +25,7 @@ const KILL_ROUNDS: u32 = 30;
 const STOP_ROUNDS: u32 = 50;
 const ROUND: Duration = Duration::from_millis(10);
 
-/// A process as `/proc` has it.
+/// A living process.
 struct Seen {
     pid: i32,
     parent: i32,
@@ -53,7 +54,8 @@ pub(super) fn end_all(child: &mut Child, mark: &str) -> Vec<i32> {
 
 /// Kills every planner at work with all that it started; the processes that survive.
 pub fn end_planners() -> Vec<i32> {
-    planners().iter().flat_map(|(mark, root)| kill_all(*root, mark)).collect()
+    // Whoever is about to start is in no hands but those of the system, and ends with this process.
+    planners().iter().filter_map(|(mark, root)| Some(kill_all((*root)?, mark))).flatten().collect()
 }
 
 /// Whether a process of this number lives.
@@ -61,9 +63,18 @@ pub fn is_living(pid: i32) -> bool {
     Pid::from_raw(pid).is_some_and(|pid| test_kill_process(pid) != Err(Errno::SRCH))
 }
 
-/// The numbers of processes in a message.
-pub fn listed(processes: &[i32]) -> String {
-    processes.iter().map(i32::to_string).collect::<Vec<_>>().join(", ")
+/// Names the processes that are `left` on standard error.
+pub fn name_survivors(left: &[i32]) {
+    if let Some(message) = survivors(left) {
+        eprintln!("{message}");
+    }
+}
+
+/// That processes are `left`; nothing if none is.
+fn survivors(left: &[i32]) -> Option<String> {
+    let listed: Vec<String> = left.iter().map(i32::to_string).collect();
+    let named = || format!("replan: processes of planners that could not be ended: {}", listed.join(", "));
+    (!left.is_empty()).then(named)
 }
 
 /// Kills the planner `root` and all its descendants; those that survive.
@@ -80,7 +91,8 @@ pub(super) fn kill_all(root: i32, mark: &str) -> Vec<i32> {
         if stopped.is_empty() {
             return Vec::new();
         }
-        // A group is killed at once, forks at work among it.
+        // Groups are killed at once, forks at work among them.
+        kill_control_group(mark);
         let _ = Pid::from_raw(root).map(|group| kill_process_group(group, Signal::KILL));
         let stopped: Vec<i32> = stopped.into_iter().collect();
         signal(&stopped, Signal::KILL);
@@ -104,10 +116,6 @@ fn signal(pids: &[i32], signal: Signal) {
 pub(super) fn members(root: i32, mark: &str) -> Vec<i32> {
     let all = living(root);
     let wanted = format!("{MARK}={mark}");
-    let is_marked = |pid: i32| {
-        let environment = fs::read(format!("/proc/{pid}/environ")).unwrap_or_default();
-        environment.split(|byte| *byte == 0).any(|entry| entry == wanted.as_bytes())
-    };
     let planners = planners();
     let is_last = planners.keys().all(|other| other == mark);
     let [own, own_group] = [getpid(), getpgrp()].map(Pid::as_raw_nonzero).map(i32::from);
@@ -116,8 +124,11 @@ pub(super) fn members(root: i32, mark: &str) -> Vec<i32> {
     };
     let mut found: BTreeSet<i32> = all
         .iter()
-        .filter(|seen| seen.pid == root || seen.group == root || is_orphan(seen) || is_marked(seen.pid))
+        .filter(|seen| {
+            seen.pid == root || seen.group == root || is_orphan(seen) || has_variable(seen.pid, &wanted)
+        })
         .map(|seen| seen.pid)
+        .chain(in_control_group(mark))
         .collect();
     loop {
         let before = found.len();
@@ -130,11 +141,10 @@ pub(super) fn members(root: i32, mark: &str) -> Vec<i32> {
     }
 }
 
-/// All processes; without `/proc` the group of `root` alone.
+/// All processes; where they cannot be seen, the group of `root` alone.
 fn living(root: i32) -> Vec<Seen> {
-    let Ok(entries) = fs::read_dir("/proc") else { return group(root) };
-    let pids = entries.flatten().filter_map(|entry| entry.file_name().to_str()?.parse::<i32>().ok());
-    pids.filter_map(seen).collect()
+    let Some(all) = processes() else { return group(root) };
+    all.into_iter().map(|[pid, parent, group]| Seen { pid, parent, group }).collect()
 }
 
 /// The process group of the planner `root`, by its leader, as long as anybody is in it.
@@ -146,21 +156,18 @@ fn group(root: i32) -> Vec<Seen> {
     is_left.then_some(Seen { pid: root, parent: 0, group: root }).into_iter().collect()
 }
 
-/// `/proc/PID/stat`: the name stands in brackets and may hold anything; state, parent and group follow. Zombies are dead.
-fn seen(pid: i32) -> Option<Seen> {
-    let stat = fs::read_to_string(format!("/proc/{pid}/stat")).ok()?;
-    let mut rest = stat.rsplit_once(')')?.1.split_whitespace();
-    let state = rest.next()?;
-    let parent = rest.next()?.parse().ok()?;
-    let group = rest.next()?.parse().ok()?;
-    (!["Z", "X"].contains(&state)).then_some(Seen { pid, parent, group })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use std::os::unix::process::CommandExt as _;
     use std::process::Command;
+
+    #[test]
+    fn survivors_are_named_by_number() {
+        let message = "replan: processes of planners that could not be ended: 7, 11";
+        assert_eq!(survivors(&[7, 11]).as_deref(), Some(message));
+        assert_eq!(survivors(&[]), None);
+    }
 
     #[test]
     fn without_proc_a_group_is_seen_until_its_last_process_is_killed() {

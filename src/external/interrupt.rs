@@ -1,9 +1,8 @@
 //! Planners at work, so that whoever interrupts replan can end them all.
 
-use super::linux::{GUARD, adopt_orphans};
+use super::linux::start_guard;
 use std::collections::BTreeMap;
-use std::os::unix::process::CommandExt as _;
-use std::process::{Child, Command, Stdio};
+use std::process::Child;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, OnceLock};
 
@@ -12,8 +11,8 @@ pub(super) const MARK: &str = "REPLAN_PLANNER";
 
 static IS_INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
-/// The process of each planner at work, by its mark.
-static AT_WORK: Mutex<BTreeMap<String, i32>> = Mutex::new(BTreeMap::new());
+/// The process of each planner at work, by its mark; `None` while it starts.
+static AT_WORK: Mutex<BTreeMap<String, Option<i32>>> = Mutex::new(BTreeMap::new());
 
 /// Every conversation ends from now on as if its time were spent; what comes of it is no result.
 pub fn interrupt() {
@@ -28,15 +27,9 @@ pub fn is_interrupted() -> bool {
 /// A process that outlives this one for a moment and kills planners that do, too.
 static WATCH: OnceLock<Option<Child>> = OnceLock::new();
 
-/// Starts the guard, once; without a shell there is none.
+/// Starts the guard, once; elsewhere than on Linux, and without a shell, there is none.
 pub(super) fn guard() {
-    WATCH.get_or_init(|| {
-        adopt_orphans();
-        let marks = format!("{MARK}={}[.]", std::process::id());
-        let mut command = Command::new("sh");
-        command.args(["-c", GUARD, "replan-guard", &marks]).process_group(0);
-        command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok()
-    });
+    WATCH.get_or_init(|| start_guard(MARK));
 }
 
 /// Whether `pid` is the guard.
@@ -44,7 +37,7 @@ pub(super) fn is_guard(pid: i32) -> bool {
     WATCH.get().and_then(Option::as_ref).is_some_and(|guard| guard.id() as i32 == pid)
 }
 
-pub(super) fn note(mark: &str, root: i32) {
+pub(super) fn note(mark: &str, root: Option<i32>) {
     at_work(|all| all.insert(mark.to_owned(), root));
 }
 
@@ -52,10 +45,10 @@ pub(super) fn forget(mark: &str) {
     at_work(|all| all.remove(mark));
 }
 
-pub(super) fn planners() -> BTreeMap<String, i32> {
+pub(super) fn planners() -> BTreeMap<String, Option<i32>> {
     at_work(|all| all.clone())
 }
 
-fn at_work<T>(work: impl FnOnce(&mut BTreeMap<String, i32>) -> T) -> T {
+fn at_work<T>(work: impl FnOnce(&mut BTreeMap<String, Option<i32>>) -> T) -> T {
     work(&mut AT_WORK.lock().expect("no thread panics with the list of planners"))
 }

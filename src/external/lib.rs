@@ -10,6 +10,8 @@ mod clear;
 mod describe;
 mod end;
 mod interrupt;
+mod launch;
+#[cfg_attr(not(target_os = "linux"), path = "not_linux.rs")]
 mod linux;
 pub mod message;
 mod process;
@@ -18,7 +20,8 @@ pub mod world;
 
 pub use answer::{MOST_QUESTIONS, QuestionCounts, Space, Unanswered};
 pub use describe::describe;
-pub use end::{end_planners, is_living, listed};
+pub use end::{end_planners, is_living, name_survivors};
 pub use interrupt::{interrupt, is_interrupted};
+pub use linux::launcher;
 pub use process::{Clock, Process, Program, Start, read_message};
 pub use talk::{COUNTERS, End, Query, Talk, greet, solve};

@@ -1,14 +1,15 @@
 //! A running planner: its program, its pipes, and the limits that hold for it.
 
-use super::end::end_all;
+use super::end::{end_all, name_survivors};
 use super::interrupt::{self, MARK, guard};
-use super::linux::limit_memory;
+use super::launch::launch;
+use super::linux::close_control_group;
 use super::message::{FromPlanner, Hello, Limits, ToPlanner};
 use base::text::{around, one_line};
 use std::collections::VecDeque;
-use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
+use std::io::{BufRead, BufReader, ErrorKind, PipeReader, Read, Write};
 use std::os::unix::process::CommandExt as _;
-use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, Stdio};
+use std::process::{Child, ChildStderr, ChildStdin, Stdio};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, SyncSender, channel, sync_channel};
 use std::sync::{Arc, Mutex};
@@ -107,18 +108,23 @@ impl Process {
             return Err(Start::Missing(String::new()));
         };
         guard();
-        let mut command = Command::new(name);
-        command.args(arguments).env_clear().process_group(0);
-        command.envs(PASSED.iter().filter_map(|name| Some((name, std::env::var_os(name)?)))).env(MARK, &mark);
-        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let mut child = command.spawn().map_err(|error| match error.kind() {
-            ErrorKind::NotFound => Start::Missing(name.clone()),
-            _ => Start::Refused(name.clone(), error.to_string()),
+        // It counts as at work before it starts: nobody takes it for another planner's orphan.
+        interrupt::note(&mark, None);
+        let memory_bytes = program.limits.memory_mb << 20;
+        let started = launch(name, arguments, &mark, memory_bytes, |command| {
+            let passed = PASSED.iter().filter_map(|name| Some((name, std::env::var_os(name)?)));
+            command.env_clear().envs(passed).env(MARK, &mark).process_group(0);
+            command.stdin(Stdio::piped()).stderr(Stdio::piped());
+        });
+        let (mut child, stdout) = started.map_err(|error| {
+            interrupt::forget(&mark);
+            match error.kind() {
+                ErrorKind::NotFound => Start::Missing(name.clone()),
+                _ => Start::Refused(name.clone(), error.to_string()),
+            }
         })?;
-        interrupt::note(&mark, child.id() as i32);
-        limit_memory(child.id(), program.limits.memory_mb << 20);
+        interrupt::note(&mark, Some(child.id() as i32));
         let stdin = child.stdin.take();
-        let stdout = child.stdout.take();
         let stderr = child.stderr.take();
         let (to, lines) = channel();
         let (sender, from) = sync_channel(WAITING_LINES);
@@ -129,7 +135,7 @@ impl Process {
         let most = program.limits.output_mb << 20;
         let piped = "its pipes were requested";
         thread::spawn(move || write_lines(stdin.expect(piped), &lines));
-        thread::spawn(move || read_lines(stdout.expect(piped), &sender, &count, most));
+        thread::spawn(move || read_lines(stdout, &sender, &count, most));
         let logging = thread::spawn(move || read_log(stderr.expect(piped), &tail));
         Ok(Self { child, mark, to: Some(to), from, written, log, logging, hello: None })
     }
@@ -232,10 +238,8 @@ impl Process {
 
 impl Drop for Process {
     fn drop(&mut self) {
-        let left = end_all(&mut self.child, &self.mark);
-        if !left.is_empty() {
-            eprintln!("processes of a planner that could not be ended: {}", crate::end::listed(&left));
-        }
+        name_survivors(&end_all(&mut self.child, &self.mark));
+        close_control_group(&self.mark);
         interrupt::forget(&self.mark);
     }
 }
@@ -289,7 +293,7 @@ fn write_lines(mut stdin: ChildStdin, lines: &Receiver<String>) {
     }
 }
 
-fn read_lines(stdout: ChildStdout, sender: &SyncSender<PlannerOutput>, written: &AtomicU64, most: u64) {
+fn read_lines(stdout: PipeReader, sender: &SyncSender<PlannerOutput>, written: &AtomicU64, most: u64) {
     let mut reader = BufReader::new(stdout);
     let mut line = Vec::new();
     loop {

@@ -57,6 +57,8 @@ pub struct TurnQuery {
     pub starts: Vec<Cell>,
     /// Cells it may end at.
     pub goals: Vec<Cell>,
+    /// A step to a neighbour: the heading from which its first segment turns; `None` if that turns from none.
+    pub heading: Option<Cell>,
     /// How bends count.
     pub convention: Convention,
     /// The turn sum wanted, degrees; `high` may be infinite.
@@ -96,6 +98,26 @@ pub struct Polyline {
 /// If `length.high` is infinite.
 pub fn shortest_polyline(query: &TurnQuery) -> Option<Polyline> {
     assert!(query.length.high.is_finite(), "a polyline of any length");
+    match query.heading {
+        Some(heading) => shortest_turning_from(query, heading),
+        None => shortest_in_strides(query),
+    }
+}
+
+/// As [`shortest_polyline`]: one step before the start, along the heading, begins a polyline whose first segment is along the heading too.
+fn shortest_turning_from(query: &TurnQuery, heading: Cell) -> Option<Polyline> {
+    let step = distance([0, 0], heading);
+    let low = if query.length.low > 0.0 { query.length.low + step } else { 0.0 };
+    let length = Interval { low, high: query.length.high + step };
+    let starts = query.starts.iter().map(|&start| difference(heading, start)).collect();
+    let found = shortest_in_strides(&TurnQuery { starts, length, ..query.clone() })?;
+    let mut cells = found.cells;
+    cells[0] = [cells[0][0] + heading[0], cells[0][1] + heading[1]];
+    cells.dedup();
+    Some(Polyline { cells, length: found.length - step, turn_deg: found.turn_deg })
+}
+
+fn shortest_in_strides(query: &TurnQuery) -> Option<Polyline> {
     let straight = straight_line_between(&query.starts, &query.goals)?;
     // Looking a little further each time costs less than looking once much too far.
     let first = if query.length.low > 0.0 { query.length.high } else { straight + STRIDE };
@@ -126,11 +148,13 @@ pub fn distance(a: Cell, b: Cell) -> f64 {
 const STRIDE: f64 = 0.5;
 
 fn shortest_within(query: &TurnQuery) -> Option<Polyline> {
-    let forward = Half::new(query);
+    let forward = Half::new(query, true);
     let mut best = forward.arrival().map(|label| (label.length, forward.chain(label)));
     if query.turn_deg.high.is_finite() {
-        let reverse = TurnQuery { starts: query.goals.clone(), goals: query.starts.clone(), ..query.clone() };
-        let backward = Half::new(&reverse);
+        let (starts, goals) = (query.goals.clone(), query.starts.clone());
+        let reverse = TurnQuery { starts, goals, heading: None, ..query.clone() };
+        // A way back to the start that arrives from elsewhere than the heading answers nothing.
+        let backward = Half::new(&reverse, query.heading.is_none());
         for (towards, from) in meetings(query, &forward, &backward) {
             let length = towards.length + from.length;
             if best.as_ref().is_none_or(|(least, _)| length < *least) {

@@ -95,7 +95,11 @@ fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     }
     let parts = verdicts.claims.iter().filter(|part| part.part_of.as_ref() == Some(&judged.claim));
     let estimates: Vec<&Estimate> = parts.filter_map(ClaimVerdict::ours).collect();
-    let subject = |estimate: &Estimate| estimate.what.split(", ").next().map(str::to_owned);
+    // Whatever the events are: the sentence that they are parts of says what is counted.
+    let subject = |estimate: &Estimate| match estimate.what.split(", ").next() {
+        Some(what) if what.starts_with("share of events") => Some("share of events".to_owned()),
+        what => what.map(str::to_owned),
+    };
     let first = estimates.first().and_then(|estimate| subject(estimate))?;
     let effects: Vec<Effect> = estimates.iter().map(|estimate| Effect::new(estimate)).collect();
     let words = &effects[0].words;

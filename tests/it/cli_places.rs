@@ -225,3 +225,14 @@ fn the_report_keeps_what_others_wrote_and_is_refused_where_it_cannot() {
         assert!(bench.tree("target/replan/mini/data") == runs, "a refused command ran something");
     }
 }
+
+#[test]
+fn a_paper_file_that_is_no_regular_file_is_refused_with_that_cause() {
+    let bench = Bench::new();
+    fs::remove_file(bench.at("mini/paper.toml")).unwrap();
+    symlink("/dev/zero", bench.at("mini/paper.toml")).unwrap();
+    let output = bench.run(&["check", "./mini"]);
+    let cause = "./mini/paper.toml: it is a device, a pipe or a socket; a regular file is accepted";
+    assert!(output.err.contains(cause), "{}", output.err);
+    assert_eq!(output.code, Some(2));
+}

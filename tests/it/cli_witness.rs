@@ -148,11 +148,17 @@ fn what_failed_on_draws_that_were_not_timed_is_no_failure_among_the_timed() {
     assert!(solved.ends_with("/12"), "12 of 24 instances are timed, and {solved} are counted\n{judged}");
 }
 
+/// A table of the times of every session.
+const TIMES: &str = "[[results]]\nid = \"times\"\ncaption = \"Times\"\nstudy = \"draws\"\nrows = [\"A*\"]\n\
+     cells = [{ metric = \"plan_time_us\", show = \"sessions\", decimals = 6 }]\n\
+     [[results.block]]\ntitle = \"Drawn\"\nproblems = \"drawn\"\n";
+
 #[test]
 fn a_claim_about_time_says_what_each_session_of_the_clock_found() {
     let bench = Bench::new();
     bench.edit("mini/draws.toml", "problems = 2", "problems = 12");
     bench.edit("mini/paper.toml", "metric = \"nodes\"", "metric = \"plan_time_us\"");
+    bench.edit("mini/paper.toml", "[[claim]]", &format!("{TIMES}\n[[claim]]"));
     bench.done(&["repro", "./mini"]);
     let found = |bench: &Bench| -> Vec<String> {
         let shown = bench.done(&["show", "./mini", "nodes"]).split_whitespace().collect::<Vec<_>>().join(" ");
@@ -171,6 +177,19 @@ fn a_claim_about_time_says_what_each_session_of_the_clock_found() {
     let three = found(&bench);
     assert_eq!(three.len(), 3, "{three:?}");
     assert!(three[0] != three[1] && three[1] != three[2], "{three:?}");
+    bench.done(&["render", "./mini"]);
+    let table = fs::read_to_string(bench.at("target/replan/mini/plots/mini/times.tex")).unwrap();
+    let row = table.lines().find(|line| line.contains("A*") && line.contains("cdot")).unwrap();
+    let medians: Vec<f64> = row
+        .trim_end_matches(['\\', ' '])
+        .rsplit('&')
+        .next()
+        .unwrap()
+        .split("\\ensuremath{\\cdot}")
+        .map(|median| median.trim().parse().unwrap())
+        .collect();
+    assert_eq!(medians.len(), 3, "{row}");
+    assert!(medians.iter().all(|median| *median > 0.0) && medians[0] != medians[1], "{row}");
 }
 
 /// How many instances the same paper counts as failed when it asks for what every trial has.

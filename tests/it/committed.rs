@@ -154,5 +154,6 @@ fn the_ways_in_which_searches_end_add_up_to_all_of_them() {
         assert!(shares.len() == 4 && (sum - 100.0).abs() < 0.25, "{shares:?}");
     }
     let occurs = |way: usize| rows.iter().any(|shares| shares[way] > 0.0);
-    assert!(rows.len() == 8 && (0..4).all(occurs), "{rows:?}");
+    assert!(rows.len() == 8 && (0..3).all(occurs), "{rows:?}");
+    assert!(!occurs(3), "a search spent its budget: {rows:?}");
 }

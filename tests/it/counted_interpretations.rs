@@ -137,15 +137,20 @@ fn a_sentence_that_holds_by_a_searched_input_under_one_reading_is_attainable() {
     );
 }
 
+/// The choice of how much is blocked; under one option few instances are solved.
+pub const CROWD: (&str, &str) = (
+    "[[claim]]\nid = \"fewer\"",
+    "[[choice]]\nid = \"crowd\"\nwhy = \"how much is blocked is not printed\"\ndefault = \"fifth\"\npaper = \"section 4\"\n\
+     [choice.option]\nfifth = { problem = { blocked_share = 0.2 } }\nmost = { problem = { blocked_share = 0.65 } }\n\
+     [[claim]]\nid = \"fewer\"",
+);
+
 #[test]
 fn a_reading_under_which_too_few_draws_are_solved_has_no_power_and_is_not_looked_at() {
-    let crowd = "[[choice]]\nid = \"crowd\"\nwhy = \"how much is blocked is not printed\"\ndefault = \"fifth\"\npaper = \"section 4\"\n\
-         [choice.option]\nfifth = { problem = { blocked_share = 0.2 } }\nmost = { problem = { blocked_share = 0.65 } }\n\
-         [[claim]]\nid = \"fewer\"";
-    let toy = Toy::new(&[("[[claim]]\nid = \"fewer\"", crowd)]);
+    let toy = Toy::new(&[CROWD]);
     let first = toy.first();
     let powerless: Vec<_> =
-        first.claims["fewer"].results.iter().filter(|found| found.sight == Sight::Powerless).collect();
+        first.claims["fewer"].results.iter().filter(|found| found.sight == Sight::Few).collect();
     assert!(!powerless.is_empty() && powerless.iter().all(|found| found.n < 10), "{powerless:?}");
     let across = toy.claim("fewer").across.unwrap();
     assert_eq!(toy.class_and_across("fewer"), pair("reproduced", "same under all 3"));
@@ -319,7 +324,12 @@ fn a_reading_whose_paths_the_verifier_refuses_is_set_apart_where_the_paper_calls
     // Claims that look at no such path are judged under both.
     assert!(free.claim("fewer").across.unwrap().refused.is_empty());
     for toy in [&toy, &free] {
-        let output = toy.0.done(&["judge", "./toy"]);
-        assert!(output.contains("the verifier refuses many paths under sight = cutting"), "{output}");
+        for command in ["judge", "check"] {
+            let output = toy.0.done(&[command, "./toy"]);
+            assert!(
+                output.contains("the verifier refuses many paths under sight = cutting"),
+                "{command}: {output}"
+            );
+        }
     }
 }

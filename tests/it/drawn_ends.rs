@@ -150,6 +150,7 @@ fn ends_that_cannot_be_drawn_are_refused_at_their_key_or_make_an_invalid_instanc
         ("random_bars", "goal = { z = 3 }", "unknown key `z`; accepted: `x`, `y`"),
         ("random_bars", "goal = 'anywhere'", "`goal` is \"anywhere\""),
         ("random_cells", "start = [40, 4]", "start is [40, 4], outside the map"),
+        ("plane_queries", "radius_mm = 0.22", "radius_mm is 0.22; is it in metres? millimetres are accepted"),
         ("plane_queries", "goal_mm = { x = [5, 1e6] }", "x of goal_mm is from 5 to 1000000"),
         ("arm_workspace", "goal_cm = { y = [-3, 10] }", "y of goal_cm is from -3 to 10"),
         (

@@ -1,6 +1,7 @@
 //! How `explore` and `confirm` spend their budget of trials, and how they go on after they were stopped.
 
 use crate::across::{CITED, ON_HURRY, RUNS, Toy, pair};
+use crate::counted_interpretations::CROWD;
 use crate::paper::ProgramOutput;
 use replan::analysis::across::stored::Exploration;
 use replan::analysis::outcome::Polarity;
@@ -29,12 +30,17 @@ fn instances(first: &Exploration) -> [BTreeSet<usize>; 2] {
     [of(true), of(false)]
 }
 
+/// What `--plan` prints, and the trials of the first round in it.
+fn planned(toy: &Toy) -> (String, u64) {
+    let plan = toy.0.done(&["explore", "./toy", "--plan"]);
+    let first_round = plan.split([',', ' ']).find_map(|word| word.parse().ok().filter(|n| *n > 10)).unwrap();
+    (plan, first_round)
+}
+
 #[test]
 fn a_second_round_draws_more_only_where_a_class_is_near_a_flip() {
     let toy = Toy::unexplored(&[CITED, MORE, MET]);
-    let plan = toy.0.done(&["explore", "./toy", "--plan"]);
-    let first_round: u64 =
-        plan.split([',', ' ']).find_map(|word| word.parse().ok().filter(|n| *n > 10)).unwrap();
+    let (_, first_round) = planned(&toy);
     toy.0.done(&["explore", "./toy"]);
     let explored = toy.first();
     // The interpretation that is near a flip, and the defaults beside it.
@@ -50,6 +56,32 @@ fn a_second_round_draws_more_only_where_a_class_is_near_a_flip() {
         (instances(&explored), explored.trials),
         ([BTreeSet::from([12]), BTreeSet::from([12])], first_round)
     );
+}
+
+#[test]
+fn a_second_round_draws_more_where_too_few_instances_are_solved() {
+    let toy = Toy::unexplored(&[CROWD, MORE]);
+    let (_, first_round) = planned(&toy);
+    toy.0.done(&["explore", "./toy"]);
+    // The crowd and the defaults beside it; the room has no crowd and runs once.
+    assert_eq!(toy.first().trials, first_round + 2 * 3 * 30 + 1);
+}
+
+#[test]
+fn a_plan_counts_the_second_round_within_the_budget_and_gives_its_time() {
+    let (plan, first_round) = planned(&Toy::unexplored(&[CITED, MORE, MET]));
+    // Under each interpretation three contenders, on 12 instances and on 30, and one on the room.
+    let again = first_round / (3 * 12 + 1) * (3 * 30 + 1);
+    let more = |trials: u64| {
+        format!("with more instances where an outcome is near a flip, at most {trials} trials\n")
+    };
+    assert!(plan.contains(&more(again)), "{plan}");
+    assert!(plan.ends_with(" s of one core, if each search opened all that there is\n"), "{plan}");
+    let short = format!("trials = {}", first_round + 90);
+    let (plan, _) = planned(&Toy::unexplored(&[CITED, MORE, MET, ("trials = 100_000", &short)]));
+    assert!(plan.contains(&more(90)), "{plan}");
+    let (plan, _) = planned(&Toy::unexplored(&[CITED, MET]));
+    assert!(plan.contains(&more(0)), "{plan}");
 }
 
 #[test]

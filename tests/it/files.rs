@@ -164,6 +164,41 @@ fn joints_move_as_their_urdf_file_means_and_go_where_the_problem_file_names_them
 }
 
 #[test]
+fn a_study_says_that_problems_call_its_robot_otherwise_and_names_problems_that_are_refused() {
+    let bench = Bench::empty();
+    bench.write("files/paper.toml", PAPER.as_bytes());
+    let robot = ROBOT.replace("[low]", "revolute").replace("[along]", NODS).replace("[limit]", TURN);
+    bench.write("files/arm.urdf", robot.as_bytes());
+    bench.write("files/arm.json", THERE.replacen('{', "{\"robot\": \"double\", ", 1).as_bytes());
+    let set = "\n[[problems]]\nlabel = \"set\"\nfamily = \"joint_problems\"\ninstances = 1\n[problems.settings]\n\
+               robot = \"arm.urdf\"\nproblems = \"arm.json\"\nself_contact = \"all\"\nstep_deg = 4\n\
+               support = { under = \"nothing\", why = \"a test\", base_mm = [0, 0, 0], yaw_deg = 0 }\n";
+    let one = joint_group("arm");
+    let written = |groups: &str| {
+        let named = groups.replace("robot = \"arm.urdf\"", "robot = \"arm.urdf\"\nrobot_name = \"double\"");
+        [study(groups, STRAIGHT), study(&named, STRAIGHT)]
+    };
+    let [as_it_is, named] = written(&one);
+    bench.write("files/arms.toml", as_it_is.as_bytes());
+    let output = bench.run(&["check", "./files"]);
+    let expected =
+        "the problems are for the robot `double`; `pair` is accepted (a study says by `robot_name`";
+    assert!(output.code == Some(2) && output.err.contains(expected), "{}", output.err);
+    let note = "arm.json: its robot `double` is taken as `pair` of the URDF file, as `robot_name` says";
+    bench.write("files/arms.toml", named.as_bytes());
+    let output = bench.done(&["check", "./files"]);
+    assert!(output.contains(note), "{output}");
+    let [as_it_is, named] = written(set);
+    bench.write("files/arms.toml", as_it_is.as_bytes());
+    let output = bench.done(&["check", "./files"]);
+    let refused = "arm.json: refused problems, which count as invalid: 1 of 1; the first: ";
+    assert!(output.contains(refused) && output.contains("for the robot `double`"), "{output}");
+    bench.write("files/arms.toml", named.as_bytes());
+    let output = bench.done(&["check", "./files"]);
+    assert!(output.contains(note) && !output.contains("refused"), "{output}");
+}
+
+#[test]
 fn a_page_shows_a_slide_as_its_length_and_a_whole_turn_of_an_endless_joint_as_nothing() {
     let bench = Bench::empty();
     let tip_mm = |name: &str, q: [f64; 2]| {
@@ -399,6 +434,7 @@ fn the_page_of_files_shows_every_key_that_is_passed_over() {
 /// How many lines of a file have `{:?}` and make no message: text that is hashed or compared, lists of numbers, code for tests alone.
 const NO_MESSAGES: &[(&str, usize)] = &[
     ("analysis/across/glance.rs", 1),
+    ("analysis/asked.rs", 2),
     ("analysis/citation.rs", 1),
     ("analysis/claims.rs", 2),
     ("analysis/criterion/exists.rs", 1),
@@ -414,7 +450,8 @@ const NO_MESSAGES: &[(&str, usize)] = &[
     ("engine/planner/mirrors.rs", 2),
     ("proofs/proof/counts.rs", 1),
     ("proofs/proof/lengths.rs", 6),
-    ("proofs/proof/turns.rs", 2),
+    ("proofs/proof/turns.rs", 3),
+    ("study/choice.rs", 1),
     ("study/explore.rs", 9),
     ("study/family/conditioned.rs", 2),
     ("study/manifest.rs", 2),

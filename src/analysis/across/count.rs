@@ -72,7 +72,9 @@ impl Counted {
         let seen = match result.sight {
             Sight::Looked if !is_hollow => own.clone(),
             Sight::Unmeant => Vec::new(),
-            Sight::Looked | Sight::Unexplored | Sight::Powerless => own[..usize::from(is_default)].to_vec(),
+            Sight::Looked | Sight::Unexplored | Sight::Powerless | Sight::Few => {
+                own[..usize::from(is_default)].to_vec()
+            }
         };
         self.not_looked_at += own.len() - seen.len();
         self.looked += seen.len();
@@ -264,7 +266,7 @@ fn held(
         }
         let full = default.get(*id).filter(|_| place == 0);
         let polarity = full.unwrap_or(&result.outcome).polarity();
-        if polarity == Polarity::Against || (result.sight == Sight::Powerless && full.is_none()) {
+        if polarity == Polarity::Against || (result.sight.is_powerless() && full.is_none()) {
             return None;
         }
         holds += usize::from(polarity == Polarity::For);

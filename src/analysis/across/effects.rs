@@ -55,7 +55,7 @@ pub(super) fn each(
             }
             let effect = match (default.polarity(), result.outcome.polarity()) {
                 _ if result.results == base.results => Effect::None,
-                _ if result.sight == Sight::Powerless || result.outcome == default => Effect::Number,
+                _ if result.sight.is_powerless() || result.outcome == default => Effect::Number,
                 (own, other) if own == other => Effect::Outcome,
                 (_, Polarity::Open) | (Polarity::Open, _) => Effect::Opens,
                 _ => Effect::Turns,

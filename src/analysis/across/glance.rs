@@ -21,10 +21,19 @@ pub enum Sight {
     Unmeant,
     /// Its trials did not run under the interpretation, or the clock was not read.
     Unexplored,
-    /// There are too few instances, hardly any printed value could have been refused, or no problem could be posed.
+    /// Hardly any printed value could have been refused, or no problem could be posed.
     Powerless,
+    /// There are too few instances; more may say something.
+    Few,
     /// It was looked at.
     Looked,
+}
+
+impl Sight {
+    /// Whether the trials ran and say nothing.
+    pub fn is_powerless(self) -> bool {
+        matches!(self, Self::Powerless | Self::Few)
+    }
 }
 
 /// A claim under one interpretation.
@@ -161,8 +170,10 @@ fn sight(one: &CappedFinding, outcome: Outcome) -> Sight {
     let Caps { powerless, few, clock, .. } = one.caps;
     if !one.is_covered || clock.is_some() {
         Sight::Unexplored
-    } else if outcome == Outcome::Open && (powerless || few || !one.is_posed) {
+    } else if outcome == Outcome::Open && (powerless || !one.is_posed) {
         Sight::Powerless
+    } else if outcome == Outcome::Open && few {
+        Sight::Few
     } else {
         Sight::Looked
     }

@@ -326,13 +326,18 @@ pub fn to_confirm(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> BT
 }
 
 /// The interpretations, by their places in `first`, under which more instances may say more: those that leave a claim open while others
-/// do not, and those that turn one.
+/// do not, those that turn one, and those that vote and have too few instances for one.
 pub fn near_a_flip(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> BTreeSet<usize> {
-    turned(paper, verdicts, first, |groups| {
+    let near = turned(paper, verdicts, first, |groups| {
         let speaks = groups.iter().any(|group| group.outcome.polarity() != Polarity::Open);
         let open = groups.iter().filter(|group| speaks && group.outcome.polarity() == Polarity::Open);
         open.chain(combine::flips(groups)).collect()
-    })
+    });
+    let choices = VotingChoices::new(paper);
+    let results = first.claims.values().flat_map(|claim| &claim.results);
+    let few = results.filter(|result| result.sight == glance::Sight::Few);
+    let few = few.flat_map(|result| result.interpretations.iter().copied());
+    near.into_iter().chain(few.filter(|place| choices.votes(&first.interpretations[*place]))).collect()
 }
 
 /// The interpretations, by their places in `first`, that vote and are compatible with what the studies were fitted to; all that vote

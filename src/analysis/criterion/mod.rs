@@ -41,8 +41,9 @@ pub trait Criterion {
     /// Adds the trial that shows what was found in `numbers`, and what trials alone can tell.
     fn show(&self, _evidence: &Evidence<'_>, _numbers: &[Number], _found: &mut CriterionResult) {}
 
-    /// What arithmetic on printed numbers proves, of a rule; these polylines are remembered.
-    fn proof(&self, _polylines: &Polylines) -> Option<CriterionResult> {
+    /// What arithmetic on printed numbers proves, of a rule; these polylines are remembered. Unless it is explained, only whether
+    /// the claim is refused is found out.
+    fn proof(&self, _polylines: &Polylines, _is_explained: bool) -> Option<CriterionResult> {
         None
     }
 

@@ -19,6 +19,7 @@ use stats::paired::EQUAL;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use study::column;
+use study::key::SweepKey;
 use study::record::Row;
 use toml::{Table, Value};
 
@@ -79,6 +80,10 @@ enum Hits {
     LowerThroughout,
     /// Instances of which more cases are solved than by the other contender.
     SolvedMore,
+    /// Instances of which more cases are solved than by the other contender at every point of the sweep.
+    SolvedMoreThroughout,
+    /// Cases that the other contender leaves unsolved and this one solves.
+    Cured,
 }
 
 /// Whether a claim with these settings is about what is solved by everyone who is compared.
@@ -99,6 +104,8 @@ impl Hits {
             Self::Higher => "cases on which it is higher",
             Self::LowerThroughout => "instances on every case of which it is lower",
             Self::SolvedMore => "instances of which it solves more",
+            Self::SolvedMoreThroughout => "instances of which it solves more at every point of the sweep",
+            Self::Cured => "cases that it solves of those that the other fails",
         }
     }
 }
@@ -137,7 +144,7 @@ impl<'a> Counted<'a> {
         if matches!(hits, Hits::Above | Hits::Lower | Hits::Higher | Hits::LowerThroughout) {
             of.metric(context)?;
         }
-        if matches!(hits, Hits::Lower | Hits::Higher | Hits::LowerThroughout | Hits::SolvedMore) {
+        if !matches!(hits, Hits::Solved | Hits::Rejected | Hits::Marked | Hits::Events | Hits::Above) {
             of.against(context)?;
         }
         if let Some(accepted) = settings.accepted {
@@ -171,7 +178,9 @@ impl<'a> Counted<'a> {
             Hits::Above => hit(case.value? > self.settings.bound? + EQUAL),
             Hits::Lower | Hits::LowerThroughout => hit(gap()? < -EQUAL),
             Hits::Higher => hit(gap()? > EQUAL),
-            Hits::SolvedMore => hit(row.is_solved() && !case.base?.is_solved()),
+            Hits::SolvedMore | Hits::SolvedMoreThroughout => hit(row.is_solved() && !case.base?.is_solved()),
+            Hits::Cured => hit(row.is_solved())
+                .filter(|_| case.base.is_some_and(|base| !base.is_solved() && !is_unended(base))),
         }
     }
 
@@ -181,13 +190,16 @@ impl<'a> Counted<'a> {
         match self.settings.hits {
             // What ended without a path, or with a refused one, has no marks; what did not end might have had some.
             Hits::Marked | Hits::Events => case.is_unended() && self.counts(case).is_none(),
+            // What the other solves is none of its failures.
+            Hits::Cured => case.is_unended() && !case.base.is_some_and(Row::is_solved),
             Hits::Solved
             | Hits::Rejected
             | Hits::Above
             | Hits::Lower
             | Hits::Higher
             | Hits::LowerThroughout
-            | Hits::SolvedMore => case.is_unended(),
+            | Hits::SolvedMore
+            | Hits::SolvedMoreThroughout => case.is_unended(),
         }
     }
 
@@ -200,9 +212,14 @@ impl<'a> Counted<'a> {
 
     /// Hits and chances of one instance; its cases of which nothing is known left out, or all as hits or as misses.
     fn of_instance(&self, instance: &Instance<'_>, unknown: Option<bool>) -> [f64; 2] {
-        if self.settings.hits == Hits::SolvedMore && !instance.cases.is_empty() {
-            let more = instance.cases.iter().map(|case| solved_more(case, unknown)).sum::<i32>();
-            return [f64::from(u8::from(more > 0)), 1.0];
+        let is_throughout = self.settings.hits == Hits::SolvedMoreThroughout;
+        if (is_throughout || self.settings.hits == Hits::SolvedMore) && !instance.cases.is_empty() {
+            let mut more: BTreeMap<Option<&SweepKey>, i32> = BTreeMap::new();
+            for case in &instance.cases {
+                *more.entry(is_throughout.then_some(&case.row.key.sweep)).or_default() +=
+                    solved_more(case, unknown);
+            }
+            return [f64::from(u8::from(more.values().all(|more| *more > 0))), 1.0];
         }
         let of_case = |case: &Case<'_>| match unknown.filter(|_| self.is_unknown(case)) {
             Some(is_hit) => Some([f64::from(u8::from(is_hit)), 1.0]),
@@ -219,7 +236,7 @@ impl<'a> Counted<'a> {
     /// The most chances that an instance could have had: of events the most that were seen, as they have no bound.
     fn most(&self, instances: &[Instance<'_>]) -> f64 {
         match self.settings.hits {
-            Hits::LowerThroughout | Hits::SolvedMore => 1.0,
+            Hits::LowerThroughout | Hits::SolvedMore | Hits::SolvedMoreThroughout => 1.0,
             Hits::Events => 0.0,
             _ => most_cases(instances),
         }

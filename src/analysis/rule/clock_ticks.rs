@@ -33,7 +33,7 @@ chosen = "named by the paper, before its times were looked at"
         let times = with.iter().map(|id| context.print_of(id)).chain([Ok(own)]);
         let times = times.collect::<Result<Vec<_>, _>>()?;
         let tick = Tick { numerator, denominator };
-        Ok(rule(move |_| refused(proof::clock_ticks(tick, &times, &chosen))))
+        Ok(rule(move |_, _| refused(proof::clock_ticks(tick, &times, &chosen))))
     },
 };
 

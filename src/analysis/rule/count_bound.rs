@@ -38,7 +38,7 @@ closed = "closed"
         let print = context.print()?;
         let ends = Ends { size, start, goal };
         let optimum = Octile { straight, diagonal };
-        Ok(rule(move |_| refused(proof::count_bound(print, ends, optimum, applies))))
+        Ok(rule(move |_, _| refused(proof::count_bound(print, ends, optimum, applies))))
     },
 };
 

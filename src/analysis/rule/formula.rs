@@ -30,7 +30,7 @@ with = { l1 = 25.0, l2 = 15.0, radius = 10.0 }
         };
         let numbers = formula.numbers(&with).map_err(|message| context.settings.error_at("with", message))?;
         let existential = formula.is_existential;
-        Ok(rule(move |_| CriterionResult { existential, ..decided((formula.prove)(&numbers)) }))
+        Ok(rule(move |_, _| CriterionResult { existential, ..decided((formula.prove)(&numbers)) }))
     },
 };
 

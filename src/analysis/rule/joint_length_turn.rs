@@ -43,9 +43,12 @@ longest = 15.0
             }
         };
         let ends = Ends { size, start, goal };
-        Ok(rule(move |polylines| {
+        Ok(rule(move |polylines, is_explained| {
             let shortest = &|query: &_| polylines.shortest(query);
-            refused(proof::joint_length_turn(&Search { ends, turn, meant, longest, shortest }, length))
+            refused(proof::joint_length_turn(
+                &Search { ends, turn, meant, longest, is_explained, shortest },
+                length,
+            ))
         }))
     },
 };

@@ -24,7 +24,7 @@ size = [40, 40]
         let baseline = context.print_of(&baseline)?;
         let print = context.print()?;
         let ends = Ends { size, start, goal };
-        Ok(rule(move |_| refused(proof::largest_saving(print, baseline, ends))))
+        Ok(rule(move |_, _| refused(proof::largest_saving(print, baseline, ends))))
     },
 };
 

@@ -26,7 +26,7 @@ pub static ENTRY: Entry = Entry {
         }
         let print = context.print()?;
         let ends = start.zip(goal).map(|(start, goal)| [start, goal]);
-        Ok(rule(move |_| refused_or(proof::lattice_length(print, ends, size), &possible(print, ends))))
+        Ok(rule(move |_, _| refused_or(proof::lattice_length(print, ends, size), &possible(print, ends))))
     },
 };
 

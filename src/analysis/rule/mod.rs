@@ -3,7 +3,6 @@
 //! A rule proves that a claim cannot be, or says that it can; it looks at no trial. The proof and its words are the package
 //! [`proofs::proof`]'s: a rule looks up what the claim names and asks for it.
 
-mod at_most;
 mod clock_ticks;
 mod count_bound;
 mod formula;
@@ -30,7 +29,7 @@ use proofs::proof::Proof;
 /// A rule: a criterion that selects no trial. Polylines only remember what other claims have asked.
 struct Rule<F>(F);
 
-impl<F: Fn(&Polylines) -> CriterionResult> Criterion for Rule<F> {
+impl<F: Fn(&Polylines, bool) -> CriterionResult> Criterion for Rule<F> {
     fn numbers(&self, _evidence: &Evidence<'_>) -> Vec<Number> {
         Vec::new()
     }
@@ -39,13 +38,13 @@ impl<F: Fn(&Polylines) -> CriterionResult> Criterion for Rule<F> {
         CriterionResult::default()
     }
 
-    fn proof(&self, polylines: &Polylines) -> Option<CriterionResult> {
-        Some((self.0)(polylines))
+    fn proof(&self, polylines: &Polylines, is_explained: bool) -> Option<CriterionResult> {
+        Some((self.0)(polylines, is_explained))
     }
 }
 
 /// The rule that finds this.
-fn rule<'a>(find: impl Fn(&Polylines) -> CriterionResult + 'a) -> Box<dyn Criterion + 'a> {
+fn rule<'a>(find: impl Fn(&Polylines, bool) -> CriterionResult + 'a) -> Box<dyn Criterion + 'a> {
     Box::new(Rule(find))
 }
 
@@ -88,7 +87,6 @@ fn check_search(context: &Context<'_>, size: [i32; 2], longest: f64) -> Result<(
 
 /// Every rule, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
-    &at_most::ENTRY,
     &clock_ticks::ENTRY,
     &count_bound::ENTRY,
     &formula::ENTRY,

@@ -28,7 +28,7 @@ after = "table1.weighted.length"
                  negative, whatever their digits stand for"
             ))
         })?;
-        Ok(rule(move |_| refused(proof.clone())))
+        Ok(rule(move |_, _| refused(proof.clone())))
     },
 };
 

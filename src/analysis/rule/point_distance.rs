@@ -22,7 +22,7 @@ to = [36.5, 30.5]
     build: |context| {
         let Settings { from, to } = context.settings.read()?;
         let print = context.print()?;
-        Ok(rule(move |_| {
+        Ok(rule(move |_, _| {
             let (distance, proof) = proof::point_distance(print, from, to);
             let ours = Estimate::bare(distance, "computed from the printed points", 1);
             CriterionResult { ours: Some(ours), ..decided(proof) }

@@ -30,7 +30,7 @@ goal = [36.0, 30.0]
         };
         let apart = apart(exact("start", start)?.into(), exact("goal", goal)?.into());
         let print = context.print()?;
-        Ok(rule(move |_| refused(proof::straight_line(print, [start, goal], apart, size))))
+        Ok(rule(move |_, _| refused(proof::straight_line(print, [start, goal], apart, size))))
     },
 };
 

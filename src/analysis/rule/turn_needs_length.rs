@@ -33,9 +33,9 @@ longest = 15.0
         let is_exterior = context.known_metric(&read.metric)?.name == read.exterior;
         let meant = if is_exterior { Convention::Exterior } else { Convention::Interior };
         let ends = Ends { size, start, goal };
-        Ok(rule(move |polylines| {
+        Ok(rule(move |polylines, is_explained| {
             let shortest = &|query: &_| polylines.shortest(query);
-            let search = Search { ends, turn, meant, longest, shortest };
+            let search = Search { ends, turn, meant, longest, is_explained, shortest };
             refused(proof::turn_needs_length(&search, against, shorter))
         }))
     },

@@ -131,6 +131,7 @@ impl AnyAngle {
             size: self.size,
             starts: vec![start],
             goals: vec![goal],
+            heading: None,
             convention,
             turn_deg,
             length,

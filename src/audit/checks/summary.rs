@@ -78,9 +78,18 @@ struct Summary {
 /// The most numbers that one is held against.
 const MOST: usize = 1000;
 
+/// Words behind a name that make it the mean of some rows alone, or another mean.
+const OTHERWISE: [&str; 16] = [
+    "w/o", "without", "exclu", "except", "other", "solved", "common", "only", "top", "best", "geo", "harm",
+    "weight", "median", "trim", "log",
+];
+
 /// What a name says: `Average`, `Avg.`, `Mean (all maps)`, `Total:`, `Overall`.
 fn word(name: &str) -> Option<Word> {
     let name = name.to_lowercase();
+    if OTHERWISE.iter().any(|word| name.contains(word)) {
+        return None;
+    }
     let alone = name.split(['(', '[', ':']).next().unwrap_or_default().trim().trim_end_matches('.');
     let start =
         ["of", "over", "across"].iter().find_map(|word| Some(alone.split_once(&format!(" {word} "))?.0));

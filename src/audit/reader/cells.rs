@@ -223,6 +223,17 @@ fn behind(text: &str) -> Option<String> {
     if tail.starts_with('/') {
         return Some("is no k/n; whole numbers with n above 0 are accepted, as 29/30".to_owned());
     }
+    let to = tail.trim_start_matches(['-', '−', '–', '—']);
+    if to.len() < tail.len() && to.trim_start().starts_with(|c: char| c.is_ascii_digit()) {
+        return Some(
+            "is a range and no printed value; write - for it, or its ends in columns of their own".to_owned(),
+        );
+    }
+    let times = ["×", "·", "\\times", "\\cdot"].iter().find_map(|times| tail.strip_prefix(times));
+    let power = times.map_or("", str::trim_start);
+    if ["10^", "10⁻", "10<sup>"].iter().any(|ten| power.starts_with(ten)) {
+        return Some("has a power of ten, which hides digits; write the number out".to_owned());
+    }
     let shown: String = tail.chars().take(20).collect();
     let is_raised = |c: char| "*†‡§¶#^[¹²³⁴⁵⁶⁷⁸⁹⁰ᵃᵇᶜᵈ".contains(c);
     let is_mark = tail.starts_with(is_raised)

@@ -70,7 +70,10 @@ fn in_cells(at: usize, column: &Column, rows: &[Vec<Cell>], faults: &mut Vec<Fau
     let header = column.meaning.unit.as_deref();
     let mut first: Option<&str> = None;
     for cell in rows.iter().filter_map(|row| row.get(at).filter(|cell| cell.value.is_some())) {
-        let unit = cells::unit(&cell.text).1;
+        let is_percent = header.is_some_and(|header| !header.contains('%'))
+            && cell.text.ends_with('%')
+            && !cell.text.contains('±');
+        let unit = if is_percent { "%" } else { cells::unit(&cell.text).1 };
         let (whose, expected) = match header {
             Some(header) if unit.is_empty() || unit == header => continue,
             Some(header) => ("its header", header),

@@ -130,6 +130,7 @@ mod tests {
             "65",
             "occupied_thresh is 65; is it in per cent or a pixel's value? a number from 0 to 1 is accepted",
         ),
+        ("negate", "mode:\nnegate", "mode is nothing; `trinary` is accepted"),
         ("negate", "mode: scale\nnegate", "/room.yaml:4:7: mode is `scale`; `trinary` is accepted"),
         (
             "negate",

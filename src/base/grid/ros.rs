@@ -41,9 +41,13 @@ impl Head {
         if let Some(mode) = yaml.find(&root, "mode")?
             && yaml.word(mode)? != "trinary"
         {
-            let found = crate::text::brief(yaml.word(mode)?);
+            let found = if mode.is_empty() {
+                "nothing".to_owned()
+            } else {
+                format!("`{}`", crate::text::brief(yaml.word(mode)?))
+            };
             let message =
-                format!("mode is `{found}`; `trinary` is accepted, in small letters as map_server reads it");
+                format!("mode is {found}; `trinary` is accepted, in small letters as map_server reads it");
             return Err(yaml.0.fault(&mode.at, message));
         }
         let named = yaml.get(&root, "image")?;

@@ -20,6 +20,9 @@ pub(super) fn parsed(document: &Document) -> Result<roxmltree::Document<'_>, Set
         let at = parsed_to(document.text(), error.pos());
         match &error {
             Error::UnknownNamespace(prefix, _) if prefix == "xacro" => xacro(&at),
+            Error::DtdDetected => {
+                source.fault(&at, "a document type, `<!DOCTYPE`, is given; XML without one is accepted")
+            }
             _ => source.fault(&at, format!("this is no XML: {error}")),
         }
     })?;
@@ -91,16 +94,18 @@ impl Keys<'_> {
             let is_read = read.contains(&key.as_str()) && !means_nothing(node, &key);
             // A solid of another kind is refused where solids are read.
             let is_solid = name == "geometry" && child.is_some();
+            let is_other = is_solid && !self.read.iter().any(|(element, _)| *element == key);
             if is_read || is_solid {
                 let once = if is_solid { "solid" } else { &key };
                 if child.is_some() && !MANY.contains(&once) && !seen.insert(once.to_owned()) {
                     return Err(self.xml.fault(&at, format!("a second {once} in `{name}`; one is accepted")));
                 }
-                child.map_or(Ok(()), |child| self.element(child, unread))?;
+                child.filter(|_| !is_other).map_or(Ok(()), |child| self.element(child, unread))?;
             } else if is_ignored(self.format, &format!("{name}/{key}")) {
                 unread.ignored.insert(format!("{name}/{key}"));
             } else if name != "robot" || !did_you_mean(&key, read.iter().copied()).is_empty() {
-                let accepted: Vec<&str> = read.iter().copied().chain(ignored_in(self.format, name)).collect();
+                let ignored = ignored_in(self.format, name).filter(|key| !read.contains(key));
+                let accepted: Vec<&str> = read.iter().copied().chain(ignored).collect();
                 return Err(self.xml.fault(&at, format!("`{name}`: {}", unknown(&key, &accepted))));
             } else {
                 *unread.unknown.entry(format!("{name}/{key}")).or_default() += 1;

@@ -77,6 +77,11 @@ fn welded_links_are_one_and_everything_is_placed_in_the_frame_of_its_joint() {
 const WRONG: &[(&str, &str, &str)] = &[
     ("</robot>", "</robo>", "/two.urdf:27:1: this is no XML: expected 'robot' tag, not 'robo' at 27:1"),
     (
+        "<robot name=\"two\">",
+        "<!DOCTYPE robot [<!ENTITY w \"0.2\">]><robot name=\"two\">",
+        "a document type, `<!DOCTYPE`, is given; XML without one is accepted",
+    ),
+    (
         "size=\"0.2 0.2 0.1\"",
         "size=\"${w} 0.2 0.1\"",
         "/two.urdf:4:47: this is xacro; what `xacro` makes of it is accepted",
@@ -219,6 +224,16 @@ const WRONG: &[(&str, &str, &str)] = &[
         "<link name=\"plate\"/>",
         "<link name=\"plate\"><capsule/></link>",
         "`link`: unknown key `capsule`; accepted: ",
+    ),
+    (
+        "<sphere radius=\"0.1\"/>",
+        "<capsule radius=\"0.1\" length=\"1\"/>",
+        "/two.urdf:20:41: a solid is `capsule`; box, cylinder, sphere and mesh are accepted",
+    ),
+    (
+        "<axis xyz=\"0 0 2\"/>",
+        "<axle/><axis xyz=\"0 0 2\"/>",
+        "accepted: @name, @type, parent, child, origin, axis, limit, mimic, dynamics, safety_controller, calibration",
     ),
     ("<box size", "<box scale=\"2\" size", "`box`: unknown key `@scale`; accepted: @size"),
     (

@@ -3,9 +3,11 @@
 //! Python reads the file by itself. It is read here too, so that `replan check` finds what is wrong with it without Python, and
 //! so that replan knows the robots and scenes about which it must answer.
 
-use super::subject::{PlanarArm, SceneFormat, SerialArm, Subject};
+use super::subject::{OpenArm, PlanarArm, SceneFormat, SerialArm, Subject};
+use base::robot::{Kind, MayTouch, read_srdf, read_urdf};
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned, none_called};
-use engine::kinematics::{KinematicsError, Robot, robot::Body};
+use engine::kinematics::robot::{Body, URDF_BODY};
+use engine::kinematics::{AXES, KinematicsError, Robot};
 use engine::space::World;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -188,6 +190,14 @@ enum Freedom {
     Contact,
 }
 
+/// A robot that was read.
+enum Loaded {
+    /// By rows, or of six joints that turn.
+    Serial(Box<Robot>),
+    /// By a URDF file with other joints, and which of its links may touch.
+    Open(Box<base::robot::Robot>, MayTouch),
+}
+
 /// A cross-check as its paper poses it.
 pub struct Spec {
     file: SpecFile,
@@ -227,8 +237,18 @@ impl Spec {
                 let scene = scene.get_ref();
                 let name = slug(&format!("{} in {}", robot.label, scene.label));
                 let file = self.located(&format!("scene.{place}.file"), &scene.file, inputs);
-                let arm = file.and_then(|file| SerialArm::new(&loaded, &robot.body, scene.format, &file));
-                cases.extend(faults.keep(arm).map(|arm| (name, Box::new(arm) as Box<dyn Subject>)));
+                let arm = file.and_then(|file| match &loaded {
+                    Loaded::Serial(serial) => {
+                        let arm = SerialArm::new(serial, &robot.body, scene.format, &file)?;
+                        Ok(Box::new(arm) as Box<dyn Subject>)
+                    }
+                    Loaded::Open(open, may_touch) => {
+                        let arm = OpenArm::new(open, may_touch, scene.format, &file);
+                        let arm = arm.map_err(|error| self.unfit(index, "file", error))?;
+                        Ok(Box::new(arm) as Box<dyn Subject>)
+                    }
+                });
+                cases.extend(faults.keep(arm).map(|arm| (name, arm)));
             }
         }
         for index in 0..self.file.workspaces.len() {
@@ -241,18 +261,32 @@ impl Spec {
         inputs.locate(file).map_err(|message| self.document.error_at(place, message))
     }
 
+    /// What is wrong with the robot of this number: a fault of its file at its place, any other at a key of this one.
+    fn unfit(&self, index: usize, key: &str, error: KinematicsError) -> SettingsError {
+        match error {
+            KinematicsError::File(faults) => faults,
+            other => self.document.error_at(&format!("robot.{index}.{key}"), other.to_string()),
+        }
+    }
+
     /// The robot of this number, which can be read and has the body.
-    fn robot(&self, index: usize, inputs: &Inputs) -> Result<Robot, SettingsError> {
+    fn robot(&self, index: usize, inputs: &Inputs) -> Result<Loaded, SettingsError> {
         let robot = self.file.robots[index].get_ref();
         let wrong =
             |key: &str, message: String| self.document.error_at(&format!("robot.{index}.{key}"), message);
         let file = self.located(&format!("robot.{index}.file"), &robot.file, inputs)?;
         let ending = file.extension().and_then(|ending| ending.to_str());
         let loaded = match (ending, &robot.srdf) {
-            (Some("toml"), None) => Robot::load(&file),
+            (Some("toml"), None) => Robot::load(&file).map(|robot| Loaded::Serial(Box::new(robot))),
             (Some("urdf"), Some(srdf)) => {
                 let srdf = self.located(&format!("robot.{index}.srdf"), srdf, inputs)?;
-                Robot::load_with_srdf(&file, &srdf)
+                let open = read_urdf(&file)?;
+                if open.joints.len() == AXES && open.joints.iter().all(|joint| joint.kind != Kind::Slides) {
+                    Robot::load_with_srdf(&file, &srdf).map(|robot| Loaded::Serial(Box::new(robot)))
+                } else {
+                    let may_touch = read_srdf(&srdf, &open)?;
+                    Ok(Loaded::Open(Box::new(open), may_touch))
+                }
             }
             _ => {
                 let message = format!(
@@ -262,11 +296,11 @@ impl Spec {
                 return Err(wrong("file", message));
             }
         };
-        let loaded = loaded.map_err(|error| match error {
-            KinematicsError::File(faults) => faults,
-            other => wrong("file", other.to_string()),
-        })?;
-        let known: Vec<&str> = loaded.bodies().iter().map(Body::name).collect();
+        let loaded = loaded.map_err(|error| self.unfit(index, "file", error))?;
+        let known: Vec<&str> = match &loaded {
+            Loaded::Serial(robot) => robot.bodies().iter().map(Body::name).collect(),
+            Loaded::Open(..) => vec![URDF_BODY],
+        };
         if known.contains(&robot.body.as_str()) {
             return Ok(loaded);
         }

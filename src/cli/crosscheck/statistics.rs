@@ -11,6 +11,7 @@ use super::super::{Failure, How, Which};
 use super::FOLDER;
 use super::python::Judge;
 use crate::analysis::across::Stored;
+use crate::analysis::estimates::Estimates;
 use crate::analysis::metric::{METRICS, Metric};
 use crate::analysis::polylines::Polylines;
 use crate::analysis::verdict::Verdicts;
@@ -58,11 +59,15 @@ pub fn run(paper: Option<&str>, out: Option<&Path>, python: Option<&str>) -> Res
 
 /// Writes what the explorations of a paper amount to, first and on the second seed, into `folder`.
 fn write_explored(places: &Places, folder: &Path) -> Result<PathBuf, Failure> {
-    let paper = load(places, &How::plain(None))?;
-    let Stored { first, second } =
-        Stored::read(&paper, &places.runs, &Polylines::kept_in(&polylines(places)))?;
-    let path = folder.join(format!("{}.explored.json", paper.id));
-    write_whole(&path, format!("{}\n", json!([first, second])).as_bytes())?;
+    let name = places.runs.file_name().unwrap_or_default().to_string_lossy();
+    let path = folder.join(format!("{name}.explored.json"));
+    let stored = if Estimates::path(&places.runs).exists() {
+        let paper = load(places, &How::plain(None))?;
+        Stored::read(&paper, &places.runs, &Polylines::kept_in(&polylines(places)))?
+    } else {
+        Stored::default()
+    };
+    write_whole(&path, format!("{}\n", json!([stored.first, stored.second])).as_bytes())?;
     Ok(path)
 }
 

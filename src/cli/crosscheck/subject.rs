@@ -1,16 +1,18 @@
 //! Who answers for us: the engine's kinematics, distances and the checks that planners use, by name of pair, frame and joint.
 
+use base::robot::MayTouch;
 use base::settings::{Document, SettingsError};
 use engine::geometry::planar::{Segment2, Touch, distance_point_segment};
 use engine::geometry::{
     Capsule, Convex, Frame, Solid, Vec2, Vec3, distance_segment_segment, distance_segment_solid,
 };
+use engine::kinematics::open_chain::OpenChain;
 use engine::kinematics::planar_2r::Planar2r;
-use engine::kinematics::robot::Body;
-use engine::kinematics::{AXES, Chain, Joints, Robot};
+use engine::kinematics::robot::{Body, capsule_around, links_at_zero, listed_pairs};
+use engine::kinematics::{AXES, Chain, Joints, KinematicsError, Robot};
 use engine::space::cell::{Cell, Scene, Standing};
 use engine::space::polyhedra::{CarriedArm, read_scene};
-use engine::space::{ArmWorld, Obstacle};
+use engine::space::{ArmWorld, Obstacle, Support};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
@@ -58,6 +60,9 @@ pub trait Subject: Send + Sync {
     fn is_beyond(&self, joint: usize, angle_rad: f64) -> bool;
 }
 
+/// What stands around a robot, by name.
+type Stills = Vec<(String, Solid)>;
+
 /// How planners check a six-axis arm for contact.
 enum Check {
     /// As in a cell: with all that stands there, and with itself.
@@ -70,7 +75,7 @@ enum Check {
 pub struct SerialArm {
     robot: Robot,
     body: Body,
-    stills: Vec<(String, Solid)>,
+    stills: Stills,
     check: Option<Check>,
 }
 
@@ -88,7 +93,7 @@ impl SerialArm {
     }
 
     fn in_cell(robot: &Robot, body: Body, scene: Scene) -> Self {
-        let stills = scene.obstacles().iter().map(|o| (o.name.clone(), o.solid.clone())).collect();
+        let stills = stills_of(&scene);
         let placed = robot.clone().placed(scene.base());
         // Cells know a robot's first body only.
         let is_first = robot.bodies().first().is_some_and(|first| first.name() == body.name());
@@ -97,23 +102,7 @@ impl SerialArm {
     }
 
     fn among_polyhedra(robot: &Robot, body: Body, path: &Path) -> Result<Self, SettingsError> {
-        let document = Document::open(path)?;
-        let armed = read_scene(path)?.with_arm();
-        let (bodies, support) = armed.map_err(|message| document.error(0..0, message))?;
-        let mut stills: Vec<(String, Solid)> = Vec::new();
-        for (index, solid) in bodies.iter().enumerate() {
-            // The block under the base stands last.
-            let is_block = support.pedestal().is_some() && index + 1 == bodies.len();
-            let name = if is_block { "pedestal".to_owned() } else { format!("obstacle {}", index + 1) };
-            let vertices = solid.vertices().iter().map(|vertex| vertex * M).collect();
-            let solid = Convex::from_vertices(vertices).expect("a solid stays one in another unit");
-            stills.push((name, Solid::Convex(solid)));
-        }
-        for (name, solid) in support.solids().unwrap_or_default() {
-            if matches!(solid, Solid::HalfSpace(_)) {
-                stills.push((name.to_owned(), solid));
-            }
-        }
+        let (bodies, support, stills) = polyhedra(path)?;
         let arm = CarriedArm::new(robot, body.name(), &support).ok();
         let check = arm.map(|arm| Check::Rods(Box::new(arm), bodies));
         Ok(Self { robot: robot.clone().placed(support.base()), body, stills, check })
@@ -122,6 +111,58 @@ impl SerialArm {
     fn chain(&self) -> &Chain {
         self.robot.arm().chain()
     }
+}
+
+/// What stands in a cell.
+fn stills_of(scene: &Scene) -> Stills {
+    scene.obstacles().iter().map(|o| (o.name.clone(), o.solid.clone())).collect()
+}
+
+/// The solids in the file at `path`, in centimetres, what holds the base, and all that stands around it.
+fn polyhedra(path: &Path) -> Result<(Vec<Convex>, Support, Stills), SettingsError> {
+    let document = Document::open(path)?;
+    let armed = read_scene(path)?.with_arm();
+    let (bodies, support) = armed.map_err(|message| document.error(0..0, message))?;
+    let mut stills = Stills::new();
+    for (index, solid) in bodies.iter().enumerate() {
+        // The block under the base stands last.
+        let is_block = support.pedestal().is_some() && index + 1 == bodies.len();
+        let name = if is_block { "pedestal".to_owned() } else { format!("obstacle {}", index + 1) };
+        let vertices = solid.vertices().iter().map(|vertex| vertex * M).collect();
+        let solid = Convex::from_vertices(vertices).expect("a solid stays one in another unit");
+        stills.push((name, Solid::Convex(solid)));
+    }
+    for (name, solid) in support.solids().unwrap_or_default() {
+        if matches!(solid, Solid::HalfSpace(_)) {
+            stills.push((name.to_owned(), solid));
+        }
+    }
+    Ok((bodies, support, stills))
+}
+
+/// `part|obstacle` for parts that the scene can touch, then `part|part` in alphabetical order.
+fn pair_names(parts: &[(&str, bool)], stills: &[(String, Solid)], self_pairs: &[[usize; 2]]) -> Vec<String> {
+    let exposed = parts.iter().filter(|(_, is_exposed)| *is_exposed);
+    let outer = exposed.flat_map(|(part, _)| stills.iter().map(move |(still, _)| format!("{part}|{still}")));
+    let own = self_pairs.iter().map(|pair| {
+        let [a, b] = pair.map(|part| parts[part].0);
+        format!("{}|{}", a.min(b), a.max(b))
+    });
+    outer.chain(own).collect()
+}
+
+/// The gaps of the same pairs in the same order, metres.
+fn gaps_m(parts: &[(Capsule, bool)], stills: &[(String, Solid)], self_pairs: &[[usize; 2]]) -> Vec<f64> {
+    let exposed = parts.iter().filter(|(_, is_exposed)| *is_exposed);
+    let to_still =
+        |capsule: &Capsule, solid: &Solid| distance_segment_solid(&capsule.segment, solid) - capsule.radius;
+    let outer =
+        exposed.flat_map(|(capsule, _)| stills.iter().map(move |(_, solid)| to_still(capsule, solid)));
+    let own = self_pairs.iter().map(|pair| {
+        let [a, b] = pair.map(|part| &parts[part].0);
+        distance_segment_segment(&a.segment, &b.segment) - a.radius - b.radius
+    });
+    outer.chain(own).collect()
 }
 
 fn six(q_rad: &[f64]) -> Joints {
@@ -134,15 +175,9 @@ impl Subject for SerialArm {
     }
 
     fn pairs(&self) -> Vec<String> {
-        let parts = self.body.parts();
-        let exposed = parts.iter().filter(|part| !part.is_self_only());
-        let outer = exposed
-            .flat_map(|part| self.stills.iter().map(move |(still, _)| format!("{}|{still}", part.name())));
-        let own = self.body.self_pairs().iter().map(|pair| {
-            let [a, b] = pair.map(|part| parts[part].name());
-            format!("{}|{}", a.min(b), a.max(b))
-        });
-        outer.chain(own).collect()
+        let parts: Vec<_> =
+            self.body.parts().iter().map(|part| (part.name(), !part.is_self_only())).collect();
+        pair_names(&parts, &self.stills, self.body.self_pairs())
     }
 
     fn frames(&self, q_rad: &[f64]) -> Vec<Frame> {
@@ -153,19 +188,10 @@ impl Subject for SerialArm {
     }
 
     fn gaps_m(&self, q_rad: &[f64]) -> Vec<f64> {
-        let placed = self.body.at(self.chain(), &six(q_rad));
-        let parts = self.body.parts().iter().zip(&placed);
-        let exposed = parts.filter(|(part, _)| !part.is_self_only()).map(|(_, capsule)| capsule);
-        let to_still = |capsule: &Capsule, solid: &Solid| {
-            distance_segment_solid(&capsule.segment, solid) - capsule.radius
-        };
-        let outer =
-            exposed.flat_map(|capsule| self.stills.iter().map(move |(_, solid)| to_still(capsule, solid)));
-        let own = self.body.self_pairs().iter().map(|pair| {
-            let [a, b] = pair.map(|part| &placed[part]);
-            distance_segment_segment(&a.segment, &b.segment) - a.radius - b.radius
-        });
-        outer.chain(own).collect()
+        let placed = self.body.at(self.chain(), &six(q_rad)).into_iter();
+        let parts: Vec<_> =
+            placed.zip(self.body.parts()).map(|(capsule, part)| (capsule, !part.is_self_only())).collect();
+        gaps_m(&parts, &self.stills, self.body.self_pairs())
     }
 
     fn standable(&self, q_rad: &[f64]) -> Option<Standable> {
@@ -188,6 +214,90 @@ impl Subject for SerialArm {
 
     fn is_beyond(&self, joint: usize, angle_rad: f64) -> bool {
         !self.chain().joints()[joint].allows(angle_rad)
+    }
+}
+
+/// A robot by a URDF file, of any number of joints that turn or slide, with capsules around its solids.
+pub struct OpenArm {
+    base: Frame,
+    chain: OpenChain,
+    /// The frame of each link as rows have it, in that of its joint.
+    links: Vec<Frame>,
+    /// Name, joint and capsule of each solid; joint 0 is the base.
+    parts: Vec<(String, usize, Capsule)>,
+    self_pairs: Vec<[usize; 2]>,
+    stills: Stills,
+}
+
+impl OpenArm {
+    /// `robot`, whose links may touch as an SRDF file says, in the scene in the file at `path`.
+    ///
+    /// # Errors
+    /// What is wrong with the scene, and a solid that encloses nothing.
+    pub fn new(
+        robot: &base::robot::Robot,
+        may_touch: &MayTouch,
+        format: SceneFormat,
+        path: &Path,
+    ) -> Result<Self, KinematicsError> {
+        let (base, stills) = match format {
+            SceneFormat::Cell => {
+                let scene = Scene::load(path)?;
+                (*scene.base(), stills_of(&scene))
+            }
+            SceneFormat::Polyhedra => {
+                let (_, support, stills) = polyhedra(path)?;
+                (*support.base(), stills)
+            }
+        };
+        let chain = OpenChain::new(robot);
+        let at_zero = chain.frames(&vec![0.0; chain.joints().len()]);
+        let links = at_zero.iter().zip(links_at_zero(&chain)).map(|(frame, link)| frame.inverse() * link);
+        let parts = robot
+            .solids
+            .iter()
+            .map(|(joint, solid)| Ok((solid.name.clone(), *joint, capsule_around(solid, &Frame::IDENTITY)?)));
+        let parts = parts.collect::<Result<_, KinematicsError>>()?;
+        let links = links.collect();
+        Ok(Self { base, chain, links, parts, self_pairs: listed_pairs(robot, may_touch), stills })
+    }
+
+    fn placed(&self, q: &[f64]) -> Vec<Frame> {
+        self.chain.frames(q).into_iter().map(|frame| self.base * frame).collect()
+    }
+}
+
+impl Subject for OpenArm {
+    fn joints(&self) -> usize {
+        self.chain.joints().len()
+    }
+
+    fn pairs(&self) -> Vec<String> {
+        let parts: Vec<_> = self.parts.iter().map(|(name, joint, _)| (name.as_str(), *joint > 0)).collect();
+        pair_names(&parts, &self.stills, &self.self_pairs)
+    }
+
+    fn frames(&self, q: &[f64]) -> Vec<Frame> {
+        let placed = self.placed(q);
+        let links = placed.iter().zip(&self.links).skip(1).map(|(frame, link)| *frame * *link);
+        links.chain([placed[self.joints()] * *self.chain.tip()]).collect()
+    }
+
+    fn gaps_m(&self, q: &[f64]) -> Vec<f64> {
+        let placed = self.placed(q);
+        let parts = self.parts.iter();
+        let parts: Vec<_> =
+            parts.map(|(_, joint, capsule)| (capsule.placed(&placed[*joint]), *joint > 0)).collect();
+        gaps_m(&parts, &self.stills, &self.self_pairs)
+    }
+
+    fn standable(&self, _q: &[f64]) -> Option<Standable> {
+        // Planners hold the solids themselves against those of a problem file.
+        None
+    }
+
+    fn is_beyond(&self, joint: usize, value: f64) -> bool {
+        !self.chain.joints()[joint].joint.allows(value)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Capsules, spheres and half-spaces: a segment or a point with a radius, and the floor.
 
 use super::{
-    Nearest, Segment, Vec3, distance_point_segment, distance_segment_segment,
+    Frame, Nearest, Segment, Vec3, distance_point_segment, distance_segment_segment,
     error::{GeometryError, finite, finite_point, positive},
     squared_distance_segment_segment,
 };
@@ -25,6 +25,13 @@ impl Capsule {
         finite_point("the capsule's first end", a.as_slice())?;
         finite_point("the capsule's second end", b.as_slice())?;
         Ok(Self { segment: Segment::new(a, b), radius: positive("the capsule's radius", radius)? })
+    }
+
+    /// The same where `frame` is.
+    #[must_use]
+    pub fn placed(&self, frame: &Frame) -> Self {
+        let [a, b] = [self.segment.a, self.segment.b].map(|end| frame.point(&end));
+        Self { segment: Segment::new(a, b), radius: self.radius }
     }
 }
 

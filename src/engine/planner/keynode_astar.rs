@@ -2,8 +2,9 @@
 //!
 //! As printed it is a walk (`literal`): it steps towards the goal. Where the next step is in an obstacle it takes the key node of
 //! least cost on the faces in front of it. A key node lies on an edge, where no face of that obstacle is in front any more, so
-//! the printed walk stops at its first one more often than not. `greedy` adds the guards without which it does; `open_list` keeps
-//! the key nodes on an open list, which is what makes it an A*.
+//! the printed walk stops at its first one more often than not. A walk that stands where it stood before and goes where it went then
+//! goes round in circles: it has no path. `greedy` adds the guards without which it stops; `open_list` keeps the key nodes on an
+//! open list, which is what makes it an A*.
 //!
 //! # Source
 //! Tang, Zhou & Xu, *Obstacle avoidance path planning of 6-DOF robotic arm based on improved A\* algorithm and
@@ -30,7 +31,7 @@ use walk::Guards;
 pub static ENTRY: Entry = Entry {
     name: "keynode_astar",
     about: "steps straight at the goal and over the key node of least cost on an edge of what stands in the way",
-    revision: 1,
+    revision: 2,
     needs: WorldKind::Polyhedra,
     columns: &["opened", "expansions", "generated", "fell_back"],
     settings: Accepted::shape::<Keynode>(),

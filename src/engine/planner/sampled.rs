@@ -63,7 +63,7 @@ impl<S: SampledSearch> Planner for SampledPlanner<S> {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         let mut motions = posed(request)?;
         let found = if request.start == request.goal {
-            let mut found = Progress { path: vec![request.start.to_vec(); 2], ..Progress::default() };
+            let mut found = Progress { path: vec![request.start.to_vec()], ..Progress::default() };
             found.note(0.0);
             found
         } else {

@@ -74,7 +74,7 @@ impl<'a> Motions<'a> {
 
     /// The length of a path.
     pub fn length(&self, path: &[Vec<f64>]) -> f64 {
-        path.windows(2).map(|leg| self.distance(&leg[0], &leg[1])).sum()
+        path.windows(2).fold(0.0, |length, leg| length + self.distance(&leg[0], &leg[1]))
     }
 
     /// The configuration at a share of the way.

@@ -14,7 +14,7 @@ pub enum TurnAngle {
 
 /// The length of the polyline through `points`, in their unit; 0 for fewer than two.
 pub fn path_length<P: AsRef<[f64]>>(points: &[P]) -> f64 {
-    points.windows(2).map(|pair| norm(leg([pair[0].as_ref(), pair[1].as_ref()]))).sum()
+    points.windows(2).fold(0.0, |length, pair| length + norm(leg([pair[0].as_ref(), pair[1].as_ref()])))
 }
 
 /// The sum of the angles at all bends of the polyline through `points`, in degrees. Repeated points are passed

@@ -4,7 +4,7 @@
 
 use crate::geometry::{Frame, GeometryError, HalfSpace, OrientedBox, Solid, Vec3};
 use crate::kinematics::FARTHEST_MM;
-use base::units::seems_in_radians;
+use base::units::{seems_in_metres, seems_in_radians};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -98,6 +98,15 @@ impl SupportEntry {
                     let message = "floor_mm is at the base or above it; a floor below it is accepted, or \
                                    `under = \"floor\"`";
                     return Err(("floor_mm", message.to_owned()));
+                }
+                let longest = sides_mm[0].max(sides_mm[1]);
+                for (key, what, length_mm) in [
+                    ("floor_mm", "the way from floor_mm up to the base", height_mm),
+                    ("sides_mm", "the longer of sides_mm", longest),
+                ] {
+                    if let Some(message) = seems_in_metres(what, length_mm) {
+                        return Err((key, message));
+                    }
                 }
                 let size = Vec3::new(sides_mm[0], sides_mm[1], height_mm) * 1e-3;
                 let middle = base * Frame::at(Vec3::z() * (-0.5 * size.z));
@@ -203,6 +212,21 @@ mod tests {
         assert!(read(&flat).unwrap_err().contains("sides_mm"));
         let empty = "under = 'nothing'\nbase_mm = [0, 0, 0]\nyaw_deg = 0\nwhy = ' '\n";
         assert!(read(empty).unwrap_err().contains("why is empty"));
+        for (of, to, asked) in [
+            (
+                "floor_mm = 0",
+                "floor_mm = -0.8",
+                "the way from floor_mm up to the base is 0.8; is it in metres?",
+            ),
+            (
+                "[200, 400]",
+                "[0.2, 0.4]",
+                "the longer of sides_mm is 0.4; is it in metres? millimetres are accepted (0.4 m is 400 mm)",
+            ),
+        ] {
+            let message = read(&block.replace(of, to).replace("floor_mm = 0", "floor_mm = -9")).unwrap_err();
+            assert!(message.contains(asked), "{message}");
+        }
         assert!(Support::declared(None).unwrap_err().contains("[support]"));
     }
 }

@@ -3,7 +3,8 @@
 use super::{Ends, Proof};
 use crate::exact::Print;
 use crate::neighbourhood;
-use crate::turns::{Convention, Polyline, TurnQuery};
+use crate::turns::{Cell, Convention, Polyline, TurnQuery};
+use rayon::prelude::*;
 use stats::interval::Interval;
 
 /// Polylines between printed ends that turn by a printed sum.
@@ -16,6 +17,8 @@ pub struct Search<'a> {
     pub meant: Convention,
     /// How far to look, cells.
     pub longest: f64,
+    /// Whether reasons are given: they take most of the time, since they also say what the other convention and other ends give.
+    pub is_explained: bool,
     /// Gives the shortest polyline; it may remember what it has found.
     pub shortest: &'a (dyn Fn(&TurnQuery) -> Option<Polyline> + Sync),
 }
@@ -24,32 +27,45 @@ pub struct Search<'a> {
 const BOTH: [(Convention, &str); 2] =
     [(Convention::Exterior, "exterior"), (Convention::Interior, "interior")];
 
-/// Whether the start, and whether the goal, may be any neighbour of its cell: neither.
-const AS_PRINTED: [bool; 2] = [false, false];
-/// The start alone.
-const START_NEAR: [bool; 2] = [true, false];
-/// The goal alone.
-const GOAL_NEAR: [bool; 2] = [false, true];
+/// What a path may have other than as printed.
+#[derive(Clone, Copy)]
+struct Varied {
+    /// Whether the start, and whether the goal, may be any neighbour of its cell.
+    near: [bool; 2],
+    /// The heading from which the first move turns; none as printed.
+    heading: Option<Cell>,
+}
+
+const AS_PRINTED: Varied = Varied { near: [false, false], heading: None };
+const START_NEAR: Varied = Varied { near: [true, false], ..AS_PRINTED };
+const GOAL_NEAR: Varied = Varied { near: [false, true], ..AS_PRINTED };
+
+/// The path as printed, but that its first move turns from each of the eight headings in turn.
+fn turning_from_headings() -> Vec<Varied> {
+    let steps = neighbourhood([1, 1], [3, 3]).into_iter().map(|[x, y]| [x - 1, y - 1]);
+    let headings = steps.filter(|step| *step != [0, 0]);
+    headings.map(|heading| Varied { heading: Some(heading), ..AS_PRINTED }).collect()
+}
 
 impl Search<'_> {
-    /// The shortest polyline with a turn sum and a length in the windows; `near` says which ends may be their neighbours.
+    /// The shortest polyline with a turn sum and a length in the windows.
     fn find(
         &self,
         convention: Convention,
         turn_deg: Interval,
         length: Interval,
-        near: [bool; 2],
+        Varied { near, heading }: Varied,
     ) -> Option<Polyline> {
         let Ends { size, start, goal } = self.ends;
         let cells = |cell, near| if near { neighbourhood(cell, size) } else { vec![cell] };
         let (starts, goals) = (cells(start, near[0]), cells(goal, near[1]));
-        (self.shortest)(&TurnQuery { size, starts, goals, convention, turn_deg, length })
+        (self.shortest)(&TurnQuery { size, starts, goals, heading, convention, turn_deg, length })
     }
 
     /// The least length with a turn sum in the window.
-    fn least(&self, convention: Convention, turn_deg: Interval, near: [bool; 2]) -> Option<f64> {
+    fn least(&self, convention: Convention, turn_deg: Interval, varied: Varied) -> Option<f64> {
         let length = Interval::new(0.0, self.longest);
-        self.find(convention, turn_deg, length, near).map(|found| found.length)
+        self.find(convention, turn_deg, length, varied).map(|found| found.length)
     }
 
     fn premises(&self, sums: &str) -> Vec<String> {
@@ -66,13 +82,18 @@ impl Search<'_> {
 
 /// Whether any polyline through cell centres has both the printed length and the printed turn sum.
 pub fn joint_length_turn(search: &Search<'_>, length: Print) -> Proof {
+    let sums = "its cost is its Euclidean length in cells; its turn sum adds one angle at every bend";
+    if !search.is_explained {
+        let is_possible =
+            search.find(search.meant, search.turn.interval(), length.interval(), AS_PRINTED).is_some();
+        return Proof { is_possible, because: Vec::new(), premises: search.premises(sums) };
+    }
     let mut because = Vec::new();
     let impossible = BOTH.map(|(convention, name)| {
         let (is_impossible, reasons) = both_impossible(search, length, convention, name);
         because.extend(reasons);
         is_impossible && convention == search.meant
     });
-    let sums = "its cost is its Euclidean length in cells; its turn sum adds one angle at every bend";
     Proof { is_possible: impossible == [false; 2], because, premises: search.premises(sums) }
 }
 
@@ -92,26 +113,48 @@ fn both_impossible(
             format!("{name} angles: no path of up to {} cells has a turn sum of {turn}", search.longest)
         }
     };
-    let pair = |near| search.find(convention, search.turn.interval(), length.interval(), near);
+    let pair = |varied| search.find(convention, search.turn.interval(), length.interval(), varied);
     let both = format!("{} and {turn}", length.printed);
     if let Some(found) = pair(AS_PRINTED) {
         let met = format!("{name} angles: {both} are met together by {:?}", found.cells);
         return (false, vec![alone, met]);
     }
     let moved = [("start", START_NEAR), ("goal", GOAL_NEAR)];
-    let rescued = moved.into_iter().filter(|(_, near)| pair(*near).is_some()).map(|(end, _)| end);
+    let rescued = moved.into_iter().filter(|(_, varied)| pair(*varied).is_some()).map(|(end, _)| end);
     let rescued = rescued.collect::<Vec<_>>().join(" or the ");
     let ends = if rescued.is_empty() {
         "nor with the start or the goal moved to any of its eight neighbours".to_owned()
     } else {
         format!("but moving the {rescued} to a neighbour would allow it")
     };
-    (true, vec![alone, format!("{name} angles: no polyline has {both}, {ends}")])
+    // The search without a least length keeps much less, so it runs first.
+    let no_longer = Interval::new(0.0, length.interval().high);
+    let alone_from =
+        |varied: &Varied| search.find(convention, search.turn.interval(), no_longer, *varied).is_some();
+    let turning = turning_from_headings().into_par_iter().filter(alone_from);
+    let turning = turning.filter(|varied| pair(*varied).is_some());
+    let turning: Vec<String> =
+        turning.filter_map(|varied| varied.heading).map(|heading| format!("{heading:?}")).collect();
+    let headings = if turning.is_empty() {
+        format!("no polyline has {both} if the first move turns from one of the eight headings")
+    } else {
+        format!("a first move that turns from heading {} would allow {both}", turning.join(" or "))
+    };
+    let printed = format!("{name} angles: no polyline has {both}, {ends}");
+    (true, vec![alone, printed, format!("{name} angles: {headings}")])
 }
 
 /// How long a polyline through cell centres with the printed turn sum is at least, beside another printed length. Refused if
 /// `is_shorter` says that the path is claimed to be shorter than that, and it cannot be.
 pub fn turn_needs_length(search: &Search<'_>, beside: Print, is_shorter: bool) -> Proof {
+    let sums = "lengths are Euclidean, in cells; a turn sum adds one angle at every bend";
+    if !search.is_explained {
+        let high = beside.interval().high;
+        let length = Interval::new(0.0, high.min(search.longest));
+        let found = search.find(search.meant, search.turn.interval(), length, AS_PRINTED);
+        let is_possible = !is_shorter || found.is_some_and(|found| found.length <= high);
+        return Proof { is_possible, because: Vec::new(), premises: search.premises(sums) };
+    }
     let mut because = Vec::new();
     let longer = BOTH.map(|(convention, name)| {
         let (is_longer, reason) = needed(search, beside, convention, name);
@@ -119,17 +162,26 @@ pub fn turn_needs_length(search: &Search<'_>, beside: Print, is_shorter: bool) -
         is_longer && convention == search.meant
     });
     let is_refused = is_shorter && longer != [false; 2];
-    because.extend(is_refused.then(|| {
-        let least = |near| search.least(search.meant, search.turn.interval(), near);
+    if is_refused {
+        let least = |varied| search.least(search.meant, search.turn.interval(), varied);
         let (start, goal) = rayon::join(|| least(START_NEAR), || least(GOAL_NEAR));
         let least = [start, goal].into_iter().flatten().fold(f64::INFINITY, f64::min);
         let rests = if least > beside.interval().high { "does not rest" } else { "rests" };
-        format!(
+        because.push(format!(
             "with the start or the goal moved to one of its eight neighbours such a path is at least {least:.4} cells long, \
              so the proof {rests} on the printed ends"
-        )
-    }));
-    let sums = "lengths are Euclidean, in cells; a turn sum adds one angle at every bend";
+        ));
+        let no_longer = Interval::new(0.0, beside.interval().high);
+        let is_rescued = turning_from_headings()
+            .into_par_iter()
+            .any(|varied| search.find(search.meant, search.turn.interval(), no_longer, varied).is_some());
+        let (is, rests) = if is_rescued { ("may be no", "rests") } else { ("is", "does not rest") };
+        because.push(format!(
+            "with a first move that turns from one of the eight headings such a path {is} longer than {}, so the proof {rests} \
+             on its turning from none",
+            beside.printed
+        ));
+    }
     Proof { is_possible: !is_refused, because, premises: search.premises(sums) }
 }
 
@@ -153,4 +205,43 @@ fn needed(search: &Search<'_>, beside: Print, convention: Convention, name: &str
          {or_further}"
     );
     (least[0].is_none_or(|least| least > beside.interval().high), text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::printed::Digits;
+    use crate::turns::shortest_polyline;
+
+    #[test]
+    fn what_is_refused_does_not_depend_on_whether_it_is_explained() {
+        let print = |text: &str, digits| Print { printed: text.parse().unwrap(), digits };
+        let mut seen = [false; 4];
+        for (text, length) in
+            [("45.00", "7.2"), ("45.00", "6.0"), ("90.00", "6.99"), ("81.87", "8.94"), ("30.00", "5.0")]
+        {
+            for meant in [Convention::Exterior, Convention::Interior] {
+                for digits in [Digits::Rounded, Digits::Truncated] {
+                    let both = [true, false].map(|is_explained| {
+                        let search = Search {
+                            ends: Ends { size: [8, 8], start: [0, 0], goal: [5, 3] },
+                            turn: print(text, digits),
+                            meant,
+                            longest: 9.0,
+                            is_explained,
+                            shortest: &shortest_polyline,
+                        };
+                        let length = print(length, digits);
+                        [joint_length_turn(&search, length), turn_needs_length(&search, length, true)]
+                            .map(|proof| proof.is_possible)
+                    });
+                    assert_eq!(both[0], both[1], "{text} {length} {meant:?} {digits:?}");
+                    let [joint, needs] = both[0];
+                    seen[usize::from(joint)] = true;
+                    seen[2 + usize::from(needs)] = true;
+                }
+            }
+        }
+        assert_eq!(seen, [true; 4], "an answer never came out");
+    }
 }

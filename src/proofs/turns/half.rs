@@ -48,8 +48,8 @@ struct Best {
 }
 
 impl Half {
-    /// The ways from `query`'s starts, up to the first that answers it alone.
-    pub(super) fn new(query: &TurnQuery) -> Self {
+    /// The ways from `query`'s starts; up to the first that answers it alone, if one may.
+    pub(super) fn new(query: &TurnQuery, may_answer: bool) -> Self {
         let net = Net::new(query);
         let mut search = Search {
             net: &net,
@@ -69,7 +69,7 @@ impl Half {
             if !search.settle(id, &label) {
                 continue;
             }
-            if search.is_answer(&label) {
+            if may_answer && search.is_answer(&label) {
                 arrival = Some(label);
                 break;
             }
@@ -157,7 +157,8 @@ impl Search<'_> {
             && fits(self.query, label.length)
     }
 
-    /// Queues every segment that leaves `cell` with a bend, or every one if there is no label to bend from.
+    /// Queues every segment that leaves `cell` with a bend. If there is no label to bend from, every one along the heading, or every one
+    /// if there is none.
     fn extend(&mut self, cell: usize, parent: Option<usize>) {
         let (length, turn_deg, arrival) = parent.map_or((0.0, 0.0, None), |id| {
             let label = &self.labels[id];
@@ -169,7 +170,8 @@ impl Search<'_> {
             if length + segment.least_total > longest {
                 break;
             }
-            if arrival == Some(segment.direction) {
+            let is_off_heading = |heading| arrival.is_none() && self.net.vector(segment.direction) != heading;
+            if arrival == Some(segment.direction) || self.query.heading.is_some_and(is_off_heading) {
                 continue;
             }
             let bend_deg = arrival.map_or(0.0, |arrival| self.net.bend_deg(arrival, segment.direction));

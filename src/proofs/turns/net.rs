@@ -36,9 +36,14 @@ impl Net {
         let nearest = |cell: Cell, ends: &[Cell]| {
             ends.iter().map(|&end| distance(cell, end)).fold(f64::INFINITY, f64::min)
         };
-        let all = (0..query.size[1]).flat_map(|y| (0..query.size[0]).map(move |x| [x, y]));
-        let cells: Vec<Cell> =
-            all.filter(|&c| nearest(c, &query.starts) + nearest(c, &query.goals) <= longest).collect();
+        let is_on_map = |cell: Cell| (0..2).all(|axis| (0..query.size[axis]).contains(&cell[axis]));
+        // A step before the start may be off the map: nothing leads there but from the start.
+        let all = (-1..=query.size[1]).flat_map(|y| (-1..=query.size[0]).map(move |x| [x, y]));
+        let is_meant = |&c: &Cell| is_on_map(c) || query.starts.contains(&c) || query.goals.contains(&c);
+        let is_near = |&c: &Cell| nearest(c, &query.starts) + nearest(c, &query.goals) <= longest;
+        let cells: Vec<Cell> = all.filter(is_meant).filter(is_near).collect();
+        let may_leave = |cell| is_on_map(cell) || query.starts.contains(&cell);
+        let may_reach = |cell| is_on_map(cell) || query.goals.contains(&cell);
         let from_start: Vec<f64> = cells.iter().map(|&c| nearest(c, &query.starts)).collect();
         let to_goal: Vec<f64> = cells.iter().map(|&c| nearest(c, &query.goals)).collect();
         let mut directions = BTreeMap::new();
@@ -48,7 +53,7 @@ impl Net {
             for (j, &to) in cells.iter().enumerate() {
                 let length = distance(from, to);
                 let least_total = length + to_goal[j];
-                if i != j && from_start[i] + least_total <= longest {
+                if i != j && may_leave(from) && may_reach(to) && from_start[i] + least_total <= longest {
                     let known = directions.len();
                     let direction = *directions.entry(primitive(difference(from, to))).or_insert(known);
                     leaving.push(Segment { to: j, direction, length, least_total });

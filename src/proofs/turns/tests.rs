@@ -11,6 +11,7 @@ fn shortest(ends: [Cell; 2], low: f64, high: f64, longest: f64, convention: Conv
         size: SIZE,
         starts,
         goals,
+        heading: None,
         convention,
         turn_deg,
         length: Interval::new(0.0, longest),
@@ -47,7 +48,9 @@ fn an_end_off_by_a_cell_does_not_rescue_the_grid_papers_pairs() {
             let convention = Convention::Exterior;
             let turn_deg = Interval::new(low, high);
             let pair = Interval::new(length[0], length[1]);
-            let mut query = TurnQuery { size: SIZE, starts, goals, convention, turn_deg, length: pair };
+            let heading = None;
+            let mut query =
+                TurnQuery { size: SIZE, starts, goals, heading, convention, turn_deg, length: pair };
             assert_eq!(shortest_polyline(&query), None);
             // The turn alone is within reach of the complex pair: only both together are not.
             query.length = Interval::new(0.0, length[1]);
@@ -67,12 +70,15 @@ fn enumerate(
     path: &mut Vec<Cell>,
     goal: Cell,
     longest: f64,
-    convention: Convention,
+    turns: (Option<Cell>, Convention),
     out: &mut Vec<[f64; 2]>,
 ) {
+    let (heading, convention) = turns;
     let length: f64 = path.windows(2).map(|w| distance(w[0], w[1])).sum();
     if path.len() > 1 && path[path.len() - 1] == goal {
-        let turns = path.windows(3).map(|w| {
+        let before = heading.map(|heading| difference(heading, path[0]));
+        let with_heading: Vec<Cell> = before.into_iter().chain(path.iter().copied()).collect();
+        let turns = with_heading.windows(3).map(|w| {
             let (u, v) = (difference(w[0], w[1]), difference(w[1], w[2]));
             let dot = f64::from(u[0] * v[0] + u[1] * v[1]);
             libm::acos((dot / distance(w[0], w[1]) / distance(w[1], w[2])).clamp(-1.0, 1.0)).to_degrees()
@@ -87,7 +93,7 @@ fn enumerate(
     for to in (0..size).flat_map(|x| (0..size).map(move |y| [x, y])) {
         if to != at && length + distance(at, to) + distance(to, goal) <= longest {
             path.push(to);
-            enumerate(size, path, goal, longest, convention, out);
+            enumerate(size, path, goal, longest, turns, out);
             path.pop();
         }
     }
@@ -97,10 +103,17 @@ fn enumerate(
 fn no_enumerated_polyline_is_shorter_and_one_is_as_short() {
     let mut found = 0;
     let mut missing = 0;
+    // A start in the corner has headings whose step before it is off the map.
     for (start, goal, longest) in [([0, 0], [3, 2], 6.9), ([1, 1], [2, 2], 6.1), ([0, 3], [3, 3], 6.7)] {
-        for convention in [Convention::Exterior, Convention::Interior] {
+        for (heading, convention) in [
+            (None, Convention::Exterior),
+            (None, Convention::Interior),
+            (Some([1, 0]), Convention::Exterior),
+            (Some([-1, -1]), Convention::Exterior),
+            (Some([0, -1]), Convention::Interior),
+        ] {
             let mut all = Vec::new();
-            enumerate(4, &mut vec![start], goal, longest, convention, &mut all);
+            enumerate(4, &mut vec![start], goal, longest, (heading, convention), &mut all);
             assert!(all.len() > 300, "only {} polylines", all.len());
             for i in 0..130 {
                 let low = f64::from(i) * 2.7 + 0.013;
@@ -110,7 +123,7 @@ fn no_enumerated_polyline_is_shorter_and_one_is_as_short() {
                 let fits = |p: &&[f64; 2]| length.contains(p[0]) && turn_deg.contains(p[1]);
                 let expected = all.iter().filter(fits).map(|p| p[0]).min_by(f64::total_cmp);
                 let (starts, goals) = (vec![start], vec![goal]);
-                let query = TurnQuery { size: [4, 4], starts, goals, convention, turn_deg, length };
+                let query = TurnQuery { size: [4, 4], starts, goals, heading, convention, turn_deg, length };
                 let got = shortest_polyline(&query);
                 *if got.is_some() { &mut found } else { &mut missing } += 1;
                 let got = got.map_or(-1.0, |p| p.length);
@@ -119,7 +132,33 @@ fn no_enumerated_polyline_is_shorter_and_one_is_as_short() {
             }
         }
     }
-    assert!(found > 150 && missing > 100, "one-sided sample: {found} and {missing}");
+    assert!(found > 400 && missing > 250, "one-sided sample: {found} and {missing}");
+}
+
+/// The shortest from one of these headings, by a best-first search in C++ that was written from the definition alone.
+#[test]
+fn the_first_segment_turns_from_the_heading() {
+    for (heading, length) in [
+        (None, Some(14.7528)),
+        (Some([1, 1]), Some(13.9244)),
+        (Some([0, 1]), Some(15.3702)),
+        (Some([-1, 1]), Some(13.9244)),
+        (Some([1, -1]), Some(13.6026)),
+        (Some([1, 0]), None),
+        (Some([-1, 0]), None),
+        (Some([-1, -1]), None),
+        (Some([0, -1]), None),
+    ] {
+        let (starts, goals) = (vec![SIMPLE[0]], vec![SIMPLE[1]]);
+        let convention = Convention::Exterior;
+        let (turn_deg, longest) = (Interval::new(120.0, 120.05), Interval::new(0.0, 15.6));
+        let query = TurnQuery { size: SIZE, starts, goals, heading, convention, turn_deg, length: longest };
+        let found = shortest_polyline(&query);
+        let ends = found.iter().map(|found| (found.cells[0], found.cells[found.cells.len() - 1]));
+        assert!(ends.into_iter().all(|ends| ends == SIMPLE.into()), "{found:?}");
+        let found = found.map(|found| (found.length * 1e4).round() / 1e4);
+        assert_eq!(found, length, "{heading:?}");
+    }
 }
 
 #[test]
@@ -132,8 +171,8 @@ fn several_ends_give_the_best_pair() {
         let pairs = starts.iter().flat_map(|&s| goals.iter().filter_map(move |&g| one(s, g)));
         let best = pairs.min_by(f64::total_cmp).unwrap();
         let (starts, goals) = (starts.clone(), goals.clone());
-        let query =
-            TurnQuery { size: SIZE, starts, goals, convention, turn_deg, length: Interval::new(0.0, 10.0) };
+        let length = Interval::new(0.0, 10.0);
+        let query = TurnQuery { size: SIZE, starts, goals, heading: None, convention, turn_deg, length };
         let found = shortest_polyline(&query).unwrap();
         assert!((found.length - best).abs() < 1e-9, "from {low}: {found:?}, not {best}");
     }

@@ -5,7 +5,7 @@ use crate::analysis::verdict::{Across, ClaimVerdict, Effect, Fit, SettingFit};
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::marks::Cells;
-use crate::render::chart::{Axis, Key, Panel, Sheet};
+use crate::render::chart::{Axis, Key, Panel, Sheet, Trim};
 use crate::render::style::{BLUE, GREY, GRID, Rgb, Stroke, VERMILLION, WHITE, Width, YELLOW};
 use base::settings::Accepted;
 use schemars::JsonSchema;
@@ -67,7 +67,8 @@ fn settings(scene: &Scene<'_>, words: &str) -> Result<Sheet, RenderError> {
     let options: Vec<&str> = fitted.options.keys().map(String::as_str).collect();
     let (names, note) = named(rows);
     let names = Axis::names("", names.into_iter().rev());
-    let mut panel = Panel::new("", Axis::names(words, options.iter().copied()), names);
+    let across = Axis::names(words, options.iter().copied());
+    let mut panel = Panel::new("", across, names).trimmed(Trim::Frame);
     let color = |row: &SettingFit, option: &str| {
         let fit = row.fits.get(option)?;
         FITS.iter().find(|(own, ..)| own == fit).map(|(_, _, color)| color.mixed(WHITE, 0.25))
@@ -142,7 +143,7 @@ impl Kind for ClaimsByChoices {
         let named =
             |(judged, _): &(&ClaimVerdict, &Across)| format!("{}: {}", judged.claim, judged.verdict_said());
         let names: Vec<String> = rows.iter().rev().map(named).collect();
-        let mut panel = Panel::new("", Axis::names("", columns), Axis::names("", names));
+        let mut panel = Panel::new("", Axis::names("", columns), Axis::names("", names)).trimmed(Trim::Frame);
         let of_row = |(_, across): &(&ClaimVerdict, &Across)| {
             axes.iter().map(|axis| color(across, axis)).collect::<Vec<_>>()
         };

@@ -60,6 +60,9 @@ struct Read {
     /// Whether the instance is the first that only the first contender solves, if there is one whose arm is stored.
     #[serde(default)]
     first_alone: bool,
+    /// How far obstacles that are boxes are grown, if what the tip keeps out of is drawn about them, in cm.
+    #[schemars(range(min = 0.0))]
+    grown_cm: Option<f64>,
     /// One row each.
     contenders: Vec<String>,
     /// One panel each.
@@ -125,6 +128,7 @@ impl Kind for Polyhedra {
                 let mut keys =
                     if *is_arm { arm(&mut solids, scene, row)? } else { paths(&mut solids, scene, row)? };
                 keys.extend(around);
+                keys.extend(self.grown(&mut solids, scene, &row.key.on)?);
                 let seen = if views.len() > 1 { format!(", {}", view.name()) } else { String::new() };
                 let title = format!("{}: {}{seen}", row.key.contender, self.outcome_text(row));
                 sheet.add(panel(title, solids, *view, keys));
@@ -135,6 +139,29 @@ impl Kind for Polyhedra {
 }
 
 impl Polyhedra {
+    /// Adds the edges of what the tip keeps out of, about every box but the one that the arm stands on; the legend's entry.
+    fn grown(
+        &self,
+        solids: &mut Solids,
+        scene: &Scene<'_>,
+        of: &Arc<InstanceKey>,
+    ) -> Result<Option<Key>, RenderError> {
+        let Some(by) = self.read.grown_cm else { return Ok(None) };
+        let pedestal = scene.run.trace(of, "pedestal").map(|found| found.values[0] as usize);
+        let stroke = Stroke::solid(BLUE, 0.5).dashed(Dash::Dotted);
+        for (body, (vertices, _)) in stored_bodies(scene, of)?.into_iter().enumerate() {
+            let bound = |axis: usize, least: f64, pick: fn(f64, f64) -> f64| {
+                vertices.iter().map(|vertex| vertex[axis]).fold(least, pick)
+            };
+            let low = [0, 1, 2].map(|axis| bound(axis, f64::INFINITY, f64::min) - by);
+            let high = [0, 1, 2].map(|axis| bound(axis, f64::NEG_INFINITY, f64::max) + by);
+            for edge in edges(low, high).into_iter().filter(|_| pedestal != Some(body)) {
+                solids.polyline(edge.to_vec(), stroke);
+            }
+        }
+        Ok(Some(Key::line(&format!("grown by {by} cm, for the tip"), stroke)))
+    }
+
     /// What became of the trial, for the panel's title.
     fn outcome_text(&self, row: &Row) -> String {
         if !self.read.arm {
@@ -283,14 +310,7 @@ fn add_obstacles(
     let mut keys = vec![cell_key("obstacle", blue)];
     let pedestal = scene.run.trace(of, "pedestal").map(|found| found.values[0] as usize);
     keys.extend(pedestal.map(|_| cell_key("pedestal", stone)));
-    let vertices = points(ask::trace(scene, of, "bodies_vertices")?);
-    let listed = ask::trace(scene, of, "bodies_faces")?;
-    let mut faces: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for pair in listed.values.chunks(listed.width) {
-        faces.entry(pair[0] as usize).or_default().push(pair[1] as usize);
-    }
-    for (body, (vertices, faces)) in bodies(&vertices, faces.into_values().collect()).into_iter().enumerate()
-    {
+    for (body, (vertices, faces)) in stored_bodies(scene, of)?.into_iter().enumerate() {
         let color = if pedestal == Some(body) { stone } else { blue };
         solids.polyhedron(vertices, faces, Paint::sheer(color, 0.82));
     }
@@ -307,8 +327,22 @@ fn add_obstacles(
     Ok(keys)
 }
 
+/// A body's vertices, and its faces by the numbers of theirs.
+type Body = (Vec<Vec3>, Vec<Vec<usize>>);
+
+/// The bodies of the preprocessed object `of`.
+fn stored_bodies(scene: &Scene<'_>, of: &Arc<InstanceKey>) -> Result<Vec<Body>, RenderError> {
+    let vertices = points(ask::trace(scene, of, "bodies_vertices")?);
+    let listed = ask::trace(scene, of, "bodies_faces")?;
+    let mut faces: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for pair in listed.values.chunks(listed.width) {
+        faces.entry(pair[0] as usize).or_default().push(pair[1] as usize);
+    }
+    Ok(bodies(&vertices, faces.into_values().collect()))
+}
+
 /// Faces that share vertices, taken together with vertices numbered from 0.
-fn bodies(vertices: &[Vec3], faces: Vec<Vec<usize>>) -> Vec<(Vec<Vec3>, Vec<Vec<usize>>)> {
+fn bodies(vertices: &[Vec3], faces: Vec<Vec<usize>>) -> Vec<Body> {
     let mut solids: Vec<(usize, usize, Vec<Vec<usize>>)> = Vec::new();
     for face in faces {
         let (low, high) = (face.iter().min().copied(), face.iter().max().copied());

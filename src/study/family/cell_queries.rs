@@ -15,6 +15,7 @@ use crate::verification::roadmap::ARM_COLUMNS;
 use crate::{Inputs, StudyError};
 use base::seed::{self, Stream};
 use base::settings::{Accepted, AnyTable, Document, Faults, Settings, SettingsError};
+use base::units::{seems_in_metres, seems_in_radians};
 use engine::geometry::Solid;
 use engine::kinematics::ik::Branch;
 use engine::kinematics::{AXES, FARTHEST_MM, Joints, Robot};
@@ -242,8 +243,10 @@ impl CellQueries {
         if !self.obstacles {
             return Ok(scene.cleared());
         }
-        let raised =
-            |scene: Scene, (name, height_mm): (&String, &f64)| scene.with_height(name, height_mm * 1e-3);
+        let raised = |scene: Scene, (name, height_mm): (&String, &f64)| {
+            let in_metres = seems_in_metres(&format!("heights_mm.{name}"), *height_mm);
+            in_metres.map_or_else(|| scene.with_height(name, height_mm * 1e-3), Err)
+        };
         self.heights_mm.iter().try_fold(scene, raised)
     }
 
@@ -269,6 +272,9 @@ impl CellQueries {
         let srdf = self.srdf.as_deref().map(locate).transpose()?;
         let robot = load_robot(settings, file, self.robot_with.as_ref(), srdf.as_deref())?;
         let Some(tool_mm) = self.tool_mm else { return Ok(robot) };
+        if let Some(message) = seems_in_metres("tool_mm", tool_mm) {
+            return Err(settings.error_at("tool_mm", message));
+        }
         robot
             .with_tool_length(tool_mm * 1e-3)
             .map_err(|error| settings.error_at("tool_mm", format!("tool_mm: {error}")))
@@ -317,9 +323,12 @@ impl Posed {
     fn new(settings: &Settings, inputs: &Inputs) -> Result<Self, SettingsError> {
         let read: CellQueries = settings.read()?;
         let CellQueries { radius_mm, radius_deg, nearest, .. } = read;
-        let radius_mm = radius_mm.map(|radius_mm| radius_mm * read.times());
-        let near = Neighbours { radius_mm, radius_deg, nearest }.rule(settings)?;
+        let near = Neighbours { radius_mm, radius_deg, nearest }.rule(settings, read.times())?;
         let mut faults = Faults::default();
+        for (key, angle_deg) in [("jump_deg", read.jump_deg), ("turn_deg", read.turn_deg)] {
+            let in_radians = seems_in_radians(key, &[angle_deg]);
+            faults.keep(in_radians.map_or(Ok(()), |(_, message)| Err(settings.error_at(key, message))));
+        }
         let robot = faults
             .keep(input(settings, inputs, "robot", &read.robot, |file| read.robot(settings, inputs, file)));
         let scene = faults.keep(input(settings, inputs, "scene", &read.scene, |file| {

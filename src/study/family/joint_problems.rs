@@ -4,7 +4,7 @@
 //! `invalid_problem`: sets hold such problems, and papers count them.
 
 use super::input::input;
-use super::joint_queries::{contact, picture, queries, robot_notes, support, under};
+use super::joint_queries::{contact, picture, queries, renamed, robot_notes, support, under};
 use super::{Entry, Family, Query};
 use crate::preprocessing::Preprocessing;
 use crate::preprocessing::nested_roadmap;
@@ -59,6 +59,8 @@ const COLUMNS: &[&str] = &[
 struct JointProblems {
     /// The robot, a URDF file.
     robot: String,
+    /// What the problems call the robot, where its URDF file has another name for the same one.
+    robot_name: Option<String>,
     /// The set: an archive (`.tar`) of `MoveIt` scenes and requests, or a problem file in YAML or JSON.
     problems: String,
     /// The problem set in it: of an archive, the folders whose names begin so, all if absent; of a file, the only one if absent.
@@ -113,6 +115,8 @@ struct Archive {
 
 struct Set {
     robot: Robot,
+    /// What the problems call it, if that is another name.
+    robot_name: Option<String>,
     problems: ProblemSet,
     /// The name of its file.
     problem_file: String,
@@ -179,6 +183,7 @@ fn build(settings: &Settings, inputs: &Inputs) -> Result<Box<dyn Family>, Settin
     let (step_rad, queries) = (read.step_deg.to_radians(), unposed());
     Ok(Box::new(Set {
         robot,
+        robot_name: read.robot_name,
         problems,
         problem_file: read.problems,
         contact,
@@ -261,7 +266,7 @@ fn closed(solid: Solid, as_boxes: bool) -> Vec<Solid> {
 impl Set {
     fn problem(&self, seed: u64) -> Result<Problem, Invalid> {
         let expected = Expected {
-            robot: &self.robot.name,
+            robot: self.robot_name.as_ref().unwrap_or(&self.robot.name),
             base: &self.robot.base,
             joints: self.robot.joints.iter().map(|joint| joint.name.as_str()).collect(),
         };
@@ -343,13 +348,35 @@ impl Family for Set {
     }
 
     fn notes(&self) -> Vec<String> {
-        let (mut notes, mut ignored) = (BTreeSet::new(), BTreeSet::new());
-        let problems = (0..self.problems.count() as u64).filter_map(|index| self.problem(index).ok());
-        for problem in problems {
-            notes.extend(problem.notes);
-            ignored.extend(problem.ignored);
+        let (mut notes, mut ignored, mut refused) = (BTreeSet::new(), BTreeSet::new(), Vec::new());
+        let count = self.problems.count();
+        let mut called_invalid = 0;
+        for index in 0..count as u64 {
+            match self.problem(index) {
+                Ok(problem) => {
+                    called_invalid += u64::from(!problem.is_valid);
+                    notes.extend(problem.notes);
+                    ignored.extend(problem.ignored);
+                }
+                Err(Invalid(message)) => refused.push(message),
+            }
         }
-        let of_problems = notes.into_iter().chain(ignored_note(&ignored));
+        let refused = refused.first().map(|first| {
+            let first = first.lines().next().unwrap_or_default();
+            format!(
+                "refused problems, which count as invalid: {} of {count}; the first: {first}",
+                refused.len()
+            )
+        });
+        let called_invalid = (called_invalid > 0)
+            .then(|| format!("problems that the set calls invalid: {called_invalid} of {count}"));
+        let renamed = renamed(self.robot_name.as_deref(), &self.robot);
+        let of_problems = notes
+            .into_iter()
+            .chain(ignored_note(&ignored))
+            .chain(renamed)
+            .chain(called_invalid)
+            .chain(refused);
         let of_problems = of_problems.map(|note| format!("{}: {note}", self.problem_file));
         self.notes.iter().cloned().chain(of_problems).collect()
     }

@@ -57,6 +57,8 @@ const DRAWS_PER_SAMPLE: u32 = 1000;
 struct JointQueries {
     /// The robot, a URDF file.
     robot: String,
+    /// What the problems call the robot, where its URDF file has another name for the same one.
+    robot_name: Option<String>,
     /// The problem file, JSON or YAML in the form of robometrics or of `MotionBenchMaker` as VAMP ships it.
     problem: String,
     /// What is under the robot: the problem file places everything from the robot's base and says nothing of a floor.
@@ -115,11 +117,11 @@ impl Posed {
     fn new(settings: &Settings, inputs: &Inputs) -> Result<Self, SettingsError> {
         let read: JointQueries = settings.read()?;
         let JointQueries { radius_mm, radius_deg, nearest, .. } = read;
-        let near = Neighbours { radius_mm, radius_deg, nearest }.rule(settings)?;
+        let near = Neighbours { radius_mm, radius_deg, nearest }.rule(settings, 1.0)?;
         let mut faults = Faults::default();
         let robot = faults.keep(input(settings, inputs, "robot", &read.robot, read_urdf));
         let expected = robot.as_ref().map(|(_, robot)| Expected {
-            robot: &robot.name,
+            robot: read.robot_name.as_ref().unwrap_or(&robot.name),
             base: &robot.base,
             joints: robot.joints.iter().map(|joint| joint.name.as_str()).collect(),
         });
@@ -191,12 +193,22 @@ pub(super) fn robot_notes(
     notes
 }
 
+/// That the problems call the robot otherwise than its URDF file, if the study says so.
+pub(super) fn renamed(name: Option<&str>, robot: &Robot) -> Option<String> {
+    name.map(|name| {
+        format!("its robot `{name}` is taken as `{}` of the URDF file, as `robot_name` says", robot.name)
+    })
+}
+
 impl JointQueries {
     /// What a reader of results should know of how the files were taken.
     fn notes(&self, robot: &Robot, problem: &Problem, contact: &SelfContact) -> Vec<String> {
         let mut notes = robot_notes(&self.robot, robot, contact, self.srdf.as_deref());
         let of_problem = problem.notes.iter().cloned().chain(ignored_note(&problem.ignored));
         notes.extend(of_problem.map(|note| format!("{}: {note}", self.problem)));
+        notes.extend(
+            renamed(self.robot_name.as_deref(), robot).map(|note| format!("{}: {note}", self.problem)),
+        );
         if !problem.is_valid {
             let index = self.index;
             notes.push(format!(

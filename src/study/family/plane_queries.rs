@@ -55,6 +55,7 @@ radius_mm = 220
         }
         let whole = plane.size_mm().map(|side| [0.0, side]);
         let mut faults = Faults::default();
+        faults.keep(nested_roadmap::accept_radius(settings, read.radius_mm));
         let mut place = |end: &EndOf<'_>| faults.keep(end.end().place(settings, end.key, whole));
         let (from, to) = (place(&start), place(&goal));
         let (from, to) = faults.or(from.zip(to))?;

@@ -3,7 +3,6 @@
 
 use super::drawn_scene::DrawnScene;
 use super::input::{input, load_robot, load_scene};
-use super::random_polyhedra::Line;
 use super::{ArmPlacement, Entry, Family, Query};
 use crate::preprocessing::{Preprocessing, polyhedra};
 use crate::verification::CARRIED_COLUMNS;
@@ -11,7 +10,7 @@ use crate::{Inputs, StudyError};
 use base::seed;
 use base::settings::{Accepted, AnyTable, Faults, Settings, SettingsError};
 use base::text::listed;
-use engine::geometry::{Capsule, Vec3};
+use engine::geometry::{Capsule, Convex, Segment, Vec3, distance_segment_convex};
 use engine::kinematics::Robot;
 use engine::planner::Invalid;
 use engine::space::polyhedra::{CarriedArm, DOWN, PolyhedraError, Scene, parse_scene};
@@ -50,7 +49,7 @@ const MM_PER_CM: f64 = 10.0;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SceneSettings {
-    /// The scene file; with a table `[drawn]`, a scene is drawn with each instance, at each start and goal of which the arm can stand.
+    /// The scene file; with a table `[drawn]`, a scene is drawn with each instance, and the arm can stand at its start and goal.
     scene: String,
     /// What is laid over the scene file: elements of lists go by their number from 0 or their `name`.
     #[schemars(with = "Option<AnyTable>")]
@@ -76,6 +75,29 @@ struct SceneSettings {
     robot_with: Option<Table>,
     /// The body that stands for the robot's links.
     body: Option<String>,
+}
+
+/// Which environments are kept, by the straight line from start to goal.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Line {
+    /// All.
+    #[default]
+    Any,
+    /// Those in which an obstacle is in its way; the others are drawn again, query and obstacles alike.
+    Blocked,
+}
+
+impl Line {
+    /// Whether an environment with `query` and these obstacles is kept.
+    pub(super) fn keeps(self, query: &Query, obstacles: &[Convex]) -> bool {
+        let way = Segment::new(point(&query.start), point(&query.goal));
+        self == Self::Any || obstacles.iter().any(|body| distance_segment_convex(&way, body) == 0.0)
+    }
+}
+
+pub(super) fn point(end: &[f64]) -> Vec3 {
+    Vec3::new(end[0], end[1], end[2])
 }
 
 /// What a point on an obstacle's face is: there T of eq. 2 in Tang, Zhou & Xu (2023) is 0.
@@ -255,8 +277,7 @@ fn can_stand(world: &PolyhedraWorld, tip: &Vec3) -> bool {
 }
 
 impl Posed {
-    /// The queries in `world` of the instance that belongs to `seed`; a written end stands for one of which a thousand draws give
-    /// none.
+    /// The queries in `world` of the instance that belongs to `seed`; the written end stands where a thousand draws give none.
     fn scattered(&self, world: &PolyhedraWorld, seed: u64) -> Vec<Query> {
         let Some(radius) = self.read.scatter_cm else { return self.queries.clone() };
         let mut stream = seed::stream(seed);
@@ -295,7 +316,7 @@ impl Posed {
 /// A point in the ball about `center`, if the one that is drawn is free and reached.
 fn near(world: &PolyhedraWorld, stream: &mut seed::Stream, center: &[f64], radius: f64) -> Option<Vec<f64>> {
     let offset = Vec3::from_fn(|_, _| stream.random_range(-radius..=radius));
-    let point = Vec3::new(center[0], center[1], center[2]) + offset;
+    let point = point(center) + offset;
     let stands = offset.norm() <= radius
         && world.free_point("point", point.as_slice()).is_ok()
         && is_reachable(world, &point);
@@ -361,12 +382,21 @@ mod tests {
         robot = 'data/robots/aubo_i10.toml'\nbody = 'paper'\nscatter_cm = 5\n\
         queries = [{ start = [70, -46, 36], goal = [70, 41, 51] }]\n";
 
+    /// Start and goal of the study of drawn scenes, in the middle of their balls.
+    const DRAWN_ENDS: &str = "queries = [{ start = [61, -44, 40], goal = [61, 42, 46] }]";
+
     fn build(changes: &str, without: &[&str]) -> Result<Box<dyn Family>, String> {
         let mut table = PLAIN.parse::<Table>().unwrap();
         table.retain(|key, _| !without.contains(&key));
         table.extend(changes.parse::<Table>().unwrap());
         let inputs = Inputs { roots: vec![PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))] };
         (ENTRY.build)(&Settings::composed("plain", table), &inputs).map_err(|e| e.to_string())
+    }
+
+    /// The family of drawn scenes, with this `line`.
+    fn drawn(line: &str) -> Box<dyn Family> {
+        let scene = "scene = 'data/scenes/tang_drawn.toml'\nscatter_cm = 10";
+        build(&format!("{scene}\nline = '{line}'\n{DRAWN_ENDS}"), &[]).unwrap()
     }
 
     #[test]
@@ -427,16 +457,13 @@ mod tests {
 
     #[test]
     fn a_drawn_scene_changes_with_the_seed_alone_and_leaves_its_ends_free() {
-        let drawn = |line: &str| {
-            build(&format!("scene = 'data/scenes/tang_drawn.toml'\nline = '{line}'\nscatter_cm = 10\n"), &[])
-        };
-        let (any, blocked) = (drawn("any").unwrap(), drawn("blocked").unwrap());
+        let (any, blocked) = (drawn("any"), drawn("blocked"));
         let world = |family: &dyn Family, seed: u64| match family.prepare(seed).unwrap().world {
             engine::space::World::Polyhedra(world) => *world,
             _ => panic!("seed {seed}"),
         };
         let mut free_lines = 0;
-        for seed in 0..6 {
+        for seed in 0..20 {
             for family in [&any, &blocked] {
                 let (query, world) = (&family.queries_for(seed)[0], world(family.as_ref(), seed));
                 assert_eq!(*query, family.queries_for(seed)[0], "seed {seed}");
@@ -454,6 +481,28 @@ mod tests {
             free_lines += usize::from(!line(any.as_ref()));
         }
         assert!(free_lines > 0, "no line is free");
+    }
+
+    #[test]
+    fn the_scenes_that_the_cross_check_reads_are_those_that_the_study_draws() {
+        let vertices = |bodies: &[engine::geometry::Convex]| -> Vec<Vec3> {
+            bodies.iter().flat_map(|body| body.vertices().to_vec()).collect()
+        };
+        // The seeds of number 7 of the group `drawn` and number 4 of `drawn, blocked` of the study `drawn_scenes`.
+        for (file, line, seed) in [
+            ("tang_drawn_7", "any", 4_165_450_341_848_544_698),
+            ("tang_drawn_blocked_4", "blocked", 1_618_639_161_523_250_425),
+        ] {
+            let engine::space::World::Polyhedra(world) = drawn(line).prepare(seed).unwrap().world else {
+                panic!("{file}: no polyhedra");
+            };
+            let path = format!("{}/../../data/scenes/{file}.toml", env!("CARGO_MANIFEST_DIR"));
+            let written = parse_scene(&base::settings::Document::open(path.as_ref()).unwrap()).unwrap();
+            let (drawn, written) = (vertices(world.bodies()), vertices(&written.bodies));
+            let is_same = drawn.len() == written.len()
+                && drawn.iter().zip(&written).all(|(drawn, written)| (drawn - written).norm() < 1e-9);
+            assert!(is_same, "{file}: the corners are {drawn:?}");
+        }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Random obstacles of several shapes in a cube, apart from each other or not, with written queries or one drawn with them.
 
-use super::polyhedra_scene::{Contact, QuerySettings};
+use super::polyhedra_scene::{Contact, Line, QuerySettings, point};
 use super::{Entry, Family, Query};
 use crate::StudyError;
 use crate::preprocessing::{Preprocessing, polyhedra};
@@ -12,7 +12,7 @@ use engine::planner::Invalid;
 use engine::space::{PolyhedraWorld, WorldKind};
 use rand::RngExt as _;
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -84,25 +84,6 @@ struct DrawnQuery {
     apart_cm: f64,
     /// Which environments are kept.
     line: Line,
-}
-
-/// Which environments are kept, by the straight line from start to goal.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum Line {
-    /// All.
-    #[default]
-    Any,
-    /// Those in which an obstacle is in its way; the others are drawn again, query and obstacles alike.
-    Blocked,
-}
-
-impl Line {
-    /// Whether an environment with `query` and these obstacles is kept.
-    pub(super) fn keeps(self, query: &Query, obstacles: &[Convex]) -> bool {
-        let way = Segment::new(point(&query.start), point(&query.goal));
-        self == Self::Any || obstacles.iter().any(|body| distance_segment_convex(&way, body) == 0.0)
-    }
 }
 
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
@@ -243,10 +224,6 @@ impl RandomPolyhedra {
         }
         Err(Invalid(format!("no obstacle was in the way in {TRIES} draws of query and obstacles")))
     }
-}
-
-fn point(end: &[f64]) -> Vec3 {
-    Vec3::new(end[0], end[1], end[2])
 }
 
 struct Drawn {

@@ -27,10 +27,10 @@ pub struct ReportSpec {
 pub const FIGURES: usize = 6;
 
 /// The forms in which a place can ask for what was found: with one decimal, as a percentage, in words with
-/// a direction, the ends of the interval, the number of instances and the verdict. The last one is the least and the greatest
-/// percentage over the interpretations that count.
-pub const FORMS: [&str; 8] =
-    ["tenths", "percent", "effect", "low", "high", "n", "verdict", OVER_INTERPRETATIONS];
+/// a direction, the ends of the interval, the number of instances, the verdict and what interpretations make of it. The last one is
+/// the least and the greatest percentage over the interpretations that count.
+pub const FORMS: [&str; 9] =
+    ["tenths", "percent", "effect", "low", "high", "n", "verdict", "interpretations", OVER_INTERPRETATIONS];
 
 /// The form that asks what a number is over interpretations.
 pub const OVER_INTERPRETATIONS: &str = "percents";

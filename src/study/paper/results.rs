@@ -63,6 +63,8 @@ pub enum Show {
     Median,
     /// The median and, with several trials, both quartiles, failed trials counted as infinite.
     Quartiles,
+    /// The median in each stored session of the clock, in their order, failed trials counted as infinite.
+    Sessions,
     /// The mean over solved trials, in percent: of a metric that is 0 or 1.
     Percent,
     /// The share of trials that were solved, in percent.

@@ -3,6 +3,7 @@
 
 use super::{Entry, Preprocessing};
 use base::settings::{Settings, SettingsError};
+use base::units::radius_in_metres;
 use engine::planner::{Counts, Trace, Value};
 use engine::space::World;
 use engine::space::cell::Rejection;
@@ -56,18 +57,29 @@ pub struct Neighbours {
 }
 
 impl Neighbours {
-    /// The rule.
+    /// The rule, with `times` the `radius_mm`.
     ///
     /// # Errors
-    /// Not exactly one is given.
-    pub fn rule(self, settings: &Settings) -> Result<Near, SettingsError> {
+    /// Not exactly one is given, or `radius_mm` seems to be in metres.
+    pub fn rule(self, settings: &Settings, times: f64) -> Result<Near, SettingsError> {
         match (self.radius_mm, self.radius_deg, self.nearest) {
-            (Some(radius_mm), None, None) => Ok(Near::Places(radius_mm)),
+            (Some(radius_mm), None, None) => {
+                accept_radius(settings, radius_mm)?;
+                Ok(Near::Places(radius_mm * times))
+            }
             (None, Some(radius_deg), None) => Ok(Near::Configurations(radius_deg.to_radians())),
             (None, None, Some(nearest)) => Ok(Near::Nearest(nearest as usize)),
             _ => Err(settings.error("exactly one of radius_mm, radius_deg and nearest is accepted")),
         }
     }
+}
+
+/// That a `radius_mm` does not seem to be in metres.
+///
+/// # Errors
+/// It does.
+pub fn accept_radius(settings: &Settings, radius_mm: f64) -> Result<(), SettingsError> {
+    radius_in_metres(radius_mm).map_or(Ok(()), |message| Err(settings.error_at("radius_mm", message)))
 }
 
 /// How large a roadmap of so many samples is that is built up to `times` its unit.

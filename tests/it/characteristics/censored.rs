@@ -135,11 +135,15 @@ fn equal_cases_and_one_that_did_not_end_are_no_counterexample() {
         let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
         class("on_every", &format!("{of}\nthat = \"lower\""), Made::Plainly, pairs(all))
     };
-    let equal = (9, At(5.0), At(5.0));
+    let equal = (10, At(5.0), At(5.0));
     let cut = (1, Spent, At(5.0));
     let broken = (1, At(6.0), At(5.0));
     assert_eq!([of(&[equal]), of(&[equal, broken, cut])], ["contradicted"; 2]);
-    assert_eq!(of(&[equal, cut]), "open");
+    assert_eq!(
+        [of(&[equal, cut]), of(&[(9, At(5.0), At(5.0))])],
+        ["open"; 2],
+        "so few equal cases may be chance"
+    );
 }
 
 #[test]
@@ -186,6 +190,55 @@ fn a_claim_about_cases_that_both_solve_hangs_on_what_did_not_end_and_says_what_i
         class("share", &settings, Made::Plainly, pairs(&[(40, At(4.0), At(1.0)), (9, more, At(1.0))]))
     };
     assert_eq!([above(NoPath), above(Rejected), above(Spent)], ["holds", "holds", "open"]);
+}
+
+#[test]
+fn the_share_of_failures_that_another_cures_counts_failures_alone_and_hangs_on_what_did_not_end() {
+    let of = |more: (usize, End, End)| {
+        let settings =
+            "of = { OF, contender = \"A\", against = \"B\" }\nhits = \"cured\"\naccepted = [0.7, 0.9]";
+        let failures = [(80, At(4.0), NoPath), (20, NoPath, Rejected)];
+        class("share", settings, Made::Plainly, pairs(&[failures[0], failures[1], more]))
+    };
+    for solved in [(90, At(4.0), At(5.0)), (90, NoPath, At(5.0)), (90, Spent, At(5.0))] {
+        assert_eq!(of(solved), "holds", "{solved:?}: what the other solves is none of its failures");
+    }
+    assert_eq!(
+        [of((90, NoPath, NoPath)), of((90, Spent, NoPath)), of((90, At(4.0), Spent))],
+        ["contradicted", "open", "open"]
+    );
+}
+
+#[test]
+fn one_contender_solves_more_throughout_only_where_it_does_at_every_point_of_the_sweep() {
+    let of = |hits: &str, last: End| {
+        let mut sample = Sample::default();
+        for _ in 0..40 {
+            sample.instance();
+            for value in SWEEP {
+                for query in 0..2 {
+                    let is_last = value == SWEEP[SWEEP.len() - 1];
+                    sample.query("A", Some(query), Some(value), if is_last { last } else { At(1.0) });
+                    sample.query(
+                        "B",
+                        Some(query),
+                        Some(value),
+                        if is_last && query == 0 { At(1.0) } else { NoPath },
+                    );
+                }
+            }
+        }
+        let settings = format!(
+            "of = {{ OF, contender = \"A\", against = \"B\" }}\nhits = \"{hits}\"\naccepted = [0.8, 1.0]"
+        );
+        class("share", &settings, Made::Swept, sample)
+    };
+    let throughout = |last: End| of("solved_more_throughout", last);
+    assert_eq!(
+        [throughout(At(1.0)), throughout(NoPath), throughout(Spent)],
+        ["holds", "contradicted", "open"]
+    );
+    assert_eq!(of("solved_more", NoPath), "holds", "over all points together it does");
 }
 
 #[test]

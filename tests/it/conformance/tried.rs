@@ -199,9 +199,6 @@ pub const LOOK_AT_POINTS: &[Exception] =
 /// A spline that nothing guards cuts corners: what it makes of an accepted path may be refused.
 pub const CUT_IN: &[Exception] = &[("bspline", "guarded", "false")];
 
-/// As printed, the walk may go round in circles until its budget is spent.
-pub const CIRCLE: &[Exception] = &[("keynode_astar", "search", "literal")];
-
 /// The tip drifts where joints follow the Jacobian or are smoothed, so that its path may be longer than the one it follows.
 pub const DRIFT: &[Exception] = &[("joint_bspline", "control", "trail"), ("posture", "pose", "jacobian")];
 

@@ -77,7 +77,7 @@ fn a_planner_from_outside_plans_for_the_arm_and_one_that_does_not_ask_is_refused
         let file = format!("outside/{name}.sh");
         bench.write(&file, format!("{PRELUDE}{script}").as_bytes());
         study += &super::contender(name, &format!("[\"sh\", \"{file}\"]"), &format!("[\"{file}\"]"))
-            .replace("time_s = 0.5", "time_s = 10.0")
+            .replace("time_s = 60.0", "time_s = 10.0")
             .replace("any_angle = true, ", "");
     }
     bench.write("outside/paper.toml", PAPER.as_bytes());

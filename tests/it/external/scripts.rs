@@ -25,6 +25,17 @@ pub struct Case {
     pub reason: &'static str,
 }
 
+impl Case {
+    /// Whoever ends by itself has more time than any load takes; whoever is cut off has little, or enough to write something before.
+    pub fn time_s(&self) -> &'static str {
+        match (self.name, self.status) {
+            ("hang" | "cut-off", _) => "3.0",
+            (_, "time_spent") => "0.5",
+            _ => "60.0",
+        }
+    }
+}
+
 const fn case(name: &'static str, script: &'static str, status: &'static str, reason: &'static str) -> Case {
     Case { name, script, status, reason }
 }
@@ -80,7 +91,7 @@ pub const CASES: &[Case] = &[
         "hang",
         "hello; query; echo 'still searching' >&2; sleep 100",
         "time_spent",
-        "0.5 s were spent; it wrote nothing: an output that is buffered must be flushed after each line; its log ends: still \
+        "3 s were spent; it wrote nothing: an output that is buffered must be flushed after each line; its log ends: still \
          searching",
     ),
     case("spin", "hello; query; while :; do :; done", "time_spent", "0.5 s were spent"),
@@ -214,7 +225,7 @@ pub const CASES: &[Case] = &[
     ),
     case(
         "result-before-its-query",
-        r"hello; id=1; result '[[0,1],[299,200]]'; sleep 100",
+        r#"id=1; both=$(hello; result '[[0,1],[299,200]]'); echo "$both"; sleep 100"#,
         "crashed",
         "before it had a query",
     ),
@@ -292,5 +303,57 @@ pub const CASES: &[Case] = &[
         "solved",
         "",
     ),
+    case("stops-itself", "hello; query; kill -STOP $$; straight", "time_spent", "0.5 s were spent"),
+    case("ends-its-group", "hello; query; kill -9 0", "crashed", "(signal: 9"),
+    case("closes-its-output", "hello; query; exec >&-; sleep 100", "crashed", "ended before its result"),
+    case("closes-its-input", "hello; query; exec <&-; straight", "solved", ""),
+    case("stays-after-quit", "hello; trap '' TERM; query; straight; while :; do sleep 1; done", "solved", ""),
+    case("empty-lines", "echo; echo; hello; query; echo; straight; query", "solved", ""),
+    case(
+        "other-line-ends",
+        r#"cr=$(printf '\r'); hello | sed "s/$/$cr/"; query; straight | sed "s/$/$cr/"; query"#,
+        "solved",
+        "",
+    ),
+    case(
+        "two-on-a-line",
+        r#"hello; query; printf '%s' "$(straight)"; straight; query"#,
+        "crashed",
+        "which is no message: trailing characters",
+    ),
+    case(
+        "nested",
+        r"hello; query; yes '[' | head -n 20000 | tr -d '\n'; echo; query",
+        "crashed",
+        "which is no message",
+    ),
+    case(
+        "bad-bytes",
+        r#"hello; query; printf '{"type":"\377"}\n'; query"#,
+        "crashed",
+        "which is no message: byte 10 is not UTF-8",
+    ),
+    case("null-bytes", r"hello; query; printf '\0\0\n'; query", "crashed", "which is no message"),
+    case("other-type", r#"hello; query; echo '{"type":"bye"}'; query"#, "crashed", "unknown variant `bye`"),
+    case("too-large-a-number", "hello; query; result '[[0,1e999]]'; query", "crashed", "number out of range"),
+    case(
+        "id-below-0",
+        "hello; query; id=-1; straight; query",
+        "crashed",
+        "expected a whole number of 0 or more",
+    ),
+    case(
+        "half-a-result",
+        r#"hello; query; printf '{"type":"result","id":%s' "$id"; exit 0"#,
+        "crashed",
+        "ended before its result (exit status: 0)",
+    ),
+    case(
+        "half-a-result-for-ever",
+        r#"hello; query; printf '{"type":"result","id":%s' "$id"; sleep 100"#,
+        "time_spent",
+        "0.5 s were spent",
+    ),
+    case("log-without-end", "hello; query; yes >&2 & straight; query", "solved", ""),
     case("good-after-all", "hello; while query; do straight; done", "solved", ""),
 ];

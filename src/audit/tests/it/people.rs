@@ -48,7 +48,7 @@ fn a_share_without_its_first_0_is_read_and_one_without_its_last_digits_is_refuse
 }
 
 /// Cells of a column, each with the message about it.
-const CELLS: [(&str, &str, &str); 22] = [
+const CELLS: [(&str, &str, &str); 26] = [
     ("success [% of 30]", "91.1*", "`91.1*` has the mark `*` behind it"),
     ("success [% of 30]", "91.1†", "`91.1†` has the mark `†` behind it"),
     ("success [% of 30]", "91.1^a", "`91.1^a` has the mark `^a` behind it"),
@@ -63,6 +63,10 @@ const CELLS: [(&str, &str, &str); 22] = [
     ("time [mean, unit=s, n=5]", "1h", "`1h` has the unit h, and its header the unit s"),
     ("time [mean, unit=s, n=5]", "3 h", "`3 h` has the unit h, and its header the unit s"),
     ("time [mean, unit=s, n=5]", "2 min", "`2 min` has the unit min, and its header the unit s"),
+    ("time [mean, unit=s, n=5]", "100%", "`100%` has the unit %, and its header the unit s"),
+    ("time [mean, unit=s, n=5]", "3.2–4.0", "`3.2–4.0` is a range and no printed value"),
+    ("time [mean, unit=s, n=5]", "3.2 × 10^3", "`3.2 × 10^3` has a power of ten, which hides digits"),
+    ("time [mean, unit=s, n=5]", "3.2·10⁻³", "`3.2·10⁻³` has a power of ten, which hides digits"),
     ("time (s)", "2m 5s", "`2m 5s` is a time in minutes and seconds"),
     ("nodes [mean, integers, n=10]", "1,234.5", "`1,234.5` has thousands separators"),
     ("nodes [mean, integers, n=10]", "1.234.567", "`1.234.567` has several points"),
@@ -268,6 +272,10 @@ fn a_wrong_average_or_total_is_a_signal_and_a_right_one_is_none() {
         assert_eq!(found(&rows(word, "49.2 | 150.3")), [("summary", Class::Signal)], "{word}");
         assert_eq!(found(&rows(word, "47.7 | 451")), [("summary", Class::Signal)], "{word}");
         assert_eq!(found(&rows(word, "72.0 | 150")), [("summary", Class::Signal)], "{word} above every row");
+    }
+    for word in ["Average (w/o C)", "Mean (geometric)", "Average over solved maps", "Mean of the other maps"]
+    {
+        assert_eq!(found(&rows(word, "41.6 | 125")), [], "{word} is right of A and B, or another mean");
     }
     for word in ["Total", "Sum", "TOTAL", "Subtotal"] {
         assert_eq!(found(&rows(word, "- | 451")), [], "{word}");

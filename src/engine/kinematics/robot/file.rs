@@ -12,6 +12,7 @@ use crate::{
     },
 };
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned, did_you_mean};
+use base::units::{radius_in_metres, seems_in_metres};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, de::IgnoredAny};
 use std::{collections::BTreeSet, ops::Range, path::Path};
@@ -189,8 +190,7 @@ fn tool_length_m(source: &Source, length_mm: &Spanned<f64>) -> Result<f64, Setti
         return Err(source.fault(&length_mm.span(), message));
     }
     // No tool is shorter than 2 mm, and few are longer than 2 m.
-    if (f64::MIN_POSITIVE..2.0).contains(&found) {
-        let message = format!("tool.length_mm is {found}; {}", in_metres(found, "is it"));
+    if let Some(message) = seems_in_metres("tool.length_mm", found) {
         return Err(source.fault(&length_mm.span(), message));
     }
     Ok(1e-3 * found)
@@ -204,10 +204,7 @@ fn in_metres(found: f64, asked: &str) -> String {
     format!("{asked} in metres? millimetres are accepted ({found} m is {} mm)", found * 1e3)
 }
 
-/// The thickest capsule of a body is thicker.
-const THIN_MM: f64 = 1.0;
-
-/// Asks whether a body is in metres: none of its capsules on links reaches as far as an arm does, or all are thin as wires.
+/// Asks whether a body is in metres: none of its capsules on links reaches as far as an arm does.
 fn body_in_metres(source: &Source, entry: &BodyEntry) -> Option<SettingsError> {
     let size = |capsule: &Spanned<CapsuleEntry>| {
         let CapsuleEntry { from_mm, to_mm, radius_mm, .. } = capsule.get_ref();
@@ -221,18 +218,7 @@ fn body_in_metres(source: &Source, entry: &BodyEntry) -> Option<SettingsError> {
         entry.name.get_ref(),
         in_metres(found, "are lengths")
     );
-    if (f64::MIN_POSITIVE..SHORT_MM).contains(&found) {
-        return Some(source.fault(&span, message));
-    }
-    let radii = entry.capsule.iter().map(|capsule| &capsule.get_ref().radius_mm);
-    let thickest = radii.max_by(|a, b| a.get_ref().total_cmp(b.get_ref()))?;
-    let radius = *thickest.get_ref();
-    let message = format!(
-        "no capsule of body `{}` has a radius above {radius} mm; {}",
-        entry.name.get_ref(),
-        in_metres(radius, "are radii")
-    );
-    (f64::MIN_POSITIVE..THIN_MM).contains(&radius).then(|| source.fault(&thickest.span(), message))
+    (f64::MIN_POSITIVE..SHORT_MM).contains(&found).then(|| source.fault(&span, message))
 }
 
 fn bodies(
@@ -258,7 +244,10 @@ fn body(source: &Source, entry: &BodyEntry, links: &Links) -> Result<Body, Setti
     let mut names = BTreeSet::new();
     let mut faults = Faults::default();
     for capsule in &entry.capsule {
-        let name = &capsule.get_ref().name;
+        let CapsuleEntry { name, radius_mm, .. } = capsule.get_ref();
+        if let Some(asked) = radius_in_metres(*radius_mm.get_ref()) {
+            faults.add(source.fault(&radius_mm.span(), format!("capsule `{}`: {asked}", name.get_ref())));
+        }
         if !names.insert(name) {
             let message = format!("capsule `{}` is given twice; accepted: a name of its own", name.get_ref());
             faults.add(source.fault(&name.span(), message));

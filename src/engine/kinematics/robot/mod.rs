@@ -11,10 +11,10 @@ pub(super) mod tests;
 mod urdf;
 
 pub use file::ROBOT_FILE;
-pub use urdf::capsule_around;
+pub use urdf::{URDF_BODY, capsule_around, links_at_zero, listed_pairs};
 
 use super::{Arm, Chain, Joints, KinematicsError, serial::AXES};
-use crate::geometry::{Capsule, Frame, Segment, Vec3};
+use crate::geometry::{Capsule, Frame, Vec3};
 use std::path::{Path, PathBuf};
 
 /// A robot, checked.
@@ -251,9 +251,6 @@ impl Part {
     /// Where it is in the world.
     #[inline]
     pub fn placed(&self, frames: &[Frame; AXES + 1]) -> Capsule {
-        let frame = &frames[self.link];
-        let Capsule { segment, radius } = self.capsule;
-        let [a, b] = [frame.point(&segment.a), frame.point(&segment.b)];
-        Capsule { segment: Segment::new(a, b), radius }
+        self.capsule.placed(&frames[self.link])
     }
 }

@@ -148,15 +148,21 @@ fn rows_in_metres_and_limits_in_radians_are_queried() {
     let tool = message(&FILE.replacen("length_mm = 150", "length_mm = 0.15", 1)).unwrap_err();
     let expected = "tool.length_mm is 0.15; is it in metres? millimetres are accepted (0.15 m is 150 mm)";
     assert!(tool.starts_with("up6.toml:") && tool.contains(expected), "{tool}");
+    let slow = message(&scaled(["speed_deg_s", "speed_deg_s"], 1_f64.to_radians())).unwrap_err();
+    let expected = "no joint is faster than 8.726";
+    assert!(slow.starts_with("up6.toml:") && slow.contains(expected), "{slow}");
+    let fast = message(&FILE.replace("speed_deg_s", "speed_rad_s")).unwrap_err();
+    let expected = "speed_rad_s is 500; is it in degrees? `speed_deg_s` is accepted for those";
+    assert!(fast.starts_with("up6.toml:") && fast.contains(expected), "{fast}");
     let bodies = &FILE[FILE.find("[[body]]").unwrap()..];
     let thin = "[[body]]\nname = 'thin'\nself_pairs = []\n[[body.capsule]]\nname = 'arm'\nlink = 2\nfrom_mm = [-0.57, 0, 0]\n\
         to_mm = [0, 0, 0]\nradius_mm = 0.09\n";
     let body = message(&FILE.replacen(bodies, thin, 1)).unwrap_err();
     let expected = "no capsule of body `thin` reaches farther than 0.57 mm; are lengths in metres?";
     assert!(body.starts_with("up6.toml:") && body.contains(expected), "{body}");
-    let wires = message(&FILE.replacen(bodies, &thin.replace("0.57", "570"), 1)).unwrap_err();
-    let expected = "no capsule of body `thin` has a radius above 0.09 mm; are radii in metres? millimetres are accepted (0.09 m";
-    assert!(wires.starts_with("up6.toml:") && wires.contains(expected), "{wires}");
+    let wire = message(&FILE.replacen("radius_mm = 75", "radius_mm = 0.075", 1)).unwrap_err();
+    let expected = ": radius_mm is 0.075; is it in metres? millimetres are accepted (0.075 m is 75 mm)";
+    assert!(wire.starts_with("up6.toml:") && wire.contains(expected), "{wire}");
     assert!(
         message(&scaled(["a_mm", "d_mm"], 0.1)).is_ok_and(|robot| robot.notes().is_empty()),
         "a small arm"

@@ -18,6 +18,9 @@ use base::solid::{Form, Solid};
 use nalgebra::Matrix3;
 use rand::RngExt as _;
 
+/// What the only body of a URDF robot is called.
+pub const URDF_BODY: &str = "urdf";
+
 /// Below this sine two axes are parallel.
 const PARALLEL: f64 = 1e-9;
 
@@ -40,25 +43,24 @@ pub(super) fn robot(
     }
     let zero = [0.0; AXES];
     let frames = open.frames(&zero);
-    let rows = rows(&open, &frames);
+    let links = links_at_zero(&open);
     let joints = std::array::from_fn(|i| Joint {
         lower_rad: limits_rad(&read.joints[i])[0],
         upper_rad: limits_rad(&read.joints[i])[1],
         speed_rad_s: speeds[i],
-        ..rows.joints[i]
+        ..row(&links[i], &links[i + 1])
     });
-    let last = rows.links[AXES].inverse();
-    let flange = last * open.forward(&zero);
-    let chain = Chain::new(joints, rows.links[0], flange)?;
+    let flange = links[AXES].inverse() * open.forward(&zero);
+    let chain = Chain::new(joints, links[0], flange)?;
     let parts = read.solids.iter().map(|(link, solid)| {
-        let into = rows.links[*link].inverse() * frames[*link];
+        let into = links[*link].inverse() * frames[*link];
         let capsule = capsule_around(solid, &into)?;
         Ok(Part { name: solid.name.clone(), link: *link, tool_share: None, self_only: *link == 0, capsule })
     });
     let parts: Vec<Part> = parts.collect::<Result<_, KinematicsError>>()?;
     let self_pairs =
         may_touch.map_or_else(|| self_pairs(&chain, &parts), |may_touch| listed_pairs(read, may_touch));
-    let body = Body { name: "urdf".to_owned(), parts, self_pairs };
+    let body = Body { name: URDF_BODY.to_owned(), parts, self_pairs };
     Ok(Robot {
         name: read.name.clone(),
         arm: Arm::new(chain, None)?,
@@ -110,29 +112,24 @@ fn enclosed(solids: &[(usize, Solid)]) -> Option<String> {
     })
 }
 
-/// Rows, and at the angles 0 the frames of base and links.
-struct Rows {
-    joints: [Joint; AXES],
-    links: [Frame; AXES + 1],
-}
-
-fn rows(open: &OpenChain, frames: &[Frame]) -> Rows {
+/// The frames of base and links where every joint is at 0, as rows lead from each to the next; the last is that before it.
+///
+/// # Panics
+/// If there is no joint.
+pub fn links_at_zero(open: &OpenChain) -> Vec<Frame> {
+    let frames = open.frames(&vec![0.0; open.joints().len()]);
     let axis = |i: usize| frames[i + 1].rotation * open.joints()[i].axis;
     let first = axis(0);
     let side = if first.x.abs() < 0.9 { Vec3::x() } else { Vec3::y() };
     let x = (side - first * side.dot(&first)).normalize();
     let mut at = framed(frames[1].origin, x, first);
-    let mut joints = [None; AXES];
-    let mut links = [at; AXES + 1];
-    for i in 0..AXES {
-        let next = match i + 1 {
-            AXES => at,
-            next => ahead(&at, frames[next + 1].origin, axis(next)),
-        };
-        joints[i] = Some(row(&at, &next));
-        (links[i + 1], at) = (next, next);
+    let mut links = vec![at];
+    for i in 1..open.joints().len() {
+        at = ahead(&at, frames[i + 1].origin, axis(i));
+        links.push(at);
     }
-    Rows { joints: joints.map(|row| row.expect("every row was made")), links }
+    links.push(at);
+    links
 }
 
 fn framed(origin: Vec3, x: Vec3, z: Vec3) -> Frame {
@@ -216,7 +213,7 @@ fn around(points: Vec<Vec3>) -> (Vec<Vec3>, Vec3, Vec3, f64) {
 }
 
 /// The pairs of parts of different links that an SRDF file does not let touch.
-fn listed_pairs(read: &base::robot::Robot, may_touch: &MayTouch) -> Vec<[usize; 2]> {
+pub fn listed_pairs(read: &base::robot::Robot, may_touch: &MayTouch) -> Vec<[usize; 2]> {
     let pairs = (0..read.solids.len()).flat_map(|b| (0..b).map(move |a| [a, b]));
     let is_held = |[a, b]: &[usize; 2]| {
         read.solids[*a].0 != read.solids[*b].0 && !may_touch.allows(&read.owners[*a], &read.owners[*b])

@@ -78,6 +78,35 @@ fn round_a_single_cube_all_but_the_printed_search_find_a_way_near_the_shortest()
     assert_eq!(keynode(LITERAL, &world, ACROSS).ending, Ending::NoPath);
 }
 
+/// Four boxes that are drawn about the middle.
+fn four_boxes(stream: &mut seed::Stream) -> World {
+    let boxes = (0..4).map(|_| {
+        let mut coordinate = |low: f64, high: f64| stream.random_range(low..high);
+        let center = [(); 3].map(|()| coordinate(13.0, 27.0));
+        cuboid(center, [(); 3].map(|()| coordinate(3.0, 9.0)))
+    });
+    world(boxes.collect())
+}
+
+/// What the search with key nodes finds from below the middle to above it.
+fn across(settings: &str, world: &World, expansions: u64) -> Plan {
+    let [start, goal] = &ACROSS;
+    let request = Request { world, start, goal, expansions, seed: 0, trace: false };
+    planner("keynode_astar", settings).plan(&request).unwrap()
+}
+
+#[test]
+fn a_walk_in_circles_ends_without_a_path_long_before_its_budget_is_spent() {
+    let mut stream = seed::stream(8);
+    let mut longest = 0.0_f64;
+    for draw in 0..200 {
+        let plan = across(LITERAL, &four_boxes(&mut stream), 5_000);
+        assert_ne!(plan.ending, Ending::BudgetSpent, "draw {draw}: {:?}", plan.counts);
+        longest = longest.max(plan.counts["expansions"].as_f64());
+    }
+    assert!(longest > 4.0, "no walk comes far: {longest}");
+}
+
 #[test]
 fn the_walk_with_no_guard_is_the_printed_one_and_with_all_the_guarded_one() {
     let with = |guards: &str| format!("{GREEDY}\nguards = [{guards}]");
@@ -85,23 +114,8 @@ fn the_walk_with_no_guard_is_the_printed_one_and_with_all_the_guarded_one() {
     let mut stream = seed::stream(7);
     let mut differing = 0;
     for draw in 0..60 {
-        let boxes = (0..4).map(|_| {
-            let mut coordinate = |low: f64, high: f64| stream.random_range(low..high);
-            let center = [(); 3].map(|()| coordinate(13.0, 27.0));
-            cuboid(center, [(); 3].map(|()| coordinate(3.0, 9.0)))
-        });
-        let world = world(boxes.collect());
-        let plan = |settings: &str| {
-            let request = Request {
-                world: &world,
-                start: &ACROSS[0],
-                goal: &ACROSS[1],
-                expansions: 200,
-                seed: 0,
-                trace: false,
-            };
-            planner("keynode_astar", settings).plan(&request).unwrap()
-        };
+        let world = four_boxes(&mut stream);
+        let plan = |settings: &str| across(settings, &world, 200);
         let same = |a: &Plan, b: &Plan| (a.ending, &a.path) == (b.ending, &b.path) && a.counts == b.counts;
         let printed = plan(LITERAL);
         let guarded = plan(GREEDY);

@@ -52,8 +52,12 @@ struct Walk<'a> {
     points: Vec<Vec3>,
     keys: Vec<usize>,
     used: BTreeSet<(usize, usize)>,
+    seen: BTreeSet<State>,
     tally: Tally,
 }
+
+/// All that the rest of a walk depends on: where it stands, where it goes, and how many edges it has taken.
+type State = ([u64; 3], [u64; 3], usize);
 
 /// Walks from start to goal, with these guards beside what is printed.
 pub(super) fn walk(posed: &Posed<'_>, guards: Guards, max_legs: u64) -> Walked {
@@ -63,6 +67,7 @@ pub(super) fn walk(posed: &Posed<'_>, guards: Guards, max_legs: u64) -> Walked {
         points: vec![posed.start],
         keys: Vec::new(),
         used: BTreeSet::new(),
+        seen: BTreeSet::new(),
         tally: Tally::default(),
     };
     let ending = walk.run(max_legs);
@@ -75,6 +80,10 @@ impl Walk<'_> {
         loop {
             if self.tally.expansions >= max_legs {
                 return Ending::BudgetSpent;
+            }
+            if !self.seen.insert(self.state(target)) {
+                // It stands where it stood before and goes on as it did then, in circles.
+                return Ending::NoPath;
             }
             self.tally.expansions += 1;
             match self.advance(target) {
@@ -89,6 +98,11 @@ impl Walk<'_> {
                 },
             }
         }
+    }
+
+    fn state(&self, target: Vec3) -> State {
+        let exact = |point: Vec3| [point.x, point.y, point.z].map(f64::to_bits);
+        (exact(self.here()), exact(target), self.used.len())
     }
 
     fn here(&self) -> Vec3 {

@@ -50,6 +50,22 @@ fn the_same_seed_gives_the_same_tree_and_another_one_only_where_samples_are_rand
 }
 
 #[test]
+fn a_start_that_is_the_goal_is_a_path_of_no_leg_and_of_length_0() {
+    let world = world();
+    let point = [20.0, 20.0];
+    let request =
+        Request { world: &world, start: &point, goal: &point, expansions: 10, seed: 1, trace: false };
+    for (name, settings) in [
+        ("rrt_connect", format!("{CONNECT}sampler = 'halton'")),
+        ("prm_star", "sampler = 'halton'\niterations = 9\ngrowth = 1.5".to_owned()),
+    ] {
+        let plan = planner(name, &settings).plan(&request).unwrap();
+        assert_eq!((plan.ending, plan.path), (Ending::Solved, vec![point.to_vec()]), "{name}");
+        assert_eq!(plan.cost.map(f64::to_bits), Some(0), "{name}: 0, not -0");
+    }
+}
+
+#[test]
 fn limits_end_a_search_without_a_path() {
     let world = world();
     for limits in ["iterations = 1\nnodes = 5000", "iterations = 5000\nnodes = 3"] {

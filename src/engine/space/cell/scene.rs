@@ -4,7 +4,7 @@ use crate::geometry::{Capsule, Convex, Frame, GeometryError, OrientedBox, Solid,
 use crate::kinematics::FARTHEST_MM;
 use crate::space::SupportEntry;
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
-use base::units::seems_in_radians;
+use base::units::{radius_in_metres, seems_in_metres, seems_in_radians};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::ops::Range;
@@ -125,6 +125,19 @@ fn wrong(error: &GeometryError) -> Wrong {
     (place, format!("{error} (lengths in metres)"))
 }
 
+/// A solid that can be, if no length at `key` seems to be in metres.
+fn in_mm(
+    key: &str,
+    in_metres: Option<String>,
+    solid: Result<Solid, GeometryError>,
+) -> Result<Solid, Vec<Wrong>> {
+    let asked = in_metres.map(|message| (key.to_owned(), message));
+    match (asked, solid) {
+        (None, Ok(solid)) => Ok(solid),
+        (asked, solid) => Err(asked.into_iter().chain(solid.err().as_ref().map(wrong)).collect()),
+    }
+}
+
 /// The longest side of a box is longer.
 const SMALL_MM: f64 = 2.0;
 
@@ -163,7 +176,7 @@ impl BoxEntry {
 impl SphereEntry {
     fn solid(&self) -> Result<Solid, Vec<Wrong>> {
         let solid = Sphere::new(metres(self.center_mm), self.radius_mm * 1e-3);
-        solid.map(Solid::Sphere).map_err(|error| vec![wrong(&error)])
+        in_mm("radius_mm", radius_in_metres(self.radius_mm), solid.map(Solid::Sphere))
     }
 }
 
@@ -171,14 +184,20 @@ impl CapsuleEntry {
     fn solid(&self) -> Result<Solid, Vec<Wrong>> {
         let radius_m = self.radius_mm * 1e-3;
         let solid = Capsule::new(metres(self.from_mm), metres(self.to_mm), radius_m);
-        solid.map(Solid::Capsule).map_err(|error| vec![wrong(&error)])
+        in_mm("radius_mm", radius_in_metres(self.radius_mm), solid.map(Solid::Capsule))
     }
 }
 
 impl ConvexEntry {
     fn solid(&self) -> Result<Solid, Vec<Wrong>> {
         let vertices = self.vertices_mm.iter().map(|vertex| metres(*vertex)).collect();
-        Convex::from_vertices(vertices).map(Solid::Convex).map_err(|error| vec![wrong(&error)])
+        let reach = |axis: usize| {
+            let along = self.vertices_mm.iter().map(|vertex| vertex[axis]);
+            along.clone().fold(f64::MIN, f64::max) - along.fold(f64::MAX, f64::min)
+        };
+        let widest = (0..3).map(reach).fold(0.0, f64::max);
+        let in_metres = seems_in_metres("the greatest extent of vertices_mm", widest);
+        in_mm("vertices_mm", in_metres, Convex::from_vertices(vertices).map(Solid::Convex))
     }
 }
 

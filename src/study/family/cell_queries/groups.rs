@@ -9,6 +9,7 @@ use engine::space::cell::Cell;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -71,6 +72,7 @@ pub(super) fn read_queries(written: &Arc<Document>) -> Result<Placed, SettingsEr
         Some(Query { name: group.name.get_ref().clone(), start: start?, goal: goal? })
     };
     let queries: Vec<Query> = file.groups.iter().filter_map(query).collect();
+    faults.keep(all_in_degrees(&file.pose_deg, &document));
     for (place, message) in name::repeated(file.groups.iter().map(|group| group.name.get_ref().as_str())) {
         faults.add(document.error(file.groups[place].name.span(), message));
     }
@@ -79,6 +81,26 @@ pub(super) fn read_queries(written: &Arc<Document>) -> Result<Placed, SettingsEr
     }
     let places = file.groups.iter().map(|group| [group.from.span(), group.to.span()]).collect();
     faults.or(Some((queries, places)))
+}
+
+/// That poses are in degrees: some joint turns farther than a turn in radians, in every pose that turns half of its joints by more
+/// than 1, and in some pose of the file.
+fn all_in_degrees(poses: &BTreeMap<String, Joints>, document: &Document) -> Result<(), SettingsError> {
+    let farthest = |pose: &Joints| {
+        let angles = pose.iter().copied().enumerate();
+        angles.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).expect("a pose has six angles")
+    };
+    let is_plain = |pose: &Joints| pose.iter().all(|angle| angle.fract() == 0.0);
+    let is_bent = |pose: &Joints| pose.iter().filter(|angle| angle.abs() > 1.0).count() >= pose.len() / 2;
+    let in_all = poses.values().all(|pose| farthest(pose).1.abs() <= TAU);
+    let mut small = poses.iter().filter(|(_, pose)| farthest(pose).1.abs() <= TAU && !is_plain(pose));
+    let Some((name, pose)) = small.find(|(_, pose)| in_all || is_bent(pose)) else { return Ok(()) };
+    let (index, angle) = farthest(pose);
+    let message = format!(
+        "pose `{name}` turns no joint beyond {angle}°; is it in radians? degrees are accepted ({angle} rad is {:.1}°)",
+        angle.to_degrees()
+    );
+    Err(document.error_at(&format!("pose_deg.{name}.{index}"), message))
 }
 
 /// That the arm can stand at all ends of queries in `cell`.

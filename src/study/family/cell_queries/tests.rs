@@ -49,9 +49,22 @@ fn numbers_that_cannot_be_are_refused_by_name() {
         ("step_deg = nan", ["`step_deg` is nan", "finite"]),
         ("speed = { tool_mm_s = -1, acceleration_mm_s2 = 1 }", ["tool_mm_s` is -1", "above 0"]),
         ("tool_mm = 0", ["tool_mm", "capsule"]),
+        ("tool_mm = 0.15", ["tool_mm is 0.15", "is it in metres? millimetres are accepted"]),
+        (
+            "radius_mm = 0.5",
+            ["radius_mm is 0.5", "is it in metres? millimetres are accepted (0.5 m is 500 mm)"],
+        ),
+        ("turn_deg = 3.14159", ["turn_deg is 3.14159", "is it in radians? degrees are accepted"]),
         ("scene = 'data/none.toml'", ["data/none.toml", "does not exist"]),
         ("radius = 3", ["radius", "radius_mm"]),
         ("region = 'half'", ["half", "around_poses"]),
+        (
+            "heights_mm = { 'ground obstacle' = 0.42 }",
+            [
+                "heights_mm.ground obstacle is 0.42",
+                "is it in metres? millimetres are accepted (0.42 m is 420 mm)",
+            ],
+        ),
         ("heights_mm = { storage = 9 }", ["no box `storage`", "ground obstacle"]),
     ] {
         let message = Posed::new(&settings(over), &inputs(None)).err().expect(over).to_string();
@@ -91,6 +104,23 @@ fn a_pose_that_seems_to_be_in_radians_is_asked_about() {
     let asked =
         "an angle of pose `A` is -1.5708; is it in radians? degrees are accepted (-1.5708 rad is -90.0°)";
     assert!(message.contains("groups.toml:2:9") && message.contains(asked), "{message}");
+    // No right angle is among these.
+    let asked =
+        "pose `A` turns no joint beyond 2.1°; is it in radians? degrees are accepted (2.1 rad is 120.3°)";
+    let pose = "0, -1.5708, 0, 0, 1.5708, 0";
+    for (small, other, is_asked) in [
+        ("2.1, -1.05, 1.3, -2, -1.2, 0.1", "0, -90, 0, 0, 90, 0", true),
+        ("2.1, 0, 0, 0, 0, 0", "0, -1, 0, 0, 1, 0", true),
+        ("2.1, 0, 0, 0, 0, 0", "0, -90, 0, 0, 90, 0", false),
+        ("2, -1, 1, -2, -1, 0", "0, -1, 0, 0, 1, 0", false),
+    ] {
+        let text = text.replace(pose, small).replace("0, -90, 0, 0, 90, 0", other);
+        std::fs::write(folder.path().join("groups.toml"), text).unwrap();
+        let refused = Posed::new(&settings("queries = 'groups.toml'"), &inputs(Some(folder.path())));
+        let message = refused.err().map_or_else(String::new, |error| error.to_string());
+        assert_eq!(message.contains(asked), is_asked, "{small}: {message}");
+        assert_eq!(message.contains("groups.toml:2:6"), is_asked, "{small}: {message}");
+    }
 }
 
 #[test]

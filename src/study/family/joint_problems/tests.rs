@@ -55,7 +55,12 @@ fn each_problem_is_an_instance_and_what_is_wrong_with_one_is_counted() {
     let known = family.known(0);
     let counted = ["valid_problems", "set_problems"].map(|name| known[name].as_f64());
     assert_eq!(counted, [1.0, 4.0]);
-    assert_eq!(family.notes(), ["set.json: ignored keys: `index`; docs/FILES.md has the reasons"]);
+    let notes = family.notes();
+    let [ignored, called, refused] = &notes[..] else { panic!("{notes:?}") };
+    assert_eq!(ignored, "set.json: ignored keys: `index`; docs/FILES.md has the reasons");
+    assert_eq!(called, "set.json: problems that the set calls invalid: 1 of 4");
+    let expected = "set.json: refused problems, which count as invalid: 1 of 4; the first: ";
+    assert!(refused.starts_with(expected) && refused.contains("set.json:5:13: "), "{refused}");
     let wrong = |index| family.prepare(index).err().map(|invalid| invalid.0).unwrap_or_default();
     assert!(wrong(2).contains("the problem set calls this problem invalid"), "{}", wrong(2));
     assert!(wrong(3).contains("is it in degrees? radians are accepted"), "{}", wrong(3));

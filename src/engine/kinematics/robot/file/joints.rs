@@ -78,6 +78,9 @@ type Quantity = (&'static str, f64);
 fn other_units(source: &Source, entries: &[Spanned<JointEntry>]) -> Vec<SettingsError> {
     // Some joint of an arm turns farther in degrees; radians are less.
     const LITTLE_DEG: f64 = 7.0;
+    // The fastest joint of an arm is faster than the first and slower than four turns a second.
+    const SLOW_DEG_S: f64 = 15.0;
+    const FAST_RAD_S: f64 = 25.0;
     let greatest = |of: fn(&JointEntry) -> [Quantity; 2]| {
         let each = entries.iter().enumerate();
         let sizes = each.flat_map(|(index, entry)| of(entry.get_ref()).map(|(key, x)| (x.abs(), index, key)));
@@ -95,6 +98,23 @@ fn other_units(source: &Source, entries: &[Spanned<JointEntry>]) -> Vec<Settings
             "no joint turns beyond {size}°; are limits in radians? degrees are accepted ({size} rad is {:.1}°)",
             size.to_degrees()
         );
+        faults.push(fault_at(source, index, key, message));
+    }
+    let speeds = |joint: &JointEntry| [("speed_deg_s", joint.speed_deg_s.unwrap_or(0.0)); 2];
+    if let Some((speed, index, key)) = greatest(speeds).filter(|(speed, ..)| *speed < SLOW_DEG_S) {
+        let message = format!(
+            "no joint is faster than {speed}°/s; are speeds in radians? degrees are accepted ({speed} rad/s is {:.1}°/s)",
+            speed.to_degrees()
+        );
+        faults.push(fault_at(source, index, key, message));
+    }
+    let speeds = |joint: &JointEntry| {
+        let speed_rad_s = joint.speed_rad_s.as_ref().map_or(0.0, |speed| *speed.get_ref());
+        [("speed_rad_s", speed_rad_s); 2]
+    };
+    if let Some((speed, index, key)) = greatest(speeds).filter(|(speed, ..)| *speed > FAST_RAD_S) {
+        let message =
+            format!("speed_rad_s is {speed}; is it in degrees? `speed_deg_s` is accepted for those");
         faults.push(fault_at(source, index, key, message));
     }
     let turns: [(&'static str, fn(&JointEntry) -> f64); 2] =

@@ -80,6 +80,23 @@ fn a_wrong_scene_says_which_obstacle_where_and_what_is_accepted() {
             ],
         ),
         (
+            "[[sphere]]\nname = 'k'\ncenter_mm = [0, 0, 900]\nradius_mm = 0.1\n",
+            ["s.toml:5:13", "`k`: radius_mm is 0.1; is it in metres?", "(0.1 m is 100 mm)"],
+        ),
+        (
+            "[[capsule]]\nname = 'c'\nfrom_mm = [0, 0, 900]\nto_mm = [0, 0, 100]\nradius_mm = 0.05\n",
+            ["s.toml:6:13", "`c`: radius_mm is 0.05; is it in metres?", "(0.05 m is 50 mm)"],
+        ),
+        (
+            "[[convex]]\nname = 'p'\nvertices_mm = [[0, 0, 0], [0.3, 0, 0], [0, 0.2, 0], [0, 0, 0.25]]\n\
+             [[sphere]]\nname = 'k'\ncenter_mm = [0, 0, 900]\nradius_mm = 100\n",
+            [
+                "s.toml:4:15",
+                "`p`: the greatest extent of vertices_mm is 0.3; is it in metres?",
+                "(0.3 m is 300 mm)",
+            ],
+        ),
+        (
             "[support]\nunder = 'floor'\nbase_mm = [0.5, -0.2, 0]\nyaw_deg = 0\n",
             ["s.toml:4:11", "base_mm reaches 0.5 mm from the origin; is it in metres?", "(0.5 m is 500 mm)"],
         ),
