@@ -21,7 +21,7 @@ says = "at most 1 000 000 iterations, as the script sets them"
     build: |context| {
         let Settings { limit, says } = context.settings.read()?;
         let print: Print = context.print()?;
-        Ok(rule(move |_| refused(proof::at_most(print, limit, &says))))
+        Ok(rule(move |_, _| refused(proof::at_most(print, limit, &says))))
     },
 };
 
