@@ -81,13 +81,15 @@ fn other_units(source: &Source, entries: &[Spanned<JointEntry>]) -> Vec<Settings
     // The fastest joint of an arm is faster than the first and slower than four turns a second.
     const SLOW_DEG_S: f64 = 15.0;
     const FAST_RAD_S: f64 = 25.0;
-    let greatest = |of: fn(&JointEntry) -> [Quantity; 2]| {
+    let greatest = |of: fn(&JointEntry) -> Vec<Quantity>| {
         let each = entries.iter().enumerate();
-        let sizes = each.flat_map(|(index, entry)| of(entry.get_ref()).map(|(key, x)| (x.abs(), index, key)));
+        let sizes = each.flat_map(|(index, entry)| {
+            of(entry.get_ref()).into_iter().map(move |(key, x)| (x.abs(), index, key))
+        });
         sizes.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(size, ..)| *size > 0.0)
     };
-    let lengths = |joint: &JointEntry| [("a_mm", joint.a_mm), ("d_mm", joint.d_mm)];
-    let limits = |joint: &JointEntry| [("lower_deg", joint.lower_deg), ("upper_deg", joint.upper_deg)];
+    let lengths = |joint: &JointEntry| vec![("a_mm", joint.a_mm), ("d_mm", joint.d_mm)];
+    let limits = |joint: &JointEntry| vec![("lower_deg", joint.lower_deg), ("upper_deg", joint.upper_deg)];
     let mut faults = Vec::new();
     if let Some((size, index, key)) = greatest(lengths).filter(|(size, ..)| *size < SHORT_MM) {
         let message = format!("no link is longer than {size} mm; {}", in_metres(size, "are lengths"));
@@ -100,7 +102,8 @@ fn other_units(source: &Source, entries: &[Spanned<JointEntry>]) -> Vec<Settings
         );
         faults.push(fault_at(source, index, key, message));
     }
-    let speeds = |joint: &JointEntry| [("speed_deg_s", joint.speed_deg_s.unwrap_or(0.0)); 2];
+    let speeds =
+        |joint: &JointEntry| joint.speed_deg_s.map(|speed| ("speed_deg_s", speed)).into_iter().collect();
     if let Some((speed, index, key)) = greatest(speeds).filter(|(speed, ..)| *speed < SLOW_DEG_S) {
         let message = format!(
             "no joint is faster than {speed}°/s; are speeds in radians? degrees are accepted ({speed} rad/s is {:.1}°/s)",
@@ -109,8 +112,7 @@ fn other_units(source: &Source, entries: &[Spanned<JointEntry>]) -> Vec<Settings
         faults.push(fault_at(source, index, key, message));
     }
     let speeds = |joint: &JointEntry| {
-        let speed_rad_s = joint.speed_rad_s.as_ref().map_or(0.0, |speed| *speed.get_ref());
-        [("speed_rad_s", speed_rad_s); 2]
+        joint.speed_rad_s.as_ref().map(|speed| ("speed_rad_s", *speed.get_ref())).into_iter().collect()
     };
     if let Some((speed, index, key)) = greatest(speeds).filter(|(speed, ..)| *speed > FAST_RAD_S) {
         let message =
