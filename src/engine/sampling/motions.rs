@@ -15,6 +15,8 @@ pub struct Motions<'a> {
     turn_on: Vec<bool>,
     scratch: MotionScratch,
     tried: u64,
+    /// How many times as often as the robot's step says motions are checked.
+    finer: f64,
 }
 
 impl<'a> Motions<'a> {
@@ -26,7 +28,13 @@ impl<'a> Motions<'a> {
             local,
             scratch: MotionScratch::default(),
             tried: 0,
+            finer: 1.0,
         }
+    }
+
+    /// The same space, whose motions are looked at as finely as a path is before it is returned.
+    pub fn finely(local: &'a Local) -> Self {
+        Self { finer: FINER, ..Self::new(local) }
     }
 
     /// The least and the greatest value of each coordinate.
@@ -96,7 +104,7 @@ impl<'a> Motions<'a> {
     /// Whether the straight motion from a free configuration to another is free.
     pub fn goes(&mut self, from: &[f64], to: &[f64]) -> bool {
         self.tried += 1;
-        self.local.goes([from, to], 1.0, &mut self.scratch)
+        self.local.goes([from, to], self.finer, &mut self.scratch)
     }
 
     /// The first leg of a path that a finer look refuses. What stands between two configurations that are checked may be missed; so a path
