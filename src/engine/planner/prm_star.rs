@@ -17,7 +17,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "prm_star",
     about: "a roadmap whose samples are joined with ever more nearest ones, searched whenever it has grown by a share",
-    revision: 1,
+    revision: 2,
     needs: WorldKind::Roadmap,
     columns: IMPROVING_COLUMNS,
     settings: Accepted::shape::<PrmStar>(),

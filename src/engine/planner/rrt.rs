@@ -16,7 +16,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "rrt",
     about: "a tree that grows from the start to samples until a step reaches the goal",
-    revision: 2,
+    revision: 3,
     needs: WorldKind::Roadmap,
     columns: COLUMNS,
     settings: Accepted::shape::<Rrt>(),

@@ -17,7 +17,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "rrt_connect",
     about: "two trees, from start and goal, that grow to samples and to each other; dynamic domain, balance and sampler as settings",
-    revision: 2,
+    revision: 3,
     needs: WorldKind::Roadmap,
     columns: COLUMNS,
     settings: Accepted::shape::<RrtConnect>(),

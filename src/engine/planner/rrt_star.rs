@@ -21,7 +21,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "rrt_star",
     about: "RRT that goes on: each new node takes the cheapest of its neighbours as parent and is offered to them; informed or not",
-    revision: 1,
+    revision: 2,
     needs: WorldKind::Roadmap,
     columns: IMPROVING_COLUMNS,
     settings: Accepted::shape::<RrtStar>(),
