@@ -71,12 +71,20 @@ fn a_start_that_is_the_goal_is_a_path_of_no_leg_and_of_length_0() {
 }
 
 #[test]
-fn limits_end_a_search_without_a_path() {
+fn a_search_without_a_path_ends_by_its_own_limits_or_cut_off_by_the_budget() {
     let world = world();
-    for limits in ["iterations = 1\nnodes = 5000", "iterations = 5000\nnodes = 3"] {
+    for (limits, expansions, ending) in [
+        ("iterations = 1\nnodes = 5000", 100, Ending::NoPath),
+        ("iterations = 100\nnodes = 3", 100, Ending::NoPath),
+        ("iterations = 5\nnodes = 5000", 5, Ending::NoPath),
+        ("iterations = 6\nnodes = 5000", 5, Ending::BudgetSpent),
+    ] {
         let settings = format!("range = 1\nfirst = 'goal'\nsampler = 'halton'\n{limits}");
-        let plan = plan(planner("rrt_connect", &settings).as_ref(), &world, 1);
-        assert_eq!((plan.ending, plan.path.len(), plan.cost), (Ending::BudgetSpent, 0, None), "{limits}");
+        let (start, goal) = ([20.0, 20.0], [80.0, 20.0]);
+        let request =
+            Request { world: &world, start: &start, goal: &goal, expansions, seed: 1, trace: false };
+        let plan = planner("rrt_connect", &settings).plan(&request).unwrap();
+        assert_eq!((plan.ending, plan.path.len(), plan.cost), (ending, 0, None), "{limits}");
     }
 }
 
