@@ -118,6 +118,7 @@ class Posed:
         told: dict[str, Any] = {
             "pairs": names,
             "outer": [pair.still is not None for pair in self.measured.pairs],
+            "set": self.case.of,
             "free_of": self.case.free_of if self.case.paths else "contact",
             "are_stored": bool(self.case.paths),
             "paths": [path.name for path in self.paths],
