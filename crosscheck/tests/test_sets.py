@@ -119,6 +119,8 @@ def test_both_sides_agree_on_a_sample_which_is_one_row_of_the_chapter(tmp_path: 
     assert asked["planners", "random"].asked == 40
     assert 0 < (asked["planners", "random"].in_contact or 0) < 40
     assert asked["contact", "paths"].in_contact == 0 < asked["contact", "paths"].asked
+    # Of a pushed path only what was pushed is asked about again.
+    assert (asked["contact", "pushed path"].asked, asked["contact", "pushed path"].in_contact) == (50, 14)
     notes = samples(Spec(runs(tmp_path)))
     text = chapter([outcome], Frame("set", "viewer", "No picture.", notes))
     assert "drawn by the seed 8: nod 2 of 2." in text
