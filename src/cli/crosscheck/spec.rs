@@ -45,7 +45,7 @@ struct SpecFile {
     /// Planar arms whose stored paths are judged.
     #[serde(default, rename = "workspace")]
     workspaces: Vec<Spanned<WorkspaceEntry>>,
-    /// Sets of problems of which a sample is judged with its paths.
+    /// Sets of problems: a sample of each is judged with its paths.
     #[serde(default, rename = "set")]
     sets: Vec<Spanned<SetEntry>>,
 }
