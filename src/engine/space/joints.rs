@@ -164,7 +164,7 @@ impl JointSpace {
     }
 
     /// Whether nothing touches at `q`, whatever the joints' limits.
-    fn is_clear(&self, q: &[f64]) -> bool {
+    pub fn is_clear(&self, q: &[f64]) -> bool {
         let frames = self.chain.frames(q);
         self.touched(&frames).is_none() && self.self_touching(&frames).is_none()
     }
