@@ -55,7 +55,7 @@ def run(words: argparse.Namespace) -> int:
         view = View(words.azimuth, words.elevation, words.zoom)
         draw(words.model, words.to, words.key, view, words.scene)
         return 0
-    places = Places(words.folder, words.home, words.runs)
+    places = Places(words.folder, words.home, words.runs, words.answers)
     if words.command == "pose":
         pose(places, words.answers, words.jobs)
         return 0

@@ -31,7 +31,7 @@ class Frame:
     paper: str
     view: str
     picture: str
-    stand_ins: str | None
+    notes: list[str]
 
 
 def bound(largest: float | None) -> str:
@@ -89,7 +89,7 @@ def chapter(outcomes: list[Outcome], frame: Frame) -> str:
         f"Made by `replan crosscheck {frame.paper}`. Python reads the robot, scene and study files and the stored "
         f"paths by itself\nand gives them to MuJoCo {mujoco.__version__}; it shares no code with us. replan answers "
         "the same questions, and the answers are compared.",
-        *([frame.stand_ins] if frame.stand_ins else []),
+        *frame.notes,
         f"**{summary(outcomes)}**",
         frame.picture,
         f"In MuJoCo's own viewer, with keyframes: `{frame.view}`.",
@@ -140,7 +140,8 @@ def summary(outcomes: list[Outcome]) -> str:
         )
     asked = {question: sum(line.asked for line in lines if line.question == question) for question in QUESTIONS}
     parts = ", ".join(f"{asked[question]} {words}" for question, words in QUESTIONS.items() if asked[question])
-    return f"{found}: {len(outcomes)} cases (a robot in a scene), configurations asked {parts}."
+    cases = sum(len(outcome.told["paths"]) if outcome.told.get("set") else 1 for outcome in outcomes)
+    return f"{found}: {cases} cases (a robot in a scene), configurations asked {parts}."
 
 
 def markdown(head: list[str], rows: Iterable[list[str]]) -> str:

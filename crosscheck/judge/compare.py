@@ -7,7 +7,7 @@ and `replan.limits` (the rows that ask) and, where planners have a check of thei
 
 import json
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,13 +16,15 @@ import numpy.typing as npt
 import pyarrow.parquet as pq
 
 from judge.answers import FRAME_PARTS
-from judge.pose import RIGHT, SHIFTED, STRETCHED, TIE_M
+from judge.pose import RIGHT, SHIFT_M, SHIFTED, STRETCHED, TIE_M
 from judge.questions import KINDS, PATH, Rows
 from judge.tables import angles_of, beside, read_answers
 
 FRAME_TOLERANCE = 1e-9
 """How far frames may differ, in metres and per entry of a rotation: both sides round on numbers of the order of 1."""
 OURS = "replan"
+OF_SETS = (None, f"obstacles shifted by {SHIFT_M * 1e3:.0f} mm", "paths pushed")
+"""What controls are called where they differ from problem to problem."""
 
 Truths = npt.NDArray[np.bool_]
 Numbers = npt.NDArray[np.float64]
@@ -39,6 +41,18 @@ class Line:
     in_contact: int | None = None
     ties: int = 0
     largest: float | None = None
+
+    def with_more(self, other: "Line") -> "Line":
+        """Both as one."""
+        return Line(
+            self.question,
+            self.kind,
+            self.asked + other.asked,
+            self.differ + other.differ,
+            None if self.in_contact is None else self.in_contact + (other.in_contact or 0),
+            self.ties + other.ties,
+            None if self.largest is None else max(self.largest, other.largest or 0.0),
+        )
 
 
 @dataclass(frozen=True)
@@ -83,6 +97,26 @@ class Outcome:
             for control in self.missed
         ]
         return self.differences + [f"{self.case}, {path}" for path in self.blocked] + missed
+
+    def with_more(self, other: "Outcome") -> "Outcome":
+        """The outcome of a set, with that of one more of its problems."""
+        lines = {(line.question, line.kind): line for line in self.lines}
+        for line in other.lines:
+            before = lines.get((line.question, line.kind))
+            lines[line.question, line.kind] = line if before is None else before.with_more(line)
+        controls = [
+            replace(one, listed=one.listed + more.listed, caught=one.caught + more.caught)
+            for one, more in zip(self.controls, other.controls, strict=True)
+        ]
+        told = self.told | {"paths": self.told["paths"] + other.told["paths"]}
+        return Outcome(
+            self.case,
+            told,
+            list(lines.values()),
+            self.differences + other.differences,
+            self.blocked + other.blocked,
+            controls,
+        )
 
 
 class Comparison:
@@ -274,3 +308,17 @@ def written(values: Iterable[float]) -> str:
 def compare_case(folder: Path) -> Outcome:
     """Compare the answers to one case."""
     return Comparison(folder).compared()
+
+
+def compare_all(folders: Iterable[Path]) -> list[Outcome]:
+    """Compare the answers to all cases; those of a set's problems come as one."""
+    found: dict[str, Outcome] = {}
+    for folder in folders:
+        outcome = compare_case(folder)
+        label = outcome.told.get("set") or outcome.case
+        if label != outcome.case:
+            named = zip(outcome.controls, OF_SETS, strict=True)
+            controls = [replace(control, what=what or control.what) for control, what in named]
+            outcome = replace(outcome, case=label, controls=controls)
+        found[label] = found[label].with_more(outcome) if label in found else outcome
+    return list(found.values())

@@ -52,6 +52,13 @@ def first_pushed(measured: Gaps, paths: Iterable[Stored]) -> Pushed | None:
     return next((found for path in paths if (found := pushed(measured, path)) is not None), None)
 
 
+def cut(found: Pushed) -> Pushed:
+    """The pushed path without what was left as it was."""
+    first = max(0, found.stop - PUSH_REACH)
+    stops = found.path.stops_rad[first : found.stop + PUSH_REACH + 1]
+    return Pushed(Stored(found.path.name, stops), found.stop - first, found.pair)
+
+
 def pushed(measured: Gaps, path: Stored) -> Pushed | None:
     """A free path with the configuration nearest to an obstacle moved downhill in clearance into contact."""
     outer = np.flatnonzero(measured.stills >= 0)

@@ -19,7 +19,7 @@ from judge.answers import answer_model
 from judge.gaps import Gaps
 from judge.kinematics import flat, refined
 from judge.mjcf import mjcf
-from judge.paths import FINER, Pushed, drawn_paths, first_pushed
+from judge.paths import FINER, Pushed, cut, drawn_paths, first_pushed
 from judge.questions import NEAR, PATH, PUSHED, Rows, block, questions
 from judge.robots import Model, Numbers
 from judge.specs import Case, Places, Spec
@@ -81,6 +81,8 @@ class Posed:
         # Frames are asked along one path at least, also where nothing is drawn.
         blocks += [block(PATH, path.stops_rad, path=index, frames=index == 0) for index, path in enumerate(self.paths)]
         self.pushed: Pushed | None = first_pushed(self.measured, [*finer, *own])
+        if self.pushed and case.of:
+            self.pushed = cut(self.pushed)
         if self.pushed:
             blocks.append(block(PUSHED, self.pushed.path.stops_rad))
         self.asked: pa.Table = pa.concat_tables(blocks)
@@ -118,6 +120,7 @@ class Posed:
         told: dict[str, Any] = {
             "pairs": names,
             "outer": [pair.still is not None for pair in self.measured.pairs],
+            "set": self.case.of,
             "free_of": self.case.free_of if self.case.paths else "contact",
             "are_stored": bool(self.case.paths),
             "paths": [path.name for path in self.paths],

@@ -8,11 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from judge.chapter import Frame, chapter, table
-from judge.compare import compare_case
+from judge.compare import compare_all
 from judge.located import Fault, Stale, Written
 from judge.picture import View, scene_hash, shown_scene
 from judge.pose import RIGHT
 from judge.specs import Places, Spec
+from judge.stored import read
 
 CHAPTER, PICTURE, DIFFERENCES = "crosscheck.md", "scene_mujoco.png", "disagreements.txt"
 VIEWER = "target/replan/crosscheck/venv/bin/python -m mujoco.viewer"
@@ -37,7 +38,7 @@ class Shown:
 def report(places: Places, shown: Shown) -> int:
     """Compare all answers of a paper, show them, and say how many things differ."""
     spec = Spec(places)
-    outcomes = [compare_case(shown.answers / name) for name in spec.names() if is_answered(shown.answers / name)]
+    outcomes = compare_all(shown.answers / name for name in spec.names() if is_answered(shown.answers / name))
     listed = [item for outcome in outcomes for item in outcome.listed()]
     print(table(outcomes), flush=True)
     text = "".join(f"{item}\n" for item in listed)
@@ -45,7 +46,9 @@ def report(places: Places, shown: Shown) -> int:
     sys.stderr.write(text)
     case = spec.table["picture"]["case"]
     place = shown.answers / case / f"{RIGHT}.xml"
-    frame = Frame(places.runs.name, f"{VIEWER} --mjcf={place}", picture(spec, shown, place), stand_ins(places))
+    view = f"{VIEWER} --mjcf={place}"
+    notes = [*stand_ins(places), *samples(spec)]
+    frame = Frame(places.runs.name, view, picture(spec, shown, place), notes)
     keep(chapter(outcomes, frame), shown, frame.view)
     return len(listed)
 
@@ -69,10 +72,25 @@ def keep(text: str, shown: Shown, view: str) -> None:
         raise Stale(f"not current: {path}")
 
 
-def stand_ins(places: Places) -> str | None:
+def stand_ins(places: Places) -> list[str]:
     """What the paper notes of inputs that stand in for its own."""
     note = Written(places.folder / "paper.toml").table.get("source", {}).get("stand_ins")
-    return note if isinstance(note, str) else None
+    return [note] if isinstance(note, str) else []
+
+
+def samples(spec: Spec) -> list[str]:
+    """How many of each set's solved problems were drawn, and by which seed."""
+    drawn = []
+    for entry in spec.table.get("set", []):
+        trials = read(spec.places.runs / f"{entry['paths']['study']}.trials.parquet").select(["group", "status"])
+        solved = trials.to_pylist().count({"group": entry["paths"]["problems"], "status": "solved"})
+        drawn.append(f"{entry['label']} {entry['sample']} of {solved}")
+    if not drawn:
+        return []
+    return [
+        f"Of the solved problems of each set a sample is judged, drawn by the seed {spec.table['seed']}: "
+        f"{', '.join(drawn)}. Each of these trials was run again for its path and came out as it is stored."
+    ]
 
 
 def picture(spec: Spec, shown: Shown, model: Path) -> str:

@@ -1,6 +1,6 @@
 """`crosscheck.toml` in a paper's folder: which robots, scenes and stored paths are judged."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -9,8 +9,9 @@ import numpy as np
 from judge.located import Fault, Key, Written
 from judge.robots import Model, Numbers, read_robot
 from judge.scenes import Still, read_cell, read_polyhedra
-from judge.stored import Stored, read_paths, read_workspace, slug
-from judge.urdf import BODY, read_urdf
+from judge.sets import around, check_ends, read_problem, stepped
+from judge.stored import Stored, read_group, read_paths, read_workspace, slug
+from judge.urdf import BODY, parsed, read_urdf
 
 SPEC = "crosscheck.toml"
 SCHEMA = Path(__file__).parents[2] / "docs/schema/crosscheck.schema.json"
@@ -28,15 +29,18 @@ class Case:
     straight: str
     paths: list[Stored]
     free_of: str
+    of: str = ""
+    """The label of the set that the case is of, if any."""
 
 
 @dataclass(frozen=True)
 class Places:
-    """The paper's folder, the folder that shared inputs start from, and the paper's records."""
+    """The paper's folder, the folder that shared inputs start from, its records, and those of trials run again."""
 
     folder: Path
     home: Path
     runs: Path
+    again: Path = Path()
 
 
 class Spec:
@@ -50,17 +54,23 @@ class Spec:
         self.table: dict[str, Any] = self.written.table
 
     def names(self) -> list[str]:
-        """The names of the cases: every robot in every scene, and every workspace."""
+        """The names of the cases: every robot in every scene, every workspace, and the samples of sets by number."""
         scenes = [
             slug(f"{robot['label']} in {scene['label']}")
             for robot in self.table.get("robot", [])
             for scene in self.table.get("scene", [])
         ]
         names = scenes + [slug(entry["label"]) for entry in self.table.get("workspace", [])]
+        names += [slug(f"{label} {number}") for label, number in self.samples()]
         for index, name in enumerate(names):
             if name in names[:index]:
                 raise self.fault((), f"two cases are called `{name}`; accepted: labels that tell them apart")
         return names
+
+    def samples(self) -> list[tuple[str, int]]:
+        """Every problem of the samples of sets: the set's label and a number from 1."""
+        sets = self.table.get("set", [])
+        return [(entry["label"], number) for entry in sets for number in range(1, entry["sample"] + 1)]
 
     def fault(self, key: Key, message: str) -> Fault:
         """A fault at a key of the spec."""
@@ -79,8 +89,11 @@ class Spec:
         """The case called `name`."""
         number, scenes = self.names().index(name), self.table.get("scene", [])
         robots = len(self.table.get("robot", []))
-        if number >= robots * len(scenes):
-            return self.workspace_case(name, number - robots * len(scenes))
+        beyond, workspaces = number - robots * len(scenes), len(self.table.get("workspace", []))
+        if beyond >= workspaces:
+            return self.set_case(name, *self.samples()[beyond - workspaces])
+        if beyond >= 0:
+            return self.workspace_case(name, beyond)
         return self.scene_case(name, *divmod(number, len(scenes)))
 
     def scene_case(self, name: str, robot_index: int, scene_index: int) -> Case:
@@ -112,6 +125,22 @@ class Spec:
         paths = self.table["workspace"][index]["paths"]
         model, straight = read_workspace(self.places.folder, paths, name)
         return self.with_paths(model, straight, [paths])
+
+    def set_case(self, name: str, label: str, number: int) -> Case:
+        """The robot of a set in the problem of the path of this number."""
+        index, entry = next((index, entry) for index, entry in enumerate(self.table["set"]) if entry["label"] == label)
+        key, paths = ("set", index), entry["paths"]
+        settings = read_group(self.places.folder, paths, "joint_problems")
+        if settings["self_contact"] != "srdf":
+            raise self.fault(key, f"`self_contact` is `{settings['self_contact']}` there; accepted: srdf")
+        urdf, srdf, archive = (self.located(settings[part], key) for part in ("robot", "srdf", "problems"))
+        model = read_urdf(urdf, srdf, name, np.eye(4), ())
+        path = read_paths(paths, self.places.runs, len(model.rows), self.places.again)[number - 1]
+        problem = read_problem(archive, settings.get("set", ""), path.instance)
+        stills = around(settings, problem, parsed(urdf).attrib["name"])
+        check_ends(model, urdf, problem, path)
+        path = stepped(model, path, float(np.deg2rad(settings["step_deg"])))
+        return Case(name, replace(model, stills=stills), "joints", [path], paths["free_of"], of=label)
 
     def with_paths(self, model: Model, straight: str, entries: list[dict[str, Any]]) -> Case:
         """The case with its stored paths; of several promises the least counts."""

@@ -23,10 +23,11 @@ HALF_HEIGHT_M = 0.05
 
 @dataclass(frozen=True)
 class Stored:
-    """A path by name: one configuration a row."""
+    """A path by name: one configuration a row; and the number of its instance."""
 
     name: str
     stops_rad: Numbers
+    instance: int = 0
 
 
 def slug(label: str) -> str:
@@ -35,10 +36,10 @@ def slug(label: str) -> str:
     return "-".join(re.findall("[a-z0-9]+", spelled))
 
 
-def read_paths(paths: dict[str, Any], runs: Path, joints: int) -> list[Stored]:
-    """The traces of solved trials that an entry of the spec names, in the order of the file."""
+def read_paths(paths: dict[str, Any], runs: Path, joints: int, again: Path | None = None) -> list[Stored]:
+    """The traces of solved trials that an entry of the spec names, in the order of the file; of `again` if given."""
     study = paths["study"]
-    traces, trials = (read(runs / f"{study}.{part}.parquet") for part in ("traces", "trials"))
+    traces, trials = read((again or runs) / f"{study}.traces.parquet"), read(runs / f"{study}.trials.parquet")
     keys = [name for name in traces.column_names if name not in NO_KEY]
     status = trials.select([*keys, "status"]).to_pylist()
     group = paths["problems"]
@@ -50,7 +51,7 @@ def read_paths(paths: dict[str, Any], runs: Path, joints: int) -> list[Stored]:
         if row["name"] == paths["trace"] and row["width"] >= least and key_of(row, keys) in known:
             points = np.array(traces["values"][place].as_py(), dtype=float).reshape(-1, row["width"])
             if len(points) > 1:
-                found.append(Stored(path_name(row, keys), angles(points, paths, joints)))
+                found.append(Stored(path_name(row, keys), angles(points, paths, joints), row["instance"]))
     if not found:
         message = (
             f"{runs / study}.traces.parquet: the stored run kept no trace `{paths['trace']}` "
@@ -86,10 +87,10 @@ def angles(points: Numbers, paths: dict[str, Any], joints: int) -> Numbers:
     return np.deg2rad(values) if paths["unit"] == "deg" else values
 
 
-def read_workspace(folder: Path, paths: dict[str, Any], name: str) -> tuple[Model, str]:
-    """The planar arm of a study's problem group in the plane z = 0, and what goes straight on its hops.
+def read_group(folder: Path, paths: dict[str, Any], family: str) -> dict[str, Any]:
+    """The settings of a study's problem group of this family.
 
-    Settings are those that the group itself is given: the options of choices do not change a workspace here.
+    They are those that the group itself is given: the options of choices do not change them here.
     """
     written = Written(folder / f"{paths['study']}.toml")
     groups = {group["label"]: (index, group) for index, group in enumerate(written.table["problems"])}
@@ -97,9 +98,17 @@ def read_workspace(folder: Path, paths: dict[str, Any], name: str) -> tuple[Mode
         raise Fault(f"{written.path}: there is no group `{paths['problems']}`; there are {', '.join(groups)}")
     index, group = groups[paths["problems"]]
     place = ("problems", index, "family")
-    if group["family"] != "arm_workspace":
-        raise written.fault(place, f"family `{group['family']}` has no planar arm; accepted: arm_workspace")
-    settings = group["settings"]
+    if group["family"] != family:
+        raise written.fault(
+            place, f"problems of the family `{group['family']}` are not judged here; accepted: {family}"
+        )
+    settings: dict[str, Any] = group["settings"]
+    return settings
+
+
+def read_workspace(folder: Path, paths: dict[str, Any], name: str) -> tuple[Model, str]:
+    """The planar arm of a study's problem group in the plane z = 0, and what goes straight on its hops."""
+    settings = read_group(folder, paths, "arm_workspace")
     rows = tuple(Row(0.0, length * CM, 0.0, 0.0, (-np.pi, np.pi)) for length in settings["links_cm"])
     parts = tuple(
         Part(f"link {link}", link, ((-row.a_m, 0.0, 0.0), (0.0, 0.0, 0.0)), LINK_RADIUS_M)

@@ -33,6 +33,7 @@ PARALLEL = 1e-9
 class Joint:
     """A joint that moves: its frame in that of the joint before, its axis, and its limits (radians, metres) if any."""
 
+    name: str
     before: Numbers
     axis: Numbers
     limits: tuple[float, float] | None
@@ -96,7 +97,7 @@ class Chain:
         axis = np.array(numbers(joint.find("axis"), "xyz", "1 0 0"))
         limit = None if kind == "continuous" else one(joint, "limit").attrib
         limits = None if limit is None else (float(limit.get("lower", 0)), float(limit.get("upper", 0)))
-        return Joint(before, axis / np.linalg.norm(axis), limits, slides=kind == "prismatic")
+        return Joint(name, before, axis / np.linalg.norm(axis), limits, slides=kind == "prismatic")
 
     def capsule(self, geometry: ET.Element, name: str) -> tuple[Numbers, float]:
         """The ends and the radius of the capsule around a solid."""

@@ -17,7 +17,7 @@ from judge.located import Fault
 
 FIXTURES = Path(__file__).parent / "fixtures"
 KEPT = FIXTURES / "up6-in-room"
-FRAME = Frame("judged", "viewer", "No picture.", None)
+FRAME = Frame("judged", "viewer", "No picture.", [])
 
 
 @pytest.fixture(scope="module")

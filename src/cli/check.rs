@@ -15,6 +15,7 @@ use base::settings::Faults;
 use clap::Args;
 use std::collections::BTreeSet;
 use std::path::Path;
+use study::StudyError;
 use study::paper::Paper;
 use study::rerun;
 
@@ -113,7 +114,13 @@ fn notes(paper: &Paper, places: &Places) -> BTreeSet<String> {
 fn rerun(paper: &Paper, places: &Places, count: usize, threads: usize) -> Result<(), Failure> {
     for study in &paper.studies {
         doing(&format!("{}/{}: running stored trials again", paper.id, study.name));
-        let done = rerun::rerun(study, &places.inputs, &places.runs, count, threads)?;
+        let done = match rerun::rerun(study, &places.inputs, &places.runs, count, threads) {
+            Err(StudyError::LacksFiles { lacks, .. }) => {
+                say!("  {}: no trial is run again: {lacks}", study.name);
+                continue;
+            }
+            done => done?,
+        };
         if let Some(first) = done.differ.first() {
             return Err(Failure::stale(format!(
                 "{} of {} of study `{}` are not what is stored; the first is {}/{first}",

@@ -5,6 +5,7 @@
 
 mod answers;
 mod python;
+mod set;
 mod spec;
 mod statistics;
 mod subject;
@@ -13,7 +14,8 @@ use super::places::{Places, home, papers};
 use super::progress::Bar;
 use super::{Failure, Which, all};
 use clap::Args;
-use python::Judge;
+use python::{Judge, MISSING};
+use set::Sample;
 use spec::Case;
 pub use spec::{FILE, SPEC, Spec};
 use std::ffi::OsString;
@@ -25,7 +27,8 @@ use study::runner::Progress as _;
 ///
 /// Makes its own Python environment below target/replan/ at the first run, which needs Python 3.11 or later and
 /// the network once. Exit code 3: something differs, or an error made on purpose was not noticed. Exit code 4:
-/// Python or the network is missing; nothing else depends on them.
+/// Python, the network or an archive of problems is missing; nothing else depends on them, and --check goes on without
+/// the archive.
 ///
 /// With --statistics every estimate, interval and outcome of verdicts.toml that rests on trials is computed again from
 /// the Parquet files, by code of its own. A bootstrap interval agrees if both ends lie where Monte-Carlo error can put
@@ -65,40 +68,52 @@ impl Crosscheck {
         self.cross_checked().map_err(|failure| if is_check { failure.in_check() } else { failure })
     }
 
-    fn cross_checked(self) -> Result<(), Failure> {
+    fn cross_checked(&self) -> Result<(), Failure> {
         if self.statistics {
             return statistics::run(self.paper.as_deref(), self.out.as_deref(), self.python.as_deref());
         }
         let names = self.paper.clone().map_or_else(papers, |paper| vec![paper]);
-        let mut posed = Vec::new();
+        let mut specs = Vec::new();
         for name in &names {
             let places = Places::find(&Which { paper: name.clone(), out: None }, "")?;
             match Spec::open(&places.folder)? {
                 Some(spec) => {
-                    let cases = spec.cases(&places.folder, &places.inputs)?;
                     let shown = Places::find(&Which { paper: name.clone(), out: self.out.clone() }, "")?;
-                    posed.push((places, shown, cases));
+                    specs.push((spec, places, shown));
                 }
                 None if self.paper.is_some() => return Err(nothing_posed(&places)),
                 None => {}
             }
         }
-        if posed.is_empty() {
+        if specs.is_empty() {
             return Err(Failure::input(
                 "no paper here has a crosscheck.toml; run replan from the project's own folder",
             ));
         }
-        if self.answered {
-            posed.iter().try_for_each(|(_, shown, _)| are_answered(shown))?;
+        let mut results = Vec::new();
+        let mut posed = Vec::new();
+        for (spec, places, shown) in &specs {
+            match Posed::new(spec, places, shown) {
+                Ok(paper) => posed.push(paper),
+                Err(lack) if lack.code == MISSING && self.check => {
+                    say!("{}: nothing is compared: {}", id(places), lack.message);
+                }
+                Err(failure) => results.push(Err(failure)),
+            }
         }
-        let judge = Judge::ready(self.python.as_deref(), &home(None)?.join(FOLDER))?;
-        let results =
-            posed.iter().map(|(places, shown, cases)| self.paper(places, shown, cases, &judge)).collect();
+        if self.answered {
+            posed.iter().try_for_each(|posed| are_answered(posed.shown))?;
+        }
+        if !posed.is_empty() {
+            let judge = Judge::ready(self.python.as_deref(), &home(None)?.join(FOLDER))?;
+            results.extend(posed.iter().map(|posed| self.paper(posed, &judge)));
+        }
         all(results, "papers differ")
     }
 
-    /// Cross-checks one paper, read from `places` and shown in `shown`.
-    fn paper(&self, places: &Places, shown: &Places, cases: &[Case], judge: &Judge) -> Result<(), Failure> {
+    /// Cross-checks one paper.
+    fn paper(&self, posed: &Posed<'_>, judge: &Judge) -> Result<(), Failure> {
+        let Posed { places, shown, cases, samples } = posed;
         let id = id(places);
         let folder = answers(shown);
         let words = words(places, &folder);
@@ -107,6 +122,9 @@ impl Crosscheck {
             if folder.exists() {
                 fs::remove_dir_all(&folder)?;
             }
+            bar.begin(&format!("{id}: paths"), samples.len());
+            samples.iter().try_for_each(|sample| sample.write(places, &folder).inspect(|()| bar.step()))?;
+            bar.end();
             bar.begin(&format!("{id}: MuJoCo"), cases.len());
             let posed = judge.pose(&words, || bar.step());
             bar.end();
@@ -122,6 +140,26 @@ impl Crosscheck {
         answered?;
         fs::create_dir_all(&shown.plots)?;
         judge.report(&words, &shown.plots, self.check)
+    }
+}
+
+/// What is judged of a paper, read from `places` and shown in `shown`.
+struct Posed<'a> {
+    places: &'a Places,
+    shown: &'a Places,
+    cases: Vec<Case>,
+    samples: Vec<Sample<'a>>,
+}
+
+impl<'a> Posed<'a> {
+    fn new(spec: &'a Spec, places: &'a Places, shown: &'a Places) -> Result<Self, Failure> {
+        let mut cases = spec.cases(&places.folder, &places.inputs)?;
+        let samples = spec.sets().map(|set| Sample::draw(spec, set, places));
+        let samples = samples.collect::<Result<Vec<_>, _>>()?;
+        for sample in &samples {
+            cases.extend(sample.cases()?);
+        }
+        Ok(Self { places, shown, cases, samples })
     }
 }
 

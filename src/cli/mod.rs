@@ -6,7 +6,7 @@
 //! - 2: wrong words on the command line or wrong input files.
 //! - 3: a check failed. Something is not as stored, worse than a gate allows, judged otherwise or impossible, or an independent
 //!   judge disagrees.
-//! - 4: a tool is missing: Python or the network for `crosscheck`, `replan-audit`, `replan-export`, a planner from outside.
+//! - 4: a tool is missing: Python, the network or an archive for `crosscheck`, `replan-audit`, `replan-export`, a planner from outside.
 //! - 130: interrupted, and what was done is kept.
 //!
 //! A stored file that is edited, damaged, gone, or of a spec that has changed is the answer that a check gives: code 3 under

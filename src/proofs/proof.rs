@@ -9,7 +9,7 @@ mod lengths;
 mod turns;
 
 pub use self::turns::{Search, joint_length_turn, turn_needs_length};
-pub use counts::{clock_ticks, count_bound, percentage};
+pub use counts::{at_most, clock_ticks, count_bound, percentage};
 pub use lengths::{largest_saving, lattice_length, point_distance, straight_line};
 
 use crate::lattice::Octile;

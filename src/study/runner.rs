@@ -224,6 +224,16 @@ impl<'a> BuiltStudy<'a> {
         files.map(hash).collect()
     }
 
+    /// That the files are there that the problems of a unit need.
+    ///
+    /// # Errors
+    /// [`StudyError::LacksFiles`] if one is not.
+    pub fn check_files(&self, unit: &Unit<'_>) -> Result<(), StudyError> {
+        let Some(lacks) = unit.family.lacks() else { return Ok(()) };
+        let (study, group) = (self.study.name.clone(), unit.group.label.clone());
+        Err(StudyError::LacksFiles { study, group, lacks })
+    }
+
     /// That every program and every archive is there whose trials are not `done` and not in `parts`.
     ///
     /// # Errors
@@ -243,10 +253,7 @@ impl<'a> BuiltStudy<'a> {
                 parts.get(&index).is_some_and(|part| part.contenders.contains(&entrant.label))
             };
             for entrant in unit.entrants.iter().filter(|entrant| !stored(entrant)) {
-                if let Some(lacks) = unit.family.lacks() {
-                    let (study, group) = (self.study.name.clone(), unit.group.label.clone());
-                    return Err(StudyError::LacksFiles { study, group, lacks });
-                }
+                self.check_files(unit)?;
                 if let Some(lacks) = entrant.pipeline.planner.lacks() {
                     let study = self.study.name.clone();
                     let contender = entrant.contender.label.clone();

@@ -44,12 +44,12 @@ fn python(bench: &Bench, body: &str) {
     fs::set_permissions(bench.at("python"), mode).unwrap();
 }
 
-/// A shell's words that bring the questions that are kept to where the judge would write them.
-fn copied() -> String {
+/// A shell's words that bring the questions about `cases` that are kept to where the judge would write them.
+fn copied(cases: [&str; 2]) -> String {
     let of_case = |case: &str| {
         format!("mkdir -p \"$4/{case}\" && cp {}/{case}/*.questions.parquet \"$4/{case}/\"", kept().display())
     };
-    CASES.map(of_case).join(" && ")
+    cases.map(of_case).join(" && ")
 }
 
 fn frame_at(path: &Path) -> DataFrame {
@@ -59,7 +59,7 @@ fn frame_at(path: &Path) -> DataFrame {
 #[test]
 fn what_replan_answers_is_what_the_judge_is_tested_with() {
     let bench = bench();
-    python(&bench, &format!("{}; echo done", copied()));
+    python(&bench, &format!("{}; echo done", copied(CASES)));
     let output = bench.run(&["crosscheck", "./judged", "--out", "out", "--python", "./python"]);
     assert_eq!(output.code, Some(0), "{}{}", output.out, output.err);
     for case in CASES {
@@ -83,7 +83,7 @@ fn what_replan_answers_is_what_the_judge_is_tested_with() {
 #[test]
 fn the_exit_code_is_the_judges() {
     let bench = bench();
-    let copy = copied();
+    let copy = copied(CASES);
     for (pose, report, code) in [(0, 0, 0), (0, 3, 3), (2, 0, 2), (3, 0, 3), (0, 1, 1)] {
         let made = bench.at("target/replan/crosscheck/venv/requirements.sha256");
         if made.exists() {
@@ -214,4 +214,64 @@ fn the_judge_of_statistics_is_given_metrics_and_papers() {
     });
     assert_eq!(metric, Some(&expected));
     assert_eq!(request["papers"].as_array().unwrap().len(), 1, "{request}");
+}
+
+/// What a set of two problems is judged in.
+const SAMPLE: [&str; 2] = ["nod-1", "nod-2"];
+
+/// A folder with the paper `set`, whose study was run.
+fn bench_with_set() -> Bench {
+    let bench = Bench::new();
+    for entry in fs::read_dir(root().join("tests/it/crosscheck/set")).unwrap() {
+        let path = entry.unwrap().path();
+        bench.write(&format!("set/{}", path.file_name().unwrap().display()), &fs::read(&path).unwrap());
+    }
+    bench.write("crosscheck/requirements.txt", b"mujoco==4.0.0\n");
+    bench.done(&["run", "./set"]);
+    bench
+}
+
+#[test]
+fn a_sample_of_a_set_is_run_again_and_answered_each_among_its_own_obstacles() {
+    let bench = bench_with_set();
+    python(&bench, &format!("if [ $3 = pose ]; then {}; fi", copied(SAMPLE)));
+    let judged = || bench.run(&["crosscheck", "./set", "--out", "out", "--python", "./python"]);
+    let output = judged();
+    assert_eq!(output.code, Some(0), "{}{}", output.out, output.err);
+    let answers = bench.at("out/target/replan/crosscheck/set");
+    assert_eq!(frame_at(&answers.join("nod.traces.parquet")).height(), 2);
+    for name in SAMPLE {
+        for part in ["gaps", "frames", "limits", "planners"] {
+            let name = format!("{name}/replan.{part}.parquet");
+            let is_kept = frame_at(&answers.join(&name)).equals(&frame_at(&kept().join(&name)));
+            assert!(is_kept, "{name} differs from the one that is kept");
+        }
+    }
+    bench.edit("set/nod.toml", "seed = 4", "seed = 5");
+    let output = judged();
+    assert_eq!(output.code, Some(3), "{}{}", output.out, output.err);
+    assert!(output.err.contains("/rrt-connect` does not come out as it is stored"), "{}", output.err);
+}
+
+#[test]
+fn a_sample_is_of_trials_that_are_solved() {
+    let bench = bench_with_set();
+    bench.edit("set/crosscheck.toml", "sample = 2", "sample = 3");
+    let output = bench.run(&["crosscheck", "./set", "--out", "out"]);
+    let expected = "crosscheck.toml:27:10: `sample` is 3; 2 trials are solved in the stored run";
+    assert!(output.code == Some(2) && output.err.contains(expected), "{}", output.err);
+}
+
+#[test]
+fn without_the_archive_of_a_set_the_message_says_what_to_run_and_a_check_compares_nothing() {
+    let bench = bench_with_set();
+    fs::remove_file(bench.at("set/set.tar")).unwrap();
+    let expected = "there is no file `set.tar`; to install: bring it";
+    let output = bench.run(&["crosscheck", "./set", "--out", "out"]);
+    assert!(output.code == Some(4) && output.err.contains(expected), "{}", output.err);
+    let output = bench.run(&["crosscheck", "./set", "--out", "out", "--check"]);
+    assert!(output.code == Some(0) && output.out.contains(expected), "{}{}", output.out, output.err);
+    assert!(output.out.starts_with("set: nothing is compared: "), "{}", output.out);
+    let output = bench.run(&["check", "./set"]);
+    assert_eq!(output.code, Some(0), "{}{}", output.out, output.err);
 }

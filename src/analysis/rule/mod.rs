@@ -3,6 +3,7 @@
 //! A rule proves that a claim cannot be, or says that it can; it looks at no trial. The proof and its words are the package
 //! [`proofs::proof`]'s: a rule looks up what the claim names and asks for it.
 
+mod at_most;
 mod clock_ticks;
 mod count_bound;
 mod formula;
@@ -87,6 +88,7 @@ fn check_search(context: &Context<'_>, size: [i32; 2], longest: f64) -> Result<(
 
 /// Every rule, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
+    &at_most::ENTRY,
     &clock_ticks::ENTRY,
     &count_bound::ENTRY,
     &formula::ENTRY,

@@ -8,8 +8,8 @@ use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Output, Stdio};
 
-/// The exit code that says that Python or the network is missing.
-const MISSING: u8 = 4;
+/// The exit code that says that Python, the network or an archive is missing.
+pub const MISSING: u8 = 4;
 /// The exit code by which a judge says that something differs.
 const DIFFERS: i32 = 3;
 /// The modules, and what they need.

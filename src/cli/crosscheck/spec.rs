@@ -14,6 +14,7 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
+use study::family::Family;
 use study::paper::Paper;
 use study::{Inputs, Interpretation, Study, labels_of, slug};
 
@@ -24,7 +25,7 @@ pub const FILE: Accepted = Accepted::shape::<SpecFile>();
 
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[expect(dead_code, reason = "Python draws by the seed and the sizes, and draws the picture")]
+#[expect(dead_code, reason = "Python draws by the sizes, and draws the picture")]
 struct SpecFile {
     /// The root of every seed.
     seed: u64,
@@ -44,6 +45,9 @@ struct SpecFile {
     /// Planar arms whose stored paths are judged.
     #[serde(default, rename = "workspace")]
     workspaces: Vec<Spanned<WorkspaceEntry>>,
+    /// Sets of problems: a sample of each is judged with its paths.
+    #[serde(default, rename = "set")]
+    sets: Vec<Spanned<SetEntry>>,
 }
 
 /// How many configurations of each kind are looked at.
@@ -149,17 +153,30 @@ struct WorkspaceEntry {
     paths: StoredPaths,
 }
 
+/// A set of problems that a study poses to one robot.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SetEntry {
+    /// Its name in tables.
+    pub label: String,
+    /// The trials that are judged: each is run again for its path, and must come out as it is stored.
+    pub paths: StoredPaths,
+    /// How many of those that are solved are drawn.
+    #[schemars(range(min = 1, max = 1000))]
+    pub sample: u32,
+}
+
 /// Which paths of a study are judged.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[expect(dead_code, reason = "Python reads the paths")]
-struct StoredPaths {
+pub struct StoredPaths {
     /// The study.
-    study: String,
+    pub study: String,
     /// The label of its problem group.
-    problems: String,
+    pub problems: String,
     /// The trace that holds configurations, one a point.
-    trace: String,
+    pub trace: String,
     /// Which of a point's numbers is the first joint's angle, from 0.
     first_joint: usize,
     /// The unit of the angles.
@@ -310,9 +327,28 @@ impl Spec {
     /// The planar arm of the workspace of this number, as its study poses it under its default interpretation.
     fn workspace(&self, index: usize, folder: &Path, inputs: &Inputs) -> Result<Case, SettingsError> {
         let WorkspaceEntry { label, paths } = self.file.workspaces[index].get_ref();
-        let wrong = |key: &str, message: String| {
-            self.document.error_at(&format!("workspace.{index}.paths.{key}"), message)
+        let place = format!("workspace.{index}.paths");
+        let wrong = |message| self.document.error_at(&format!("{place}.problems"), message);
+        let (.., family) = self.posed(paths, &place, folder, inputs)?;
+        let world: World = family.prepare(0).map_err(|invalid| wrong(invalid.0))?.world;
+        let Some(arm) = world.as_arm() else {
+            let kind = world.kind().name();
+            return Err(wrong(format!(
+                "the world of `{label}` is a {kind}; accepted: a planar arm's workspace"
+            )));
         };
+        Ok((slug(label), Box::new(PlanarArm::new(arm))))
+    }
+
+    /// The study of some paths, its default interpretation, and what their group poses under it.
+    pub fn posed(
+        &self,
+        paths: &StoredPaths,
+        place: &str,
+        folder: &Path,
+        inputs: &Inputs,
+    ) -> Result<(Study, Interpretation, Box<dyn Family>), SettingsError> {
+        let wrong = |key: &str, message: String| self.document.error_at(&format!("{place}.{key}"), message);
         let study = Study::load(&folder.join(format!("{}.toml", paths.study)), inputs)
             .map_err(|error| wrong("study", error.to_string()))?;
         let Some(group) = study.groups.iter().find(|group| group.label == paths.problems) else {
@@ -320,16 +356,27 @@ impl Spec {
             return Err(wrong("problems", none_called("problem group", &paths.problems, known)));
         };
         let point = Interpretation::new(&study.choices, &BTreeMap::new());
-        let point = point.expect("a loaded study's defaults are among its options");
+        let point =
+            point.expect("a loaded study's defaults are among its options").for_trials(&study.choices);
         let family = group.family(&group.points[0], &point, inputs);
         let family = family.map_err(|error| wrong("problems", error.to_string()))?;
-        let world: World = family.prepare(0).map_err(|invalid| wrong("problems", invalid.0))?.world;
-        let Some(arm) = world.as_arm() else {
-            let kind = world.kind().name();
-            let message = format!("the world of `{label}` is a {kind}; accepted: a planar arm's workspace");
-            return Err(wrong("problems", message));
-        };
-        Ok((slug(label), Box::new(PlanarArm::new(arm))))
+        Ok((study, point, family))
+    }
+
+    /// The seed that samples are drawn by.
+    pub fn seed(&self) -> u64 {
+        self.file.seed
+    }
+
+    /// The sets, each with its place in the file.
+    pub fn sets(&self) -> impl Iterator<Item = (String, &SetEntry)> {
+        let sets = self.file.sets.iter().enumerate();
+        sets.map(|(index, entry)| (format!("set.{index}"), entry.get_ref()))
+    }
+
+    /// A fault at a key of this file.
+    pub fn fault(&self, place: &str, message: String) -> SettingsError {
+        self.document.error_at(place, message)
     }
 
     /// Robots and scenes that stored paths name.
@@ -353,8 +400,9 @@ impl Spec {
         let workspaces = self.file.workspaces.iter().enumerate();
         let workspaces =
             workspaces.map(|(index, entry)| (format!("workspace.{index}.paths"), &entry.get_ref().paths));
+        let sets = self.sets().map(|(place, entry)| (format!("{place}.paths"), &entry.paths));
         let mut names = Faults::default();
-        for (place, paths) in stored.chain(workspaces) {
+        for (place, paths) in stored.chain(workspaces).chain(sets) {
             self.check_paths(paths, &place, paper, &mut names);
         }
         if names.is_empty() {

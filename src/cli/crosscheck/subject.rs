@@ -2,9 +2,10 @@
 
 use base::robot::MayTouch;
 use base::settings::{Document, SettingsError};
+use base::solid::Form;
 use engine::geometry::planar::{Segment2, Touch, distance_point_segment};
 use engine::geometry::{
-    Capsule, Convex, Frame, Solid, Vec2, Vec3, distance_segment_segment, distance_segment_solid,
+    Capsule, Convex, Frame, Solid, Sphere, Vec2, Vec3, distance_segment_segment, distance_segment_solid,
 };
 use engine::kinematics::open_chain::OpenChain;
 use engine::kinematics::planar_2r::Planar2r;
@@ -12,7 +13,7 @@ use engine::kinematics::robot::{Body, capsule_around, links_at_zero, listed_pair
 use engine::kinematics::{AXES, Chain, Joints, KinematicsError, Robot};
 use engine::space::cell::{Cell, Scene, Standing};
 use engine::space::polyhedra::{CarriedArm, read_scene};
-use engine::space::{ArmWorld, Obstacle, Support};
+use engine::space::{ArmWorld, JointSpace, Obstacle, Support};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
@@ -227,6 +228,8 @@ pub struct OpenArm {
     parts: Vec<(String, usize, Capsule)>,
     self_pairs: Vec<[usize; 2]>,
     stills: Stills,
+    /// Where planners move it, if they do.
+    space: Option<Box<JointSpace>>,
 }
 
 impl OpenArm {
@@ -250,6 +253,35 @@ impl OpenArm {
                 (*support.base(), stills)
             }
         };
+        Self::among(robot, listed_pairs(robot, may_touch), base, stills)
+    }
+
+    /// The robot of `space` where planners move it. What stands around it has numbers after its names, which need not differ.
+    ///
+    /// # Errors
+    /// A solid that encloses nothing.
+    pub fn in_space(space: &JointSpace) -> Result<Self, KinematicsError> {
+        let still = |(place, solid): (usize, &base::solid::Solid)| {
+            let (points, radius_m) = solid.rounded();
+            let points: Vec<Vec3> = points.into_iter().map(Vec3::from).collect();
+            let name = format!("{} {}", solid.name, place + 1);
+            Ok(match solid.form {
+                Form::Sphere(_) => (name, Solid::Sphere(Sphere::new(points[0], radius_m)?)),
+                _ => (name, Solid::Convex(Convex::from_vertices(points)?)),
+            })
+        };
+        let stills = space.obstacles().iter().enumerate().map(still);
+        let stills = stills.collect::<Result<_, KinematicsError>>()?;
+        let arm = Self::among(space.robot(), space.self_pairs().to_vec(), Frame::IDENTITY, stills)?;
+        Ok(Self { space: Some(Box::new(space.clone())), ..arm })
+    }
+
+    fn among(
+        robot: &base::robot::Robot,
+        self_pairs: Vec<[usize; 2]>,
+        base: Frame,
+        stills: Stills,
+    ) -> Result<Self, KinematicsError> {
         let chain = OpenChain::new(robot);
         let at_zero = chain.frames(&vec![0.0; chain.joints().len()]);
         let links = at_zero.iter().zip(links_at_zero(&chain)).map(|(frame, link)| frame.inverse() * link);
@@ -259,7 +291,7 @@ impl OpenArm {
             .map(|(joint, solid)| Ok((solid.name.clone(), *joint, capsule_around(solid, &Frame::IDENTITY)?)));
         let parts = parts.collect::<Result<_, KinematicsError>>()?;
         let links = links.collect();
-        Ok(Self { base, chain, links, parts, self_pairs: listed_pairs(robot, may_touch), stills })
+        Ok(Self { base, chain, links, parts, self_pairs, stills, space: None })
     }
 
     fn placed(&self, q: &[f64]) -> Vec<Frame> {
@@ -291,9 +323,8 @@ impl Subject for OpenArm {
         gaps_m(&parts, &self.stills, &self.self_pairs)
     }
 
-    fn standable(&self, _q: &[f64]) -> Option<Standable> {
-        // Planners hold the solids themselves against those of a problem file.
-        None
+    fn standable(&self, q: &[f64]) -> Option<Standable> {
+        self.space.as_ref().map(|space| Standable { is_free: space.is_clear(q), of_scene: false })
     }
 
     fn is_beyond(&self, joint: usize, value: f64) -> bool {

@@ -17,7 +17,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "prm_star",
     about: "a roadmap whose samples are joined with ever more nearest ones, searched whenever it has grown by a share",
-    revision: 1,
+    revision: 2,
     needs: WorldKind::Roadmap,
     columns: IMPROVING_COLUMNS,
     settings: Accepted::shape::<PrmStar>(),
@@ -37,7 +37,7 @@ growth = 1.1
 struct PrmStar {
     /// Where samples come from.
     sampler: DrawSetting,
-    /// Samples; the study's budget of expansions limits them as well.
+    /// Samples; without a path after as many there is none to be found; the study's budget of expansions limits them as well.
     #[schemars(range(min = 1, max = 10_000_000))]
     iterations: u64,
     /// The roadmap is searched after the first, and whenever there were so many times as many iterations as at the search before.
@@ -107,7 +107,7 @@ impl SampledSearch for PrmStar {
         let mut draw = Draw::new(self.sampler, request.seed);
         let mut map = Roadmap { nodes: Tree::new(motions, request.start), links: vec![Vec::new()] };
         map.add(motions, request.goal);
-        let limit = self.iterations.min(request.expansions);
+        let limit = self.limit(request);
         let mut due = 1.0;
         while found.iterations < limit {
             found.iterations += 1;
@@ -132,6 +132,10 @@ impl SampledSearch for PrmStar {
         }
         found.nodes = map.links.len();
         found
+    }
+
+    fn iterations(&self) -> u64 {
+        self.iterations
     }
 
     fn draws(&self) -> bool {

@@ -16,7 +16,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "rrt",
     about: "a tree that grows from the start to samples until a step reaches the goal",
-    revision: 2,
+    revision: 3,
     needs: WorldKind::Roadmap,
     columns: COLUMNS,
     settings: Accepted::shape::<Rrt>(),
@@ -43,7 +43,7 @@ struct Rrt {
     /// The share of iterations whose sample is the goal.
     #[schemars(range(min = 0, max = 1))]
     goal_share: f64,
-    /// Samples at most; the study's budget of expansions limits them as well.
+    /// Samples at most; without a path after as many there is none to be found; the study's budget of expansions limits them as well.
     #[schemars(range(min = 1, max = 10_000_000))]
     iterations: u64,
 }
@@ -55,7 +55,7 @@ impl SampledSearch for Rrt {
         let mut found = Progress::default();
         let mut draw = Draw::new(self.sampler, request.seed);
         let mut tree = Tree::new(motions, request.start);
-        while found.path.is_empty() && found.iterations < self.iterations.min(request.expansions) {
+        while found.path.is_empty() && found.iterations < self.limit(request) {
             found.iterations += 1;
             let sample = sample(&mut draw, motions, request.goal, self.goal_share);
             let near = tree.nearest(&sample).0;
@@ -76,6 +76,10 @@ impl SampledSearch for Rrt {
         }
         found.nodes = tree.count();
         found
+    }
+
+    fn iterations(&self) -> u64 {
+        self.iterations
     }
 
     fn draws(&self) -> bool {

@@ -17,7 +17,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "rrt_connect",
     about: "two trees, from start and goal, that grow to samples and to each other; dynamic domain, balance and sampler as settings",
-    revision: 2,
+    revision: 3,
     needs: WorldKind::Roadmap,
     columns: COLUMNS,
     settings: Accepted::shape::<RrtConnect>(),
@@ -51,7 +51,7 @@ struct RrtConnect {
     dynamic_domain: Option<DynamicDomain>,
     /// Whose tree grows first.
     first: FirstTree,
-    /// Samples at most; the study's budget of expansions limits them as well.
+    /// Samples at most; without a path after as many there is none to be found; the study's budget of expansions limits them as well.
     #[schemars(range(min = 1))]
     iterations: u64,
     /// Nodes of both trees at most.
@@ -125,7 +125,7 @@ impl SampledSearch for RrtConnect {
         let mut sides = [request.start, request.goal].map(|end| Side::new(motions, end));
         // Before the first sample the trees take turns once.
         let mut own = usize::from(self.first == FirstTree::Start);
-        let limit = self.iterations.min(request.expansions);
+        let limit = self.limit(request);
         while found.iterations < limit && sides[0].tree.count() + sides[1].tree.count() < self.nodes {
             found.iterations += 1;
             let [size, other] = [own, 1 - own].map(|side| sides[side].tree.count() as f64);
@@ -145,6 +145,10 @@ impl SampledSearch for RrtConnect {
         }
         found.nodes = sides.iter().map(|side| side.tree.count()).sum();
         found
+    }
+
+    fn iterations(&self) -> u64 {
+        self.iterations
     }
 
     fn draws(&self) -> bool {

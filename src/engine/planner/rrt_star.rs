@@ -21,7 +21,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "rrt_star",
     about: "RRT that goes on: each new node takes the cheapest of its neighbours as parent and is offered to them; informed or not",
-    revision: 1,
+    revision: 2,
     needs: WorldKind::Roadmap,
     columns: IMPROVING_COLUMNS,
     settings: Accepted::shape::<RrtStar>(),
@@ -53,7 +53,7 @@ struct RrtStar {
     /// The share of iterations whose sample is the goal, until there is a path.
     #[schemars(range(min = 0, max = 1))]
     goal_share: f64,
-    /// Samples; the study's budget of expansions limits them as well.
+    /// Samples; without a path after as many there is none to be found; the study's budget of expansions limits them as well.
     #[schemars(range(min = 1, max = 10_000_000))]
     iterations: u64,
     /// Whether samples after the first path come from where a shorter one can be.
@@ -157,7 +157,7 @@ impl SampledSearch for RrtStar {
         let mut costs = Costs::new(Tree::new(motions, request.start));
         // Nodes from which a free motion leads to the goal, each with its length.
         let mut before_goal: Vec<(u32, f64)> = Vec::new();
-        while found.iterations < self.iterations.min(request.expansions) {
+        while found.iterations < self.limit(request) {
             found.iterations += 1;
             let length = found.incumbents.last().map(|(_, length)| *length);
             let sample = match length {
@@ -192,6 +192,10 @@ impl SampledSearch for RrtStar {
         }
         found.nodes = costs.tree.count();
         found
+    }
+
+    fn iterations(&self) -> u64 {
+        self.iterations
     }
 
     fn draws(&self) -> bool {

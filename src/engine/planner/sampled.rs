@@ -52,6 +52,14 @@ pub(super) trait SampledSearch: Send + Sync {
     /// What it finds between a start and a goal that are apart.
     fn search(&self, motions: &mut Motions<'_>, request: &Request<'_>) -> Progress;
 
+    /// How many iterations its settings give it.
+    fn iterations(&self) -> u64;
+
+    /// How many iterations it has: those of its settings, or the study's budget if that is less.
+    fn limit(&self, request: &Request<'_>) -> u64 {
+        self.iterations().min(request.expansions)
+    }
+
     /// Whether the trial's seed decides anything.
     fn draws(&self) -> bool;
 }
@@ -69,7 +77,10 @@ impl<S: SampledSearch> Planner for SampledPlanner<S> {
         } else {
             self.0.search(&mut motions, request)
         };
-        Ok(plan(request, &motions, found, S::IMPROVES))
+        // Where its own settings end it, more time would find nothing.
+        let is_cut = self.0.iterations() > request.expansions && found.iterations == request.expansions;
+        let without = if is_cut { Ending::BudgetSpent } else { Ending::NoPath };
+        Ok(plan(request, &motions, found, (without, S::IMPROVES)))
     }
 
     fn is_optimal(&self) -> bool {
@@ -107,8 +118,13 @@ pub(super) fn claimed(local: &Local, path: &[Vec<f64>]) -> Option<f64> {
     local.is_straight().then(|| path_length(&places))
 }
 
-/// The plan of what was found; without a path the budget is spent.
-fn plan(request: &Request<'_>, motions: &Motions<'_>, found: Progress, improves: bool) -> Plan {
+/// The plan of what was found; `without` is how a search without a path ended.
+fn plan(
+    request: &Request<'_>,
+    motions: &Motions<'_>,
+    found: Progress,
+    (without, improves): (Ending, bool),
+) -> Plan {
     let local = local(request);
     let is_solved = !found.path.is_empty();
     let mut counts = Counts::from([
@@ -134,7 +150,7 @@ fn plan(request: &Request<'_>, motions: &Motions<'_>, found: Progress, improves:
     let incumbents =
         Trace { name: "incumbents_by_iteration".to_owned(), width: 2, values: numbers.collect() };
     Plan {
-        ending: if is_solved { Ending::Solved } else { Ending::BudgetSpent },
+        ending: if is_solved { Ending::Solved } else { without },
         cost: if is_solved { claimed(local, &found.path) } else { None },
         path: found.path,
         counts,

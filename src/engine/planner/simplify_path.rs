@@ -17,7 +17,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "simplify_path",
     about: "shortens a path by shortcuts, by leaving out vertices and by cutting corners, in rounds",
-    revision: 1,
+    revision: 2,
     needs: WorldKind::Roadmap,
     columns: &["simplification_motions", "simplification_states"],
     settings: Accepted::shape::<SimplifyPath>(),
@@ -64,20 +64,28 @@ impl Stage for SimplifyPath {
             return plan;
         }
         let local = roadmap(request.world).local();
-        let mut motions = Motions::new(local);
         let mut draw = Draw::new(DrawSetting::Seeded, seed::derive(request.seed, &["simplify_path"]));
         let bspline = self.bspline.unwrap_or(BSpline { rounds: 0, least_change: 0.0, share: 0.0 });
         let reduce = self.reduce.unwrap_or(Reduce { tries: 0, empty_tries: 0, range_share: 0.0 });
-        let rounds = (self.rounds, &self.operations[..]);
-        let short = simplify(&mut motions, &mut draw, plan.path.clone(), rounds, (&bspline, &reduce));
-        // What a finer look refuses is no path, and rounding in the plane may lengthen one; the one that it came from stays then.
-        let is_longer = motions.length(&short) > motions.length(&plan.path);
-        if !is_longer && motions.refused_leg(&short).is_none() {
-            plan.path = short;
+        let (mut tried, mut checked) = (0, 0);
+        // What a finer look refuses is no path: then the path is shortened again by motions that are looked at so. Where this gives none
+        // either, or rounding in the plane makes it longer, the path stays as it is.
+        for mut motions in [Motions::new(local), Motions::finely(local)] {
+            let rounds = (self.rounds, &self.operations[..]);
+            let short = simplify(&mut motions, &mut draw, plan.path.clone(), rounds, (&bspline, &reduce));
+            let is_free = motions.refused_leg(&short).is_none();
+            tried += motions.motions();
+            checked += motions.checked();
+            if is_free {
+                if motions.length(&short) <= motions.length(&plan.path) {
+                    plan.path = short;
+                }
+                break;
+            }
         }
         plan.cost = claimed(local, &plan.path);
-        plan.counts.insert("simplification_motions", Value::Count(motions.motions()));
-        plan.counts.insert("simplification_states", Value::Count(motions.checked()));
+        plan.counts.insert("simplification_motions", Value::Count(tried));
+        plan.counts.insert("simplification_states", Value::Count(checked));
         plan
     }
 }

@@ -4,9 +4,6 @@ use super::Draw;
 use crate::space::roadmap::{Local, MotionScratch};
 use std::f64::consts::TAU;
 
-/// How many times as often a path is checked as the motions that it is made of.
-const FINER: f64 = 4.0;
-
 /// The space of a query, which counts its checks.
 #[derive(Debug)]
 pub struct Motions<'a> {
@@ -15,6 +12,7 @@ pub struct Motions<'a> {
     turn_on: Vec<bool>,
     scratch: MotionScratch,
     tried: u64,
+    is_fine: bool,
 }
 
 impl<'a> Motions<'a> {
@@ -26,7 +24,13 @@ impl<'a> Motions<'a> {
             local,
             scratch: MotionScratch::default(),
             tried: 0,
+            is_fine: false,
         }
+    }
+
+    /// The same space, whose motions are looked at as finely as a path is before it is returned.
+    pub fn finely(local: &'a Local) -> Self {
+        Self { is_fine: true, ..Self::new(local) }
     }
 
     /// The least and the greatest value of each coordinate.
@@ -96,12 +100,12 @@ impl<'a> Motions<'a> {
     /// Whether the straight motion from a free configuration to another is free.
     pub fn goes(&mut self, from: &[f64], to: &[f64]) -> bool {
         self.tried += 1;
-        self.local.goes([from, to], 1.0, &mut self.scratch)
+        self.local.goes([from, to], self.is_fine, &mut self.scratch)
     }
 
     /// The first leg of a path that a finer look refuses. What stands between two configurations that are checked may be missed; so a path
     /// is looked at again before it is returned.
     pub fn refused_leg(&mut self, path: &[Vec<f64>]) -> Option<usize> {
-        path.windows(2).position(|leg| !self.local.goes([&leg[0], &leg[1]], FINER, &mut self.scratch))
+        path.windows(2).position(|leg| !self.local.goes([&leg[0], &leg[1]], true, &mut self.scratch))
     }
 }

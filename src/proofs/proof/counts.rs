@@ -38,6 +38,21 @@ pub fn count_bound(
     }
 }
 
+/// Whether a printed number is at most a limit, which the source sets as it `says`.
+pub fn at_most(print: Print, limit: f64, says: &str) -> Proof {
+    let least = print.interval().low;
+    let is_possible = least <= limit;
+    let compared = if is_possible { "may keep" } else { "exceeds" };
+    Proof {
+        is_possible,
+        because: vec![format!(
+            "{} {compared} the limit of {limit}, whatever its digits stand for",
+            print.printed
+        )],
+        premises: vec![format!("the limit holds for the printed number: {says}")],
+    }
+}
+
 /// Whether a printed percentage is the reduction from one printed number to another. None if there is no such reduction: the
 /// first must be positive and the second not negative, whatever their digits stand for.
 pub fn percentage(print: Print, [before, after]: [Print; 2]) -> Option<Proof> {
@@ -82,4 +97,21 @@ pub fn clock_ticks(tick: Tick, times: &[Print], chosen: &str) -> Proof {
     );
     let premises = vec![format!("the tick of {spelled}: {chosen}")];
     Proof { is_possible: true, because: vec![reason, chance], premises }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::printed::Digits;
+
+    #[test]
+    fn a_number_above_its_limit_is_impossible_and_one_that_may_round_to_it_is_not() {
+        let is_possible = |text: &str, limit| {
+            let print = Print { printed: text.parse().unwrap(), digits: Digits::Rounded };
+            at_most(print, limit, "so it says").is_possible
+        };
+        assert!(!is_possible("881990", 100_000.0));
+        assert!(is_possible("100000", 100_000.0) && is_possible("97944.2", 100_000.0));
+        assert!(is_possible("1.3", 1.26) && !is_possible("1.3", 1.2));
+    }
 }

@@ -1,10 +1,15 @@
 //! Planners that sample, around a wall whose shortest path is known.
 
-use super::super::{Build, Ending, Plan, Planner, Request, find};
+use super::super::roadmap::roadmap;
+use super::super::{Build, Counts, Ending, Plan, Planner, Request, find};
 use crate::geometry::planar::ConvexPolygon;
-use crate::space::World;
+use crate::sampling::Motions;
+use crate::space::{JointSpace, SelfContact, World};
+
 use crate::space::roadmap::{Counted, Local, Near, PlaneMap, RASTER_MM, Roadmap};
+use base::robot::{Joint, Kind, Robot};
 use base::settings::Settings;
+use base::solid::{Form, Pose, Solid};
 
 /// Over both upper corners of the wall: two legs of 65 mm and its width.
 const SHORTEST_MM: f64 = 140.0;
@@ -66,12 +71,20 @@ fn a_start_that_is_the_goal_is_a_path_of_no_leg_and_of_length_0() {
 }
 
 #[test]
-fn limits_end_a_search_without_a_path() {
+fn a_search_without_a_path_ends_by_its_own_limits_or_cut_off_by_the_budget() {
     let world = world();
-    for limits in ["iterations = 1\nnodes = 5000", "iterations = 5000\nnodes = 3"] {
+    for (limits, expansions, ending) in [
+        ("iterations = 1\nnodes = 5000", 100, Ending::NoPath),
+        ("iterations = 100\nnodes = 3", 100, Ending::NoPath),
+        ("iterations = 5\nnodes = 5000", 5, Ending::NoPath),
+        ("iterations = 6\nnodes = 5000", 5, Ending::BudgetSpent),
+    ] {
         let settings = format!("range = 1\nfirst = 'goal'\nsampler = 'halton'\n{limits}");
-        let plan = plan(planner("rrt_connect", &settings).as_ref(), &world, 1);
-        assert_eq!((plan.ending, plan.path.len(), plan.cost), (Ending::BudgetSpent, 0, None), "{limits}");
+        let (start, goal) = ([20.0, 20.0], [80.0, 20.0]);
+        let request =
+            Request { world: &world, start: &start, goal: &goal, expansions, seed: 1, trace: false };
+        let plan = planner("rrt_connect", &settings).plan(&request).unwrap();
+        assert_eq!((plan.ending, plan.path.len(), plan.cost), (ending, 0, None), "{limits}");
     }
 }
 
@@ -163,4 +176,71 @@ fn points_in_the_plane_lie_on_its_raster() {
         let is_on = |x: &f64| (x / RASTER_MM).fract() == 0.0;
         assert!(path.len() > 2 && path.iter().flatten().all(is_on), "{name}: {path:?}");
     }
+}
+
+/// An arm of two joints about z whose only solid is a ball at its end, beside a ball that is thinner than a step of its motions.
+fn past_something_thin() -> World {
+    let ball = |x: f64, y: f64, radius: f64| Solid {
+        name: "ball".to_owned(),
+        pose: Pose { origin_m: [x, y, 0.0], ..Pose::IDENTITY },
+        form: Form::Sphere(radius),
+    };
+    let joint = |x: f64| Joint {
+        name: format!("joint at {x} m"),
+        before: Pose { origin_m: [x, 0.0, 0.0], ..Pose::IDENTITY },
+        axis: [0.0, 0.0, 1.0],
+        kind: Kind::Turns,
+        limits: [-3.0, 3.0],
+        speed: None,
+    };
+    let robot = Robot {
+        name: "two".to_owned(),
+        base: "base".to_owned(),
+        joints: vec![joint(0.0), joint(0.5)],
+        solids: vec![(2, ball(0.5, 0.0, 0.03))],
+        owners: vec!["end".to_owned()],
+        tip: Pose::IDENTITY,
+        files: Vec::new(),
+        notes: Vec::new(),
+    };
+    let space = JointSpace::new(robot, vec![ball(0.99, 0.1, 0.001)], &SelfContact::Unchecked, 0.2);
+    World::Roadmap(Box::new(Roadmap::build(
+        Local::Joints(Box::new(space)),
+        Vec::new(),
+        Near::Places(0.0),
+        Counted::Accepted,
+    )))
+}
+
+#[test]
+fn a_path_that_a_finer_look_refuses_once_shortened_is_shortened_again_by_that_look() {
+    let world = past_something_thin();
+    let Build::Stage(build) = find("simplify_path").unwrap().build else { panic!("it is a stage") };
+    let settings = "rounds = 5\noperations = ['shortcut']".parse().unwrap();
+    let stage = build(&Settings::composed("a test", settings)).unwrap();
+    let local = roadmap(&world).local();
+    let mut motions = Motions::finely(local);
+    let (mut slipped, mut shortened) = (0, 0);
+    for case in 0..40 {
+        let (start, goal) = ([-0.6 - 0.005 * f64::from(case), 0.0], [0.9, 0.0]);
+        // Around the ball by a bent elbow, in more legs than it takes.
+        let path = [[start[0], 1.0], [0.0, 1.5], [0.9, 1.0]].map(Vec::from);
+        let path = [vec![start.to_vec()], path.to_vec(), vec![goal.to_vec()]].concat();
+        let plan = Plan {
+            ending: Ending::Solved,
+            path: path.clone(),
+            cost: None,
+            counts: Counts::new(),
+            traces: Vec::new(),
+            reason: None,
+        };
+        let request =
+            Request { world: &world, start: &start, goal: &goal, expansions: 1, seed: 1, trace: false };
+        let short = stage.refine(&request, plan).path;
+        slipped += u32::from(Motions::new(local).goes(&start, &goal));
+        shortened += u32::from(motions.length(&short) < 0.95 * motions.length(&path));
+        assert_eq!(motions.refused_leg(&short), None, "case {case}: {short:?}");
+    }
+    assert!((5..40).contains(&slipped), "one-sided sample: {slipped} of 40 slip past");
+    assert_eq!(shortened, 40, "every path can be shortened");
 }

@@ -3,6 +3,9 @@
 //! Places and distances run in f32. A comparison inside the error band of an obstacle, and one with a solid that lanes only bound (a
 //! cylinder's prism, a hull), leaves its configurations in doubt, and the scalar code decides those. So a verdict from here is the
 //! scalar code's. Spheres of one link are first compared by a ball around them all.
+//!
+//! A closure over lanes, or `map` over them, would be compiled for every machine's instructions and call each operation of theirs: so there
+//! is none here.
 #![expect(
     clippy::inline_always,
     reason = "lanes are compiled for the instructions of the function they end up in"
@@ -10,8 +13,8 @@
 
 use crate::geometry::Vec3;
 use crate::geometry::lanes::{
-    Frames, Point, ROUGH_LANES, ROUGHNESS, Rough, RoughRow, Select, Simd, SimdBase, SimdFloat, SimdMask,
-    sincos_rough,
+    ExtractToken, Frames, Point, ROUGH_LANES, ROUGHNESS, Rough, RoughRow, Select, Simd, SimdBase, SimdFloat,
+    SimdMask, sincos_rough,
 };
 use crate::kinematics::open_chain::{OpenChain, frame};
 use base::robot::{Kind, Robot};
@@ -246,11 +249,19 @@ impl Spheres {
         memory.spheres.resize(spheres, [[0.0; ROUGH_LANES]; 3]);
         memory.is_placed.clear();
         memory.is_placed.resize(self.links.len(), false);
-        let unit = |i: usize| Point::splat_rough(simd, std::array::from_fn(|j| f32::from(u8::from(i == j))));
-        let mut at = Frames { axes: [unit(0), unit(1), unit(2)], origin: Point::splat_rough(simd, [0.0; 3]) };
+        let mut at = Frames {
+            axes: [
+                Point::splat_rough(simd, [1.0, 0.0, 0.0]),
+                Point::splat_rough(simd, [0.0, 1.0, 0.0]),
+                Point::splat_rough(simd, [0.0, 0.0, 1.0]),
+            ],
+            origin: Point::splat_rough(simd, [0.0; 3]),
+        };
         store_frame(&at, &mut memory.frames[0]);
         for (index, (joint, row)) in self.joints.iter().zip(values).enumerate() {
-            let [x, y, z] = joint.axes.map(|axis| direction(simd, &at.axes, axis));
+            let x = direction(simd, &at.axes, joint.axes[0]);
+            let y = direction(simd, &at.axes, joint.axes[1]);
+            let z = direction(simd, &at.axes, joint.axes[2]);
             let origin = at.origin + direction(simd, &at.axes, joint.origin);
             let value = Rough::load_array_ref(simd, row);
             at = if joint.slides {
@@ -308,20 +319,19 @@ impl Still {
     #[inline(always)]
     fn squares<S: Simd>(&self, simd: S, at: &Point<Rough<S>>) -> (Rough<S>, Rough<S>) {
         let apart = *at - Point::splat_rough(simd, self.origin);
-        let zero = Rough::splat(simd, 0.0);
-        let along = |axis: usize| apart.dot(Point::splat_rough(simd, self.axes[axis]));
-        let beyond = |length: Rough<S>, half: f32| (length - half).max(zero);
         match self.form {
-            StillForm::Box(half) => {
-                let [x, y, z] = [0, 1, 2].map(|axis| beyond(along(axis).abs(), half[axis]));
+            StillForm::Box([a, b, c]) => {
+                let x = beyond(self.along(simd, apart, 0).abs(), a);
+                let y = beyond(self.along(simd, apart, 1).abs(), b);
+                let z = beyond(self.along(simd, apart, 2).abs(), c);
                 let square = x.mul_add(x, y.mul_add(y, z * z));
                 (square, square)
             }
             StillForm::Cylinder([inner, outer], half) => {
-                let (x, y) = (along(0), along(1));
+                let (x, y) = (self.along(simd, apart, 0), self.along(simd, apart, 1));
                 let out = x.mul_add(x, y * y).sqrt();
-                let up = beyond(along(2).abs(), half);
-                let [most, least] = [inner, outer].map(|radius| beyond(out, radius));
+                let up = beyond(self.along(simd, apart, 2).abs(), half);
+                let (most, least) = (beyond(out, inner), beyond(out, outer));
                 (least.mul_add(least, up * up), most.mul_add(most, up * up))
             }
             StillForm::Sphere(radius) => {
@@ -334,6 +344,17 @@ impl Still {
             }
         }
     }
+
+    #[inline(always)]
+    fn along<S: Simd>(&self, simd: S, apart: Point<Rough<S>>, axis: usize) -> Rough<S> {
+        apart.dot(Point::splat_rough(simd, self.axes[axis]))
+    }
+}
+
+/// By how much lengths are greater than `half`, or 0.
+#[inline(always)]
+fn beyond<S: Simd>(length: Rough<S>, half: f32) -> Rough<S> {
+    (length - half).max(Rough::splat(length.token(), 0.0))
 }
 
 fn square(length: f32) -> f32 {
@@ -342,8 +363,7 @@ fn square(length: f32) -> f32 {
 
 #[inline(always)]
 fn direction<S: Simd>(simd: S, [x, y, z]: &[Point<Rough<S>>; 3], [a, b, c]: [f32; 3]) -> Point<Rough<S>> {
-    let [a, b, c] = [a, b, c].map(|along| Rough::splat(simd, along));
-    x.scaled(a).plus(b, *y).plus(c, *z)
+    x.scaled(Rough::splat(simd, a)).plus(Rough::splat(simd, b), *y).plus(Rough::splat(simd, c), *z)
 }
 
 #[inline(always)]
@@ -360,15 +380,18 @@ fn store<S: Simd>(at: Point<Rough<S>>, [x, y, z]: &mut [RoughRow; 3]) {
 
 #[inline(always)]
 fn store_frame<S: Simd>(at: &Frames<Rough<S>>, rows: &mut [RoughRow; 12]) {
-    let points = at.axes.into_iter().chain([at.origin]);
-    for (point, rows) in points.zip(rows.as_chunks_mut::<3>().0) {
-        store(point, rows);
-    }
+    let (rows, _) = rows.as_chunks_mut::<3>();
+    store(at.axes[0], &mut rows[0]);
+    store(at.axes[1], &mut rows[1]);
+    store(at.axes[2], &mut rows[2]);
+    store(at.origin, &mut rows[3]);
 }
 
 #[inline(always)]
 fn load_frame<S: Simd>(simd: S, rows: &[RoughRow; 12]) -> Frames<Rough<S>> {
-    let [x, y, z, origin] =
-        std::array::from_fn(|i| Point::load(simd, [&rows[3 * i], &rows[3 * i + 1], &rows[3 * i + 2]]));
-    Frames { axes: [x, y, z], origin }
+    let (rows, _) = rows.as_chunks::<3>();
+    Frames {
+        axes: [point(simd, &rows[0]), point(simd, &rows[1]), point(simd, &rows[2])],
+        origin: point(simd, &rows[3]),
+    }
 }

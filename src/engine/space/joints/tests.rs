@@ -162,3 +162,33 @@ fn a_motion_that_slips_past_something_thin_is_refused_by_a_finer_look() {
     }
     assert!((10..35).contains(&slipped), "one-sided sample: {slipped} of 40 slipped");
 }
+
+/// A ball may graze another between two configurations at which both are apart; a path's motions are looked at as finely as that takes.
+#[test]
+fn a_graze_between_two_looks_is_refused_where_a_path_is_returned() {
+    let of = |z: f64| {
+        let mut robot = of_spheres();
+        robot.solids.retain(|(link, _)| *link == 6);
+        robot.solids.truncate(1);
+        robot.owners.truncate(1);
+        let ball = Solid { pose: Pose { origin_m: [0.0, 0.0, z], ..Pose::IDENTITY }, ..ball(0.0, 0.0) };
+        JointSpace::new(robot, vec![ball], &SelfContact::Unchecked, 0.05)
+    };
+    // The robot's only ball goes a circle whose top is at 1.2 m; the obstacle stands above it, 0.01 mm too low or too high.
+    let top_m = 1.2 + 0.04 + 0.1;
+    let mut memory = MotionMemory::default();
+    let (mut slipped, mut refused) = (0, 0);
+    for case in 0..40 {
+        let mut from = [0.0; 7];
+        from[1] = -0.7 - 0.0007 * f64::from(case);
+        let mut to = from;
+        to[1] += 1.4;
+        let grazing = of(top_m - 1e-5);
+        slipped += u32::from(grazing.goes([&from, &to], FINER[0], &mut memory, &mut 0));
+        refused += u32::from(!grazing.holds([&from, &to], &mut memory, &mut 0));
+        let apart = of(top_m + 1e-5);
+        assert!(apart.holds([&from, &to], &mut memory, &mut 0), "case {case}: nothing touches");
+    }
+    assert!((5..35).contains(&slipped), "one-sided sample: {slipped} of 40 slip past");
+    assert_eq!(refused, 40, "every graze is refused");
+}

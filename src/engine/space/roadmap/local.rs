@@ -129,15 +129,20 @@ impl Local {
         }
     }
 
-    /// Whether the local path from a configuration where the robot can be to another can be executed; a robot of any number of joints is
-    /// checked `finer` times as often as its step says.
-    pub fn goes(&self, [from, to]: [&[f64]; 2], finer: f64, scratch: &mut MotionScratch) -> bool {
+    /// Whether the local path from a configuration where the robot can be to another can be executed; `finely`, as
+    /// [`JointSpace::holds`] looks at the motions of a robot of any number of joints.
+    pub fn goes(&self, ends: [&[f64]; 2], finely: bool, scratch: &mut MotionScratch) -> bool {
         match self {
             Self::Joints(space) => {
                 let MotionScratch { paths, memory } = scratch;
-                space.goes([from, to], finer, memory, paths.count())
+                if finely {
+                    space.holds(ends, memory, paths.count())
+                } else {
+                    space.goes(ends, 1.0, memory, paths.count())
+                }
             }
             Self::Arm(_) | Self::Plane(_) => {
+                let [from, to] = ends;
                 self.refusal(to).is_none()
                     && self.join(&self.node(from), &self.node(to), &mut scratch.paths).is_ok()
             }
