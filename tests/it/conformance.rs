@@ -64,7 +64,9 @@ fn tried() -> &'static [Tried] {
     static TRIED: LazyLock<Vec<Tried>> = LazyLock::new(|| {
         let planners = planners();
         // No thread of the pool draws the worlds that another waits for.
-        planners.iter().for_each(|subject| _ = worlds(subject.entry.needs));
+        for subject in &planners {
+            worlds(subject.entry.needs);
+        }
         let on = |subject: Subject| {
             let planned = |case| (case, plan(subject.planner.as_ref(), case), case.truth(&subject));
             Tried { plans: worlds(subject.entry.needs).iter().map(planned).collect(), subject }
