@@ -218,7 +218,7 @@ fn labels_that_are_long_or_spelled_alike_have_a_file_each() {
     let at = |name: &str| folder.path().join(name);
     let long = "corridor ".repeat(60);
     let labels = [format!("{long} one"), format!("{long} two"), "a b".to_owned(), "a-b".to_owned()];
-    let rows = labels.iter().map(|label| format!("{label},1\n")).collect::<String>();
+    let rows = labels.iter().map(|label| format!("{label},1\n")).collect::<Vec<_>>().concat();
     fs::write(at("results.csv"), format!("suite,map\n{rows}")).unwrap();
     let columns = "group = { column = \"suite\" }\ninstance = \"map\"\ncontender = { is = \"A*\" }\n";
     fs::write(at("columns.toml"), columns).unwrap();
