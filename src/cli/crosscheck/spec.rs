@@ -341,6 +341,9 @@ impl Spec {
     }
 
     /// The study of some paths, its default interpretation, and what their group poses under it.
+    ///
+    /// # Errors
+    /// A study or a problem group that does not exist, or that cannot be built, at `place`.
     pub fn posed(
         &self,
         paths: &StoredPaths,
