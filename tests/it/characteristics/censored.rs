@@ -174,8 +174,9 @@ fn a_claim_about_cases_that_both_solve_hangs_on_what_did_not_end_and_says_what_i
             (one.outcome.name(), one.findings[0].because.join("; "))
         };
         let name = format!("{criterion}: {settings}");
-        for lost in [(9, NoPath, NoPath), (9, Rejected, At(5.0)), (9, NoPath, At(5.0)), (9, At(4.0), NoPath)]
-        {
+        let ended = [(9, NoPath, NoPath), (9, Rejected, At(5.0)), (9, NoPath, At(5.0)), (9, At(4.0), NoPath)];
+        let half_ended = [(9, Spent, NoPath), (9, NoPath, Spent), (9, Spent, Rejected)];
+        for lost in ended.into_iter().chain(half_ended) {
             let (outcome, because) = found(lost);
             assert_eq!(outcome, "holds", "{name}: {lost:?}");
             let expected = "9 more cases are outside of the claim: not solved by both";
@@ -274,6 +275,27 @@ fn a_row_of_numbers_and_a_trend_hang_on_what_did_not_end() {
         class("trend", &settings, Made::Plainly, drawn(spent))
     };
     assert_eq!([trend(0), trend(1)], ["holds", "open"], "nor is it known where along it");
+}
+
+#[test]
+fn a_trend_over_cases_that_both_solve_does_not_hang_on_one_that_a_side_cannot_solve() {
+    let trend = |other: End| {
+        let mut sample = Sample::default();
+        for instance in 0..60 {
+            let place = f64::from(instance % 7);
+            sample.instance();
+            sample.trial("A", At(7.0 + place));
+            sample.with("optimal_cost_cells", place);
+            sample.trial("B", At(20.0));
+        }
+        sample.instance();
+        sample.trial("A", Spent);
+        sample.trial("B", other);
+        let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+        let settings = format!("{of}\nover = \"optimal_cost_cells\"\nrising = false");
+        class("trend", &settings, Made::Plainly, sample)
+    };
+    assert_eq!([trend(NoPath), trend(Rejected), trend(At(20.0))], ["holds", "holds", "open"]);
 }
 
 #[test]
