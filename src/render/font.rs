@@ -207,6 +207,9 @@ mod tests {
         assert_eq!(lines.join(" "), text);
         assert!(lines.len() > 2, "{lines:?}");
         assert!(lines.iter().all(|line| width_em(line, Weight::Regular) <= 14.0), "{lines:?}");
-        assert_eq!(wrapped("after 72\u{2009}% of it", Weight::Regular, 3.0), ["after", "72\u{2009}%", "of it"]);
+        assert_eq!(
+            wrapped("after 72\u{2009}% of it", Weight::Regular, 3.0),
+            ["after", "72\u{2009}%", "of it"]
+        );
     }
 }

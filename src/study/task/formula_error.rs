@@ -15,9 +15,9 @@ use crate::unit::Unit;
 use base::seed::{self, Stream};
 use base::settings::{Accepted, Settings};
 use engine::geometry::{
-    Convex, Nearest, Segment, Vec3, distance_segment_convex, distance_segment_segment, nearest_segment_convex,
-    nearest_segment_convex_listed, nearest_segment_convex_listed_first, nearest_segment_convex_printed, nearest_segment_segment_literal,
-    nearest_segment_segment_printed,
+    Convex, Nearest, Segment, Vec3, distance_segment_convex, distance_segment_segment,
+    nearest_segment_convex, nearest_segment_convex_listed, nearest_segment_convex_listed_first,
+    nearest_segment_convex_printed, nearest_segment_segment_literal, nearest_segment_segment_printed,
 };
 use engine::planner::Value;
 use rand::RngExt as _;
