@@ -58,7 +58,7 @@ pub fn refused(instances: &[Instance<'_>]) -> usize {
 
 /// How many cases are outside of a claim about what everyone who is compared solves.
 pub fn outside(instances: &[Instance<'_>]) -> usize {
-    cases(instances).filter(|case| !case.is_solved() && !case.is_unended()).count()
+    cases(instances).filter(|case| !case.is_solved() && !case.might_be_solved()).count()
 }
 
 /// That so many cases are outside of a claim about `of`, in words; `None` if none is.

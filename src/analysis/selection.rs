@@ -86,6 +86,12 @@ impl Case<'_> {
         is_unended(self.row) || self.base.is_some_and(is_unended)
     }
 
+    /// Whether everyone who is compared might have solved it: some side did not come to an end, and none ended without a path that holds.
+    pub fn might_be_solved(&self) -> bool {
+        let might = |row: &Row| row.is_solved() || is_unended(row);
+        self.is_unended() && might(self.row) && self.base.is_none_or(might)
+    }
+
     /// Whether everyone who is compared solved it.
     pub fn is_solved(&self) -> bool {
         self.row.is_solved() && self.base.is_none_or(Row::is_solved)
@@ -233,7 +239,7 @@ impl<'a> Selection<'a> {
         let instances = self.all_instances(evidence);
         instances
             .iter()
-            .filter(|instance| !instance.is_whole())
+            .filter(|instance| instance.might_be_whole())
             .map(|instance| unended(std::slice::from_ref(instance)))
             .sum()
     }
@@ -381,6 +387,11 @@ impl Instance<'_> {
     /// Whether all that is compared is solved on it.
     pub fn is_whole(&self) -> bool {
         self.cases.iter().all(Case::is_solved)
+    }
+
+    /// Whether it is not whole, and would be if trials without an end had been solved.
+    fn might_be_whole(&self) -> bool {
+        !self.is_whole() && self.cases.iter().all(|case| case.is_solved() || case.might_be_solved())
     }
 }
 

@@ -155,10 +155,10 @@ pub(super) fn outline(glyph: u16, weight: Weight) -> String {
     writer.path
 }
 
-/// `text` broken at spaces into lines of at most `most_em`; a longer word keeps a line of its own.
+/// `text` broken at spaces, but at no thin ones, into lines of at most `most_em`; a longer word keeps a line of its own.
 pub fn wrapped(text: &str, weight: Weight, most_em: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
+    for word in text.split(' ').filter(|word| !word.is_empty()) {
         if let Some(last) = lines.last_mut() {
             let longer = format!("{last} {word}");
             if width_em(&longer, weight) <= most_em {
@@ -207,5 +207,9 @@ mod tests {
         assert_eq!(lines.join(" "), text);
         assert!(lines.len() > 2, "{lines:?}");
         assert!(lines.iter().all(|line| width_em(line, Weight::Regular) <= 14.0), "{lines:?}");
+        assert_eq!(
+            wrapped("after 72\u{2009}% of it", Weight::Regular, 3.0),
+            ["after", "72\u{2009}%", "of it"]
+        );
     }
 }

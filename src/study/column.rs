@@ -193,6 +193,8 @@ pub static COLUMNS: &[Column] = &[
         "pairs of segments whose distance is wrong by the formula to the letter",
     ),
     real("largest_excess_cm", "the most by which a printed distance is too long"),
+    count("pushed", "rods within the range of the repulsive potential, moved along the printed force"),
+    count("pushed_uphill", "rods along whose printed force the potential does not fall"),
     real("joint_range_rad", "sum over the joints of the greatest less the least angle"),
     real("joint_travel_rad", "sum over the joints of all changes of angle"),
     real("tip_jitter_cm", "sum of the second differences of the tip's place over 200 equal spans of time"),

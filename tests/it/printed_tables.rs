@@ -410,7 +410,7 @@ fn a_selection_that_selects_nothing_is_refused_with_the_names_there_are() {
     assert!(output.contains(wanted), "{output}");
     // What a task tries in the place of contenders has names too.
     let study = "paper = 'forty'\nquestion = 'q'\nseed = 1\nbudget = { expansions = 1 }\ntask = 'formula_error'\n\
-                 task_settings = { samples = 5, reach = 0.5 }\n[[problems]]\nlabel = '0'\nfamily = 'random_polyhedra'\n\
+                 task_settings = { samples = 5, reach = 0.5, range_cm = 5.0 }\n[[problems]]\nlabel = '0'\nfamily = 'random_polyhedra'\n\
                  settings = { side_cm = 60, step_cm = 1, count = [1, 1], size_cm = [7, 16], shapes = ['box'], clear_cm = 1, queries = \
                  [{ start = [4, 5, 6], goal = [56, 54, 50] }] }\n";
     bench.write("forty/maps.toml", study.as_bytes());

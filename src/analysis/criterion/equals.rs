@@ -109,7 +109,7 @@ impl Equals<'_> {
             for case in &instance.cases {
                 let pair = self.pair(run, case);
                 let is_known = pair.is_some_and(|(_, own)| own.is_finite());
-                let is_cut = !is_known && case.is_unended();
+                let is_cut = !is_known && case.might_be_solved();
                 all.unknown += usize::from(is_cut);
                 let Some((truth, own)) = pair else { continue };
                 let apart = (own - truth).abs();

@@ -184,22 +184,18 @@ impl<'a> Counted<'a> {
         }
     }
 
-    /// Whether a case might be a hit and is not known to be: one without an end. One that ended unsolved is outside of a claim about
-    /// what is solved.
+    /// Whether a case might be a hit and is not known to be: one without an end. One that a side ended unsolved is outside of a claim
+    /// about what is solved, whatever the other might have found.
     fn is_unknown(&self, case: &Case<'_>) -> bool {
         match self.settings.hits {
             // What ended without a path, or with a refused one, has no marks; what did not end might have had some.
             Hits::Marked | Hits::Events => case.is_unended() && self.counts(case).is_none(),
             // What the other solves is none of its failures.
             Hits::Cured => case.is_unended() && !case.base.is_some_and(Row::is_solved),
-            Hits::Solved
-            | Hits::Rejected
-            | Hits::Above
-            | Hits::Lower
-            | Hits::Higher
-            | Hits::LowerThroughout
-            | Hits::SolvedMore
-            | Hits::SolvedMoreThroughout => case.is_unended(),
+            Hits::Above | Hits::Lower | Hits::Higher | Hits::LowerThroughout => case.might_be_solved(),
+            Hits::Solved | Hits::Rejected | Hits::SolvedMore | Hits::SolvedMoreThroughout => {
+                case.is_unended()
+            }
         }
     }
 

@@ -79,12 +79,12 @@ impl<'a> Trend<'a> {
         let least = seen.iter().fold(0.0, |least: f64, (_, y)| least.min(*y));
         let most = seen.iter().fold(0.0, |most: f64, (_, y)| most.max(y.abs())) * seen.len() as f64;
         // One whose place is not known either may stand anywhere.
-        let is_lost = |case: &Case<'_>| case.is_unended() && case.row.value(&self.over).is_none();
+        let is_lost = |case: &Case<'_>| case.might_be_solved() && case.row.value(&self.over).is_none();
         if cases(instances).any(is_lost) {
             return vec![Interval::new(f64::NEG_INFINITY, f64::INFINITY)];
         }
         let number = |case: &Case<'_>, rising: bool| {
-            let place = case.row.value(&self.over).filter(|_| case.is_unended());
+            let place = case.row.value(&self.over).filter(|_| case.might_be_solved());
             self.point(case).or_else(|| place.map(|x| (x, if (x > middle) == rising { most } else { least })))
         };
         let slope =

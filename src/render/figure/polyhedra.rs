@@ -171,7 +171,7 @@ impl Polyhedra {
         }
         match (row.status, row.value("followed_share")) {
             (Status::Solved, _) => "goal reached".to_owned(),
-            (_, Some(share)) => format!("stopped after {:.0} % of the path", 100.0 * share),
+            (_, Some(share)) => format!("stopped after {:.0}\u{2009}% of the path", 100.0 * share),
             (status, None) => status.to_string(),
         }
     }

@@ -20,6 +20,7 @@ task = 'formula_error'
 [task_settings]
 samples = 20
 reach = 0.5
+range_cm = 5.0
 [budget]
 expansions = 1000
 [quick]

@@ -174,8 +174,9 @@ fn a_claim_about_cases_that_both_solve_hangs_on_what_did_not_end_and_says_what_i
             (one.outcome.name(), one.findings[0].because.join("; "))
         };
         let name = format!("{criterion}: {settings}");
-        for lost in [(9, NoPath, NoPath), (9, Rejected, At(5.0)), (9, NoPath, At(5.0)), (9, At(4.0), NoPath)]
-        {
+        let ended = [(9, NoPath, NoPath), (9, Rejected, At(5.0)), (9, NoPath, At(5.0)), (9, At(4.0), NoPath)];
+        let half_ended = [(9, Spent, NoPath), (9, NoPath, Spent), (9, Spent, Rejected)];
+        for lost in ended.into_iter().chain(half_ended) {
             let (outcome, because) = found(lost);
             assert_eq!(outcome, "holds", "{name}: {lost:?}");
             let expected = "9 more cases are outside of the claim: not solved by both";
@@ -277,6 +278,27 @@ fn a_row_of_numbers_and_a_trend_hang_on_what_did_not_end() {
 }
 
 #[test]
+fn a_trend_over_cases_that_both_solve_does_not_hang_on_one_that_a_side_cannot_solve() {
+    let trend = |other: End| {
+        let mut sample = Sample::default();
+        for instance in 0..60 {
+            let place = f64::from(instance % 7);
+            sample.instance();
+            sample.trial("A", At(7.0 + place));
+            sample.with("optimal_cost_cells", place);
+            sample.trial("B", At(20.0));
+        }
+        sample.instance();
+        sample.trial("A", Spent);
+        sample.trial("B", other);
+        let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+        let settings = format!("{of}\nover = \"optimal_cost_cells\"\nrising = false");
+        class("trend", &settings, Made::Plainly, sample)
+    };
+    assert_eq!([trend(NoPath), trend(Rejected), trend(At(20.0))], ["holds", "holds", "open"]);
+}
+
+#[test]
 fn rows_of_one_instance_are_joined_by_the_instance() {
     // Of every second instance one row lacks a number: joined by their order the two would seem apart.
     let mut sample = Sample::default();
@@ -359,17 +381,19 @@ fn what_did_not_end_is_neither_solved_nor_not() {
 
 #[test]
 fn instances_that_might_have_been_whole_are_not_forgotten() {
-    let of = |lost: End| {
+    let pair = |one: End, other: End| {
         let mut sample = Sample::default();
         for instance in 0..40 {
             sample.instance();
-            sample.query("A", Some(0), None, At(1.0));
-            sample.query("A", Some(1), None, if instance == 0 { lost } else { At(1.0) });
+            sample.query("A", Some(0), None, if instance == 0 { other } else { At(1.0) });
+            sample.query("A", Some(1), None, if instance == 0 { one } else { At(1.0) });
         }
         let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\", whole_instances = true }";
         class("within", &format!("{of}\nstatistic = \"mean\"\naccepted = [0.0, 2.0]"), Made::Plainly, sample)
     };
+    let of = |lost: End| pair(lost, At(1.0));
     assert_eq!([of(At(1.0)), of(NoPath), of(Spent)], ["holds", "holds", "open"]);
+    assert_eq!(pair(Spent, NoPath), "holds", "it could not have been whole");
 }
 
 #[test]

@@ -71,10 +71,15 @@ impl Kind for RatiosOver {
             let label = format!("{} as a share of {}'s", self.metric.label.to_lowercase(), self.read.against);
             let y = Axis::log(label, low / 1.5, high * 1.5)?;
             let mut panel = Panel::new(group, Axis::over(self.about, over.iter().copied()), y);
-            for (index, (points, contender)) in contenders.iter().zip(&self.read.contenders).enumerate() {
-                let stroke = series_stroke(ask::series(scene, contender, index));
+            let strokes: Vec<Stroke> = (self.read.contenders.iter().enumerate())
+                .map(|(index, contender)| series_stroke(ask::series(scene, contender, index)))
+                .collect();
+            // The first contender's dots are drawn last, on top: where all open as many nodes, they are the ones to see.
+            for (points, stroke) in contenders.iter().zip(&strokes).rev() {
                 let faint = stroke.color.mixed(WHITE, 0.55);
                 panel.add(Points::unlabelled(points.clone(), Marker::Circle, 0.9, faint));
+            }
+            for ((points, contender), stroke) in contenders.iter().zip(&self.read.contenders).zip(strokes) {
                 let logs: Vec<[f64; 2]> = points.iter().map(|[x, y]| [*x, libm::log(*y)]).collect();
                 let means = means_along(&logs).into_iter().map(|[x, y]| [x, libm::exp(y)]);
                 panel.add(Line::through(means.collect(), stroke).labelled(contender.clone()));
