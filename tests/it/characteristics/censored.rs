@@ -381,17 +381,19 @@ fn what_did_not_end_is_neither_solved_nor_not() {
 
 #[test]
 fn instances_that_might_have_been_whole_are_not_forgotten() {
-    let of = |lost: End| {
+    let pair = |one: End, other: End| {
         let mut sample = Sample::default();
         for instance in 0..40 {
             sample.instance();
-            sample.query("A", Some(0), None, At(1.0));
-            sample.query("A", Some(1), None, if instance == 0 { lost } else { At(1.0) });
+            sample.query("A", Some(0), None, if instance == 0 { other } else { At(1.0) });
+            sample.query("A", Some(1), None, if instance == 0 { one } else { At(1.0) });
         }
         let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\", whole_instances = true }";
         class("within", &format!("{of}\nstatistic = \"mean\"\naccepted = [0.0, 2.0]"), Made::Plainly, sample)
     };
+    let of = |lost: End| pair(lost, At(1.0));
     assert_eq!([of(At(1.0)), of(NoPath), of(Spent)], ["holds", "holds", "open"]);
+    assert_eq!(pair(Spent, NoPath), "holds", "it could not have been whole");
 }
 
 #[test]
