@@ -41,10 +41,7 @@ class Limits:
 
 @dataclass(frozen=True)
 class Result:
-    """How a query ended. A cost is in the world's unit; leave it out if you did not work it out.
-
-    Counters are `expansions`, `iterations`, `samples` and `own_wall_ns`; replan refuses others.
-    """
+    """How a query ended. A cost is in the world's unit; leave it out if you did not work it out."""
 
     status: str
     path: Path = ()
