@@ -16,15 +16,17 @@ mod theory;
 mod universal;
 mod verdicts;
 
+use crate::paper::thoroughly;
 use rayon::prelude::*;
 use scenario::{Counts, Scenario};
 use std::sync::OnceLock;
 
-/// Papers drawn for a scenario, unless `REPLAN_PAPERS` says otherwise.
+/// Papers drawn for a scenario where tests are thorough; the gate draws a fifth, and `REPLAN_PAPERS` says otherwise. The page of rates is
+/// of all.
 const PAPERS: usize = 250;
 
 fn papers() -> usize {
-    std::env::var("REPLAN_PAPERS").map_or(PAPERS, |text| text.parse().unwrap())
+    std::env::var("REPLAN_PAPERS").map_or_else(|_| thoroughly(PAPERS), |text| text.parse().unwrap())
 }
 
 /// Every scenario, by criterion, with how it came out.

@@ -42,7 +42,7 @@ impl Subject {
     pub fn of_committed_papers() -> Self {
         let root = tempfile::tempdir().unwrap();
         let home = Path::new(env!("CARGO_MANIFEST_DIR"));
-        for name in ["experiments", "data/robots", "data/scenes", "data/maps", "data/draws"] {
+        for name in ["experiments", "data/robots", "data/scenes", "data/maps", "data/draws", "data/mbm"] {
             copy(&home.join(name), &root.path().join(name));
         }
         let mut folders: Vec<PathBuf> = fs::read_dir(root.path().join("experiments"))
