@@ -102,6 +102,12 @@ class Cases:
         own, base = self.cut()
         return own | base
 
+    @property
+    def might_be_solved(self) -> Flags:
+        """Whether everyone might have solved it: some side did not come to an end, and none ended without a path that holds."""
+        own, base = self.cut()
+        return (own | base) & (own | self.own_solved) & (base | self.base_solved)
+
     def ended_as(self, rows: Places, solved: bool) -> Flags:
         """Whether trials are solved; those that did not come to an end as is said."""
         return self.study.solved[rows] | (solved & np.isin(self.study.status[rows], CUT))
@@ -222,7 +228,8 @@ def select(paper: Paper, of: dict[str, Any], session: int) -> Cases:
     unsolved = ~(cases.own_solved & cases.base_solved)
     left_out = np.isin(cases.unit, cases.unit[unsolved])
     whole = cases.kept(~left_out)
-    whole.cut_left_out = bool(cases.unended[left_out].any())
+    hopeless = np.isin(cases.unit, cases.unit[unsolved & ~cases.might_be_solved])
+    whole.cut_left_out = bool((left_out & ~hopeless).any())
     return whole
 
 

@@ -66,7 +66,7 @@ def equals(asked: Asked) -> Found:
     estimate = with_cases(counted(cases, known, same, asked.seed), (int(same[known].sum()), int(known.sum())))
     if not known.any():
         return certain(OPEN, estimate)
-    cut = cases.unended & ~(known & np.isfinite(own))
+    cut = cases.might_be_solved & ~(known & np.isfinite(own))
     found = certain(HOLDS if same[known].all() else FAILS, estimate)
     # That something is wrong hangs on what did not end only if nothing else is.
     is_wrong = bool((~same & known & ~cut).any())
@@ -98,7 +98,7 @@ def on_every(asked: Asked) -> Found:
 def counterexamples(cases: Cases, that: str) -> Flags:
     """Cases that might be counterexamples and are not known to be none."""
     if that != "solved":
-        return cases.unended
+        return cases.might_be_solved
     own, base = cases.cut()
     return (own & (base | cases.base_solved)) | (base & ~cases.own_solved)
 
@@ -172,6 +172,8 @@ def unknown(asked: Asked, cases: Cases) -> Flags:
     kind = asked.settings["hits"]
     if kind in ("marked", "events"):
         return cases.unended & (hits_of(asked, cases)[1] == 0)
+    if kind in ("above", "lower", "higher", "lower_throughout"):
+        return cases.might_be_solved
     # What the other contender solves is none of its failures.
     return cases.unended & ~cases.base_solved if kind == "cured" else cases.unended
 

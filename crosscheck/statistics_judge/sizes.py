@@ -238,9 +238,10 @@ def bent(asked: Asked, cases: Cases, main: Found, outcome: Outcome) -> frozenset
     """
     x, y = cases.study.column(asked.settings["over"])[cases.own], cases.numbers
     seen = ~np.isnan(x) & ~np.isnan(y)
-    if (cases.unended & np.isnan(x)).any():
+    might = cases.might_be_solved
+    if (might & np.isnan(x)).any():
         return frozenset([True])
-    lost = cases.unended & ~seen
+    lost = might & ~seen
     ends = []
     least, most = min(0.0, y[seen].min()), np.abs(y[seen]).max() * seen.sum()
     for rising in (True, False):

@@ -23,7 +23,7 @@ pub fn stop_flag() -> &'static AtomicBool {
             end_at_once();
         }
         external::interrupt();
-        eprintln!("stopping at the next safe point; press Ctrl-C again to stop at once");
+        note("stopping at the next safe point; press Ctrl-C again to stop at once");
         std::thread::spawn(|| {
             std::thread::sleep(PATIENCE);
             end_at_once();
@@ -40,14 +40,18 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// Ends the process and every planner from outside. Files are whole, whenever that is.
 fn end_at_once() -> ! {
     external::name_survivors(&external::end_planners());
-    eprintln!("replan: interrupted: what was finished is kept; the same command goes on from there");
+    note("replan: interrupted: what was finished is kept; the same command goes on from there");
     std::process::exit(130);
 }
 
 /// Says what is about to be done, as it may take longer than a second.
 pub fn doing(what: &str) {
-    // A reader that closed the pipe early is no reason to stop.
-    let _ = writeln!(std::io::stderr(), "{} …", shown(what));
+    note(&format!("{} …", shown(what)));
+}
+
+/// Writes a line to standard error. A reader that closed the pipe early is no reason to fail.
+pub fn note(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
 }
 
 /// How often it prints how far units are, where there is no terminal for a bar.
@@ -121,7 +125,7 @@ impl Progress for Bar {
         let seconds = bar.elapsed().as_secs_f64();
         bar.finish_and_clear();
         if std::io::stderr().is_terminal() || done > 0 {
-            eprintln!("{}: {} in {seconds:.1} s", shown(&what), counted(done as usize, UNITS));
+            note(&format!("{}: {} in {seconds:.1} s", shown(&what), counted(done as usize, UNITS)));
         }
     }
 }

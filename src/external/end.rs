@@ -13,6 +13,7 @@ use rustix::process::{
     test_kill_process_group, waitpid,
 };
 use std::collections::BTreeSet;
+use std::io::Write as _;
 use std::process::Child;
 use std::thread::sleep;
 use std::time::Duration;
@@ -66,7 +67,8 @@ pub fn is_living(pid: i32) -> bool {
 /// Names the processes that are `left` on standard error.
 pub fn name_survivors(left: &[i32]) {
     if let Some(message) = survivors(left) {
-        eprintln!("{message}");
+        // A reader that closed the pipe is no reason to fail here.
+        let _ = writeln!(std::io::stderr(), "{message}");
     }
 }
 

@@ -1,6 +1,7 @@
 //! The Python side: an environment of its own, made once, and calls of the modules in `crosscheck/`.
 
 use super::super::Failure;
+use super::super::progress::note;
 use base::hash::sha256;
 use std::ffi::OsString;
 use std::fs;
@@ -49,7 +50,7 @@ impl Judge {
             return Ok(Self { python });
         }
         let program = usable(program)?;
-        eprintln!("making a Python environment in {} (once)", venv.display());
+        note(&format!("making a Python environment in {} (once)", venv.display()));
         fs::create_dir_all(folder)?;
         make(program, &venv, &python).map_err(|why| {
             missing(format!(
