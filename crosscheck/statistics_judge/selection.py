@@ -104,7 +104,7 @@ class Cases:
 
     @property
     def might_be_solved(self) -> Flags:
-        """Whether everyone might have solved it: some side did not come to an end, and none ended without a path that holds."""
+        """Whether everyone might have solved it: a side did not come to an end, and none ended without a valid path."""
         own, base = self.cut()
         return (own | base) & (own | self.own_solved) & (base | self.base_solved)
 
