@@ -14,6 +14,7 @@ use replan_audit::{claims, coverage, output};
 use std::fs;
 use std::io::{self, Write as _};
 use std::num::NonZero;
+use std::os::unix::fs::FileTypeExt as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
@@ -235,12 +236,21 @@ fn refused(path: &Path, error: &io::Error) -> Failure {
     Failure(1, format!("{}: {error}", path.display()))
 }
 
+/// The file or pipe at `path`.
+fn opened(path: &Path) -> io::Result<fs::File> {
+    let kind = fs::metadata(path)?.file_type();
+    if kind.is_file() || kind.is_fifo() {
+        return fs::File::open(path);
+    }
+    Err(io::Error::other("it is a folder, a device or a socket; a regular file or a pipe is accepted"))
+}
+
 /// The text of a file, a pipe (`replan audit <(command)`) or standard input.
 fn read(path: &Path) -> Result<String, Failure> {
     let bytes = if path == Path::new("-") {
         file::read_all(&mut io::stdin())
     } else {
-        fs::File::open(path).and_then(|mut file| file::read_all(&mut file))
+        opened(path).and_then(|mut file| file::read_all(&mut file))
     };
     let text = bytes.map_err(|error| error.to_string()).and_then(text::decoded);
     text.map_err(|what| Failure(2, format!("{}: {what}", path.display())))

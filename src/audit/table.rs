@@ -1,6 +1,7 @@
 //! Tables as they are printed: cells as strings with their places, and the meaning of each column.
 
 use super::meaning::{Kind, Meaning};
+use base::text::visible;
 use proofs::exact::Print;
 use proofs::printed::Printed;
 use std::fmt;
@@ -30,9 +31,9 @@ pub struct Fault {
 }
 
 impl Fault {
-    /// A fault at a place.
+    /// A fault at a place; characters that cannot be seen are named in its message.
     pub fn new(place: Place, message: impl Into<String>) -> Self {
-        Self { place, message: message.into() }
+        Self { place, message: visible(&message.into()).into_owned() }
     }
 }
 

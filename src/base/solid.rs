@@ -1,6 +1,7 @@
 //! Solids with a name and a place, as robot and problem files give them: metres, and rotations as matrices.
 
 use crate::settings::{Document, SettingsError};
+use crate::units::unbent;
 use std::ops::Range;
 
 /// Beyond this many metres a length is taken for one in millimetres: no robot and no scene around one is as large.
@@ -143,7 +144,7 @@ impl Solid {
     }
 }
 
-/// The file being read, which knows the places in it.
+/// The file being read, which knows the places in it. Its numbers are finite.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Source<'a>(pub &'a Document);
 
@@ -152,29 +153,13 @@ impl Source<'_> {
         self.0.error(at.clone(), message)
     }
 
-    /// `N` numbers, all finite.
-    pub fn finite<const N: usize>(
-        self,
-        at: &Range<usize>,
-        key: &str,
-        numbers: [f64; N],
-    ) -> Result<[f64; N], SettingsError> {
-        match numbers.iter().find(|number| !number.is_finite()) {
-            None => Ok(numbers),
-            Some(found) => {
-                Err(self.fault(at, format!("{key} has the number {found}; finite numbers are accepted")))
-            }
-        }
-    }
-
-    /// `N` lengths in metres, all finite; one beyond 10 m is taken for one in millimetres.
+    /// `N` lengths in metres; one beyond 10 m is taken for one in millimetres.
     pub fn metres<const N: usize>(
         self,
         at: &Range<usize>,
         key: &str,
         lengths: [f64; N],
     ) -> Result<[f64; N], SettingsError> {
-        let lengths = self.finite(at, key, lengths)?;
         match lengths.iter().find(|length| length.abs() > FAR_M) {
             None => Ok(lengths),
             Some(found) => Err(self.fault(
@@ -182,20 +167,19 @@ impl Source<'_> {
                 format!(
                     "{key} has the length {found} m; is it in millimetres? lengths in metres are accepted, up to {FAR_M} m \
                      ({found} mm is {} m)",
-                    found * 1e-3
+                    unbent(found * 1e-3)
                 ),
             )),
         }
     }
 
-    /// `N` angles in radians, all finite; one beyond two turns is taken for one in degrees.
+    /// `N` angles in radians; one beyond two turns is taken for one in degrees.
     pub fn radians<const N: usize>(
         self,
         at: &Range<usize>,
         key: &str,
         angles: [f64; N],
     ) -> Result<[f64; N], SettingsError> {
-        let angles = self.finite(at, key, angles)?;
         match angles.iter().find(|angle| angle.abs() > FAR_RAD) {
             None => Ok(angles),
             Some(found) => Err(self
@@ -227,7 +211,7 @@ impl Source<'_> {
         [x, y, z, w, a, b, c]: [f64; 7],
     ) -> Result<(Pose, bool), SettingsError> {
         let origin_m = self.metres(at, key, [x, y, z])?;
-        let wxyz = self.finite(at, key, [w, a, b, c])?;
+        let wxyz = [w, a, b, c];
         let length = wxyz.iter().map(|part| part * part).sum::<f64>().sqrt();
         if (length - 1.0).abs() > UNIT {
             let message = format!(

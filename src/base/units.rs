@@ -32,11 +32,16 @@ pub fn points_in_metres<'a>(keys: &str, points_mm: impl IntoIterator<Item = &'a 
     seems_in_metres(&format!("the greatest coordinate of {keys}"), farthest_mm)
 }
 
+/// A number worked out from a printed one, without the last digits, which the arithmetic bends: 94.65 for 0.09465 · 1000.
+pub fn unbent(number: f64) -> f64 {
+    format!("{number:.14e}").parse().expect("what Rust writes as a number is one")
+}
+
 fn below(least_mm: f64, key: &str, length_mm: f64) -> Option<String> {
     (f64::MIN_POSITIVE..least_mm).contains(&length_mm).then(|| {
         format!(
             "{key} is {length_mm}; is it in metres? millimetres are accepted ({length_mm} m is {} mm)",
-            length_mm * 1e3
+            unbent(length_mm * 1e3)
         )
     })
 }
@@ -108,6 +113,8 @@ mod tests {
             radius_in_metres("radius_mm", 0.075).unwrap(),
             "radius_mm is 0.075; is it in metres? millimetres are accepted (0.075 m is 75 mm)"
         );
+        let bent = radius_in_metres("radius_mm", 0.09465).unwrap();
+        assert!(bent.ends_with("(0.09465 m is 94.65 mm)"), "{bent}");
         for radius_mm in [-1.0, 0.0, 1.0, 75.0] {
             assert_eq!(radius_in_metres("radius_mm", radius_mm), None);
         }

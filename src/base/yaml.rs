@@ -36,7 +36,7 @@ impl Yaml<'_> {
     /// What the document holds.
     ///
     /// # Errors
-    /// A syntax error at its place; a key that is given twice in one table; anchors.
+    /// A syntax error at its place, behind the document too; a key that is given twice in one table; anchors; a second document.
     pub fn parse(document: &Document) -> Result<Node, SettingsError> {
         let text = document.text();
         let places = Places::new(text);
@@ -45,6 +45,7 @@ impl Yaml<'_> {
             fault(error.marker().index(), &format!("this is neither YAML nor JSON: {}", error.info()))
         };
         let mut open: Vec<Open> = Vec::new();
+        let mut root = None;
         for event in Parser::new_from_str(text) {
             let (event, span) = event.map_err(scan)?;
             let index = span.start.index();
@@ -67,20 +68,23 @@ impl Yaml<'_> {
             let done = match event {
                 Event::Scalar(word, ..) => node(Data::Word(word.into_owned())),
                 Event::SequenceEnd | Event::MappingEnd => open.pop().expect("what ends has begun").node,
+                Event::DocumentStart(_) if root.is_some() => {
+                    return Err(fault(index, "a second document begins here; a file of one is accepted"));
+                }
                 Event::Alias(_) => {
                     return Err(fault(index, "this is a YAML alias; values written out are accepted"));
                 }
                 _ => continue,
             };
             match open.last_mut() {
-                None => return Ok(done),
+                None => root = Some(done),
                 Some(holder) => holder.put(done).map_err(|twice| {
                     let message = format!("`{}` is given twice; once is accepted", brief(&twice.key));
                     Source(document).fault(&twice.at, message)
                 })?,
             }
         }
-        Err(fault(0, "the file is empty; a table is accepted"))
+        root.ok_or_else(|| fault(0, "the file is empty; a table is accepted"))
     }
 
     /// The value under `key`, which must be there.
@@ -142,12 +146,14 @@ impl Yaml<'_> {
 
     /// A finite number.
     pub fn number(self, of: &Node, key: &str) -> Result<f64, SettingsError> {
-        let number = match &of.data {
+        let number: Option<f64> = match &of.data {
             Data::Word(word) => word.parse().ok(),
             _ => None,
         };
-        let wrong = || self.0.fault(&of.at, format!("{key} is {}; a number is accepted", of.what()));
-        Ok(self.0.finite(&of.at, key, [number.ok_or_else(wrong)?])?[0])
+        // As written: of `1e400` an infinity is read.
+        let accepted = if number.is_some() { "a finite number" } else { "a number" };
+        let wrong = || self.0.fault(&of.at, format!("{key} is {}; {accepted} is accepted", of.what()));
+        number.filter(|number| number.is_finite()).ok_or_else(wrong)
     }
 
     /// Any number of finite numbers.

@@ -2,7 +2,11 @@
 
 use super::world::{Kind, Pose, World};
 use schemars::JsonSchema;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Deserializer, MapAccess, Visitor};
 use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::marker::PhantomData;
 
 /// The version of the protocol.
 pub const PROTOCOL: u32 = 1;
@@ -14,6 +18,29 @@ pub struct Messages {
     pub from_planner: FromPlanner,
     /// A line that replan writes.
     pub to_planner: ToPlanner,
+}
+
+/// What stands in a message as an object: of itself, the JSON library also reads a list by the order of the keys.
+pub(super) struct Object<T>(pub T);
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Object<T> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_map(Keys(PhantomData)).map(Self)
+    }
+}
+
+struct Keys<T>(PhantomData<T>);
+
+impl<'de, T: Deserialize<'de>> Visitor<'de> for Keys<T> {
+    type Value = T;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("an object")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, keys: A) -> Result<T, A::Error> {
+        T::deserialize(MapAccessDeserializer::new(keys))
+    }
 }
 
 /// What a planner writes.
@@ -119,7 +146,7 @@ pub struct Ask {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fk: Option<Vec<Vec<f64>>>,
     /// All postures, as joint angles, with the tip in each pose.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "poses")]
     pub ik: Option<Vec<Pose>>,
 }
 
@@ -173,8 +200,22 @@ pub struct QueryResult {
     #[serde(default)]
     pub cost: Option<f64>,
     /// What the planner counted.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "counters")]
     pub counters: Counters,
+}
+
+fn poses<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Vec<Pose>>, D::Error> {
+    let poses: Option<Vec<Object<Pose>>> = Deserialize::deserialize(from)?;
+    Ok(poses.map(|poses| poses.into_iter().map(|Object(pose)| pose).collect()))
+}
+
+fn counters<'de, D: Deserializer<'de>>(from: D) -> Result<Counters, D::Error> {
+    Object::deserialize(from).map(|Object(counters)| counters)
+}
+
+/// A counter that is written; `null` becomes a number that none fits.
+fn counter<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
+    Option::deserialize(from).map(|number: Option<f64>| number.or(Some(f64::NAN)))
 }
 
 /// What a planner counted, each perhaps: a column each. Another name, or a number that is none of its column, refuses the result.
@@ -182,12 +223,16 @@ pub struct QueryResult {
 #[serde(default, deny_unknown_fields)]
 pub struct Counters {
     /// Expanded nodes, a whole number.
+    #[serde(deserialize_with = "counter")]
     pub expansions: Option<f64>,
     /// Iterations, a whole number.
+    #[serde(deserialize_with = "counter")]
     pub iterations: Option<f64>,
     /// Samples, a whole number.
+    #[serde(deserialize_with = "counter")]
     pub samples: Option<f64>,
-    /// Its time by its own clock.
+    /// Its time by its own clock, a whole number.
+    #[serde(deserialize_with = "counter")]
     pub own_wall_ns: Option<f64>,
 }
 
@@ -206,18 +251,10 @@ impl Counters {
         ]
     }
 
-    /// The first one that its column cannot hold, and what is accepted there.
-    pub(super) fn misfit(&self) -> Option<(&'static str, &'static str)> {
-        self.named().into_iter().find_map(|(name, value)| {
-            let value = value?;
-            let (fits, accepted) = if name.ends_with("_ns") {
-                (value >= 0.0, "a number of 0 or more")
-            } else {
-                let fits = value.fract() == 0.0 && (0.0..Self::TOO_MANY).contains(&value);
-                (fits, "a whole number of 0 or more and below 2^53")
-            };
-            (!fits).then_some((name, accepted))
-        })
+    /// The name of the first one that is no whole number of 0 or more and below 2⁵³.
+    pub(super) fn misfit(&self) -> Option<&'static str> {
+        let fits = |value: f64| value.fract() == 0.0 && (0.0..Self::TOO_MANY).contains(&value);
+        self.named().into_iter().find_map(|(name, value)| (!fits(value?)).then_some(name))
     }
 }
 

@@ -4,7 +4,7 @@ use super::end::{end_all, name_survivors};
 use super::interrupt::{self, MARK, guard};
 use super::launch::launch;
 use super::linux::close_control_group;
-use super::message::{FromPlanner, Hello, Limits, ToPlanner};
+use super::message::{FromPlanner, Hello, Limits, Object, ToPlanner};
 use base::settings::did_you_mean;
 use base::text::{around, brief, one_line};
 use std::collections::VecDeque;
@@ -260,12 +260,13 @@ pub fn read_message(line: &[u8]) -> Result<FromPlanner, String> {
             at + 1
         )
     })?;
-    let message = serde_json::from_str(text).map_err(|error| no_message(text, &error))?;
+    let Object(message) = serde_json::from_str(text).map_err(|error| no_message(text, &error))?;
     if let FromPlanner::Result(found) = &message
-        && let Some((name, accepted)) = found.counters.misfit()
+        && let Some(name) = found.counters.misfit()
     {
         let written = counter(text, name);
-        return Err(format!("the planner counts {} `{name}`; {accepted} is accepted", brief(written)));
+        let accepted = "a whole number of 0 or more and below 2^53 is accepted";
+        return Err(format!("the planner counts {} `{name}`; {accepted}", brief(written)));
     }
     Ok(message)
 }

@@ -36,9 +36,18 @@ pub static ENTRY: Entry = Entry {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Word {
     Mean,
+    /// `Sum`: nothing else.
     Sum,
+    /// `Total`: a sum, or where means are printed, perhaps the mean of all.
+    Total,
     /// `Overall`: a mean, weighted or not, or a sum.
     Either,
+}
+
+impl Word {
+    fn is_sum(self) -> bool {
+        matches!(self, Self::Sum | Self::Total)
+    }
 }
 
 /// How a number may follow from others.
@@ -117,14 +126,17 @@ fn word(name: &str) -> Option<Word> {
     if OTHERWISE.iter().any(|word| name.contains(word)) {
         return None;
     }
-    let alone = name.split(['(', '[', ':']).next().unwrap_or_default().trim().trim_end_matches('.');
+    let alone = name.split(['(', '[', ':']).next().unwrap_or_default().trim();
+    let alone = alone.trim_end_matches(['.', '*', '†', '‡', '§']);
     let start =
         ["of", "over", "across"].iter().find_map(|word| Some(alone.split_once(&format!(" {word} "))?.0));
-    match start.unwrap_or(alone).trim() {
+    let alone = start.unwrap_or(alone).trim();
+    match alone.strip_prefix("overall ").unwrap_or(alone) {
         "average" | "averaged" | "averages" | "avg" | "mean" | "means" | "arithmetic mean" | "ø" => {
             Some(Word::Mean)
         }
-        "sum" | "total" | "totals" | "grand total" | "subtotal" | "sub-total" => Some(Word::Sum),
+        "sum" => Some(Word::Sum),
+        "total" | "totals" | "grand total" | "subtotal" | "sub-total" => Some(Word::Total),
         "overall" => Some(Word::Either),
         _ => None,
     }
@@ -237,7 +249,7 @@ fn of_row(
     if weights.is_empty() && forms.contains(&Form::Pooled) && word != Word::Mean {
         forms.push(Form::Between);
     }
-    forms.extend(OTHER_MEANS.iter().filter(|_| word != Word::Sum));
+    forms.extend(OTHER_MEANS.iter().filter(|_| !word.is_sum()));
     let numbers = std::iter::once(&row).chain(&rows).map(|row| quoted(index, table, *row, column));
     Some(Summary {
         numbers: numbers.collect::<Option<_>>()?,
@@ -297,13 +309,14 @@ fn forms(table: &Table, at: usize, word: Word) -> Option<Vec<Form>> {
         return Some(vec![Form::Mean, Form::Sum]);
     }
     if is_quotient(table, at) {
-        return (word != Word::Sum).then(|| vec![Form::Between]);
+        return (!word.is_sum()).then(|| vec![Form::Between]);
     }
     let forms: &[Form] = match (&meaning.kind, word) {
         (Kind::Share { whole: 0 } | Kind::Of(Statistic::Total | Statistic::Quantile(_)), Word::Mean) => {
             &[Form::Mean]
         }
-        (Kind::Share { whole: 0 } | Kind::Of(Statistic::Total) | Kind::Value, Word::Sum) => &[Form::Sum],
+        (Kind::Share { whole: 0 } | Kind::Of(Statistic::Total) | Kind::Value, Word::Sum | Word::Total)
+        | (Kind::Of(Statistic::Mean), Word::Sum) => &[Form::Sum],
         (Kind::Share { whole: 0 } | Kind::Of(Statistic::Total), Word::Either) => &[Form::Mean, Form::Sum],
         (Kind::Of(Statistic::Min | Statistic::Max), Word::Mean | Word::Either) => &[Form::Between],
         (Kind::Share { .. } | Kind::Of(Statistic::Mean) | Kind::Value, Word::Mean) => {
@@ -369,7 +382,7 @@ fn of_column(index: usize, table: &Table, row: usize, at: usize) -> Option<Summa
     if word == Word::Either {
         forms.push(Form::Between);
     }
-    forms.extend(OTHER_MEANS.iter().filter(|_| word != Word::Sum));
+    forms.extend(OTHER_MEANS.iter().filter(|_| !word.is_sum()));
     let numbers = std::iter::once(&at).chain(&columns).map(|column| quoted(index, table, row, *column));
     Some(Summary {
         numbers: numbers.collect::<Option<_>>()?,

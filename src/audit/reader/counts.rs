@@ -1,6 +1,5 @@
 //! Numbers of trials that stand in a column of their own: each must be one.
 
-use super::FAULTS;
 use crate::meaning::{Count, natural};
 use crate::table::{Cell, Column, Fault, named_by};
 
@@ -15,7 +14,7 @@ pub(super) fn check(columns: &[Column], rows: &[Vec<Cell>], faults: &mut Vec<Fau
         for row in rows {
             let (Some(number), Some(n)) = (row.get(at), row.get(of)) else { continue };
             let is_count = natural(&n.text).is_some();
-            if number.value.is_some() && !is_count && faults.len() < FAULTS {
+            if number.value.is_some() && !is_count {
                 let found = if n.text.is_empty() { "missing".to_owned() } else { format!("`{}`", n.text) };
                 let message = format!(
                     "column `{name}` is the n of column `{}`, and here it is {found}; a whole number from 1 to 1000000000 is accepted",

@@ -78,13 +78,13 @@ struct Raw {
     rows: Vec<(usize, Vec<String>)>,
 }
 
-/// Faults reported of one file, at most.
+/// Faults of one file that are reported one by one, at most.
 const FAULTS: usize = 50;
 
 /// Reads a text.
 ///
 /// # Errors
-/// Every fault found, 50 at most.
+/// Every fault found up to 50, and how many more there are.
 pub fn read(text: &str, format: Format) -> Result<Input, Vec<Fault>> {
     let mut faults = Vec::new();
     let input = match format {
@@ -99,7 +99,11 @@ pub fn read(text: &str, format: Format) -> Result<Input, Vec<Fault>> {
                        header, a tabular of LaTeX, or TOML with [[table]], [[sample]] or [[relation]] is accepted";
         faults.push(Fault::new(Place { line: 1, cell: 0 }, message));
     }
-    faults.truncate(FAULTS);
+    if let Some(Fault { place, .. }) = faults.get(FAULTS) {
+        let more = Fault::new(*place, format!("{} more faults like these", faults.len() - FAULTS));
+        faults.truncate(FAULTS);
+        faults.push(more);
+    }
     match input {
         Some(input) if faults.is_empty() => Ok(input),
         _ => Err(faults),
@@ -134,9 +138,7 @@ fn table(raw: Raw, faults: &mut Vec<Fault>) -> Option<Table> {
             match cell(text, column, place) {
                 Ok(cell) => Some(cell),
                 Err(message) => {
-                    if faults.len() < FAULTS {
-                        faults.push(Fault::new(place, format!("column `{}`: {message}", column.name)));
-                    }
+                    faults.push(Fault::new(place, format!("column `{}`: {message}", column.name)));
                     None
                 }
             }

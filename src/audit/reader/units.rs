@@ -1,6 +1,5 @@
 //! Units that stand in cells: one a column.
 
-use super::FAULTS;
 use super::cells;
 use crate::meaning::Kind;
 use crate::table::{Cell, Column, Fault, named_by};
@@ -52,7 +51,7 @@ fn percents(at: usize, column: &Column, rows: &[Vec<Cell>], faults: &mut Vec<Fau
         !is_percent(cell) && value > 0.0 && value < 1.0
     };
     let wrong = if whole == 100 { cells().find(is_part) } else { Some(percent) };
-    if let Some(cell) = wrong.filter(|_| faults.len() < FAULTS) {
+    if let Some(cell) = wrong {
         let why = match whole {
             100 => format!(
                 "has no % and is below 1, where `{}` is in per cent; write all in per cent",
@@ -79,7 +78,7 @@ fn in_cells(at: usize, column: &Column, rows: &[Vec<Cell>], faults: &mut Vec<Fau
             Some(header) => ("its header", header),
             None => ("the first number", *first.get_or_insert(unit)),
         };
-        if expected != unit && faults.len() < FAULTS {
+        if expected != unit {
             let message = format!(
                 "column `{}`: `{}` has {}, and {whose} {}; one unit a column is accepted, best in its header",
                 column.name,

@@ -10,6 +10,7 @@
 //! ([`CornerRule::ForbidAny`](super::CornerRule::ForbidAny)).
 
 use super::{Grid2, GridError, error};
+use crate::text::unseen;
 use std::path::Path;
 use std::str::FromStr;
 
@@ -59,6 +60,12 @@ pub fn parse_movingai_map(text: &str) -> Result<Grid2, GridError> {
     }
     let mut grid = Grid2::new(width, height)?;
     let rows = &lines[4..];
+    // Before rows and cells are counted: none of those that are seen is at fault.
+    let places =
+        rows.iter().zip(5..).flat_map(|(row, line)| row.chars().zip(1..).map(move |(c, x)| (c, line, x)));
+    if let Some((found, line, column)) = places.into_iter().find(|(c, ..)| unseen(*c).is_some()) {
+        return Err(GridError::Letter { line, column, found, accepted: LETTERS });
+    }
     if rows.len() != height as usize {
         return Err(GridError::RowCount { found: rows.len(), accepted: height as usize });
     }
@@ -67,6 +74,9 @@ pub fn parse_movingai_map(text: &str) -> Result<Grid2, GridError> {
     }
     Ok(grid)
 }
+
+/// The letters that a row may have, in words.
+const LETTERS: &str = "`.` `G` `S` (passable) and `@` `O` `T` `W` (blocked)";
 
 fn fill_row(grid: &mut Grid2, index: usize, row: &str) -> Result<(), GridError> {
     let line = index + 5;
@@ -81,8 +91,7 @@ fn fill_row(grid: &mut Grid2, index: usize, row: &str) -> Result<(), GridError> 
             '.' | 'G' | 'S' => false,
             '@' | 'O' | 'T' | 'W' => true,
             found => {
-                let accepted = "`.` `G` `S` (passable) and `@` `O` `T` `W` (blocked)";
-                return Err(GridError::Letter { line, column: x + 1, found, accepted });
+                return Err(GridError::Letter { line, column: x + 1, found, accepted: LETTERS });
             }
         };
         grid.set_blocked(y * width + x as u32, blocked);
@@ -162,7 +171,9 @@ impl Record<'_> {
         let accepted = "a length of 0 or more, or -1 or inf where there is no path";
         let printed: f64 = self.field(length, accepted)?;
         let has_path = (0.0..f64::INFINITY).contains(&printed);
-        if !has_path && printed != -1.0 && printed != f64::INFINITY {
+        // In digits, an infinity is a number that is too large.
+        let is_infinite = printed == f64::INFINITY && !length.contains(|c: char| c.is_ascii_digit());
+        if !has_path && printed != -1.0 && !is_infinite {
             return Err(wrong_text(self.line, length, accepted));
         }
         Ok(Scenario {
@@ -217,7 +228,7 @@ mod tests {
 
     #[test]
     fn bad_maps_are_refused_with_line_and_what_is_accepted() {
-        let letters = "`.` `G` `S` (passable) and `@` `O` `T` `W` (blocked)";
+        let letters = LETTERS;
         for (text, message) in [
             (String::new(), "the file is empty; accepted is `type octile`".to_owned()),
             ("\n \n".to_owned(), "the file is empty; accepted is `type octile`".to_owned()),
@@ -232,6 +243,11 @@ mod tests {
             (MAP.replace("height 2", "height 3"), "found 2 rows of cells; the header promises 3".into()),
             (MAP.replace("TW", "T"), "line 5: found a row of 6 cells; every row must have 7".into()),
             (MAP.replace('O', "x"), format!("line 5, column 5: found `x`; a cell is one of {letters}")),
+            (
+                MAP.replace("OT", "O\u{200b}T"),
+                format!("line 5, column 6: found `‹zero-width space›`; a cell is one of {letters}"),
+            ),
+            (format!("{MAP}\0\0\n"), format!("line 7, column 1: found `‹NUL›`; a cell is one of {letters}")),
             (
                 MAP.replace("width 7", "width 0"),
                 "a grid of 0 × 2 cells; each side may have 1 to 65535 cells, and all may have 16777216"
@@ -274,7 +290,7 @@ mod tests {
             };
             assert_eq!(query.optimal_length_cells, read, "{length}");
         }
-        for length in ["-2", "-inf", "NaN"] {
+        for length in ["-2", "-inf", "NaN", "1e400"] {
             assert!(parse_scenarios(&format!("0 m 0 0 1 1 {length}\n"), &grid).is_err(), "{length}");
         }
     }

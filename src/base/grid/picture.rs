@@ -143,7 +143,7 @@ mod tests {
             "/room.yaml:3:9: origin turns the map by the yaw 0.7; 0 is accepted, a map along its own axes",
         ),
         ("-2.0, 0.0]", "-2.0]", "/room.yaml:3:9: origin has 2 numbers; 3 are accepted"),
-        ("-2.0, 0.0]", "nan, 0.0]", "/room.yaml:3:16: origin has the number NaN; finite numbers"),
+        ("-2.0, 0.0]", "nan, 0.0]", "/room.yaml:3:16: origin is `nan`; a finite number is accepted"),
         (
             "negate: 0",
             "negate: 2",
@@ -155,6 +155,7 @@ mod tests {
             "/room.yaml:4:10: unknown key `negated` (did you mean `negate`?); accepted: image, mode, reso",
         ),
         ("negate: 0", "negate: 0\nnegate: 1", "/room.yaml:5:9: `negate` is given twice; once is accepted"),
+        ("0.196\n", "0.196\n---\nnegate: 1\n", "/room.yaml:7:1: a second document begins here"),
         ("0.196", "0.7", "/room.yaml:6:14: free_thresh is 0.7; at most occupied_thresh, 0.65, is accepted"),
     ];
 

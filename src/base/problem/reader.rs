@@ -16,7 +16,7 @@ const GOALS: [&str; 3] = ["goals", "goal_ik", "goal"];
 /// Two rotations of one solid are the same if they take no axis further apart than this.
 const SAME: f64 = 1e-2;
 /// Words of keys that may change the robot, what stands around it, or the query: a key with one of them that is not read is refused.
-const MEANT: [&str; 40] = [
+pub(super) const MEANT: [&str; 45] = [
     "attach",
     "attached",
     "attachment",
@@ -34,10 +34,12 @@ const MEANT: [&str; 40] = [
     "frame",
     "goal",
     "gripper",
+    "inflate",
     "inflation",
     "joint",
     "limit",
     "link",
+    "lower",
     "margin",
     "mesh",
     "object",
@@ -54,9 +56,12 @@ const MEANT: [&str; 40] = [
     "scale",
     "start",
     "tolerance",
+    "tool",
     "transform",
     "unit",
+    "upper",
     "voxel",
+    "waypoint",
 ];
 
 /// What was seen in a file and is not read.

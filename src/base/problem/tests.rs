@@ -105,7 +105,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     (
         "position: [0, 1, 0]",
         "position: [0, NaN, 0]",
-        "p.json:19:41: position has the number NaN; finite numbers",
+        "p.json:19:41: position is `NaN`; a finite number is accepted",
     ),
     (
         "start: [0.0, 1.5]",
@@ -127,7 +127,24 @@ const WRONG: &[(&str, &str, &str)] = &[
         "    mesh:",
         "p.json:19:7: an obstacle is a `mesh`; cuboid, cylinder and sphere are accepted",
     ),
+    (
+        "position: [0, 1, 0]",
+        "position: [0, 1e400, 0]",
+        "p.json:19:41: position is `1e400`; a finite number is accepted",
+    ),
     ("start: [0.0, 1.5]", "start: [0.0, 1.5", "this is neither YAML nor JSON"),
+    ("world_frame: base\n", "world_frame: base\n---\nb: 1\n", "p.json:22:1: a second document begins here"),
+    ("world_frame: base\n", "world_frame: base\n...\nb: 1\n", "p.json:23:1: a second document begins here"),
+    ("world_frame: base\n", "world_frame: base\n...\nb: [\n", "a second document begins here"),
+    ("world_frame: base\n", "world_frame: base\ninflate: 0.1\n", "unknown key `inflate`; accepted: problems"),
+    ("world_frame: base\n", "world_frame: base\ntool: hand\n", "unknown key `tool`; accepted: problems"),
+    ("world_frame: base\n", "world_frame: base\nlower: [0, 0]\n", "unknown key `lower`; accepted: problems"),
+    ("world_frame: base\n", "world_frame: base\nupper: [0, 0]\n", "unknown key `upper`; accepted: problems"),
+    (
+        "world_frame: base\n",
+        "world_frame: base\nwaypoints: [[0, 0]]\n",
+        "unknown key `waypoints`; accepted: problems",
+    ),
 ];
 
 #[test]
@@ -145,6 +162,13 @@ fn what_is_wrong_with_a_problem_is_reported_at_its_place() {
         let error = read(ROBOMETRICS, set, index).unwrap_err();
         assert!(error.contains(expected), "should say {expected}\nsays {error}");
     }
+}
+
+#[test]
+fn the_page_of_files_lists_the_words_that_refuse_a_key() {
+    let page = include_str!("../../../docs/FILES.md");
+    let listed = page.split_once("refuse a key of a problem file: `").unwrap().1.split_once('`').unwrap().0;
+    assert_eq!(listed.split_whitespace().collect::<Vec<_>>(), reader::MEANT);
 }
 
 /// What stands before the problems of VAMP's form, and the start in the order of the chain or the message about it.
@@ -276,12 +300,8 @@ const KEYS: &[(&str, &str, Result<&[&str], &str>)] = &[
         "{\"start_state\": {}, \"problems\":",
         Err("this is a MoveIt request"),
     ),
-    ("\"radius\": 0.1}", "\"radius\": NaN}", Err("radius has the number NaN; finite numbers are accepted")),
-    (
-        "\"radius\": 0.1}",
-        "\"radius\": Infinity}",
-        Err("radius has the number inf; finite numbers are accepted"),
-    ),
+    ("\"radius\": 0.1}", "\"radius\": NaN}", Err("radius is `NaN`; a finite number is accepted")),
+    ("\"radius\": 0.1}", "\"radius\": Infinity}", Err("radius is `Infinity`; a finite number is accepted")),
 ];
 
 #[test]

@@ -159,12 +159,15 @@ impl Elements<'_> {
         let Some(text) = of.attribute(key) else { return Ok(None) };
         let numbers: Option<Vec<f64>> = text.split_whitespace().map(|word| word.parse().ok()).collect();
         let numbers = numbers.and_then(|numbers| <[f64; N]>::try_from(numbers).ok());
+        // As written: of `1e400` an infinity is read.
+        let finite = if numbers.is_some() { "finite " } else { "" };
         let wrong = || {
-            let many = if N == 1 { "a number is".to_owned() } else { format!("{N} numbers are") };
+            let many =
+                if N == 1 { format!("a {finite}number is") } else { format!("{N} {finite}numbers are") };
             let text = crate::text::brief(text);
             self.fault(&place(of, key), format!("{key} is `{text}`; {many} accepted"))
         };
-        Ok(Some(self.0.finite(&place(of, key), key, numbers.ok_or_else(wrong)?)?))
+        numbers.filter(|numbers| numbers.iter().all(|n| n.is_finite())).ok_or_else(wrong).map(Some)
     }
 
     /// A finite number in an attribute.

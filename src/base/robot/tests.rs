@@ -123,7 +123,7 @@ const WRONG: &[(&str, &str, &str)] = &[
         "upper=\"170\"",
         "/two.urdf:8:23: upper of joint `turn` is 170; is it in degrees? radians are accepted",
     ),
-    ("upper=\"2\"", "upper=\"NaN\"", "/two.urdf:8:23: upper has the number NaN; finite numbers are accepted"),
+    ("upper=\"2\"", "upper=\"NaN\"", "/two.urdf:8:23: upper is `NaN`; a finite number is accepted"),
     (
         "velocity=\"3\"",
         "velocity=\"-3\"",
@@ -166,7 +166,8 @@ const WRONG: &[(&str, &str, &str)] = &[
     ),
     ("rpy=\"0 1.5708 0\"", "rpy=\"0 90 0\"", "rpy has the angle 90; is it in degrees? radians are accepted"),
     ("xyz=\"0.3 0 0\"", "xyz=\"0.3 0\"", "/two.urdf:11:85: xyz is `0.3 0`; 3 numbers are accepted"),
-    ("xyz=\"0.3 0 0\"", "xyz=\"0.3 inf 0\"", "xyz has the number inf; finite numbers are accepted"),
+    ("xyz=\"0.3 0 0\"", "xyz=\"0.3 inf 0\"", "xyz is `0.3 inf 0`; 3 finite numbers are accepted"),
+    ("xyz=\"0.3 0 0\"", "xyz=\"0.3 1e400 0\"", "xyz is `0.3 1e400 0`; 3 finite numbers are accepted"),
     (
         "axis xyz=\"0 1 0\"",
         "axis xyz=\"0 0 0\"",

@@ -4,7 +4,7 @@
 
 use crate::geometry::{Frame, GeometryError, HalfSpace, OrientedBox, Solid, Vec3};
 use crate::kinematics::FARTHEST_MM;
-use base::units::{seems_in_metres, seems_in_radians};
+use base::units::{seems_in_metres, seems_in_radians, unbent};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -82,7 +82,7 @@ impl SupportEntry {
         if farthest > 0.0 && farthest < NEAR_MM {
             let message = format!(
                 "base_mm reaches {farthest} mm from the origin; is it in metres? millimetres are accepted ({farthest} m is {} mm)",
-                farthest * 1e3
+                unbent(farthest * 1e3)
             );
             return Err(("base_mm", message));
         }

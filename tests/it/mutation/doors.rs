@@ -59,7 +59,7 @@ const LINES: [&str; 8] = [
     r#"{"type":"ask","id":4,"fk":[W],"valid":[]}"#,
     r#"{"type":"ask","id":5,"ik":[{"position":[0.4,0.1,0.5],"rotation":[[1,0,0],[0,1,0],[0,0,1]]}]}"#,
     r#"{"type":"incumbent","id":6,"cost":2.5,"path":[W,W]}"#,
-    r#"{"type":"result","id":7,"status":"solved","path":[W,W],"cost":1.5,"counters":{"expansions":12,"own_wall_ns":1.5}}"#,
+    r#"{"type":"result","id":7,"status":"solved","path":[W,W],"cost":1.5,"counters":{"expansions":12,"own_wall_ns":15}}"#,
 ];
 
 /// A file as it is whole, how it is damaged and how it is read.

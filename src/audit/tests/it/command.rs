@@ -162,7 +162,11 @@ fn a_device_without_end_and_bytes_that_are_no_text_are_wrong_input() {
     bench.write("wide.csv", &wide("\u{feff}a\n1\n"));
     bench.write("bare.csv", &wide("a,b\n1,2\n"));
     for (file, expected) in [
-        ("/dev/zero", "/dev/zero: it holds more than 512 MiB; at most 512 MiB are accepted"),
+        (
+            "/dev/zero",
+            "/dev/zero: it is a folder, a device or a socket; a regular file or a pipe is accepted",
+        ),
+        (".", ".: it is a folder, a device or a socket; a regular file or a pipe is accepted"),
         ("t.md", "t.md: line 3, byte 12 of the file is not UTF-8; UTF-8 text is accepted"),
         ("wide.csv", "wide.csv: it is UTF-16 text; UTF-8 text is accepted"),
         (

@@ -107,6 +107,32 @@ fn quoted_thousands_and_decimal_commas_of_csv_are_refused_at_their_place() {
 }
 
 #[test]
+fn what_cannot_be_seen_in_a_cell_or_header_is_named() {
+    for (mark, name) in [
+        ('\u{200b}', "‹zero-width space›"),
+        ('\u{200d}', "‹zero-width joiner›"),
+        ('\u{ad}', "‹soft hyphen›"),
+        ('\u{7}', "‹control character U+0007›"),
+        ('\u{feff}', "‹byte-order mark›"),
+        ('\u{202e}', "‹U+202E›"),
+        ('\u{2060}', "‹word joiner›"),
+    ] {
+        let cell = refused(&format!("method,time [ms]\na,2{mark}\nb,3\n"), Format::Csv);
+        assert!(cell.starts_with(&format!("2:2: column `time`: `2{name}` has `{name}` behind it")), "{cell}");
+        let header = refused(&format!("method,time [me{mark}an ms]\na,2\n"), Format::Csv);
+        assert!(header.contains(&format!("me{name}an")), "{header}");
+    }
+}
+
+#[test]
+fn faults_beyond_the_first_fifty_are_counted() {
+    let text =
+        (0..300).fold("method,time\n".to_owned(), |text, row| text + &format!("m{row},fast{row}.1.\n"));
+    let faults = read(&text.replacen("time", "time [mean]", 1), Format::Csv).unwrap_err();
+    assert_eq!((faults.len(), faults[50].to_string().as_str()), (51, "52:2: 250 more faults like these"));
+}
+
+#[test]
 fn a_fraction_is_a_count_and_its_percentage_is_held_against_it() {
     let beside = table(
         "planner | rate [% of 30]",
@@ -267,6 +293,9 @@ fn a_wrong_average_or_total_is_a_signal_and_a_right_one_is_none() {
         "Mean over maps",
         "Ø",
         "Arithmetic mean",
+        "Overall average",
+        "Average†",
+        "Average*",
     ] {
         assert_eq!(found(&rows(word, "47.7 | 150.3")), [], "{word}");
         assert_eq!(found(&rows(word, "49.2 | 150.3")), [("summary", Class::Signal)], "{word}");
@@ -281,6 +310,14 @@ fn a_wrong_average_or_total_is_a_signal_and_a_right_one_is_none() {
         assert_eq!(found(&rows(word, "- | 451")), [], "{word}");
         assert_eq!(found(&rows(word, "- | 415")), [("summary", Class::Signal)], "{word}");
     }
+    let means = |last: &str| table("method | time [ms]", &["a | 2.0", "b | 8.0", "c | 4.0", last]);
+    assert_eq!(found(&means("Sum | 14.0")), []);
+    assert_eq!(
+        found(&means("Sum | 7.7")),
+        [("summary", Class::Signal)],
+        "between the least and the greatest"
+    );
+    assert_eq!(found(&means("Total | 7.7")), [], "perhaps the mean of all");
     for right in ["47.7 | 451", "47.7 | 150.3"] {
         assert_eq!(found(&rows("Overall", right)), [], "{right}");
     }

@@ -12,7 +12,7 @@ use crate::{
     },
 };
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned, did_you_mean};
-use base::units::{points_in_metres, radius_in_metres, seems_in_metres};
+use base::units::{points_in_metres, radius_in_metres, seems_in_metres, unbent};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, de::IgnoredAny};
 use std::{collections::BTreeSet, ops::Range, path::Path};
@@ -201,7 +201,7 @@ const SHORT_MM: f64 = 10.0;
 
 /// Asks whether a length is in metres, for the end of a message.
 fn in_metres(found: f64, asked: &str) -> String {
-    format!("{asked} in metres? millimetres are accepted ({found} m is {} mm)", found * 1e3)
+    format!("{asked} in metres? millimetres are accepted ({found} m is {} mm)", unbent(found * 1e3))
 }
 
 /// Asks whether a body is in metres: none of its capsules on links reaches as far as an arm does.

@@ -155,10 +155,10 @@ fn rows_in_metres_and_limits_in_radians_are_queried() {
     let expected = "speed_rad_s is 500; is it in degrees? `speed_deg_s` is accepted for those";
     assert!(fast.starts_with("up6.toml:") && fast.contains(expected), "{fast}");
     let bodies = &FILE[FILE.find("[[body]]").unwrap()..];
-    let thin = "[[body]]\nname = 'thin'\nself_pairs = []\n[[body.capsule]]\nname = 'arm'\nlink = 2\nfrom_mm = [-0.57, 0, 0]\n\
+    let thin = "[[body]]\nname = 'thin'\nself_pairs = []\n[[body.capsule]]\nname = 'arm'\nlink = 2\nfrom_mm = [-0.09465, 0, 0]\n\
         to_mm = [0, 0, 0]\nradius_mm = 0.09\n";
     let body = message(&FILE.replacen(bodies, thin, 1)).unwrap_err();
-    let expected = "no capsule of body `thin` reaches farther than 0.57 mm; are lengths in metres?";
+    let expected = "reaches farther than 0.09465 mm; are lengths in metres? millimetres are accepted (0.09465 m is 94.65 mm)";
     assert!(body.starts_with("up6.toml:") && body.contains(expected), "{body}");
     let wire = message(&FILE.replacen("radius_mm = 75", "radius_mm = 0.075", 1)).unwrap_err();
     let expected = ": radius_mm is 0.075; is it in metres? millimetres are accepted (0.075 m is 75 mm)";

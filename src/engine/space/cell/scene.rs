@@ -4,7 +4,7 @@ use crate::geometry::{Capsule, Convex, Frame, GeometryError, OrientedBox, Solid,
 use crate::kinematics::FARTHEST_MM;
 use crate::space::SupportEntry;
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
-use base::units::{points_in_metres, radius_in_metres, seems_in_metres, seems_in_radians};
+use base::units::{points_in_metres, radius_in_metres, seems_in_metres, seems_in_radians, unbent};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::ops::Range;
@@ -150,11 +150,11 @@ impl BoxEntry {
         let in_radians =
             seems_in_radians("yaw_deg", &[self.yaw_deg]).map(|(_, message)| ("yaw_deg".to_owned(), message));
         let sides: [f64; 3] = std::array::from_fn(|axis| self.max_mm[axis] - self.min_mm[axis]);
-        let longest = sides.into_iter().fold(0.0, f64::max);
+        let longest = unbent(sides.into_iter().fold(0.0, f64::max));
         let in_metres = (f64::MIN_POSITIVE..SMALL_MM).contains(&longest).then(|| {
             let message = format!(
                 "no side is longer than {longest} mm; are lengths in metres? millimetres are accepted ({longest} m is {} mm)",
-                longest * 1e3
+                unbent(longest * 1e3)
             );
             ("max_mm".to_owned(), message)
         });
@@ -245,7 +245,7 @@ impl SceneFile {
                 format!(
                     "no obstacle reaches farther than {length} mm from the origin; are lengths in metres? millimetres are \
                      accepted ({length} m is {} mm)",
-                    length * 1e3
+                    unbent(length * 1e3)
                 ),
             )),
         }
