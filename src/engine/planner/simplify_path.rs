@@ -68,8 +68,8 @@ impl Stage for SimplifyPath {
         let bspline = self.bspline.unwrap_or(BSpline { rounds: 0, least_change: 0.0, share: 0.0 });
         let reduce = self.reduce.unwrap_or(Reduce { tries: 0, empty_tries: 0, range_share: 0.0 });
         let (mut tried, mut checked) = (0, 0);
-        // What a finer look refuses is no path: then the path is shortened again by motions that are looked at so. Where this gives none
-        // either, or rounding in the plane makes it longer, the path stays as it is.
+        // A shortened path may touch something between two checks. It is then shortened again with finer checks of every motion. If that
+        // fails too, or rounding in the plane makes the path longer, it stays as it was.
         for mut motions in [Motions::new(local), Motions::finely(local)] {
             let rounds = (self.rounds, &self.operations[..]);
             let short = simplify(&mut motions, &mut draw, plan.path.clone(), rounds, (&bspline, &reduce));

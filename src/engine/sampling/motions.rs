@@ -12,6 +12,7 @@ pub struct Motions<'a> {
     turn_on: Vec<bool>,
     scratch: MotionScratch,
     tried: u64,
+    /// Whether every motion is checked as finely as a path that is returned.
     is_fine: bool,
 }
 
@@ -28,7 +29,7 @@ impl<'a> Motions<'a> {
         }
     }
 
-    /// The same space, whose motions are looked at as finely as a path is before it is returned.
+    /// The same space, which checks every motion as finely as a path that is returned.
     pub fn finely(local: &'a Local) -> Self {
         Self { is_fine: true, ..Self::new(local) }
     }

@@ -16,7 +16,7 @@ use base::robot::{MayTouch, Robot};
 use base::solid::{Form, Solid};
 use lanes::{Look, Spheres};
 
-/// How many times as often a motion of a path is looked at as its step says, and how often where the robot is nearly in contact.
+/// A path that is returned is checked four times in each step, and 64 times where the robot is nearly in contact.
 const FINER: [f64; 2] = [4.0, 64.0];
 
 /// How near is nearly, metres. Between two configurations at which a ball of radius r is free, and its centre s farther, it reaches no deeper
@@ -223,8 +223,8 @@ impl JointSpace {
         })
     }
 
-    /// Whether a motion of a path that is returned is free: at a quarter of a step, and, where a robot made of spheres is nearly in contact,
-    /// at a sixty-fourth. Counts as [`goes`](Self::goes) does.
+    /// Whether a motion of a path that is returned is free. It is checked four times in each step. Where a robot made of spheres is nearly
+    /// in contact, it is checked 64 times. Counts as [`goes`](Self::goes) does.
     pub fn holds(&self, ends: [&[f64]; 2], memory: &mut MotionMemory, checked: &mut u64) -> bool {
         match &self.larger {
             None => self.goes(ends, FINER[0], memory, checked),
