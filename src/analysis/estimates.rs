@@ -116,7 +116,7 @@ impl About {
             contender: joined(first.map(|of| &of.contenders)),
             against: first.and_then(|of| of.against.clone()).unwrap_or_default(),
             metric: metric.map_or_else(String::new, |metric| metric.name.to_owned()),
-            unit: metric.map_or_else(String::new, |metric| metric.unit.to_owned()),
+            unit: metric.map_or_else(String::new, |metric| metric.unit.clone()),
             query: joined(first.and_then(|of| of.query.as_ref())),
             sweep: joined(points.as_ref()),
         }

@@ -1,43 +1,27 @@
-//! Metrics: what can be compared, its unit, which way is better, and how to get it from a record.
+//! Metrics: what can be compared, its unit, which way is better, and how to get it from a record. Every column of records is one; a few
+//! more are read from columns.
 
 use engine::planner::Value;
 use std::collections::BTreeSet;
+use std::sync::LazyLock;
+use study::clock;
+pub use study::column::Better;
+use study::column::{self, Column};
 use study::record::{Row, Status};
-use study::{clock, column};
 
-/// Which way is better.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Better {
-    /// Less is better.
-    Lower,
-    /// More is better.
-    Higher,
-    /// Neither.
-    Neither,
-}
-
-impl Better {
-    /// Its name, as other programs are told it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Lower => "lower",
-            Self::Higher => "higher",
-            Self::Neither => "neither",
-        }
-    }
-}
-
-/// A metric: one column of trials, or the median time of a timed trial.
+/// A metric: one column of trials, or what is read from columns, the status or the clock.
 #[derive(Debug, PartialEq)]
 pub struct Metric {
     /// The name that claims and figures use.
     pub name: &'static str,
     /// Its name in tables and on axes, without the unit.
-    pub label: &'static str,
+    pub label: String,
     /// Its unit as it is printed; empty for counts.
-    pub unit: &'static str,
+    pub unit: String,
     /// Which way is better.
     pub better: Better,
+    /// What its numbers mean.
+    pub about: &'static str,
     /// The column it is read from.
     pub column: &'static str,
     /// By how much the column is multiplied to give the unit.
@@ -49,112 +33,62 @@ pub struct Metric {
 /// What is read from the trial's status in place of a column: 1 where a path came back, refused or not, otherwise 0.
 const STATUS: &str = "status";
 
-const fn metric(name: &'static str, label: &'static str, unit: &'static str, better: Better) -> Metric {
-    Metric { name, label, unit, better, column: name, scale: 1.0, at_most: None }
+/// Every metric, in the order of their names.
+pub static METRICS: LazyLock<Vec<Metric>> = LazyLock::new(|| {
+    let columns = column::COLUMNS.iter().filter(|column| !is_time(column.name)).map(of_column);
+    let mut metrics: Vec<Metric> = columns.chain(derived()).collect();
+    metrics.sort_by_key(|metric| metric.name);
+    metrics
+});
+
+fn of_column(column: &Column) -> Metric {
+    let unit = column.unit().unwrap_or_default().replace("deg", "°");
+    Metric {
+        name: column.name,
+        label: column.label(),
+        unit: if unit == "1" { String::new() } else { unit },
+        better: column.better,
+        about: column.about,
+        column: column.name,
+        scale: 1.0,
+        at_most: None,
+    }
 }
 
-/// Every metric, in the order of their names.
-pub static METRICS: &[Metric] = &[
-    metric("adjustments", "Adjustments", "", Better::Neither),
-    metric("bends", "Bends", "", Better::Lower),
-    metric("checked_states", "Configurations checked by the query", "", Better::Lower),
-    metric("closed", "Closed nodes", "", Better::Lower),
-    metric("components", "Connected components", "", Better::Neither),
-    metric("connected", "Start and goal connected", "", Better::Neither),
-    metric("cut_in_cm", "Cut-in depth", "cm", Better::Lower),
-    metric("deepest_cm", "Deepest in an obstacle", "cm", Better::Lower),
-    metric("expansions", "Expansions", "", Better::Lower),
-    metric("first_iterations", "Iterations to the first path", "", Better::Lower),
-    metric("first_length_rad", "Joint-space length of the first path", "rad", Better::Lower),
-    Metric { column: STATUS, ..metric("found", "Path found", "", Better::Higher) },
-    metric("generated", "Generated successors", "", Better::Lower),
-    metric("goal_links", "Neighbours of the goal", "", Better::Neither),
-    metric("hops", "Hops", "", Better::Lower),
-    metric("incumbents", "Paths, each better", "", Better::Neither),
-    metric("initial_length_rad", "Joint-space length before simplification", "rad", Better::Lower),
-    Metric {
-        column: "path_cost_cells",
-        at_most: Some("shortest_path_cells"),
-        ..metric("is_shortest", "Shortest path found", "", Better::Higher)
-    },
-    metric("is_unsafe", "Paths that hit an obstacle", "", Better::Lower),
-    metric("iterations", "Iterations", "", Better::Lower),
-    metric("joint1_travel_deg", "Travel of joint 1", "°", Better::Lower),
-    metric("joint2_travel_deg", "Travel of joint 2", "°", Better::Lower),
-    metric("joint_jitter_rad", "Joint jitter", "rad", Better::Lower),
-    metric("joint_length_rad", "Joint-space length", "rad", Better::Lower),
-    metric("joint_peak_deg_s2", "Peak joint acceleration", "°/s²", Better::Lower),
-    metric("joint_range_rad", "Joint range", "rad", Better::Neither),
-    metric("joint_travel_deg", "Joint travel", "°", Better::Lower),
-    metric("joint_travel_rad", "Joint travel", "rad", Better::Lower),
-    metric("largest_joint_step_deg", "Largest turn of a joint in one hop", "°", Better::Lower),
-    metric("largest_turn_deg", "Largest turn", "°", Better::Lower),
-    metric("list_operations", "Linear-scan operations", "", Better::Lower),
-    metric("local_paths", "Local paths", "", Better::Lower),
-    metric("motion_states", "Configurations checked on motions", "", Better::Lower),
-    metric("motions", "Motions checked", "", Better::Lower),
-    metric("neighbour_mm", "Neighbour threshold ρ", "mm", Better::Neither),
-    metric("opened", "Opened nodes", "", Better::Lower),
-    metric("opened_distinct", "Opened nodes, each once", "", Better::Lower),
-    metric("optimal_cost_cells", "Optimal cost", "cells", Better::Neither),
-    metric("optimal_length_cm", "Optimal length", "cm", Better::Neither),
-    Metric {
-        column: "own_wall_ns",
-        scale: 1e-6,
-        ..metric("own_time_ms", "Planning time by its own clock", "ms", Better::Lower)
-    },
-    metric("path_cost_cells", "Path cost", "cells", Better::Lower),
-    metric("path_length_cm", "Path length", "cm", Better::Lower),
-    metric("path_length_mm", "Path length", "mm", Better::Lower),
-    Metric {
-        name: "plan_time_ms",
-        label: "Planning time",
-        unit: "ms",
-        better: Better::Lower,
-        column: clock::COLUMN,
-        scale: 1e-6,
+/// Metrics that are no column as it stands.
+fn derived() -> [Metric; 6] {
+    let metric = |name, label: &str, better, column, about| Metric {
+        name,
+        label: label.to_owned(),
+        unit: String::new(),
+        better,
+        about,
+        column,
+        scale: 1.0,
         at_most: None,
-    },
-    Metric {
-        name: "plan_time_us",
-        label: "Planning time",
-        unit: "µs",
-        better: Better::Lower,
-        column: clock::COLUMN,
-        scale: 1e-3,
-        at_most: None,
-    },
-    metric("posture_jitter_rad", "Posture jitter", "rad", Better::Lower),
-    metric("printed_optimal_cells", "Printed optimal cost", "cells", Better::Neither),
-    metric("questions_motion", "Motions checked for the planner", "", Better::Lower),
-    metric("questions_valid", "Configurations checked for the planner", "", Better::Lower),
-    metric("roadmap_checked_states", "Configurations checked for the roadmap", "", Better::Lower),
-    metric("roadmap_edges", "Edges of the roadmap", "", Better::Neither),
-    metric("set_problems", "Problems of the set", "", Better::Neither),
-    metric("sharp_edges", "Sharp edges", "", Better::Lower),
-    metric("shortest_path_cells", "Shortest path", "cells", Better::Neither),
-    metric("shots", "Shots at the goal", "", Better::Neither),
-    metric("sight_checks", "Lines of sight", "", Better::Lower),
-    metric("simplification_states", "Configurations checked to simplify", "", Better::Lower),
-    metric("smoothing_checks", "Lines of sight of smoothing", "", Better::Lower),
-    Metric {
-        name: "solve_time_ms",
-        label: "Time to a planner's result",
-        unit: "ms",
-        better: Better::Lower,
-        column: "solve_wall_ns",
-        scale: 1e-6,
-        at_most: None,
-    },
-    metric("start_links", "Neighbours of the start", "", Better::Neither),
-    metric("tip_jitter_cm", "Tip jitter", "cm", Better::Lower),
-    metric("tree_nodes", "Nodes of the trees", "", Better::Lower),
-    metric("turn_exterior_deg", "Turn sum, exterior angles", "°", Better::Lower),
-    metric("turn_interior_deg", "Turn sum, interior angles", "°", Better::Lower),
-    metric("unjoined_legs", "Legs that are no edges", "", Better::Lower),
-    metric("unsafe_hops", "Hops that hit an obstacle", "", Better::Lower),
-    metric("valid_problems", "Valid problems", "", Better::Neither),
-];
+    };
+    let time = |name, label, column, (unit, scale): (&str, f64)| {
+        let about = column::find(column).map_or(clock::ABOUT, |column| column.about);
+        Metric { unit: unit.to_owned(), scale, ..metric(name, label, Better::Lower, column, about) }
+    };
+    let milliseconds = ("ms", 1e-6);
+    let path_found = "1 where a path came back, refused or not, otherwise 0";
+    let as_short = "1 where the path is as short as any between corners of cells, otherwise 0";
+    let shortest = metric("is_shortest", "Shortest path found", Better::Higher, "path_cost_cells", as_short);
+    [
+        metric("found", "Path found", Better::Higher, STATUS, path_found),
+        Metric { at_most: Some("shortest_path_cells"), ..shortest },
+        time("own_time_ms", "Planning time by its own clock", "own_wall_ns", milliseconds),
+        time("plan_time_ms", "Planning time", clock::COLUMN, milliseconds),
+        time("plan_time_us", "Planning time", clock::COLUMN, ("µs", 1e-3)),
+        time("solve_time_ms", "Time to a planner's result", "solve_wall_ns", milliseconds),
+    ]
+}
+
+/// Whether a column is read from a clock, ours or a planner's own.
+fn is_time(column: &str) -> bool {
+    column.ends_with("_wall_ns")
+}
 
 /// The metric called `name`.
 pub fn find(name: &str) -> Option<&'static Metric> {
@@ -164,19 +98,7 @@ pub fn find(name: &str) -> Option<&'static Metric> {
 impl Metric {
     /// Label and unit, as an axis shows them.
     pub fn title(&self) -> String {
-        if self.unit.is_empty() { self.label.to_owned() } else { format!("{} ({})", self.label, self.unit) }
-    }
-
-    /// What its numbers mean: what the column says that it is read from.
-    pub fn meaning(&self) -> &'static str {
-        match column::find(self.column) {
-            Some(_) if self.at_most.is_some() => {
-                "1 where the path is as short as any between corners of cells, otherwise 0"
-            }
-            Some(column) => column.about,
-            None if self.is_clock() => clock::ABOUT,
-            None => "1 where a path came back, refused or not, otherwise 0",
-        }
+        if self.unit.is_empty() { self.label.clone() } else { format!("{} ({})", self.label, self.unit) }
     }
 
     /// Whether a study whose records have these columns gives it.
@@ -225,7 +147,7 @@ impl Metric {
 
     /// Whether a clock decides it, ours or a planner's own: it differs between machines and sessions.
     pub fn is_time(&self) -> bool {
-        self.column.ends_with("_wall_ns")
+        is_time(self.column)
     }
 }
 
@@ -250,7 +172,7 @@ mod tests {
     #[test]
     fn metrics_are_in_order_and_read_columns_that_exist() {
         assert!(METRICS.windows(2).all(|pair| pair[0].name < pair[1].name));
-        for metric in METRICS {
+        for metric in &*METRICS {
             assert!(
                 metric.is_clock() || metric.is_status() || column::find(metric.column).is_some(),
                 "{}",

@@ -137,7 +137,7 @@ fn one(what: What, name: &str) -> Result<(), Failure> {
         let described = found.described(what, name)?;
         say!("{}", described.unwrap_or_else(|| format!("{name}\n{}", wrapped("  ", about, 2))));
         if let Some(metric) = metric::find(name).filter(|_| what == What::Metrics) {
-            let unit = if metric.unit.is_empty() { "none: it is a count or a flag" } else { metric.unit };
+            let unit = if metric.unit.is_empty() { "none: it is a count or a flag" } else { &metric.unit };
             say!("{}", wrapped("  unit: ", unit, 2));
             say!("{}", wrapped("  better: ", metric.better.name(), 2));
             say!("{}", wrapped("  read from: ", metric.column, 2));
@@ -194,9 +194,7 @@ fn rows(what: What, LoadedFiles { papers, robots }: &LoadedFiles) -> Vec<(String
             .collect(),
         What::Robots => robots.clone(),
         What::Verdicts => Verdict::ALL.iter().map(|verdict| row(verdict.name(), verdict.about())).collect(),
-        _ => {
-            metric::METRICS.iter().map(|m| row(m.name, &format!("{}: {}", m.title(), m.meaning()))).collect()
-        }
+        _ => metric::METRICS.iter().map(|m| row(m.name, &format!("{}: {}", m.title(), m.about))).collect(),
     }
 }
 

@@ -57,6 +57,32 @@ fn what_all_studies_share_stands_in_the_paper_and_a_study_says_what_differs() {
 }
 
 #[test]
+fn settings_that_all_studies_share_stand_in_the_paper_and_change_no_trial() {
+    let toy = Toy::written(&[]);
+    let settings = |toy: &Toy| {
+        let paper = loaded(&toy.0, "toy");
+        let study = paper.study("draws").unwrap();
+        let stages = study.contenders.iter().flat_map(|own| &own.stages).map(|stage| &stage.settings);
+        let all = study.groups.iter().map(|group| &group.settings).chain(stages);
+        all.map(|settings| settings.table().clone()).collect::<Vec<Table>>()
+    };
+    let before = settings(&toy);
+    let shared = "[settings.random_cells]\nsize_cells = [12, 12]\n[settings.astar]\nweight = 3\n[source]\n";
+    toy.0.edit("toy/paper.toml", "[source]\n", shared);
+    assert_eq!(settings(&toy), before, "a study may say the same");
+    toy.0.edit("toy/draws.toml", "size_cells = [12, 12], ", "");
+    toy.0.edit("toy/draws.toml", "weight = 3, ", "");
+    assert_eq!(settings(&toy), before, "what it leaves out holds");
+    toy.0.edit(
+        "toy/draws.toml",
+        "planner = \"astar\"\nsettings = { ",
+        "planner = \"astar\"\nsettings = { weight = 2, ",
+    );
+    let weights = |tables: &[Table]| tables[1].get("weight").and_then(Value::as_integer);
+    assert_eq!([&before, &settings(&toy)].map(|tables| weights(tables)), [Some(3), Some(2)]);
+}
+
+#[test]
 fn an_option_of_one_contender_changes_its_trials_alone() {
     let bench = Bench::new();
     let option = "problem = { corner_rule = \"forbid_any\" }";
@@ -190,7 +216,7 @@ fn an_option_that_cannot_be_run_leaves_open_what_it_touches_and_is_shown() {
 }
 
 /// The file, what is replaced in it, and what `check` then says of one place.
-const REFUSED: [(&str, &str, &str, &str); 18] = [
+const REFUSED: [(&str, &str, &str, &str); 22] = [
     (
         "paper",
         "{ weight = 0 }",
@@ -273,6 +299,25 @@ const REFUSED: [(&str, &str, &str, &str); 18] = [
         "[budget]",
         "[[choice]]\nid = \"hurry\"\n[budget]",
         "`choice` is no key here: choices are written in paper.toml",
+    ),
+    (
+        "paper",
+        "[explore]",
+        "[settings.random_cell]\nblocked_share = 0.1\n[explore]",
+        "there is no family, planner, stage or task `random_cell` (did you mean `random_cells`?)",
+    ),
+    (
+        "paper",
+        "[explore]",
+        "[settings.grid_map]\nstart = [1, 1]\n[explore]",
+        "`start` holds nowhere: every study that uses `grid_map` says otherwise, if one does",
+    ),
+    ("paper", "[explore]", "[settings.random_cells]\nsize = 3\n[explore]", "unknown key `size`"),
+    (
+        "paper",
+        "[explore]",
+        "[settings.jps_plus]\npreparation = \"none\"\n[explore]",
+        "`preparation` holds nowhere: every study that uses `jps_plus` says otherwise, if one does",
     ),
 ];
 

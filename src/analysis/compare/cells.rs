@@ -93,7 +93,7 @@ fn cell(study: &str, seen: &Seen<'_>, rows: &[&Row], metric: &'static Metric) ->
         contender: key.contender.to_string(),
         sweep: name::sweep(&key.sweep),
         metric: metric.name.to_owned(),
-        unit: metric.unit.to_owned(),
+        unit: metric.unit.clone(),
         trials: rows.len(),
         solved,
         instances: units.len(),

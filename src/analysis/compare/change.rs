@@ -127,7 +127,7 @@ impl<'r> Sample<'r> {
         times: [&Times<'r>; 2],
     ) -> Self {
         let readers = times.map(|times| metric.reader(|row| times.get(&row.key).copied()));
-        let mut sample = Self::empty(study, contender, metric.name, metric.unit, metric.better);
+        let mut sample = Self::empty(study, contender, metric.name, &metric.unit, metric.better);
         sample.is_time = metric.is_time();
         let failed = sample.worse() * FAILED;
         for pair in pairs {

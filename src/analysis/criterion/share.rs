@@ -294,7 +294,7 @@ impl Counted<'_> {
     fn description(&self) -> String {
         let named = match self.settings.bound {
             Some(bound) => {
-                format!("{} {bound}", self.of.metric.map_or("", |metric| metric.label).to_lowercase())
+                format!("{} {bound}", self.of.metric.map_or("", |metric| &metric.label).to_lowercase())
             }
             None => self.settings.columns.join(" and "),
         };

@@ -140,7 +140,7 @@ impl Criterion for Trend<'_> {
         let metric = self.metric.label.to_lowercase();
         let (subject, unit) = match &self.of.against {
             Some(_) => (format!("saving in {metric}"), "points"),
-            None => (metric, self.metric.unit),
+            None => (metric, self.metric.unit.as_str()),
         };
         let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
         let medians = all.values.iter().map(|median| format!("{median:.3}")).collect::<Vec<_>>().join(", ");

@@ -353,7 +353,7 @@ impl SweepCurves {
             return Err(RenderError::NotStored { what: format!("values of `{}`", metric.name) });
         }
         let x = Axis::over(self.read.axis.clone(), all().map(|point| point[0]));
-        let mut panel = Panel::new(metric.label, x, Axis::log(title, low / 1.5, high * 1.5)?);
+        let mut panel = Panel::new(&metric.label, x, Axis::log(title, low / 1.5, high * 1.5)?);
         let drawn =
             curves.into_iter().zip(&self.rows).enumerate().filter(|(_, (curve, _))| !curve.is_empty());
         for (index, (curve, row)) in drawn {
