@@ -67,19 +67,16 @@ fn settings_that_all_studies_share_stand_in_the_paper_and_change_no_trial() {
         all.map(|settings| settings.table().clone()).collect::<Vec<Table>>()
     };
     let before = settings(&toy);
-    let shared = "[settings.random_cells]\nsize_cells = [12, 12]\n[settings.astar]\nweight = 3\n[source]\n";
+    let shared =
+        "[settings.random_cells]\nsize_cells = [12, 12]\n[settings.astar]\nties = \"fifo\"\n[source]\n";
     toy.0.edit("toy/paper.toml", "[source]\n", shared);
     assert_eq!(settings(&toy), before, "a study may say the same");
     toy.0.edit("toy/draws.toml", "size_cells = [12, 12], ", "");
-    toy.0.edit("toy/draws.toml", "weight = 3, ", "");
+    toy.0.edit("toy/draws.toml", "weight = 3, ties = \"fifo\"", "weight = 3");
     assert_eq!(settings(&toy), before, "what it leaves out holds");
-    toy.0.edit(
-        "toy/draws.toml",
-        "planner = \"astar\"\nsettings = { ",
-        "planner = \"astar\"\nsettings = { weight = 2, ",
-    );
-    let weights = |tables: &[Table]| tables[1].get("weight").and_then(Value::as_integer);
-    assert_eq!([&before, &settings(&toy)].map(|tables| weights(tables)), [Some(3), Some(2)]);
+    toy.0.edit("toy/draws.toml", "weight = 3", "weight = 3, ties = \"lifo\"");
+    let ties = |tables: &[Table]| tables[1].get("ties").and_then(Value::as_str).unwrap().to_owned();
+    assert_eq!([&before, &settings(&toy)].map(|tables| ties(tables)), ["fifo", "lifo"]);
 }
 
 #[test]
