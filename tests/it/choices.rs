@@ -421,3 +421,45 @@ fn nothing_of_choices_is_written_twice_in_the_committed_specs() {
         }
     }
 }
+
+/// Every use of a family, planner or stage in a study's spec, with the settings that the study writes.
+fn uses(study: &Table) -> Vec<(String, Table)> {
+    let tables = |table: &Table, key: &str| -> Vec<Table> {
+        let all = table.get(key).and_then(Value::as_array).into_iter().flatten();
+        all.map(|entry| entry.as_table().unwrap().clone()).collect()
+    };
+    let contenders = tables(study, "contender");
+    let stages = contenders.iter().flat_map(|own| tables(own, "then")).map(|stage| (stage, "stage"));
+    let all = tables(study, "problems").into_iter().map(|group| (group, "family"));
+    let all = all.chain(contenders.iter().cloned().map(|own| (own, "planner"))).chain(stages);
+    let written = |entry: &Table| entry.get("settings").and_then(Value::as_table).cloned().unwrap_or_default();
+    all.map(|(entry, key)| (entry[key].as_str().unwrap().to_owned(), written(&entry))).collect()
+}
+
+#[test]
+fn what_all_studies_set_alike_stands_in_the_paper_alone() {
+    let files = committed();
+    let mut shared_keys = 0;
+    for (paper, _, spec) in files.iter().filter(|(_, file, _)| file == "paper") {
+        let shared = spec.get("settings").and_then(Value::as_table).cloned().unwrap_or_default();
+        let studies = files.iter().filter(|(own, _, spec)| own == paper && spec.contains_key("question"));
+        let mut written: BTreeMap<String, Vec<Table>> = BTreeMap::new();
+        for (_, file, study) in studies {
+            for (entry, table) in uses(study) {
+                for (key, value) in &table {
+                    let of_paper = shared.get(&entry).and_then(|own| own.get(key));
+                    assert_ne!(of_paper, Some(value), "{paper}/{file}: `{key}` of `{entry}` is written twice");
+                }
+                written.entry(entry).or_default().push(table);
+            }
+        }
+        for (entry, tables) in &written {
+            shared_keys += shared.get(entry).and_then(Value::as_table).map_or(0, Table::len);
+            for (key, value) in tables[0].iter().filter(|_| tables.len() >= 4) {
+                let is_alike = tables.iter().all(|own| own.get(key) == Some(value));
+                assert!(!is_alike, "{paper}: `{key}` of `{entry}` belongs in [settings.{entry}]");
+            }
+        }
+    }
+    assert!(shared_keys > 30, "{shared_keys} keys");
+}
