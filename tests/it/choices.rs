@@ -432,7 +432,8 @@ fn uses(study: &Table) -> Vec<(String, Table)> {
     let stages = contenders.iter().flat_map(|own| tables(own, "then")).map(|stage| (stage, "stage"));
     let all = tables(study, "problems").into_iter().map(|group| (group, "family"));
     let all = all.chain(contenders.iter().cloned().map(|own| (own, "planner"))).chain(stages);
-    let written = |entry: &Table| entry.get("settings").and_then(Value::as_table).cloned().unwrap_or_default();
+    let written =
+        |entry: &Table| entry.get("settings").and_then(Value::as_table).cloned().unwrap_or_default();
     all.map(|(entry, key)| (entry[key].as_str().unwrap().to_owned(), written(&entry))).collect()
 }
 
@@ -448,7 +449,11 @@ fn what_all_studies_set_alike_stands_in_the_paper_alone() {
             for (entry, table) in uses(study) {
                 for (key, value) in &table {
                     let of_paper = shared.get(&entry).and_then(|own| own.get(key));
-                    assert_ne!(of_paper, Some(value), "{paper}/{file}: `{key}` of `{entry}` is written twice");
+                    assert_ne!(
+                        of_paper,
+                        Some(value),
+                        "{paper}/{file}: `{key}` of `{entry}` is written twice"
+                    );
                 }
                 written.entry(entry).or_default().push(table);
             }

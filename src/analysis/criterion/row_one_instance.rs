@@ -189,14 +189,9 @@ impl RowOneInstance<'_> {
         if is_turned { unended } else { 0 }
     }
 
-    /// Where the printed row stands, in shape and in level, its rank of shape among our instances and itself, and what both ranks
-    /// say: each is exact, however few the instances.
-    fn placed(&self, cells: &[Vec<f64>]) -> Option<(Place, Level, f64, Outcome)> {
-        let place = Place::new(&self.printed, cells).filter(|_| cells.len() == self.printed.len())?;
-        let level = Level::new(&self.printed, cells)?;
-        let rank = (place.as_far + 1) as f64 / (place.instances + 1) as f64;
-        let is_ordinary = rank.min(level.rank.p_two_sided()) >= self.refused_below;
-        Some((place, level, rank, if is_ordinary { Outcome::Holds } else { Outcome::Fails }))
+    /// Where the printed row stands among our instances.
+    fn placed(&self, cells: &[Vec<f64>]) -> Option<Placed> {
+        placed(&self.printed, cells, self.refused_below)
     }
 
     /// The first trial of the instance whose first row is nearest to what is printed: one that is refused is far from all of ours.
@@ -239,6 +234,42 @@ impl RowOneInstance<'_> {
             )
         }));
         because
+    }
+}
+
+/// Where a row stands, in shape and in level, its rank of shape among our instances and itself, and what both ranks say: each is
+/// exact, however few the instances.
+type Placed = (Place, Level, f64, Outcome);
+
+fn placed(row: &[f64], cells: &[Vec<f64>], refused_below: f64) -> Option<Placed> {
+    let place = Place::new(row, cells).filter(|_| cells.len() == row.len())?;
+    let level = Level::new(row, cells)?;
+    let rank = (place.as_far + 1) as f64 / (place.instances + 1) as f64;
+    let is_ordinary = rank.min(level.rank.p_two_sided()) >= refused_below;
+    Some((place, level, rank, if is_ordinary { Outcome::Holds } else { Outcome::Fails }))
+}
+
+/// How far `row` would have had to lie below or above in every cell to be refused, in whole points of shares, as far as these go, or in
+/// hundredths of its largest cell. What passes lies between: the distance from a mean has one minimum along the way.
+fn power(row: &[f64], are_shares: bool, cells: &[Vec<f64>], refused_below: f64) -> String {
+    let largest = row.iter().fold(0.0_f64, |most, cell| most.max(cell.abs()));
+    let step = if are_shares { 1.0 } else { largest / 100.0 };
+    let is_refused = |steps: i32| {
+        let shifted = row.iter().map(|cell| cell + step * f64::from(steps));
+        let shifted: Vec<f64> =
+            shifted.map(|cell| if are_shares { cell.clamp(0.0, 100.0) } else { cell }).collect();
+        placed(&shifted, cells, refused_below).is_none_or(|(.., outcome)| outcome == Outcome::Fails)
+    };
+    let refused_from = |way: i32| {
+        let steps: Vec<i32> = (1..=100).map(|steps| way * steps).collect();
+        let passing = steps.partition_point(|steps| !is_refused(*steps));
+        let by = steps.get(passing).map(|steps| step * f64::from(steps.abs()));
+        let unit = if are_shares { " points" } else { "" };
+        by.map(|by| format!("{by:.0}{unit} {}", if way < 0 { "lower" } else { "higher" }))
+    };
+    match [-1, 1].into_iter().filter_map(refused_from).reduce(|a, b| format!("{a} or {b}")) {
+        Some(by) => format!("power: a printed row that is {by} in every cell would have been refused"),
+        None => "power: no printed row that differs alike in every cell would have been refused".to_owned(),
     }
 }
 
@@ -294,13 +325,35 @@ impl Criterion for RowOneInstance<'_> {
         }
     }
 
-    fn show(&self, evidence: &Evidence<'_>, _: &[Number], found: &mut CriterionResult) {
+    fn show(&self, evidence: &Evidence<'_>, numbers: &[Number], found: &mut CriterionResult) {
         if found.ours.is_some() {
+            let are_shares = self.rows.iter().all(|row| matches!(row.cells, Cells::Sweep(_)));
+            let cells = listed(numbers, Ends::Measured);
+            found.power = Some(power(&self.printed, are_shares, &cells, self.refused_below));
             found.trial = self.shown(evidence, &self.rows[0].of.instances(evidence));
         }
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {
         self.rows.iter().map(|row| &row.of).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_row_is_refused_from_where_few_instances_are_as_far() {
+        let cells = vec![(0..101).map(|at| 30.0 + 0.4 * f64::from(at)).collect(); 3];
+        let said = power(&[50.0; 3], true, &cells, 0.05);
+        assert_eq!(
+            said,
+            "power: a printed row that is 20 points lower or 20 points higher in every cell would have been refused"
+        );
+        // A share goes no further than 100.
+        let near = vec![(0..101).map(|at| (80.0 + 0.4 * f64::from(at)).min(100.0)).collect(); 3];
+        let said = power(&[100.0; 3], true, &near, 0.05);
+        assert!(said.contains("lower in every cell") && !said.contains("higher"), "{said}");
     }
 }
