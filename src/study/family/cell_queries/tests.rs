@@ -377,3 +377,25 @@ fn drawn_cells_leave_every_pose_free_and_hold_several_roadmaps() {
         Posed::new(&settings("roadmap = 1"), &inputs(None)).err().unwrap().to_string().contains("[drawn]")
     );
 }
+
+#[test]
+fn the_drawn_cells_that_the_cross_check_reads_are_those_that_the_study_draws() {
+    // The seeds of the first two instances of the study `drawn_cells`.
+    for (file, seed) in
+        [("fu2018_drawn_0", 2_932_714_602_525_562_093), ("fu2018_drawn_1", 4_252_209_531_978_214_276)]
+    {
+        let posed =
+            Posed::new(&settings("scene = 'data/scenes/fu2018_drawn_cell.toml'"), &inputs(None)).unwrap();
+        let boxes = |scene: &Scene| -> Vec<(String, [i64; 6])> {
+            let corners = |own: &engine::space::cell::Obstacle| {
+                let aabb = own.solid.aabb();
+                [aabb.min.x, aabb.min.y, aabb.min.z, aabb.max.x, aabb.max.y, aabb.max.z]
+                    .map(|metres| (metres * 1e9).round() as i64)
+            };
+            scene.obstacles().iter().map(|own| (own.name.clone(), corners(own))).collect()
+        };
+        let path = format!("{}/../../data/scenes/{file}.toml", env!("CARGO_MANIFEST_DIR"));
+        let written = Scene::parse(&Document::open(path.as_ref()).unwrap()).unwrap();
+        assert_eq!(boxes(posed.cell_of(seed).unwrap().scene()), boxes(&written), "{file}");
+    }
+}
