@@ -102,8 +102,8 @@ def read_group(folder: Path, paths: dict[str, Any], family: str) -> dict[str, An
         raise written.fault(
             place, f"problems of the family `{group['family']}` are not judged here; accepted: {family}"
         )
-    shared: dict[str, Any] = Written(folder / "paper.toml").table.get("settings", {}).get(family, {})
-    return shared | group.get("settings", {})
+    settings: dict[str, Any] = group["settings"]
+    return settings
 
 
 def read_workspace(folder: Path, paths: dict[str, Any], name: str) -> tuple[Model, str]:

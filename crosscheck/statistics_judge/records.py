@@ -359,13 +359,10 @@ class Paper:
 
 
 def studies(folder: Path, runs: Path) -> Iterator[Study]:
-    """The studies beside paper.toml, in the order of their names, their problems with the paper's settings for all studies."""
-    shared = toml(folder / "paper.toml").get("settings", {})
+    """The studies beside paper.toml, in the order of their names."""
     for path in sorted(folder.glob("*.toml")):
         spec = toml(path)
         if path.name not in ("paper.toml", "crosscheck.toml") and ("paper" in spec or "question" in spec):
-            for group in spec.get("problems", []):
-                group["settings"] = shared.get(group["family"], {}) | group.get("settings", {})
             yield Study(path, spec, runs)
 
 

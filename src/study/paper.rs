@@ -30,7 +30,7 @@ pub use self::withdrawn::Withdrawn;
 pub use super::spec::Digits;
 use super::spec::{BudgetSpec, ChoiceSpec, ExploreSpec, StudySpec};
 use super::{Choice, Inputs, Interpretation, Shared, Study, StudyError, files};
-use base::settings::{Accepted, AnyTable, Document, Faults, Spanned, schema_of};
+use base::settings::{Accepted, Document, Faults, schema_of};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -38,7 +38,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use toml::Table;
 
 /// What `paper.toml` may hold.
 pub const FILE: Accepted = Accepted::shape::<PaperSpec>();
@@ -64,10 +63,6 @@ struct PaperSpec {
     second_seed: Option<u64>,
     /// Limits on each trial of studies that say no others.
     budget: Option<BudgetSpec>,
-    /// Settings of families, planners, stages and tasks, by their names: they hold in every study that does not say otherwise.
-    #[serde(default)]
-    #[schemars(with = "BTreeMap<String, AnyTable>")]
-    settings: BTreeMap<String, Spanned<Table>>,
     /// Everything that it prints, and what answers it; nothing is held against the paper's own list of prints if absent.
     #[serde(default)]
     inventory: Vec<InventoryRow>,
@@ -106,7 +101,6 @@ impl PaperSpec {
             explore: self.explore.clone(),
             second_seed: self.second_seed,
             budget: self.budget,
-            settings: Shared::settings(&mut self.settings, document, faults),
         }
     }
 }
@@ -332,19 +326,6 @@ impl Paper {
         (mut studies, others): Files,
         faults: &mut Faults,
     ) -> Result<Self, StudyError> {
-        for (name, table) in &spec.settings {
-            let used: Vec<&Table> = studies.iter().flat_map(|study| study.settings_of(name)).collect();
-            let dead = |(key, value): &(&String, &toml::Value)| {
-                !used.iter().any(|own| own.get(*key) == Some(*value))
-            };
-            for (key, _) in table.get_ref().iter().filter(dead) {
-                let message = format!(
-                    "`{key}` holds nowhere: every study that uses `{name}` says otherwise, if one does"
-                );
-                let fault = document.error_at_key(&["settings", name, key], message);
-                faults.add(fault.about("problems").about("contender"));
-            }
-        }
         for study in &mut studies {
             study.of_paper = spec.left_out();
         }

@@ -83,9 +83,9 @@ pub struct ProblemsSpec {
     /// and so do the points of a sweep over the group: their settings can then be compared in pairs. The study, the label and the
     /// point of the sweep if absent.
     pub shared_instances: Option<String>,
-    /// The family's settings, over those that the paper has for all studies.
-    #[schemars(with = "Option<AnyTable>")]
-    pub settings: Option<Spanned<Table>>,
+    /// The family's settings.
+    #[schemars(with = "AnyTable")]
+    pub settings: Spanned<Table>,
 }
 
 /// A pipeline under a label.
@@ -96,7 +96,7 @@ pub struct ContenderSpec {
     pub label: Spanned<String>,
     /// The planner's name in the registry.
     pub planner: Spanned<String>,
-    /// The planner's settings, over those that the paper has for all studies.
+    /// The planner's settings.
     #[schemars(with = "Option<AnyTable>")]
     pub settings: Option<Spanned<Table>>,
     /// Stages that tidy the plan, in order.
@@ -117,7 +117,7 @@ pub struct ContenderSpec {
 pub struct StageSpec {
     /// Its name in the registry.
     pub stage: Spanned<String>,
-    /// The stage's settings, over those that the paper has for all studies.
+    /// The stage's settings.
     #[schemars(with = "Option<AnyTable>")]
     pub settings: Option<Spanned<Table>>,
 }

@@ -57,29 +57,6 @@ fn what_all_studies_share_stands_in_the_paper_and_a_study_says_what_differs() {
 }
 
 #[test]
-fn settings_that_all_studies_share_stand_in_the_paper_and_change_no_trial() {
-    let toy = Toy::written(&[]);
-    let settings = |toy: &Toy| {
-        let paper = loaded(&toy.0, "toy");
-        let study = paper.study("draws").unwrap();
-        let stages = study.contenders.iter().flat_map(|own| &own.stages).map(|stage| &stage.settings);
-        let all = study.groups.iter().map(|group| &group.settings).chain(stages);
-        all.map(|settings| settings.table().clone()).collect::<Vec<Table>>()
-    };
-    let before = settings(&toy);
-    let shared =
-        "[settings.random_cells]\nsize_cells = [12, 12]\n[settings.astar]\nties = \"fifo\"\n[source]\n";
-    toy.0.edit("toy/paper.toml", "[source]\n", shared);
-    assert_eq!(settings(&toy), before, "a study may say the same");
-    toy.0.edit("toy/draws.toml", "size_cells = [12, 12], ", "");
-    toy.0.edit("toy/draws.toml", "weight = 3, ties = \"fifo\"", "weight = 3");
-    assert_eq!(settings(&toy), before, "what it leaves out holds");
-    toy.0.edit("toy/draws.toml", "weight = 3", "weight = 3, ties = \"lifo\"");
-    let ties = |tables: &[Table]| tables[1].get("ties").and_then(Value::as_str).unwrap().to_owned();
-    assert_eq!([&before, &settings(&toy)].map(|tables| ties(tables)), ["fifo", "lifo"]);
-}
-
-#[test]
 fn an_option_of_one_contender_changes_its_trials_alone() {
     let bench = Bench::new();
     let option = "problem = { corner_rule = \"forbid_any\" }";
@@ -213,7 +190,7 @@ fn an_option_that_cannot_be_run_leaves_open_what_it_touches_and_is_shown() {
 }
 
 /// The file, what is replaced in it, and what `check` then says of one place.
-const REFUSED: [(&str, &str, &str, &str); 22] = [
+const REFUSED: [(&str, &str, &str, &str); 18] = [
     (
         "paper",
         "{ weight = 0 }",
@@ -296,25 +273,6 @@ const REFUSED: [(&str, &str, &str, &str); 22] = [
         "[budget]",
         "[[choice]]\nid = \"hurry\"\n[budget]",
         "`choice` is no key here: choices are written in paper.toml",
-    ),
-    (
-        "paper",
-        "[explore]",
-        "[settings.random_cell]\nblocked_share = 0.1\n[explore]",
-        "there is no family, planner, stage or task `random_cell` (did you mean `random_cells`?)",
-    ),
-    (
-        "paper",
-        "[explore]",
-        "[settings.grid_map]\nstart = [1, 1]\n[explore]",
-        "`start` holds nowhere: every study that uses `grid_map` says otherwise, if one does",
-    ),
-    ("paper", "[explore]", "[settings.random_cells]\nsize = 3\n[explore]", "unknown key `size`"),
-    (
-        "paper",
-        "[explore]",
-        "[settings.jps_plus]\npreparation = \"none\"\n[explore]",
-        "`preparation` holds nowhere: every study that uses `jps_plus` says otherwise, if one does",
     ),
 ];
 
@@ -420,51 +378,4 @@ fn nothing_of_choices_is_written_twice_in_the_committed_specs() {
             );
         }
     }
-}
-
-/// Every use of a family, planner or stage in a study's spec, with the settings that the study writes.
-fn uses(study: &Table) -> Vec<(String, Table)> {
-    let tables = |table: &Table, key: &str| -> Vec<Table> {
-        let all = table.get(key).and_then(Value::as_array).into_iter().flatten();
-        all.map(|entry| entry.as_table().unwrap().clone()).collect()
-    };
-    let contenders = tables(study, "contender");
-    let stages = contenders.iter().flat_map(|own| tables(own, "then")).map(|stage| (stage, "stage"));
-    let all = tables(study, "problems").into_iter().map(|group| (group, "family"));
-    let all = all.chain(contenders.iter().cloned().map(|own| (own, "planner"))).chain(stages);
-    let written =
-        |entry: &Table| entry.get("settings").and_then(Value::as_table).cloned().unwrap_or_default();
-    all.map(|(entry, key)| (entry[key].as_str().unwrap().to_owned(), written(&entry))).collect()
-}
-
-#[test]
-fn what_all_studies_set_alike_stands_in_the_paper_alone() {
-    let files = committed();
-    let mut shared_keys = 0;
-    for (paper, _, spec) in files.iter().filter(|(_, file, _)| file == "paper") {
-        let shared = spec.get("settings").and_then(Value::as_table).cloned().unwrap_or_default();
-        let studies = files.iter().filter(|(own, _, spec)| own == paper && spec.contains_key("question"));
-        let mut written: BTreeMap<String, Vec<Table>> = BTreeMap::new();
-        for (_, file, study) in studies {
-            for (entry, table) in uses(study) {
-                for (key, value) in &table {
-                    let of_paper = shared.get(&entry).and_then(|own| own.get(key));
-                    assert_ne!(
-                        of_paper,
-                        Some(value),
-                        "{paper}/{file}: `{key}` of `{entry}` is written twice"
-                    );
-                }
-                written.entry(entry).or_default().push(table);
-            }
-        }
-        for (entry, tables) in &written {
-            shared_keys += shared.get(entry).and_then(Value::as_table).map_or(0, Table::len);
-            for (key, value) in tables[0].iter().filter(|_| tables.len() >= 4) {
-                let is_alike = tables.iter().all(|own| own.get(key) == Some(value));
-                assert!(!is_alike, "{paper}: `{key}` of `{entry}` belongs in [settings.{entry}]");
-            }
-        }
-    }
-    assert!(shared_keys > 30, "{shared_keys} keys");
 }

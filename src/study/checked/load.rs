@@ -63,30 +63,24 @@ impl Study {
         });
         let known = task::REGISTRY.iter().map(|entry| entry.name);
         let named = spec.task.as_ref().map(|task| look_up(document, "task", task, task::find, known));
-        let task = named.and_then(|named| faults.keep(named)).unwrap_or_else(task::default);
         Self {
             paper: spec.paper.into_inner(),
             question: spec.question,
             seed: spec.seed,
             second_seed: spec.second_seed.or(shared.second_seed),
-            task_settings: shared.under(
-                task.name,
-                optional(
-                    document,
-                    spec.task_settings.as_ref(),
-                    spec.task.as_ref().map_or(0..0, Spanned::span),
-                    "task_settings",
-                ),
-                Place::of_table(document, &["task_settings"]),
-                "what the study says",
+            task: named.and_then(|named| faults.keep(named)).unwrap_or_else(task::default),
+            task_settings: optional(
+                document,
+                spec.task_settings.as_ref(),
+                spec.task.as_ref().map_or(0..0, Spanned::span),
+                "task_settings",
             ),
-            task,
             searched: spec.searched,
             fitted_to: spec.fitted_to.into_iter().map(Spanned::into_inner).collect(),
-            groups: read_all(&spec.problems, |_, p| (&p.label, group(document, shared, p)), &name, faults),
+            groups: read_all(&spec.problems, |_, p| (&p.label, group(document, p)), &name, faults),
             contenders: read_all(
                 &spec.contenders,
-                |at, c| (&c.label, contender(document, shared, at, c)),
+                |at, c| (&c.label, contender(document, at, c)),
                 &name,
                 faults,
             ),
@@ -228,14 +222,11 @@ fn sweeps(specs: Vec<SweepSpec>, document: &Arc<Document>, faults: &mut Faults) 
     specs.into_iter().enumerate().map(&mut sweep).collect()
 }
 
-fn group(document: &Arc<Document>, shared: &Shared, spec: &ProblemsSpec) -> Result<Group, SettingsError> {
+fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, SettingsError> {
     let known = family::REGISTRY.iter().map(|entry| entry.name);
     let instances = spec.instances.unwrap_or(1);
     let family = look_up(document, "problem family", &spec.family, family::find, known)?;
-    let whose = format!("problem group `{}`", spec.label.get_ref());
-    let written = optional(document, spec.settings.as_ref(), spec.label.span(), &whose);
-    let place = Place::of_table(document, &["problems", &spec.place.to_string(), "settings"]);
-    let written = shared.under(family.name, written, place, &whose);
+    let written = Settings::written(document, &spec.settings);
     let settings = match &spec.file {
         Some(file) => written.overlaid(&each::filled(written.table(), file), &format!("file {file}")),
         None => written,
@@ -257,20 +248,15 @@ fn group(document: &Arc<Document>, shared: &Shared, spec: &ProblemsSpec) -> Resu
 
 fn contender(
     document: &Arc<Document>,
-    shared: &Shared,
     place: usize,
     spec: &ContenderSpec,
 ) -> Result<Contender, SettingsError> {
     let label = spec.label.get_ref();
     let repeats = spec.repeats.unwrap_or(1);
     let mut faults = Faults::default();
-    let at = Place::of_table(document, &["contender", &place.to_string()]);
-    let planner = stage((document, shared), label, &spec.planner, spec.settings.as_ref(), &at, true);
-    let planner = faults.keep(planner);
-    let then = spec.then.iter().enumerate().map(|(number, then)| {
-        let at = at.inside(&["then", &number.to_string()]);
-        stage((document, shared), label, &then.stage, then.settings.as_ref(), &at, false)
-    });
+    let planner = faults.keep(stage(document, label, &spec.planner, spec.settings.as_ref(), true));
+    let then =
+        spec.then.iter().map(|then| stage(document, label, &then.stage, then.settings.as_ref(), false));
     let stages = planner.into_iter().chain(then.filter_map(|stage| faults.keep(stage))).collect();
     faults.done()?;
     Ok(Contender {
@@ -284,11 +270,10 @@ fn contender(
 }
 
 fn stage(
-    (document, shared): (&Arc<Document>, &Shared),
+    document: &Arc<Document>,
     label: &str,
     name: &Spanned<String>,
     settings: Option<&Spanned<Table>>,
-    at: &Place,
     first: bool,
 ) -> Result<StageUse, SettingsError> {
     let what = if first { "planner" } else { "stage" };
@@ -304,8 +289,6 @@ fn stage(
         document.error(name.span(), message)
     })?;
     let whose = format!("contender `{label}`, {what} `{}`", entry.name);
-    let written = optional(document, settings, name.span(), &whose);
-    let settings = shared.under(entry.name, written, at.inside(&["settings"]), &whose);
-    let settings = settings.completed(entry.settings);
+    let settings = optional(document, settings, name.span(), &whose).completed(entry.settings);
     Ok(StageUse { entry, named: name.span(), settings })
 }

@@ -2,10 +2,10 @@
 
 use super::super::choice::Choice;
 use super::super::name::slug;
+use super::super::planner;
 use super::super::spec::{BudgetSpec, ChoiceSpec, ExploreSpec, OptionSpec};
-use super::super::{family, planner, task};
 use super::{Contender, Group, Study, columns_of, labels_of};
-use base::settings::{Document, Faults, Place, Settings, Spanned, none_called};
+use base::settings::{Document, Faults, Spanned, none_called};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use toml::Table;
@@ -24,39 +24,9 @@ pub struct Shared {
     pub second_seed: Option<u64>,
     /// Limits on each trial.
     pub budget: Option<BudgetSpec>,
-    /// Settings of families, planners, stages and tasks, by their names.
-    pub settings: BTreeMap<String, Settings>,
 }
 
 impl Shared {
-    /// The settings by entry in `document`; names that no entry has go to `faults` and are taken out of `specs`.
-    pub fn settings(
-        specs: &mut BTreeMap<String, Spanned<Table>>,
-        document: &Arc<Document>,
-        faults: &mut Faults,
-    ) -> BTreeMap<String, Settings> {
-        let families = family::REGISTRY.iter().map(|entry| entry.name);
-        let tasks = task::REGISTRY.iter().map(|entry| entry.name);
-        let known: Vec<&str> = families.chain(planner::all().map(|entry| entry.name)).chain(tasks).collect();
-        specs.retain(|name, _| {
-            let is_known = known.contains(&name.as_str());
-            if !is_known {
-                let message = none_called("family, planner, stage or task", name, known.iter().copied());
-                faults.add(Place::of_table(document, &["settings", name]).error(message));
-            }
-            is_known
-        });
-        specs.iter().map(|(name, table)| (name.clone(), Settings::written(document, table))).collect()
-    }
-
-    /// The settings of the entry called `name`: what a study has `written` at `place`, over what the paper has for all studies.
-    pub(super) fn under(&self, name: &str, written: Settings, place: Place, whose: &str) -> Settings {
-        match self.settings.get(name) {
-            Some(shared) => shared.overlaid_from(written.table(), whose, vec![place]),
-            None => written,
-        }
-    }
-
     /// The choices in `document`; what is wrong with one by itself goes to `faults`, and with it the choice.
     pub fn choices(specs: Vec<ChoiceSpec>, document: &Arc<Document>, faults: &mut Faults) -> Vec<Choice> {
         let mut kept: Vec<Choice> = Vec::new();
@@ -163,15 +133,6 @@ impl Study {
         let (groups, contenders): (Vec<_>, Vec<_>) =
             (self.groups.iter().collect(), self.contenders.iter().collect());
         option.sets(&groups, &contenders)
-    }
-
-    /// The settings of each use of the family, planner, stage or task called `name`.
-    pub(crate) fn settings_of(&self, name: &str) -> Vec<&Table> {
-        let groups = self.groups.iter().map(|group| (group.family.name, &group.settings));
-        let stages = self.contenders.iter().flat_map(|own| &own.stages);
-        let stages = stages.map(|stage| (stage.entry.name, &stage.settings));
-        let all = groups.chain(stages).chain([(self.task.name, &self.task_settings)]);
-        all.filter(|(own, _)| *own == name).map(|(_, settings)| settings.table()).collect()
     }
 
     /// Whether `choice` sets something that the study runs.
