@@ -17,7 +17,7 @@ pub enum Better {
 }
 
 impl Better {
-    /// Its name, as other programs are told it.
+    /// Its name in files that other programs read.
     pub fn name(self) -> &'static str {
         match self {
             Self::Lower => "lower",
