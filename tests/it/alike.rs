@@ -1,7 +1,6 @@
 //! Problem groups and contenders that are like another: what they have, what stands in the place of it, and what is refused.
 
 use crate::paper::Bench;
-use std::path::Path;
 use study::paper::Paper;
 use study::{Contender, Group, Inputs, Study};
 
@@ -143,13 +142,12 @@ fn what_is_like_another_has_what_that_one_has_and_its_own_keys_in_their_places()
 #[test]
 fn records_of_a_study_that_says_it_once_are_those_of_the_study_written_out() {
     let bench = bench(WHOLE);
-    let rows = || std::fs::read(bench.at("target/replan/mini/sides.trials.parquet")).unwrap();
+    let rows = || std::fs::read(bench.at("target/replan/mini/data/runs/mini/sides.trials.parquet")).unwrap();
     bench.done(&["run", "./mini"]);
     let before = rows();
     bench.write("mini/sides.toml", STUDY.as_bytes());
-    let output = bench.run(&["run", "./mini", "--study", "sides"]);
-    assert_eq!(output.code, Some(0), "{}", output.err);
-    assert!(output.out.contains("reused") || output.err.contains("reused"), "{}{}", output.out, output.err);
+    let output = bench.done(&["run", "./mini"]);
+    assert!(output.contains("sides: 27 trials (9 of 9 units reused)"), "{output}");
     assert!(rows() == before, "other rows");
 }
 
@@ -165,7 +163,7 @@ const REFUSED: [(&str, &str, &str, &str); 9] = [
         "sides",
         "label = \"full\"\nlike = \"wide\"",
         "label = \"full\"\nlike = \"wild\"",
-        "16:8: there is no problem group above or in paper.toml `wild` (did you mean `wide`?)",
+        "15:8: there is no problem group above or in paper.toml `wild`; there are wide",
     ),
     (
         "sides",
@@ -208,30 +206,4 @@ fn what_cannot_be_like_another_is_refused_once_where_it_stands() {
         assert!(lines.len() == 1 && lines[0].contains(refused), "{to}\n{}", output.err);
         assert!(lines[0].contains(&format!("/mini/{file}.toml:")), "{to}: {}", lines[0]);
     }
-}
-
-#[test]
-fn no_group_and_no_contender_of_a_committed_study_is_written_twice() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut twice = Vec::new();
-    for name in crate::paper::committed() {
-        let folder = root.join("experiments").join(&name);
-        let mut seen = std::collections::BTreeMap::new();
-        for path in std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
-            let spec: toml::Table = std::fs::read_to_string(&path).unwrap().parse().unwrap();
-            for (part, key) in [("problems", "family"), ("contender", "planner")] {
-                let entries = spec.get(part).and_then(toml::Value::as_array).into_iter().flatten();
-                for entry in entries.filter(|entry| entry.get(key).is_some()) {
-                    let settings = entry.get("settings").and_then(toml::Value::as_table);
-                    let Some(settings) = settings.filter(|settings| settings.len() > 3) else { continue };
-                    let text = format!("{key} {} {settings}", entry[key]);
-                    let place = format!("{}: {}", path.display(), entry["label"]);
-                    if let Some(first) = seen.insert(text, place.clone()) {
-                        twice.push(format!("{first} and {place}"));
-                    }
-                }
-            }
-        }
-    }
-    assert_eq!(twice, [""; 0], "say `like`:\n{}", twice.join("\n"));
 }

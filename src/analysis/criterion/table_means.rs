@@ -44,8 +44,8 @@ refused_below = 0.05
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
-    /// The studies with the claims of each that print the means: those that `mean_of` judges. Untestable claims and differences of
-    /// two cells are left out.
+    /// The studies with the claims of each that print the means: those that `mean_of` judges. Claims that are not testable and
+    /// differences of two cells are left out.
     #[serde(rename = "in")]
     places: Vec<PlaceSpec>,
     /// The table is refused where its probability, times the interpretations that the paper may mean, is below this.

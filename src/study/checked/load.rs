@@ -205,7 +205,8 @@ fn read_one<S: Alike>(
             Some(base) => spec.read_like(base, document, place),
             None => {
                 let what = format!("{what} above or in paper.toml");
-                let message = none_called(&what, like.get_ref(), known().map(S::label));
+                let labels: BTreeSet<&str> = known().map(S::label).collect();
+                let message = none_called(&what, like.get_ref(), labels);
                 Err(document.error(like.span(), message).about(like.get_ref()).about("like"))
             }
         },
