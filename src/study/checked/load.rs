@@ -178,7 +178,7 @@ fn read_all<S: Alike>(
 ) -> Vec<S::Read> {
     let mut all: Vec<S::Read> = Vec::new();
     for (place, spec) in specs.iter().enumerate() {
-        match read_one(spec, place, [&all, shared], document) {
+        match read_one(specs, place, [&all, shared], document) {
             Ok(entry) => all.push(entry),
             Err(fault) => {
                 faults.add(fault);
@@ -191,11 +191,12 @@ fn read_all<S: Alike>(
 }
 
 fn read_one<S: Alike>(
-    spec: &S,
+    specs: &[S],
     place: usize,
     known: [&[S::Read]; 2],
     document: &Arc<Document>,
 ) -> Result<S::Read, SettingsError> {
+    let spec = &specs[place];
     let [what, key] = S::CALLED;
     let (label, like, has_key) = spec.names();
     let known = || known.into_iter().flatten();
@@ -207,7 +208,10 @@ fn read_one<S: Alike>(
                 let what = format!("{what} above or in paper.toml");
                 let labels: BTreeSet<&str> = known().map(S::label).collect();
                 let message = none_called(&what, like.get_ref(), labels);
-                Err(document.error(like.span(), message).about(like.get_ref()).about("like"))
+                let error = document.error(like.span(), message).about("like");
+                // One above or a shared one may have faults of its own, which are reported.
+                let is_below = specs[place..].iter().any(|spec| spec.names().0 == like);
+                Err(if is_below { error } else { error.about(like.get_ref()) })
             }
         },
         _ => {
