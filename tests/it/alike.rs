@@ -184,7 +184,7 @@ const REFUSED: [(&str, &str, &str, &str); 9] = [
         "contender `As searched` has neither of `planner` and `like`; one of them is accepted",
     ),
     ("sides", "goal = [10, 10]", "gaol = [10, 10]", "24:1: unknown key `gaol` (did you mean `goal`?)"),
-    ("sides", "ties = \"lifo\"", "ties = \"fofo\"", "ties is `fofo`"),
+    ("sides", "ties = \"lifo\"", "ties = \"fofo\"", "33:21: `ties` is \"fofo\" (did you mean `fifo`?)"),
     ("paper", "blocked_share = 0.3", "blocked_share = 3", "blocked_share is 3"),
     (
         "sides",
