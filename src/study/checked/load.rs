@@ -183,7 +183,9 @@ fn read_all<S: Alike>(
             Err(fault) => {
                 faults.add(fault);
                 faults.unread(spec.names().0.get_ref());
-                study.into_iter().for_each(|study| faults.unread(columns_of(study)));
+                if let Some(study) = study {
+                    faults.unread(columns_of(study));
+                }
             }
         }
     }
@@ -202,18 +204,18 @@ fn read_one<S: Alike>(
     let known = || known.into_iter().flatten();
     match like {
         None if has_key => spec.read(document, place),
-        Some(like) if !has_key => match known().find(|base| S::label(base) == like.get_ref()) {
-            Some(base) => spec.read_like(base, document, place),
-            None => {
-                let what = format!("{what} above or in paper.toml");
-                let labels: BTreeSet<&str> = known().map(S::label).collect();
-                let message = none_called(&what, like.get_ref(), labels);
-                let error = document.error(like.span(), message).about("like");
-                // One above or a shared one may have faults of its own, which are reported.
-                let is_below = specs[place..].iter().any(|spec| spec.names().0 == like);
-                Err(if is_below { error } else { error.about(like.get_ref()) })
+        Some(like) if !has_key => {
+            if let Some(base) = known().find(|base| S::label(base) == like.get_ref()) {
+                return spec.read_like(base, document, place);
             }
-        },
+            let what = format!("{what} above or in paper.toml");
+            let labels: BTreeSet<&str> = known().map(S::label).collect();
+            let message = none_called(&what, like.get_ref(), labels);
+            let error = document.error(like.span(), message).about("like");
+            // One above or a shared one may have faults of its own, which are reported.
+            let is_below = specs[place..].iter().any(|spec| spec.names().0 == like);
+            Err(if is_below { error } else { error.about(like.get_ref()) })
+        }
         _ => {
             let found = if has_key { "both" } else { "neither" };
             let message = format!(
