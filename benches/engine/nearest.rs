@@ -71,7 +71,8 @@ fn benches(c: &mut Criterion<CpuTime>) {
     let questions: Vec<Config> = (0..QUESTIONS).map(|_| sample(&mut stream)).collect();
     for count in [1_000, 10_000, 100_000, 1_000_000] {
         let configs = tree(count);
-        let (index, rstar) = (indexed(&configs), in_rstar(&configs));
+        let index = indexed(&configs);
+        let rstar = in_rstar(&configs);
         for at in &questions[..32] {
             let known = plain(&configs, at);
             assert_eq!(index.nearest(at).1, known.sqrt(), "{at:?}");

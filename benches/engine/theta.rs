@@ -89,7 +89,8 @@ impl Posed {
             f64::from((x - u).pow(2) + (y - v).pow(2)).sqrt()
         };
         let count = self.moves.cell_count() as usize;
-        let (mut costs, mut parents) = (vec![f64::INFINITY; count], vec![u32::MAX; count]);
+        let mut costs = vec![f64::INFINITY; count];
+        let mut parents = vec![u32::MAX; count];
         let mut closed = vec![false; count];
         let mut open = BinaryHeap::new();
         (costs[start as usize], parents[start as usize]) = (0.0, start);

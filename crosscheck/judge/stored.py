@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
+from alike import whole
 
 from judge.located import Fault, Stale, Written
 from judge.robots import Model, Numbers, Part, Row
@@ -93,7 +94,9 @@ def read_group(folder: Path, paths: dict[str, Any], family: str) -> dict[str, An
     They are those that the group itself is given: the options of choices do not change them here.
     """
     written = Written(folder / f"{paths['study']}.toml")
-    groups = {group["label"]: (index, group) for index, group in enumerate(written.table["problems"])}
+    shared = Written(folder / "paper.toml").table
+    problems = whole(written.table, shared)["problems"]
+    groups = {group["label"]: (index, group) for index, group in enumerate(problems)}
     if paths["problems"] not in groups:
         raise Fault(f"{written.path}: there is no group `{paths['problems']}`; there are {', '.join(groups)}")
     index, group = groups[paths["problems"]]

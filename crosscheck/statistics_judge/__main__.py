@@ -6,7 +6,7 @@ import sys
 from multiprocessing import Pool
 from pathlib import Path
 
-from statistics_judge.judge import Said, compare, recomputed
+from statistics_judge.judge import Compared, compare, recomputed
 from statistics_judge.records import Metric, Paper, toml
 
 # Something differs.
@@ -27,28 +27,28 @@ def main() -> int:
     ]
     differing = 0
     with Pool(words.jobs) as pool:
-        for name, said in pool.imap(answer, asked, chunksize=1):
-            report(name, said)
-            differing += len(said.differ)
+        for name, compared in pool.imap(answer, asked, chunksize=1):
+            report(name, compared)
+            differing += len(compared.differ)
     return DIFFERS if differing else 0
 
 
-def answer(asked: tuple[Path, Path, list[Metric], Path]) -> tuple[str, Said]:
+def answer(asked: tuple[Path, Path, list[Metric], Path]) -> tuple[str, Compared]:
     """One paper."""
     paper = Paper(*asked)
     return paper.id, compare(paper, recomputed(paper), toml(paper.runs / "verdicts.toml"))
 
 
-def report(name: str, said: Said) -> None:
+def report(name: str, compared: Compared) -> None:
     """Say what agrees, what is near and what differs."""
     agree = (
-        f"{said.estimates} estimates, {said.intervals} intervals, {said.classes} outcomes "
-        f"and {said.across} combinations across interpretations agree"
+        f"{compared.estimates} estimates, {compared.intervals} intervals, {compared.classes} outcomes "
+        f"and {compared.across} combinations across interpretations agree"
     )
-    print(f"{name}: {agree}; {len(said.near)} near, {len(said.differ)} differ", flush=True)
-    for line in said.near:
+    print(f"{name}: {agree}; {len(compared.near)} near, {len(compared.differ)} differ", flush=True)
+    for line in compared.near:
         print(f"  near: {line}")
-    for line in said.differ:
+    for line in compared.differ:
         print(f"  differs: {line}")
 
 

@@ -154,11 +154,11 @@ class Across:
             bool(stored.get("not_varied")),
         )
         verdict, line = results.verdict()
-        beside, on = self.said(claim, counted, results, line)
+        beside, on = self.wording(claim, counted, results, line)
         beside = self.possible(claim) or beside
         unvaried = None if line in ("proved", "lacking") else not_varied(stored.get("not_varied", []))
         beside = "; ".join(one for one in (beside, unvaried) if one) or None
-        found = {"verdict": verdict, "said": beside, "depends_on": on, "across": None}
+        found = {"verdict": verdict, "beside": beside, "depends_on": on, "across": None}
         if is_explored:
             found["across"] = self.across_of(counted, results)
         return found
@@ -310,7 +310,7 @@ class Across:
             if again is None or SPEAKS[stored_outcome(again)] != SPEAKS[one.stored]:
                 one.vote = OPEN
 
-    def said(
+    def wording(
         self, claim: str, counted: Counted, results: Results, line: str
     ) -> tuple[str | None, str | None]:
         """What stands beside the verdict, and on what it depends."""
@@ -373,7 +373,7 @@ class Across:
         rule = sides.rule(1)
         if rule:
             start = "the exception has" if len(apart) == 1 else f"all {len(apart)} exceptions have"
-            return f"{start} {rule.said()}"
+            return f"{start} {rule.wording()}"
         assert self.first is not None
         short = [
             one for one in apart if len(self.first["interpretations"][one.interpretations[0]]) <= OPTIONS
@@ -389,7 +389,7 @@ class Across:
         if rule:
             verb = "contradicted" if rule.side == 1 else "holds"
             choices = " and ".join(choice for choice, _ in rule.options)
-            return choices, f"{verb} only if {rule.said()} ({rule.hits} of {rule.covered})"
+            return choices, f"{verb} only if {rule.wording()} ({rule.hits} of {rule.covered})"
         best = sides.separating()
         if best is None:
             return "a combination", "no option separates them"
@@ -456,22 +456,22 @@ def differences(paper: Paper, verdicts: dict[str, Any]) -> Iterator[str | None]:
     for claim, stored in own.verdicts.items():
         expected = {**found[claim], **meant(paper.claim(claim), found)}
         where = f"{paper.id}: `{claim}`"
-        wrong = [key for key in ("verdict", "said", "depends_on") if stored.get(key) != expected[key]]
+        wrong = [key for key in ("verdict", "beside", "depends_on") if stored.get(key) != expected[key]]
         for key in wrong:
             yield f"{where}: `{key}` is {stored.get(key)!r}; recomputed it is {expected[key]!r}"
-        across, said = expected["across"], stored.get("across")
-        if (across is None) != (said is None):
-            has = "nothing" if said is None else "something"
+        across, on_file = expected["across"], stored.get("across")
+        if (across is None) != (on_file is None):
+            has = "nothing" if on_file is None else "something"
             yield f"{where}: verdicts.toml says {has} across interpretations; recomputed it is {across}"
-        elif across is not None and said is not None:
-            several = [key for key, value in across.items() if said.get(key, False) != value]
+        elif across is not None and on_file is not None:
+            several = [key for key, value in across.items() if on_file.get(key, False) != value]
             for key in several:
-                yield f"{where} across: `{key}` is {said.get(key)!r}; recomputed it is {across[key]!r}"
+                yield f"{where} across: `{key}` is {on_file.get(key)!r}; recomputed it is {across[key]!r}"
             wrong += several
         second = own.second_outcome(claim)
         if stored.get("second") != second:
-            is_said = stored.get("second")
-            yield f"{where}: its outcome on the second seed is {is_said}; recomputed it is {second}"
+            on_file = stored.get("second")
+            yield f"{where}: its outcome on the second seed is {on_file}; recomputed it is {second}"
         elif not wrong:
             yield None
 
@@ -483,10 +483,10 @@ def meant(claim: dict[str, Any], found: dict[str, dict[str, Any]]) -> dict[str, 
         return {}
     parts = [found[part] for part in ids]
     verdict = of_meanings([part["verdict"] for part in parts])
-    said = [f"`{name}` {in_words(part)}" for name, part in zip(ids, parts, strict=True)]
+    meanings = [f"`{name}` {in_words(part)}" for name, part in zip(ids, parts, strict=True)]
     weakest = next((part for part in parts if part["verdict"] == verdict), {})
     on = (weakest.get("depends_on") or "what is meant") if verdict == "depends" else None
-    return {"verdict": verdict, "said": f"meanings: {', '.join(said)}", "depends_on": on}
+    return {"verdict": verdict, "beside": f"meanings: {', '.join(meanings)}", "depends_on": on}
 
 
 def in_words(one: dict[str, Any]) -> str:

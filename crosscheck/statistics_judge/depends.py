@@ -19,7 +19,7 @@ class Rule:
     hits: int
     covered: int
 
-    def said(self) -> str:
+    def wording(self) -> str:
         """The options in words."""
         return " and ".join(f"{axis} = {option}" for axis, option in self.options)
 

@@ -54,7 +54,7 @@ class Claim:
 
 
 @dataclass
-class Said:
+class Compared:
     """What a comparison gives."""
 
     estimates: int = 0
@@ -204,28 +204,30 @@ def lacks_sessions(stored: int, find: Callable[[int], Found]) -> bool:
     return len({find(session).outcome for session in range(1, stored + 1)}) > 1
 
 
-def compare(paper: Paper, claims: list[Claim], verdicts: dict[str, Any]) -> Said:
+def compare(paper: Paper, claims: list[Claim], verdicts: dict[str, Any]) -> Compared:
     """What verdicts.toml says, held against what was recomputed."""
-    said = Said()
+    compared = Compared()
     if verdicts["interpretation"] != paper.taken:
-        said.differ.append(
+        compared.differ.append(
             f"{paper.id}: verdicts.toml was judged under other interpretations than the default"
         )
-        return said
+        return compared
     stored = {one["claim"]: one for one in verdicts.get("claim", [])}
     if list(stored) != [claim.id for claim in claims]:
-        said.differ.append(f"{paper.id}: verdicts.toml has other claims than paper.toml, or in another order")
-        return said
-    known = [compare_findings(paper.id, claim, stored[claim.id], said) for claim in claims]
+        compared.differ.append(
+            f"{paper.id}: verdicts.toml has other claims than paper.toml, or in another order"
+        )
+        return compared
+    known = [compare_findings(paper.id, claim, stored[claim.id], compared) for claim in claims]
     alone = {claim.id: whole(claim, possible) for claim, possible in zip(claims, known, strict=True)}
     for claim, possible in zip(claims, known, strict=True):
-        compare_claim(paper.id, claim, stored[claim.id], (possible, alone), said)
+        compare_claim(paper.id, claim, stored[claim.id], (possible, alone), compared)
     for line in across.differences(paper, verdicts):
         if line is None:
-            said.across += 1
+            compared.across += 1
         else:
-            said.differ.append(line)
-    return said
+            compared.differ.append(line)
+    return compared
 
 
 def whole(claim: Claim, possible: list[Classes]) -> Classes:
@@ -239,13 +241,15 @@ def each(of: Callable[[list], str], possible: Iterable[Classes]) -> Classes:
     return frozenset(of(list(choice)) for choice in itertools.product(*possible))
 
 
-def compare_findings(paper: str, claim: Claim, stored: dict[str, Any], said: Said) -> list[Classes]:
+def compare_findings(paper: str, claim: Claim, stored: dict[str, Any], compared: Compared) -> list[Classes]:
     """The findings of one claim; gives the classes that each may have."""
     findings = stored.get("finding", [])
     names = [finding["criterion"] for finding in findings]
     extra = (["none"] if claim.untestable else []) + ([claim.parts[0]] if claim.parts else [])
     if names != claim.names + extra:
-        said.differ.append(f"{paper}: `{claim.id}` has findings {names}; {claim.names + extra} are asked for")
+        compared.differ.append(
+            f"{paper}: `{claim.id}` has findings {names}; {claim.names + extra} are asked for"
+        )
         return [frozenset([finding.get("outcome")]) for finding in findings[: len(claim.names)]]
     known = []
     for place, (own, finding) in enumerate(zip(claim.findings, findings, strict=False)):
@@ -253,9 +257,9 @@ def compare_findings(paper: str, claim: Claim, stored: dict[str, Any], said: Sai
             known.append(frozenset([finding.get("outcome")]))
             continue
         where = f"{paper}: `{claim.id}`, finding {place + 1} ({own.criterion})"
-        for line in differences(own.estimate, finding.get("ours"), said):
-            said.differ.append(f"{where}: {line}")
-        compare_class(where, finding.get("outcome"), own.classes, said)
+        for line in differences(own.estimate, finding.get("ours"), compared):
+            compared.differ.append(f"{where}: {line}")
+        compare_class(where, finding.get("outcome"), own.classes, compared)
         known.append(own.classes)
     return known
 
@@ -265,7 +269,7 @@ def compare_claim(
     claim: Claim,
     stored: dict[str, Any],
     known: tuple[list[Classes], dict[str, Classes]],
-    said: Said,
+    compared: Compared,
 ) -> None:
     """The class of one claim, and that of its parts."""
     possible, alone = known
@@ -275,24 +279,24 @@ def compare_claim(
         if claim.meant:
             of_parts = each(classes.PARTS[kind], [alone[part] for part in labels(ids)])
         finding = stored["finding"][-1] if stored.get("finding") else {}
-        compare_class(f"{paper}: `{claim.id}` ({kind})", finding.get("outcome"), of_parts, said)
+        compare_class(f"{paper}: `{claim.id}` ({kind})", finding.get("outcome"), of_parts, compared)
         possible = [*possible, of_parts]
     # Findings are those under the default interpretation; the verdict over all interpretations is another question.
-    compare_class(f"{paper}: `{claim.id}`", stored["outcome"], whole(claim, possible), said)
+    compare_class(f"{paper}: `{claim.id}`", stored["outcome"], whole(claim, possible), compared)
 
 
-def compare_class(where: str, stored: str | None, possible: Classes, said: Said) -> None:
+def compare_class(where: str, stored: str | None, possible: Classes, compared: Compared) -> None:
     """One class."""
     named = " or ".join(sorted(str(one or "none") for one in possible))
     if stored not in possible:
-        said.differ.append(f"{where}: its outcome is {stored or 'none'}; recomputed it is {named}")
+        compared.differ.append(f"{where}: its outcome is {stored or 'none'}; recomputed it is {named}")
         return
-    said.classes += 1
+    compared.classes += 1
     if len(possible) > 1:
-        said.near.append(f"{where}: Monte-Carlo error decides whether its outcome is {named}")
+        compared.near.append(f"{where}: Monte-Carlo error decides whether its outcome is {named}")
 
 
-def differences(own: Estimate | None, stored: dict[str, Any] | None, said: Said) -> Iterator[str]:
+def differences(own: Estimate | None, stored: dict[str, Any] | None, compared: Compared) -> Iterator[str]:
     """What differs between our number and the stored one."""
     if own is None or stored is None:
         if (own is None) != (stored is None):
@@ -300,7 +304,7 @@ def differences(own: Estimate | None, stored: dict[str, Any] | None, said: Said)
             yield f"verdicts.toml has {has} number; recomputed there is {finds}"
         return
     if abs(own.value - stored["value"]) <= 1e-9 * max(abs(own.value), 1.0) or own.value == stored["value"]:
-        said.estimates += 1
+        compared.estimates += 1
     else:
         yield f"its value is {stored['value']!r}; recomputed it is {own.value!r}"
     if own.n != stored["n"]:
@@ -308,10 +312,10 @@ def differences(own: Estimate | None, stored: dict[str, Any] | None, said: Said)
     solved = None if own.solved is None else list(own.solved)
     if solved != stored.get("solved"):
         yield f"solved are {stored.get('solved')}; recomputed they are {solved}"
-    yield from interval_differences(own, stored.get("interval"), said)
+    yield from interval_differences(own, stored.get("interval"), compared)
 
 
-def interval_differences(own: Estimate, stored: list[float] | None, said: Said) -> Iterator[str]:
+def interval_differences(own: Estimate, stored: list[float] | None, compared: Compared) -> Iterator[str]:
     """What differs between our interval and the stored one."""
     if own.interval is None or stored is None:
         if (own.interval is None) != (stored is None):
@@ -319,7 +323,7 @@ def interval_differences(own: Estimate, stored: list[float] | None, said: Said) 
             yield f"its interval is {stored}; recomputed it is {ends}"
         return
     if all(end.allows(number) for end, number in zip(own.interval, stored, strict=True)):
-        said.intervals += 1
+        compared.intervals += 1
         return
     low, high = own.interval
     yield (

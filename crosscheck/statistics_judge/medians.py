@@ -51,16 +51,16 @@ def least_of(asked: Asked) -> Found:
             return OPEN
         return SIGN if greatest_high < 1 else FAILS
 
-    def said(compared: list[Estimate]) -> tuple[str, frozenset[str | None]]:
+    def outcome_of(compared: list[Estimate]) -> tuple[str, frozenset[str | None]]:
         ends = [found.interval for found in compared if found.interval is not None]
         whole = greatest(low for low, _ in ends), greatest(high for _, high in ends)
         return outcome(whole[0].at, whole[1].at), outcomes(outcome, whole)
 
-    main, possible = said(compared)
+    main, possible = outcome_of(compared)
     is_cut = any(unended(asked, group, label) for group in groups for pair in pairs for label in pair)
     # 0 for the claim and infinite against it, then the other way round.
     ways = ((0.0, np.inf), (np.inf, 0.0)) if is_cut else ()
-    ends = [said(compare(asked, groups, pairs, way))[1] for way in ways]
+    ends = [outcome_of(compare(asked, groups, pairs, way))[1] for way in ways]
     few = any(has_few_seeds(asked, group, label) for group in groups for pair in pairs for label in pair)
     return Found(main, possible, estimate, censored=hangs(main, possible, ends), few=few)
 

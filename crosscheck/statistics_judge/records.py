@@ -16,6 +16,7 @@ import pyarrow as pa
 import pyarrow.compute as pc
 import pyarrow.parquet as pq
 
+from alike import whole
 from statistics_judge.printed_tables import claims_of
 
 Reals = npt.NDArray[np.float64]
@@ -329,7 +330,7 @@ class Paper:
         self.stands_for: dict[str, str] = self.explore.get("stands_for", {})
         # Questions of our own, whose times our clock decides.
         self.ours: bool = spec["source"].get("ours", False)
-        self.studies = {study.name: study for study in studies(folder, runs)}
+        self.studies = {study.name: study for study in studies(folder, runs, spec)}
         self.metrics = {metric.name: metric for metric in metrics}
         self.runs = runs
         self.taken: dict[str, str] = {choice["id"]: choice["default"] for choice in self.choices}
@@ -358,12 +359,12 @@ class Paper:
         return next(claim for claim in self.claims if claim["id"] == name)
 
 
-def studies(folder: Path, runs: Path) -> Iterator[Study]:
+def studies(folder: Path, runs: Path, paper: dict[str, Any]) -> Iterator[Study]:
     """The studies beside paper.toml, in the order of their names."""
     for path in sorted(folder.glob("*.toml")):
         spec = toml(path)
         if path.name not in ("paper.toml", "crosscheck.toml") and ("paper" in spec or "question" in spec):
-            yield Study(path, spec, runs)
+            yield Study(path, whole(spec, paper), runs)
 
 
 def toml(path: Path) -> dict[str, Any]:

@@ -109,7 +109,7 @@ class Cases:
         return (own | base) & (own | self.own_solved) & (base | self.base_solved)
 
     def ended_as(self, rows: Places, solved: bool) -> Flags:
-        """Whether trials are solved; those that did not come to an end as is said."""
+        """Whether trials are solved; those that did not come to an end as reported."""
         return self.study.solved[rows] | (solved & np.isin(self.study.status[rows], CUT))
 
     def given(self, numbers: Reals) -> "Cases":

@@ -81,7 +81,7 @@ def on_every(asked: Asked) -> Found:
     most so much.
     """
     cases, that = asked.cases(), asked.settings["that"]
-    says, spoken = said(cases, that, asked.settings.get("bound", 0.0))
+    says, spoken = directions(cases, that, asked.settings.get("bound", 0.0))
     estimate = with_cases(counted(cases, spoken, says > 0, asked.seed), cases.solved_of_all())
     kept, equal, broken = (int((says[spoken] == way).sum()) for way in (1, 0, -1))
     if kept + equal + broken == 0:
@@ -115,7 +115,7 @@ def needs_draws(cases: Cases, problems: list[str]) -> bool:
     return bool(drawn) and len(np.unique(cases.unit[np.isin(cases.group, drawn)])) < FEWEST_INSTANCES
 
 
-def said(cases: Cases, that: str, bound: float) -> tuple[Reals, Flags]:
+def directions(cases: Cases, that: str, bound: float) -> tuple[Reals, Flags]:
     """How each case speaks (1 for, 0 equal, -1 against), and whether it is asked."""
     if that == "solved":
         return np.where(cases.own_solved, 1.0, -1.0), cases.base_solved & ~cases.cut()[0]

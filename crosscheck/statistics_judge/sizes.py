@@ -168,14 +168,14 @@ def along_sweep(asked: Asked, cases: Cases, is_higher: bool) -> Found:
         ways = (("at", "at"), ("least", "most"), ("most", "least"))
         return intervals, [all_along(intervals, is_higher, *ends) for ends in ways]
 
-    intervals, said = of_band(drawn)
+    intervals, directions = of_band(drawn)
     ways = (True, False) if cases.unended.any() else ()
     ends = [frozenset(of_band(curves(cases, other=way, own=not way))[1]) for way in ways]
     mean = drawn.mean(axis=0)
     place = int(np.argmin(mean if is_higher else -mean))
     estimate = Estimate(float(mean[place]), len(drawn), intervals[place], cases.solved_of_all())
-    possible = frozenset(said)
-    return Found(said[0], possible, estimate, censored=hangs(said[0], possible, ends))
+    possible = frozenset(directions)
+    return Found(directions[0], possible, estimate, censored=hangs(directions[0], possible, ends))
 
 
 def curves(cases: Cases, *, other: bool, own: bool) -> Reals:

@@ -1,4 +1,4 @@
-"""The table of verdicts: what is said of a claim, from what was found under every interpretation."""
+"""The table of verdicts: from what was found of a claim under every interpretation."""
 
 from dataclasses import dataclass
 

@@ -30,7 +30,7 @@ def stored(of: Paper) -> dict[str, Any]:
     return tomllib.loads((of.runs / "verdicts.toml").read_text(encoding="utf-8"))
 
 
-def said(of: Paper, verdicts: dict[str, Any]) -> list[str]:
+def different(of: Paper, verdicts: dict[str, Any]) -> list[str]:
     return [line for line in differences(of, verdicts) if line is not None]
 
 
@@ -55,7 +55,7 @@ def another(value: bool | int | str | None) -> bool | int | str:
     return "inconclusive" if value != "inconclusive" else "reproduced"
 
 
-OWN = ["verdict", "said", "depends_on"]
+OWN = ["verdict", "beside", "depends_on"]
 KEYS = [
     "counted",
     "looked",
@@ -77,7 +77,7 @@ def test_a_combination_made_wrong_is_noticed_wherever_it_stands(name: str, key: 
     for claim in explored:
         place = claim if key in OWN else claim["across"]
         place[key] = another(place.get(key))
-    lines = said(of, verdicts)
+    lines = different(of, verdicts)
     for claim in explored:
         assert any(f"`{claim['claim']}`" in line and f"`{key}`" in line for line in lines), claim["claim"]
     assert len(lines) == len(explored)
@@ -90,14 +90,14 @@ def test_a_combination_that_is_missing_and_a_second_outcome_made_wrong_are_notic
     wrong = copy.deepcopy(verdicts)
     claim = next(claim for claim in wrong["claim"] if "across" in claim)
     del claim["across"]
-    assert any("verdicts.toml says nothing" in line for line in said(of, wrong))
+    assert any("verdicts.toml says nothing" in line for line in different(of, wrong))
     wrong = copy.deepcopy(verdicts)
     claim = next((claim for claim in wrong["claim"] if "second" in claim), None)
     assert (claim is not None) == (of.explorations[1] is not None)
     if claim is None:
         return
     claim["second"] = "holds" if claim["second"] != "holds" else "open"
-    assert any("on the second seed" in line for line in said(of, wrong))
+    assert any("on the second seed" in line for line in different(of, wrong))
 
 
 @pytest.mark.parametrize("name", EXPLORED)
@@ -109,7 +109,7 @@ def test_an_exploration_that_was_changed_no_longer_agrees(name: str, tmp_path: P
     explored = tmp_path / "explored.json"
     explored.write_text(turned, encoding="utf-8")
     of = paper(name, explored)
-    assert said(of, stored(of))
+    assert different(of, stored(of))
 
 
 def test_a_vote_made_a_probe_changes_what_is_counted() -> None:
@@ -124,7 +124,7 @@ def test_a_vote_made_a_probe_changes_what_is_counted() -> None:
     choice["option"][name].pop("paper", None)
     choice = next(one for one in choices(of) if one.id == choice["id"])
     assert not choice.votes({choice.id: name})
-    assert said(of, stored(of))
+    assert different(of, stored(of))
 
 
 GOOD, FITTED, NO, BAD, NEVER, LACKING = (
@@ -203,7 +203,7 @@ def test_what_speaks_against_most_is_a_flip_and_of_as_many_what_speaks_against_t
     assert of(GOOD, NO) == []
 
 
-def said_of(options: list[str], votes: list[str]) -> tuple[str | None, str | None]:
+def wording_of(options: list[str], votes: list[str]) -> tuple[str | None, str | None]:
     """What stands beside the verdict of results under these options of two choices, `a` by default."""
     across = Across.__new__(Across)
     across.choices = [Choice(name, "a", fitted=False, bounds=None, options={}) for name in ("order", "side")]
@@ -225,32 +225,32 @@ def said_of(options: list[str], votes: list[str]) -> tuple[str | None, str | Non
     )
     way = {GOOD: 1, BAD: -1}.get(votes[0], 0)
     results = Results(votes, way, way)
-    return across.said("fewer", counted, results, results.verdict()[1])
+    return across.wording("fewer", counted, results, results.verdict()[1])
 
 
 ALL = [one + two for one in "abc" for two in "abc"]
 
 
 def test_a_planted_rule_is_named_with_one_option_or_with_two() -> None:
-    one = said_of(ALL, [BAD if both[0] == "b" else GOOD for both in ALL])
+    one = wording_of(ALL, [BAD if both[0] == "b" else GOOD for both in ALL])
     assert one == ("6/0/3 for/open/against; contradicted only if order = b (3 of 3)", "order")
-    held = said_of(ALL, [GOOD if both[1] == "a" else BAD for both in ALL])
+    held = wording_of(ALL, [GOOD if both[1] == "a" else BAD for both in ALL])
     assert held == ("3/0/6 for/open/against; holds only if side = a (3 of 3)", "side")
-    two = said_of(ALL, [BAD if both == "bc" else GOOD for both in ALL])
+    two = wording_of(ALL, [BAD if both == "bc" else GOOD for both in ALL])
     expected = "8/0/1 for/open/against; contradicted only if order = b and side = c (1 of 1)"
     assert two == (expected, "order and side")
 
 
 def test_a_combination_names_the_axis_that_separates_best() -> None:
-    found = said_of(ALL, [BAD if (both[0] == "b") == (both[1] == "b") else GOOD for both in ALL])
+    found = wording_of(ALL, [BAD if (both[0] == "b") == (both[1] == "b") else GOOD for both in ALL])
     expected = "4/0/5 for/open/against; order separates best: contradicted under a 2 of 3, b 1 of 3, c 2 of 3"
     assert found == (expected, "a combination")
 
 
 def test_exceptions_are_named_by_what_they_share_or_one_by_one() -> None:
-    shared = said_of(ALL, [NO if both[0] == "c" and both[1] != "a" else GOOD for both in ALL])
+    shared = wording_of(ALL, [NO if both[0] == "c" and both[1] != "a" else GOOD for both in ALL])
     assert shared[0] == "7/2/0 for/open/against; all 2 exceptions have order = c"
-    apart = said_of(ALL, [NO if both in ("bb", "cc") else GOOD for both in ALL])
+    apart = wording_of(ALL, [NO if both in ("bb", "cc") else GOOD for both in ALL])
     names = "order = b, side = b · order = c, side = c"
     assert apart[0] == f"7/2/0 for/open/against; exceptions: {names}"
 

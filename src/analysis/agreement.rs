@@ -1,6 +1,6 @@
 //! Two encodings of one paper side by side: which claims they judge alike, and what differs where they do not.
 //!
-//! Claims are matched by their id, or else by what is printed: the same number with the same unit at the same place. A number that
+//! Claims are matched by their id, or else by the same number with the same unit at the same place. A number that
 //! stands twice at a place matches nothing.
 
 use super::verdict::{ClaimVerdict, Verdicts};
@@ -102,8 +102,8 @@ impl ClaimPair {
 fn reasons(pair: [&ClaimVerdict; 2], defaults: &[DefaultPair]) -> Vec<String> {
     let mut reasons = Vec::new();
     let [first, second] = pair.map(|claim| {
-        let asked = claim.findings.iter().filter(|finding| finding.outcome.is_some());
-        asked.map(|finding| finding.criterion.as_str()).collect::<Vec<_>>().join(", ")
+        let deciding = claim.findings.iter().filter(|finding| finding.outcome.is_some());
+        deciding.map(|finding| finding.criterion.as_str()).collect::<Vec<_>>().join(", ")
     });
     if first != second {
         reasons.push(format!("question: {} and {}", or_none(&first), or_none(&second)));
@@ -127,7 +127,7 @@ fn reasons(pair: [&ClaimVerdict; 2], defaults: &[DefaultPair]) -> Vec<String> {
             claim.across.as_ref().is_none_or(|across| across.effects.contains_key(&default.choice))
         })
     };
-    reasons.extend(defaults.iter().filter(touches).map(DefaultPair::said));
+    reasons.extend(defaults.iter().filter(touches).map(DefaultPair::in_words));
     if reasons.is_empty() {
         // The same criterion with other settings, as a margin, or with other parts.
         let because = pair.map(|claim| claim.findings.iter().flat_map(|finding| &finding.because));
@@ -144,7 +144,7 @@ fn or_none(text: &str) -> &str {
 
 impl DefaultPair {
     /// It in words.
-    pub fn said(&self) -> String {
+    pub fn in_words(&self) -> String {
         let [first, second] = [0, 1].map(|side| self.options[side].as_deref().unwrap_or("no such choice"));
         format!("default of `{}`: {first} and {second}", self.choice)
     }

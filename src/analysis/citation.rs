@@ -22,7 +22,7 @@ pub fn version(verdicts: &Verdicts, judged: &ClaimVerdict, meaning: &[String]) -
     sha256(text.as_bytes())[..DIGITS].to_owned()
 }
 
-/// The version of `judged`, one of `verdicts`, by what `paper` means; `None` if the paper does not have the claim.
+/// The version of `judged`, one of `verdicts`, from its meaning in `paper`; `None` if the paper does not have the claim.
 pub fn version_in(paper: &Paper, verdicts: &Verdicts, judged: &ClaimVerdict) -> Option<String> {
     Some(version(verdicts, judged, &meaning(paper, paper.claim(&judged.claim)?)))
 }
@@ -34,6 +34,6 @@ pub fn citation(verdicts: &Verdicts, judged: &ClaimVerdict, version: &str) -> St
         "{} {}: {}, version {version} (replan {replan})",
         verdicts.paper,
         judged.claim,
-        judged.verdict_said()
+        judged.verdict_text()
     )
 }

@@ -1,6 +1,6 @@
 //! Judges every claim of a paper, and which claims hold together.
 
-use super::asked::{Asked, CappedFinding, asked, premises};
+use super::claim_test::{CappedFinding, ClaimTest, claim_tests, premises};
 use super::context;
 use super::criterion;
 use super::evidence::{Evidence, default_point};
@@ -41,8 +41,8 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
     let point = default_point(paper);
     for claim in &paper.claims {
         faults.keep(context::printed(paper, claim));
-        for asked in asked(paper, claim, &point) {
-            faults.keep(asked);
+        for test in claim_tests(paper, claim, &point) {
+            faults.keep(test);
         }
     }
     for cell in paper.tables.iter().flat_map(PrintedTable::cells) {
@@ -68,13 +68,12 @@ fn check_metrics(paper: &Paper, faults: &mut Faults) {
 
 /// What a claim says and how it is judged, in a line.
 fn question(claim: &Claim) -> String {
-    let asked =
-        claim.tests().map(|(asked, name, settings)| format!("{asked:?} {name}: {}", settings.table()));
-    let asked = asked.collect::<Vec<_>>();
+    let tests = claim.tests().map(|(role, name, settings)| format!("{role:?} {name}: {}", settings.table()));
+    let tests = tests.collect::<Vec<_>>();
     let parts = &claim.parts;
     let when = premises(claim).map(|premise| format!(" {premise}")).collect::<Vec<_>>().concat();
     format!(
-        "{} {:?} {:?} {:?} {asked:?} {parts:?}{when}\n",
+        "{} {:?} {:?} {:?} {tests:?} {parts:?}{when}\n",
         claim.id, claim.printed, claim.digits, claim.untestable
     )
 }
@@ -93,11 +92,11 @@ pub fn claim_hash(paper: &Paper, claim: &Claim) -> String {
 
 /// The criteria and rules of a claim that do not find what they found at first, each with its revision.
 fn revisions(claim: &Claim) -> String {
-    let found = |(asked, name, settings): (TestRole, &'_ str, &Settings)| {
+    let found = |(role, name, settings): (TestRole, &'_ str, &Settings)| {
         let entry = criterion::find(name).or_else(|| rule::find(name))?;
         // What is shown moves no outcome, however its settings are looked at since.
         let none = Table::new();
-        let own = if asked == TestRole::Shown { &none } else { settings.table() };
+        let own = if role == TestRole::Shown { &none } else { settings.table() };
         Some((entry.name, (entry.revision)(own)))
     };
     let revised = claim.tests().filter_map(found).filter(|(_, revision)| *revision > 1);
@@ -152,12 +151,13 @@ pub fn records(evidence: &Evidence<'_>) -> BTreeMap<String, String> {
 
 /// One claim by its own criteria and rules.
 fn judge_alone(evidence: &Evidence<'_>, claim: &Claim) -> Result<ClaimVerdict, SettingsError> {
-    let weigh = |asked: Result<Asked<'_>, SettingsError>| {
-        let asked = asked?;
-        Ok(asked.weighed(&asked.numbers(evidence, false), evidence.polylines(), Some(evidence)))
+    let weigh = |test: Result<ClaimTest<'_>, SettingsError>| {
+        let test = test?;
+        Ok(test.weighed(&test.numbers(evidence, false), evidence.polylines(), Some(evidence)))
     };
-    let weighed: Vec<CappedFinding> =
-        asked(evidence.paper, claim, &evidence.point).map(weigh).collect::<Result<_, SettingsError>>()?;
+    let weighed: Vec<CappedFinding> = claim_tests(evidence.paper, claim, &evidence.point)
+        .map(weigh)
+        .collect::<Result<_, SettingsError>>()?;
     let chosen = chosen(&weighed);
     let findings: Vec<CriterionFinding> = weighed.into_iter().map(|one| one.finding).collect();
     let outcomes = findings.iter().filter_map(|finding| finding.outcome);
@@ -165,7 +165,7 @@ fn judge_alone(evidence: &Evidence<'_>, claim: &Claim) -> Result<ClaimVerdict, S
     Ok(ClaimVerdict { chosen, ..judged(evidence, claim, outcome, findings) })
 }
 
-/// How the inputs of a claim were chosen, by what decides.
+/// How the inputs of a claim were chosen, as its deciding findings have it.
 fn chosen(weighed: &[CappedFinding]) -> Option<Chosen> {
     let caps: Vec<Caps> =
         weighed.iter().filter(|one| one.finding.outcome.is_some()).map(|one| one.caps).collect();
@@ -196,7 +196,7 @@ fn judged(
         printed: claim.printed.clone(),
         unit: claim.unit.clone(),
         verdict: Verdict::Inconclusive,
-        said: None,
+        beside: None,
         depends_on: None,
         outcome,
         chosen: None,
@@ -213,7 +213,7 @@ fn judged(
     }
 }
 
-/// What would settle a claim of which nothing that was found decides: it is not meant under this interpretation, or is shown alone.
+/// What would settle a claim without a deciding finding: it is not meant under this interpretation, or is shown alone.
 fn set_what_settles(claim: &Claim, judged: &mut ClaimVerdict) {
     if judged.outcome == Outcome::Open && judged.findings.iter().all(|found| found.settles.is_none()) {
         let premises: Vec<String> = premises(claim).collect();

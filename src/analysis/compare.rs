@@ -1,6 +1,6 @@
 //! Two stored runs, or two contenders of one, beside each other.
 //!
-//! What both sides ran is paired by its typed key; what only one has is told apart. A [`Change`] goes from the first side to
+//! What both sides ran is paired by its typed key; what only one has stands apart. A [`Change`] goes from the first side to
 //! the second. Its intervals resample what was drawn independently (`pair`); trials that one side alone solved have no
 //! change of a mean, and count as an infinite loss of that side in medians, wins and the probability of improvement.
 
@@ -36,12 +36,12 @@ pub enum Sides<'a> {
     Contenders(&'a StoredRun, [&'a str; 2]),
 }
 
-/// What is asked of a comparison.
+/// The options of a comparison.
 #[derive(Debug, Default)]
 pub struct CompareOptions {
     /// The studies; all if empty.
     pub studies: Vec<String>,
-    /// The metrics; all of which one way is better if empty.
+    /// The metrics; if empty, all that are better one way.
     pub metrics: Vec<String>,
     /// What must not become worse.
     pub gates: Vec<Gate>,
@@ -108,20 +108,21 @@ struct Line<'r> {
 /// Sets the two sides beside each other.
 ///
 /// # Errors
-/// A study, contender or metric that is asked for and not there, with those that are.
-pub fn compare(sides: &Sides<'_>, asked: &CompareOptions) -> Result<Comparison, String> {
+/// A study, contender or metric of the options that is not there, with those that are.
+pub fn compare(sides: &Sides<'_>, options: &CompareOptions) -> Result<Comparison, String> {
     let runs = sides.runs();
-    for study in &asked.studies {
+    for study in &options.studies {
         if !runs.iter().any(|run| run.studies.contains_key(study)) {
             let known: BTreeSet<&str> =
                 runs.iter().flat_map(|run| run.studies.keys().map(String::as_str)).collect();
             return Err(format!("--study: {}", none_called("stored run of a study", study, known)));
         }
     }
-    let metrics = metrics(&asked.metrics)?;
-    let is_asked = |study: &str| asked.studies.is_empty() || asked.studies.iter().any(|own| own == study);
+    let metrics = metrics(&options.metrics)?;
+    let is_chosen =
+        |study: &str| options.studies.is_empty() || options.studies.iter().any(|own| own == study);
     let seen = runs.map(|run| {
-        let studies = run.studies.iter().filter(|(study, _)| is_asked(study));
+        let studies = run.studies.iter().filter(|(study, _)| is_chosen(study));
         studies.map(|(study, stored)| (study.as_str(), Seen::new(stored))).collect::<BTreeMap<_, _>>()
     });
     let mut lines = Vec::new();
@@ -137,7 +138,7 @@ pub fn compare(sides: &Sides<'_>, asked: &CompareOptions) -> Result<Comparison, 
         notes: if of_two_runs { notes(&seen, &lines) } else { Vec::new() },
         solved: lines.iter().map(Line::solved).collect(),
         changes: samples.iter().map(Sample::change).collect(),
-        gates: gate::pass(&asked.gates, &samples, of_two_runs)?,
+        gates: gate::pass(&options.gates, &samples, of_two_runs)?,
         only,
     })
 }
@@ -158,7 +159,7 @@ impl<'a> Sides<'a> {
     }
 }
 
-/// The metrics called so; all of which one way is better without a name.
+/// The metrics called so; without a name, all that are better one way.
 fn metrics(names: &[String]) -> Result<Vec<&'static Metric>, String> {
     let is_better = |metric: &&Metric| metric.better != Better::Neither;
     if names.is_empty() {
@@ -204,8 +205,8 @@ fn of_study<'r>(study: &'r str, sides: [&'r Seen<'r>; 2], lines: &mut Vec<Line<'
             lines.push(Line { study, label: label.to_owned(), pairs: found.pairs, times, names });
         }
     }
-    let told = |side: usize| only_on_one_side(side, study, &lone[side], sides[1 - side]);
-    [told(0), told(1)].concat()
+    let only = |side: usize| only_on_one_side(side, study, &lone[side], sides[1 - side]);
+    [only(0), only(1)].concat()
 }
 
 /// The second contender against the first in every study that has both; also what only one was run on.
@@ -235,7 +236,7 @@ fn of_contenders<'r>(
     Ok(only)
 }
 
-/// What the other side lacks of which these trials are, most general first.
+/// What of these trials the other side lacks, most general first.
 fn only_on_one_side(side: usize, study: &str, lone: &[&Row], other: &Seen<'_>) -> Vec<Only> {
     let rows = || other.rows.values().flatten();
     let groups: BTreeSet<&Text> = rows().map(|row| &row.key.on.group).collect();

@@ -43,7 +43,7 @@ fn audited(digits: paper::Digits) -> Digits {
 /// The number that `claim` prints; none if it prints none.
 ///
 /// # Errors
-/// What it prints is no number that we take, told where it is printed.
+/// What it prints is no number that we take; the error stands where it is printed.
 pub fn printed(paper: &Paper, claim: &Claim) -> Result<Option<Printed>, SettingsError> {
     let refused = |e: proofs::printed::NotANumber| {
         let message = format!("claim `{}`: {e}", claim.id);
@@ -65,7 +65,7 @@ impl<'a> Context<'a> {
         Ok(Print { printed, digits: audited(digits) })
     }
 
-    /// An error at the name of a criterion or rule, `name`, that stands under `key` where it is said how the claim is judged.
+    /// An error at the name of a criterion or rule, `name`, that stands under `key` in the claim's test.
     pub fn error_at_name(&self, key: &str, name: &str, message: String) -> SettingsError {
         let document = &self.paper.document;
         let layers = self.claim.written.layers.iter();

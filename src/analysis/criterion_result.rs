@@ -1,10 +1,10 @@
-//! What a criterion or a rule finds, before anything is said of how its trials came about.
+//! What a criterion or a rule finds, before how its trials came about counts.
 
 use super::outcome::Outcome;
 use super::verdict::Estimate;
 use stats::interval::Interval;
 
-/// What was found about a claim, before anything is said of how its trials came about.
+/// What was found about a claim, before how its trials came about counts.
 #[derive(Debug, Default)]
 pub struct CriterionResult {
     /// What it amounts to; none if it is only shown, or can only refuse and does not.

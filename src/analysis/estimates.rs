@@ -3,7 +3,7 @@
 //! A row is one number of one question under the interpretations that it lists: equal numbers of equal trials are stored once. Outcomes are
 //! not stored. They are weighed from the numbers, so that a margin or a printed number may change without a trial.
 
-use super::asked::{Asked, asked};
+use super::claim_test::{ClaimTest, claim_tests};
 use super::evidence::Evidence;
 use super::number::{Ends, Number, Numbers};
 use super::verdict::Together;
@@ -100,8 +100,8 @@ pub struct About {
 }
 
 impl About {
-    fn new(claim: &Claim, asked: &Asked<'_>) -> Self {
-        let own = asked.criterion();
+    fn new(claim: &Claim, test: &ClaimTest<'_>) -> Self {
+        let own = test.criterion();
         let studies: BTreeSet<&str> = own.studies().iter().map(|study| study.name.as_str()).collect();
         let selections = own.selections();
         let first = selections.first();
@@ -110,7 +110,7 @@ impl About {
         let metric = first.and_then(|of| of.metric);
         Self {
             claim: claim.id.clone(),
-            statistic: asked.statistic().to_owned(),
+            statistic: test.statistic().to_owned(),
             study: studies.into_iter().collect::<Vec<_>>().join(", "),
             groups: joined(first.map(|of| &of.groups)),
             contender: joined(first.map(|of| &of.contenders)),
@@ -130,11 +130,11 @@ impl About {
 pub fn measured(evidence: &Evidence<'_>) -> Result<Measured, SettingsError> {
     let of_claim = |claim: &Claim| {
         let mut found = Vec::new();
-        for one in asked(evidence.paper, claim, &evidence.point) {
-            let one = one?;
-            let question = one.question().filter(|_| !one.is_shown());
+        for test in claim_tests(evidence.paper, claim, &evidence.point) {
+            let test = test?;
+            let question = test.question().filter(|_| !test.is_shown());
             found.extend(
-                question.map(|question| (question, (About::new(claim, &one), one.numbers(evidence, true)))),
+                question.map(|question| (question, (About::new(claim, &test), test.numbers(evidence, true)))),
             );
         }
         Ok(found)
@@ -153,8 +153,13 @@ impl Explored {
                 let of_question = known.entry(question).or_default();
                 let at = of_question.iter().copied().find(|at| self.answers[*at].numbers == *numbers);
                 let at = at.unwrap_or_else(|| {
-                    let (question, about, numbers) = (question.clone(), about.clone(), numbers.clone());
-                    self.answers.push(Answer { question, about, is_more, places: Vec::new(), numbers });
+                    self.answers.push(Answer {
+                        question: question.clone(),
+                        about: about.clone(),
+                        is_more,
+                        places: Vec::new(),
+                        numbers: numbers.clone(),
+                    });
                     of_question.push(self.answers.len() - 1);
                     self.answers.len() - 1
                 });

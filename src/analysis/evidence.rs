@@ -1,4 +1,4 @@
-//! The records that claims are judged by, ready to be asked.
+//! The records that claims are judged by.
 
 use super::metric::{self, Metric};
 use super::polylines::Polylines;
@@ -147,7 +147,7 @@ impl<'a> Evidence<'a> {
         self.runs.values()
     }
 
-    /// That every trace that was asked for could be read.
+    /// That every wanted trace could be read.
     ///
     /// # Errors
     /// [`StudyError::Touched`] for the first file that could not.

@@ -33,7 +33,7 @@ const LISTED: usize = 8;
 /// What stands where no reason is given for a change.
 const NO_REASON: &str = "changed after its data were seen, without a reason given";
 
-/// What is said of a change that the claim itself told of when the history began.
+/// The words for a change that the claim itself declared when the history began.
 const BEFORE: &str = "entry 1, before it began";
 
 /// How the last line of an entry begins.
@@ -118,7 +118,7 @@ struct Known {
     changes: Vec<String>,
 }
 
-/// What is asked and stored now.
+/// What is claimed and stored now.
 struct Now {
     claims: BTreeMap<String, Stated>,
     /// The claims that give a reason for a change after a run.

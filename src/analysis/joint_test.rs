@@ -76,7 +76,8 @@ impl JointTest {
     /// # Source
     /// Hotelling, "The generalization of Student's ratio", Annals of Mathematical Statistics 2 (1931) 360–378.
     pub fn probability(&self, statistic: f64) -> f64 {
-        let (cells, units) = (self.means.len() as f64, self.units as f64);
+        let cells = self.means.len() as f64;
+        let units = self.units as f64;
         f_above(statistic * (units - cells) / (cells * (units - 1.0)), cells, units - cells)
     }
 
@@ -133,7 +134,9 @@ mod tests {
     #[test]
     fn a_joint_test_of_correlated_cells_refuses_as_often_as_it_says_and_sees_differences() {
         let mut stream = seed::stream(seed::derive(62, &["means"]));
-        let (mut refused, mut seen, mut cells_seen) = (0, 0, 0);
+        let mut refused = 0;
+        let mut seen = 0;
+        let mut cells_seen = 0;
         for _ in 0..400 {
             let theirs = mean_row(&correlated(&mut stream, 100));
             let test =

@@ -2,7 +2,7 @@
 //!
 //! The hash is of values: the printed number, and what each criterion and rule that decides selects, computes and accepts.
 //! Wording, order, ids of claims, and keys that say what holds without them change no hash. A claim that is named stands there by
-//! the number that it prints or, where it must be met as well, by what it means. A word of specs that is renamed keeps its hash by a line of `RENAMED`; any other change of the text that is
+//! the number that it prints or, where it must be met as well, by its meaning. A word of specs that is renamed keeps its hash by a line of `RENAMED`; any other change of the text that is
 //! hashed needs a new [`FORM`], which histories of claims record as such.
 
 use super::{criterion, rule};
@@ -80,7 +80,7 @@ fn text(paper: &Paper, claim: &Claim, given: &dyn Fn(&Claim) -> String) -> Strin
     let Claim { printed, digits, untestable, theorem, holds_when, .. } = claim;
     let flags = (untestable.is_some(), theorem.is_some());
     let mut text = format!("{printed:?} {digits:?} {flags:?} {holds_when:?}\n");
-    let mut asked: Vec<String> = Vec::new();
+    let mut tests: Vec<String> = Vec::new();
     for (kind, name, settings) in claim.tests().filter(|(kind, ..)| *kind != TestRole::Shown) {
         let mut table = settings.table().clone();
         let entry = if kind == TestRole::Rule { rule::find(name) } else { criterion::find(name) };
@@ -89,10 +89,10 @@ fn text(paper: &Paper, claim: &Claim, given: &dyn Fn(&Claim) -> String) -> Strin
             usual.iter().flat_map(Settings::filled).any(|(own, usual)| own == key && is_same(usual, value))
         };
         table.retain(|key, value| !is_usual(key, value));
-        asked.push(format!("{} {}\n", word(name), canonical_table(paper, &table, given)));
+        tests.push(format!("{} {}\n", word(name), canonical_table(paper, &table, given)));
     }
-    asked.sort();
-    text.extend(asked);
+    tests.sort();
+    text.extend(tests);
     text
 }
 
@@ -110,8 +110,8 @@ fn word(name: &str) -> &str {
 }
 
 fn canonical_table(paper: &Paper, table: &Table, given: &dyn Fn(&Claim) -> String) -> String {
-    let told = table.iter().filter(|(key, _)| !WORD_KEYS.contains(&key.as_str()));
-    let each = told.filter_map(|(key, value)| Some((word(key), canonical(paper, key, value, given)?)));
+    let kept = table.iter().filter(|(key, _)| !WORD_KEYS.contains(&key.as_str()));
+    let each = kept.filter_map(|(key, value)| Some((word(key), canonical(paper, key, value, given)?)));
     let sorted: BTreeMap<&str, String> = each.collect();
     let each: Vec<String> = sorted.into_iter().map(|(key, value)| format!("{key} = {value}")).collect();
     format!("{{{}}}", each.join(", "))

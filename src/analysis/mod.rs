@@ -3,14 +3,14 @@
 //! Nothing here starts a trial. [`Evidence`](evidence::Evidence) is the stored runs of a paper. A [`selection`] of trials and a
 //! [`statistic`] of each instance go into a [`criterion`], which holds them against what the paper says; a [`rule`] is
 //! arithmetic on what it prints. What either finds under one interpretation becomes an [`outcome`], for one
-//! claim after the other ([`judge`](claims::judge)); what is said of a claim over all interpretations is its verdict, by one
+//! claim after the other ([`judge`](claims::judge)); over all interpretations a claim has a verdict, by one
 //! [table](verdict_rule).
 
 pub mod across;
 pub mod agreement;
-pub mod asked;
 mod censored;
 pub mod citation;
+pub mod claim_test;
 pub mod claims;
 pub mod compare;
 pub mod context;

@@ -37,7 +37,7 @@ impl Ends {
 /// One number with its interval, and what it rests on.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Number {
-    /// What it is of, where several are asked at once: a comparison, a point of a sweep, a cell; empty of the whole.
+    /// What it is of, where a test has several at once: a comparison, a point of a sweep, a cell; empty of the whole.
     pub part: String,
     /// What cases without an end are taken to have given.
     pub ends: Ends,
@@ -65,11 +65,11 @@ pub struct Number {
     pub unended: usize,
     /// Cases without a number that they might have had.
     pub censored: usize,
-    /// Cases of which the verifier refuses a path.
+    /// Cases with a path that the verifier refuses.
     pub refused: usize,
     /// Cases outside of a claim about what is solved.
     pub outside: usize,
-    /// Cases below what they are compared with, or that speak for what is asked.
+    /// Cases below what they are compared with, or that speak for the claim.
     pub below: usize,
     /// Cases that are equal.
     pub equal: usize,
@@ -167,6 +167,6 @@ pub struct Numbers {
     pub refused: f64,
     /// Cases without an end in instances that do not count.
     pub left_out: usize,
-    /// A hash of the trials' results, if it was asked for.
+    /// A hash of the trials' results, if it is wanted.
     pub trials: String,
 }

@@ -2,7 +2,7 @@
 //!
 //! An outcome speaks for a claim (+), against it (−), or leaves it open (0). Outcomes of one claim combine as a proof, then
 //! −, then 0, then the weakest +. What lowers an outcome lowers those that speak for a claim only, or opens any measured one;
-//! nothing raises one. What is said of a claim over all interpretations is its [verdict](super::verdict_rule).
+//! nothing raises one. Over all interpretations a claim has a [verdict](super::verdict_rule).
 
 use serde::{Deserialize, Serialize};
 
@@ -144,7 +144,7 @@ pub enum Sessions {
     Disagree,
     /// They all give the same outcome.
     Agree,
-    /// The sentence is about a time of the authors', of which our clock says nothing.
+    /// The sentence is about a time of the authors', which our clock does not test.
     OfAnother,
 }
 

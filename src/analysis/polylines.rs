@@ -1,4 +1,4 @@
-//! Shortest polylines: searched for once however often they are asked for, and kept from one command to the next.
+//! Shortest polylines: searched for once however often they are needed, and kept from one command to the next.
 //!
 //! What is kept is named by the question and by the text of the code that answers it, so that nothing stale is ever
 //! found; losing it costs time alone.
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use study::store::write_whole;
 
-/// Answers by what names them.
+/// Answers by their names.
 type Answers = BTreeMap<String, Option<Polyline>>;
 
 /// What was found so far.

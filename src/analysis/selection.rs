@@ -1,4 +1,4 @@
-//! Which trials a criterion, a figure or a table looks at: resolved once, then asked of the runs under any interpretation.
+//! Which trials a criterion, a figure or a table looks at: resolved once, then taken from the runs under any interpretation.
 
 use super::context::Context;
 use super::evidence::{Evidence, Run, paired};
@@ -28,7 +28,7 @@ pub struct Selection<'a> {
     pub query: Option<Vec<String>>,
     /// The points of the sweeps; all if `None`.
     pub sweep: Option<Vec<SweepKey>>,
-    /// Whether only instances count of which everything is solved.
+    /// Whether only instances count that are solved as a whole.
     pub whole_instances: bool,
     /// Whether what ends without a path, or with a refused one, has a number too.
     pub all_ends: bool,
@@ -47,7 +47,7 @@ pub struct Case<'e> {
     pub base_value: Option<f64>,
 }
 
-/// What was drawn independently (a map, a roadmap, a seed of a contender that draws), with all that was asked of it.
+/// What was drawn independently (a map, a roadmap, a seed of a contender that draws), with all its queries.
 pub struct Instance<'e> {
     /// The problem group.
     pub group: &'e str,
@@ -112,7 +112,7 @@ impl<'a> Selection<'a> {
         Self { study, groups, contenders, against, metric, query, sweep, whole_instances, all_ends }
     }
 
-    /// The selection `of`, of which every name is looked up.
+    /// The selection `of` with every name looked up.
     ///
     /// # Errors
     /// A study, problem group, contender, metric or sweep point that does not exist, at its own place.
@@ -224,7 +224,7 @@ impl<'a> Selection<'a> {
     }
 
     /// The trials of its contenders, by instance; problems that could not be posed are left out, and so, if only whole instances
-    /// count, are instances of which something is not solved.
+    /// count, are instances that are not solved as a whole.
     pub fn instances<'e>(&self, evidence: &'e Evidence<'_>) -> Vec<Instance<'e>> {
         let mut instances = self.all_instances(evidence);
         instances.retain(|instance| !self.whole_instances || instance.is_whole());
@@ -373,7 +373,7 @@ impl Instance<'_> {
         Self { group: self.group, cases: self.cases.iter().filter(is_own).copied().collect() }
     }
 
-    /// The share of its cases, in per cent, of which `is_hit` holds; none without cases.
+    /// The share of its cases, in per cent, for which `is_hit` holds; none without cases.
     pub fn percent(&self, is_hit: impl Fn(&Case<'_>) -> bool) -> Option<f64> {
         let hits = self.cases.iter().filter(|case| is_hit(case)).count();
         (!self.cases.is_empty()).then(|| 100.0 * hits as f64 / self.cases.len() as f64)

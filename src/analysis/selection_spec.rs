@@ -11,7 +11,7 @@ pub struct SelectionSpec {
     pub study: String,
     /// The problem group, by its label, or several; a label that ends in `*` stands for all that begin so.
     pub problems: Labels,
-    /// The contender, by its label, or several; left out where nothing is asked of one.
+    /// The contender, by its label, or several; left out where none is looked at.
     #[serde(default)]
     pub contender: Labels,
     /// The contender that it is held against, on the same problems.
@@ -23,7 +23,7 @@ pub struct SelectionSpec {
     /// The points of the study's sweeps: `samples=100`, a part of them as `samples<=1400` or `samples>200,samples<=1400`, or a list of
     /// such; all if absent.
     pub sweep: Option<Labels>,
-    /// Only instances count of which everyone who is compared solves every query.
+    /// Only instances count in which every contender that is compared solves every query.
     #[serde(default)]
     pub whole_instances: bool,
     /// A trial that ends without a path, or with one that is refused, has a number too: what it took. Otherwise only solved ones do.

@@ -14,7 +14,7 @@ pub const COMBINATION: &str = "a combination";
 /// What a sentence depends on whose parts speak both ways.
 pub const MEANT: &str = "what is meant";
 
-/// A hundred times as many instances tell apart what differs by a tenth of what now can be told; a larger number is an estimate of
+/// A hundred times as many instances tell apart what differs by a tenth of what can be seen now; a larger number is an estimate of
 /// noise.
 const MANY: f64 = 100.0;
 
@@ -90,7 +90,7 @@ pub fn parts_settle(parts: &Parts, outcomes: &[Outcome]) -> String {
     measured.into_iter().chain(lacking).collect::<Vec<_>>().join(", and ")
 }
 
-/// What would settle a claim on which interpretations leave something to be said; `None` if they do not.
+/// What would settle a claim on which interpretations leave something open; `None` if they do not.
 pub fn across_settles(across: &Across, judged: &ClaimVerdict, line: Line) -> Option<String> {
     match judged.verdict {
         Verdict::Depends => return Some(depends_settles(judged.depends_on.as_deref())),
@@ -120,7 +120,7 @@ pub fn across_settles(across: &Across, judged: &ClaimVerdict, line: Line) -> Opt
     Some(format!("{}, or the paper's own interpretation if it is none of these", ways.join(", ")))
 }
 
-/// What would settle a sentence of which one part is meant; `None` if that is settled.
+/// What would settle a sentence that means one of its parts; `None` if that is settled.
 pub fn meanings_settle(verdict: Verdict, depends_on: Option<&str>) -> Option<String> {
     match verdict {
         Verdict::Depends => Some(depends_settles(depends_on)),
@@ -153,7 +153,7 @@ fn more_instances(found: &CriterionResult) -> Option<String> {
     let needed = units_for_margin((high - low) / 2.0, ours.n, margin).max(ours.n + 1);
     if needed as f64 > MANY * ours.n as f64 {
         return Some(format!(
-            "no number of {} within reach: ours is too close to the limit to be told from it",
+            "no number of {} within reach: ours is too close to the limit to tell them apart",
             found.units
         ));
     }
@@ -199,23 +199,23 @@ mod tests {
 
     #[test]
     fn an_interval_around_a_limit_asks_for_more_units() {
-        let said = |ends| settles(&found(ends), Caps::default());
+        let settled = |ends| settles(&found(ends), Caps::default());
         // Half a width of 1/4 against a distance of 1/8: four times as many.
         assert!(
-            said([0.25, 0.375, 0.75]).starts_with("about 40 trials, not 10"),
+            settled([0.25, 0.375, 0.75]).starts_with("about 40 trials, not 10"),
             "{}",
-            said([0.25, 0.375, 0.75])
+            settled([0.25, 0.375, 0.75])
         );
         // A distance of 1/400: ten thousand times as many.
-        assert!(said([0.25, 0.4975, 0.75]).starts_with("no number of trials within reach"));
+        assert!(settled([0.25, 0.4975, 0.75]).starts_with("no number of trials within reach"));
         for no_number in [[0.4, 0.5, 0.6], [0.6, 0.7, 0.8]] {
-            assert!(said(no_number).starts_with("the paper's own inputs"), "{no_number:?}");
+            assert!(settled(no_number).starts_with("the paper's own inputs"), "{no_number:?}");
         }
     }
 
     #[test]
     fn instances_that_agree_ask_for_as_many_agreeing_ones_as_reach_the_limit() {
-        let said = |limits: [f64; 2], [low, value, high]: [f64; 3]| {
+        let settled = |limits: [f64; 2], [low, value, high]: [f64; 3]| {
             let ours = Some(Estimate::new(value, Interval::new(low, high), "a share", 20));
             let limits = limits.to_vec();
             let units = "instances";
@@ -231,21 +231,24 @@ mod tests {
             )
         };
         let low = libm::pow(0.025, 0.05);
-        assert_eq!(said([0.9, 1.0], [low, 1.0, 1.0]), "36 instances, not 20, if all agree as ours do");
-        assert_eq!(said([0.0, 0.1], [0.0, 0.0, 1.0 - low]), "36 instances, not 20, if all agree as ours do");
-        assert!(said([1.0, 1.0], [low, 1.0, 1.0]).starts_with("no number of instances"));
-        // Between the ends a limit is told by the part of the interval on its side.
+        assert_eq!(settled([0.9, 1.0], [low, 1.0, 1.0]), "36 instances, not 20, if all agree as ours do");
+        assert_eq!(
+            settled([0.0, 0.1], [0.0, 0.0, 1.0 - low]),
+            "36 instances, not 20, if all agree as ours do"
+        );
+        assert!(settled([1.0, 1.0], [low, 1.0, 1.0]).starts_with("no number of instances"));
+        // Between the ends a limit is seen by the part of the interval on its side.
         let ends = |share: f64| [share - share * (1.0 - low), share, share + (1.0 - share) * (1.0 - low)];
-        assert_eq!(said([0.675, 1.0], ends(0.75)), "36 instances, not 20, if all agree as ours do");
+        assert_eq!(settled([0.675, 1.0], ends(0.75)), "36 instances, not 20, if all agree as ours do");
     }
 
     #[test]
     fn refused_paths_and_ties_are_named_and_more_instances_are_not() {
         let refused = CriterionResult { censored: 7, refused: 5, ..found([0.25, 0.375, 0.75]) };
-        let said = settles(&refused, Caps { censored: true, ..Caps::default() });
+        let words = settles(&refused, Caps { censored: true, ..Caps::default() });
         assert!(
-            said.starts_with("paths that the verifier accepts") && said.ends_with("it refuses 5"),
-            "{said}"
+            words.starts_with("paths that the verifier accepts") && words.ends_with("it refuses 5"),
+            "{words}"
         );
         let tied = CriterionResult { ties: 9, ..found([0.25, 0.375, 0.75]) };
         assert_eq!(settles(&tied, Caps::default()), "no more instances: 9 tie, and the claim is strict");
@@ -254,8 +257,8 @@ mod tests {
     #[test]
     fn parts_that_lack_facts_are_named_beside_those_that_were_measured() {
         let parts = Parts::AllOf(["a", "b", "c"].map(str::to_owned).to_vec());
-        let said = parts_settle(&parts, &[Outcome::Holds, Outcome::Lacking, Outcome::Open]);
-        assert_eq!(said, "what settles `c`, and what the paper leaves out for `b`");
+        let words = parts_settle(&parts, &[Outcome::Holds, Outcome::Lacking, Outcome::Open]);
+        assert_eq!(words, "what settles `c`, and what the paper leaves out for `b`");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Statistics, each defined once: of one instance, and of all instances of a selection with their intervals.
 //!
-//! What was drawn independently is the unit: intervals resample whole instances with all that was asked of them.
+//! What was drawn independently is the unit: intervals resample whole instances with all their queries.
 
 use super::censored::{ended, filled};
 use super::criterion_result::Narrows;
@@ -25,7 +25,7 @@ use study::record::{Row, Status};
 /// Level of every interval.
 pub const LEVEL: f64 = 0.95;
 
-/// Fewest instances of which a bootstrap interval decides anything: one end of the percentile interval of a mean of normal instances
+/// Fewest instances with which a bootstrap interval decides anything: one end of the percentile interval of a mean of normal instances
 /// then lies on the wrong side of the truth with a probability of 4.8 %, in place of 2.5 %; of 5 instances it is 7.7 %.
 pub const FEWEST_INSTANCES: usize = 10;
 
@@ -37,7 +37,7 @@ pub fn how(is_agreed: bool) -> &'static str {
 /// What the interval of instances that all agree is.
 const AGREED: &str = "all instances agree: what allows for others";
 
-/// What intervals are, of which some may be of instances that all agree.
+/// What intervals are, where some may be of instances that all agree.
 pub const INTERVALS: &str = "bootstrap, or where all instances agree what allows for others";
 
 /// How the interval narrows with more instances.
@@ -318,8 +318,8 @@ impl Share {
         Number { value: Some(value), interval, is_exact, is_agreed, n: instances, hits, chances, ..number }
     }
 
-    /// That which a number has.
-    pub fn of(number: &Number) -> Option<Self> {
+    /// The share that `number` is, if it has a value.
+    pub fn from_number(number: &Number) -> Option<Self> {
         let &Number { value, interval, is_exact, is_agreed, n, .. } = number;
         Some(Self { value: value?, interval, is_exact, is_agreed, instances: n })
     }

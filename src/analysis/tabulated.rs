@@ -115,7 +115,7 @@ fn cell_of(run: &Run<'_>, group: &str, label: &str, cell: &CellSpec, metric: &Me
     found.unwrap_or_else(|| "–".to_owned())
 }
 
-/// The values of trials, of which each is solved or not and measured or not; a failure is infinite. What the clock did not read has
+/// The values of trials, each solved or not and measured or not; a failure is infinite. What the clock did not read has
 /// not failed, nor has what was counted in no trial that was solved.
 fn with_failures(trials: &[(bool, Option<f64>)], is_clock: bool) -> Vec<f64> {
     let solved = || trials.iter().filter(|(is_solved, _)| *is_solved);

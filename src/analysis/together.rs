@@ -1,7 +1,7 @@
 //! Which claims hold together under one interpretation.
 //!
 //! A paper's claims speak of several maps, but of one algorithm. So one set is made under one interpretation and one choice
-//! of contenders: claims that are asked of the same problems share a problem, and each such group of claims takes one
+//! of contenders: claims that look at the same problems share a problem, and each such group of claims takes one
 //! of its problems. Every choice of problems is looked at, unless there are so many that one is taken and the set says so.
 
 use super::context::Context;
@@ -30,8 +30,8 @@ const MOST_CHOICES: f64 = 64.0;
 /// # Errors
 /// A settings error of a criterion.
 pub fn together(evidence: &Evidence<'_>) -> Result<Vec<Together>, SettingsError> {
-    let asked = attained_claims(evidence)?;
-    let met = met(evidence, &asked);
+    let attained = attained_claims(evidence)?;
+    let met = met(evidence, &attained);
     Ok(greatest(met.iter().flat_map(|(study, met)| sets_of(study, met, evidence.point.name())).collect()))
 }
 
@@ -47,9 +47,9 @@ fn attained_claims<'a>(evidence: &'a Evidence<'_>) -> Result<Vec<Attained<'a>>, 
 }
 
 /// What each study shows under one interpretation.
-fn met<'e>(view: &'e Evidence<'_>, asked: &'e [Attained<'_>]) -> BTreeMap<&'e str, Problems<'e>> {
+fn met<'e>(view: &'e Evidence<'_>, claims: &'e [Attained<'_>]) -> BTreeMap<&'e str, Problems<'e>> {
     let mut all: BTreeMap<&str, BTreeMap<_, (Contenders<'e>, &'e Row)>> = BTreeMap::new();
-    let each: Vec<_> = asked.par_iter().map(|attained| (attained.claim(), met_by(attained, view))).collect();
+    let each: Vec<_> = claims.par_iter().map(|attained| (attained.claim(), met_by(attained, view))).collect();
     for (claim, looked_at) in each {
         for (seen, is_met) in looked_at {
             let (study, group, instance, query) = seen.problem();
@@ -59,7 +59,7 @@ fn met<'e>(view: &'e Evidence<'_>, asked: &'e [Attained<'_>]) -> BTreeMap<&'e st
             by_contender.0.entry(seen.contender).or_default().insert(claim, is_met);
         }
     }
-    // A problem's name is made once, however many claims are asked of it.
+    // A problem's name is made once, however many claims look at it.
     let named = |(study, problems): (&'e str, BTreeMap<_, (Contenders<'e>, &'e Row)>)| {
         let run = view.run(study).expect("it was seen there");
         (study, problems.into_values().map(|(of, row)| (run.problem(row), of)).collect())

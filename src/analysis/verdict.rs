@@ -19,7 +19,7 @@ pub struct Estimate {
     pub what: String,
     /// How many independent instances it rests on.
     pub n: usize,
-    /// Of the cases that were asked, those that were solved by everyone who is compared, and all.
+    /// Of the cases, those that were solved by everyone who is compared, and all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub solved: Option<[usize; 2]>,
 }
@@ -40,7 +40,7 @@ impl Estimate {
         Self { value, interval: None, what: what.into(), n, solved: None }
     }
 
-    /// It, of so many cases that were solved among all that were asked.
+    /// It, of so many cases that were solved, among all.
     #[must_use]
     pub fn of_cases(self, solved: [usize; 2]) -> Self {
         Self { solved: Some(solved), ..self }
@@ -75,7 +75,7 @@ pub struct CriterionFinding {
 pub enum Effect {
     /// It cannot touch it.
     None,
-    /// It moves our number, not what is said of the claim.
+    /// It moves our number, not the claim's outcome.
     Number,
     /// It changes the outcome, not which way it speaks.
     Outcome,
@@ -132,7 +132,7 @@ pub struct Across {
     /// The results of a joint test, the likeliest first, each with its interpretations.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tested: Vec<String>,
-    /// What probes that are never counted do, where they change what is said of it.
+    /// What probes that are never counted do, where they change its verdict.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub probes: Vec<String>,
     /// What each choice does alone, where it can touch it.
@@ -148,7 +148,7 @@ pub struct Explored {
     pub interpretations: usize,
     /// How many trials it took.
     pub trials: u64,
-    /// Claims of which what is stored is stale: they are judged under the default interpretation alone.
+    /// Claims whose stored results are stale: they are judged under the default interpretation alone.
     #[serde(default)]
     pub stale: Vec<String>,
     /// For some claim no voting interpretation is compatible.
@@ -157,7 +157,7 @@ pub struct Explored {
     /// Whether a second seed was run.
     #[serde(default)]
     pub second_seed: bool,
-    /// Claims of which what is stored of the second seed is stale.
+    /// Claims whose stored results of the second seed are stale.
     #[serde(default)]
     pub second_stale: Vec<String>,
     /// Options that vote under which the verifier refuses many paths, with the share.
@@ -210,7 +210,7 @@ pub struct ClaimVerdict {
     pub verdict: Verdict,
     /// What stands beside it: over how many interpretations it is the same, its exceptions, or on what it depends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub said: Option<String>,
+    pub beside: Option<String>,
     /// On what it depends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depends_on: Option<String>,
@@ -262,7 +262,7 @@ impl ClaimVerdict {
             return None;
         }
         let mut because = self.findings.iter().flat_map(|finding| &finding.because);
-        because.find(|said| said.starts_with(POSSIBLE)).map(String::as_str)
+        because.find(|text| text.starts_with(POSSIBLE)).map(String::as_str)
     }
 
     /// Its verdict in a word or, of what must hold, that it was asserted.
@@ -275,7 +275,7 @@ impl ClaimVerdict {
     }
 
     /// What tables say of it: the same, with what it depends on.
-    pub fn verdict_said(&self) -> String {
+    pub fn verdict_text(&self) -> String {
         match &self.depends_on {
             Some(on) if self.verdict == Verdict::Depends => format!("{} on {on}", self.word()),
             _ => self.word().to_owned(),
@@ -283,7 +283,7 @@ impl ClaimVerdict {
     }
 
     /// What stands beside its verdict, with its outcome on the second seed where that was run.
-    pub fn beside(&self) -> Option<String> {
+    pub fn beside_with_seed(&self) -> Option<String> {
         let second = self.second.map(|second| {
             if self.is_seedless {
                 "the seed moves nothing".to_owned()
@@ -291,13 +291,8 @@ impl ClaimVerdict {
                 format!("second seed: {}", second.name())
             }
         });
-        let said: Vec<String> = self.said.iter().cloned().chain(second).collect();
-        (!said.is_empty()).then(|| said.join("; "))
-    }
-
-    /// As [`beside`](Self::beside), with the second seed's outcome where it is another one.
-    pub fn beside_if_other(&self) -> Option<String> {
-        if self.second == Some(self.outcome) && !self.is_seedless { self.said.clone() } else { self.beside() }
+        let words: Vec<String> = self.beside.iter().cloned().chain(second).collect();
+        (!words.is_empty()).then(|| words.join("; "))
     }
 
     /// The number of ours that stands beside the printed one.
@@ -362,7 +357,7 @@ pub struct Verdicts {
     /// Every claim.
     #[serde(default, rename = "claim")]
     pub claims: Vec<ClaimVerdict>,
-    /// Which claims hold jointly: sets none of which lies within another, the largest first.
+    /// Which claims hold jointly: sets, none within another, the largest first.
     #[serde(default, rename = "together")]
     pub together: Vec<Together>,
     /// What authors and others reply.

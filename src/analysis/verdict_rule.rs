@@ -1,4 +1,4 @@
-//! The table of verdicts: what is said of a claim, from what was found under every interpretation that counts.
+//! The table of verdicts: from a claim's outcomes under every interpretation that counts.
 //!
 //! Nothing here looks at trials or files. Results that hold, are open and contradict are counted once for equal results (h, o,
 //! f of n); d is the default's outcome, s the second seed's. A verdict is as strong as the weakest result that holds; what was
@@ -7,7 +7,7 @@
 use super::outcome::{Outcome, Polarity};
 use serde::{Deserialize, Serialize};
 
-/// What is said of a claim.
+/// The verdict on a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {

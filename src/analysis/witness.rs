@@ -37,10 +37,10 @@ pub enum Under {
     Any,
 }
 
-/// A number that a map is to give: a claim's, or one that was asked for besides.
+/// A number that a map is to give: a claim's, or one named in the call.
 #[derive(Debug, Clone)]
 pub struct Wanted {
-    /// What it is called: the claim's id, or the words that asked for it.
+    /// What it is called: the claim's id, or the words of the call.
     pub name: String,
     /// Whose it is.
     pub contender: String,
@@ -90,7 +90,7 @@ pub struct Witness {
 /// What a claim's number is on a map.
 #[derive(Debug, Clone)]
 pub struct OnMap {
-    /// The claim, or the words that asked for a number besides.
+    /// The claim, or the words of the call that name the number.
     pub name: String,
     /// What is printed.
     pub printed: String,
@@ -101,13 +101,13 @@ pub struct OnMap {
 }
 
 impl<'a> WitnessSearch<'a> {
-    /// The study and problem group with one map of cells of which all of `claims` speak.
+    /// The study and problem group with one map of cells that all of `claims` are about.
     ///
     /// # Errors
     /// A message: a claim is unknown, prints no number that some trial may meet, or speaks of other maps than the first.
     pub fn place(paper: &'a Paper, claims: &[String]) -> Result<(&'a Study, &'a Group), String> {
         let point = Interpretation::new(&paper.choices, &BTreeMap::new())?;
-        let asked = numbers_of_claims(paper, &point, claims)?;
+        let numbers = numbers_of_claims(paper, &point, claims)?;
         let on_map = |group: &&Group| {
             group.family.name == "grid_map"
                 && !group.is_drawn
@@ -116,7 +116,7 @@ impl<'a> WitnessSearch<'a> {
         };
         for study in paper.studies.iter().filter(|study| study.searched) {
             let mut groups = study.groups.iter().filter(on_map);
-            let all = |group: &&Group| asked.iter().all(|one| one.looks_at(&study.name, &group.label));
+            let all = |group: &&Group| numbers.iter().all(|one| one.looks_at(&study.name, &group.label));
             if let Some(group) = groups.find(all) {
                 return Ok((study, group));
             }
@@ -163,7 +163,7 @@ impl<'a> WitnessSearch<'a> {
         Ok(None)
     }
 
-    /// What every claim that looks at this map gives there, those that were asked for first.
+    /// What every claim that looks at this map gives there, those of the call first.
     ///
     /// # Errors
     /// As [`search_all`](Self::search_all).

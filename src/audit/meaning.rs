@@ -160,7 +160,7 @@ pub struct Lattice {
 
 impl Divisor {
     /// What it may be for n values, above 0.
-    pub fn of(self, n: i128) -> Vec<i128> {
+    pub fn values(self, n: i128) -> Vec<i128> {
         let all = match self {
             Self::Sample => vec![n - 1],
             Self::Population => vec![n],

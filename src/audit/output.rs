@@ -196,7 +196,7 @@ fn finding(finding: &Finding) -> Value {
         "line": finding.place.line,
         "cell": finding.place.cell,
         "name": finding.name,
-        "said": finding.text,
+        "text": finding.text,
         "premises": finding.premises,
         "readings": finding.readings,
         "power": finding.power.map(|power| json!({

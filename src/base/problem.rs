@@ -56,8 +56,15 @@ pub struct Problem {
 impl Problem {
     /// One with nothing to note.
     fn new(obstacles: Vec<Solid>, start: Ended, goals: Vec<Ended>) -> Self {
-        let (notes, ignored) = (Vec::new(), BTreeSet::new());
-        Self { obstacles, start, goals, robot: None, is_valid: true, notes, ignored }
+        Self {
+            obstacles,
+            start,
+            goals,
+            robot: None,
+            is_valid: true,
+            notes: Vec::new(),
+            ignored: BTreeSet::new(),
+        }
     }
 }
 
@@ -172,7 +179,7 @@ impl ProblemFile {
             order = named_order(reader, named, expected)?.or(order);
         }
         let problem = reader.problem(problem, order.as_deref())?;
-        Ok(seen.into_inner().of(problem))
+        Ok(seen.into_inner().noted(problem))
     }
 }
 

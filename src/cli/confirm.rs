@@ -80,7 +80,8 @@ pub fn confirm(
     let explorer = Explorer { rounds, second_seed: true, ..Explorer::new(&paper, &places, threads, folder) };
     let found = unless_planned(confirmed(&explorer))?;
     let Some(second) = found.map(|found| Explored { command, ..found }) else { return Ok(()) };
-    let (trials, interpretations) = (second.trials, second.interpretations.len());
+    let trials = second.trials;
+    let interpretations = second.interpretations.len();
     let stored = Estimates::read(&paper, &places.runs)?;
     Estimates { second: Some(second), ..stored }.write(&places.runs)?;
     verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?, which);

@@ -29,7 +29,7 @@ fn text(paper: &Paper, verdicts: &Verdicts, which: &Which) -> String {
 /// The verdict, what the paper says and our number; below, the claim and what its verdict rests on.
 fn lines(headline: &Headline<'_>, verdicts: &Verdicts) -> String {
     let judged = headline.judged;
-    let word = judged.verdict_said();
+    let word = judged.verdict_text();
     let pad = " ".repeat((VERDICT + 1).saturating_sub(word.chars().count()));
     let first = coloured(judged.verdict, &word) + &pad;
     let ours = headline.ours.as_ref().map_or_else(String::new, |ours| format!(": {ours}"));

@@ -66,7 +66,7 @@ fn compare(paper: &Paper, point: Interpretation, places: &Places) -> Result<(), 
     let mut found = differences(&stored, &now);
     if history.lacks(paper, &places.runs) {
         found.push(format!(
-            "{}: has no entry for what is stored and asked now",
+            "{}: has no entry for what is stored and claimed now",
             History::path(&places.runs).display()
         ));
     }

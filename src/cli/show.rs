@@ -89,7 +89,7 @@ fn none_holds(verdicts: &Verdicts, words: &str, which: &Which) -> Failure {
 
 /// A claim with its verdict, and what the paper says.
 fn line(judged: &ClaimVerdict) -> String {
-    let verdict = coloured(judged.verdict, &judged.verdict_said());
+    let verdict = coloured(judged.verdict, &judged.verdict_text());
     let says = judged.says.as_ref().or(judged.quote.as_ref());
     let says = says.map_or_else(|| judged.at.clone(), |says| format!("{}: {says}", judged.at));
     format!("{}  {verdict}\n{}\n", judged.claim, plain("  ", &says, 4, COLUMNS))
@@ -97,7 +97,7 @@ fn line(judged: &ClaimVerdict) -> String {
 
 /// Everything that is known of a claim.
 fn shown(judged: &ClaimVerdict) -> String {
-    let mut text = wrapped("", &format!("{}: {}", judged.claim, judged.verdict_said()), 2, COLUMNS) + "\n";
+    let mut text = wrapped("", &format!("{}: {}", judged.claim, judged.verdict_text()), 2, COLUMNS) + "\n";
     let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
     let printed = judged.printed.as_ref().map(|printed| format!("{printed}{unit}"));
     for (what, about) in [
@@ -105,7 +105,7 @@ fn shown(judged: &ClaimVerdict) -> String {
         ("says", judged.says.clone()),
         ("quote", judged.quote.as_ref().map(|quote| format!("“{quote}”"))),
         ("printed", printed),
-        ("interpretations", judged.said.clone()),
+        ("interpretations", judged.beside.clone()),
         ("under the defaults", Some(judged.outcome.name().to_owned())),
         ("second seed", judged.second.map(|outcome| outcome.name().to_owned())),
         ("part of", judged.part_of.clone()),

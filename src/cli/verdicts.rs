@@ -33,7 +33,7 @@ fn table(verdicts: &Verdicts, which: &Which) -> String {
     for (judged, line) in verdicts.claims.iter().zip(&lines[1..]) {
         text += line;
         let what = judged.ours().map(|ours| ours.what.clone());
-        let what: Vec<String> = what.into_iter().chain(judged.beside()).collect();
+        let what: Vec<String> = what.into_iter().chain(judged.beside_with_seed()).collect();
         if !what.is_empty() {
             text += &(wrapped("   ", &what.join("; "), 4, COLUMNS) + "\n");
         }

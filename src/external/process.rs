@@ -252,7 +252,8 @@ impl Drop for Process {
 pub fn read_message(line: &[u8]) -> Result<FromPlanner, String> {
     let line = line.strip_prefix("\u{feff}".as_bytes()).unwrap_or(line).trim_ascii();
     let text = std::str::from_utf8(line).map_err(|error| {
-        let (at, shown) = (error.valid_up_to(), String::from_utf8_lossy(line));
+        let at = error.valid_up_to();
+        let shown = String::from_utf8_lossy(line);
         let column = shown.char_indices().take_while(|(begin, _)| *begin < at).count();
         format!(
             "the planner wrote `{}`, which is no message: byte {} is not UTF-8",

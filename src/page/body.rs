@@ -136,10 +136,10 @@ impl Body<'_> {
     fn headlines(&self) -> String {
         let line = |headline: &Headline<'_>| {
             let ours = headline.ours.as_ref().map_or_else(String::new, |ours| format!(": {ours}"));
-            let beside = headline.beside(self.verdicts).map_or_else(String::new, |said| format!("; {said}"));
+            let beside = headline.beside(self.verdicts).map_or_else(String::new, |text| format!("; {text}"));
             format!(
                 "<li>{} <a href=\"#claim={}\">{}</a>{}</li>\n",
-                badge(headline.judged.word(), &headline.judged.verdict_said()),
+                badge(headline.judged.word(), &headline.judged.verdict_text()),
                 escaped(&headline.judged.claim),
                 escaped(&headline.says),
                 escaped(&(ours + &beside))
@@ -213,7 +213,7 @@ impl Body<'_> {
             || "–".to_owned(),
             |ours| format!("{} ({}; n = {})", short(ours), ours.what, ours.n),
         );
-        let interpretations = judged.said.clone().unwrap_or_default();
+        let interpretations = judged.beside.clone().unwrap_or_default();
         let second = judged.second.map_or_else(String::new, |outcome| {
             format!("<div class=\"second\">second seed: {}</div>", badge(outcome.name(), outcome.name()))
         });
@@ -233,7 +233,7 @@ impl Body<'_> {
             escaped(&judged.at),
             escaped(&says),
             escaped(&ours),
-            badge(judged.verdict.name(), &judged.verdict_said()),
+            badge(judged.verdict.name(), &judged.verdict_text()),
             escaped(&interpretations),
             self.evidence_of(judged)
         )
@@ -391,6 +391,6 @@ fn cell(printed: &str, ours: &str, judged: Option<&ClaimVerdict>) -> String {
         escaped(printed),
         escaped(ours),
         escaped(&judged.claim),
-        badge(judged.verdict.name(), &judged.verdict_said())
+        badge(judged.verdict.name(), &judged.verdict_text())
     )
 }

@@ -23,7 +23,8 @@ pub fn markdown(of: &Agreement) -> String {
     }
     if !of.defaults.is_empty() {
         text += "\nDefaults that differ:\n\n";
-        text += &of.defaults.iter().map(|pair| format!("- {}\n", pair.said())).collect::<Vec<_>>().concat();
+        text +=
+            &of.defaults.iter().map(|pair| format!("- {}\n", pair.in_words())).collect::<Vec<_>>().concat();
     }
     for (side, only) in of.sides.iter().zip(&of.only).filter(|(_, only)| !only.is_empty()) {
         text += &format!("\nOnly `{side}` has {}: `{}`.\n", only.len(), only.join("`, `"));

@@ -229,7 +229,8 @@ impl Canvas {
 
     /// Fills a disc and, if given, strokes its edge. Discs that are painted alike, one after another, say so once.
     pub fn circle(&mut self, centre: [f64; 2], radius_pt: f64, fill: Option<Fill>, stroke: Option<&Stroke>) {
-        let (x, y, r) = (short(centre[0]), short(centre[1]), short(radius_pt));
+        let [x, y] = centre.map(short);
+        let r = short(radius_pt);
         let paint = surface(fill);
         let rim = stroke.map(ink).unwrap_or_default();
         let disc = format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\"/>\n");

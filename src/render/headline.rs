@@ -41,7 +41,7 @@ pub fn headlines<'a>(paper: &'a Paper, verdicts: &'a Verdicts) -> Vec<Headline<'
 impl Headline<'_> {
     /// The verdict with the counts over interpretations, where they were explored, or with how many meanings have which verdict.
     pub fn verdict(&self, verdicts: &Verdicts) -> String {
-        let verdict = self.judged.verdict_said();
+        let verdict = self.judged.verdict_text();
         match self.beside(verdicts) {
             Some(counts) => format!("{verdict}, {counts}"),
             None => verdict,
@@ -50,7 +50,7 @@ impl Headline<'_> {
 
     /// The counts over interpretations, or how many meanings have which verdict.
     pub fn beside(&self, verdicts: &Verdicts) -> Option<String> {
-        match self.judged.said.as_deref()? {
+        match self.judged.beside.as_deref()? {
             counts if counts.starts_with("meanings: ") => meanings(self.judged, verdicts),
             counts => counts.split("; ").next().map(str::to_owned),
         }
@@ -61,7 +61,7 @@ impl Headline<'_> {
 fn meanings(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     let parts = verdicts.claims.iter().filter(|part| part.part_of.as_ref() == Some(&judged.claim));
     let mut counts: Vec<(String, usize)> = Vec::new();
-    for verdict in parts.map(ClaimVerdict::verdict_said) {
+    for verdict in parts.map(ClaimVerdict::verdict_text) {
         match counts.iter_mut().find(|(known, _)| *known == verdict) {
             Some((_, count)) => *count += 1,
             None => counts.push((verdict, 1)),

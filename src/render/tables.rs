@@ -81,7 +81,7 @@ pub fn table(
         };
         latex.row(line(&row.label, "printed", &beside.printed));
         latex.row(line("", "ours", &beside.ours));
-        let verdict = |judged: Option<&ClaimVerdict>| judged.map_or_else(dash, ClaimVerdict::verdict_said);
+        let verdict = |judged: Option<&ClaimVerdict>| judged.map_or_else(dash, ClaimVerdict::verdict_text);
         let mut claims = line("", "verdict", &beside.claims.iter().copied().map(verdict).collect::<Vec<_>>());
         for (cell, judged) in claims.iter_mut().skip(2).zip(&beside.claims) {
             let notes = granted(paper, *judged, verdicts);
@@ -205,7 +205,7 @@ pub fn numbers(evidence: &Evidence<'_>, verdicts: &Verdicts) -> Result<String, R
             }
             add("n", &ours.n.to_string(), "independent instances behind it")?;
         }
-        add("verdict", &judged.verdict_said(), "our verdict")?;
+        add("verdict", &judged.verdict_text(), "our verdict")?;
     }
     let made = made(paper, "numbers", verdicts);
     let notes = paper.source.stand_ins.as_ref().map_or(made.clone(), |note| format!("{made}\n{note}"));

@@ -25,7 +25,7 @@ pub enum Better {
 }
 
 impl Better {
-    /// Its name in messages and requests.
+    /// Its name in files that other programs read.
     pub fn name(self) -> &'static str {
         match self {
             Self::Lower => "lower",

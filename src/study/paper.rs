@@ -28,7 +28,7 @@ use self::table_spec::TableSpec;
 pub use self::tables::{PrintedCell, PrintedRow, PrintedTable};
 pub use self::withdrawn::Withdrawn;
 pub use super::spec::Digits;
-use super::spec::{BudgetSpec, ChoiceSpec, ExploreSpec, StudySpec};
+use super::spec::{BudgetSpec, ChoiceSpec, ContenderSpec, ExploreSpec, ProblemsSpec, StudySpec};
 use super::{Choice, Inputs, Interpretation, Shared, Study, StudyError, files};
 use base::settings::{Accepted, Document, Faults, schema_of};
 use schemars::JsonSchema;
@@ -63,6 +63,12 @@ struct PaperSpec {
     second_seed: Option<u64>,
     /// Limits on each trial of studies that say no others.
     budget: Option<BudgetSpec>,
+    /// Groups of problems that groups of studies are `like`.
+    #[serde(default)]
+    problems: Vec<ProblemsSpec>,
+    /// Contenders that those of studies are `like`.
+    #[serde(default, rename = "contender")]
+    contenders: Vec<ContenderSpec>,
     /// Everything that it prints, and what answers it; nothing is held against the paper's own list of prints if absent.
     #[serde(default)]
     inventory: Vec<InventoryRow>,
@@ -96,11 +102,15 @@ impl PaperSpec {
 
     /// What it says for all studies.
     fn shared(&mut self, document: &Arc<Document>, faults: &mut Faults) -> Shared {
+        let (groups, contenders) =
+            Shared::models(std::mem::take(&mut self.problems), &self.contenders, document, faults);
         Shared {
             choices: Shared::choices(std::mem::take(&mut self.choices), document, faults),
             explore: self.explore.clone(),
             second_seed: self.second_seed,
             budget: self.budget,
+            groups,
+            contenders,
         }
     }
 }
@@ -275,6 +285,7 @@ impl Paper {
             // What studies lack may be written there.
             faults.unread("budget");
             faults.unread("choice");
+            faults.unread("like");
         }
         let mut studies = Vec::new();
         let mut others = Vec::new();
@@ -294,6 +305,7 @@ impl Paper {
             }
         }
         check_others(&others, faults);
+        shared.check_models(&document, &studies, faults);
         if files.len() == others.len() && faults.is_empty() {
             let what = "no study; a study is a TOML file beside paper.toml".to_owned();
             return Err(StudyError::Missing { path: folder.to_owned(), what });

@@ -230,7 +230,8 @@ impl<'a> BuiltStudy<'a> {
     /// [`StudyError::LacksFiles`] if one is not.
     pub fn check_files(&self, unit: &Unit<'_>) -> Result<(), StudyError> {
         let Some(lacks) = unit.family.lacks() else { return Ok(()) };
-        let (study, group) = (self.study.name.clone(), unit.group.label.clone());
+        let study = self.study.name.clone();
+        let group = unit.group.label.clone();
         Err(StudyError::LacksFiles { study, group, lacks })
     }
 

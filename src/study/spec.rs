@@ -65,8 +65,11 @@ pub struct StudySpec {
 pub struct ProblemsSpec {
     /// Its name in records.
     pub label: Spanned<String>,
-    /// The problem family.
-    pub family: Spanned<String>,
+    /// The problem family; that of the group in `like` if absent.
+    pub family: Option<Spanned<String>>,
+    /// A group above, or one that paper.toml shares with all studies, by its label: this one has everything that it has, with its
+    /// own keys and settings in place of those.
+    pub like: Option<Spanned<String>>,
     /// Files, such as `maps/*.map`: a group for each, whose label ends in the file's name and in whose settings the file's path
     /// stands for `{file}`.
     pub each: Option<Spanned<String>>,
@@ -84,8 +87,8 @@ pub struct ProblemsSpec {
     /// point of the sweep if absent.
     pub shared_instances: Option<String>,
     /// The family's settings.
-    #[schemars(with = "AnyTable")]
-    pub settings: Spanned<Table>,
+    #[schemars(with = "Option<AnyTable>")]
+    pub settings: Option<Spanned<Table>>,
 }
 
 /// A pipeline under a label.
@@ -94,14 +97,16 @@ pub struct ProblemsSpec {
 pub struct ContenderSpec {
     /// Its name in records and tables.
     pub label: Spanned<String>,
-    /// The planner's name in the registry.
-    pub planner: Spanned<String>,
+    /// The planner's name in the registry; that of the contender in `like` if absent.
+    pub planner: Option<Spanned<String>>,
+    /// A contender above, or one that paper.toml shares with all studies, by its label: this one has everything that it has, with
+    /// its own keys and settings in place of those.
+    pub like: Option<Spanned<String>>,
     /// The planner's settings.
     #[schemars(with = "Option<AnyTable>")]
     pub settings: Option<Spanned<Table>>,
     /// Stages that tidy the plan, in order.
-    #[serde(default)]
-    pub then: Vec<StageSpec>,
+    pub then: Option<Vec<StageSpec>>,
     /// How many seeds it runs on each problem, 1 if absent; more than 1 only where it draws.
     #[schemars(range(min = 1, max = 100_000))]
     pub repeats: Option<u32>,

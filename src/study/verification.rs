@@ -211,7 +211,7 @@ fn refuse_ending(request: &Request<'_>, plan: &Plan) -> Option<String> {
     }
     let expansions = plan.counts.get("expansions")?.as_f64();
     (plan.ending == Ending::BudgetSpent && expansions < request.expansions as f64).then(|| {
-        format!("the budget is said to be spent after {expansions} of {} expansions", request.expansions)
+        format!("the planner calls the budget spent after {expansions} of {} expansions", request.expansions)
     })
 }
 

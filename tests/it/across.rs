@@ -182,7 +182,7 @@ impl Toy {
     /// The verdict of a claim and what stands beside it.
     pub fn class_and_across(&self, id: &str) -> (String, String) {
         let judged = self.claim(id);
-        (judged.verdict_said(), judged.said.unwrap_or_default())
+        (judged.verdict_text(), judged.beside.unwrap_or_default())
     }
 }
 
@@ -332,8 +332,8 @@ fn a_changed_margin_printed_number_or_criterion_of_the_same_numbers_needs_no_tri
     toy.0.edit("toy/paper.toml", "printed = \"24\"", "printed = \"4\"");
     // A margin that the weight does not reach.
     toy.0.edit("toy/paper.toml", "check.lower.of", "check.lower.by_percent = 99.0\ncheck.lower.of");
-    let said = toy.0.done(&["judge", "./toy"]);
-    assert!(!said.contains("default interpretation alone") && !said.contains("trials:"), "{said}");
+    let output = toy.0.done(&["judge", "./toy"]);
+    assert!(!output.contains("default interpretation alone") && !output.contains("trials:"), "{output}");
     assert_eq!(toy.verdicts().explored.unwrap().stale, [""; 0]);
     assert_eq!([outcome("witness"), outcome("fewer")], [Outcome::Attainable, Outcome::SignOnly]);
     // Another criterion of the same numbers: the reduction, held against bounds.
@@ -351,8 +351,8 @@ fn a_changed_margin_printed_number_or_criterion_of_the_same_numbers_needs_no_tri
 fn another_metric_or_selection_is_not_explored_and_the_claim_is_named() {
     let toy = Toy::new(&[]);
     toy.0.edit("toy/paper.toml", "metric = \"expansions\", contenders", "metric = \"generated\", contenders");
-    let said = toy.0.done(&["judge", "./toy"]);
-    assert!(said.contains("`witness` is judged under the default interpretation alone"), "{said}");
+    let output = toy.0.done(&["judge", "./toy"]);
+    assert!(output.contains("`witness` is judged under the default interpretation alone"), "{output}");
     assert_eq!(toy.claim("witness").across, None);
     assert!(toy.claim("fewer").across.is_some());
     toy.0.edit("toy/draws.toml", "expansions = 10_000", "expansions = 9_999");
@@ -373,9 +373,9 @@ fn estimates_that_were_edited_or_are_another_papers_are_refused_until_they_are_m
     let sealed = "estimates.parquet: is not what replan wrote: damaged, edited";
     let refused = |why: &str| {
         for (command, code) in [(&["judge", "./toy", "--check"][..], 3), (&["judge", "./toy"], 2)] {
-            let said = toy.0.run(command);
-            assert_eq!(said.code, Some(code), "{}", said.err);
-            assert!(said.err.contains(why), "{}", said.err);
+            let output = toy.0.run(command);
+            assert_eq!(output.code, Some(code), "{}", output.err);
+            assert!(output.err.contains(why), "{}", output.err);
         }
     };
     for wrong in [turned, cut, b"by hand".to_vec(), Vec::new()] {

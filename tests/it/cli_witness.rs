@@ -51,7 +51,8 @@ fn under_any_interpretation_each_search_draws_one_and_the_study_agrees_under_it(
     let mut interpretations = BTreeSet::new();
     let mut attained = 0;
     for seed in 1..=8 {
-        let (seed, out) = (seed.to_string(), format!("any{seed}"));
+        let seed = seed.to_string();
+        let out = format!("any{seed}");
         let ask = ["witness", "./mini", "--claims", "cost", "--with", "any", "--seed", &seed, "--out", &out];
         let output = bench.done(&ask);
         let interpretation = output.lines().find_map(|line| line.strip_prefix("interpretation: ")).unwrap();

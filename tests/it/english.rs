@@ -195,12 +195,6 @@ fn every_page_is_written_in_short_plain_sentences() {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
-/// Folders of `src` whose comments keep to the field's words.
-const PLAIN: [&str; 12] = [
-    "audit", "base", "cli", "engine", "export", "external", "page", "proofs", "render", "stats", "study",
-    "verify",
-];
-
 /// The comments of a file of Rust, each with the number of its first line.
 fn comments(text: &str) -> Vec<(usize, String)> {
     let mut found: Vec<(usize, String)> = Vec::new();
@@ -222,8 +216,7 @@ fn comments(text: &str) -> Vec<(usize, String)> {
 
 #[test]
 fn comments_keep_to_the_fields_words() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut open: Vec<PathBuf> = PLAIN.iter().map(|folder| root.join("src").join(folder)).collect();
+    let mut open = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("src")];
     let mut found = Vec::new();
     let mut count = 0;
     while let Some(path) = open.pop() {
@@ -240,6 +233,20 @@ fn comments_keep_to_the_fields_words() {
     }
     assert!(count > 3_000, "{count} comments");
     assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn names_in_code_say_what_a_thing_is() {
+    let names = |code: &str| -> Vec<String> {
+        let words = code.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        let riddles = words.filter(|word| ["told", "said", "asked"].contains(word)).map(str::to_owned);
+        riddles.chain(code.contains("fn of(").then(|| "fn of".to_owned())).collect()
+    };
+    assert_eq!(names("let said = asked(); fn of(x: u8) {} is_asked"), ["said", "asked", "fn of"]);
+    let found: Vec<(PathBuf, Vec<String>)> =
+        crate::source::files().into_iter().map(|file| (file.path, names(&file.code))).collect();
+    let riddles: Vec<_> = found.iter().filter(|(_, names)| !names.is_empty()).collect();
+    assert!(found.len() > 700 && riddles.is_empty(), "{} files: {riddles:?}", found.len());
 }
 
 #[test]

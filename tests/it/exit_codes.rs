@@ -95,11 +95,11 @@ fn an_exploration_that_is_gone_is_named_with_the_command_that_makes_it() {
     let path = format!("{RUNS}/estimates.parquet");
     fs::remove_file(toy.0.at(&path)).unwrap();
     for command in ["explore", "confirm"] {
-        let said = ends(&toy.0, &["judge", "./toy", "--check"], 3);
-        let told = format!(
+        let output = ends(&toy.0, &["judge", "./toy", "--check"], 3);
+        let expected = format!(
             "replan: {path}: what `{command}` found is gone, and the stored verdicts rest on it; `replan {command} toy` makes it again\n"
         );
-        assert_eq!(said, told);
+        assert_eq!(output, expected);
         // The verdicts that `explore` judges rest on it alone.
         let verdicts = toy.0.at(RUNS).join("verdicts.toml");
         let before = fs::read(&verdicts).unwrap();

@@ -146,9 +146,9 @@ fn interrupted_explorations_and_confirmations_end_with_the_same_bytes() {
     {
         let before = file(&toy);
         let child = toy.0.command(&[command, "./toy"]).spawn().unwrap();
-        let said = interrupt(&toy, child, &toy.0.at("target/replan").join(journal), 10_000);
-        assert_eq!(said.code, Some(130), "{}", said.err);
-        assert!(kept(&said) > 0 && file(&toy) == before, "{}", said.err);
+        let output = interrupt(&toy, child, &toy.0.at("target/replan").join(journal), 10_000);
+        assert_eq!(output.code, Some(130), "{}", output.err);
+        assert!(kept(&output) > 0 && file(&toy) == before, "{}", output.err);
         toy.0.done(&[command, "./toy"]);
     }
     assert!(file(&toy).is_some() && file(&toy) == file(&calm), "other bytes after an interruption");

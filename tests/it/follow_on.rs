@@ -31,7 +31,7 @@ fn a_fault_of_one_study_is_reported_alone_in_a_paper_of_many() {
         ("gallery", "movingai.toml", "\"movingai\"", "\"movingay\"", "there is no problem family `movingay`"),
         (
             "gallery",
-            "ur5.toml",
+            "paper.toml",
             "jump_deg = ",
             "jump_deg = 4000 #",
             "`jump_deg` is 4000; a number from 0.001 to 3600",

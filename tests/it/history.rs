@@ -206,13 +206,13 @@ fn a_claim_that_is_renamed_keeps_its_history_and_one_that_is_new_or_gone_is_name
     assert!(output.contains("without a reason given: `ratio`."), "a new name hides a change: {output}");
     // A new name with a new margin is one claim less and one more.
     bench.write(PAPER, named("other", "1.5").as_bytes());
-    let said = bench.done(&["repro", "./mini"]);
-    assert!(said.contains("without a reason given: `other`."), "{said}");
-    assert!(said.contains("Withdrawn after their data were seen: `ratio` (entry "), "{said}");
+    let output = bench.done(&["repro", "./mini"]);
+    assert!(output.contains("without a reason given: `other`."), "{output}");
+    assert!(output.contains("Withdrawn after their data were seen: `ratio` (entry "), "{output}");
     let reason = "\n[[withdrawn]]\nclaims = [\"ratio\"]\nwhy = \"`other` asks the same\"\n";
     bench.write(PAPER, (named("other", "1.5") + reason).as_bytes());
-    let said = bench.done(&["repro", "./mini"]);
-    assert!(!said.contains("Withdrawn after"), "a reason is given: {said}");
+    let output = bench.done(&["repro", "./mini"]);
+    assert!(!output.contains("Withdrawn after"), "a reason is given: {output}");
     bench.edit(PAPER, "[\"ratio\"]", "[\"other\"]");
     let refused = bench.run(&["check", "./mini"]);
     assert!(

@@ -1,6 +1,7 @@
 //! Tests of the crate from outside: its source, its registries, its planners, its command line.
 
 mod across;
+mod alike;
 mod all_ends;
 mod arm;
 mod audit;

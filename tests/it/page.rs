@@ -82,7 +82,7 @@ fn a_page_begins_with_the_finding_the_headline_claims_and_the_counts() {
     let headlines: Vec<_> = paper.claims.iter().filter(|claim| claim.headline).collect();
     assert_eq!(headlines.len(), 8);
     for claim in headlines {
-        let verdict = verdicts.claim(&claim.id).unwrap().verdict_said();
+        let verdict = verdicts.claim(&claim.id).unwrap().verdict_text();
         let line = head.lines().find(|line| line.contains(&format!("href=\"#claim={}\"", claim.id))).unwrap();
         assert!(line.contains(&format!(">{verdict}</span>")), "{line}");
     }

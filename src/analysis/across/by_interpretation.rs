@@ -19,7 +19,7 @@ pub struct ByInterpretation {
     pub choices: Vec<ExploredChoice>,
     /// The options that differ from the defaults of each choice that was explored, the default interpretation first.
     pub interpretations: Vec<BTreeMap<String, String>>,
-    /// Claims by id; those of which what is stored is stale are left out.
+    /// Claims by id; those whose stored results are stale are left out.
     pub claims: BTreeMap<String, Claim>,
 }
 
@@ -30,7 +30,7 @@ pub struct ExploredChoice {
     pub id: String,
     /// What the paper leaves open, and why the default was taken.
     pub why: String,
-    /// The option taken unless asked otherwise.
+    /// The option taken by default.
     pub default: String,
     /// Its options, by name.
     pub options: Vec<ExploredOption>,

@@ -34,7 +34,7 @@ pub struct Group {
 /// The interpretations that count for a claim.
 #[derive(Debug, Default)]
 pub struct Counted {
-    /// By what they give.
+    /// By their results.
     pub groups: Vec<Group>,
     /// How many interpretations looked at it.
     pub looked: usize,
@@ -91,7 +91,7 @@ impl VotingChoices {
         Self { choices: paper.choices.clone(), calibration, now: Now::new(paper) }
     }
 
-    /// The option that `interpretation`, by what differs from the defaults, takes on `choice`.
+    /// The option that `interpretation`, given as its differences from the defaults, takes on `choice`.
     pub fn option<'r>(choice: &'r Choice, interpretation: &'r BTreeMap<String, String>) -> &'r str {
         interpretation.get(&choice.id).unwrap_or(&choice.default)
     }
@@ -160,8 +160,9 @@ impl VotingChoices {
         for place in voting {
             let interpretation = &first.interpretations[place];
             let others = interpretation.iter().filter(|(id, _)| **id != fitted.id);
-            let said: Vec<String> = others.map(|(id, option)| format!("{id} = {option}")).collect();
-            let setting = if said.is_empty() { "the defaults".to_owned() } else { said.join(", ") };
+            let departures: Vec<String> = others.map(|(id, option)| format!("{id} = {option}")).collect();
+            let setting =
+                if departures.is_empty() { "the defaults".to_owned() } else { departures.join(", ") };
             let fit = match held(first, place, &calibration, default) {
                 None => Fit::Refused,
                 Some(_) if best.contains(&place) => Fit::Best,

@@ -133,7 +133,7 @@ impl<'a> Sides<'a> {
         places.filter(|place| self.has(**place, rule)).count()
     }
 
-    /// The choices some voting option of which by itself gives other results than the defaults, or was not looked at: nothing depends
+    /// The choices with a voting option that by itself gives other results than the defaults, or was not looked at: nothing depends
     /// on a choice that moves nothing.
     fn moving(&self) -> impl Iterator<Item = &'a Choice> {
         self.choices.choices.iter().filter(|choice| self.moves(choice))

@@ -1,6 +1,6 @@
 //! What stored numbers say of every claim under each interpretation.
 
-use super::super::asked::{Asked, CappedFinding, asked};
+use super::super::claim_test::{CappedFinding, ClaimTest, claim_tests};
 use super::super::claims;
 use super::super::number::Numbers;
 use super::super::outcome::{self, Caps, Outcome, Polarity};
@@ -92,7 +92,7 @@ fn weighed<'e>(
 ) -> Result<Vec<Option<Glance>>, SettingsError> {
     let none =
         Numbers { by_session: vec![Vec::new()], is_covered: true, is_posed: true, ..Numbers::default() };
-    let mut built: BTreeMap<Meaning, Vec<(Option<String>, Asked<'_>)>> = BTreeMap::new();
+    let mut built: BTreeMap<Meaning, Vec<(Option<String>, ClaimTest<'_>)>> = BTreeMap::new();
     let mut known: BTreeMap<(Meaning, Vec<usize>), Glance> = BTreeMap::new();
     let mut all = Vec::new();
     for (place, point) in points.iter().enumerate() {
@@ -102,13 +102,13 @@ fn weighed<'e>(
         };
         let meaning = (point.meaning(), claim.is_meant(point));
         if !built.contains_key(&meaning) {
-            let decides =
-                asked(paper, claim, point).filter(|one| one.as_ref().map_or(true, |one| !one.is_shown()));
+            let decides = claim_tests(paper, claim, point)
+                .filter(|one| one.as_ref().map_or(true, |one| !one.is_shown()));
             let built_now = decides.map(|one| one.map(|one| (one.question(), one)));
             built.insert(meaning.clone(), built_now.collect::<Result<_, SettingsError>>()?);
         }
         let of_claim = &built[&meaning];
-        let numbers = |(question, _): &(Option<String>, Asked<'_>)| match question {
+        let numbers = |(question, _): &(Option<String>, ClaimTest<'_>)| match question {
             Some(question) => answer(place, question),
             None => Some((usize::MAX, &none)),
         };
@@ -121,7 +121,7 @@ fn weighed<'e>(
         let key = (meaning, answers.iter().map(|(name, _)| *name).collect::<Vec<_>>());
         let glance = known.entry(key).or_insert_with(|| {
             let both = of_claim.iter().zip(&answers);
-            let weighed = both.map(|((_, asked), (_, numbers))| asked.weighed(numbers, polylines, None));
+            let weighed = both.map(|((_, test), (_, numbers))| test.weighed(numbers, polylines, None));
             meant(claim, is_meant, alone(claim, &weighed.collect::<Vec<_>>()))
         });
         all.push(Some(glance.clone()));
@@ -159,11 +159,11 @@ fn alone(claim: &Claim, weighed: &[CappedFinding]) -> Glance {
 /// What the findings that decide rest on, and what they say: interpretations that only change what a name means move these.
 fn digest(weighed: &[CappedFinding]) -> String {
     let decides = weighed.iter().filter(|one| one.finding.outcome.is_some());
-    let said = |one: &CappedFinding| {
+    let in_words = |one: &CappedFinding| {
         let ours = one.finding.ours.as_ref().map(|ours| (ours.value.to_bits(), ours.n));
         format!("{} {:?} {ours:?} {}\n", one.finding.criterion, one.finding.outcome, one.results)
     };
-    sha256(decides.map(said).collect::<String>().as_bytes())[..12].to_owned()
+    sha256(decides.map(in_words).collect::<String>().as_bytes())[..12].to_owned()
 }
 
 fn sight(one: &CappedFinding, outcome: Outcome) -> Sight {

@@ -43,7 +43,7 @@ pub struct Stored {
 }
 
 impl Stored {
-    /// What is stored beside the runs in `folder`, by what the paper asks now; polylines that rules search for are remembered.
+    /// What is stored beside the runs in `folder`, as the paper judges it now; polylines that rules search for are remembered.
     ///
     /// # Errors
     /// [`StudyError::Touched`] if it cannot be understood.
@@ -101,10 +101,10 @@ fn note(choices: &VotingChoices, stored: &Stored, outcomes: &BTreeMap<String, Ou
 /// Gives sentences that mean one of their parts the verdict that these make.
 fn apply_meanings(paper: &Paper, verdicts: &mut Verdicts) {
     let meant: Vec<_> = paper.claims.iter().filter_map(|claim| meaning(claim, verdicts)).collect();
-    for (id, verdict, said) in meant {
+    for (id, verdict, wording) in meant {
         let Some(judged) = verdicts.claims.iter_mut().find(|judged| judged.claim == id) else { continue };
         judged.verdict = verdict;
-        (judged.said, judged.depends_on) = (said.beside, said.depends_on);
+        (judged.beside, judged.depends_on) = (wording.beside, wording.depends_on);
         let settles = meanings_settle(judged.verdict, judged.depends_on.as_deref());
         match &mut judged.across {
             Some(across) => across.settles = settles,
@@ -127,7 +127,7 @@ struct OfClaim<'a> {
 impl OfClaim<'_> {
     /// Gives `judged` its verdict; says whether no voting interpretation is compatible.
     fn judge(&self, judged: &mut ClaimVerdict, outcomes: &BTreeMap<String, Outcome>) -> bool {
-        let touched = Touched::of(self.paper, self.claim);
+        let touched = Touched::new(self.paper, self.claim);
         self.look_at_seeds(judged, &touched);
         if judged.theorem.is_none() {
             judged.not_varied = self.not_varied(&touched);
@@ -157,8 +157,8 @@ impl OfClaim<'_> {
         let view = View { choices: self.choices, first: explored, id, counted: &counted, results: &results };
         self.say(judged, &view);
         if touched.is_elsewhere() {
-            let said = judged.said.take().into_iter().chain([wording::ELSEWHERE.to_owned()]);
-            judged.said = said.reduce(|one, two| format!("{one}; {two}"));
+            let words = judged.beside.take().into_iter().chain([wording::ELSEWHERE.to_owned()]);
+            judged.beside = words.reduce(|one, two| format!("{one}; {two}"));
         }
         none_compatible
     }
@@ -178,12 +178,12 @@ impl OfClaim<'_> {
         let is_bearing = !matches!(line, Line::Proved | Line::Lacking);
         let unvaried = wording::not_varied(&judged.not_varied).filter(|_| is_bearing);
         let beside = judged.possible().map(str::to_owned).or(beside);
-        judged.said = beside.into_iter().chain(unvaried).reduce(|one, two| format!("{one}; {two}"));
+        judged.beside = beside.into_iter().chain(unvaried).reduce(|one, two| format!("{one}; {two}"));
         (judged.verdict, judged.depends_on) = (verdict, depends_on);
         judged.across = view.first.map(|first| self.across(first, judged, view, line));
     }
 
-    /// The interpretations that touch the claim, of which no other option than the default was looked at.
+    /// The choices that touch the claim and were looked at under their default alone.
     fn not_varied(&self, touched: &Touched<'_>) -> Vec<String> {
         let is_varied = |choice: &Choice| {
             self.first.is_some_and(|first| {
@@ -250,19 +250,19 @@ fn meaning(claim: &Claim, verdicts: &Verdicts) -> Option<(String, Verdict, Wordi
     }
     let parts: Vec<&ClaimVerdict> = ids.iter().filter_map(|id| verdicts.claim(id)).collect();
     let verdict = of_meanings(&parts.iter().map(|part| part.verdict).collect::<Vec<_>>());
-    let said: Vec<String> =
-        parts.iter().map(|part| format!("`{}` {}", part.claim, part.verdict_said())).collect();
+    let meanings: Vec<String> =
+        parts.iter().map(|part| format!("`{}` {}", part.claim, part.verdict_text())).collect();
     let weakest = parts.iter().find(|part| part.verdict == verdict);
     let on = weakest.and_then(|part| part.depends_on.clone()).unwrap_or_else(|| MEANT.to_owned());
     let depends_on = (verdict == Verdict::Depends).then_some(on);
     Some((
         claim.id.clone(),
         verdict,
-        Wording { beside: Some(format!("meanings: {}", said.join(", "))), depends_on },
+        Wording { beside: Some(format!("meanings: {}", meanings.join(", "))), depends_on },
     ))
 }
 
-/// The share of refused paths from which on it is said of an option.
+/// The share of refused paths from which on an option is named.
 const REFUSED: f64 = 0.05;
 
 /// The options by themselves under which the verifier refuses many of the paths that some claim looks at, with the greatest share.

@@ -57,8 +57,8 @@ fn claims(first: &[Glances], more: &BTreeMap<usize, Glances>) -> BTreeMap<String
 
 /// A hash of what the claims mean that are met exactly, alone or together.
 pub fn met_exactly(paper: &Paper) -> String {
-    let asked = paper.claims.iter().filter(|claim| claim.check(EXISTS.name).is_some());
-    sha256(asked.map(|claim| claim_hash(paper, claim)).collect::<String>().as_bytes())[..16].to_owned()
+    let claims = paper.claims.iter().filter(|claim| claim.check(EXISTS.name).is_some());
+    sha256(claims.map(|claim| claim_hash(paper, claim)).collect::<String>().as_bytes())[..16].to_owned()
 }
 
 /// What was found about a claim under some interpretations.
@@ -100,7 +100,7 @@ pub fn differing(paper: &Paper, point: &Interpretation) -> BTreeMap<String, Stri
 }
 
 impl Exploration {
-    /// That which `stored` numbers amount to, by what the paper asks now.
+    /// The results of `stored` numbers as the paper judges them now.
     ///
     /// # Errors
     /// Those of [`validate`](super::super::claims::validate).
@@ -157,7 +157,7 @@ impl Exploration {
     }
 }
 
-/// What a paper is now, by hashes: all that tells whether what was stored of it is of it as it is. It is made once and asked
+/// What a paper is now, by hashes: all that tells whether what was stored of it is of it as it is. It is made once and queried
 /// for every claim.
 #[derive(Debug, Default)]
 pub struct Now {

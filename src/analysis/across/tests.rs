@@ -139,8 +139,8 @@ impl Planted {
             counted: &counted,
             results: &results,
         };
-        let said = view.wording(line);
-        (said.beside.unwrap_or_default(), said.depends_on)
+        let words = view.wording(line);
+        (words.beside.unwrap_or_default(), words.depends_on)
     }
 }
 
@@ -190,11 +190,11 @@ fn an_option_that_all_contradicting_results_share_is_named_with_how_many_others_
 #[test]
 fn where_the_sides_share_no_option_a_combination_decides_and_the_best_axis_is_named() {
     let either = product(|corners, ties| if (corners == "b") == (ties == "b") { Fails } else { Holds });
-    let (said, on) = either.wording();
-    assert_eq!(on.as_deref(), Some("a combination"), "{said}");
+    let (words, on) = either.wording();
+    assert_eq!(on.as_deref(), Some("a combination"), "{words}");
     assert!(
-        said.contains("corners separates best: contradicted under a 2 of 3, b 1 of 3, c 2 of 3"),
-        "{said}"
+        words.contains("corners separates best: contradicted under a 2 of 3, b 1 of 3, c 2 of 3"),
+        "{words}"
     );
 }
 

@@ -20,7 +20,7 @@ pub struct Touched<'p> {
 
 impl<'p> Touched<'p> {
     /// What `claim` looks at.
-    pub fn of(paper: &'p Paper, claim: &'p Claim) -> Self {
+    pub fn new(paper: &'p Paper, claim: &'p Claim) -> Self {
         let parts = claim.parts.ids().iter().filter_map(|id| paper.claim(id));
         let claims: Vec<&Claim> = std::iter::once(claim).chain(parts).collect();
         let mut names = BTreeSet::new();
@@ -66,7 +66,7 @@ impl<'p> Touched<'p> {
             || self.studies.iter().any(|study| self.changes(choice, study))
     }
 
-    /// Whether `choice` would change trials of a study that does not have it, nor has what is explored in its place. A witness is asked
+    /// Whether `choice` would change trials of a study that does not have it, nor has what is explored in its place. A witness is judged
     /// under the interpretations that its contender ran under, whatever its study has.
     pub fn is_without(&self, paper: &Paper, choice: &Choice) -> bool {
         let has = |study: &Study| study.choices.iter().any(|own| own.id == choice.id);

@@ -99,11 +99,11 @@ impl View<'_> {
         named.map_or_else(String::new, |name| format!(", {name} among them"))
     }
 
-    /// A result by what its first interpretation has that the defaults have not; `None` of the defaults.
+    /// A result, named after what its first interpretation has that the defaults have not; `None` of the defaults.
     fn named(&self, group: &Group) -> Option<String> {
         let departs = self.first?.interpretations[group.interpretation].iter();
-        let said: Vec<String> = departs.map(|(id, option)| format!("{id} = {option}")).collect();
-        (!said.is_empty()).then(|| said.join(", "))
+        let departures: Vec<String> = departs.map(|(id, option)| format!("{id} = {option}")).collect();
+        (!departures.is_empty()).then(|| departures.join(", "))
     }
 
     /// The sides of the results as `of` parts them.
@@ -150,14 +150,14 @@ impl View<'_> {
         });
         if let Some(rule) = sides.rule(true) {
             let verb = if rule.is_first_side { "contradicted" } else { "holds" };
-            let said = format!("{verb} only if {} ({} of {})", rule.in_words(), rule.hits, rule.covered);
-            return (rule.choices(), said);
+            let words = format!("{verb} only if {} ({} of {})", rule.in_words(), rule.hits, rule.covered);
+            return (rule.choices(), words);
         }
-        let said = sides.separating().map_or_else(
+        let words = sides.separating().map_or_else(
             || "no option separates them".to_owned(),
             |(choice, shares)| format!("{choice} separates best: contradicted under {shares}"),
         );
-        (COMBINATION.to_owned(), said)
+        (COMBINATION.to_owned(), words)
     }
 }
 

@@ -36,7 +36,7 @@ pub struct Cell {
     pub solved: usize,
     /// What was drawn independently among them.
     pub instances: usize,
-    /// Solved trials of which it was measured.
+    /// Solved trials in which it was measured.
     pub measured: usize,
     /// The mean of these.
     pub mean: Option<Measured>,

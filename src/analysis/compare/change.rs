@@ -34,7 +34,7 @@ pub struct Change {
     pub better: String,
     /// Pairs that both sides have a number of.
     pub pairs: usize,
-    /// Pairs of which the first side alone has one, as the other did not solve the problem; and the second alone.
+    /// Pairs that the first side alone has, as the other did not solve the problem; and the second alone.
     pub one_sided: [usize; 2],
     /// What was drawn independently, of all pairs.
     pub instances: usize,
@@ -203,7 +203,7 @@ impl<'r> Sample<'r> {
         [change, ratio.map(of_ratio)]
     }
 
-    /// All that is said of it.
+    /// The change as a whole.
     pub fn change(&self) -> Change {
         let plan = plan(&["compare", self.study, self.contender, self.metric]);
         let finite = self.finite().concat();

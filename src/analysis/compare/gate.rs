@@ -50,7 +50,7 @@ pub enum Outcome {
     Worse,
     /// Not worse by more than it.
     NotWorse,
-    /// Neither can be said.
+    /// Neither is known.
     CannotTell,
 }
 
@@ -91,7 +91,7 @@ impl Gate {
     }
 }
 
-/// What is said of a metric that cannot be compared.
+/// The message about a metric that cannot be compared.
 pub fn unknown_metric(flag: &str, name: &str) -> String {
     let known: Vec<&str> = metric::METRICS
         .iter()

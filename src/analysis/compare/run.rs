@@ -23,7 +23,7 @@ pub struct StoredRun {
 /// The median time of each timed trial.
 pub type Times<'r> = BTreeMap<&'r TrialKey, f64>;
 
-/// The records of one study on one side, ready to be asked.
+/// The records of one study on one side, ready for questions.
 pub struct Seen<'r> {
     /// What they depend on.
     pub manifest: &'r Manifest,
@@ -62,7 +62,7 @@ impl StoredRun {
     }
 }
 
-/// The studies of which a run is stored in `folder`, in the order of their names.
+/// The studies with a stored run in `folder`, in the order of their names.
 pub fn stored_studies(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let name =

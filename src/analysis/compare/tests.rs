@@ -114,22 +114,22 @@ fn a_problem_that_is_lost_is_a_loss_and_keeps_a_gate_open() {
 }
 
 #[test]
-fn what_only_one_side_has_is_told_apart() {
+fn what_only_one_side_has_is_listed_apart() {
     let costs: Vec<Option<u64>> = (0..20).map(|instance| Some(10 + instance)).collect();
-    let told = |runs: &[StoredRun; 2]| -> Vec<(usize, String, usize)> {
+    let only_on = |runs: &[StoredRun; 2]| -> Vec<(usize, String, usize)> {
         compared(runs, &[]).only.into_iter().map(|only| (only.side, only.what, only.trials)).collect()
     };
     let base = || run(1, "g", "A", &costs);
     let other = |side, what: &str, trials| (side, what.to_owned(), trials);
     let b = run(1, "g", "B", &costs);
-    assert_eq!(told(&[base(), b]), [other(0, "contender `A`", 20), other(1, "contender `B`", 20)]);
+    assert_eq!(only_on(&[base(), b]), [other(0, "contender `A`", 20), other(1, "contender `B`", 20)]);
     let h = run(1, "h", "A", &costs);
-    assert_eq!(told(&[base(), h]), [other(0, "problem group `g`", 20), other(1, "problem group `h`", 20)]);
+    assert_eq!(only_on(&[base(), h]), [other(0, "problem group `g`", 20), other(1, "problem group `h`", 20)]);
     let fewer = run(1, "g", "A", &costs[..12]);
-    assert_eq!(told(&[base(), fewer]), [other(0, "instances, queries, sweep points or seeds of `A`", 8)]);
+    assert_eq!(only_on(&[base(), fewer]), [other(0, "instances, queries, sweep points or seeds of `A`", 8)]);
     let mut gone = run(1, "g", "A", &costs);
     gone.studies = BTreeMap::from([("t".to_owned(), gone.studies.remove("s").unwrap())]);
-    assert_eq!(told(&[base(), gone]), [other(0, "the study", 20), other(1, "the study", 20)]);
+    assert_eq!(only_on(&[base(), gone]), [other(0, "the study", 20), other(1, "the study", 20)]);
 }
 
 #[test]

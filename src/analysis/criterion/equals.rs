@@ -94,7 +94,7 @@ struct Tally<'e> {
 }
 
 impl Equals<'_> {
-    /// The truth and the number of one case; nothing if it is not asked.
+    /// The truth and the number of one case; `None` if the claim does not look at it.
     fn pair(&self, run: &Run<'_>, case: &Case<'_>) -> Option<(f64, f64)> {
         let Some(truth) = self.truth else { return case.pair() };
         // What was not measured is as wrong as what is far off, unless the truth is unknown too.
@@ -170,7 +170,7 @@ impl Criterion for Equals<'_> {
         let refused = found.refused;
         because.extend((refused > 0).then(|| format!("{refused} of these paths the verifier refuses")));
         because.extend(censored::outside_in_words(&self.of, found.outside).filter(|_| self.truth.is_none()));
-        let ours = Share::of(found).map(|share| {
+        let ours = Share::from_number(found).map(|share| {
             let what = format!("trials on which {metric} is {truth}");
             share.estimate(&what).of_cases([same as usize, all as usize])
         });

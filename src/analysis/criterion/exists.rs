@@ -200,7 +200,7 @@ impl<'a> Attained<'a> {
 
     /// Each place where trials ran under the evidence's interpretation, with the contenders whose trials did.
     fn places<'e>(&'e self, evidence: &'e Evidence<'_>) -> Vec<(&'e Run<'e>, &'e Place<'a>, Vec<&'e str>)> {
-        let asked = |place: &'e Place<'a>| {
+        let seen = |place: &'e Place<'a>| {
             let run = evidence.run(&place.study.name).filter(|run| run.is_covered())?;
             let ran = |label: &str| {
                 let contender = run.study.contenders.iter().find(|contender| contender.label == label);
@@ -209,10 +209,10 @@ impl<'a> Attained<'a> {
             };
             let contenders = self.contenders.iter().map(String::as_str).filter(|label| ran(label));
             let contenders: Vec<&str> = contenders.collect();
-            let is_asked = !contenders.is_empty() && self.against.iter().all(|base| ran(base));
-            is_asked.then_some((run, place, contenders))
+            let is_run = !contenders.is_empty() && self.against.iter().all(|base| ran(base));
+            is_run.then_some((run, place, contenders))
         };
-        self.places.iter().filter_map(asked).collect()
+        self.places.iter().filter_map(seen).collect()
     }
 
     /// The trials of `contender` in one problem group, which was selected or not.

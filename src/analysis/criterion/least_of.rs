@@ -1,6 +1,6 @@
 //! Whether some contenders' medians are below those of others on every problem, failures counted as infinite.
 //!
-//! Each comparison is a ratio of two medians with an interval; the largest ratio decides. Where it is asked for, what
+//! Each comparison is a ratio of two medians with an interval; the largest ratio decides. With `by_inclusion`, what
 //! follows from one contender's steps including another's is stated and held against the runs, not estimated from them.
 
 use super::{Criterion, Entry, without};
@@ -49,7 +49,7 @@ by_percent = 20
 struct Settings {
     /// The trials that are looked at: study, problems and metric.
     of: SelectionSpec,
-    /// Contenders each of which is claimed to be below every one of `higher`.
+    /// Contenders that are claimed to be below every one of `higher`, each by itself.
     lower: crate::analysis::selection_spec::Labels,
     /// Those that they are compared with.
     higher: crate::analysis::selection_spec::Labels,
@@ -72,7 +72,7 @@ struct LeastOf<'a> {
     plan: Resampling,
 }
 
-/// Fewest seeds of two contenders that draw of which medians decide: of 4 each, all of one are below all of the other's by
+/// Fewest seeds with which medians of two contenders that draw decide: of 4 each, all of one are below all of the other's by
 /// chance once in 70 times; of 3 each once in 20 times. A contender with one seed does not draw; a problem that was drawn does.
 const FEWEST_SEEDS: usize = 4;
 
@@ -108,13 +108,13 @@ impl<'a> LeastOf<'a> {
         let metric = of.metric(context)?;
         let with = |low: &String| higher.iter().map(|high| (low.clone(), high.clone())).collect::<Vec<_>>();
         let pairs: Vec<(String, String)> = lower.iter().flat_map(with).collect();
-        let said = |(low, high): &(String, String)| {
+        let inclusion = |(low, high): &(String, String)| {
             if !settings.by_inclusion {
                 return Ok(Inclusion::Open);
             }
             Inclusion::in_study(of.study, context.point, low, high)
         };
-        let inclusions = pairs.iter().map(said).collect::<Result<_, _>>()?;
+        let inclusions = pairs.iter().map(inclusion).collect::<Result<_, _>>()?;
         let plan = plan(&context.seed_names());
         Ok(Self { of, metric, pairs, by_percent: settings.by_percent, inclusions, plan })
     }
@@ -175,7 +175,7 @@ impl<'a> LeastOf<'a> {
         all
     }
 
-    /// The problems that could be posed, or of which nothing ran; if none could, all of them.
+    /// The problems that could be posed or did not run; if none could, all of them.
     fn posed(&self, run: &Run<'_>) -> Vec<&String> {
         let labels = || self.pairs.iter().flat_map(|(low, high)| [low, high]);
         let is_posed = |group: &&String| {
@@ -186,7 +186,7 @@ impl<'a> LeastOf<'a> {
         if posed.is_empty() { self.of.groups.iter().collect() } else { posed }
     }
 
-    /// What the comparisons say, if they are all that are asked for of what could be posed.
+    /// What the comparisons say, if they are all those that could be posed.
     fn outcome(&self, numbers: &[Number], ends: Ends) -> Outcome {
         let all = compared(numbers, ends);
         let posed = self.of.groups.len() - left_out(numbers).len();

@@ -179,8 +179,8 @@ impl<'a> Lower<'a> {
             let Some(Band { mean, band, .. }) = band else { continue };
             let points = self.of.sweep_points().into_iter().zip(mean.into_iter().zip(band));
             numbers.extend(points.map(|(point, (mean, interval))| {
-                let (part, value) = (name::sweep(&point), Some(mean));
-                Number { part, ends, value, interval: Some(interval), n, ..Number::default() }
+                let part = name::sweep(&point);
+                Number { part, ends, value: Some(mean), interval: Some(interval), n, ..Number::default() }
             }));
         }
         numbers
@@ -200,7 +200,6 @@ impl<'a> Lower<'a> {
         (!band.is_empty()).then(|| all_along(self.way, &band))
     }
 
-    /// Along the sweep.
     fn along_sweep(&self, numbers: &[Number]) -> CriterionResult {
         let all = whole(numbers);
         let points = parts(numbers, Ends::Measured);

@@ -106,7 +106,8 @@ impl<'a> MeanOf<'a> {
         let is_agreed = values.iter().all(|value| Some(*value) == first);
         let n = values.len();
         let value = if is_agreed { first } else { mean(&values) };
-        let (deviation, greatest) = (standard_deviation(&values), values.iter().copied().reduce(farther));
+        let deviation = standard_deviation(&values);
+        let greatest = values.iter().copied().reduce(farther);
         let is_few = n.min(self.instances) < FEWEST_NORMAL;
         let values = if is_few { values } else { Vec::new() };
         Number { ends, value, is_agreed, n, greatest, deviation, values, ..Number::default() }

@@ -126,7 +126,7 @@ pub struct Entry {
     /// One line for `replan list`.
     pub about: &'static str,
     /// Raised whenever a change moves what it finds in the same trials, of the settings that it moves: what was found under interpretations
-    /// is then asked again.
+    /// is then computed again.
     pub revision: fn(&Table) -> u32,
     /// What its numbers are called, with a revision, once what only weighs them is taken out of its settings: criteria that leave the same
     /// share their numbers. None of a rule, which looks at no trial.

@@ -100,7 +100,7 @@ impl<'a> OnEvery<'a> {
         Ok(Self { of, that, bound: settings.bound.unwrap_or_default(), plan })
     }
 
-    /// How a case speaks; nothing if it is not asked.
+    /// How a case speaks; `None` if the claim does not look at it.
     fn outcome_of_case(&self, run: &Run<'_>, case: &Case<'_>) -> Option<CaseOutcome> {
         let holds = |holds| if holds { CaseOutcome::For } else { CaseOutcome::Against };
         let side = |gap: f64| match gap {
@@ -168,13 +168,14 @@ impl<'a> OnEvery<'a> {
 impl Criterion for OnEvery<'_> {
     fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
         let instances = self.of.instances(evidence);
-        let said = self.of.run(evidence).map(|run| self.outcomes(run, &instances)).unwrap_or_default();
-        let count = |wanted: CaseOutcome| said.iter().flatten().filter(|(says, _)| *says == wanted).count();
+        let outcomes = self.of.run(evidence).map(|run| self.outcomes(run, &instances)).unwrap_or_default();
+        let count =
+            |wanted: CaseOutcome| outcomes.iter().flatten().filter(|(says, _)| *says == wanted).count();
         let hits_of = |instance: &Vec<(CaseOutcome, &Row)>| {
             let hits = instance.iter().filter(|(says, _)| *says == CaseOutcome::For).count();
             [hits as f64, instance.len() as f64]
         };
-        let counts: Vec<[f64; 2]> = said.iter().map(hits_of).collect();
+        let counts: Vec<[f64; 2]> = outcomes.iter().map(hits_of).collect();
         let whole = Number {
             below: count(CaseOutcome::For),
             equal: count(CaseOutcome::Equal),
@@ -210,7 +211,8 @@ impl Criterion for OnEvery<'_> {
         let outside =
             censored::outside_in_words(&self.of, all.outside).filter(|_| self.that != Condition::Solved);
         let tie = all.drawn.filter(|_| all.is_tied()).and_then(tied);
-        let share = Share::of(all).map(|share| share.estimate(&format!("cases on which {}", self.claim())));
+        let share =
+            Share::from_number(all).map(|share| share.estimate(&format!("cases on which {}", self.claim())));
         CriterionResult {
             outcome: Some(outcome),
             ties: if outcome == Outcome::Open { equal } else { 0 },
@@ -228,8 +230,8 @@ impl Criterion for OnEvery<'_> {
     fn show(&self, evidence: &Evidence<'_>, _: &[Number], found: &mut CriterionResult) {
         let Some(run) = self.of.run(evidence) else { return };
         let instances = self.of.instances(evidence);
-        let said = self.outcomes(run, &instances);
-        let first = |wanted: CaseOutcome| said.iter().flatten().find(|(says, _)| *says == wanted);
+        let outcomes = self.outcomes(run, &instances);
+        let first = |wanted: CaseOutcome| outcomes.iter().flatten().find(|(says, _)| *says == wanted);
         let shown = first(CaseOutcome::Against).or_else(|| first(CaseOutcome::Equal));
         found.trial = shown.map(|(_, row)| run.trial(row));
     }

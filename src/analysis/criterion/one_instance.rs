@@ -81,8 +81,8 @@ struct OneInstance<'a> {
 /// # Errors
 /// A settings error of the criterion.
 pub fn instances(context: &Context<'_>, evidence: &Evidence<'_>) -> Result<Vec<Instances>, SettingsError> {
-    let asked = context.claim.criteria().filter(|(name, _)| *name == ENTRY.name);
-    asked
+    let criteria = context.claim.criteria().filter(|(name, _)| *name == ENTRY.name);
+    criteria
         .map(|(_, settings)| {
             let one = OneInstance::new(&Context { settings, ..*context })?;
             Ok(one.held(&one.numbers(evidence)))
@@ -216,7 +216,7 @@ fn rank_sentence(instances: &Instances, printed: Printed) -> String {
     format!("{}: {middle}{range}; printed {printed}, {place}{accepted}", instances.label)
 }
 
-/// Where a number stands among instances, of which more are unsolved, in words; the share at or below it comes with its interval.
+/// Where a number stands among instances beside unsolved ones, in words; the share at or below it comes with its interval.
 fn place(rank: Rank, (share, interval): (f64, Interval), unsolved: &str) -> String {
     let count = rank.instances();
     let percent = 100.0 * share;
@@ -315,21 +315,21 @@ mod tests {
 
     #[test]
     fn a_number_beyond_all_instances_has_no_rank_in_per_cent() {
-        let said = |printed: f64| {
+        let placed = |printed: f64| {
             let rank = Rank::new(printed, &[1.0, 2.0, 3.0, 4.0]);
             let share = rank.share_at_most().zip(rank.interval_at_most(LEVEL)).unwrap();
             place(rank, share, " (2 more have none)")
         };
         // One side of the exact interval of 0 of 4: 1 - 0.025^(1/4) = 60.2 %.
         assert_eq!(
-            said(4.5),
+            placed(4.5),
             "above all 4 instances (2 more have none): at most 60.2 % of such instances reach it"
         );
         assert_eq!(
-            said(0.5),
+            placed(0.5),
             "below all 4 instances (2 more have none): at most 60.2 % of such instances reach it"
         );
-        assert!(said(4.0).starts_with("with 100.0 % of 4 instances"), "{}", said(4.0));
-        assert!(said(2.5).starts_with("with 50.0 % of 4 instances"), "{}", said(2.5));
+        assert!(placed(4.0).starts_with("with 100.0 % of 4 instances"), "{}", placed(4.0));
+        assert!(placed(2.5).starts_with("with 50.0 % of 4 instances"), "{}", placed(2.5));
     }
 }

@@ -68,7 +68,6 @@ struct RowSpec {
 /// One printed row.
 struct Row<'a> {
     of: Selection<'a>,
-    /// What each cell is.
     cells: Cells,
 }
 
@@ -206,7 +205,7 @@ impl RowOneInstance<'_> {
         row.of.trial(evidence, nearest.and_then(|(instance, _)| instance.cases.first()))
     }
 
-    /// Fewest instances of which either test can refuse any row: the least two-sided rank is 2 / (n + 1).
+    /// Fewest instances with which either test can refuse any row: the least two-sided rank is 2 / (n + 1).
     fn fewest(&self) -> usize {
         (2.0 / self.refused_below).floor() as usize
     }

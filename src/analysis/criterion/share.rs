@@ -78,9 +78,9 @@ enum Hits {
     Higher,
     /// Instances with the metric below the other contender's on every case that both solve.
     LowerThroughout,
-    /// Instances of which more cases are solved than by the other contender.
+    /// Instances with more cases solved than by the other contender.
     SolvedMore,
-    /// Instances of which more cases are solved than by the other contender at every point of the sweep.
+    /// Instances with more cases solved than by the other contender at every point of the sweep.
     SolvedMoreThroughout,
     /// Cases that the other contender leaves unsolved and this one solves.
     Cured,
@@ -158,7 +158,7 @@ impl<'a> Counted<'a> {
         Ok(Self { of, settings, plan })
     }
 
-    /// Hits and chances of one case; none if it is not asked.
+    /// Hits and chances of one case; `None` if the claim does not look at it.
     fn counts(&self, case: &Case<'_>) -> Option<[f64; 2]> {
         let row: &Row = case.row;
         let hit = |is: bool| Some([f64::from(u8::from(is)), 1.0]);
@@ -206,7 +206,7 @@ impl<'a> Counted<'a> {
         outside_in_words(&self.of, count).filter(|_| is_of_solved)
     }
 
-    /// Hits and chances of one instance; its cases of which nothing is known left out, or all as hits or as misses.
+    /// Hits and chances of one instance; its unknown cases left out, or all as hits or as misses.
     fn of_instance(&self, instance: &Instance<'_>, unknown: Option<bool>) -> [f64; 2] {
         let is_throughout = self.settings.hits == Hits::SolvedMoreThroughout;
         if (is_throughout || self.settings.hits == Hits::SolvedMore) && !instance.cases.is_empty() {
@@ -238,7 +238,7 @@ impl<'a> Counted<'a> {
         }
     }
 
-    /// The share of instances whose cases of which nothing is known are left out, or all hits or misses.
+    /// The share of instances whose unknown cases are left out, or all hits or misses.
     fn share(&self, instances: &[Instance<'_>], unknown: Option<bool>) -> (Vec<[f64; 2]>, Option<Share>) {
         let counts: Vec<[f64; 2]> =
             instances.iter().map(|instance| self.of_instance(instance, unknown)).collect();
@@ -246,7 +246,7 @@ impl<'a> Counted<'a> {
         (counts, share)
     }
 
-    /// How many cases of which nothing is known could turn what was found: all are counted as misses, then all as hits.
+    /// How many unknown cases could turn what was found: all are counted as misses, then all as hits.
     fn censored(&self, numbers: &[Number], outcome: Option<Outcome>) -> usize {
         let unknown = whole(numbers).unended;
         // How many events there would have been is not known even as a bound.
@@ -329,8 +329,9 @@ impl Counted<'_> {
         }
         let mut kinds: Vec<(String, usize)> = kinds.into_iter().collect();
         kinds.sort_by_key(|(_, count)| Reverse(*count));
-        let said: Vec<String> = kinds.iter().map(|(kind, count)| format!("{kind} ({count})")).collect();
-        (!said.is_empty()).then(|| format!("refused because, first fault of each path: {}", said.join("; ")))
+        let refusals: Vec<String> = kinds.iter().map(|(kind, count)| format!("{kind} ({count})")).collect();
+        (!refusals.is_empty())
+            .then(|| format!("refused because, first fault of each path: {}", refusals.join("; ")))
     }
 }
 
@@ -372,7 +373,7 @@ impl Criterion for Counted<'_> {
     fn weigh(&self, numbers: &[Number]) -> CriterionResult {
         let all = whole(numbers);
         let undecided = self.settings.accepted.map(|_| Outcome::Open);
-        let Some(share) = Share::of(all) else {
+        let Some(share) = Share::from_number(all) else {
             let because = format!("{}: nothing to count {} among", self.of.description(), self.description());
             return CriterionResult { outcome: undecided, ..CriterionResult::open(because) };
         };

@@ -44,8 +44,8 @@ refused_below = 0.05
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
-    /// The studies with the claims of each that print the means: those that `mean_of` judges. Untestable claims and differences of
-    /// two cells are left out.
+    /// The studies with the claims of each that print the means: those that `mean_of` judges. Claims that are not testable and
+    /// differences of two cells are left out.
     #[serde(rename = "in")]
     places: Vec<PlaceSpec>,
     /// The table is refused where its probability, times the interpretations that the paper may mean, is below this.
@@ -68,7 +68,7 @@ struct Cell<'a> {
 }
 
 struct TableMeans<'a> {
-    /// The cells by what they share: the study and its problem groups.
+    /// The cells of each study and its problem groups.
     rows: Vec<Vec<Cell<'a>>>,
     refused_below: f64,
     interpretations: usize,
@@ -119,7 +119,7 @@ impl<'a> TableMeans<'a> {
     }
 }
 
-/// The cell that the claim `id` is, `None` if it is untestable or a difference of two others.
+/// The cell that the claim `id` is, `None` if it is not testable or a difference of two others.
 fn cell<'a>(context: &Context<'a>, at: &str, id: &str) -> Result<Option<Cell<'a>>, SettingsError> {
     let claim = context.claim_called(id)?;
     if claim.untestable.is_some() || claim.difference.is_some() {
@@ -147,7 +147,7 @@ struct RowResult<'a> {
     farthest: usize,
     /// Exact cells that do not print as the paper's.
     refused: Vec<&'a str>,
-    /// By what share every number of the row would have to be off to be refused alone, T² at a share of one.
+    /// The share by which every number of the row would have to be off to be refused alone, T² at a share of one.
     power: Option<(JointTest, f64)>,
 }
 

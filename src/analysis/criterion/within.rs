@@ -169,7 +169,7 @@ impl<'a> Within<'a> {
         if is_same_side { Outcome::SignOnly } else { Outcome::Fails }
     }
 
-    /// Instances of which there are too few; of two groups each needs as many, but for one in which nothing is drawn.
+    /// How many instances are needed, where there are too few; of two groups each needs as many, but for one in which nothing is drawn.
     fn needs(numbers: &[Number]) -> Option<usize> {
         let groups = parts(numbers, Ends::Measured);
         if groups.is_empty() {

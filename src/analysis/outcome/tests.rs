@@ -172,9 +172,9 @@ fn each_cap_does_what_it_says() {
 
 #[test]
 fn an_interval_that_holds_the_bound_leaves_it_open() {
-    let said = |low, high| Outcome::at_least(low, high, 0.5);
+    let outcome = |low, high| Outcome::at_least(low, high, 0.5);
     assert_eq!(
-        [said(0.5, 0.7), said(0.4, 0.7), said(0.1, 0.4)],
+        [outcome(0.5, 0.7), outcome(0.4, 0.7), outcome(0.1, 0.4)],
         [Outcome::Holds, Outcome::Open, Outcome::Fails]
     );
 }

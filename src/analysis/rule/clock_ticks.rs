@@ -1,5 +1,5 @@
 //! Whether a printed time is a whole number of ticks of a coarse clock. A time of an unknown program on an unknown
-//! machine stays untestable; this says what can be said of its digits.
+//! machine is not testable; this looks at its digits alone.
 
 use super::{Entry, refused, rule};
 use base::settings::Accepted;
@@ -42,7 +42,7 @@ chosen = "named by the paper, before its times were looked at"
 struct Settings {
     /// The tick, as numerator and denominator of a fraction of a second.
     tick_s: [u32; 2],
-    /// How the tick came to be asked about: one read off the times themselves proves nothing.
+    /// How the tick was chosen: one read off the times themselves proves nothing.
     chosen: String,
     /// Other claims whose times should be ticks of the same clock.
     #[serde(default)]

@@ -39,8 +39,8 @@ fn possible(print: Print, ends: Option<[[i32; 2]; 2]>) -> String {
         let own = lengths(digits).into_iter().filter(|length| allowed.contains(length));
         own.map(|own| format!("{} + {}√2, {how}", own.straight, own.diagonal)).collect::<Vec<_>>()
     };
-    let said = [("rounded", Digits::Rounded), ("cut off", Digits::Truncated)].map(spelled).concat();
-    said.join(" or ")
+    let spelled = [("rounded", Digits::Rounded), ("cut off", Digits::Truncated)].map(spelled).concat();
+    spelled.join(" or ")
 }
 
 #[derive(Deserialize, JsonSchema)]

@@ -27,7 +27,7 @@ use base::settings::SettingsError;
 use base::text::listed;
 use proofs::proof::Proof;
 
-/// A rule: a criterion that selects no trial. Polylines only remember what other claims have asked.
+/// A rule: a criterion that selects no trial. Polylines only remember what other claims needed.
 struct Rule<F>(F);
 
 impl<F: Fn(&Polylines, bool) -> CriterionResult> Criterion for Rule<F> {
@@ -57,8 +57,8 @@ fn refused(proof: Proof) -> CriterionResult {
 /// The same, with what is possible in words.
 fn refused_or(proof: Proof, possible: &str) -> CriterionResult {
     let outcome = (!proof.is_possible).then_some(Outcome::Proved);
-    let said = proof.is_possible.then(|| format!("{POSSIBLE}{possible}"));
-    let because = proof.because.into_iter().chain(said).collect();
+    let possible = proof.is_possible.then(|| format!("{POSSIBLE}{possible}"));
+    let because = proof.because.into_iter().chain(possible).collect();
     CriterionResult { outcome, because, premises: proof.premises, ..CriterionResult::default() }
 }
 

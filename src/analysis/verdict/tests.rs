@@ -6,8 +6,8 @@ fn judged(verdict: Verdict, is_part: bool, is_theorem: bool) -> ClaimVerdict {
     let text =
         "claim = 'a'\nat = 'here'\nverdict = 'reproduced'\noutcome = 'holds'\ninterpretation = 'default'";
     let one: ClaimVerdict = toml::from_str(text).unwrap();
-    let said = |is: bool| is.then(|| "so".to_owned());
-    ClaimVerdict { verdict, part_of: said(is_part), theorem: said(is_theorem), ..one }
+    let text = |is: bool| is.then(|| "so".to_owned());
+    ClaimVerdict { verdict, part_of: text(is_part), theorem: text(is_theorem), ..one }
 }
 
 /// Claims as they stand in a file.
@@ -49,15 +49,14 @@ fn a_theorem_is_violated_by_what_contradicts_it_and_by_its_sign_alone() {
 #[test]
 fn a_seed_that_moves_nothing_says_so_in_place_of_its_outcome() {
     let one = |is_seedless| {
-        let said = Some("same under all 3".to_owned());
+        let beside = Some("same under all 3".to_owned());
         ClaimVerdict {
             second: Some(Outcome::Holds),
             is_seedless,
-            said,
+            beside,
             ..judged(Verdict::Reproduced, false, false)
         }
     };
-    assert_eq!(one(false).beside().unwrap(), "same under all 3; second seed: holds");
-    assert_eq!(one(true).beside().unwrap(), "same under all 3; the seed moves nothing");
-    assert_eq!(one(true).beside_if_other(), one(true).beside());
+    assert_eq!(one(false).beside_with_seed().unwrap(), "same under all 3; second seed: holds");
+    assert_eq!(one(true).beside_with_seed().unwrap(), "same under all 3; the seed moves nothing");
 }

@@ -16,7 +16,7 @@ fn outcomes([holds, open, fails]: [usize; 3]) -> Vec<Outcome> {
     many(Outcome::Holds, holds).chain(many(Outcome::Open, open)).chain(many(Outcome::Fails, fails)).collect()
 }
 
-fn of(counts: [usize; 3], default: Polarity, second: Polarity) -> (Verdict, Line) {
+fn verdict_of(counts: [usize; 3], default: Polarity, second: Polarity) -> (Verdict, Line) {
     results(&outcomes(counts), default, second).verdict()
 }
 
@@ -49,8 +49,8 @@ fn mirrored(verdict: Verdict) -> Verdict {
 fn the_mirror_image_of_a_triple_gets_the_mirrored_verdict() {
     let mut seen = std::collections::BTreeSet::new();
     all(|[holds, open, fails], default, second| {
-        let (verdict, line) = of([holds, open, fails], default, second);
-        let (other, other_line) = of([fails, open, holds], default.mirrored(), second.mirrored());
+        let (verdict, line) = verdict_of([holds, open, fails], default, second);
+        let (other, other_line) = verdict_of([fails, open, holds], default.mirrored(), second.mirrored());
         assert_eq!(
             (other, other_line),
             (mirrored(verdict), line),
@@ -72,7 +72,8 @@ fn the_mirror_image_of_a_triple_gets_the_mirrored_verdict() {
 #[test]
 fn one_more_open_result_never_strengthens_a_verdict() {
     all(|[holds, open, fails], default, second| {
-        let [before, after] = [open, open + 1].map(|open| of([holds, open, fails], default, second).0);
+        let [before, after] =
+            [open, open + 1].map(|open| verdict_of([holds, open, fails], default, second).0);
         // What speaks both ways stays so: open results cannot hide it.
         assert!(
             after.strength() <= before.strength(),
@@ -140,7 +141,7 @@ fn each_line_of_the_table_says_what_it_says() {
         ([0, 4, 0], Open, Open, Verdict::Inconclusive, Line::Short),
         ([0, 0, 0], Open, Open, Verdict::Inconclusive, Line::Short),
     ] {
-        assert_eq!(of(counts, default, second), (verdict, line), "{counts:?} {default:?} {second:?}");
+        assert_eq!(verdict_of(counts, default, second), (verdict, line), "{counts:?} {default:?} {second:?}");
     }
 }
 

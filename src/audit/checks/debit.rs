@@ -59,7 +59,7 @@ impl Debit {
     fn variances_of(&self, k: i128) -> Option<Vec<Exact>> {
         let n = i128::from(self.n);
         let about = mul(mul(self.all, self.all)?, Exact::new(k.checked_mul(n - k)?, n))?;
-        self.divisor.of(n).into_iter().map(|divisor| div(about, whole(divisor))).collect()
+        self.divisor.values(n).into_iter().map(|divisor| div(about, whole(divisor))).collect()
     }
 }
 
@@ -111,7 +111,7 @@ impl Test for Debit {
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
-        let divisors = self.divisor.of(self.n.into());
+        let divisors = self.divisor.values(self.n.into());
         let divisors: Vec<String> = divisors.iter().map(ToString::to_string).collect();
         let given = json!({ "n": self.n.to_string(), "whole": spelled(self.all), "divisors": divisors });
         let step = |(k, variances): &(i128, Vec<Exact>)| {

@@ -215,7 +215,7 @@ impl Moment {
     }
 
     fn divisors(&self) -> Vec<i128> {
-        self.divisor.of(self.n.into())
+        self.divisor.values(self.n.into())
     }
 
     fn step(squares: &Squares) -> Option<Value> {

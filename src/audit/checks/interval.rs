@@ -68,7 +68,8 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
 impl KofN {
     /// The intervals that count, by method, as shares.
     fn intervals(&self) -> Vec<(&'static str, Interval)> {
-        let (k, n) = (self.k as usize, self.n as usize);
+        let k = self.k as usize;
+        let n = self.n as usize;
         let level = float(self.level);
         let z = normal_multiplier(level);
         let about = |share: f64, trials: f64| {

@@ -400,7 +400,9 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
     numbers.extend(relation.numbers("parts", input)?);
     let choices = vec![(1..numbers.len()).collect()];
     let premise = "these are all that it sums up";
-    let (forms, weights, steps) = (vec![form], Vec::new(), Cell::default());
+    let forms = vec![form];
+    let weights = Vec::new();
+    let steps = Cell::default();
     Ok(Box::new(Summary { numbers, choices, forms, weights, premise, steps }))
 }
 

@@ -40,7 +40,8 @@ pub fn parse_movingai_map(text: &str) -> Result<Grid2, GridError> {
     let lines: Vec<&str> = text.trim_end().lines().map(str::trim_end).collect();
     let words = |index: usize| lines.get(index).map_or(Vec::new(), |line| line.split_whitespace().collect());
     let wrong = |index: usize, accepted: &str| {
-        let (line, accepted) = (index + 1, format!("`{accepted}`"));
+        let line = index + 1;
+        let accepted = format!("`{accepted}`");
         if index < lines.len() {
             GridError::Text { line, found: words(index).join(" "), accepted }
         } else {

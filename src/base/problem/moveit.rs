@@ -46,7 +46,7 @@ pub fn parse_moveit(
             "the start is that of the request; the `robot_state` of the scene is another one".to_owned(),
         );
     }
-    Ok(seen.into_inner().of(Problem::new(obstacles, start, goals)))
+    Ok(seen.into_inner().noted(Problem::new(obstacles, start, goals)))
 }
 
 impl Reader<'_> {
@@ -160,7 +160,8 @@ impl Reader<'_> {
         let poses_at = self.yaml.get(object, "primitive_poses")?;
         let poses = self.yaml.list(poses_at)?;
         if forms.len() != poses.len() || forms.is_empty() {
-            let (found, accepted) = (poses.len(), forms.len().max(1));
+            let found = poses.len();
+            let accepted = forms.len().max(1);
             let message =
                 format!("`{name}` has {found} poses for {} primitives; {accepted} are accepted", forms.len());
             return Err(self.fault(poses_at, message));

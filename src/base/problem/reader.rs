@@ -74,8 +74,8 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// The problem, with it.
-    pub(super) fn of(self, problem: Problem) -> Problem {
+    /// The problem, with what was seen of it.
+    pub(super) fn noted(self, problem: Problem) -> Problem {
         let Self { robot, notes, ignored } = self;
         Problem { robot, notes: notes.into_iter().collect(), ignored, ..problem }
     }

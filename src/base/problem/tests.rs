@@ -518,14 +518,14 @@ fn an_archive_of_pairs_is_a_set_and_a_fault_in_one_leaves_the_others() {
     let expected = Expected { robot: "panda", base: "base", joints: vec!["lift", "turn"] };
     let all = ProblemSet::open(&path, None).unwrap();
     assert_eq!(all.count(), 3);
-    let said = |index| {
+    let found = |index| {
         all.problem(index, &expected).map(|problem| problem.obstacles.len()).map_err(|e| e.to_string())
     };
-    let wrong = said(0).unwrap_err();
+    let wrong = found(0).unwrap_err();
     assert!(wrong.contains("box_panda/scene0001.yaml:1:8: there is no `collision_objects`"), "{wrong}");
-    assert_eq!(said(1), Ok(3));
-    assert!(said(2).unwrap_err().contains("scene0002.yaml:1:1: the scene has no request"));
-    assert!(said(3).unwrap_err().contains("the set has 3"));
+    assert_eq!(found(1), Ok(3));
+    assert!(found(2).unwrap_err().contains("scene0002.yaml:1:1: the scene has no request"));
+    assert!(found(3).unwrap_err().contains("the set has 3"));
     assert_eq!(ProblemSet::open(&path, Some("shelf")).unwrap().count(), 2);
     let none = ProblemSet::open(&path, Some("cage")).unwrap_err().to_string();
     assert!(none.contains("no scene and no request of a folder `cage`"), "{none}");

@@ -372,8 +372,13 @@ fn what_the_format_leaves_open_is_read_as_it_says() {
         let robot = read(&ARM.replacen(from, to, 1), FOOT.as_bytes()).unwrap();
         let without_speed = |robot: &Robot| {
             let joints = robot.joints.iter().map(|joint| Joint { speed: None, ..joint.clone() });
-            let (base, notes) = (String::new(), Vec::new());
-            Robot { joints: joints.collect(), files: Vec::new(), base, notes, ..robot.clone() }
+            Robot {
+                joints: joints.collect(),
+                files: Vec::new(),
+                base: String::new(),
+                notes: Vec::new(),
+                ..robot.clone()
+            }
         };
         assert_eq!(without_speed(&robot), without_speed(&plain), "{to}");
     }

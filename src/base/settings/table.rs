@@ -67,7 +67,6 @@ impl Part {
 struct Layer {
     /// On whose behalf.
     by: String,
-    /// Its keys.
     keys: BTreeSet<String>,
     /// Where it stands, or the parts of it, if a file holds them.
     places: Vec<Place>,
@@ -151,6 +150,14 @@ impl Settings {
         let over = Layer { by: by.to_owned(), keys: over.keys().cloned().collect(), places };
         let origin = Origin::Overlaid { under: Box::new(self.clone()), over };
         Self { table, origin, filled: self.filled.clone() }
+    }
+
+    /// These settings as those of another entry that is like this one, called `label`: with the keys of `own`, which stands at `place`.
+    #[must_use]
+    pub fn like(&self, own: &Table, label: &str, place: Place) -> Self {
+        let mut like = self.overlaid_from(own, &format!("like `{label}`"), vec![place]);
+        like.filled.retain(|key| !own.contains_key(key));
+        like
     }
 
     /// These settings with the values that hold where they leave a key out, so that a record of them says all that moved a

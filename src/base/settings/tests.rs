@@ -269,7 +269,7 @@ fn each_fault_stands_at_its_own_key_or_value_with_what_is_accepted() {
         let found = faults_of(text);
         let [(l, c, m)] = found.as_slice() else { panic!("{text}: {found:?}") };
         assert_eq!((*l, *c), (*line, *column), "{text}: {m}");
-        assert!(m.starts_with(message), "{text}\nis said: {m}\nshould be: {message}");
+        assert!(m.starts_with(message), "{text}\ngives: {m}\nshould be: {message}");
     }
 }
 
@@ -293,8 +293,8 @@ fn of_very_many_faults_the_first_fifty_are_shown_and_the_others_counted() {
 fn a_name_is_compared_with_known_ones_up_to_sixty_four_letters() {
     for (letters, hint) in [(64, true), (65, false)] {
         let known = "n".repeat(letters - 1);
-        let said = none_called("map", &format!("{known}m"), [known.as_str()]);
-        assert_eq!(said.contains("did you mean"), hint, "{said}");
+        let refusal = none_called("map", &format!("{known}m"), [known.as_str()]);
+        assert_eq!(refusal.contains("did you mean"), hint, "{refusal}");
     }
 }
 

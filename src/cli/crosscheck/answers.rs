@@ -53,7 +53,6 @@ pub fn answer(subject: &dyn Subject, folder: &Path) -> Result<(), Failure> {
     write(folder, "planners", checked.len(), vec![free, of_scene])
 }
 
-/// The questions.
 struct Questions {
     q_rad: Vec<Vec<f64>>,
     frames: Vec<bool>,

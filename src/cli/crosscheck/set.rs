@@ -40,8 +40,9 @@ impl<'a> Sample<'a> {
         let (study, point, family) =
             spec.posed(paths, &format!("{place}.paths"), &places.folder, &places.inputs)?;
         if let Some(lacks) = family.lacks() {
-            let (study, group) = (study.name, paths.problems.clone());
-            return Err(StudyError::LacksFiles { study, group, lacks }.into());
+            return Err(
+                StudyError::LacksFiles { study: study.name, group: paths.problems.clone(), lacks }.into()
+            );
         }
         let manifest = Manifest::read(&places.runs, &study.name)?;
         let mut rows = read_endings(&places.runs, &study.name, &manifest.files)?;
@@ -49,7 +50,8 @@ impl<'a> Sample<'a> {
         let is_meant =
             |row: &Row| *row.key.on.group == *paths.problems && row.key.on.interpretation == interpretation;
         rows.retain(|row| row.is_solved() && is_meant(row));
-        let (count, solved) = (entry.sample as usize, rows.len());
+        let count = entry.sample as usize;
+        let solved = rows.len();
         if solved < count {
             let message = format!(
                 "`sample` is {count}; {solved} trials are solved in the stored run, and as many are accepted"

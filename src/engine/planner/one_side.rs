@@ -35,7 +35,8 @@ pub(super) trait OneSided: Planner {
         let mut traces = Vec::new();
         let found = if request.trace {
             let closings = Closings::default();
-            let (mut visits, mut parents) = (VisitOrder::default(), Parents::default());
+            let mut visits = VisitOrder::default();
+            let mut parents = Parents::default();
             let mut watching = ((&mut visits, closings.one_side(0)), &mut parents);
             let found = self.search(posed, request.expansions, &mut watching);
             traces.push(lattice::cells(grid, "opened_start_side", &visits.opened));

@@ -208,7 +208,8 @@ fn insert(motions: &mut Motions<'_>, costs: &mut Costs, nearest: u32, config: &[
     let count = neighbour_count(costs.tree.count(), config.len());
     let near = costs.tree.nearest_of(config, count);
     let first = motions.distance(costs.tree.config(nearest), config);
-    let (mut parent, mut cost) = (nearest, costs.cost[nearest as usize] + first);
+    let mut parent = nearest;
+    let mut cost = costs.cost[nearest as usize] + first;
     let mut joined = vec![nearest];
     for (other, gap) in &near {
         let through = costs.cost[*other as usize] + gap;

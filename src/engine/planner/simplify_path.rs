@@ -67,7 +67,8 @@ impl Stage for SimplifyPath {
         let mut draw = Draw::new(DrawSetting::Seeded, seed::derive(request.seed, &["simplify_path"]));
         let bspline = self.bspline.unwrap_or(BSpline { rounds: 0, least_change: 0.0, share: 0.0 });
         let reduce = self.reduce.unwrap_or(Reduce { tries: 0, empty_tries: 0, range_share: 0.0 });
-        let (mut tried, mut checked) = (0, 0);
+        let mut tried = 0;
+        let mut checked = 0;
         // A shortened path may touch something between two checks. It is then shortened again with finer checks of every motion. If that
         // fails too, or rounding in the plane makes the path longer, it stays as it was.
         for mut motions in [Motions::new(local), Motions::finely(local)] {

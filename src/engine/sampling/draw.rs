@@ -29,7 +29,8 @@ pub struct Draw {
 
 /// The digits of `index` in `base`, mirrored at the point.
 fn radical_inverse(mut index: u32, base: u32) -> f64 {
-    let (mut value, mut unit) = (0.0, 1.0);
+    let mut value = 0.0;
+    let mut unit = 1.0;
     while index > 0 {
         unit /= f64::from(base);
         value += unit * f64::from(index % base);

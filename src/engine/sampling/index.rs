@@ -84,7 +84,8 @@ impl Index {
 
     /// Adds a point; gives its number.
     pub fn add(&mut self, point: &[f64]) -> u32 {
-        let (number, axes) = (self.count(), self.turn_on.len());
+        let number = self.count();
+        let axes = self.turn_on.len();
         self.points.extend_from_slice(point);
         self.hidden.push(false);
         let lane = number % GROUP;

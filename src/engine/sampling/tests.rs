@@ -81,7 +81,8 @@ fn points(kind: usize, axes: usize, stream: &mut seed::Stream) -> Vec<Vec<f64>> 
 
 #[test]
 fn an_index_finds_what_measuring_every_point_finds_also_among_equally_far_ones() {
-    let (mut ties, mut deep) = (0, 0);
+    let mut ties = 0;
+    let mut deep = 0;
     for (kind, turn_on) in (0..5).flat_map(|kind| {
         [vec![false; 2], vec![false; 8], vec![true; 3], vec![false, true, false, true, true, false]]
             .map(|turn_on| (kind, turn_on))

@@ -278,7 +278,8 @@ impl<J: Jumps> Query<'_, J> {
             }
             length += hop;
             cell = cell.wrapping_add_signed(step * hop as i32);
-            let (at, g) = (moved::<DIRECTION>(start, length), from.g + length * ScaledOctile::DIAGONAL);
+            let at = moved::<DIRECTION>(start, length);
+            let g = from.g + length * ScaledOctile::DIAGONAL;
             let turns = self.jumps.pruning().turns(self.jumps.moves().mask(cell));
             if turns >> DIRECTION & 1 == 1 || cell == self.goal {
                 self.offer::<DIRECTION>(from, at, g);

@@ -19,7 +19,6 @@ pub struct Bent {
 }
 
 impl Bent {
-    /// One step.
     fn step(length: f64, way: [i32; 2]) -> Self {
         Self { length, turned_deg: 0.0, way }
     }

@@ -88,7 +88,8 @@ impl JointSpace {
                     *radius += NEARLY_M;
                 }
             }
-            let (obstacles, pairs) = (space.obstacles.clone(), space.self_pairs.clone());
+            let obstacles = space.obstacles.clone();
+            let pairs = space.self_pairs.clone();
             space.larger = Some(Box::new(Self::of_pairs(robot, obstacles, pairs, step_rad)));
         }
         space

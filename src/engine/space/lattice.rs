@@ -69,10 +69,14 @@ impl LatticeWorld {
     /// The same without what searches by jump points have made of it.
     #[must_use]
     pub fn again(&self) -> Self {
-        let Self { grid, cornered, corner_rule, moves, .. } = self;
-        let (jump_lines, jump_table) = (OnceLock::new(), OnceLock::new());
-        let (grid, cornered, moves) = (grid.clone(), cornered.clone(), Arc::clone(moves));
-        Self { grid, cornered, corner_rule: *corner_rule, moves, jump_lines, jump_table }
+        Self {
+            grid: self.grid.clone(),
+            cornered: self.cornered.clone(),
+            corner_rule: self.corner_rule,
+            moves: Arc::clone(&self.moves),
+            jump_lines: OnceLock::new(),
+            jump_table: OnceLock::new(),
+        }
     }
 
     /// Its vertices.

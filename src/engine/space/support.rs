@@ -212,7 +212,7 @@ mod tests {
         assert!(read(&flat).unwrap_err().contains("sides_mm"));
         let empty = "under = 'nothing'\nbase_mm = [0, 0, 0]\nyaw_deg = 0\nwhy = ' '\n";
         assert!(read(empty).unwrap_err().contains("why is empty"));
-        for (of, to, asked) in [
+        for (of, to, question) in [
             (
                 "floor_mm = 0",
                 "floor_mm = -0.8",
@@ -225,7 +225,7 @@ mod tests {
             ),
         ] {
             let message = read(&block.replace(of, to).replace("floor_mm = 0", "floor_mm = -9")).unwrap_err();
-            assert!(message.contains(asked), "{message}");
+            assert!(message.contains(question), "{message}");
         }
         assert!(Support::declared(None).unwrap_err().contains("[support]"));
     }

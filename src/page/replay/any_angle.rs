@@ -21,7 +21,7 @@ pub struct Scene {
 #[derive(Serialize)]
 struct Lane {
     label: String,
-    said: String,
+    ending: String,
     /// Closed nodes in their order: x and y of the node, then of its parent.
     closed: Vec<[f64; 4]>,
     raw: Vec<[f64; 2]>,
@@ -48,7 +48,7 @@ pub fn scene(case: &Case<'_>) -> Option<Scene> {
         let joined = closed.into_iter().zip(parents).map(|([x, y], [u, v])| [x, y, u, v]);
         Lane {
             label: row.key.contender.to_string(),
-            said: outcome_text(row),
+            ending: outcome_text(row),
             closed: joined.collect(),
             raw: middles(kept("raw_path")),
             path: middles(kept("path")),

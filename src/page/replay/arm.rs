@@ -41,7 +41,7 @@ struct Solid {
 #[derive(Serialize)]
 struct Lane {
     label: String,
-    said: String,
+    ending: String,
     /// The radius of each part.
     radii: Vec<f64>,
     /// How long a step of the frames is.
@@ -97,7 +97,7 @@ fn lane(case: &Case<'_>, family: &dyn Family, row: &Row) -> Option<Lane> {
     let clearance = stances.iter().filter_map(|stance| Some((stance.clearance_mm? * 10.0).round() / 10.0));
     Some(Lane {
         label: row.key.contender.to_string(),
-        said: outcome_text(row),
+        ending: outcome_text(row),
         radii,
         step,
         frames,

@@ -16,7 +16,7 @@ pub struct Scene {
 #[derive(Serialize)]
 struct Lane {
     label: String,
-    said: String,
+    ending: String,
     /// Opened cells of each side, in their order.
     opened: [Vec<[u32; 2]>; 2],
     /// Closed cells in their order: the cell, the side that closed it, and how many each side had opened before.
@@ -49,7 +49,7 @@ pub fn scene(case: &Case<'_>) -> Option<Scene> {
         let kept = |name: &str| run.trace(&row.key, name);
         Lane {
             label: row.key.contender.to_string(),
-            said: outcome_text(row),
+            ending: outcome_text(row),
             opened: ["opened_start_side", "opened_goal_side"].map(|name| cells(kept(name))),
             closings: rows(kept("closings")),
             raw: centres(kept("raw_path")),

@@ -17,7 +17,7 @@ pub struct Scene {
 #[derive(Serialize)]
 struct Lane {
     label: String,
-    said: String,
+    ending: String,
     /// Elbow and tip at each station, in centimetres.
     stations: Vec<[f64; 4]>,
 }
@@ -41,7 +41,7 @@ pub fn scene(case: &Case<'_>) -> Option<Scene> {
     let lane = |row: &&study::record::Row| {
         let stations = run.trace(&row.key, "stations")?;
         let stations = stations.values.chunks(stations.width).map(|s| [s[2], s[3], s[4], s[5]]).collect();
-        Some(Lane { label: row.key.contender.to_string(), said: outcome_text(row), stations })
+        Some(Lane { label: row.key.contender.to_string(), ending: outcome_text(row), stations })
     };
     let lanes: Vec<Lane> = case.rows.iter().filter_map(lane).collect();
     (!lanes.is_empty()).then(|| Scene { window: [x[0], x[1], y[0], y[1]], obstacles, lanes })

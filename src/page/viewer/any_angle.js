@@ -6,7 +6,7 @@ const TREE = "#4ba3d9";
 
 export function anyAngle(stage, replay) {
   const [width, height] = replay.size;
-  const drawn = lanes(stage, replay.lanes.map((lane) => `${lane.label}: ${lane.said}`), [0, width, 0, height]);
+  const drawn = lanes(stage, replay.lanes.map((lane) => `${lane.label}: ${lane.ending}`), [0, width, 0, height]);
   const steps = Math.max(...replay.lanes.map((lane) => lane.closed.length)) + 1;
   key(stage);
   const draw = (step) => {

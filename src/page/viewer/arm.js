@@ -27,9 +27,9 @@ export function arm(stage, replay) {
   const steps = Math.max(...views.map((each) => each.count)) - 1;
   const draw = (step) => {
     // In step: each trial is as far along its own way as the others.
-    const said = views.map((each) => each.put(Math.round((step / Math.max(steps, 1)) * Math.max(each.count - 1, 0))));
+    const shown = views.map((each) => each.put(Math.round((step / Math.max(steps, 1)) * Math.max(each.count - 1, 0))));
     paint();
-    return `${step} of ${steps}: ${said.join("; ")}`;
+    return `${step} of ${steps}: ${shown.join("; ")}`;
   };
   const end = () => {
     turns.forEach((controls) => controls.dispose());
@@ -92,8 +92,8 @@ function view(row, replay, lane, colour, camera, extent) {
     const clearance = lane.clearance[step];
     const near = clearance === undefined ? "" : clearance > 0 ? `, clearance ${clearance.toFixed(1)} mm` : ", in contact";
     body.touch(clearance !== undefined && clearance <= 0);
-    caption.textContent = `${lane.label}: ${lane.said}${near}`;
-    return count ? `${lane.label}${near}` : `${lane.label}: ${lane.said}`;
+    caption.textContent = `${lane.label}: ${lane.ending}${near}`;
+    return count ? `${lane.label}${near}` : `${lane.label}: ${lane.ending}`;
   };
   return { renderer, scene, count, put };
 }

@@ -25,7 +25,7 @@ function draw(plot, data) {
     const stroke = colour(line.of);
     series.push(line.is_printed
       ? { label: line.label, stroke, width: 0, points: { show: true, size: 11, width: 2, stroke, fill: "#ffffff" } }
-      : { label: line.label, stroke, width: 2, value: (_chart, value, _series, at) => said(line, value, at) });
+      : { label: line.label, stroke, width: 2, value: (_chart, value, _series, at) => readout(line, value, at) });
     columns.push(line.values);
     if (line.band) {
       const at = columns.length;
@@ -49,7 +49,7 @@ function draw(plot, data) {
 }
 
 // The value under the pointer, between the ends of the band around it.
-function said(line, value, at) {
+function readout(line, value, at) {
   if (at === null || value === null) return "–";
   const short = (number) => String(Number(number.toPrecision(4)));
   return line.band ? `${short(value)} [${short(line.band[0][at])}, ${short(line.band[1][at])}]` : short(value);

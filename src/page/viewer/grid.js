@@ -9,12 +9,12 @@ const CLOSED = ["#4ba3d9", "#e0930a"];
 
 export function grid(stage, replay) {
   const [width, height] = replay.size;
-  const drawn = lanes(stage, replay.lanes.map((lane) => `${lane.label}: ${lane.said}`), part(replay, width, height));
+  const drawn = lanes(stage, replay.lanes.map((lane) => `${lane.label}: ${lane.ending}`), part(replay, width, height));
   const steps = Math.max(...replay.lanes.map(count)) + 1;
   key(stage, replay.lanes.some((lane) => lane.opened[1].length > 0));
   const draw = (step) => {
-    const said = replay.lanes.map((lane, index) => drawLane(drawn[index], replay, lane, Math.min(step, count(lane) + 1)));
-    return `step ${step} of ${steps}: ${said.join("; ")}`;
+    const texts = replay.lanes.map((lane, index) => drawLane(drawn[index], replay, lane, Math.min(step, count(lane) + 1)));
+    return `step ${step} of ${steps}: ${texts.join("; ")}`;
   };
   return { steps, perSecond: Math.max(10, steps / 12), draw };
 }
@@ -58,7 +58,7 @@ function drawLane({ pen, unit, window }, replay, lane, step) {
     line(pen, lane.path, "#d0103a", 5 * unit);
   }
   for (const end of [lane.path[0], lane.path.at(-1)]) if (end) dot(pen, end, 0.35, "#009e73");
-  return `${lane.label} ${said(now)}`;
+  return `${lane.label} ${counts(now)}`;
 }
 
 // A cell; where the other side was as well, only the half below its diagonal.
@@ -77,7 +77,7 @@ function ruled(pen, unit, [width, height]) {
   if (height <= 100) for (let y = 0; y <= height; y += 1) line(pen, [[0, y], [width, y]], "#00000022", unit);
 }
 
-function said([start, goal]) {
+function counts([start, goal]) {
   const one = ({ opened, closed }) => `${opened.length} opened, ${closed.length} closed`;
   return goal.opened.length ? `from the start ${one(start)}, from the goal ${one(goal)}` : one(start);
 }

@@ -80,17 +80,17 @@ function fill(form, data) {
 
 // What is known of the interpretation; of one that was not explored, those next to it.
 function say(form, data, options, place, choose) {
-  const said = form.querySelector("output");
+  const shown = form.querySelector("output");
   const probes = data.choices.filter((choice) => options[choice.id] && !choice.options.find((option) => option.name === options[choice.id]).votes);
   if (place >= 0) {
     const probe = probes.length ? ` It has a probe (${probes.map((choice) => choice.id).join(", ")}): shown and never counted.` : "";
-    said.replaceChildren(`Interpretation ${place + 1} of ${data.interpretations.length}: ${name(options) || "the default"}.${probe}`);
+    shown.replaceChildren(`Interpretation ${place + 1} of ${data.interpretations.length}: ${name(options) || "the default"}.${probe}`);
     return;
   }
   const far = (interpretation) => data.choices.filter((choice) => (interpretation[choice.id] ?? choice.default) !== (options[choice.id] ?? choice.default)).length;
   const near = data.interpretations.map((interpretation) => [far(interpretation), interpretation]).sort(([a], [b]) => a - b).slice(0, 4);
-  said.replaceChildren("This combination was not explored. Explored ones that are next to it: ");
-  for (const [, interpretation] of near) said.append(button(name(interpretation) || "the default", () => choose(interpretation)), " ");
+  shown.replaceChildren("This combination was not explored. Explored ones that are next to it: ");
+  for (const [, interpretation] of near) shown.append(button(name(interpretation) || "the default", () => choose(interpretation)), " ");
 }
 
 // A claim's outcome under the interpretation at `place`.

@@ -2,7 +2,7 @@
 import { dot, lanes, line } from "./canvas.js";
 
 export function plane(stage, replay) {
-  const drawn = lanes(stage, replay.lanes.map((lane) => `${lane.label}: ${lane.said}`), replay.window);
+  const drawn = lanes(stage, replay.lanes.map((lane) => `${lane.label}: ${lane.ending}`), replay.window);
   const steps = Math.max(...replay.lanes.map((lane) => lane.stations.length)) - 1;
   const draw = (step) => {
     replay.lanes.forEach((lane, index) => drawLane(drawn[index], replay, lane, Math.min(step, lane.stations.length - 1)));

@@ -21,13 +21,13 @@ export function player(packed) {
       <output></output>
     </div>`;
   const part = (name) => place.querySelector(`[name="${name}"]`);
-  const [which, play, slider, stage, said] = [part("which"), part("play"), part("step"), place.querySelector(".stage"), place.querySelector("output")];
+  const [which, play, slider, stage, shown] = [part("which"), part("play"), part("step"), place.querySelector(".stage"), place.querySelector("output")];
   packed.forEach((element, index) => which.append(new Option(element.dataset.name, String(index))));
 
   let scene = null;
   const draw = () => {
     if (!scene) return;
-    said.textContent = scene.draw(Number(slider.value));
+    shown.textContent = scene.draw(Number(slider.value));
   };
   const stop = () => {
     play.setAttribute("aria-pressed", "false");
@@ -83,7 +83,7 @@ export function player(packed) {
       put(JSON.parse(await file.text()));
       land(place);
     } catch (error) {
-      said.textContent = `${file.name} is no replay: ${error.message}`;
+      shown.textContent = `${file.name} is no replay: ${error.message}`;
     }
   });
 
@@ -108,7 +108,7 @@ export function player(packed) {
       land(place);
       return;
     }
-    said.textContent = `the replay of ${trial} is not in this page`;
+    shown.textContent = `the replay of ${trial} is not in this page`;
     land(place);
   };
 }

@@ -151,7 +151,8 @@ fn the_first_segment_turns_from_the_heading() {
     ] {
         let (starts, goals) = (vec![SIMPLE[0]], vec![SIMPLE[1]]);
         let convention = Convention::Exterior;
-        let (turn_deg, longest) = (Interval::new(120.0, 120.05), Interval::new(0.0, 15.6));
+        let turn_deg = Interval::new(120.0, 120.05);
+        let longest = Interval::new(0.0, 15.6);
         let query = TurnQuery { size: SIZE, starts, goals, heading, convention, turn_deg, length: longest };
         let found = shortest_polyline(&query);
         let ends = found.iter().map(|found| (found.cells[0], found.cells[found.cells.len() - 1]));

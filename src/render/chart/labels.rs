@@ -138,7 +138,8 @@ impl<'p> Choice<'p> {
 
     /// The cheapest place of name `own` beside all others that have one; of equal ones the first.
     fn cheapest(&self, own: usize, taken: &[Option<usize>]) -> Option<usize> {
-        let (mut least, mut cheapest) = (f64::INFINITY, None);
+        let mut least = f64::INFINITY;
+        let mut cheapest = None;
         for at in 0..self.places[own].len() {
             let cost = self.cost(own, at, taken, least);
             if cost < least {

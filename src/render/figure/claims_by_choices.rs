@@ -141,7 +141,7 @@ impl Kind for ClaimsByChoices {
         }
         let columns = axes.iter().copied();
         let named =
-            |(judged, _): &(&ClaimVerdict, &Across)| format!("{}: {}", judged.claim, judged.verdict_said());
+            |(judged, _): &(&ClaimVerdict, &Across)| format!("{}: {}", judged.claim, judged.verdict_text());
         let names: Vec<String> = rows.iter().rev().map(named).collect();
         let mut panel = Panel::new("", Axis::names("", columns), Axis::names("", names)).trimmed(Trim::Frame);
         let of_row = |(_, across): &(&ClaimVerdict, &Across)| {

@@ -256,7 +256,8 @@ impl SweepCurves {
             return Err(RenderError::NotStored { what });
         };
         let edges = self.over(&found.band).map(|(x, [low, high])| [x, *low, *high]).collect();
-        let (count, unit) = (curves.instances.len(), unit(scene.run.study));
+        let count = curves.instances.len();
+        let unit = unit(scene.run.study);
         let label = format!("{}: mean of {count} {unit}, 95 % band", row.contender);
         panel.add(Band { edges, fill: Fill::sheer(series_color(index), 0.25), label: String::new() });
         let points = self.over(&found.mean).map(|(x, y)| [x, *y]).collect();
@@ -390,7 +391,8 @@ impl Kind for SweepCurves {
             let curves = self.curves(scene, &row.contender);
             let found = curves.band(&["success_bands", &row.contender])?;
             let band = [0, 1].map(|end| found.band.iter().map(|ends| ends[end]).collect());
-            let (count, unit) = (curves.instances.len(), unit(scene.run.study));
+            let count = curves.instances.len();
+            let unit = unit(scene.run.study);
             let label = format!("{}: mean of {count} {unit}", row.contender);
             let values = found.mean.into_iter().map(Some).collect();
             Some(CurveLine { label, of, values, band: Some(band), is_printed: false })

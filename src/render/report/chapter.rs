@@ -135,7 +135,7 @@ impl Page<'_> {
     fn tables(&self, text: &mut String) -> Result<(), RenderError> {
         let paper = self.evidence.paper;
         let details = self.details_file();
-        let verdict = |judged: &ClaimVerdict| link(judged, &judged.verdict_said(), &details);
+        let verdict = |judged: &ClaimVerdict| link(judged, &judged.verdict_text(), &details);
         for table in paper.tables.iter().filter(|table| table.has_claims() && !table.compares) {
             *text += &paragraph(&table.caption);
             *text += &tables::markdown(self.evidence, table, self.verdicts, verdict)?;

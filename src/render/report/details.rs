@@ -154,7 +154,8 @@ impl Page<'_> {
                 let own = claim.as_ref().filter(|_| !is_joint).map(|claim| links(&[claim]));
                 markdown(printed) + &own.map_or_else(String::new, |own| format!(" {own}"))
             };
-            let listed: Vec<String> = all.iter().map(number).collect();
+            let inputs = numbers.inputs.as_ref().map(|inputs| format!("{} numbers", inputs.get_ref()));
+            let listed: Vec<String> = all.iter().map(number).chain(inputs).collect();
             let answer = all.first().and_then(|(_, claim)| claim.as_ref()).filter(|_| is_joint);
             let why = match (&numbers.none, answer) {
                 (Some(none), _) => format!(": {}", markdown(none)),
@@ -253,8 +254,9 @@ fn evidence<'a>(
     known: &mut BTreeMap<String, &'a str>,
 ) -> String {
     let mut text = format!("{}\n", place(&judged.claim));
-    let interpretations = judged.beside().map_or_else(String::new, |words| format!(", {}", markdown(&words)));
-    let mut about = format!("**`{}`: {}{interpretations}**. ", judged.claim, judged.verdict_said());
+    let interpretations =
+        judged.beside_with_seed().map_or_else(String::new, |words| format!(", {}", markdown(&words)));
+    let mut about = format!("**`{}`: {}{interpretations}**. ", judged.claim, judged.verdict_text());
     about += &markdown(&format!("{}: {}", judged.at, paper_statement(judged)));
     if let Some(whole) = &judged.part_of {
         about += &format!(". A part of {}", links(&[whole]));

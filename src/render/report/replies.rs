@@ -17,7 +17,7 @@ pub(super) fn replies(verdicts: &Verdicts, details: &str) -> String {
 fn line(reply: &Reply, verdicts: &Verdicts, details: &str) -> String {
     let about = reply.claims.iter().filter_map(|id| verdicts.claim(id));
     let linked = |judged| {
-        format!("{} ({})", link(judged, &format!("`{}`", judged.claim), details), judged.verdict_said())
+        format!("{} ({})", link(judged, &format!("`{}`", judged.claim), details), judged.verdict_text())
     };
     let mut named: Vec<String> = about.clone().take(LISTED).map(linked).collect();
     let more = about.count().saturating_sub(LISTED);

@@ -18,7 +18,7 @@ pub(super) fn expanded(
 ) -> Vec<ProblemsSpec> {
     let mut all = Vec::new();
     for (place, mut group) in problems.into_iter().enumerate() {
-        let Some(pattern) = group.each.take() else {
+        let Some(pattern) = group.each.take_if(|_| group.like.is_none()) else {
             all.push(ProblemsSpec { place, ..group });
             continue;
         };
@@ -37,6 +37,7 @@ fn of_file(group: &ProblemsSpec, place: usize, file: &str) -> ProblemsSpec {
     ProblemsSpec {
         label: group.label.with(label),
         family: group.family.clone(),
+        like: None,
         each: None,
         instances: group.instances,
         shared_instances: group.shared_instances.clone(),

@@ -4,7 +4,7 @@ use super::super::contender::{StageUse, SweepPoint, Swept};
 use super::super::error::StudyError;
 use super::super::inputs::Inputs;
 use super::super::name::slug;
-use super::super::spec::{BudgetSpec, ContenderSpec, ProblemsSpec, StudySpec, SweepSpec};
+use super::super::spec::{BudgetSpec, ContenderSpec, ProblemsSpec, StageSpec, StudySpec, SweepSpec};
 use super::super::{family, planner, task};
 use super::check::check_selections;
 use super::{Contender, Group, Settings, Shared, Study, Sweep, columns_of, each, labels_of, sweeps_of};
@@ -77,13 +77,8 @@ impl Study {
             ),
             searched: spec.searched,
             fitted_to: spec.fitted_to.into_iter().map(Spanned::into_inner).collect(),
-            groups: read_all(&spec.problems, |_, p| (&p.label, group(document, p)), &name, faults),
-            contenders: read_all(
-                &spec.contenders,
-                |at, c| (&c.label, contender(document, at, c)),
-                &name,
-                faults,
-            ),
+            groups: read_all(&spec.problems, &shared.groups, document, Some(&name), faults),
+            contenders: read_all(&spec.contenders, &shared.contenders, document, Some(&name), faults),
             explore: shared.explore.as_ref().and_then(|explore| explore.study(&name)),
             name,
             sweeps: sweeps(spec.sweeps, document, faults),
@@ -100,6 +95,34 @@ impl Study {
     }
 }
 
+impl Shared {
+    /// The groups and contenders in `document` that those of studies may be like; what is wrong with one goes to `faults`.
+    pub fn models(
+        problems: Vec<ProblemsSpec>,
+        contenders: &[ContenderSpec],
+        document: &Arc<Document>,
+        faults: &mut Faults,
+    ) -> (Vec<Group>, Vec<Contender>) {
+        let problems: Vec<ProblemsSpec> =
+            (0..).zip(problems).map(|(place, group)| ProblemsSpec { place, ..group }).collect();
+        (read_all(&problems, &[], document, None, faults), read_all(contenders, &[], document, None, faults))
+    }
+
+    /// Refuses those that no study names; where one of `studies` could not be read it may be the one that does.
+    pub fn check_models(&self, document: &Document, studies: &[Study], faults: &mut Faults) {
+        if !faults.is_empty() {
+            return;
+        }
+        let groups = self.groups.iter().map(|group| ("problems", group.place, &group.label));
+        let contenders = self.contenders.iter().map(|one| ("contender", one.place, &one.label));
+        let is_named = |label: &str| studies.iter().any(|study| study.document.contains_word(label));
+        for (key, place, label) in groups.chain(contenders).filter(|(.., label)| !is_named(label)) {
+            let message = format!("no study has an entry that is `like` `{label}`");
+            faults.add(document.error_at(&format!("{key}.{place}.label"), message));
+        }
+    }
+}
+
 /// Every key that `schema` knows in some table.
 fn keys_in(schema: &Value) -> BTreeSet<String> {
     let own = schema.get("properties").and_then(Value::as_object).into_iter().flatten();
@@ -112,25 +135,96 @@ fn keys_in(schema: &Value) -> BTreeSet<String> {
     own.chain(parts.into_iter().flat_map(keys_in)).collect()
 }
 
-/// Every entry that can be read; the others go to `faults` under their labels, and with them columns of the study.
-fn read_all<S, T>(
+/// An entry of a spec that may be like another of its kind.
+trait Alike: Sized {
+    /// What it becomes once it is read.
+    type Read: Clone;
+
+    /// What is called so, for messages; the key that it names unless it is like another.
+    const CALLED: [&'static str; 2];
+
+    /// Its own label, that of the entry it is like, and whether it names the key.
+    fn names(&self) -> (&Spanned<String>, Option<&Spanned<String>>, bool);
+
+    /// The label of what was read.
+    fn label(read: &Self::Read) -> &str;
+
+    /// It, the one at `place`, read by itself.
+    ///
+    /// # Errors
+    /// A name that does not exist.
+    fn read(&self, document: &Arc<Document>, place: usize) -> Result<Self::Read, SettingsError>;
+
+    /// The same where it is like `base`.
+    ///
+    /// # Errors
+    /// A key that does not go with `like`, a name that does not exist.
+    fn read_like(
+        &self,
+        base: &Self::Read,
+        document: &Arc<Document>,
+        place: usize,
+    ) -> Result<Self::Read, SettingsError>;
+}
+
+/// Every entry that can be read; the others go to `faults` under their labels, and with them columns of the `study`, if it is one
+/// that has them. An entry may be like one before it or one that is `shared`.
+fn read_all<S: Alike>(
     specs: &[S],
-    read: impl Fn(usize, &S) -> (&Spanned<String>, Result<T, SettingsError>),
-    study: &str,
+    shared: &[S::Read],
+    document: &Arc<Document>,
+    study: Option<&str>,
     faults: &mut Faults,
-) -> Vec<T> {
-    let mut all = Vec::new();
-    for (label, entry) in specs.iter().enumerate().map(|(place, spec)| read(place, spec)) {
-        match entry {
+) -> Vec<S::Read> {
+    let mut all: Vec<S::Read> = Vec::new();
+    for (place, spec) in specs.iter().enumerate() {
+        match read_one(specs, place, [&all, shared], document) {
             Ok(entry) => all.push(entry),
             Err(fault) => {
                 faults.add(fault);
-                faults.unread(label.get_ref());
-                faults.unread(columns_of(study));
+                faults.unread(spec.names().0.get_ref());
+                if let Some(study) = study {
+                    faults.unread(columns_of(study));
+                }
             }
         }
     }
     all
+}
+
+fn read_one<S: Alike>(
+    specs: &[S],
+    place: usize,
+    known: [&[S::Read]; 2],
+    document: &Arc<Document>,
+) -> Result<S::Read, SettingsError> {
+    let spec = &specs[place];
+    let [what, key] = S::CALLED;
+    let (label, like, has_key) = spec.names();
+    let known = || known.into_iter().flatten();
+    match like {
+        None if has_key => spec.read(document, place),
+        Some(like) if !has_key => {
+            if let Some(base) = known().find(|base| S::label(base) == like.get_ref()) {
+                return spec.read_like(base, document, place);
+            }
+            let what = format!("{what} above or in paper.toml");
+            let labels: BTreeSet<&str> = known().map(S::label).collect();
+            let message = none_called(&what, like.get_ref(), labels);
+            let error = document.error(like.span(), message).about("like");
+            // One above or a shared one may have faults of its own, which are reported.
+            let is_below = specs[place..].iter().any(|spec| spec.names().0 == like);
+            Err(if is_below { error } else { error.about(like.get_ref()) })
+        }
+        _ => {
+            let found = if has_key { "both" } else { "neither" };
+            let message = format!(
+                "{what} `{}` has {found} of `{key}` and `like`; one of them is accepted",
+                label.get_ref()
+            );
+            Err(document.error(label.span(), message).about(key))
+        }
+    }
 }
 
 /// Refuses labels that the names of trials cannot distinguish.
@@ -222,51 +316,152 @@ fn sweeps(specs: Vec<SweepSpec>, document: &Arc<Document>, faults: &mut Faults) 
     specs.into_iter().enumerate().map(&mut sweep).collect()
 }
 
-fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, SettingsError> {
-    let known = family::REGISTRY.iter().map(|entry| entry.name);
-    let instances = spec.instances.unwrap_or(1);
-    let family = look_up(document, "problem family", &spec.family, family::find, known)?;
-    let written = Settings::written(document, &spec.settings);
-    let settings = match &spec.file {
-        Some(file) => written.overlaid(&each::filled(written.table(), file), &format!("file {file}")),
-        None => written,
-    };
-    Ok(Group {
-        label: spec.label.get_ref().clone(),
-        place: spec.place,
-        family,
-        instances,
-        shared_instances: spec.shared_instances.clone(),
-        is_numbered: instances > 1,
-        settings: settings.completed(family.settings),
-        points: vec![SweepPoint::default()],
-        queries: Vec::new(),
-        is_drawn: family.is_drawn,
-        noun: family.instances,
-    })
+impl Alike for ProblemsSpec {
+    type Read = Group;
+
+    const CALLED: [&'static str; 2] = ["problem group", "family"];
+
+    fn names(&self) -> (&Spanned<String>, Option<&Spanned<String>>, bool) {
+        (&self.label, self.like.as_ref(), self.family.is_some())
+    }
+
+    fn label(group: &Group) -> &str {
+        &group.label
+    }
+
+    fn read(&self, document: &Arc<Document>, _: usize) -> Result<Group, SettingsError> {
+        self.refuse_files(document)?;
+        let known = family::REGISTRY.iter().map(|entry| entry.name);
+        let named = self.family.as_ref().expect("a group that is like no other names its family");
+        let family = look_up(document, "problem family", named, family::find, known)?;
+        let instances = self.instances.unwrap_or(1);
+        let whose = format!("problem group `{}`", self.label.get_ref());
+        let written = optional(document, self.settings.as_ref(), self.label.span(), &whose);
+        let settings = match &self.file {
+            Some(file) => written.overlaid(&each::filled(written.table(), file), &format!("file {file}")),
+            None => written,
+        };
+        Ok(Group {
+            label: self.label.get_ref().clone(),
+            place: self.place,
+            family,
+            instances,
+            shared_instances: self.shared_instances.clone(),
+            is_numbered: instances > 1,
+            settings: settings.completed(family.settings),
+            points: vec![SweepPoint::default()],
+            queries: Vec::new(),
+            is_drawn: family.is_drawn,
+            noun: family.instances,
+        })
+    }
+
+    fn read_like(&self, base: &Group, document: &Arc<Document>, _: usize) -> Result<Group, SettingsError> {
+        self.refuse_files(document)?;
+        let instances = self.instances.unwrap_or(base.instances);
+        Ok(Group {
+            label: self.label.get_ref().clone(),
+            place: self.place,
+            instances,
+            shared_instances: self.shared_instances.clone().or_else(|| base.shared_instances.clone()),
+            is_numbered: instances > 1,
+            settings: over(
+                &base.settings,
+                self.settings.as_ref(),
+                &base.label,
+                document,
+                ("problems", self.place),
+            ),
+            ..base.clone()
+        })
+    }
 }
 
-fn contender(
+impl ProblemsSpec {
+    /// That it does not stand for a group a file: those that do are one group each by now.
+    fn refuse_files(&self, document: &Document) -> Result<(), SettingsError> {
+        let message = "`each` is accepted in a study, in groups that are `like` no other";
+        self.each.as_ref().map_or(Ok(()), |each| Err(document.error(each.span(), message)))
+    }
+}
+
+/// The settings of the entry called `base` with those of one that is like it, which stands at `place`, laid over them.
+fn over(
+    base: &Settings,
+    own: Option<&Spanned<Table>>,
+    label: &str,
     document: &Arc<Document>,
-    place: usize,
-    spec: &ContenderSpec,
-) -> Result<Contender, SettingsError> {
-    let label = spec.label.get_ref();
-    let repeats = spec.repeats.unwrap_or(1);
-    let mut faults = Faults::default();
-    let planner = faults.keep(stage(document, label, &spec.planner, spec.settings.as_ref(), true));
-    let then =
-        spec.then.iter().map(|then| stage(document, label, &then.stage, then.settings.as_ref(), false));
-    let stages = planner.into_iter().chain(then.filter_map(|stage| faults.keep(stage))).collect();
-    faults.done()?;
-    Ok(Contender {
-        label: label.clone(),
-        place,
-        repeats,
-        is_numbered: repeats > 1,
-        stages,
-        departs: spec.departs.clone(),
-    })
+    (key, number): (&str, usize),
+) -> Settings {
+    let place = Place::of_table(document, &[key, &number.to_string(), "settings"]);
+    own.map_or_else(|| base.clone(), |own| base.like(own.get_ref(), label, place))
+}
+
+impl Alike for ContenderSpec {
+    type Read = Contender;
+
+    const CALLED: [&'static str; 2] = ["contender", "planner"];
+
+    fn names(&self) -> (&Spanned<String>, Option<&Spanned<String>>, bool) {
+        (&self.label, self.like.as_ref(), self.planner.is_some())
+    }
+
+    fn label(contender: &Contender) -> &str {
+        &contender.label
+    }
+
+    fn read(&self, document: &Arc<Document>, place: usize) -> Result<Contender, SettingsError> {
+        let label = self.label.get_ref();
+        let repeats = self.repeats.unwrap_or(1);
+        let mut faults = Faults::default();
+        let named = self.planner.as_ref().expect("a contender that is like no other names its planner");
+        let planner = faults.keep(stage(document, label, named, self.settings.as_ref(), true));
+        let then = self.then(document, &mut faults);
+        faults.done()?;
+        Ok(Contender {
+            label: label.clone(),
+            place,
+            repeats,
+            is_numbered: repeats > 1,
+            stages: planner.into_iter().chain(then.into_iter().flatten()).collect(),
+            departs: self.departs.clone(),
+        })
+    }
+
+    fn read_like(
+        &self,
+        base: &Contender,
+        document: &Arc<Document>,
+        place: usize,
+    ) -> Result<Contender, SettingsError> {
+        let mut faults = Faults::default();
+        let then = self.then(document, &mut faults);
+        faults.done()?;
+        let mut stages = base.stages.clone();
+        let planner = &mut stages[0];
+        planner.settings =
+            over(&planner.settings, self.settings.as_ref(), &base.label, document, ("contender", place));
+        if let Some(then) = then {
+            stages.truncate(1);
+            stages.extend(then);
+        }
+        for stage in &mut stages[..] {
+            stage.named = self.label.span();
+        }
+        let repeats = self.repeats.unwrap_or(base.repeats);
+        let departs = base.departs.clone().into_iter().chain(self.departs.clone()).collect();
+        let label = self.label.get_ref().clone();
+        Ok(Contender { label, place, repeats, is_numbered: repeats > 1, stages, departs })
+    }
+}
+
+impl ContenderSpec {
+    /// The stages that tidy its plan, if it says which.
+    fn then(&self, document: &Arc<Document>, faults: &mut Faults) -> Option<Vec<StageUse>> {
+        let label = self.label.get_ref();
+        let read = |then: &StageSpec| stage(document, label, &then.stage, then.settings.as_ref(), false);
+        self.then.as_ref().map(|then| faults.keep_each(then.iter().map(read)))
+    }
 }
 
 fn stage(

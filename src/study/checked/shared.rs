@@ -24,6 +24,10 @@ pub struct Shared {
     pub second_seed: Option<u64>,
     /// Limits on each trial.
     pub budget: Option<BudgetSpec>,
+    /// Problem groups that groups of studies may be like.
+    pub groups: Vec<Group>,
+    /// Contenders that those of studies may be like.
+    pub contenders: Vec<Contender>,
 }
 
 impl Shared {

@@ -153,13 +153,15 @@ impl Mapping {
             let wrong = |place: usize, message: String| {
                 table.error(&format!("{}, column `{}`: {message}", table.place(*line), table.heads[place]))
             };
-            let (group, instance, contender) = (group(cells), cells[instance].clone(), contender(cells));
+            let group = group(cells);
+            let instance = cells[instance].clone();
+            let contender = contender(cells);
             let names = [("group", &group), ("instance", &instance), ("contender", &contender)];
             if let Some((key, _)) = names.iter().find(|(_, name)| name.is_empty()) {
                 return Err(table.error(&format!("{}: the {key} has no name", table.place(*line))));
             }
             let status = status.map_or(Ok(Status::Solved), |(place, status): (usize, &StatusColumn)| {
-                status.of(&cells[place]).map_err(|message| wrong(place, message))
+                status.status(&cells[place]).map_err(|message| wrong(place, message))
             })?;
             let mut values = Values::default();
             for (place, from, times) in &metrics {
@@ -221,7 +223,7 @@ impl Source {
 }
 
 impl StatusColumn {
-    fn of(&self, text: &str) -> Result<Status, String> {
+    fn status(&self, text: &str) -> Result<Status, String> {
         let found = self.means.iter().find(|(_, texts)| texts.iter().any(|known| known == text));
         found.and_then(|(name, _)| Status::find(name)).ok_or_else(|| {
             let known: Vec<&str> = self.means.values().flatten().map(String::as_str).collect();

@@ -180,7 +180,6 @@ fn build(settings: &Settings, inputs: &Inputs) -> Result<Box<dyn Family>, Settin
     // What the sums pin is known by them, whether it is there or not.
     let inputs = sums.map_or_else(|| files.chain(robot.files.iter().cloned()).collect(), |sums| vec![sums]);
     let notes = robot_notes(&read.robot, &robot, &contact, srdf);
-    let (step_rad, queries) = (read.step_deg.to_radians(), unposed());
     Ok(Box::new(Set {
         robot,
         robot_name: read.robot_name,
@@ -188,10 +187,10 @@ fn build(settings: &Settings, inputs: &Inputs) -> Result<Box<dyn Family>, Settin
         problem_file: read.problems,
         contact,
         support,
-        step_rad,
+        step_rad: read.step_deg.to_radians(),
         cylinders: read.cylinders.unwrap_or(CylinderSetting::Prisms),
         boxes_in: read.boxes_in,
-        queries,
+        queries: unposed(),
         notes,
         inputs,
         valid: OnceLock::new(),
@@ -360,9 +359,13 @@ impl Family for Set {
     }
 
     fn notes(&self) -> Vec<String> {
-        let (mut notes, mut ignored, mut refused) = (BTreeSet::new(), BTreeSet::new(), Vec::new());
+        let mut notes = BTreeSet::new();
+        let mut ignored = BTreeSet::new();
+        let mut refused = Vec::new();
         let count = self.problems.count();
-        let (mut called_invalid, mut named, mut is_read) = (0, None, true);
+        let mut called_invalid = 0;
+        let mut named = None;
+        let mut is_read = true;
         for index in 0..count {
             match self.problem(index as u64) {
                 Ok(problem) => {

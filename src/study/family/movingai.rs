@@ -188,11 +188,7 @@ mod tests {
         assert_eq!(family.known(0)["printed_optimal_cells"], Value::Real(6.0));
         let world = family.prepare(1).unwrap().world;
         let lattice = world.as_lattice().unwrap();
-        assert_eq!(
-            lattice.corner_rule(),
-            base::grid::CornerRule::ForbidAny,
-            "no corner is cut unless asked for"
-        );
+        assert_eq!(lattice.corner_rule(), base::grid::CornerRule::ForbidAny, "no corner is cut by default");
         assert_eq!(build(MAP, SCENARIOS, "every = 2").unwrap().queries().len(), 1);
     }
 

@@ -465,7 +465,8 @@ mod tests {
         let mut free_lines = 0;
         for seed in 0..20 {
             for family in [&any, &blocked] {
-                let (query, world) = (&family.queries_for(seed)[0], world(family.as_ref(), seed));
+                let query = &family.queries_for(seed)[0];
+                let world = world(family.as_ref(), seed);
                 assert_eq!(*query, family.queries_for(seed)[0], "seed {seed}");
                 assert!(
                     query.ends().into_iter().all(|end| world.free_point("end", end).is_ok()),

@@ -44,6 +44,8 @@ pub struct NumbersRow {
     pub printed: Vec<Spanned<String>>,
     /// The table that prints them, where its cells are no claims.
     pub table: Option<Spanned<String>>,
+    /// How many they are, where they are inputs that stand digit by digit in the studies or in a file, which `none` names.
+    pub inputs: Option<Spanned<u32>>,
     /// Why no claim answers them: what else they are.
     pub none: Option<String>,
 }
@@ -135,18 +137,20 @@ impl Paper {
     /// A number is printed by a claim or a table, or has a claim that answers it with others, or a reason why none does. None stands
     /// in two places.
     fn check_numbers(&self, numbers: &NumbersRow, faults: &mut Faults) {
-        let NumbersRow { claims, printed, table, none } = numbers;
-        let Some(first) = printed.first().or(claims.first()).or(table.as_ref()) else { return };
-        let is_one_way = match (printed.len(), claims.len(), table) {
-            (0, 1.., None) => none.is_none(),
-            (0, 0, Some(_)) => true,
-            (1.., claims, None) => claims == usize::from(none.is_none()),
+        let NumbersRow { claims, printed, table, inputs, none } = numbers;
+        let first = printed.first().or(claims.first()).or(table.as_ref()).map(Spanned::span);
+        let Some(first) = first.or(inputs.as_ref().map(Spanned::span)) else { return };
+        let is_one_way = match (printed.len(), claims.len(), table, inputs) {
+            (0, 1.., None, None) => none.is_none(),
+            (0, 0, Some(_), None) => true,
+            (0, 0, None, Some(_)) => none.is_some(),
+            (1.., claims, None, None) => claims == usize::from(none.is_none()),
             _ => false,
         };
         if !is_one_way {
             let message = "numbers need `claims` that print them, or a `table`, or `printed` with one claim that answers them or with \
-                           `none`, the reason why none does";
-            return faults.add(self.document.error(first.span(), message));
+                           `none`, the reason why none does, or `inputs` with `none`, where they stand";
+            return faults.add(self.document.error(first, message));
         }
         for claim in claims {
             let Some(known) = self.claim(claim.get_ref()) else { continue };
@@ -204,8 +208,10 @@ impl Paper {
                 }
             }
         }
-        let listed: usize =
-            self.inventory.iter().flat_map(|row| &row.numbers).map(|row| self.numbers(row).len()).sum();
+        let count = |row: &NumbersRow| {
+            self.numbers(row).len() + row.inputs.as_ref().map_or(0, |inputs| *inputs.get_ref() as usize)
+        };
+        let listed: usize = self.inventory.iter().flat_map(|row| &row.numbers).map(count).sum();
         if listed != self.prints.numbers as usize {
             let message = format!(
                 "the inventory lists {listed} printed numbers; `numbers` says {}",

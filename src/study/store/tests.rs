@@ -174,7 +174,7 @@ fn only_the_groups_that_are_wanted_are_read_and_one_at_a_time_by_who_takes_them(
     let hashes = |hash| BTreeMap::from([("traces".to_owned(), hash)]);
     let sound = hashes(sha256(&fs::read(&path).unwrap()));
     let stored = KeptTraces::stored(folder.path(), "a", &sound).unwrap();
-    assert_eq!(stored.in_memory(), 0, "no group is read before one is asked for");
+    assert_eq!(stored.in_memory(), 0, "no group is read before one is needed");
     let (first, last) = (&all[0], &all[39]);
     assert_eq!(stored.owned_by(&last.of).collect::<Vec<_>>(), [&last.trace]);
     assert_eq!(stored.in_memory(), 1);
@@ -210,7 +210,7 @@ fn traces_are_written_and_read_group_by_group() {
         assert_eq!(reader.peek().unwrap(), None);
         sizes.push(written(most).len());
     }
-    assert!(sizes.is_sorted_by(|one, other| one > other), "groups are not what was asked for: {sizes:?}");
+    assert!(sizes.is_sorted_by(|one, other| one > other), "groups are not what was written: {sizes:?}");
 }
 
 #[test]

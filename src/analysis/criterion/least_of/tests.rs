@@ -13,7 +13,7 @@ fn what_lies_above_the_margin_for_certain_is_no_longer_undecided() {
         ([0.40, 0.45], half, Outcome::Holds),
         ([0.45, 0.55], half, Outcome::Open),
         ([0.51, 0.53], half, Outcome::SignOnly),
-        // Nowhere near one half, and not even certainly less: contradicted, not undecided.
+        // Nowhere near one half, and not even certainly less: contradicted, not inconclusive.
         ([0.94, 1.03], half, Outcome::Fails),
         ([1.0, 1.0], any, Outcome::Fails),
         ([0.98, 1.02], any, Outcome::Open),

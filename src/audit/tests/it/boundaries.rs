@@ -7,7 +7,7 @@ use replan_audit::report::{Class, Options};
 fn class(check: &str, text: &str) -> Class {
     let report = audited(text, Format::Toml, &Options { keeps_possible: true, ..Options::default() });
     let findings = report.findings.iter().filter(|finding| finding.check == check);
-    findings.map(|finding| finding.class).min().unwrap_or_else(|| panic!("{check} is not asked of {text}"))
+    findings.map(|finding| finding.class).min().unwrap_or_else(|| panic!("{check} does not look at {text}"))
 }
 
 /// What stands behind `[[relation]]` and its check, or behind `[[sample]]` and its name.

@@ -47,13 +47,13 @@ fn no_table_that_was_printed_from_simulated_data_is_called_impossible() {
     let tables = std::env::var("REPLAN_TABLES").map_or(TABLES, |text| text.parse().unwrap());
     let halves = std::thread::scope(|scope| {
         let halves = [0..tables / 2, tables / 2..tables].map(|seeds| scope.spawn(|| runs_on_possible(seeds)));
-        halves.map(|half| half.join().expect("a table is called impossible; its seed is told above"))
+        halves.map(|half| half.join().expect("a table is called impossible; its seed stands above"))
     });
     for entry in REGISTRY {
         let count: usize = halves.iter().filter_map(|half| half.get(entry.name)).sum();
         // Turns at any angle take a search each.
         let least = tables as usize / if entry.name == "any_angle_turns" { 100 } else { 20 };
-        assert!(count > least, "{} was asked {count} times only", entry.name);
+        assert!(count > least, "{} looked {count} times only", entry.name);
     }
 }
 

@@ -88,10 +88,10 @@ fn a_number_too_large_is_reported_with_the_limit_and_without_the_way_it_is_writt
 
 #[test]
 fn a_spec_too_large_is_refused_with_its_limit() {
-    let told = document(&"# no key\n".repeat(300_000)).read::<Joint>().unwrap_err().to_string();
-    assert!(told.contains("has 2700000 bytes; a spec of at most 2000000 is accepted"), "{told}");
-    let told = document(&"# no key\n".repeat(200_000)).read::<Joint>().unwrap_err().to_string();
-    assert!(told.contains("lower"), "{told}");
+    let message = document(&"# no key\n".repeat(300_000)).read::<Joint>().unwrap_err().to_string();
+    assert!(message.contains("has 2700000 bytes; a spec of at most 2000000 is accepted"), "{message}");
+    let message = document(&"# no key\n".repeat(200_000)).read::<Joint>().unwrap_err().to_string();
+    assert!(message.contains("lower"), "{message}");
 }
 
 #[test]
@@ -100,8 +100,8 @@ fn a_file_of_any_format_that_is_no_text_is_refused_at_its_first_bad_byte() {
     for name in ["a.toml", "a.json", "a.yaml", "a.urdf", "a.srdf"] {
         let path = folder.path().join(name);
         std::fs::write(&path, b"{\n\"a\": \"\xff\"}").unwrap();
-        let told = Document::open(&path).unwrap_err().to_string();
+        let message = Document::open(&path).unwrap_err().to_string();
         let place = "line 2, byte 8 of the file is not UTF-8; UTF-8 text is accepted";
-        assert!(told.ends_with(place) && told.contains(name), "{told}");
+        assert!(message.ends_with(place) && message.contains(name), "{message}");
     }
 }

@@ -53,13 +53,16 @@ pub fn segment_polyhedron(segment: &Segment, planes: &[(Vec3, f64)]) -> f64 {
 /// The least feasible distance with exactly these planes active.
 fn with_active(segment: &Segment, planes: &[(Vec3, f64)], active: &[usize]) -> Option<f64> {
     // An orthonormal basis of the active normals, with the gap along each as a function of the share.
-    let (a, d) = (segment.a, segment.b - segment.a);
+    let a = segment.a;
+    let d = segment.b - segment.a;
     let mut basis = [Vec3::zeros(); 3];
     let mut gap = [0.0; 3];
     let mut rate = [0.0; 3];
     for (at, &plane) in active.iter().enumerate() {
         let (normal, offset) = planes[plane];
-        let (mut e, mut g, mut r) = (normal, offset - normal.dot(&a), -normal.dot(&d));
+        let mut e = normal;
+        let mut g = offset - normal.dot(&a);
+        let mut r = -normal.dot(&d);
         for known in 0..at {
             let along = normal.dot(&basis[known]);
             e -= basis[known] * along;

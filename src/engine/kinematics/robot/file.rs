@@ -200,8 +200,8 @@ fn tool_length_m(source: &Source, length_mm: &Spanned<f64>) -> Result<f64, Setti
 const SHORT_MM: f64 = 10.0;
 
 /// Asks whether a length is in metres, for the end of a message.
-fn in_metres(found: f64, asked: &str) -> String {
-    format!("{asked} in metres? millimetres are accepted ({found} m is {} mm)", unbent(found * 1e3))
+fn in_metres(found: f64, length: &str) -> String {
+    format!("{length} in metres? millimetres are accepted ({found} m is {} mm)", unbent(found * 1e3))
 }
 
 /// Asks whether a body is in metres: none of its capsules on links reaches as far as an arm does.
@@ -245,12 +245,12 @@ fn body(source: &Source, entry: &BodyEntry, links: &Links) -> Result<Body, Setti
     let mut faults = Faults::default();
     for capsule in &entry.capsule {
         let CapsuleEntry { name, radius_mm, from_mm, to_mm, .. } = capsule.get_ref();
-        let about = |asked: String| format!("capsule `{}`: {asked}", name.get_ref());
-        if let Some(asked) = radius_in_metres("radius_mm", *radius_mm.get_ref()) {
-            faults.add(source.fault(&radius_mm.span(), about(asked)));
+        let about = |question: String| format!("capsule `{}`: {question}", name.get_ref());
+        if let Some(question) = radius_in_metres("radius_mm", *radius_mm.get_ref()) {
+            faults.add(source.fault(&radius_mm.span(), about(question)));
         }
-        if let Some(asked) = points_in_metres("from_mm and to_mm", from_mm.iter().chain(to_mm).flatten()) {
-            faults.add(source.fault(&capsule.span(), about(asked)));
+        if let Some(question) = points_in_metres("from_mm and to_mm", from_mm.iter().chain(to_mm).flatten()) {
+            faults.add(source.fault(&capsule.span(), about(question)));
         }
         if !names.insert(name) {
             let message = format!("capsule `{}` is given twice; accepted: a name of its own", name.get_ref());
@@ -261,8 +261,8 @@ fn body(source: &Source, entry: &BodyEntry, links: &Links) -> Result<Body, Setti
         faults.add(source.fault(&entry.name.span(), "the body has no capsule; accepted: at least one"));
     }
     let parts = faults.keep_each(entry.capsule.iter().map(|capsule| part(source, capsule, links)));
-    if let Some(asked) = body_in_metres(source, entry) {
-        faults.add(asked);
+    if let Some(fault) = body_in_metres(source, entry) {
+        faults.add(fault);
     }
     faults.done()?;
     if let Some((index, off_m)) = links.chain.and_then(|chain| attached::first_off(&parts, chain)) {
@@ -327,7 +327,9 @@ fn self_pair(
         parts.iter().position(|part| part.name == *name.get_ref()).ok_or_else(|| {
             let known: Vec<&str> = parts.iter().map(|part| part.name.as_str()).collect();
             let hint = did_you_mean(name.get_ref(), known.iter().copied());
-            let (name, known, at) = (name.get_ref(), known.join(", "), name.span());
+            let at = name.span();
+            let name = name.get_ref();
+            let known = known.join(", ");
             let message = format!("self_pairs names capsule `{name}`{hint}; accepted: {known}");
             source.fault(&at, message).about(name).about("name")
         })

@@ -249,7 +249,7 @@ fn numbers_that_cannot_be_are_refused_by_name() {
         let text =
             format!("samples = {samples}\nneighbour_mm = {neighbour_mm}\ncost = 'hops'\n{NEVER}\n{more}");
         let message = built(&text).err().expect(expected).to_string();
-        assert!(message.contains(expected), "{expected}\nis said: {message}");
+        assert!(message.contains(expected), "{expected}\nis missing in: {message}");
     }
 }
 

@@ -119,7 +119,8 @@ fn a_shot_ends_the_search_with_the_way_so_far_and_the_goal() {
 fn list_astar(case: &Case) -> (ListScans, VisitOrder, u64) {
     let h = euclidean_to(&case.grid, case.ends[1]);
     let f = |node, g: Octile| quantised(g.value() + h(node));
-    let (mut open, mut closed) = (vec![(case.ends[0], Octile::ZERO)], Vec::new());
+    let mut open = vec![(case.ends[0], Octile::ZERO)];
+    let mut closed = Vec::new();
     let mut scans = ListScans::default();
     let mut peak = 1;
     let mut opened = vec![case.ends[0]];

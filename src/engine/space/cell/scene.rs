@@ -130,8 +130,8 @@ fn in_mm<const N: usize>(
     in_metres: [(&str, Option<String>); N],
     solid: Result<Solid, GeometryError>,
 ) -> Result<Solid, Vec<Wrong>> {
-    let asked = in_metres.into_iter().filter_map(|(key, message)| Some((key.to_owned(), message?)));
-    let faults: Vec<Wrong> = asked.chain(solid.as_ref().err().map(wrong)).collect();
+    let questions = in_metres.into_iter().filter_map(|(key, message)| Some((key.to_owned(), message?)));
+    let faults: Vec<Wrong> = questions.chain(solid.as_ref().err().map(wrong)).collect();
     solid.ok().filter(|_| faults.is_empty()).ok_or(faults)
 }
 

@@ -103,7 +103,8 @@ fn logs_have_a_run_for_each_trial_and_leave_out_what_was_not_measured() {
     let folder = exported("baselines", "ompl-log");
     let logs =
         fs::read_dir(folder.path()).unwrap().map(|entry| fs::read_to_string(entry.unwrap().path()).unwrap());
-    let (mut runs, mut missing) = (0, 0);
+    let mut runs = 0;
+    let mut missing = 0;
     for log in logs {
         assert!(log.starts_with("replan version "), "{log}");
         for run in parsed(&log).into_values().flatten() {
@@ -253,7 +254,8 @@ fn a_log_comes_back_with_every_trial_its_end_and_its_numbers() {
     let mapping = Mapping::of_log("cells", log.statuses, |head| log.table.has(head), Some(more));
     let run = imported(folder.path(), &log.table, &mapping);
     let back = FrameReader::open(File::open(run.join("results.trials.parquet")).unwrap());
-    let (back, ours) = (back.unwrap().frame().unwrap(), stored("grids"));
+    let back = back.unwrap().frame().unwrap();
+    let ours = stored("grids");
     assert_eq!(back.height(), ours.height());
     let numbers = |frame: &DataFrame, contender: &str| {
         let names = frame.column("contender").unwrap().str().unwrap();

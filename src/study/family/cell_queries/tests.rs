@@ -116,11 +116,11 @@ fn a_pose_that_seems_to_be_in_radians_is_asked_about() {
     std::fs::write(folder.path().join("groups.toml"), text).unwrap();
     let refused = Posed::new(&settings("queries = 'groups.toml'"), &inputs(Some(folder.path())));
     let message = refused.err().unwrap().to_string();
-    let asked =
+    let question =
         "an angle of pose `A` is -1.5708; is it in radians? degrees are accepted (-1.5708 rad is -90.0°)";
-    assert!(message.contains("groups.toml:2:9") && message.contains(asked), "{message}");
+    assert!(message.contains("groups.toml:2:9") && message.contains(question), "{message}");
     // No right angle is among these.
-    let asked =
+    let question =
         "pose `A` turns no joint beyond 2.1°; is it in radians? degrees are accepted (2.1 rad is 120.3°)";
     let pose = "0, -1.5708, 0, 0, 1.5708, 0";
     for (small, other, is_asked) in [
@@ -133,7 +133,7 @@ fn a_pose_that_seems_to_be_in_radians_is_asked_about() {
         std::fs::write(folder.path().join("groups.toml"), text).unwrap();
         let refused = Posed::new(&settings("queries = 'groups.toml'"), &inputs(Some(folder.path())));
         let message = refused.err().map_or_else(String::new, |error| error.to_string());
-        assert_eq!(message.contains(asked), is_asked, "{small}: {message}");
+        assert_eq!(message.contains(question), is_asked, "{small}: {message}");
         assert_eq!(message.contains("groups.toml:2:6"), is_asked, "{small}: {message}");
     }
 }

@@ -1,4 +1,4 @@
-//! What a claim asks under an interpretation: its criteria and rules, built; their numbers, and what these say.
+//! The tests of a claim under an interpretation: its criteria and rules, built; their numbers, and what these say.
 
 use super::censored::refused_share;
 use super::context::Context;
@@ -18,7 +18,7 @@ use study::paper::{Claim, Paper, Parts, TestRole};
 use study::{Interpretation, Study};
 
 /// A criterion or rule of a claim, built.
-pub struct Asked<'a> {
+pub struct ClaimTest<'a> {
     role: TestRole,
     entry: &'static Entry,
     context: Context<'a>,
@@ -37,7 +37,7 @@ pub struct CappedFinding {
     pub is_covered: bool,
     /// Every problem group that it looks at could be posed.
     pub is_posed: bool,
-    /// A hash of the results that it rests on, if it was asked for.
+    /// A hash of the results that it rests on, if it is wanted.
     pub results: String,
     /// The studies that it looks at.
     pub studies: Vec<String>,
@@ -47,17 +47,17 @@ pub struct CappedFinding {
 ///
 /// # Errors
 /// One that does not exist, or whose settings are wrong.
-pub fn asked<'a>(
+pub fn claim_tests<'a>(
     paper: &'a Paper,
     claim: &'a Claim,
     point: &'a Interpretation,
-) -> impl Iterator<Item = Result<Asked<'a>, SettingsError>> {
-    claim
-        .tests()
-        .map(move |(role, name, settings)| Asked::new(role, name, Context { claim, settings, paper, point }))
+) -> impl Iterator<Item = Result<ClaimTest<'a>, SettingsError>> {
+    claim.tests().map(move |(role, name, settings)| {
+        ClaimTest::new(role, name, Context { claim, settings, paper, point })
+    })
 }
 
-impl<'a> Asked<'a> {
+impl<'a> ClaimTest<'a> {
     fn new(role: TestRole, name: &str, context: Context<'a>) -> Result<Self, SettingsError> {
         let (what, key, registry, found) = match role {
             TestRole::Rule => ("rule", "rule", rule::REGISTRY, rule::find(name)),
@@ -148,9 +148,9 @@ impl<'a> Asked<'a> {
         found.censored += numbers.left_out;
         let clock = of.is_clock().then(|| {
             let each = numbers.by_session.iter().take(numbers.sessions).map(|one| weigh(one));
-            let (said, because) = sessions(&each.collect::<Vec<_>>());
+            let (agreement, because) = sessions(&each.collect::<Vec<_>>());
             found.because.extend(because);
-            if paper.source.ours { said } else { Sessions::OfAnother }
+            if paper.source.ours { agreement } else { Sessions::OfAnother }
         });
         let studies = of.studies();
         let not_run = paper.not_run(claim, &studies);
@@ -213,7 +213,7 @@ fn finding(criterion: &str, found: CriterionResult, caps: Caps, not_run: &[Strin
     }
 }
 
-/// Whether something in `studies` was chosen to meet `claim`: it, the row of which it is a cell, or a claim that repeats its number.
+/// Whether something in `studies` was chosen to meet `claim`: it, the row that has it as a cell, or a claim that repeats its number.
 fn is_fitted(paper: &Paper, claim: &Claim, studies: &[&Study]) -> bool {
     let fitted = studies.iter().flat_map(|study| &study.fitted_to).filter_map(|id| paper.claim(id));
     let mut met = fitted.flat_map(|fitted| {
@@ -233,23 +233,23 @@ pub(super) fn premises(claim: &Claim) -> impl Iterator<Item = String> {
     claim.holds_when.iter().map(listed)
 }
 
-/// What the stored sessions of the clock say, of which each `found` this by itself, and what each of them found.
+/// What the stored sessions of the clock say together, from what each `found` by itself, and that in words.
 fn sessions(found: &[CriterionResult]) -> (Sessions, Option<String>) {
     let first = found.first().map(|found| found.outcome);
-    let said = if found.len() < outcome::SESSIONS {
+    let agreement = if found.len() < outcome::SESSIONS {
         Sessions::TooFew
     } else if found.iter().all(|found| Some(found.outcome) == first) {
         Sessions::Agree
     } else {
         Sessions::Disagree
     };
-    let told = |ours: &Estimate| {
+    let in_words = |ours: &Estimate| {
         let interval = ours.interval.map(|[low, high]| format!(" [{low:.2}, {high:.2}]"));
         format!("{:.2}{}", ours.value, interval.unwrap_or_default())
     };
-    let numbers: Option<Vec<String>> = found.iter().map(|found| found.ours.as_ref().map(told)).collect();
+    let numbers: Option<Vec<String>> = found.iter().map(|found| found.ours.as_ref().map(in_words)).collect();
     let because = numbers
         .filter(|numbers| !numbers.is_empty())
         .map(|numbers| format!("sessions of the clock, each judged by itself: {}", numbers.join("; ")));
-    (said, because)
+    (agreement, because)
 }
