@@ -238,7 +238,13 @@ impl Canvas {
 
     /// Draws a data point about `radius_pt` in radius, with a thin white rim that parts neighbours.
     pub fn marker(&mut self, at: [f64; 2], marker: Marker, radius_pt: f64, color: Rgb) {
-        self.shaped(at, marker, radius_pt, Some(Fill::solid(color)), [&Stroke::solid(WHITE, 0.35), &Stroke::solid(color, 1.0)]);
+        self.shaped(
+            at,
+            marker,
+            radius_pt,
+            Some(Fill::solid(color)),
+            [&Stroke::solid(WHITE, 0.35), &Stroke::solid(color, 1.0)],
+        );
     }
 
     /// Draws the outline of a data point about `radius_pt` in radius, which hides nothing below.

@@ -70,7 +70,14 @@ fn map_panel(title: &str) -> Panel {
     let ends =
         [("start", [0.5, 0.5], GREEN, Marker::Circle), ("goal", [29.5, 29.5], PURPLE, Marker::Diamond)];
     for (label, at, color, marker) in ends {
-        panel.add(Points { points: vec![at], marker, radius_pt: 3.0, is_hollow: false, color, label: label.into() });
+        panel.add(Points {
+            points: vec![at],
+            marker,
+            radius_pt: 3.0,
+            is_hollow: false,
+            color,
+            label: label.into(),
+        });
     }
     panel
 }

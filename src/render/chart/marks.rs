@@ -156,7 +156,10 @@ impl Mark for Points {
 
     fn keys(&self, view: &View) -> Vec<Key> {
         let is_shown = |_: &Key| self.points.iter().any(|point| view.shows(&[*point]));
-        Key::labelled(&self.label, Swatch::Point(self.marker, self.color)).into_iter().filter(is_shown).collect()
+        Key::labelled(&self.label, Swatch::Point(self.marker, self.color))
+            .into_iter()
+            .filter(is_shown)
+            .collect()
     }
 }
 
@@ -266,7 +269,10 @@ impl Mark for Cells {
             let [x0, y0] = self.corner_at(view, *from, *row);
             let [x1, y1] = self.corner_at(view, *to, row + 1);
             let frame = view.frame;
-            x0.min(x1) < frame.right() && x0.max(x1) > frame.x && y0.min(y1) < frame.bottom() && y0.max(y1) > frame.y
+            x0.min(x1) < frame.right()
+                && x0.max(x1) > frame.x
+                && y0.min(y1) < frame.bottom()
+                && y0.max(y1) > frame.y
         };
         let runs = self.runs();
         let has = |color: &Rgb| runs.get(color).is_some_and(|runs| runs.iter().any(is_shown));

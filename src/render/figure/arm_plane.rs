@@ -208,11 +208,12 @@ fn links(from: &[f64], to: &[f64], moment: usize) -> [Segment2; 2] {
     [[[0.0, 0.0], elbow], [elbow, tip]].map(|[a, b]| Segment2::new(a.into(), b.into()))
 }
 
-/// The line, with its nodes, of the path of number `index`: earlier ones are broader, so that they show where a later one lies on them.
+/// The line, with its nodes, of the path of number `index`: the first is broad, so that it shows where a later one lies on it.
 fn beneath(line: Line, index: usize) -> Line {
-    let width_pt = if index == 0 { 2.6 } else { 1.1 };
-    let radius_pt = if index == 0 { 3.4 } else { 2.0 };
-    Line { stroke: Stroke { width_pt, ..line.stroke }, radius_pt, ..line }
+    if index > 0 {
+        return line;
+    }
+    Line { stroke: Stroke::solid(line.stroke.color, 2.6), radius_pt: 3.4, ..line }
 }
 
 /// `count` of the stations, the ends among them.

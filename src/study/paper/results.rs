@@ -117,7 +117,8 @@ impl Paper {
                 let is_ratio = cell.show == Show::Ratio;
                 match &cell.against {
                     Some(base) if !is_ratio => {
-                        let message = "only a `ratio` is to another row; take `against` away, or show a `ratio`";
+                        let message =
+                            "only a `ratio` is to another row; take `against` away, or show a `ratio`";
                         faults.add(self.document.error(base.span(), message));
                     }
                     Some(base) if !study.labels().contains(base.get_ref()) => {
