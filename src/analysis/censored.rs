@@ -71,8 +71,12 @@ pub fn outside_in_words(of: &Selection<'_>, count: usize) -> Option<String> {
 /// How many problems of `of` cannot be posed, with the reason of the first, in words; `None` if all can.
 pub fn not_posed(of: &Selection<'_>, evidence: &Evidence<'_>) -> Option<String> {
     let run = of.run(evidence)?;
-    let contender = of.contenders.first()?;
-    let rows: Vec<&Row> = of.groups.iter().flat_map(|group| run.rows(group, contender)).collect();
+    let contenders = || of.contenders.iter().chain(&of.against);
+    let rows: Vec<&Row> = of
+        .groups
+        .iter()
+        .flat_map(|group| contenders().flat_map(|contender| run.rows(group, contender)))
+        .collect();
     let problems: BTreeSet<_> = rows.iter().map(|row| (&row.key.on, &row.key.query)).collect();
     let invalid = rows.iter().filter(|row| row.status == Status::InvalidProblem);
     let left: BTreeSet<_> = invalid.clone().map(|row| (&row.key.on, &row.key.query)).collect();
