@@ -1,11 +1,24 @@
 //! Estimates in words, with their direction.
 
+use crate::analysis::metric::Metric;
 use crate::analysis::verdict::Estimate;
 
 /// An estimate in words: `2.2 % shorter`; `None` where there is nothing to say beyond its number.
 pub fn effect(estimate: &Estimate) -> Option<String> {
     let Effect { size, decimals, words } = Effect::new(estimate);
-    (!words.is_empty()).then(|| format!("{size:.decimals$}{words}"))
+    (!words.is_empty()).then(|| rounded(size, decimals) + &words)
+}
+
+/// A share as a percentage, with the digits that its interval leaves certain.
+pub fn percentage(share: &Estimate) -> String {
+    let Effect { size, decimals, words } = Effect::scaled(share, |value| 100.0 * value, " %".to_owned());
+    rounded(size, decimals) + &words
+}
+
+/// `size` with so many decimals; a half goes away from zero.
+pub fn rounded(size: f64, decimals: usize) -> String {
+    let unit = libm::pow(10.0, decimals as f64);
+    format!("{:.decimals$}", libm::round(size * unit) / unit)
 }
 
 /// An estimate in words, and its size.
@@ -61,6 +74,13 @@ impl Effect {
     }
 }
 
+/// The title of an axis along which `metric` is less than with `base`, in per cent: what is more stands below zero.
+pub fn less_than(metric: &Metric, base: &str) -> String {
+    let less = direction(&metric.label.to_lowercase(), false);
+    let first = less[..1].to_uppercase();
+    format!("{first}{} than {base} (%)", &less[1..])
+}
+
 /// The comparative for more or less of a metric.
 fn direction(metric: &str, is_more: bool) -> String {
     let metric = metric.split(", ").next().unwrap_or(metric);
@@ -93,11 +113,24 @@ mod tests {
             (-62.7, [-64.4, -61.1], "change of turn sum, exterior angles in %, 95 %", "63 % less turn sum"),
             (0.9169, [0.9153, 0.9185], "ratio of the means of path length, bootstrap 95 %", "8.3 % shorter"),
             (0.534, [0.498, 0.569], "share of trials solved, 95 %", "53 %"),
+            (0.505, [0.470, 0.540], "share of trials solved, 95 %", "51 %"),
             (1.0, [0.994, 1.0], "share of instances, 95 %", "100 %"),
             (18.15, [14.4, 21.9], "least mean difference in points, at samples=1500", "18 points more"),
         ] {
             let estimate = Estimate { interval: Some(interval), ..Estimate::bare(value, what, 9) };
             assert_eq!(effect(&estimate).unwrap(), words);
+        }
+    }
+
+    #[test]
+    fn a_percentage_has_the_digits_of_its_interval() {
+        for (value, interval, text) in [
+            (0.0058, [0.0055, 0.0060], "0.58 %"),
+            (0.505, [0.470, 0.540], "51 %"),
+            (1.0, [0.9965, 1.0], "100 %"),
+        ] {
+            let share = Estimate { interval: Some(interval), ..Estimate::bare(value, "share", 9) };
+            assert_eq!(percentage(&share), text);
         }
     }
 }

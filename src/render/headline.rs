@@ -2,7 +2,7 @@
 //!
 //! The terminal, the report and the page open with them.
 
-use super::effect::{Effect, effect};
+use super::effect::{Effect, effect, rounded};
 use super::tables::short;
 use crate::analysis::verdict::{ClaimVerdict, Estimate, Verdicts};
 use study::paper::Paper;
@@ -110,7 +110,7 @@ fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     }
     let decimals = effects.iter().map(|effect| effect.decimals).min()?;
     let mut sizes: Vec<f64> = effects.iter().map(|effect| effect.size).collect();
-    let number = |size: &f64| format!("{size:.decimals$}");
+    let number = |size: &f64| rounded(*size, decimals);
     let mut counts: Vec<usize> = estimates.iter().map(|estimate| estimate.n).collect();
     if counts.iter().all(|n| *n == counts[0]) {
         counts.truncate(1);

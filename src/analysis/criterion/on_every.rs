@@ -234,6 +234,7 @@ impl Criterion for OnEvery<'_> {
         let first = |wanted: CaseOutcome| outcomes.iter().flatten().find(|(says, _)| *says == wanted);
         let shown = first(CaseOutcome::Against).or_else(|| first(CaseOutcome::Equal));
         found.trial = shown.map(|(_, row)| run.trial(row));
+        found.because.extend(censored::not_posed(&self.of, evidence));
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {

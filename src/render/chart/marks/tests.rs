@@ -1,5 +1,6 @@
 use super::*;
 use crate::render::chart::Axis;
+use crate::render::chart::legend::cell_key;
 use crate::render::style::{BLUE, ORANGE, Width};
 use crate::render::vector::Provenance;
 use base::seed;
@@ -87,4 +88,25 @@ fn a_band_is_one_outline_of_its_two_curves() {
     let outline = [[40.0, 140.0], [240.0, 120.0], [240.0, 100.0], [40.0, 130.0]];
     let by_hand = drawn(|canvas| canvas.polygon(&outline, Some(fill), None));
     assert_eq!(drawn(|canvas| band.draw(canvas, &view())), by_hand);
+}
+
+#[test]
+fn a_legend_names_what_the_frame_shows() {
+    let labels = |mark: &dyn Mark| mark.keys(&view()).into_iter().map(|key| key.label).collect::<Vec<_>>();
+    let point = |at| Points::unlabelled(vec![at], Marker::Circle, 2.0, BLUE).labelled("point");
+    assert_eq!(labels(&point([3.0, 4.0])), ["point"]);
+    assert_eq!(labels(&point([12.0, 4.0])), [""; 0]);
+    assert_eq!(labels(&point([f64::NAN, 4.0])), [""; 0]);
+    let line = |ends: [[f64; 2]; 2]| Line::through(ends.to_vec(), Stroke::solid(BLUE, 1.0)).labelled("line");
+    assert_eq!(labels(&line([[-5.0, 5.0], [15.0, 5.0]])), ["line"], "it passes through");
+    assert_eq!(labels(&line([[11.0, 0.0], [14.0, 9.0]])), [""; 0]);
+    let cells = Cells {
+        corner: [0.0; 2],
+        cell: [10.0; 2],
+        columns: 2,
+        colors: vec![Some(BLUE), Some(ORANGE)],
+        lines: None,
+        keys: vec![cell_key("in the frame", BLUE), cell_key("beside it", ORANGE)],
+    };
+    assert_eq!(labels(&cells), ["in the frame"]);
 }
