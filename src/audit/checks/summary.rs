@@ -108,6 +108,8 @@ struct Summary {
     /// How many trials are behind each number; empty if that is not printed.
     weights: Vec<Exact>,
     premise: &'static str,
+    /// A number that it sums up and that is not printed, in words.
+    gap: Option<String>,
     steps: Cell<u64>,
 }
 
@@ -156,18 +158,46 @@ fn labels(table: &Table) -> Vec<Option<usize>> {
 }
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
+    summaries(input, &mut |_, summary| give(Box::new(summary)));
+}
+
+/// Numbers of rows and columns called a total that are a mean of numbers that could be summed up, each at its place.
+pub fn totals_that_are_means(input: &Input) -> Vec<Fault> {
+    let mut found = Vec::new();
+    summaries(input, &mut |word, summary| {
+        let prints: Vec<Print> = summary.numbers.iter().map(|number| number.print).collect();
+        let own = prints[0].span();
+        let fits =
+            |(form, _, span): (Form, usize, Option<Span>)| span.filter(|span| span.meets(&own)).map(|_| form);
+        let forms: Vec<Form> = summary.all(&prints).filter_map(fits).collect();
+        if word.is_sum()
+            && summary.forms.contains(&Form::Sum)
+            && !forms.contains(&Form::Sum)
+            && let Some(form) = forms.first().filter(|_| summary.gap.is_none())
+        {
+            let Quoted { name, place, .. } = &summary.numbers[0];
+            found.push(Fault::new(
+                *place,
+                format!("{name}: {} is {} of the others, not their sum", prints[0].printed, form.name()),
+            ));
+        }
+    });
+    found
+}
+
+/// Gives every number that says that it sums up others, with what its name says.
+fn summaries(input: &Input, give: &mut dyn FnMut(Word, Summary)) {
     for (index, table) in input.tables.iter().enumerate().filter(|(_, table)| table.statistics().is_none()) {
         let labels = labels(table);
         let columns = 0..table.columns.len();
         let rows = || 0..table.rows.len();
         for row in rows().filter(|row| labels[*row].is_some()) {
             let of_rows = columns.clone().filter_map(|column| of_row(index, table, &labels, [row, column]));
-            of_rows.for_each(|test| give(Box::new(test)));
+            of_rows.for_each(|(word, summary)| give(word, summary));
         }
         for column in columns.filter(|column| word(&table.columns[*column].name).is_some()) {
-            rows()
-                .filter_map(|row| of_column(index, table, row, column))
-                .for_each(|test| give(Box::new(test)));
+            let of_columns = rows().filter_map(|row| of_column(index, table, row, column));
+            of_columns.for_each(|(word, summary)| give(word, summary));
         }
     }
 }
@@ -179,7 +209,7 @@ pub fn is_true(input: &Input, [index, row, column]: [usize; 3]) -> bool {
         label(table, row)?;
         of_row(index, table, &labels(table), [row, column])
     };
-    let holds = |test: Summary| {
+    let holds = |(_, test): (Word, Summary)| {
         let prints: Vec<Print> = test.numbers.iter().map(|number| number.print).collect();
         test.is_possible(&prints) == Some(true)
     };
@@ -193,7 +223,7 @@ fn of_row(
     table: &Table,
     labels: &[Option<usize>],
     [row, column]: [usize; 2],
-) -> Option<Summary> {
+) -> Option<(Word, Summary)> {
     let own = labels[row]?;
     table.print(row, column)?;
     let word = word(&table.rows[row][own].text)?;
@@ -213,6 +243,7 @@ fn of_row(
     };
     let [mut block, mut all, mut before] = [Vec::new(), Vec::new(), Vec::new()];
     let mut is_in_block = true;
+    let mut gap = None;
     for other in neighbours(table, labels, row) {
         if is_empty(other) || labels[other].is_some() || is_statistic(table, other) {
             is_in_block &= block.is_empty();
@@ -225,7 +256,10 @@ fn of_row(
             continue;
         }
         // Where one is not printed, what the others give is not known.
-        table.print(other, column)?;
+        if table.print(other, column).is_none() {
+            gap = Some(format!("line {} has no number here", table.rows[other][column].place.line));
+            continue;
+        }
         if all.len() == MOST {
             return None;
         }
@@ -234,7 +268,7 @@ fn of_row(
             block.push(other);
         }
     }
-    if all.len() < 2 {
+    if all.len() < 2 && gap.is_none() {
         return None;
     }
     let rows: Vec<usize> = all.iter().chain(&before).copied().collect();
@@ -251,14 +285,16 @@ fn of_row(
     }
     forms.extend(OTHER_MEANS.iter().filter(|_| !word.is_sum()));
     let numbers = std::iter::once(&row).chain(&rows).map(|row| quoted(index, table, *row, column));
-    Some(Summary {
+    let summary = Summary {
         numbers: numbers.collect::<Option<_>>()?,
         choices: choices.collect(),
         forms,
         weights,
         premise: "the row sums up rows above it",
+        gap,
         steps: Cell::default(),
-    })
+    };
+    Some((word, summary))
 }
 
 /// The rows that a summary may be of, the nearest first: those above, or below if there are none above.
@@ -346,7 +382,7 @@ fn is_quotient(table: &Table, at: usize) -> bool {
 }
 
 /// The test of a cell in a column that sums up those before it; `None` if it sums up nothing that is known.
-fn of_column(index: usize, table: &Table, row: usize, at: usize) -> Option<Summary> {
+fn of_column(index: usize, table: &Table, row: usize, at: usize) -> Option<(Word, Summary)> {
     let Column { name, meaning, .. } = &table.columns[at];
     let word = word(name)?;
     table.print(row, at)?;
@@ -383,15 +419,20 @@ fn of_column(index: usize, table: &Table, row: usize, at: usize) -> Option<Summa
         forms.push(Form::Between);
     }
     forms.extend(OTHER_MEANS.iter().filter(|_| !word.is_sum()));
+    let missing = columns.iter().find(|column| table.print(row, **column).is_none());
+    let gap = missing.map(|column| format!("column `{}` has no number here", table.columns[*column].name));
+    columns.retain(|column| table.print(row, *column).is_some());
     let numbers = std::iter::once(&at).chain(&columns).map(|column| quoted(index, table, row, *column));
-    Some(Summary {
+    let summary = Summary {
         numbers: numbers.collect::<Option<_>>()?,
         choices: (2..=columns.len()).map(|most| (1..=most).collect()).collect(),
         forms,
         weights: Vec::new(),
         premise: "the column sums up columns right before it",
+        gap,
         steps: Cell::default(),
-    })
+    };
+    Some((word, summary))
 }
 
 fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
@@ -401,7 +442,7 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
     let choices = vec![(1..numbers.len()).collect()];
     let premise = "these are all that it sums up";
     let (forms, weights, steps) = (vec![form], Vec::new(), Cell::default());
-    Ok(Box::new(Summary { numbers, choices, forms, weights, premise, steps }))
+    Ok(Box::new(Summary { numbers, choices, forms, weights, premise, gap: None, steps }))
 }
 
 impl Summary {
@@ -445,6 +486,9 @@ impl Test for Summary {
     }
 
     fn is_possible(&self, prints: &[Print]) -> Option<bool> {
+        if self.gap.is_some() {
+            return None;
+        }
         let printed = prints[0].span();
         let mut is_open = false;
         for (_, _, span) in self.all(prints) {
@@ -477,6 +521,10 @@ impl Test for Summary {
 
     fn premises(&self) -> Vec<String> {
         vec![self.premise.to_owned(), digits(&self.numbers)]
+    }
+
+    fn undecided(&self, _prints: &[Print]) -> String {
+        self.gap.clone().unwrap_or_else(|| "too many digits for exact arithmetic".to_owned())
     }
 
     fn is_about_digits(&self) -> bool {

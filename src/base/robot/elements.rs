@@ -3,6 +3,7 @@
 use crate::ignored::{ignored_in, ignored_note, is_ignored};
 use crate::settings::{Document, SettingsError, did_you_mean};
 use crate::solid::Source;
+use crate::text::brief;
 use crate::yaml::unknown;
 use roxmltree::{Error, Node};
 use std::collections::{BTreeMap, BTreeSet};
@@ -66,6 +67,8 @@ struct Unread {
     ignored: BTreeSet<String>,
     /// How often each key is there that is not known.
     unknown: BTreeMap<String, usize>,
+    /// The first text between the elements of the root, and how many there are.
+    texts: Option<(String, usize)>,
 }
 
 impl Keys<'_> {
@@ -80,7 +83,13 @@ impl Keys<'_> {
             let times = if count == 1 { String::new() } else { format!(" ({count} times)") };
             format!("`{way}` is not known and not used{times}")
         };
-        Ok(ignored_note(&unread.ignored).into_iter().chain(unread.unknown.into_iter().map(message)).collect())
+        let texts = unread.texts.map(|(first, count)| {
+            let others =
+                if count == 1 { String::new() } else { format!(", nor are {} other texts", count - 1) };
+            format!("the text `{first}` in `robot` is not used{others}")
+        });
+        let unknown = unread.unknown.into_iter().map(message);
+        Ok(ignored_note(&unread.ignored).into_iter().chain(unknown).chain(texts).collect())
     }
 
     fn element(&self, node: Node<'_, '_>, unread: &mut Unread) -> Result<(), SettingsError> {
@@ -89,6 +98,19 @@ impl Keys<'_> {
         let attributes = node.attributes().map(|at| (format!("@{}", at.name()), at.range(), None));
         let children = node.children().filter(Node::is_element);
         let children = children.map(|child| (child.tag_name().name().to_owned(), child.range(), Some(child)));
+        // The formats have no text of their own.
+        let text = node
+            .children()
+            .filter(|part| part.is_text() && !part.text().unwrap_or_default().trim().is_empty());
+        for part in text {
+            let shown = brief(part.text().unwrap_or_default().trim()).replace('\n', " ");
+            if name != "robot" {
+                let message =
+                    format!("the text `{shown}` stands in `{name}`; elements and attributes are accepted");
+                return Err(self.xml.fault(&part.range(), message));
+            }
+            unread.texts.get_or_insert((shown, 0)).1 += 1;
+        }
         let mut seen = BTreeSet::new();
         for (key, at, child) in attributes.chain(children) {
             let is_read = read.contains(&key.as_str()) && !means_nothing(node, &key);
@@ -164,7 +186,7 @@ impl Elements<'_> {
         let wrong = || {
             let many =
                 if N == 1 { format!("a {finite}number is") } else { format!("{N} {finite}numbers are") };
-            let text = crate::text::brief(text);
+            let text = brief(text);
             self.fault(&place(of, key), format!("{key} is `{text}`; {many} accepted"))
         };
         numbers.filter(|numbers| numbers.iter().all(|n| n.is_finite())).ok_or_else(wrong).map(Some)

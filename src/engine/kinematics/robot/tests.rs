@@ -154,6 +154,33 @@ fn rows_in_metres_and_limits_in_radians_are_queried() {
     let fast = message(&FILE.replace("speed_deg_s", "speed_rad_s")).unwrap_err();
     let expected = "speed_rad_s is 500; is it in degrees? `speed_deg_s` is accepted for those";
     assert!(fast.starts_with("up6.toml:") && fast.contains(expected), "{fast}");
+    let faster = message(&FILE.replacen("speed_deg_s = 500", "speed_deg_s = 5000", 1)).unwrap_err();
+    let expected = "speed_deg_s is 5000; no joint is faster than 1432; less is accepted";
+    assert!(faster.starts_with("up6.toml:") && faster.contains(expected), "{faster}");
+    for (key, longest, metres) in
+        [("d_mm", "d_mm of 3 is 0.64", "0.64 m is 640 mm"), ("a_mm", "a_mm of 3 is 0.57", "0.57 m")]
+    {
+        let column = message(&scaled([key, key], 1e-3)).unwrap_err();
+        let expected = format!("the longest {longest}; is it in metres? millimetres are accepted ({metres}");
+        assert!(column.starts_with("up6.toml:") && column.contains(&expected), "{column}");
+    }
+    let offsets = FILE.replacen(
+        "d_mm = 0\noffset_deg = 0\nlower_deg = -180",
+        "d_mm = 0.3\noffset_deg = 0\nlower_deg = -180",
+        1,
+    );
+    assert!(
+        offsets != FILE && message(&offsets.replacen("solver = \"spherical_wrist\"\n", "", 1)).is_ok(),
+        "a calibrated arm"
+    );
+    let turned =
+        FILE.replacen("lower_deg = -135\nupper_deg = 135", "lower_deg = -1.5708\nupper_deg = 1.5708", 1);
+    let turned = message(&turned).unwrap_err();
+    for (line, key) in [("up6.toml:57:13", "lower_deg is -1.5708"), ("up6.toml:58:13", "upper_deg is 1.5708")]
+    {
+        let expected = format!("{line}: {key}; is it in radians? degrees are accepted");
+        assert!(turned.contains(&expected), "should say {expected}\nsays {turned}");
+    }
     let bodies = &FILE[FILE.find("[[body]]").unwrap()..];
     let thin = "[[body]]\nname = 'thin'\nself_pairs = []\n[[body.capsule]]\nname = 'arm'\nlink = 2\nfrom_mm = [-0.09465, 0, 0]\n\
         to_mm = [0, 0, 0]\nradius_mm = 0.09\n";
