@@ -14,8 +14,8 @@ const ROUNDED_RAD: f64 = 2e-3;
 /// So many digits behind the point make a multiple of a quarter of a turn in radians certain.
 const CERTAIN_DIGITS: usize = 3;
 
-/// Settings are often multiples of this many degrees.
-const STEP_DEG: f64 = 5.0;
+/// What settings are often multiples of, in degrees, and how many digits in radians make one certain.
+const SETTINGS_DEG: [(f64, usize); 2] = [(5.0, CERTAIN_DIGITS), (1.0, 4)];
 
 /// A tool, a block or a way is longer, and neighbours are farther apart.
 const SHORT_MM: f64 = 2.0;
@@ -55,10 +55,12 @@ fn below(least_mm: f64, key: &str, length_mm: f64) -> Option<String> {
 }
 
 /// The message about an angle in settings under the key `key` that seems to be in radians: it is a multiple of 5° in radians to three
-/// digits or more, a right angle or half of one to two, or below `least_deg`.
+/// digits or more, of 1° to four, a right angle or half of one to two, or below `least_deg`.
 pub fn setting_in_radians(key: &str, angle_deg: f64, least_deg: f64) -> Option<String> {
     let is_less = (f64::MIN_POSITIVE..least_deg).contains(&angle_deg);
-    if is_less || is_certain_multiple(angle_deg, STEP_DEG.to_radians()) {
+    let is_multiple =
+        |(part_deg, digits): (f64, usize)| is_multiple(angle_deg, part_deg.to_radians(), digits);
+    if is_less || SETTINGS_DEG.into_iter().any(is_multiple) {
         return Some(in_radians(key, angle_deg));
     }
     seems_in_radians(key, &[angle_deg]).map(|(_, message)| message)
@@ -72,13 +74,13 @@ fn in_radians(key: &str, angle: f64) -> String {
     )
 }
 
-/// Whether `angle` is less than a turn and a multiple of `part`, both in radians, to three digits or more, rounded or cut.
-fn is_certain_multiple(angle: f64, part: f64) -> bool {
+/// Whether `angle` is less than a turn and a multiple of `part`, both in radians, to so many digits or more, rounded or cut.
+fn is_multiple(angle: f64, part: f64, least_digits: usize) -> bool {
     let parts = (angle / part).round();
     let written = angle.to_string();
     let digits = written.split_once('.').map_or(0, |(_, digits)| digits.len());
     let last = libm::pow(10.0, -(digits.min(12) as f64));
-    parts != 0.0 && is_small(angle) && digits >= CERTAIN_DIGITS && (angle - parts * part).abs() < last
+    parts != 0.0 && is_small(angle) && digits >= least_digits && (angle - parts * part).abs() < last
 }
 
 /// Whether an angle is no more than a turn in radians.
@@ -95,7 +97,7 @@ pub fn seems_in_radians(key: &str, angles_deg: &[f64]) -> Option<(usize, String)
         let eighths = (angle / FRAC_PI_4).round();
         eighths != 0.0 && (angle - eighths * FRAC_PI_4).abs() < ROUNDED_RAD
     };
-    let certain = angles_deg.iter().position(|angle| is_certain_multiple(*angle, FRAC_PI_2));
+    let certain = angles_deg.iter().position(|angle| is_multiple(*angle, FRAC_PI_2, CERTAIN_DIGITS));
     let index = certain.or_else(|| angles_deg.iter().position(is_eighth))?;
     let is_seen = certain.is_some() || angles_deg.iter().all(|angle| is_small(*angle));
     is_seen.then(|| (index, in_radians(key, angles_deg[index])))
@@ -152,6 +154,10 @@ mod tests {
             ("1.57", true),
             ("0.9", true),
             ("2.182", true),
+            ("1.0472", true),
+            ("2.1642", true),
+            ("2.164", false),
+            ("2.17", false),
             ("20", false),
             ("1.05", false),
             ("2.5", false),

@@ -22,6 +22,7 @@ pub(super) fn parsed(document: &Document) -> Result<roxmltree::Document<'_>, Set
         match &error {
             Error::UnknownNamespace(prefix, _) if prefix == "xacro" => xacro(&at),
             Error::DtdDetected => {
+                let at = document.text().find("<!DOCTYPE").map_or(at, |found| found..found);
                 source.fault(&at, "a document type, `<!DOCTYPE`, is given; XML without one is accepted")
             }
             _ => source.fault(&at, format!("this is no XML: {error}")),
@@ -97,7 +98,7 @@ impl Keys<'_> {
         let read = self.read.iter().find(|(element, _)| *element == name).map_or(&[][..], |(_, read)| read);
         let attributes = node.attributes().map(|at| (format!("@{}", at.name()), at.range(), None));
         let children = node.children().filter(Node::is_element);
-        let children = children.map(|child| (child.tag_name().name().to_owned(), child.range(), Some(child)));
+        let children = children.map(|child| (name_in(node, child), child.range(), Some(child)));
         // The formats have no text of their own.
         let text = node
             .children()
@@ -135,6 +136,21 @@ impl Keys<'_> {
         }
         Ok(())
     }
+}
+
+/// The name of an element in another, with its prefix where it is of another namespace.
+fn name_in(of: Node<'_, '_>, child: Node<'_, '_>) -> String {
+    let name = child.tag_name().name();
+    if is_alike(of, child) {
+        return name.to_owned();
+    }
+    let space = child.tag_name().namespace().unwrap_or_default();
+    format!("{}:{name}", child.lookup_prefix(space).unwrap_or(space))
+}
+
+/// Whether both are of one namespace.
+fn is_alike(of: Node<'_, '_>, child: Node<'_, '_>) -> bool {
+    of.tag_name().namespace() == child.tag_name().namespace()
 }
 
 /// Whether a key that is read means nothing here: how a fixed joint would move, limits of one that turns without end.
@@ -213,7 +229,7 @@ pub(super) fn elements<'a, 'input>(
     of: Node<'a, 'input>,
     name: &'static str,
 ) -> impl Iterator<Item = Node<'a, 'input>> {
-    of.children().filter(move |node| node.has_tag_name(name))
+    of.children().filter(move |node| node.tag_name().name() == name && is_alike(of, *node))
 }
 
 pub(super) fn child<'a, 'input>(of: Node<'a, 'input>, name: &'static str) -> Option<Node<'a, 'input>> {

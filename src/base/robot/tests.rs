@@ -409,6 +409,19 @@ fn keys_that_are_ignored_and_elements_of_the_root_that_are_not_known_are_noted_b
 }
 
 #[test]
+fn elements_of_another_namespace_are_no_links() {
+    let text = ARM.replacen(
+        "<link name=\"tool\"/>",
+        "<link name=\"tool\"/><sim:link xmlns:sim=\"x\" name=\"far\"/>",
+        1,
+    );
+    let robot = read(&text, FOOT.as_bytes()).unwrap();
+    assert_eq!(robot.notes.last().unwrap(), "`robot/sim:link` is not known and not used");
+    let all = ARM.replacen("<robot name", "<robot xmlns=\"http://www.ros.org\" name", 1);
+    assert_eq!(read(&all, FOOT.as_bytes()).unwrap().joints, robot.joints);
+}
+
+#[test]
 fn text_between_elements_is_noted_in_the_root_and_refused_elsewhere() {
     let noted = |from: &str, to: &str| read(&ARM.replacen(from, to, 1), FOOT.as_bytes()).unwrap().notes.pop();
     let stray = "the text `--> <!` in `robot` is not used";

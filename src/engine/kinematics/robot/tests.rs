@@ -173,14 +173,17 @@ fn rows_in_metres_and_limits_in_radians_are_queried() {
         offsets != FILE && message(&offsets.replacen("solver = \"spherical_wrist\"\n", "", 1)).is_ok(),
         "a calibrated arm"
     );
-    let turned =
-        FILE.replacen("lower_deg = -135\nupper_deg = 135", "lower_deg = -1.5708\nupper_deg = 1.5708", 1);
-    let turned = message(&turned).unwrap_err();
-    for (line, key) in [("up6.toml:57:13", "lower_deg is -1.5708"), ("up6.toml:58:13", "upper_deg is 1.5708")]
-    {
-        let expected = format!("{line}: {key}; is it in radians? degrees are accepted");
+    let turned = |limits: &str| message(&FILE.replacen("lower_deg = -135\nupper_deg = 135", limits, 1));
+    for (limits, line, asked) in [
+        ("lower_deg = -1.5708\nupper_deg = 1.5708", "up6.toml:59:13", "a limit is -1.5708"),
+        ("lower_deg = -1.57\nupper_deg = 1.57", "up6.toml:59:13", "a limit is -1.57"),
+        ("lower_deg = -90\nupper_deg = 1.5708", "up6.toml:60:13", "a limit is 1.5708"),
+    ] {
+        let turned = turned(limits).unwrap_err();
+        let expected = format!("{line}: {asked}; is it in radians? degrees are accepted");
         assert!(turned.contains(&expected), "should say {expected}\nsays {turned}");
     }
+    assert!(turned("lower_deg = -1.57\nupper_deg = 90").is_ok(), "of two digits, beside one in degrees");
     let bodies = &FILE[FILE.find("[[body]]").unwrap()..];
     let thin = "[[body]]\nname = 'thin'\nself_pairs = []\n[[body.capsule]]\nname = 'arm'\nlink = 2\nfrom_mm = [-0.09465, 0, 0]\n\
         to_mm = [0, 0, 0]\nradius_mm = 0.09\n";

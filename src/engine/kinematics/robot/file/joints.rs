@@ -129,11 +129,16 @@ fn other_units(source: &Source, entries: &[Spanned<JointEntry>]) -> Vec<Settings
         );
         fault(index, key, message);
     }
-    let limits = LIMITS.iter().filter(|_| widest.is_none());
-    for column in TURNS.iter().chain(limits) {
+    for column in &TURNS {
         let angles: Vec<f64> = numbers(entries, column).map(|(_, angle)| angle).collect();
         let asked = seems_in_radians(column.0, &angles);
         asked.into_iter().for_each(|(index, message)| fault(index, column.0, message));
+    }
+    // One joint may have limits in radians where the others' are in degrees.
+    for (index, entry) in entries.iter().enumerate().filter(|_| widest.is_none()) {
+        let limits = LIMITS.map(|(_, of)| of(entry.get_ref()).unwrap_or_default());
+        let asked = seems_in_radians("a limit", &limits);
+        asked.into_iter().for_each(|(limit, message)| fault(index, LIMITS[limit].0, message));
     }
     if let Some((speed, index, key)) = farthest(entries, &SPEEDS_DEG_S) {
         let fastest = FASTEST_RAD_S.to_degrees();
