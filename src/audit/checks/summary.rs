@@ -110,6 +110,10 @@ struct Summary {
     premise: &'static str,
     /// A number that it sums up and that is not printed, in words.
     gap: Option<String>,
+    /// The same of one that may be none: its row may begin a block.
+    perhaps_gap: Option<String>,
+    /// Whether it sums up counts, which are not rounded.
+    of_counts: bool,
     steps: Cell<u64>,
 }
 
@@ -165,21 +169,21 @@ fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
 pub fn totals_that_are_means(input: &Input) -> Vec<Fault> {
     let mut found = Vec::new();
     summaries(input, &mut |word, summary| {
+        let Quoted { name, place, cell, .. } = &summary.numbers[0];
+        let is_share = cell.is_some_and(|[table, _, column]| {
+            matches!(input.tables[table].columns[column].meaning.kind, Kind::Share { .. })
+        });
+        if !word.is_sum() || is_share || summary.gap.is_some() {
+            return;
+        }
         let prints: Vec<Print> = summary.numbers.iter().map(|number| number.print).collect();
         let own = prints[0].span();
-        let fits =
-            |(form, _, span): (Form, usize, Option<Span>)| span.filter(|span| span.meets(&own)).map(|_| form);
+        let fits = |(form, _, span): (Form, usize, Option<Span>)| span?.meets(&own).then_some(form);
         let forms: Vec<Form> = summary.all(&prints).filter_map(fits).collect();
-        if word.is_sum()
-            && summary.forms.contains(&Form::Sum)
-            && !forms.contains(&Form::Sum)
-            && let Some(form) = forms.first().filter(|_| summary.gap.is_none())
-        {
-            let Quoted { name, place, .. } = &summary.numbers[0];
-            found.push(Fault::new(
-                *place,
-                format!("{name}: {} is {} of the others, not their sum", prints[0].printed, form.name()),
-            ));
+        if let Some(form) = forms.first().filter(|_| !forms.contains(&Form::Sum)) {
+            let message =
+                format!("{name}: {} is {} of the others, not their sum", prints[0].printed, form.name());
+            found.push(Fault::new(*place, message));
         }
     });
     found
@@ -243,8 +247,17 @@ fn of_row(
     };
     let [mut block, mut all, mut before] = [Vec::new(), Vec::new(), Vec::new()];
     let mut is_in_block = true;
-    let mut gap = None;
+    let (mut gap, mut perhaps_gap) = (None, None);
+    let line = |other: usize| table.rows[other][column].place.line;
     for other in neighbours(table, labels, row) {
+        // A row without numbers right below one with them may begin a block, or its numbers may be missing.
+        let is_below_a_row = other > 0
+            && labels[other - 1].is_none()
+            && !is_empty(other - 1)
+            && !is_statistic(table, other - 1);
+        if is_empty(other) && is_below_a_row && is_alike(other) {
+            perhaps_gap = Some(format!("line {} has no number here, or begins a block", line(other)));
+        }
         if is_empty(other) || labels[other].is_some() || is_statistic(table, other) {
             is_in_block &= block.is_empty();
             if labels[other].is_some() && is_alike(other) && table.print(other, column).is_some() {
@@ -257,7 +270,7 @@ fn of_row(
         }
         // Where one is not printed, what the others give is not known.
         if table.print(other, column).is_none() {
-            gap = Some(format!("line {} has no number here", table.rows[other][column].place.line));
+            gap = Some(format!("line {} has no number here", line(other)));
             continue;
         }
         if all.len() == MOST {
@@ -292,6 +305,8 @@ fn of_row(
         weights,
         premise: "the row sums up rows above it",
         gap,
+        perhaps_gap,
+        of_counts: are_counts(table, column),
         steps: Cell::default(),
     };
     Some((word, summary))
@@ -329,6 +344,11 @@ fn weights(table: &Table, column: usize, rows: &[usize]) -> Vec<Exact> {
     };
     let all = rows.iter().map(|row| n(*row).filter(|n| *n > whole(0))).collect::<Option<Vec<Exact>>>();
     all.map_or_else(Vec::new, |all| std::iter::once(whole(0)).chain(all).collect())
+}
+
+/// Whether a column holds counts of solved trials.
+fn are_counts(table: &Table, column: usize) -> bool {
+    table.columns[column].meaning.kind == Kind::Share { whole: 0 }
 }
 
 /// Whether a column is called as numbers of trials are, though no other column says that it has them.
@@ -421,6 +441,7 @@ fn of_column(index: usize, table: &Table, row: usize, at: usize) -> Option<(Word
     forms.extend(OTHER_MEANS.iter().filter(|_| !word.is_sum()));
     let missing = columns.iter().find(|column| table.print(row, **column).is_none());
     let gap = missing.map(|column| format!("column `{}` has no number here", table.columns[*column].name));
+    let of_counts = are_counts(table, columns[0]);
     columns.retain(|column| table.print(row, *column).is_some());
     let numbers = std::iter::once(&at).chain(&columns).map(|column| quoted(index, table, row, *column));
     let summary = Summary {
@@ -430,6 +451,8 @@ fn of_column(index: usize, table: &Table, row: usize, at: usize) -> Option<(Word
         weights: Vec::new(),
         premise: "the column sums up columns right before it",
         gap,
+        perhaps_gap: None,
+        of_counts,
         steps: Cell::default(),
     };
     Some((word, summary))
@@ -442,7 +465,8 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
     let choices = vec![(1..numbers.len()).collect()];
     let premise = "these are all that it sums up";
     let (forms, weights, steps) = (vec![form], Vec::new(), Cell::default());
-    Ok(Box::new(Summary { numbers, choices, forms, weights, premise, gap: None, steps }))
+    let (gap, perhaps_gap, of_counts) = (None, None, false);
+    Ok(Box::new(Summary { numbers, choices, forms, weights, premise, gap, perhaps_gap, of_counts, steps }))
 }
 
 impl Summary {
@@ -468,7 +492,11 @@ impl Summary {
 
     /// Every form of every choice with what it allows.
     fn all(&self, prints: &[Print]) -> impl Iterator<Item = (Form, usize, Option<Span>)> {
-        let spans = spans(prints);
+        let mut spans = spans(prints);
+        if self.of_counts {
+            let points = prints.iter().map(|print| Span::point(print.value()));
+            spans.iter_mut().zip(points).skip(1).for_each(|(span, point)| *span = point);
+        }
         self.steps.set(self.steps.get() + prints.len() as u64);
         let pairs = self.choices.iter().flat_map(|choice| self.forms.iter().map(move |form| (choice, *form)));
         let needs = pairs.filter(|(_, form)| *form != Form::Pooled || !self.weights.is_empty());
@@ -498,7 +526,7 @@ impl Test for Summary {
                 None => is_open = true,
             }
         }
-        (!is_open).then_some(false)
+        (!is_open && self.perhaps_gap.is_none()).then_some(false)
     }
 
     fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
@@ -524,7 +552,8 @@ impl Test for Summary {
     }
 
     fn undecided(&self, _prints: &[Print]) -> String {
-        self.gap.clone().unwrap_or_else(|| "too many digits for exact arithmetic".to_owned())
+        let gap = self.gap.clone().or_else(|| self.perhaps_gap.clone());
+        gap.unwrap_or_else(|| "too many digits for exact arithmetic".to_owned())
     }
 
     fn is_about_digits(&self) -> bool {

@@ -46,7 +46,8 @@ pub fn annotation(name: &str, unit: &str, texts: &[&str]) -> String {
 }
 
 /// What the reader says of cells that are numbers where their column is one of numbers.
-const OF_NUMBERS: [&str; 7] = [
+const OF_NUMBERS: [&str; 8] = [
+    "has more than 15 digits",
     "has the mark",
     "is a time in",
     "is struck out",

@@ -134,6 +134,16 @@ fn numbers_that_a_header_without_annotation_stands_over_are_not_taken_for_labels
         ("plan (ms)", ["<5", "<7"], "3:2: column `plan (ms)`: `<5` is a bound"),
         ("plan (ms)", ["3–4", "5–6"], "3:2: column `plan (ms)`: `3–4` is a range"),
         ("plan (ms)", ["1.5*", "2.5*"], "3:2: column `plan (ms)`: `1.5*` has the mark"),
+        (
+            "plan (ms)",
+            ["1234567890123456", "1.0"],
+            "3:2: column `plan (ms)`: `1234567890123456` has more than 15",
+        ),
+        (
+            "plan (ms)",
+            ["1.5", "50%"],
+            "4:2: column `plan (ms)`: `50%` has the unit %, and its header the unit ms",
+        ),
     ] {
         let rows = cells.map(|cell| format!("A | {cell}"));
         let text = table(&format!("planner | {header}"), &[&rows[0], &rows[1]]);
@@ -349,6 +359,9 @@ fn a_wrong_average_or_total_is_a_signal_and_a_right_one_is_none() {
         assert_eq!(found(&rows("Overall", right)), [], "{right}");
     }
     assert_eq!(found(&rows("Overall", "72.0 | 500")), [("summary", Class::Signal); 2]);
+    let solved = |last: &str| table("map | solved", &["a | 10/20", "b | 15/20", last]);
+    assert_eq!(found(&solved("Total | 25/40")), []);
+    assert_eq!(found(&solved("Total | 26/40")), [("summary", Class::Signal)], "counts are not rounded");
     let counted = |n: &str, last: &str| {
         table(
             &format!("planner | {n} | time [mean, unit=ms]"),
@@ -443,6 +456,15 @@ fn an_average_may_be_of_its_block_of_its_planner_or_weighted_by_trials() {
     let beside =
         table("planner | a (ms) | b (ms) | Average (ms)", &["A | 10.0 | | 40.0", "B | 1.0 | 3.0 | 2.0"]);
     assert_eq!(line(&beside).text, "not decided: column `b (ms)` has no number here");
+    let below = |last: &str| table("map | time [value]", &["a | 1.0", "b | ", "c | 2.0", last]);
+    assert_eq!(
+        line(&below("Average | 40.0")).text,
+        "not decided: line 4 has no number here, or begins a block"
+    );
+    assert_eq!(found(&below("Average | 1.5")), []);
+    let heads =
+        ["Easy | ", "a | 1.0", "b | 2.0", "Average | 1.5", "Hard | ", "c | 5.0", "d | 6.0", "Average | 4.0"];
+    assert_eq!(found(&table("map | time [value]", &heads)), [("summary", Class::Signal)], "a head is no gap");
     let one = table("map | time [value]", &["a | -", "b | 2.0", "Average | 40.0"]);
     assert_eq!(line(&one).text, "not decided: line 3 has no number here");
     let speeds = table("map | speed-up [value]", &["a | 1.0", "b | 4.0", "Average | 2.0"]);
@@ -484,6 +506,17 @@ fn an_average_that_is_the_geometric_or_the_harmonic_mean_is_no_signal() {
     // The geometric mean of 1 to 900 is e^(ln 900! / 900) = 332.68.
     assert_eq!(long("Average | 332.7"), []);
     assert_eq!(long("Average | 333.0"), [("summary", Class::Signal)]);
+}
+
+#[test]
+fn a_summary_of_nothing_that_is_printed_is_not_checked() {
+    let columns = table(
+        "p | a (s) [value] | b (s) [value] | Total (s) [value]",
+        &["A | - | - | 4.0", "B | 1.0 | 2.0 | 3.0"],
+    );
+    assert_eq!(found(&columns), [("summary", Class::Unchecked)]);
+    let rows = table("p | t [value]", &["a | -", "b | -", "Average | 4.0"]);
+    assert_eq!(found(&rows), [("summary", Class::Unchecked)]);
 }
 
 #[test]
