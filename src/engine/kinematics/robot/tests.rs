@@ -157,12 +157,14 @@ fn rows_in_metres_and_limits_in_radians_are_queried() {
     let faster = message(&FILE.replacen("speed_deg_s = 500", "speed_deg_s = 5000", 1)).unwrap_err();
     let expected = "speed_deg_s is 5000; no joint is faster than 1432; less is accepted";
     assert!(faster.starts_with("up6.toml:") && faster.contains(expected), "{faster}");
-    for (key, longest, metres) in
-        [("d_mm", "d_mm of 3 is 0.64", "0.64 m is 640 mm"), ("a_mm", "a_mm of 3 is 0.57", "0.57 m")]
-    {
+    for (key, length, asked) in [
+        ("d_mm", "d_mm = 640", "the longest d_mm of 3 is 0.64"),
+        ("a_mm", "a_mm = 570", "the longest a_mm of 3 is 0.57"),
+    ] {
         let column = message(&scaled([key, key], 1e-3)).unwrap_err();
-        let expected = format!("the longest {longest}; is it in metres? millimetres are accepted ({metres}");
-        assert!(column.starts_with("up6.toml:") && column.contains(&expected), "{column}");
+        let line = FILE[..FILE.find(length).unwrap()].lines().count() + 1;
+        assert!(column.starts_with(&format!("up6.toml:{line}:8: {asked}")), "{column}");
+        assert!(column.contains("; is it in metres? millimetres are accepted ("), "{column}");
     }
     let offsets = FILE.replacen(
         "d_mm = 0\noffset_deg = 0\nlower_deg = -180",
