@@ -204,6 +204,7 @@ fn current(macros: &str) -> Result<String, String> {
 fn lines(source: &str, input: &Input, report: &Report) -> String {
     let findings = report.findings.iter().map(|finding| output::line(source, finding));
     let remarks = output::guesses(source, input).into_iter().chain(output::unread_spreads(source, input));
+    let remarks = remarks.chain(output::totals(source, input));
     let lines = remarks.chain(output::unseen(source, report)).chain(findings);
     lines.chain(output::summary(report)).map(|line| line + "\n").collect()
 }

@@ -1,6 +1,6 @@
 //! A report for people, a line a finding, and for programs, as JSON.
 
-use super::checks::REGISTRY;
+use super::checks::{REGISTRY, summary};
 use super::input::Input;
 use super::meaning::{ITEMS, Kind};
 use super::reader;
@@ -85,6 +85,12 @@ fn unread_spread(table: &Table, at: usize) -> Option<String> {
 fn is_multiple(table: &Table, at: usize) -> bool {
     let brackets = table.rows.iter().filter_map(|row| Some(row.get(at)?.spread?.value()));
     reader::are_multiples(&brackets.collect::<Vec<_>>())
+}
+
+/// Totals that are means, which their names do not say.
+pub fn totals(source: &str, input: &Input) -> Vec<String> {
+    let found = summary::totals_that_are_means(input);
+    found.iter().map(|found| format!("{source}:{found}; it is taken as one")).collect()
 }
 
 /// Columns and samples that no check looked at, each with the annotation that would change that. If no check ran at all, that

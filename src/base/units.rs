@@ -2,16 +2,25 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
+/// No joint of a robot is faster, radians a second; the fastest that we know turns at 23.6, 1350° a second.
+///
+/// # Source
+/// The tool roll of the A255, in CRS Robotics, *A255 Robot Arm User Guide* (1999), p. 8.
+pub const FASTEST_RAD_S: f64 = 25.0;
+
 /// How near to a multiple of an eighth of a turn an angle is that was rounded to two digits behind the point.
 const ROUNDED_RAD: f64 = 2e-3;
 
 /// So many digits behind the point make a multiple of a quarter of a turn in radians certain.
 const CERTAIN_DIGITS: usize = 3;
 
-/// A tool, a block or a way is longer.
+/// What settings are often multiples of, in degrees, and how many digits in radians make one certain.
+const SETTINGS_DEG: [(f64, usize); 2] = [(5.0, CERTAIN_DIGITS), (1.0, 4)];
+
+/// A tool, a block or a way is longer, and neighbours are farther apart.
 const SHORT_MM: f64 = 2.0;
 
-/// No link or obstacle has a smaller radius, and neighbours are farther apart.
+/// No link or obstacle has a smaller radius.
 const THIN_MM: f64 = 1.0;
 
 /// The message about a length under the key `key` that seems to be in metres: it is above 0 and shorter than two millimetres.
@@ -19,8 +28,7 @@ pub fn seems_in_metres(key: &str, length_mm: f64) -> Option<String> {
     below(SHORT_MM, key, length_mm)
 }
 
-/// The message about a radius or a distance of neighbours under the key `key` that seems to be in metres: it is above 0 and below a
-/// millimetre.
+/// The message about a radius under the key `key` that seems to be in metres: it is above 0 and below a millimetre.
 pub fn radius_in_metres(key: &str, radius_mm: f64) -> Option<String> {
     below(THIN_MM, key, radius_mm)
 }
@@ -46,6 +54,40 @@ fn below(least_mm: f64, key: &str, length_mm: f64) -> Option<String> {
     })
 }
 
+/// The message about an angle in settings under the key `key` that seems to be in radians: it is a multiple of 5° in radians to three
+/// digits or more, of 1° to four, a right angle or half of one to two, or below `least_deg`.
+pub fn setting_in_radians(key: &str, angle_deg: f64, least_deg: f64) -> Option<String> {
+    let is_less = (f64::MIN_POSITIVE..least_deg).contains(&angle_deg);
+    let is_multiple =
+        |(part_deg, digits): (f64, usize)| is_multiple(angle_deg, part_deg.to_radians(), digits);
+    if is_less || SETTINGS_DEG.into_iter().any(is_multiple) {
+        return Some(in_radians(key, angle_deg));
+    }
+    seems_in_radians(key, &[angle_deg]).map(|(_, message)| message)
+}
+
+/// Asks whether an angle is in radians.
+fn in_radians(key: &str, angle: f64) -> String {
+    format!(
+        "{key} is {angle}; is it in radians? degrees are accepted ({angle} rad is {:.1}°)",
+        angle.to_degrees()
+    )
+}
+
+/// Whether `angle` is less than a turn and a multiple of `part`, both in radians, to so many digits or more, rounded or cut.
+fn is_multiple(angle: f64, part: f64, least_digits: usize) -> bool {
+    let parts = (angle / part).round();
+    let written = angle.to_string();
+    let digits = written.split_once('.').map_or(0, |(_, digits)| digits.len());
+    let last = libm::pow(10.0, -(digits.min(12) as f64));
+    parts != 0.0 && is_small(angle) && digits >= least_digits && (angle - parts * part).abs() < last
+}
+
+/// Whether an angle is no more than a turn in radians.
+fn is_small(angle: f64) -> bool {
+    angle.abs() < TAU + ROUNDED_RAD
+}
+
 /// The first of `angles_deg` that seems to be in radians, by its number, with the message about the key `key`.
 ///
 /// It is a multiple of a quarter of a turn in radians to three digits or more, rounded or cut; or one of an eighth to two, and no angle is
@@ -55,23 +97,10 @@ pub fn seems_in_radians(key: &str, angles_deg: &[f64]) -> Option<(usize, String)
         let eighths = (angle / FRAC_PI_4).round();
         eighths != 0.0 && (angle - eighths * FRAC_PI_4).abs() < ROUNDED_RAD
     };
-    let is_small = |angle: &f64| angle.abs() < TAU + ROUNDED_RAD;
-    let is_quarter = |angle: &f64| {
-        let quarters = (angle / FRAC_PI_2).round();
-        let written = angle.to_string();
-        let digits = written.split_once('.').map_or(0, |(_, digits)| digits.len());
-        let last = libm::pow(10.0, -(digits.min(12) as f64));
-        let is_near = (angle - quarters * FRAC_PI_2).abs() < last;
-        quarters != 0.0 && is_small(angle) && digits >= CERTAIN_DIGITS && is_near
-    };
-    let certain = angles_deg.iter().position(is_quarter);
+    let certain = angles_deg.iter().position(|angle| is_multiple(*angle, FRAC_PI_2, CERTAIN_DIGITS));
     let index = certain.or_else(|| angles_deg.iter().position(is_eighth))?;
-    let angle = angles_deg[index];
-    let message = format!(
-        "{key} is {angle}; is it in radians? degrees are accepted ({angle} rad is {:.1}°)",
-        angle.to_degrees()
-    );
-    (certain.is_some() || angles_deg.iter().all(is_small)).then_some((index, message))
+    let is_seen = certain.is_some() || angles_deg.iter().all(|angle| is_small(*angle));
+    is_seen.then(|| (index, in_radians(key, angles_deg[index])))
 }
 
 #[cfg(test)]
@@ -117,6 +146,26 @@ mod tests {
         assert!(bent.ends_with("(0.09465 m is 94.65 mm)"), "{bent}");
         for radius_mm in [-1.0, 0.0, 1.0, 75.0] {
             assert_eq!(radius_in_metres("radius_mm", radius_mm), None);
+        }
+        for (angle_deg, is_asked) in [
+            ("0.349", true),
+            ("0.3491", true),
+            ("0.1745", true),
+            ("1.57", true),
+            ("0.9", true),
+            ("2.182", true),
+            ("1.0472", true),
+            ("2.1642", true),
+            ("2.164", false),
+            ("2.17", false),
+            ("20", false),
+            ("1.05", false),
+            ("2.5", false),
+            ("1.125", false),
+            ("110", false),
+        ] {
+            let asked = setting_in_radians("jump_deg", angle_deg.parse().unwrap(), 1.0);
+            assert_eq!(asked.is_some(), is_asked, "{angle_deg}: {asked:?}");
         }
         assert_eq!(
             points_in_metres("from_mm and to_mm", &[0.0, -0.4, 0.0, 0.3]).unwrap(),

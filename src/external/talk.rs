@@ -5,7 +5,7 @@ use super::interrupt::is_interrupted;
 use super::message::{Counters, FromPlanner, Hello, Limits, PROTOCOL, QueryResult, Solve, Status, ToPlanner};
 use super::process::{Clock, Process, Program};
 use super::world::World;
-use base::text::listed;
+use base::text::{fault_of_name, listed};
 use std::time::Duration;
 
 /// A result is waited for this much longer than a planner is given, so that one that looks at the clock itself is not cut off
@@ -116,7 +116,10 @@ pub fn greet(process: &mut Process, program: &Program) -> Result<Hello, String> 
         first = process.next(LOOK);
     }
     let hello = match first {
-        Ok(Some(FromPlanner::Hello(hello))) if hello.protocol == PROTOCOL => hello,
+        Ok(Some(FromPlanner::Hello(hello))) if hello.protocol == PROTOCOL => match fault_of(&hello) {
+            None => hello,
+            Some(fault) => return Err(with_log(process, &fault)),
+        },
         Ok(Some(FromPlanner::Hello(hello))) => {
             let spoken = hello.protocol;
             return Err(with_log(
@@ -134,6 +137,16 @@ pub fn greet(process: &mut Process, program: &Program) -> Result<Hello, String> 
     };
     process.hello = Some(hello.clone());
     Ok(hello)
+}
+
+/// What is wrong with what a planner says of itself.
+fn fault_of(hello: &Hello) -> Option<String> {
+    let named = fault_of_name(&hello.name).map(|fault| format!("the planner's name {fault}"));
+    let is_blank =
+        || hello.name.trim().is_empty().then(|| "the planner's name is empty; one is accepted".to_owned());
+    let no_world =
+        || hello.worlds.is_empty().then(|| "the planner names no world; at least one is accepted".to_owned());
+    named.or_else(is_blank).or_else(no_world)
 }
 
 /// `why` with how the planner ended, if it has, and the end of its log.

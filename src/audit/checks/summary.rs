@@ -108,6 +108,12 @@ struct Summary {
     /// How many trials are behind each number; empty if that is not printed.
     weights: Vec<Exact>,
     premise: &'static str,
+    /// A number that it sums up and that is not printed, in words.
+    gap: Option<String>,
+    /// The same of one that may be none: its row may begin a block.
+    perhaps_gap: Option<String>,
+    /// Whether it sums up counts, which are not rounded.
+    of_counts: bool,
     steps: Cell<u64>,
 }
 
@@ -156,18 +162,46 @@ fn labels(table: &Table) -> Vec<Option<usize>> {
 }
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
+    summaries(input, &mut |_, summary| give(Box::new(summary)));
+}
+
+/// Numbers of rows and columns called a total that are a mean of numbers that could be summed up, each at its place.
+pub fn totals_that_are_means(input: &Input) -> Vec<Fault> {
+    let mut found = Vec::new();
+    summaries(input, &mut |word, summary| {
+        let Quoted { name, place, cell, .. } = &summary.numbers[0];
+        let is_share = cell.is_some_and(|[table, _, column]| {
+            matches!(input.tables[table].columns[column].meaning.kind, Kind::Share { .. })
+        });
+        if !word.is_sum() || is_share || summary.gap.is_some() {
+            return;
+        }
+        let prints: Vec<Print> = summary.numbers.iter().map(|number| number.print).collect();
+        let own = prints[0].span();
+        let fits = |(form, _, span): (Form, usize, Option<Span>)| span?.meets(&own).then_some(form);
+        let forms: Vec<Form> = summary.all(&prints).filter_map(fits).collect();
+        if let Some(form) = forms.first().filter(|_| !forms.contains(&Form::Sum)) {
+            let message =
+                format!("{name}: {} is {} of the others, not their sum", prints[0].printed, form.name());
+            found.push(Fault::new(*place, message));
+        }
+    });
+    found
+}
+
+/// Gives every number that says that it sums up others, with what its name says.
+fn summaries(input: &Input, give: &mut dyn FnMut(Word, Summary)) {
     for (index, table) in input.tables.iter().enumerate().filter(|(_, table)| table.statistics().is_none()) {
         let labels = labels(table);
         let columns = 0..table.columns.len();
         let rows = || 0..table.rows.len();
         for row in rows().filter(|row| labels[*row].is_some()) {
             let of_rows = columns.clone().filter_map(|column| of_row(index, table, &labels, [row, column]));
-            of_rows.for_each(|test| give(Box::new(test)));
+            of_rows.for_each(|(word, summary)| give(word, summary));
         }
         for column in columns.filter(|column| word(&table.columns[*column].name).is_some()) {
-            rows()
-                .filter_map(|row| of_column(index, table, row, column))
-                .for_each(|test| give(Box::new(test)));
+            let of_columns = rows().filter_map(|row| of_column(index, table, row, column));
+            of_columns.for_each(|(word, summary)| give(word, summary));
         }
     }
 }
@@ -179,7 +213,7 @@ pub fn is_true(input: &Input, [index, row, column]: [usize; 3]) -> bool {
         label(table, row)?;
         of_row(index, table, &labels(table), [row, column])
     };
-    let holds = |test: Summary| {
+    let holds = |(_, test): (Word, Summary)| {
         let prints: Vec<Print> = test.numbers.iter().map(|number| number.print).collect();
         test.is_possible(&prints) == Some(true)
     };
@@ -193,7 +227,7 @@ fn of_row(
     table: &Table,
     labels: &[Option<usize>],
     [row, column]: [usize; 2],
-) -> Option<Summary> {
+) -> Option<(Word, Summary)> {
     let own = labels[row]?;
     table.print(row, column)?;
     let word = word(&table.rows[row][own].text)?;
@@ -213,7 +247,17 @@ fn of_row(
     };
     let [mut block, mut all, mut before] = [Vec::new(), Vec::new(), Vec::new()];
     let mut is_in_block = true;
+    let (mut gap, mut perhaps_gap) = (None, None);
+    let line = |other: usize| table.rows[other][column].place.line;
     for other in neighbours(table, labels, row) {
+        // A row without numbers right below one with them may begin a block, or its numbers may be missing.
+        let is_below_a_row = other > 0
+            && labels[other - 1].is_none()
+            && !is_empty(other - 1)
+            && !is_statistic(table, other - 1);
+        if is_empty(other) && is_below_a_row && is_alike(other) {
+            perhaps_gap = Some(format!("line {} has no number here, or begins a block", line(other)));
+        }
         if is_empty(other) || labels[other].is_some() || is_statistic(table, other) {
             is_in_block &= block.is_empty();
             if labels[other].is_some() && is_alike(other) && table.print(other, column).is_some() {
@@ -225,7 +269,10 @@ fn of_row(
             continue;
         }
         // Where one is not printed, what the others give is not known.
-        table.print(other, column)?;
+        if table.print(other, column).is_none() {
+            gap = Some(format!("line {} has no number here", line(other)));
+            continue;
+        }
         if all.len() == MOST {
             return None;
         }
@@ -234,7 +281,7 @@ fn of_row(
             block.push(other);
         }
     }
-    if all.len() < 2 {
+    if all.len() < 2 && gap.is_none() {
         return None;
     }
     let rows: Vec<usize> = all.iter().chain(&before).copied().collect();
@@ -251,14 +298,18 @@ fn of_row(
     }
     forms.extend(OTHER_MEANS.iter().filter(|_| !word.is_sum()));
     let numbers = std::iter::once(&row).chain(&rows).map(|row| quoted(index, table, *row, column));
-    Some(Summary {
+    let summary = Summary {
         numbers: numbers.collect::<Option<_>>()?,
         choices: choices.collect(),
         forms,
         weights,
         premise: "the row sums up rows above it",
+        gap,
+        perhaps_gap,
+        of_counts: are_counts(table, column),
         steps: Cell::default(),
-    })
+    };
+    Some((word, summary))
 }
 
 /// The rows that a summary may be of, the nearest first: those above, or below if there are none above.
@@ -293,6 +344,11 @@ fn weights(table: &Table, column: usize, rows: &[usize]) -> Vec<Exact> {
     };
     let all = rows.iter().map(|row| n(*row).filter(|n| *n > whole(0))).collect::<Option<Vec<Exact>>>();
     all.map_or_else(Vec::new, |all| std::iter::once(whole(0)).chain(all).collect())
+}
+
+/// Whether a column holds counts of solved trials.
+fn are_counts(table: &Table, column: usize) -> bool {
+    table.columns[column].meaning.kind == Kind::Share { whole: 0 }
 }
 
 /// Whether a column is called as numbers of trials are, though no other column says that it has them.
@@ -346,7 +402,7 @@ fn is_quotient(table: &Table, at: usize) -> bool {
 }
 
 /// The test of a cell in a column that sums up those before it; `None` if it sums up nothing that is known.
-fn of_column(index: usize, table: &Table, row: usize, at: usize) -> Option<Summary> {
+fn of_column(index: usize, table: &Table, row: usize, at: usize) -> Option<(Word, Summary)> {
     let Column { name, meaning, .. } = &table.columns[at];
     let word = word(name)?;
     table.print(row, at)?;
@@ -383,15 +439,23 @@ fn of_column(index: usize, table: &Table, row: usize, at: usize) -> Option<Summa
         forms.push(Form::Between);
     }
     forms.extend(OTHER_MEANS.iter().filter(|_| !word.is_sum()));
+    let missing = columns.iter().find(|column| table.print(row, **column).is_none());
+    let gap = missing.map(|column| format!("column `{}` has no number here", table.columns[*column].name));
+    let of_counts = are_counts(table, columns[0]);
+    columns.retain(|column| table.print(row, *column).is_some());
     let numbers = std::iter::once(&at).chain(&columns).map(|column| quoted(index, table, row, *column));
-    Some(Summary {
+    let summary = Summary {
         numbers: numbers.collect::<Option<_>>()?,
         choices: (2..=columns.len()).map(|most| (1..=most).collect()).collect(),
         forms,
         weights: Vec::new(),
         premise: "the column sums up columns right before it",
+        gap,
+        perhaps_gap: None,
+        of_counts,
         steps: Cell::default(),
-    })
+    };
+    Some((word, summary))
 }
 
 fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
@@ -400,10 +464,17 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
     numbers.extend(relation.numbers("parts", input)?);
     let choices = vec![(1..numbers.len()).collect()];
     let premise = "these are all that it sums up";
-    let forms = vec![form];
-    let weights = Vec::new();
-    let steps = Cell::default();
-    Ok(Box::new(Summary { numbers, choices, forms, weights, premise, steps }))
+    Ok(Box::new(Summary {
+        numbers,
+        choices,
+        forms: vec![form],
+        weights: Vec::new(),
+        premise,
+        gap: None,
+        perhaps_gap: None,
+        of_counts: false,
+        steps: Cell::default(),
+    }))
 }
 
 impl Summary {
@@ -429,7 +500,11 @@ impl Summary {
 
     /// Every form of every choice with what it allows.
     fn all(&self, prints: &[Print]) -> impl Iterator<Item = (Form, usize, Option<Span>)> {
-        let spans = spans(prints);
+        let mut spans = spans(prints);
+        if self.of_counts {
+            let points = prints.iter().map(|print| Span::point(print.value()));
+            spans.iter_mut().zip(points).skip(1).for_each(|(span, point)| *span = point);
+        }
         self.steps.set(self.steps.get() + prints.len() as u64);
         let pairs = self.choices.iter().flat_map(|choice| self.forms.iter().map(move |form| (choice, *form)));
         let needs = pairs.filter(|(_, form)| *form != Form::Pooled || !self.weights.is_empty());
@@ -447,6 +522,9 @@ impl Test for Summary {
     }
 
     fn is_possible(&self, prints: &[Print]) -> Option<bool> {
+        if self.gap.is_some() {
+            return None;
+        }
         let printed = prints[0].span();
         let mut is_open = false;
         for (_, _, span) in self.all(prints) {
@@ -456,7 +534,7 @@ impl Test for Summary {
                 None => is_open = true,
             }
         }
-        (!is_open).then_some(false)
+        (!is_open && self.perhaps_gap.is_none()).then_some(false)
     }
 
     fn sentence(&self, prints: &[Print], is_possible: bool) -> String {
@@ -479,6 +557,11 @@ impl Test for Summary {
 
     fn premises(&self) -> Vec<String> {
         vec![self.premise.to_owned(), digits(&self.numbers)]
+    }
+
+    fn undecided(&self, _prints: &[Print]) -> String {
+        let gap = self.gap.clone().or_else(|| self.perhaps_gap.clone());
+        gap.unwrap_or_else(|| "too many digits for exact arithmetic".to_owned())
     }
 
     fn is_about_digits(&self) -> bool {

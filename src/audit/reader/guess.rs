@@ -14,14 +14,14 @@ pub fn annotation(name: &str, unit: &str, texts: &[&str]) -> String {
     let read: Vec<_> = texts.iter().map(|text| number(&plain(text).0)).collect();
     let filled = read.iter().filter(|number| !matches!(number, Ok(Number::Missing))).count();
     let lower = name.to_lowercase();
-    let names_numbers = kind(&lower, texts) != "value";
+    let names_numbers = !unit.is_empty() || super::unit_of(name).is_some() || kind(&lower, texts) != "value";
     // Decimal commas, marks of thousands, footnotes and minutes are of numbers too: the reader names them.
     let is_number = |number: &&Result<Number, String>| match number {
         Ok(number) => *number != Number::Missing,
         Err(message) => {
             let has = |words: &[&str]| words.iter().any(|word| message.contains(word));
-            has(&["decimal comma", "thousands separator"])
-                || names_numbers && has(&["has the mark", "is a time in", "is struck out", "ends in a point"])
+            has(&["decimal comma", "thousands separator", "has an exponent", "has a power of ten"])
+                || names_numbers && has(&OF_NUMBERS)
         }
     };
     let numbers = read.iter().filter(is_number).count();
@@ -44,6 +44,18 @@ pub fn annotation(name: &str, unit: &str, texts: &[&str]) -> String {
     }
     items.join(", ")
 }
+
+/// What the reader says of cells that are numbers where their column is one of numbers.
+const OF_NUMBERS: [&str; 8] = [
+    "has more than 15 digits",
+    "has the mark",
+    "is a time in",
+    "is struck out",
+    "ends in a point",
+    "leaves digits out",
+    "is a range",
+    "is a bound",
+];
 
 /// Whether what stands in brackets may be multiples of the best, as pytest-benchmark prints them: 1.0 and more, and one is 1.0.
 pub fn are_multiples(brackets: &[f64]) -> bool {

@@ -1,6 +1,6 @@
 //! Units that stand in cells: one a column.
 
-use super::cells;
+use super::{cells, unit_of};
 use crate::meaning::Kind;
 use crate::table::{Cell, Column, Fault, named_by};
 use proofs::printed::Printed;
@@ -66,7 +66,8 @@ fn percents(at: usize, column: &Column, rows: &[Vec<Cell>], faults: &mut Vec<Fau
 
 /// Refuses cells whose unit is another than the header's, or than the first cell's.
 fn in_cells(at: usize, column: &Column, rows: &[Vec<Cell>], faults: &mut Vec<Fault>) {
-    let header = column.meaning.unit.as_deref();
+    let header = column.meaning.unit.clone().or_else(|| unit_of(&column.name));
+    let header = header.as_deref();
     let mut first: Option<&str> = None;
     for cell in rows.iter().filter_map(|row| row.get(at).filter(|cell| cell.value.is_some())) {
         let is_percent = header.is_some_and(|header| !header.contains('%'))

@@ -64,6 +64,12 @@ impl Image {
         self.channels.is_multiple_of(2)
     }
 
+    /// Whether some pixel is no grey.
+    pub(super) fn is_coloured(&self) -> bool {
+        let is_colour = |pixel: &[u16]| pixel[..3].iter().any(|sample| *sample != pixel[0]);
+        self.channels > 2 && self.samples.chunks_exact(self.channels).any(is_colour)
+    }
+
     /// Its pixels.
     pub(super) fn pixels(&self) -> impl Iterator<Item = Pixel> {
         let full = f64::from(self.full);

@@ -9,8 +9,9 @@
 //! movingai.com. Printed optimal lengths there assume that no corner is cut
 //! ([`CornerRule::ForbidAny`](super::CornerRule::ForbidAny)).
 
-use super::{Grid2, GridError, error};
+use super::{CornerRule, Grid2, GridError, Moves, components, error};
 use crate::text::unseen;
+use std::cell::LazyCell;
 use std::path::Path;
 use std::str::FromStr;
 
@@ -115,7 +116,8 @@ pub fn read_movingai_map(path: &Path) -> Result<Grid2, GridError> {
 ///
 /// # Errors
 /// [`GridError::Text`] on an unknown version, a wrong number of fields, a field that does not parse, a map size
-/// that is not the grid's, or a cell outside it.
+/// that is not the grid's, or a cell outside it; a length that the map contradicts: -1 where a path cuts no corner, one where no
+/// path leads though all may be cut, one below the straight line, or above 0 where the goal is the start.
 pub fn parse_scenarios(text: &str, grid: &Grid2) -> Result<Vec<Scenario>, GridError> {
     let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()).peekable();
     let mut with_size = false;
@@ -126,7 +128,30 @@ pub fn parse_scenarios(text: &str, grid: &Grid2) -> Result<Vec<Scenario>, GridEr
             _ => return Err(wrong_text(index + 1, line, "`version 0`, `version 1` or `version 1.0`")),
         };
     }
-    lines.map(|(index, line)| Record { line: index + 1, text: line }.scenario(grid, with_size)).collect()
+    let records: Vec<Record> = lines.map(|(index, text)| Record { line: index + 1, text }).collect();
+    let read = records.iter().map(|record| record.scenario(grid, with_size));
+    let scenarios = read.collect::<Result<Vec<Scenario>, GridError>>()?;
+    let joined = |rule| components(grid, &Moves::new(grid, rule));
+    let (narrow, wide) =
+        (LazyCell::new(|| joined(CornerRule::ForbidAny)), LazyCell::new(|| joined(CornerRule::Allow)));
+    for (scenario, record) in scenarios.iter().zip(&records) {
+        let Scenario { start, goal, .. } = *scenario;
+        let accepted = match scenario.optimal_length_cells {
+            None if narrow.are_joined(start, goal) => "a length: a path that cuts no corner leads there",
+            None => continue,
+            Some(length) if start == goal && length > ROUNDED_CELLS => "0: the goal is the start",
+            Some(length) if length < straight_cells(grid, start, goal) - ROUNDED_CELLS => {
+                "a length: the straight line is longer"
+            }
+            Some(_) if grid.is_free(start) && grid.is_free(goal) && !wide.are_joined(start, goal) => {
+                "-1 or inf: no path leads there"
+            }
+            Some(_) => continue,
+        };
+        let found = record.text.split_whitespace().next_back().unwrap_or_default();
+        return Err(GridError::Text { line: record.line, found: found.into(), accepted: accepted.into() });
+    }
+    Ok(scenarios)
 }
 
 /// The queries in the `.scen` file at `path`.
@@ -135,6 +160,14 @@ pub fn parse_scenarios(text: &str, grid: &Grid2) -> Result<Vec<Scenario>, GridEr
 /// [`GridError::InFile`] around what [`parse_scenarios`] refuses or around [`GridError::Unreadable`].
 pub fn read_scenarios(path: &Path, grid: &Grid2) -> Result<Vec<Scenario>, GridError> {
     error::read(path, |text| parse_scenarios(text, grid))
+}
+
+/// How far a printed length may be from what it is: files were written by sums in single precision.
+const ROUNDED_CELLS: f64 = 0.01;
+
+fn straight_cells(grid: &Grid2, from: u32, to: u32) -> f64 {
+    let [[x, y], [u, v]] = [from, to].map(|cell| grid.xy(cell).map(f64::from));
+    libm::hypot(u - x, v - y)
 }
 
 fn wrong_text(line: usize, found: &str, accepted: &str) -> GridError {
@@ -183,7 +216,8 @@ impl Record<'_> {
             map: map.into(),
             start: self.cell(grid, ends[0], ends[1])?,
             goal: self.cell(grid, ends[2], ends[3])?,
-            optimal_length_cells: has_path.then_some(printed),
+            // Of `-0` no sign is kept.
+            optimal_length_cells: has_path.then_some(printed.abs()),
         })
     }
 
@@ -283,16 +317,44 @@ mod tests {
     #[test]
     fn a_length_of_minus_one_or_infinity_says_that_there_is_no_path() {
         let grid = parse_movingai_map(MAP).unwrap();
+        // The goal is blocked.
         for (length, read) in
-            [("-1", None), ("-1.0", None), ("inf", None), ("Infinity", None), ("0", Some(0.0))]
+            [("-1", None), ("-1.0", None), ("inf", None), ("Infinity", None), ("3", Some(3.0))]
         {
-            let [query] = &parse_scenarios(&format!("0 m 0 0 1 1 {length}\n"), &grid).unwrap()[..] else {
+            let [query] = &parse_scenarios(&format!("0 m 0 0 3 0 {length}\n"), &grid).unwrap()[..] else {
                 panic!()
             };
             assert_eq!(query.optimal_length_cells, read, "{length}");
         }
+        let unsigned = parse_scenarios("0 m 0 0 0 0 -0\n", &grid).unwrap()[0].optimal_length_cells;
+        assert_eq!(unsigned.map(f64::to_bits), Some(0));
         for length in ["-2", "-inf", "NaN", "1e400"] {
             assert!(parse_scenarios(&format!("0 m 0 0 1 1 {length}\n"), &grid).is_err(), "{length}");
+        }
+    }
+
+    #[test]
+    fn a_length_that_the_map_contradicts_is_refused_at_its_line() {
+        // The upper left part touches the lower right one at a corner, and the last column nothing.
+        let grid = parse_movingai_map("type octile\nheight 2\nwidth 5\nmap\n..@@.\n@@.@.\n").unwrap();
+        let read = |ends: &str, length: &str| {
+            let text = format!("version 0\n0 m 0 0 0 0 0\n0 m {ends} {length}\n");
+            parse_scenarios(&text, &grid).map_err(|error| error.to_string())
+        };
+        for (ends, length) in
+            [("0 0 1 0", "1"), ("0 0 2 1", "-1"), ("0 0 2 1", "2.414"), ("0 0 4 0", "-1"), ("0 0 3 0", "9")]
+        {
+            assert_eq!(read(ends, length).map(|all| all.len()), Ok(2), "{ends} {length}");
+        }
+        for (ends, length, accepted) in [
+            ("0 0 1 0", "-1", "a length: a path that cuts no corner leads there"),
+            ("0 0 0 0", "inf", "a length: a path that cuts no corner leads there"),
+            ("0 0 4 0", "4.0", "-1 or inf: no path leads there"),
+            ("0 0 1 0", "0.98", "a length: the straight line is longer"),
+            ("0 0 0 0", "1", "0: the goal is the start"),
+        ] {
+            let expected = format!("line 3: found `{length}`; accepted is {accepted}");
+            assert_eq!(read(ends, length), Err(expected), "{ends} {length}");
         }
     }
 

@@ -117,6 +117,14 @@ mod tests {
             "",
             "/room.yaml:1:1: there is no `resolution`; found are `image`, `origin`, `negate`",
         ),
+        (
+            "negate: 0\n",
+            "",
+            "/room.yaml:1:1: there is no `negate`; found are `image`, `resolution`, `origin`, ",
+        ),
+        ("occupied_thresh: 0.65\n", "", "/room.yaml:1:1: there is no `occupied_thresh`; found are `image`, "),
+        ("free_thresh: 0.196\n", "", "/room.yaml:1:1: there is no `free_thresh`; found are `image`, `resol"),
+        ("origin: [-1.0, -2.0, 0.0]\n", "", "/room.yaml:1:1: there is no `origin`; found are `image`, `res"),
         ("room.png", "/dev/zero", "it is a device, a pipe or a socket; a regular file is accepted"),
         (
             "negate: 0",
@@ -199,7 +207,9 @@ mod tests {
         let row = [&white[..], middle, &white].concat();
         fs::write(folder.path().join("room.png"), image(colour, &[&row[..], &row].concat())).unwrap();
         let path = folder.path().join("room.yaml");
-        let head = format!("image: room.png\nresolution: 0.05\nnegate: {negate}\nfree_thresh: 0.196\n");
+        let head = format!(
+            "image: room.png\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: {negate}\noccupied_thresh: 0.65\nfree_thresh: 0.196\n"
+        );
         fs::write(&path, head).unwrap();
         let map = read_map(&path).unwrap();
         let folder = folder.path().display().to_string();
@@ -229,7 +239,13 @@ mod tests {
             notes[0].starts_with("/room.png: opacity counts as a fourth colour, as in map_server"),
             "{notes:?}"
         );
-        let ignored = "/room.yaml: ignored keys: `resolution`; docs/FILES.md has the reasons";
+        let ignored = "/room.yaml: ignored keys: `origin`, `resolution`; docs/FILES.md has the reasons";
         assert_eq!(middle_is_free(Rgb, &[255; 3], false).1, [ignored]);
+        let (_, notes) = middle_is_free(Rgb, &[255, 255, 254], false);
+        assert!(
+            notes[0].starts_with("/room.png: colours count by their mean, as in map_server"),
+            "{notes:?}"
+        );
+        assert_eq!(notes.len(), 2, "{notes:?}");
     }
 }

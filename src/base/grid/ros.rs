@@ -2,11 +2,15 @@
 //!
 //! With `p` the darkness of a pixel from 0 to 1 (its brightness with `negate`), a cell is blocked where `p > occupied_thresh`, free
 //! where `p < free_thresh`, unknown in between; what is unknown is blocked. The brightness is the mean of the colour channels, and of
-//! the opacity if the image has one: so `map_server` and nav2 do in the mode `trinary`, the only one that is read. Cells are counted from
-//! the lower left pixel. A map that is turned, by a yaw in its `origin`, is refused.
+//! the opacity if the image has one: so `map_server` and nav2 up to Humble do in the mode `trinary`, the only one that is read. Cells are
+//! counted from the lower left pixel. A map that is turned, by a yaw in its `origin`, is refused.
 //!
-//! Source: the page "Map format" of <https://wiki.ros.org/map_server>; `loadMapFromFile` in `image_loader.cpp` of
-//! ros-planning/navigation and in `map_io.cpp` of ros-navigation/navigation2, which agree but for palettes.
+//! Every key but `mode` must be there: `map_server` and nav2 load no map without one, and have no default for it.
+//!
+//! Source: the page "Map format" of <https://wiki.ros.org/map_server>; `loadMapFromYaml` in `main.cpp` and `loadMapFromFile` in
+//! `image_loader.cpp` of ros-planning/navigation (noetic-devel, 9ad64419); `loadMapYaml` and `loadMapFromFile` in `map_io.cpp` of
+//! ros-navigation/navigation2 (humble), which agree but for palettes. In nav2 from Jazzy on (8d694833, pull request 5071) colours are
+//! weighed by luminance and what is transparent is unknown; maps for which that matters are noted.
 
 use super::image::Image;
 use crate::ignored::{ignored_note, is_ignored};
@@ -57,7 +61,7 @@ impl Head {
                 format!("there is no image `{}`; looked for {}", yaml.word(named)?, image.display());
             return Err(yaml.0.fault(&named.at, message));
         }
-        let is_negated = yaml.find(&root, "negate")?.map_or(Ok(false), |node| yaml.truth(node, "negate"))?;
+        let is_negated = yaml.truth(yaml.get(&root, "negate")?, "negate")?;
         let ignored = root.keys().filter(|key| is_ignored("ROS map", key)).map(str::to_owned).collect();
         let ignored = ignored_note(&ignored).map(|note| format!("{}: {note}", path.display()));
         Ok(Self { image, is_negated, ignored, free_below: free_below(yaml, &root)? })
@@ -73,18 +77,26 @@ impl Head {
     pub(super) fn notes(&self, image: &Image) -> Vec<String> {
         let name = self.image.display();
         let opacity = image.has_opacity().then(|| {
-            format!("{name}: opacity counts as a fourth colour, as in map_server and nav2: what is transparent is darker")
+            format!(
+                "{name}: opacity counts as a fourth colour, as in map_server and in nav2 up to Humble; later ones take what is \
+                 transparent for unknown"
+            )
+        });
+        let colours = image.is_coloured().then(|| {
+            format!(
+                "{name}: colours count by their mean, as in map_server and in nav2 up to Humble; later ones weigh them by luminance"
+            )
         });
         let palette = image.has_palette.then(|| {
             format!("{name}: its palette's colours are taken, as in nav2; map_server takes the numbers of the colours")
         });
-        opacity.into_iter().chain(palette).chain(self.ignored.clone()).collect()
+        opacity.into_iter().chain(colours).chain(palette).chain(self.ignored.clone()).collect()
     }
 }
 
 /// The place of the lower left pixel is not used, but the map's axes are those of the world.
 fn check_origin(yaml: Yaml<'_>, root: &Node) -> Result<(), SettingsError> {
-    let Some(origin) = yaml.find(root, "origin")? else { return Ok(()) };
+    let origin = yaml.get(root, "origin")?;
     let [_, _, yaw] = yaml.exactly::<3>(origin, "origin")?;
     if yaw == 0.0 {
         return Ok(());
@@ -95,8 +107,8 @@ fn check_origin(yaml: Yaml<'_>, root: &Node) -> Result<(), SettingsError> {
 
 /// The darkness below which a cell is free; what is darker than `occupied_thresh` must not be.
 fn free_below(yaml: Yaml<'_>, root: &Node) -> Result<f64, SettingsError> {
-    let share = |key: &str, default: f64| {
-        let Some(node) = yaml.find(root, key)? else { return Ok((root, default)) };
+    let share = |key: &str| {
+        let node = yaml.get(root, key)?;
         match yaml.number(node, key)? {
             share if (0.0..=1.0).contains(&share) => Ok((node, share)),
             other => {
@@ -106,8 +118,8 @@ fn free_below(yaml: Yaml<'_>, root: &Node) -> Result<f64, SettingsError> {
             }
         }
     };
-    let (_, blocked) = share("occupied_thresh", 0.65)?;
-    let (node, free) = share("free_thresh", 0.196)?;
+    let (_, blocked) = share("occupied_thresh")?;
+    let (node, free) = share("free_thresh")?;
     if free <= blocked {
         return Ok(free);
     }

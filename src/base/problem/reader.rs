@@ -16,7 +16,7 @@ const GOALS: [&str; 3] = ["goals", "goal_ik", "goal"];
 /// Two rotations of one solid are the same if they take no axis further apart than this.
 const SAME: f64 = 1e-2;
 /// Words of keys that may change the robot, what stands around it, or the query: a key with one of them that is not read is refused.
-pub(super) const MEANT: [&str; 45] = [
+pub(super) const MEANT: [&str; 51] = [
     "attach",
     "attached",
     "attachment",
@@ -31,11 +31,14 @@ pub(super) const MEANT: [&str; 45] = [
     "deg",
     "degree",
     "ellipsoid",
+    "feasible",
     "frame",
     "goal",
     "gripper",
+    "infeasible",
     "inflate",
     "inflation",
+    "invalid",
     "joint",
     "limit",
     "link",
@@ -54,12 +57,15 @@ pub(super) const MEANT: [&str; 45] = [
     "pose",
     "robot",
     "scale",
+    "solvable",
     "start",
     "tolerance",
     "tool",
     "transform",
     "unit",
+    "unsolvable",
     "upper",
+    "valid",
     "voxel",
     "waypoint",
 ];

@@ -300,6 +300,8 @@ const KEYS: &[(&str, &str, Result<&[&str], &str>)] = &[
         "{\"start_state\": {}, \"problems\":",
         Err("this is a MoveIt request"),
     ),
+    ("\"index\": 1", "\"is_valid\": false", Err("unknown key `is_valid`; accepted: goals")),
+    ("\"index\": 1", "\"solvable\": false", Err("unknown key `solvable`; accepted: goals")),
     ("\"radius\": 0.1}", "\"radius\": NaN}", Err("radius is `NaN`; a finite number is accepted")),
     ("\"radius\": 0.1}", "\"radius\": Infinity}", Err("radius is `Infinity`; a finite number is accepted")),
 ];

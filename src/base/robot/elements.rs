@@ -3,6 +3,7 @@
 use crate::ignored::{ignored_in, ignored_note, is_ignored};
 use crate::settings::{Document, SettingsError, did_you_mean};
 use crate::solid::Source;
+use crate::text::brief;
 use crate::yaml::unknown;
 use roxmltree::{Error, Node};
 use std::collections::{BTreeMap, BTreeSet};
@@ -21,6 +22,7 @@ pub(super) fn parsed(document: &Document) -> Result<roxmltree::Document<'_>, Set
         match &error {
             Error::UnknownNamespace(prefix, _) if prefix == "xacro" => xacro(&at),
             Error::DtdDetected => {
+                let at = document.text().find("<!DOCTYPE").map_or(at, |found| found..found);
                 source.fault(&at, "a document type, `<!DOCTYPE`, is given; XML without one is accepted")
             }
             _ => source.fault(&at, format!("this is no XML: {error}")),
@@ -66,6 +68,8 @@ struct Unread {
     ignored: BTreeSet<String>,
     /// How often each key is there that is not known.
     unknown: BTreeMap<String, usize>,
+    /// The first text between the elements of the root, and how many there are.
+    texts: Option<(String, usize)>,
 }
 
 impl Keys<'_> {
@@ -80,7 +84,13 @@ impl Keys<'_> {
             let times = if count == 1 { String::new() } else { format!(" ({count} times)") };
             format!("`{way}` is not known and not used{times}")
         };
-        Ok(ignored_note(&unread.ignored).into_iter().chain(unread.unknown.into_iter().map(message)).collect())
+        let texts = unread.texts.map(|(first, count)| {
+            let others =
+                if count == 1 { String::new() } else { format!(", nor are {} other texts", count - 1) };
+            format!("the text `{first}` in `robot` is not used{others}")
+        });
+        let unknown = unread.unknown.into_iter().map(message);
+        Ok(ignored_note(&unread.ignored).into_iter().chain(unknown).chain(texts).collect())
     }
 
     fn element(&self, node: Node<'_, '_>, unread: &mut Unread) -> Result<(), SettingsError> {
@@ -88,7 +98,20 @@ impl Keys<'_> {
         let read = self.read.iter().find(|(element, _)| *element == name).map_or(&[][..], |(_, read)| read);
         let attributes = node.attributes().map(|at| (format!("@{}", at.name()), at.range(), None));
         let children = node.children().filter(Node::is_element);
-        let children = children.map(|child| (child.tag_name().name().to_owned(), child.range(), Some(child)));
+        let children = children.map(|child| (name_in(node, child), child.range(), Some(child)));
+        // The formats have no text of their own.
+        let text = node
+            .children()
+            .filter(|part| part.is_text() && !part.text().unwrap_or_default().trim().is_empty());
+        for part in text {
+            let shown = brief(part.text().unwrap_or_default().trim()).replace('\n', " ");
+            if name != "robot" {
+                let message =
+                    format!("the text `{shown}` stands in `{name}`; elements and attributes are accepted");
+                return Err(self.xml.fault(&part.range(), message));
+            }
+            unread.texts.get_or_insert((shown, 0)).1 += 1;
+        }
         let mut seen = BTreeSet::new();
         for (key, at, child) in attributes.chain(children) {
             let is_read = read.contains(&key.as_str()) && !means_nothing(node, &key);
@@ -113,6 +136,21 @@ impl Keys<'_> {
         }
         Ok(())
     }
+}
+
+/// The name of an element in another, with its prefix where it is of another namespace.
+fn name_in(of: Node<'_, '_>, child: Node<'_, '_>) -> String {
+    let name = child.tag_name().name();
+    if is_alike(of, child) {
+        return name.to_owned();
+    }
+    let space = child.tag_name().namespace().unwrap_or_default();
+    format!("{}:{name}", child.lookup_prefix(space).unwrap_or(space))
+}
+
+/// Whether both are of one namespace.
+fn is_alike(of: Node<'_, '_>, child: Node<'_, '_>) -> bool {
+    of.tag_name().namespace() == child.tag_name().namespace()
 }
 
 /// Whether a key that is read means nothing here: how a fixed joint would move, limits of one that turns without end.
@@ -164,7 +202,7 @@ impl Elements<'_> {
         let wrong = || {
             let many =
                 if N == 1 { format!("a {finite}number is") } else { format!("{N} {finite}numbers are") };
-            let text = crate::text::brief(text);
+            let text = brief(text);
             self.fault(&place(of, key), format!("{key} is `{text}`; {many} accepted"))
         };
         numbers.filter(|numbers| numbers.iter().all(|n| n.is_finite())).ok_or_else(wrong).map(Some)
@@ -191,7 +229,7 @@ pub(super) fn elements<'a, 'input>(
     of: Node<'a, 'input>,
     name: &'static str,
 ) -> impl Iterator<Item = Node<'a, 'input>> {
-    of.children().filter(move |node| node.has_tag_name(name))
+    of.children().filter(move |node| node.tag_name().name() == name && is_alike(of, *node))
 }
 
 pub(super) fn child<'a, 'input>(of: Node<'a, 'input>, name: &'static str) -> Option<Node<'a, 'input>> {

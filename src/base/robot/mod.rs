@@ -15,7 +15,8 @@ mod walk;
 pub use srdf::{MayTouch, parse_srdf, read_srdf};
 pub use urdf::{parse_urdf, read_urdf};
 
-use crate::solid::{Pose, Solid};
+use crate::solid::{FAR_M, Pose, Solid};
+use crate::units::FASTEST_RAD_S;
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
@@ -81,6 +82,13 @@ impl Joint {
         let unit = if *kind == Kind::Slides { "m" } else { "rad" };
         (!self.allows(value))
             .then(|| format!("joint `{name}` is at {value} {unit}, outside {lower} to {upper}"))
+    }
+
+    /// Whether no joint is as fast: its speed seems to be in degrees or millimetres a second.
+    pub fn is_too_fast(&self) -> bool {
+        // No robot is as large as one that slides crosses in a second.
+        let most = if self.kind == Kind::Slides { FAR_M } else { FASTEST_RAD_S };
+        self.speed.is_some_and(|speed| speed > most)
     }
 
     /// How far it moves from one value to another, with a sign; one that turns on goes the shorter way round.

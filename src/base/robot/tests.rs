@@ -414,6 +414,40 @@ fn keys_that_are_ignored_and_elements_of_the_root_that_are_not_known_are_noted_b
 }
 
 #[test]
+fn elements_of_another_namespace_are_no_links() {
+    let text = ARM.replacen(
+        "<link name=\"tool\"/>",
+        "<link name=\"tool\"/><sim:link xmlns:sim=\"x\" name=\"far\"/>",
+        1,
+    );
+    let robot = read(&text, FOOT.as_bytes()).unwrap();
+    assert_eq!(robot.notes.last().unwrap(), "`robot/sim:link` is not known and not used");
+    let all = ARM.replacen("<robot name", "<robot xmlns=\"http://www.ros.org\" name", 1);
+    assert_eq!(read(&all, FOOT.as_bytes()).unwrap().joints, robot.joints);
+}
+
+#[test]
+fn text_between_elements_is_noted_in_the_root_and_refused_elsewhere() {
+    let noted = |from: &str, to: &str| read(&ARM.replacen(from, to, 1), FOOT.as_bytes()).unwrap().notes.pop();
+    let stray = "the text `--> <!` in `robot` is not used";
+    assert_eq!(noted("<link name=\"tool\"/>", "--&gt; &lt;!<link name=\"tool\"/>").unwrap(), stray);
+    let others = noted("<link name=\"tool\"/>", "a<link name=\"tool\"/><![CDATA[b]]><!-- c -->d").unwrap();
+    assert_eq!(others, "the text `a` in `robot` is not used, nor are 2 other texts");
+    for (from, to, element) in [
+        ("<link name=\"tool\"/>", "<link name=\"tool\">lower=\"-1\"</link>", "link"),
+        ("<parent", "5<parent", "joint"),
+        ("<geometry>", "<geometry>5", "geometry"),
+    ] {
+        let error = read(&ARM.replacen(from, to, 1), FOOT.as_bytes()).unwrap_err();
+        let expected = format!("` stands in `{element}`; elements and attributes are accepted");
+        assert!(
+            error.contains("the text `") && error.contains(&expected),
+            "should say {expected}\nsays {error}"
+        );
+    }
+}
+
+#[test]
 fn a_joint_that_slides_has_limits_in_metres() {
     let slide = |limit: &str| {
         let text = ARM.replacen("type=\"revolute\"", "type=\"prismatic\"", 1).replacen(

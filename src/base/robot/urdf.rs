@@ -7,10 +7,10 @@
 //! Source: the XML format of wiki.ros.org/urdf/XML (link, joint), version 1.0. Version 1.1 (ros/urdfdom, pull request 235) adds `quat_xyzw`
 //! to `origin`; it is refused.
 
-use super::Robot;
 use super::elements::{Elements, Keys, parsed, place};
 use super::tree::Tree;
 use super::walk;
+use super::{Kind, Robot};
 use crate::settings::{Document, SettingsError};
 use crate::solid::Source;
 use std::path::Path;
@@ -54,7 +54,16 @@ pub fn parse_urdf(document: &Document) -> Result<Robot, SettingsError> {
         let message = format!("version is `{}`; `1.0` is accepted", crate::text::brief(version));
         return Err(xml.fault(&place(root, "version"), message));
     }
-    let notes = Keys { xml, format: "URDF", read: READ }.unread(root)?;
+    let mut notes = Keys { xml, format: "URDF", read: READ }.unread(root)?;
     let robot = walk::robot(&Tree::new(xml, root)?)?;
+    notes.extend(robot.joints.iter().filter(|joint| joint.is_too_fast()).map(|joint| {
+        let (accepted, asked) =
+            if joint.kind == Kind::Slides { ("metres", "millimetres") } else { ("radians", "degrees") };
+        let speed = joint.speed.unwrap_or_default();
+        format!(
+            "the velocity of joint `{}` is {speed}; is it in {asked} a second? The format has {accepted}",
+            joint.name
+        )
+    }));
     Ok(Robot { notes, ..robot })
 }

@@ -137,6 +137,11 @@ impl<'a> Node<'a> {
         (number("minItems").unwrap_or(0), number("maxItems").unwrap_or(u64::MAX))
     }
 
+    /// How many characters a text has at least.
+    pub(super) fn least_length(self) -> u64 {
+        self.get("minLength").and_then(Value::as_u64).unwrap_or(0)
+    }
+
     /// What is accepted of a number at most `furthest` away from 0, in words.
     pub(super) fn accepted_within(self, furthest: f64) -> String {
         self.number("a number", furthest)
@@ -167,6 +172,7 @@ impl<'a> Node<'a> {
             "integer" => self.number("a whole number", f64::INFINITY),
             "number" => self.number("a number", f64::INFINITY),
             "boolean" => "true or false".to_owned(),
+            "string" if self.least_length() > 0 => "text in quotes, not empty,".to_owned(),
             "string" => "text in quotes".to_owned(),
             "array" => self.array(),
             "object" => self.table(),

@@ -241,6 +241,14 @@ impl Settings {
         self.placed(message.into(), Sought::Value(path))
     }
 
+    /// That there is no `fault` with the value that `path` leads to.
+    ///
+    /// # Errors
+    /// There is one, reported as by [`error_at`](Self::error_at).
+    pub fn accept_without(&self, path: &str, fault: Option<String>) -> Result<(), SettingsError> {
+        fault.map_or(Ok(()), |fault| Err(self.error_at(path, fault)))
+    }
+
     /// An error about `word`, a name that these settings give. It stands at the first text that is it inside the value that `within`
     /// leads to, under a key that starts with one of `keys`. If there is none, it stands at the first text that is it at all.
     pub fn error_about(

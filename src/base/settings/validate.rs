@@ -198,6 +198,9 @@ fn plain(node: Node<'_>, subject: Subject<'_>, found: &mut FoundFaults) {
                 format!("`{}` holds a control character; text that can be seen is accepted", subject.name);
             Fault::new(subject.span(), message)
         }),
+        DeValue::String(text) if (text.trim().chars().count() as u64) < node.least_length() => {
+            found.push(|| refused(subject, &node.accepted()));
+        }
         DeValue::String(name) if OF_NAMES.contains(&subject.name) => {
             if let Some(fault) = fault_of_name(name) {
                 found.push(|| Fault::new(subject.span(), format!("`{}` {fault}", subject.name)));

@@ -18,6 +18,7 @@ use crate::shorten::path_length;
 use crate::space::polyhedra::{Apart, CarriedArm, DOWN};
 use crate::space::{PolyhedraWorld, WorldKind};
 use base::settings::Accepted;
+use base::units::setting_in_radians;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use states::{Around, Cell, States};
@@ -41,6 +42,7 @@ neighbours = 12
             let message = format!("delta_deg is {}; more than 0 and at most 45 is accepted", read.delta_deg);
             return Err(settings.error_at("delta_deg", message));
         }
+        settings.accept_without("delta_deg", setting_in_radians("delta_deg", read.delta_deg, 0.0))?;
         if ![12, 728].contains(&read.neighbours) {
             let message =
                 format!("neighbours is {}; 12 (one joint) or 728 (any joints) is accepted", read.neighbours);

@@ -8,7 +8,7 @@ use crate::search::{
 use crate::space::WorldKind;
 use crate::space::roadmap::{Extent, Roadmap};
 use base::settings::Accepted;
-use base::units::radius_in_metres;
+use base::units::seems_in_metres;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -48,9 +48,8 @@ path = "parents"
         if read.neighbour_mm.is_some() == read.neighbour_times.is_some() {
             return Err(settings.error("exactly one of neighbour_mm and neighbour_times is accepted"));
         }
-        if let Some(message) = read.neighbour_mm.and_then(|found| radius_in_metres("neighbour_mm", found)) {
-            return Err(settings.error_at("neighbour_mm", message));
-        }
+        let in_metres = read.neighbour_mm.and_then(|found| seems_in_metres("neighbour_mm", found));
+        settings.accept_without("neighbour_mm", in_metres)?;
         Ok(Box::new(read))
     }),
 };

@@ -15,7 +15,7 @@ use crate::verification::roadmap::ARM_COLUMNS;
 use crate::{Inputs, StudyError};
 use base::seed::{self, Stream};
 use base::settings::{Accepted, AnyTable, Document, Faults, Settings, SettingsError};
-use base::units::{seems_in_metres, seems_in_radians};
+use base::units::{seems_in_metres, setting_in_radians};
 use engine::geometry::Solid;
 use engine::kinematics::ik::Branch;
 use engine::kinematics::{AXES, FARTHEST_MM, Joints, Robot};
@@ -256,8 +256,7 @@ impl CellQueries {
         let mut faults = Faults::default();
         for (key, found) in [("speed.tool_mm_s", tool_mm_s), ("speed.acceleration_mm_s2", acceleration_mm_s2)]
         {
-            let in_metres = seems_in_metres(key, found);
-            faults.keep(in_metres.map_or(Ok(()), |message| Err(settings.error_at(key, message))));
+            faults.keep(settings.accept_without(key, seems_in_metres(key, found)));
         }
         faults.done()
     }
@@ -284,9 +283,7 @@ impl CellQueries {
         let srdf = self.srdf.as_deref().map(locate).transpose()?;
         let robot = load_robot(settings, file, self.robot_with.as_ref(), srdf.as_deref())?;
         let Some(tool_mm) = self.tool_mm else { return Ok(robot) };
-        if let Some(message) = seems_in_metres("tool_mm", tool_mm) {
-            return Err(settings.error_at("tool_mm", message));
-        }
+        settings.accept_without("tool_mm", seems_in_metres("tool_mm", tool_mm))?;
         robot
             .with_tool_length(tool_mm * 1e-3)
             .map_err(|error| settings.error_at("tool_mm", format!("tool_mm: {error}")))
@@ -337,9 +334,14 @@ impl Posed {
         let CellQueries { radius_mm, radius_deg, nearest, .. } = read;
         let near = Neighbours { radius_mm, radius_deg, nearest }.rule(settings, read.times())?;
         let mut faults = Faults::default();
-        for (key, angle_deg) in [("jump_deg", read.jump_deg), ("turn_deg", read.turn_deg)] {
-            let in_radians = seems_in_radians(key, &[angle_deg]);
-            faults.keep(in_radians.map_or(Ok(()), |(_, message)| Err(settings.error_at(key, message))));
+        // A joint that turns the tool by a step has moved as far itself.
+        let turns = [
+            ("step_deg", read.step_deg, 0.0),
+            ("jump_deg", read.jump_deg, read.step_deg),
+            ("turn_deg", read.turn_deg, 0.0),
+        ];
+        for (key, angle_deg, least_deg) in turns {
+            faults.keep(settings.accept_without(key, setting_in_radians(key, angle_deg, least_deg)));
         }
         faults.keep(read.accept_speed(settings));
         let robot = faults

@@ -14,6 +14,7 @@ use base::problem::{Expected, Problem, ProblemSet};
 use base::robot::{Robot, read_urdf};
 use base::settings::{Accepted, Faults, Settings, SettingsError};
 use base::solid::{Form, Pose, Solid};
+use base::units::setting_in_radians;
 use engine::planner::{Counts, Invalid, Value};
 use engine::space::roadmap::{Counted, Local, Near};
 use engine::space::{JointSpace, SelfContact, Support, SupportEntry, WorldKind};
@@ -60,6 +61,7 @@ struct JointProblems {
     /// The robot, a URDF file.
     robot: String,
     /// What the problems call the robot, where its URDF file has another name for the same one.
+    #[schemars(length(min = 1))]
     robot_name: Option<String>,
     /// The set: an archive (`.tar`) of `MoveIt` scenes and requests, or a problem file in YAML or JSON.
     problems: String,
@@ -78,6 +80,7 @@ struct JointProblems {
     cylinders: Option<CylinderSetting>,
     /// The beginning of the names of those folders of an archive in which boxes stand for cylinders instead; none do if absent. It is read
     /// under `capsules` alone.
+    #[schemars(length(min = 1))]
     boxes_in: Option<String>,
     /// How files that are not in the repository are brought and known.
     archive: Option<Archive>,
@@ -152,6 +155,7 @@ fn query(problem: &Problem) -> Vec<Query> {
 
 fn build(settings: &Settings, inputs: &Inputs) -> Result<Box<dyn Family>, SettingsError> {
     let read: JointProblems = settings.read()?;
+    settings.accept_without("step_deg", setting_in_radians("step_deg", read.step_deg, 0.0))?;
     let support = support(settings, &read.support)?;
     let sums = match &read.archive {
         None => None,

@@ -15,6 +15,7 @@ use base::robot::{Robot, read_srdf, read_urdf};
 use base::seed::{self, Stream};
 use base::settings::{Accepted, Document, Faults, Settings, SettingsError};
 use base::solid::{Form, Pose, Solid};
+use base::units::setting_in_radians;
 use engine::geometry::Frame;
 use engine::kinematics::FARTHEST_MM;
 use engine::planner::Invalid;
@@ -58,6 +59,7 @@ struct JointQueries {
     /// The robot, a URDF file.
     robot: String,
     /// What the problems call the robot, where its URDF file has another name for the same one.
+    #[schemars(length(min = 1))]
     robot_name: Option<String>,
     /// The problem file, JSON or YAML in the form of robometrics or of `MotionBenchMaker` as VAMP ships it.
     problem: String,
@@ -118,6 +120,7 @@ impl Posed {
         let read: JointQueries = settings.read()?;
         let JointQueries { radius_mm, radius_deg, nearest, .. } = read;
         let near = Neighbours { radius_mm, radius_deg, nearest }.rule(settings, 1.0)?;
+        settings.accept_without("step_deg", setting_in_radians("step_deg", read.step_deg, 0.0))?;
         let mut faults = Faults::default();
         let robot = faults.keep(input(settings, inputs, "robot", &read.robot, read_urdf));
         let expected = robot.as_ref().map(|(_, robot)| Expected {

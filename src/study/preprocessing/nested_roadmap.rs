@@ -3,7 +3,7 @@
 
 use super::{Entry, Preprocessing};
 use base::settings::{Settings, SettingsError};
-use base::units::radius_in_metres;
+use base::units::{seems_in_metres, setting_in_radians};
 use engine::planner::{Counts, Trace, Value};
 use engine::space::World;
 use engine::space::cell::Rejection;
@@ -45,6 +45,13 @@ fn column(reason: Rejection) -> &'static str {
     }
 }
 
+/// Two joints that turn all the way round need neighbours at 2.2° for one connected roadmap of 100 000 samples, the most that are
+/// accepted: `360° √(ln n / π n)`. More joints need them farther apart.
+///
+/// # Source
+/// Penrose, *Random Geometric Graphs* (2003), ch. 13: the radius at which such a graph is connected.
+const LEAST_DEG: f64 = 2.0;
+
 /// What settings say of neighbours, each perhaps.
 #[derive(Debug, Clone, Copy)]
 pub struct Neighbours {
@@ -60,14 +67,18 @@ impl Neighbours {
     /// The rule, with `times` the `radius_mm`.
     ///
     /// # Errors
-    /// Not exactly one is given, or `radius_mm` seems to be in metres.
+    /// Not exactly one is given; `radius_mm` seems to be in metres, or `radius_deg` in radians.
     pub fn rule(self, settings: &Settings, times: f64) -> Result<Near, SettingsError> {
         match (self.radius_mm, self.radius_deg, self.nearest) {
             (Some(radius_mm), None, None) => {
                 accept_radius(settings, radius_mm)?;
                 Ok(Near::Places(radius_mm * times))
             }
-            (None, Some(radius_deg), None) => Ok(Near::Configurations(radius_deg.to_radians())),
+            (None, Some(radius_deg), None) => {
+                let in_radians = setting_in_radians("radius_deg", radius_deg, LEAST_DEG);
+                settings.accept_without("radius_deg", in_radians)?;
+                Ok(Near::Configurations(radius_deg.to_radians()))
+            }
             (None, None, Some(nearest)) => Ok(Near::Nearest(nearest as usize)),
             _ => Err(settings.error("exactly one of radius_mm, radius_deg and nearest is accepted")),
         }
@@ -79,8 +90,7 @@ impl Neighbours {
 /// # Errors
 /// It does.
 pub fn accept_radius(settings: &Settings, radius_mm: f64) -> Result<(), SettingsError> {
-    radius_in_metres("radius_mm", radius_mm)
-        .map_or(Ok(()), |message| Err(settings.error_at("radius_mm", message)))
+    settings.accept_without("radius_mm", seems_in_metres("radius_mm", radius_mm))
 }
 
 /// How large a roadmap of so many samples is that is built up to `times` its unit.

@@ -3,8 +3,8 @@
 /// What every script can use: `hello`, `query` (reads one; sets `id`, `start`, `goal`) and `result PATH`.
 pub const PRELUDE: &str = r#"#!/bin/sh
 hello() {
-  printf '{"type":"hello","protocol":%s,"name":"t","version":"%s","worlds":["%s"],"seeding":"%s","deterministic":true,"anytime":false}\n' \
-    "${protocol:-1}" "${version:-1}" "${world:-grid}" "${seeding:-query}"
+  printf '{"type":"hello","protocol":%s,"name":"%s","version":"%s","worlds":[%s],"seeding":"%s","deterministic":true,"anytime":false}\n' \
+    "${protocol:-1}" "${name-t}" "${version:-1}" "${worlds-\"${world:-grid}\"}" "${seeding:-query}"
 }
 query() {
   read -r line || exit 0
@@ -231,6 +231,24 @@ pub const CASES: &[Case] = &[
         "protocol=2; hello; query; straight",
         "crashed",
         "speaks protocol 2; 1 is accepted",
+    ),
+    case(
+        "no-world",
+        "worlds=; hello; query; straight",
+        "crashed",
+        "names no world; at least one is accepted",
+    ),
+    case(
+        "no-name",
+        "name=; hello; query; straight",
+        "crashed",
+        "the planner's name is empty; one is accepted",
+    ),
+    case(
+        "long-name",
+        "name=$(printf '%0101d' 0); hello; query; straight",
+        "crashed",
+        "the planner's name has 101 characters; at most 100 are accepted",
     ),
     case(
         "other-version",

@@ -125,6 +125,36 @@ fn what_cannot_be_seen_in_a_cell_or_header_is_named() {
 }
 
 #[test]
+fn numbers_that_a_header_without_annotation_stands_over_are_not_taken_for_labels() {
+    for (header, cells, expected) in [
+        ("ms", ["1e3", "2.5e3"], "3:2: column `ms`: `1e3` has an exponent, which hides digits"),
+        ("plan (ms)", ["1e3", "2e3"], "3:2: column `plan (ms)`: `1e3` has an exponent"),
+        ("result", ["1.2 × 10^3", "4 × 10^2"], "3:2: column `result`: `1.2 × 10^3` has a power of ten"),
+        ("plan [ms]", ["10k", "12k"], "3:2: column `plan`: `10k` leaves digits out"),
+        ("plan (ms)", ["<5", "<7"], "3:2: column `plan (ms)`: `<5` is a bound"),
+        ("plan (ms)", ["3–4", "5–6"], "3:2: column `plan (ms)`: `3–4` is a range"),
+        ("plan (ms)", ["1.5*", "2.5*"], "3:2: column `plan (ms)`: `1.5*` has the mark"),
+        (
+            "plan (ms)",
+            ["1234567890123456", "1.0"],
+            "3:2: column `plan (ms)`: `1234567890123456` has more than 15",
+        ),
+        (
+            "plan (ms)",
+            ["1.5", "50%"],
+            "4:2: column `plan (ms)`: `50%` has the unit %, and its header the unit ms",
+        ),
+    ] {
+        let rows = cells.map(|cell| format!("A | {cell}"));
+        let text = table(&format!("planner | {header}"), &[&rows[0], &rows[1]]);
+        let fault = refused(&text, Format::Markdown);
+        assert!(fault.starts_with(expected), "{text}\n{fault}");
+    }
+    let labels = table("planner | version", &["A | 10k", "B | <5"]);
+    assert_eq!(found(&labels), []);
+}
+
+#[test]
 fn faults_beyond_the_first_fifty_are_counted() {
     let text =
         (0..300).fold("method,time\n".to_owned(), |text, row| text + &format!("m{row},fast{row}.1.\n"));
@@ -318,10 +348,20 @@ fn a_wrong_average_or_total_is_a_signal_and_a_right_one_is_none() {
         "between the least and the greatest"
     );
     assert_eq!(found(&means("Total | 7.7")), [], "perhaps the mean of all");
+    let totals = |text: &str| output::totals("t", &read(text, Format::Markdown).unwrap());
+    let named = "t:6:2: time of Total: 4.7 is the mean of the others, not their sum; it is taken as one";
+    assert_eq!(totals(&means("Total | 4.7")), [named]);
+    for plain in ["Total | 14.0", "Sum | 14.0", "Average | 4.7", "Total | -"] {
+        assert_eq!(totals(&means(plain)), [""; 0], "{plain}");
+    }
+    assert_eq!(totals(&rows("Total", "47.7 | 451")), [""; 0], "shares have no sum");
     for right in ["47.7 | 451", "47.7 | 150.3"] {
         assert_eq!(found(&rows("Overall", right)), [], "{right}");
     }
     assert_eq!(found(&rows("Overall", "72.0 | 500")), [("summary", Class::Signal); 2]);
+    let solved = |last: &str| table("map | solved", &["a | 10/20", "b | 15/20", last]);
+    assert_eq!(found(&solved("Total | 25/40")), []);
+    assert_eq!(found(&solved("Total | 26/40")), [("summary", Class::Signal)], "counts are not rounded");
     let counted = |n: &str, last: &str| {
         table(
             &format!("planner | {n} | time [mean, unit=ms]"),
@@ -409,7 +449,24 @@ fn an_average_may_be_of_its_block_of_its_planner_or_weighted_by_trials() {
     assert_eq!(found(&first("2.5")), []);
     assert_eq!(found(&first("3.5")), [("summary", Class::Signal)]);
     let gaps = table("map | time [value]", &["a | 1.0", "b | -", "c | 2.0", "Average | 40.0"]);
-    assert_eq!(found(&gaps), [], "a failure may count as anything");
+    assert_eq!(found(&gaps), [("summary", Class::Unchecked)], "a failure may count as anything");
+    let line = |text: &str| report(text).findings.into_iter().find(|found| found.check == "summary").unwrap();
+    let unread = line(&gaps);
+    assert_eq!((unread.place.line, &*unread.text), (6, "not decided: line 4 has no number here"));
+    let beside =
+        table("planner | a (ms) | b (ms) | Average (ms)", &["A | 10.0 | | 40.0", "B | 1.0 | 3.0 | 2.0"]);
+    assert_eq!(line(&beside).text, "not decided: column `b (ms)` has no number here");
+    let below = |last: &str| table("map | time [value]", &["a | 1.0", "b | ", "c | 2.0", last]);
+    assert_eq!(
+        line(&below("Average | 40.0")).text,
+        "not decided: line 4 has no number here, or begins a block"
+    );
+    assert_eq!(found(&below("Average | 1.5")), []);
+    let heads =
+        ["Easy | ", "a | 1.0", "b | 2.0", "Average | 1.5", "Hard | ", "c | 5.0", "d | 6.0", "Average | 4.0"];
+    assert_eq!(found(&table("map | time [value]", &heads)), [("summary", Class::Signal)], "a head is no gap");
+    let one = table("map | time [value]", &["a | -", "b | 2.0", "Average | 40.0"]);
+    assert_eq!(line(&one).text, "not decided: line 3 has no number here");
     let speeds = table("map | speed-up [value]", &["a | 1.0", "b | 4.0", "Average | 2.0"]);
     assert_eq!(found(&speeds), [], "the geometric mean");
 }
@@ -449,6 +506,17 @@ fn an_average_that_is_the_geometric_or_the_harmonic_mean_is_no_signal() {
     // The geometric mean of 1 to 900 is e^(ln 900! / 900) = 332.68.
     assert_eq!(long("Average | 332.7"), []);
     assert_eq!(long("Average | 333.0"), [("summary", Class::Signal)]);
+}
+
+#[test]
+fn a_summary_of_nothing_that_is_printed_is_not_checked() {
+    let columns = table(
+        "p | a (s) [value] | b (s) [value] | Total (s) [value]",
+        &["A | - | - | 4.0", "B | 1.0 | 2.0 | 3.0"],
+    );
+    assert_eq!(found(&columns), [("summary", Class::Unchecked)]);
+    let rows = table("p | t [value]", &["a | -", "b | -", "Average | 4.0"]);
+    assert_eq!(found(&rows), [("summary", Class::Unchecked)]);
 }
 
 #[test]

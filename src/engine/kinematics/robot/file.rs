@@ -24,6 +24,7 @@ pub const ROBOT_FILE: Accepted = Accepted::shape::<RobotFile>();
 #[serde(deny_unknown_fields)]
 struct RobotFile {
     /// Its name.
+    #[schemars(length(min = 1))]
     name: String,
     /// The solver of inverse kinematics; without it, the most special one that fits the rows.
     solver: Option<Spanned<String>>,

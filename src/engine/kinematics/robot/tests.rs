@@ -154,6 +154,38 @@ fn rows_in_metres_and_limits_in_radians_are_queried() {
     let fast = message(&FILE.replace("speed_deg_s", "speed_rad_s")).unwrap_err();
     let expected = "speed_rad_s is 500; is it in degrees? `speed_deg_s` is accepted for those";
     assert!(fast.starts_with("up6.toml:") && fast.contains(expected), "{fast}");
+    let faster = message(&FILE.replacen("speed_deg_s = 500", "speed_deg_s = 5000", 1)).unwrap_err();
+    let expected = "speed_deg_s is 5000; no joint is faster than 1432; less is accepted";
+    assert!(faster.starts_with("up6.toml:") && faster.contains(expected), "{faster}");
+    for (key, length, asked) in [
+        ("d_mm", "d_mm = 640", "the longest d_mm of 3 is 0.64"),
+        ("a_mm", "a_mm = 570", "the longest a_mm of 3 is 0.57"),
+    ] {
+        let column = message(&scaled([key, key], 1e-3)).unwrap_err();
+        let line = FILE[..FILE.find(length).unwrap()].lines().count() + 1;
+        assert!(column.starts_with(&format!("up6.toml:{line}:8: {asked}")), "{column}");
+        assert!(column.contains("; is it in metres? millimetres are accepted ("), "{column}");
+    }
+    let offsets = FILE.replacen(
+        "d_mm = 0\noffset_deg = 0\nlower_deg = -180",
+        "d_mm = 0.3\noffset_deg = 0\nlower_deg = -180",
+        1,
+    );
+    assert!(
+        offsets != FILE && message(&offsets.replacen("solver = \"spherical_wrist\"\n", "", 1)).is_ok(),
+        "a calibrated arm"
+    );
+    let turned = |limits: &str| message(&FILE.replacen("lower_deg = -135\nupper_deg = 135", limits, 1));
+    for (limits, line, asked) in [
+        ("lower_deg = -1.5708\nupper_deg = 1.5708", "up6.toml:59:13", "a limit is -1.5708"),
+        ("lower_deg = -1.57\nupper_deg = 1.57", "up6.toml:59:13", "a limit is -1.57"),
+        ("lower_deg = -90\nupper_deg = 1.5708", "up6.toml:60:13", "a limit is 1.5708"),
+    ] {
+        let turned = turned(limits).unwrap_err();
+        let expected = format!("{line}: {asked}; is it in radians? degrees are accepted");
+        assert!(turned.contains(&expected), "should say {expected}\nsays {turned}");
+    }
+    assert!(turned("lower_deg = -1.57\nupper_deg = 90").is_ok(), "of two digits, beside one in degrees");
     let bodies = &FILE[FILE.find("[[body]]").unwrap()..];
     let thin = "[[body]]\nname = 'thin'\nself_pairs = []\n[[body.capsule]]\nname = 'arm'\nlink = 2\nfrom_mm = [-0.09465, 0, 0]\n\
         to_mm = [0, 0, 0]\nradius_mm = 0.09\n";

@@ -82,6 +82,9 @@ fn speed_rad_s(joint: &base::robot::Joint) -> Result<f64, KinematicsError> {
     match (joint.kind, joint.speed) {
         (Kind::Slides, _) => Err(unfit("slides, which inverse kinematics does not know")),
         (_, None) => Err(unfit("has no `velocity` above 0, which a cell's arm needs")),
+        (_, Some(_)) if joint.is_too_fast() => Err(unfit(
+            "has a `velocity` that no joint has, is it in degrees a second? A cell's arm needs one in radians",
+        )),
         (_, Some(speed)) => Ok(speed),
     }
 }

@@ -244,6 +244,12 @@ fn numbers_that_cannot_be_are_refused_by_name() {
         ("40", "nan", "", "`neighbour_mm` is nan; a finite number above 0 is accepted"),
         ("40", "inf", "", "`neighbour_mm` is inf; a finite number above 0 is accepted"),
         ("40", "0.5", "", "neighbour_mm is 0.5; is it in metres? millimetres are accepted (0.5 m is 500 mm)"),
+        (
+            "40",
+            "1.5",
+            "",
+            "neighbour_mm is 1.5; is it in metres? millimetres are accepted (1.5 m is 1500 mm)",
+        ),
         ("40", "28.0", "nearest = 0", "`nearest` is 0; a whole number from 1 to 4294967295 is accepted"),
     ] {
         let text =

@@ -307,6 +307,31 @@ fn a_radius_is_multiplied_and_nothing_else_is() {
 }
 
 /// Settings without a radius of places.
+#[test]
+fn angles_and_distances_of_settings_in_other_units_are_asked_about() {
+    for (over, asked) in [
+        (
+            "jump_deg = 0.349",
+            "jump_deg is 0.349; is it in radians? degrees are accepted (0.349 rad is 20.0°)",
+        ),
+        ("jump_deg = 0.35", "jump_deg is 0.35; is it in radians?"),
+        ("step_deg = 0.1745", "step_deg is 0.1745; is it in radians?"),
+        ("turn_deg = 3.1416", "turn_deg is 3.1416; is it in radians?"),
+        ("radius_mm = 1.5", "radius_mm is 1.5; is it in metres?"),
+    ] {
+        let message = Posed::new(&settings(over), &inputs(None)).err().expect(over).to_string();
+        assert!(message.contains(asked), "{over}: {message}");
+    }
+    for (radius_deg, is_asked) in
+        [("1.5", true), ("2.618", true), ("0.5", true), ("2.5", false), ("30", false)]
+    {
+        let posed = Posed::new(&by_configuration(&format!("radius_deg = {radius_deg}")), &inputs(None));
+        let message = posed.err().map_or_else(String::new, |error| error.to_string());
+        let asked = format!("radius_deg is {radius_deg}; is it in radians?");
+        assert_eq!(message.contains(&asked), is_asked, "{message}");
+    }
+}
+
 fn by_configuration(over: &str) -> Settings {
     let settings = settings(&format!("path = 'joints'\n{over}"));
     let mut table = settings.table().clone();

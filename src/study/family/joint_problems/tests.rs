@@ -117,6 +117,27 @@ nodes = 1000
 }
 
 #[test]
+fn names_that_are_empty_and_steps_in_radians_are_refused() {
+    let (_folder, inputs) = folder("");
+    for (from, to, expected) in [
+        (
+            "step_deg = 2",
+            "step_deg = 2\nrobot_name = ''",
+            "`robot_name` is \"\"; text in quotes, not empty, is accepted",
+        ),
+        (
+            "step_deg = 2",
+            "step_deg = 2\nboxes_in = ''",
+            "`boxes_in` is \"\"; text in quotes, not empty, is accepted",
+        ),
+        ("step_deg = 2", "step_deg = 0.1745", "step_deg is 0.1745; is it in radians? degrees are accepted"),
+    ] {
+        let refused = built(&SETTINGS.replacen(from, to, 1), &inputs).err().expect(to);
+        assert!(refused.contains(expected), "{to}: {refused}");
+    }
+}
+
+#[test]
 fn files_that_sums_pin_may_be_missing_and_must_be_what_the_sums_say() {
     let pinned = format!("{SETTINGS}archive = {{ install = \"bring it\", sums = \"sums\" }}\n");
     let sums = format!("{}  nod.urdf\n{}  set.json\n", sha256(ROBOT.as_bytes()), sha256(SET.as_bytes()));

@@ -9,7 +9,7 @@ use crate::{
     },
 };
 use base::settings::{Faults, SettingsError, Spanned};
-use base::units::seems_in_radians;
+use base::units::{FASTEST_RAD_S, seems_in_metres, seems_in_radians};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -71,60 +71,95 @@ pub(super) fn joints(source: &Source, file: &RobotFile, faults: &mut Faults) -> 
     joints.try_into().ok()
 }
 
-/// A key of a joint, and the number there.
-type Quantity = (&'static str, f64);
+/// A key of joints, and the number there.
+type Column = (&'static str, fn(&JointEntry) -> Option<f64>);
 
-/// The message about an arm that is a thousandth of its size, or does not turn: it is written in metres or radians.
+const LENGTHS: [Column; 2] = [("a_mm", |joint| Some(joint.a_mm)), ("d_mm", |joint| Some(joint.d_mm))];
+const LIMITS: [Column; 2] =
+    [("lower_deg", |joint| Some(joint.lower_deg)), ("upper_deg", |joint| Some(joint.upper_deg))];
+const TURNS: [Column; 2] =
+    [("alpha_deg", |joint| Some(joint.alpha_deg)), ("offset_deg", |joint| Some(joint.offset_deg))];
+const SPEEDS_DEG_S: [Column; 1] = [("speed_deg_s", |joint| joint.speed_deg_s)];
+const SPEEDS_RAD_S: [Column; 1] =
+    [("speed_rad_s", |joint| joint.speed_rad_s.as_ref().map(|speed| *speed.get_ref()))];
+
+/// The numbers in a column, each with the number of its joint.
+fn numbers<'e>(
+    entries: &'e [Spanned<JointEntry>],
+    (_, of): &Column,
+) -> impl Iterator<Item = (usize, f64)> + use<'e> {
+    let of = *of;
+    entries.iter().enumerate().filter_map(move |(index, entry)| Some((index, of(entry.get_ref())?)))
+}
+
+/// The number farthest from 0 in these columns: how far it is, its joint and its key; `None` if all are 0.
+fn farthest(entries: &[Spanned<JointEntry>], columns: &[Column]) -> Option<(f64, usize, &'static str)> {
+    let all = columns
+        .iter()
+        .flat_map(|column| numbers(entries, column).map(|(index, number)| (number.abs(), index, column.0)));
+    all.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(size, ..)| *size > 0.0)
+}
+
+/// The message about an arm that is a thousandth of its size, does not turn, or is too fast: it is written in metres or radians.
 fn other_units(source: &Source, entries: &[Spanned<JointEntry>]) -> Vec<SettingsError> {
     // Some joint of an arm turns farther in degrees; radians are less.
     const LITTLE_DEG: f64 = 7.0;
-    // The fastest joint of an arm is faster than the first and slower than four turns a second.
+    // The fastest joint of an arm is faster.
     const SLOW_DEG_S: f64 = 15.0;
-    const FAST_RAD_S: f64 = 25.0;
-    let greatest = |of: fn(&JointEntry) -> Vec<Quantity>| {
-        let each = entries.iter().enumerate();
-        let sizes = each.flat_map(|(index, entry)| {
-            of(entry.get_ref()).into_iter().map(move |(key, x)| (x.abs(), index, key))
-        });
-        sizes.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(size, ..)| *size > 0.0)
-    };
-    let lengths = |joint: &JointEntry| vec![("a_mm", joint.a_mm), ("d_mm", joint.d_mm)];
-    let limits = |joint: &JointEntry| vec![("lower_deg", joint.lower_deg), ("upper_deg", joint.upper_deg)];
     let mut faults = Vec::new();
-    if let Some((size, index, key)) = greatest(lengths).filter(|(size, ..)| *size < SHORT_MM) {
-        let message = format!("no link is longer than {size} mm; {}", in_metres(size, "are lengths"));
-        faults.push(fault_at(source, index, key, message));
+    let mut fault = |index, key, message: String| faults.push(fault_at(source, index, key, message));
+    let longest = farthest(entries, &LENGTHS);
+    if let Some((size, index, key)) = longest.filter(|(size, ..)| *size < SHORT_MM) {
+        fault(index, key, format!("no link is longer than {size} mm; {}", in_metres(size, "are lengths")));
     }
-    if let Some((size, index, key)) = greatest(limits).filter(|(size, ..)| *size < LITTLE_DEG) {
+    // One short length may be an offset that was measured; of several some is a link's.
+    for column in LENGTHS.iter().filter(|_| longest.is_some_and(|(size, ..)| size >= SHORT_MM)) {
+        let written = numbers(entries, column).filter(|(_, length)| *length != 0.0).count();
+        let found = farthest(entries, std::slice::from_ref(column)).filter(|_| written > 1);
+        let asked = found.and_then(|(size, index, key)| {
+            Some((index, key, seems_in_metres(&format!("the longest {key} of {written}"), size)?))
+        });
+        asked.into_iter().for_each(|(index, key, message)| fault(index, key, message));
+    }
+    let widest = farthest(entries, &LIMITS).filter(|(size, ..)| *size < LITTLE_DEG);
+    if let Some((size, index, key)) = widest {
         let message = format!(
             "no joint turns beyond {size}°; are limits in radians? degrees are accepted ({size} rad is {:.1}°)",
             size.to_degrees()
         );
-        faults.push(fault_at(source, index, key, message));
+        fault(index, key, message);
     }
-    let speeds =
-        |joint: &JointEntry| joint.speed_deg_s.map(|speed| ("speed_deg_s", speed)).into_iter().collect();
-    if let Some((speed, index, key)) = greatest(speeds).filter(|(speed, ..)| *speed < SLOW_DEG_S) {
-        let message = format!(
-            "no joint is faster than {speed}°/s; are speeds in radians? degrees are accepted ({speed} rad/s is {:.1}°/s)",
-            speed.to_degrees()
-        );
-        faults.push(fault_at(source, index, key, message));
+    for column in &TURNS {
+        let angles: Vec<f64> = numbers(entries, column).map(|(_, angle)| angle).collect();
+        let asked = seems_in_radians(column.0, &angles);
+        asked.into_iter().for_each(|(index, message)| fault(index, column.0, message));
     }
-    let speeds = |joint: &JointEntry| {
-        joint.speed_rad_s.as_ref().map(|speed| ("speed_rad_s", *speed.get_ref())).into_iter().collect()
-    };
-    if let Some((speed, index, key)) = greatest(speeds).filter(|(speed, ..)| *speed > FAST_RAD_S) {
-        let message =
-            format!("speed_rad_s is {speed}; is it in degrees? `speed_deg_s` is accepted for those");
-        faults.push(fault_at(source, index, key, message));
+    // One joint may have limits in radians where the others' are in degrees.
+    for (index, entry) in entries.iter().enumerate().filter(|_| widest.is_none()) {
+        let limits = LIMITS.map(|(_, of)| of(entry.get_ref()).unwrap_or_default());
+        let asked = seems_in_radians("a limit", &limits);
+        asked.into_iter().for_each(|(limit, message)| fault(index, LIMITS[limit].0, message));
     }
-    let turns: [(&'static str, fn(&JointEntry) -> f64); 2] =
-        [("alpha_deg", |joint| joint.alpha_deg), ("offset_deg", |joint| joint.offset_deg)];
-    for (key, of) in turns {
-        let angles: Vec<f64> = entries.iter().map(|entry| of(entry.get_ref())).collect();
-        let in_radians = seems_in_radians(key, &angles);
-        faults.extend(in_radians.map(|(index, message)| fault_at(source, index, key, message)));
+    if let Some((speed, index, key)) = farthest(entries, &SPEEDS_DEG_S) {
+        let fastest = FASTEST_RAD_S.to_degrees();
+        if speed < SLOW_DEG_S {
+            let message = format!(
+                "no joint is faster than {speed}°/s; are speeds in radians? degrees are accepted ({speed} rad/s is {:.1}°/s)",
+                speed.to_degrees()
+            );
+            fault(index, key, message);
+        } else if speed > fastest {
+            fault(
+                index,
+                key,
+                format!("{key} is {speed}; no joint is faster than {fastest:.0}; less is accepted"),
+            );
+        }
+    }
+    if let Some((speed, index, key)) =
+        farthest(entries, &SPEEDS_RAD_S).filter(|found| found.0 > FASTEST_RAD_S)
+    {
+        fault(index, key, format!("{key} is {speed}; is it in degrees? `speed_deg_s` is accepted for those"));
     }
     faults
 }

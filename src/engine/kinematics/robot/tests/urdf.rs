@@ -127,6 +127,26 @@ fn skew_axes_in_frames_of_any_kind_keep_their_kinematics_and_take_the_search() {
 }
 
 #[test]
+fn a_velocity_that_no_joint_has_is_asked_about() {
+    let robot = |velocity: &str| {
+        let text = urdf(shipped("ur5").arm().chain(), BALL);
+        let at = text.find("velocity=\"").unwrap() + "velocity=\"".len();
+        let end = at + text[at..].find('"').unwrap();
+        let read = parsed(format!("{}{velocity}{}", &text[..at], &text[end..]));
+        (urdf::robot(&read, None).map_err(|error| error.to_string()), read.notes)
+    };
+    let (fit, notes) = robot("23.6");
+    assert!(fit.is_ok() && notes.is_empty(), "1350° a second, which an arm has: {notes:?}");
+    let (refused, notes) = robot("180");
+    let expected = "joint `j1` has a `velocity` that no joint has, is it in degrees a second? A cell's arm needs one in radians";
+    assert!(refused.unwrap_err().starts_with(expected));
+    assert_eq!(
+        notes,
+        ["the velocity of joint `j1` is 180; is it in degrees a second? The format has radians"]
+    );
+}
+
+#[test]
 fn capsules_hold_the_solids_that_they_stand_for() {
     let forms = [
         r#"<box size="0.05 0.2 0.03"/>"#,
