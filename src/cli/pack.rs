@@ -213,7 +213,7 @@ fn add_named(files: &mut BTreeMap<String, Vec<u8>>, places: &Places) -> Result<(
     let mut left: Vec<String> =
         files.keys().filter(|name| name.starts_with("experiments/")).cloned().collect();
     while let Some(spec) = left.pop() {
-        if !spec.ends_with(".toml") {
+        if Path::new(&spec).extension().is_none_or(|ending| ending != "toml") {
             continue;
         }
         let text = String::from_utf8_lossy(&files[&spec]);
