@@ -1,11 +1,29 @@
 //! Two encodings of one paper side by side: which claims they judge alike, and what differs where they do not.
 //!
-//! Claims are matched by their id, or else by the same number with the same unit at the same place. A number that
-//! stands twice at a place matches nothing.
+//! Claims are matched by their id, or else by what they mean, or else by what is printed: the same number with the same unit at the
+//! same place. What means the same as another claim of its side, or prints what another prints, matches nothing by it.
 
+use super::compare::stored_studies;
+use super::history::History;
 use super::verdict::{ClaimVerdict, Verdicts};
 use serde::Serialize;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use study::StudyError;
+use study::manifest::Manifest;
+
+/// An encoding with its stored run.
+pub struct Encoding {
+    /// What it is called.
+    name: String,
+    verdicts: Verdicts,
+    /// By id what each claim means: the hash, and behind it the studies that it asks.
+    meanings: BTreeMap<String, Vec<String>>,
+    /// The form of these hashes.
+    form: u32,
+    /// The studies of which records are stored.
+    studies: BTreeMap<String, Manifest>,
+}
 
 /// Two encodings side by side.
 #[derive(Debug, Serialize)]
@@ -42,36 +60,78 @@ pub struct DefaultPair {
     pub options: [Option<String>; 2],
 }
 
+impl Encoding {
+    /// Reads what is stored in `folder`.
+    ///
+    /// # Errors
+    /// Verdicts that are missing; verdicts, a history or a manifest that is not as it was written.
+    pub fn read(name: &str, folder: &Path) -> Result<Self, StudyError> {
+        let history = History::read(folder)?;
+        let manifest = |study: String| Ok((study.clone(), Manifest::read(folder, &study)?));
+        Ok(Self {
+            name: name.to_owned(),
+            verdicts: Verdicts::read(folder)?,
+            meanings: history.meanings(),
+            form: history.form(),
+            studies: stored_studies(folder).into_iter().map(manifest).collect::<Result<_, StudyError>>()?,
+        })
+    }
+
+    /// The one claim that `is_alike`; `None` if there are several.
+    fn only(&self, is_alike: impl Fn(&ClaimVerdict) -> bool) -> Option<&ClaimVerdict> {
+        let mut found = self.verdicts.claims.iter().filter(|claim| is_alike(claim));
+        found.next().filter(|_| found.next().is_none())
+    }
+
+    fn has(&self, claim: &str) -> bool {
+        self.verdicts.claims.iter().any(|own| own.claim == claim)
+    }
+}
+
 impl Agreement {
     /// How the verdicts of two sides agree.
-    pub fn new(names: [&str; 2], sides: [&Verdicts; 2]) -> Self {
-        let defaults = defaults(sides);
+    pub fn new(sides: [&Encoding; 2]) -> Self {
+        let defaults = defaults(sides.map(|side| &side.verdicts));
         let mut taken = BTreeSet::new();
         let mut claims = Vec::new();
         let mut only = [Vec::new(), Vec::new()];
-        for first in &sides[0].claims {
-            let by_id = sides[1].claims.iter().find(|second| second.claim == first.claim);
-            let free = |second: &&ClaimVerdict| sides[0].claims.iter().all(|own| own.claim != second.claim);
-            let alike = || sides[1].claims.iter().filter(|second| is_alike(first, second)).filter(free);
-            let twins = sides[0].claims.iter().filter(|own| is_alike(first, own)).count();
-            let by_cell = || alike().next().filter(|_| twins == 1 && alike().count() == 1);
-            match by_id.or_else(by_cell) {
+        for first in &sides[0].verdicts.claims {
+            match partner(sides, first, &taken) {
                 Some(second) => {
                     taken.insert(second.claim.as_str());
-                    claims.push(ClaimPair::new([first, second], &defaults));
+                    claims.push(ClaimPair::new(sides, [first, second], &defaults));
                 }
                 None => only[0].push(first.claim.clone()),
             }
         }
-        let left = sides[1].claims.iter().filter(|second| !taken.contains(second.claim.as_str()));
+        let left = sides[1].verdicts.claims.iter().filter(|second| !taken.contains(second.claim.as_str()));
         only[1].extend(left.map(|second| second.claim.clone()));
-        Self { sides: names.map(str::to_owned), claims, defaults, only }
+        Self { sides: sides.map(|side| side.name.clone()), claims, defaults, only }
     }
 
     /// How many claims are judged differently.
     pub fn differ(&self) -> usize {
         self.claims.iter().filter(|pair| !pair.is_same).count()
     }
+}
+
+/// The claim of the second side that is `first`, if it is none of those `taken`.
+fn partner<'s>(
+    [own, other]: [&'s Encoding; 2],
+    first: &ClaimVerdict,
+    taken: &BTreeSet<&str>,
+) -> Option<&'s ClaimVerdict> {
+    if let Some(by_id) = other.only(|second| second.claim == first.claim) {
+        return Some(by_id);
+    }
+    let is_free = |second: &&ClaimVerdict| !own.has(&second.claim) && !taken.contains(second.claim.as_str());
+    let meaning = own.meanings.get(&first.claim).filter(|_| own.form == other.form);
+    let means = |side: &'s Encoding| {
+        side.only(|claim| meaning.is_some() && side.meanings.get(&claim.claim) == meaning)
+    };
+    let prints = |side: &'s Encoding| side.only(|claim| is_alike(first, claim));
+    let by_meaning = means(own).and_then(|_| means(other)).filter(is_free);
+    by_meaning.or_else(|| prints(own).and_then(|_| prints(other)).filter(is_free))
 }
 
 /// Whether both print the same number with the same unit at the same place.
@@ -90,16 +150,16 @@ fn defaults(sides: [&Verdicts; 2]) -> Vec<DefaultPair> {
 }
 
 impl ClaimPair {
-    fn new(pair: [&ClaimVerdict; 2], defaults: &[DefaultPair]) -> Self {
+    fn new(sides: [&Encoding; 2], pair: [&ClaimVerdict; 2], defaults: &[DefaultPair]) -> Self {
         let verdicts = pair.map(ClaimVerdict::word);
         let is_same = verdicts[0] == verdicts[1];
-        let because = if is_same { Vec::new() } else { reasons(pair, defaults) };
+        let because = if is_same { Vec::new() } else { reasons(sides, pair, defaults) };
         Self { ids: pair.map(|claim| claim.claim.clone()), verdicts, is_same, because }
     }
 }
 
-/// What may make two sides judge a claim differently: the question, what it depends on, and defaults that touch it.
-fn reasons(pair: [&ClaimVerdict; 2], defaults: &[DefaultPair]) -> Vec<String> {
+/// What may make two sides judge a claim differently: the question, what it depends on, defaults that touch it, and its studies.
+fn reasons(sides: [&Encoding; 2], pair: [&ClaimVerdict; 2], defaults: &[DefaultPair]) -> Vec<String> {
     let mut reasons = Vec::new();
     let [first, second] = pair.map(|claim| {
         let deciding = claim.findings.iter().filter(|finding| finding.outcome.is_some());
@@ -108,10 +168,11 @@ fn reasons(pair: [&ClaimVerdict; 2], defaults: &[DefaultPair]) -> Vec<String> {
     if first != second {
         reasons.push(format!("question: {} and {}", or_none(&first), or_none(&second)));
     }
-    let numbers =
-        pair.map(|claim| claim.ours().map_or_else(|| "none".to_owned(), |ours| ours.value.to_string()));
-    if numbers[0] != numbers[1] {
-        reasons.push(format!("our numbers: {} and {}", numbers[0], numbers[1]));
+    let values = pair.map(|claim| claim.ours().map(|ours| ours.value));
+    if values[0] != values[1] {
+        let [first, second] =
+            values.map(|value| value.map_or_else(|| "none".to_owned(), |value| format!("{value:.4}")));
+        reasons.push(format!("our numbers: {first} and {second}"));
     }
     let depends = pair.map(|claim| claim.depends_on.clone().unwrap_or_default());
     if depends[0] != depends[1] {
@@ -128,7 +189,17 @@ fn reasons(pair: [&ClaimVerdict; 2], defaults: &[DefaultPair]) -> Vec<String> {
         })
     };
     reasons.extend(defaults.iter().filter(touches).map(DefaultPair::in_words));
-    if reasons.is_empty() {
+    let meanings = [0, 1].map(|side| sides[side].meanings.get(&pair[side].claim));
+    let [own, other] = meanings.map(|meaning| meaning.map_or(&[][..], Vec::as_slice));
+    let studies = own.iter().skip(1).filter(|study| other.iter().skip(1).any(|shared| shared == *study));
+    for study in studies {
+        let [Some(first), Some(second)] = sides.map(|side| side.studies.get(study)) else { continue };
+        let differ = second.set_otherwise(first);
+        if !differ.is_empty() {
+            reasons.push(format!("study `{study}`: {}", differ.join(", ")));
+        }
+    }
+    if reasons.is_empty() || own.first() != other.first() {
         // The same criterion with other settings, as a margin, or with other parts.
         let because = pair.map(|claim| claim.findings.iter().flat_map(|finding| &finding.because));
         let [first, second] = because;

@@ -135,7 +135,11 @@ pub fn compare(sides: &Sides<'_>, options: &CompareOptions) -> Result<Comparison
     let of_two_runs = matches!(sides, Sides::Runs(_));
     Ok(Comparison {
         sides: sides.names(),
-        notes: if of_two_runs { notes(&seen, &lines) } else { Vec::new() },
+        notes: if of_two_runs {
+            notes(&seen, &lines)
+        } else {
+            seen[0].iter().filter_map(|(study, own)| elsewhere(study, own.manifest)).collect()
+        },
         solved: lines.iter().map(Line::solved).collect(),
         changes: samples.iter().map(Sample::change).collect(),
         gates: gate::pass(&options.gates, &samples, of_two_runs)?,
@@ -260,18 +264,19 @@ fn only_on_one_side(side: usize, study: &str, lone: &[&Row], other: &Seen<'_>) -
     found.into_iter().map(only).collect()
 }
 
+/// That the records of a study are nobody's here, if they were imported.
+fn elsewhere(study: &str, of: &Manifest) -> Option<String> {
+    let source = of.elsewhere.as_ref()?;
+    Some(format!("{study}: recorded elsewhere, with unknown seeds and paths that nobody verified: {source}"))
+}
+
 /// What a reader must know of two runs.
 fn notes(seen: &[BTreeMap<&str, Seen<'_>>; 2], lines: &[Line<'_>]) -> Vec<String> {
     let mut notes = Vec::new();
     for (study, first) in &seen[0] {
         let Some(second) = seen[1].get(study) else { continue };
         let (one, other) = (first.manifest, second.manifest);
-        let elsewhere = [one, other].into_iter().filter_map(|of| of.elsewhere.as_ref());
-        notes.extend(elsewhere.map(|source| {
-            format!(
-                "{study}: recorded elsewhere, with unknown seeds and paths that nobody verified: {source}"
-            )
-        }));
+        notes.extend([one, other].into_iter().filter_map(|of| elsewhere(study, of)));
         if one.quick != other.quick {
             notes.push(format!("{study}: one of the runs is quick and the other full"));
         }

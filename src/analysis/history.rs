@@ -182,6 +182,16 @@ impl History {
         Ok(Self { text, ..history })
     }
 
+    /// By id what each claim means after the last entry: the hash, and behind it the studies that it asks.
+    pub fn meanings(&self) -> BTreeMap<String, Vec<String>> {
+        self.claims.iter().map(|(id, known)| (id.clone(), known.stated.0.clone())).collect()
+    }
+
+    /// The form of these hashes.
+    pub fn form(&self) -> u32 {
+        self.form
+    }
+
     /// The history in `folder`, with an entry for what `paper` asks and its runs there store, if either is new. Whoever calls it
     /// holds the folder's lock.
     ///

@@ -3,6 +3,7 @@
 //! Nothing is bound to trials: `untestable` says so, and each number is a claim all the same. Whoever runs the paper puts `of` and
 //! `check` in its place.
 
+use super::meaning::Kind;
 use super::table::Table;
 use std::collections::BTreeSet;
 
@@ -18,15 +19,17 @@ pub fn toml(table: &Table, number: usize) -> String {
          # Put the trials (`of`) and a criterion (`check`) in the place of this line: docs/YOUR_OWN_PAPER.md\n\
          untestable = \"no study of ours runs this table yet\"\n",
         string(&title),
-        string(&format!("{title}: printed and ours."))
+        string(&format!("{}: printed and ours.", title.trim_end_matches('.')))
     );
     let mut ids = BTreeSet::new();
     for column in &columns {
         let name = table.column_name(*column);
         let in_brackets = name.strip_suffix(')').and_then(|name| name.rsplit_once('('));
+        let meaning = &table.columns[*column].meaning;
+        let percent = matches!(meaning.kind, Kind::Share { whole: 100 }).then(|| "%".to_owned());
         let (label, unit) = match in_brackets {
             Some((label, unit)) => (label.trim().to_owned(), Some(unit.to_owned())),
-            None => (name, table.columns[*column].meaning.unit.clone()),
+            None => (name, meaning.unit.clone().or(percent)),
         };
         text += &format!(
             "\n[[table.column]]\nid = \"{}\"\nlabel = {}\n",

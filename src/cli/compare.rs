@@ -4,9 +4,8 @@ use super::places::stored_run;
 use super::progress::doing;
 use super::verdicts::COLUMNS;
 use super::{Failure, command_line};
-use crate::analysis::agreement::Agreement;
+use crate::analysis::agreement::{Agreement, Encoding};
 use crate::analysis::compare::{CompareOptions, Comparison, Gate, Outcome, Sides, StoredRun, compare};
-use crate::analysis::verdict::Verdicts;
 use crate::render::vector::Provenance;
 use crate::render::{agreement, comparison};
 use base::hash::sha256;
@@ -101,10 +100,9 @@ impl Compare {
 
     /// Prints how the verdicts of both sides agree; a difference is no failure.
     fn compare_verdicts(&self, second: &str) -> Result<(), Failure> {
-        let names = [self.first.as_str(), second];
-        let read = |name: &str| Ok::<_, Failure>(Verdicts::read(&stored_run(name)?)?);
-        let [one, other] = [read(names[0])?, read(names[1])?];
-        let agreement = Agreement::new(names, [&one, &other]);
+        let read = |name: &str| Ok::<_, Failure>(Encoding::read(name, &stored_run(name)?)?);
+        let [one, other] = [read(&self.first)?, read(second)?];
+        let agreement = Agreement::new([&one, &other]);
         let text = if self.json {
             serde_json::to_string_pretty(&agreement).expect("texts alone")
         } else {

@@ -5,11 +5,13 @@
 
 use super::Failure;
 use super::beside::become_program;
+use super::pack::{Pack, day};
 use super::places::stored_run;
 use super::progress::doing;
 use crate::analysis::compare::{StoredRun, cells, stored_studies};
 use crate::render::comparison::cells_csv;
 use clap::{Args, ValueEnum};
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use study::manifest::Manifest;
 use study::store::{Staged, check_records, csv};
@@ -22,12 +24,18 @@ pub struct Export {
     /// The same as `--to csv`
     #[arg(long)]
     csv: bool,
-    /// The format; an RO-Crate is what `replan pack` writes
+    /// The format
     #[arg(long, value_name = "FORMAT", required_unless_present = "csv", conflicts_with = "csv")]
     to: Option<Format>,
     /// Write into this folder; below target/replan/export/ if absent
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Of an RO-Crate the day of publication, as 2026-01-31
+    #[arg(long, value_name = "DAY", value_parser = day, required_if_eq("to", "ro-crate"))]
+    date: Option<String>,
+    /// Of an RO-Crate the address of the licence; the LICENSE file of the project if absent
+    #[arg(long, value_name = "URL")]
+    license: Option<String>,
 }
 
 /// A format that stored runs are exported in.
@@ -43,6 +51,8 @@ pub enum Format {
     PlannerArena,
     /// A trace for posthoc of each stored search on a grid
     Posthoc,
+    /// The same as `replan pack`
+    RoCrate,
 }
 
 /// The kinds of record that are exported; traces are lists of numbers without a table's shape.
@@ -62,7 +72,20 @@ impl Export {
     /// # Errors
     /// No sound run is stored there, a file cannot be written, or `replan-export` is missing.
     pub fn run(self) -> Result<(), Failure> {
-        if self.format() == Format::Csv { self.write(stage_csv) } else { become_program("replan-export") }
+        match (self.format(), self.date.clone()) {
+            (Format::Csv, _) => self.write(stage_csv),
+            (Format::RoCrate, Some(date)) => {
+                let name = PathBuf::from(&self.paper);
+                let to = self.folder(name.file_name().unwrap_or_default());
+                Pack::new(self.paper, to, date, self.license).run()
+            }
+            _ => become_program("replan-export"),
+        }
+    }
+
+    /// Where it writes what is called `name`.
+    fn folder(&self, name: &OsStr) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| PathBuf::from("target/replan/export").join(name))
     }
 
     /// The format.
@@ -82,8 +105,7 @@ impl Export {
         doing(&format!("{}: reading its records and computing their statistics", self.paper));
         let folder = stored_run(&self.paper)?;
         check_stored(&folder)?;
-        let name = folder.file_name().unwrap_or_default();
-        let out = self.out.clone().unwrap_or_else(|| PathBuf::from("target/replan/export").join(name));
+        let out = self.folder(folder.file_name().unwrap_or_default());
         let mut staged = Staged::default();
         let what = stage(&mut staged, &out, &folder, &StoredRun::read(&folder, &self.paper)?)?;
         staged.put()?;
@@ -96,10 +118,7 @@ impl Export {
 pub type Stage = Result<String, Failure>;
 
 /// Stages comma-separated values.
-///
-/// # Errors
-/// A damaged file, or the file system.
-pub fn stage_csv(staged: &mut Staged, out: &Path, folder: &Path, run: &StoredRun) -> Stage {
+fn stage_csv(staged: &mut Staged, out: &Path, folder: &Path, run: &StoredRun) -> Stage {
     for (study, (manifest, _)) in &run.studies {
         doing(&format!("{}/{study}: writing its records", run.name));
         for part in PARTS {

@@ -44,11 +44,17 @@ const METADATA: &str = "ro-crate-metadata.json";
 /// The licence of replan itself, by its address.
 const OWN_LICENSE: &str = concat!("https://spdx.org/licenses/", env!("CARGO_PKG_LICENSE"));
 
-fn day(text: &str) -> Result<String, String> {
+/// `text`, if it is a day.
+pub(super) fn day(text: &str) -> Result<String, String> {
     if is_day(text) { Ok(text.to_owned()) } else { Err("a day as 2026-01-31 is accepted".to_owned()) }
 }
 
 impl Pack {
+    /// The pack of `paper`, in the folder `to`.
+    pub(super) fn new(paper: String, to: PathBuf, date: String, license: Option<String>) -> Self {
+        Self { which: Which { paper, out: None }, to, date, license }
+    }
+
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
         let is_free = fs::read_dir(&self.to).map_or(true, |mut entries| entries.next().is_none());
@@ -197,7 +203,49 @@ fn files(paper: &Paper, places: &Places, page: &Path) -> Result<BTreeMap<String,
     if license.is_file() {
         files.insert("LICENSE".to_owned(), read(&license)?);
     }
+    add_named(&mut files, places)?;
     Ok(files)
+}
+
+/// Adds what the specs among `files` name and no record rests on: robots and scenes of other options, planners' files, sets of problems
+/// of the cross-check. What an installation brings lies in `target` and is not packed.
+fn add_named(files: &mut BTreeMap<String, Vec<u8>>, places: &Places) -> Result<(), Failure> {
+    let mut left: Vec<String> =
+        files.keys().filter(|name| name.starts_with("experiments/")).cloned().collect();
+    while let Some(spec) = left.pop() {
+        if Path::new(&spec).extension().is_none_or(|ending| ending != "toml") {
+            continue;
+        }
+        let text = String::from_utf8_lossy(&files[&spec]);
+        let mut names = Vec::new();
+        text.parse::<toml::Table>()
+            .iter()
+            .flat_map(toml::Table::values)
+            .for_each(|value| texts(value, &mut names));
+        for name in names {
+            let mut parts = Path::new(&name).components();
+            let is_plain = name.contains('/') && parts.all(|part| matches!(part, Component::Normal(_)));
+            if !is_plain || name.starts_with("target/") || files.contains_key(&name) {
+                continue;
+            }
+            let found = places.inputs.locate(&name).ok();
+            if let Some(path) = found.filter(|path| !path.starts_with(&places.folder)) {
+                files.insert(name.clone(), read(&path)?);
+                left.push(name);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Puts every text in `value` to `found`.
+fn texts(value: &toml::Value, found: &mut Vec<String>) {
+    match value {
+        toml::Value::String(text) => found.push(text.clone()),
+        toml::Value::Array(values) => values.iter().for_each(|value| texts(value, found)),
+        toml::Value::Table(table) => table.values().for_each(|value| texts(value, found)),
+        _ => {}
+    }
 }
 
 /// The programs and processors that made the records in `runs`, in words.

@@ -1,8 +1,8 @@
 //! Records as OMPL's benchmarks have them: experiments, planners, and runs with typed properties.
 //!
-//! An experiment is a problem group at one point of the sweeps over it, under one interpretation. A contender at one point of the
-//! other sweeps is a planner, and each of its trials is a run. Times are in seconds, from the first session; a run without a clock
-//! has none. Every other property keeps the name of its column, which ends in the unit.
+//! An experiment is a query of a problem group at one point of the sweeps over it, under one interpretation. A contender at one
+//! point of the other sweeps is a planner, and each of its trials is a run. Times are in seconds, from the first session; a run
+//! without a clock has none. Every other property keeps the name of its column, which ends in the unit.
 
 use base::text::one_line;
 use replan::analysis::compare::StoredRun;
@@ -58,9 +58,9 @@ pub struct PlannerRuns {
     pub runs: Vec<Vec<Option<f64>>>,
 }
 
-/// One problem group.
+/// One query of a problem group.
 pub struct Experiment {
-    /// `study/group[/sweep][/interpretation]`.
+    /// `study/group[/sweep][/query][/interpretation]`.
     pub name: String,
     /// The root of the run's seeds.
     pub seed: u64,
@@ -115,6 +115,9 @@ fn grouped<'r>(rows: &[&'r Row], name: impl Fn(&Row) -> String) -> Vec<(String, 
 fn group_name(study: &str, manifest: &Manifest, key: &TrialKey) -> String {
     let on = &key.on;
     let mut name = format!("{study}/{}", name::group(&on.group, &on.sweep));
+    if let Some(query) = &key.query {
+        name += &format!("/{query}");
+    }
     let defaults = manifest.interpretations.first().into_iter().flatten();
     let is_other = |((id, option), default): &(&(study::key::Text, study::key::Text), &String)| {
         let _ = id;

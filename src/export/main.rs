@@ -15,7 +15,7 @@ use clap::Parser;
 use file_names::FileNames;
 use replan::analysis::compare::StoredRun;
 use replan::cli::Failure;
-use replan::cli::export::{Export, Format, Stage, stage_csv};
+use replan::cli::export::{Export, Format, Stage};
 use std::path::Path;
 use std::process::ExitCode;
 use study::store::Staged;
@@ -29,7 +29,12 @@ struct Cli {
 
 fn main() -> ExitCode {
     let export = Cli::parse().export;
-    match export.write(|staged, out, folder, run| stage(export.format(), staged, out, folder, run)) {
+    let format = export.format();
+    let done = match format {
+        Format::Csv | Format::RoCrate => export.run(),
+        _ => export.write(|staged, out, folder, run| stage(format, staged, out, folder, run)),
+    };
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.end("replan-export"),
     }
@@ -37,7 +42,7 @@ fn main() -> ExitCode {
 
 fn stage(format: Format, staged: &mut Staged, out: &Path, folder: &Path, run: &StoredRun) -> Stage {
     match format {
-        Format::Csv => stage_csv(staged, out, folder, run),
+        Format::Csv | Format::RoCrate => unreachable!("`Export` writes these itself"),
         Format::Parquet => frames::stage(staged, out, folder, run),
         Format::OmplLog => {
             let all = experiments(run);

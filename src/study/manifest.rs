@@ -250,6 +250,15 @@ impl Manifest {
         hash_of(&self.contenders, label, self.place(interpretation)?)
     }
 
+    /// In what this study is set otherwise than `before`, each under its defaults.
+    pub fn set_otherwise(&self, before: &Self) -> Vec<String> {
+        let [first, second] = [before.seed, self.seed];
+        let seeds = (first != second).then(|| format!("seed {first} and {second}"));
+        let problems = changes("problem group", &self.problems, &before.problems, &[[0, 0]]);
+        let contenders = changes("contender", &self.contenders, &before.contenders, &[[0, 0]]);
+        seeds.into_iter().chain(problems).chain(contenders).collect()
+    }
+
     /// Why stored trials of `before` cannot stand for those of this manifest: one sentence a reason.
     pub fn differs_from(&self, before: &Self) -> Vec<String> {
         let mut reasons = Vec::new();

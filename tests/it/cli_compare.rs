@@ -239,3 +239,25 @@ fn two_encodings_of_one_paper_show_what_they_judge_differently_and_which_default
         claims.iter().any(|pair| pair["is_same"] == false && !pair["because"].as_array().unwrap().is_empty())
     );
 }
+
+#[test]
+fn claims_of_other_names_match_by_what_they_mean_and_a_study_that_is_set_otherwise_is_named() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini", "--out", "a"]);
+    bench.edit("mini/paper.toml", "[[claim]]\nid = \"nodes\"", "[[claim]]\nid = \"fewer\"");
+    bench.edit("mini/paper.toml", "two sides open fewer nodes", "fewer nodes, says a stranger");
+    bench.done(&["repro", "./mini", "--out", "b"]);
+    let renamed = bench.done(&["compare", "a", "b", "--verdicts"]);
+    assert!(renamed.starts_with("0 of ") && !renamed.contains("Only `"), "{renamed}");
+    bench.edit("mini/paper.toml", "id = \"fewer\"", "id = \"nodes\"");
+    bench.edit("mini/paper.toml", "is = \"lower\"", "is = \"higher\"");
+    bench.edit("mini/draws.toml", "seed = 7", "seed = 8");
+    bench.edit("mini/draws.toml", "weight = 1, ties = \"fifo\"", "weight = 1, ties = \"lifo\"");
+    bench.done(&["repro", "./mini", "--out", "c"]);
+    let text = bench.done(&["compare", "a", "c", "--verdicts"]);
+    let nodes = text.lines().find(|line| line.starts_with("| `nodes` |")).unwrap_or_else(|| panic!("{text}"));
+    let otherwise =
+        "study `draws`: seed 7 and 8, problem group `drawn` has changed, contender `A*` has changed";
+    assert!(nodes.contains(otherwise) && nodes.contains("evidence: "), "{nodes}");
+    assert!(!nodes.contains("default of"), "{nodes}");
+}

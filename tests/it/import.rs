@@ -141,7 +141,7 @@ fn a_log_of_ompl_is_compared_and_gated() {
     assert!(gated.out.contains("gate solved -1%: bench: geometric_PRM: "), "{}{}", gated.out, gated.err);
     let within =
         bench.done(&["compare", "a", "--contenders", "geometric_RRTConnect", "geometric_PRM", "--markdown"]);
-    assert!(within.contains("own_time_ms"), "{within}");
+    assert!(within.contains("own_time_ms") && within.contains("recorded elsewhere"), "{within}");
     let between = bench.done(&["compare", "a", "b", "--gate", "own_time_ms +5%"]);
     let words = between.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("each run has one session of the clock"), "{between}");

@@ -72,6 +72,43 @@ fn every_file_of_a_pack_is_described_in_its_crate() {
 }
 
 #[test]
+fn a_pack_has_the_files_of_planners_and_of_the_cross_check_that_specs_name() {
+    let empty = Bench::empty();
+    for paper in ["baselines", "gallery"] {
+        let pack = empty.at(paper);
+        let command = ["pack", paper, "--to", pack.to_str().unwrap(), "--date", "2026-01-31"];
+        let done = empty.command(&command).current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
+        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        for command in [&["check", "."][..], &["check", paper], &["judge", paper, "--check"]] {
+            let done = empty.output(&empty.command(command).current_dir(&pack).output().unwrap());
+            assert_eq!(done.code, Some(0), "{paper}, {command:?}: {}", done.err);
+        }
+    }
+}
+
+#[test]
+fn an_exported_crate_is_the_pack() {
+    let bench = packed();
+    bench.done(&[
+        "export",
+        "./mini",
+        "--to",
+        "ro-crate",
+        "--out",
+        "crate",
+        "--date",
+        "2026-01-31",
+        "--license",
+        PACK[7],
+    ]);
+    let sums = |folder: &str| fs::read_to_string(bench.at(folder).join("SHA256SUMS")).unwrap();
+    assert_eq!(sums("crate"), sums("pack"));
+    let output = bench.run(&["export", "./mini", "--to", "ro-crate", "--out", "other"]);
+    assert!(output.code == Some(2) && output.err.contains("--date <DAY>"), "{}", output.err);
+    assert!(!bench.at("other").exists());
+}
+
+#[test]
 fn a_pack_is_refused_whose_verdicts_or_figures_are_not_of_today() {
     let bench = Bench::new();
     bench.done(&["repro", "./mini"]);

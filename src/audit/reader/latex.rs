@@ -126,8 +126,25 @@ fn plain(cell: &str) -> String {
     if ["--", "---"].contains(&cell) {
         return "–".to_owned();
     }
-    let pairs =
-        [("\\pm", "±"), ("\\%", "%"), ("\\&", "&"), ("\\_", "_"), ("\\#", "#"), ("\\,", ""), ("~", " ")];
+    let pairs = [
+        ("\\pm", "±"),
+        ("\\%", "%"),
+        ("\\&", "&"),
+        ("\\_", "_"),
+        ("\\#", "#"),
+        ("\\,", ""),
+        ("~", " "),
+        ("\\mathbf{", "\\textbf{"),
+    ];
     let text = pairs.into_iter().fold(cell.to_owned(), |text, (from, to)| text.replace(from, to));
-    if text.matches('$').count() == 2 { text.replace('$', "") } else { text }
+    let text = if text.matches('$').count() % 2 == 0 { text.replace('$', "") } else { text };
+    let marks = ["\\textbf", "\\underline"].into_iter();
+    marks.fold(text, |text, mark| around_the_spread(&text, mark).unwrap_or(text))
+}
+
+/// A number that alone stands in the braces behind `mark`, with its spread in them as well.
+fn around_the_spread(text: &str, mark: &str) -> Option<String> {
+    let inner = argument(text, mark).filter(|inner| text.starts_with(&format!("{mark}{{{inner}}}")))?;
+    let spread = text[mark.len() + inner.len() + 2..].trim_start();
+    spread.starts_with(['±', '(']).then(|| format!("{mark}{{{inner} {spread}}}"))
 }

@@ -386,12 +386,22 @@ fn shown(cell: &AnyValue<'_>) -> String {
     }
 }
 
-/// `text` as a cell of a file of comma-separated values, in quotes where it needs them. An apostrophe stands before what a
-/// spreadsheet would take for a formula and compute.
+/// `text` as a cell of a file of comma-separated values, in quotes where it needs them. An apostrophe stands before each sign by
+/// which a spreadsheet knows a formula: at the start, and behind what spreadsheets of other countries take for the end of a cell.
+///
+/// # Source
+/// OWASP, *CSV Injection*, for the signs.
 pub fn quoted(text: &str) -> String {
-    let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
-    let text = if is_formula { format!("'{text}") } else { text.to_owned() };
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
+    let mut safe = String::with_capacity(text.len());
+    let mut begins = true;
+    for sign in text.chars() {
+        if begins && "=+-@\t\r＝＋－＠".contains(sign) {
+            safe.push('\'');
+        }
+        begins = ";\t\r\n".contains(sign) || (begins && sign == '"');
+        safe.push(sign);
+    }
+    if safe.contains([',', '"', '\n', '\r']) { format!("\"{}\"", safe.replace('"', "\"\"")) } else { safe }
 }
 
 fn fill(rows: &mut [Values], place: u16, cells: impl Iterator<Item = Option<Value>>) {

@@ -1,6 +1,6 @@
 use super::KeptTraces;
 use super::describe::{Described, described};
-use super::read::{Instances, Stored};
+use super::read::{Instances, Stored, quoted};
 use super::table::{self, DESCRIPTION};
 use super::traces::{self, GROUP_VALUES, TraceReader, TraceWriter};
 use super::{Staged, remove_temporaries, write_whole};
@@ -211,6 +211,24 @@ fn traces_are_written_and_read_group_by_group() {
         sizes.push(written(most).len());
     }
     assert!(sizes.is_sorted_by(|one, other| one > other), "groups are not what was written: {sizes:?}");
+}
+
+#[test]
+fn a_cell_begins_no_formula_at_any_separator_of_a_spreadsheet() {
+    for (text, cell) in [
+        ("=1+1", "'=1+1"),
+        ("＝1+1", "'＝1+1"),
+        ("\t=1", "'\t'=1"),
+        ("\r-1", "\"'\r'-1\""),
+        ("a;@SUM(A1)", "a;'@SUM(A1)"),
+        ("a;\"=1", "\"a;\"\"'=1\""),
+        ("a\n+1", "\"a\n'+1\""),
+        ("a\",\"=1", "\"a\"\",\"\"=1\""),
+        ("A*-b=c", "A*-b=c"),
+        ("weights 1; 2", "weights 1; 2"),
+    ] {
+        assert_eq!(quoted(text), cell, "{text:?}");
+    }
 }
 
 #[test]

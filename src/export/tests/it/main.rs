@@ -69,6 +69,17 @@ fn an_arena_has_a_run_for_each_trial_with_its_numbers() {
             .count()
     };
     assert_eq!(solved as usize, STUDIES.iter().map(is_solved).sum::<usize>());
+    let problems = |study: &&str| {
+        let frame = stored(study);
+        let [groups, queries] = ["group", "query"].map(|key| frame.column(key).unwrap().str().unwrap());
+        groups.iter().zip(queries.iter()).collect::<BTreeSet<_>>().len()
+    };
+    let experiments: i64 = arena.query_row("SELECT count(*) FROM experiments", [], |row| row.get(0)).unwrap();
+    assert_eq!(
+        experiments as usize,
+        STUDIES.iter().map(problems).sum::<usize>(),
+        "a query is a problem of its own"
+    );
     let orphans = "SELECT count(*) FROM runs WHERE plannerid NOT IN (SELECT id FROM plannerConfigs) \
                    OR experimentid NOT IN (SELECT id FROM experiments)";
     assert_eq!(arena.query_row(orphans, [], |row| row.get::<_, i64>(0)).unwrap(), 0);
@@ -287,6 +298,7 @@ fn what_cannot_be_exported_leaves_nothing_and_says_why() {
     for (arguments, code, message) in [
         (["nowhere", "--to", "planner-arena"], 2, "`nowhere` holds no stored run"),
         (["gallery", "--to", "xlsx"], 2, "[possible values: csv, parquet, ompl-log, planner-arena, posthoc"),
+        (["fu2018", "--to", "ro-crate"], 2, "--date <DAY>"),
         (["fu2018", "--to", "posthoc"], 2, "`fu2018` has no stored search on a grid"),
     ] {
         let output = export(&[&arguments[..], &["--out", out.to_str().unwrap()]].concat());
