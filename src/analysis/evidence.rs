@@ -173,7 +173,7 @@ impl<'a> Run<'a> {
         let spec = sha256(study.document.text().as_bytes());
         if manifest.spec != spec {
             let path = Manifest::path(folder, &study.name);
-            let reason = format!("the stored run was made by another spec; run study `{}` again", study.name);
+            let reason = format!("the stored run was made by another spec; `replan run` runs study `{}` again", study.name);
             return Err(StudyError::Touched(format!("{}: {reason}", path.display())));
         }
         let records = read_numbers(folder, &study.name, &manifest.files)?;

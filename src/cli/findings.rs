@@ -33,7 +33,7 @@ fn lines(headline: &Headline<'_>, verdicts: &Verdicts) -> String {
     let pad = " ".repeat((VERDICT + 1).saturating_sub(word.chars().count()));
     let first = coloured(judged.verdict, &word) + &pad;
     let ours = headline.ours.as_ref().map_or_else(String::new, |ours| format!(": {ours}"));
-    let beside = headline.beside(verdicts).map_or_else(String::new, |words| format!(": {words}"));
+    let beside = headline.rests_on(verdicts).map_or_else(String::new, |words| format!(": {words}"));
     let indent = VERDICT + 2;
     let says = plain(&(first + " "), &format!("{}{ours}", headline.says), indent, COLUMNS);
     let rests = plain(&" ".repeat(indent), &(judged.claim.clone() + &beside), indent, COLUMNS);

@@ -140,7 +140,7 @@ impl Planted {
             results: &results,
         };
         let said = view.wording(line);
-        (said.beside.unwrap_or_default(), said.depends_on)
+        (said.beside.join("; "), said.depends_on)
     }
 }
 

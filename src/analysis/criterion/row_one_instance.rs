@@ -9,7 +9,7 @@ use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Case, Instance, Selection};
 use crate::analysis::selection_spec::{Labels, SelectionSpec};
 use crate::analysis::statistic::InstanceStatistic;
-use crate::analysis::verdict::Estimate;
+use crate::analysis::verdict::{Estimate, Quantity};
 use base::settings::{Accepted, Faults, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -282,7 +282,8 @@ impl Criterion for RowOneInstance<'_> {
         };
         let judged = rank.min(level.rank.p_two_sided());
         let n = place.instances;
-        let ours = Estimate::bare(judged, "the lesser rank, of shape or level", n);
+        let ours = Estimate::bare(judged, "the lesser rank, of shape or level", n)
+            .measures(Quantity::Rank, "our instances");
         CriterionResult {
             outcome: Some(outcome),
             censored: self.censored(numbers, (&level, outcome)),
