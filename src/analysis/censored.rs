@@ -4,6 +4,7 @@
 use super::evidence::Evidence;
 use super::metric::Better;
 use super::selection::{Case, Instance, Selection, by_instance, cases, censored};
+use std::collections::BTreeSet;
 use study::record::{Row, Status};
 
 /// The pairs of every instance with its censored cases filled in by a difference that outweighs all that were seen: against the
@@ -65,6 +66,20 @@ pub fn outside(instances: &[Instance<'_>]) -> usize {
 pub fn outside_in_words(of: &Selection<'_>, count: usize) -> Option<String> {
     let both = if of.against.is_some() { "solved by both" } else { "solved" };
     (count > 0).then(|| format!("{count} more cases are outside of the claim: not {both}"))
+}
+
+/// How many problems of `of` cannot be posed, with the reason of the first, in words; `None` if all can.
+pub fn not_posed(of: &Selection<'_>, evidence: &Evidence<'_>) -> Option<String> {
+    let run = of.run(evidence)?;
+    let contender = of.contenders.first()?;
+    let rows: Vec<&Row> = of.groups.iter().flat_map(|group| run.rows(group, contender)).collect();
+    let problems: BTreeSet<_> = rows.iter().map(|row| (&row.key.on, &row.key.query)).collect();
+    let invalid = rows.iter().filter(|row| row.status == Status::InvalidProblem);
+    let left: BTreeSet<_> = invalid.clone().map(|row| (&row.key.on, &row.key.query)).collect();
+    let reason = invalid.filter_map(|row| row.reason.as_deref()).next().unwrap_or("no reason is stored");
+    (!left.is_empty()).then(|| {
+        format!("{} of {} problems cannot be posed and are left out: {reason}", left.len(), problems.len())
+    })
 }
 
 /// The share of the paths that come back, of all that is selected, which the verifier refuses.

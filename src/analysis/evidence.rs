@@ -2,7 +2,6 @@
 
 use super::metric::{self, Metric};
 use super::polylines::Polylines;
-use base::hash::sha256;
 use engine::planner::Trace;
 use rayon::prelude::*;
 use stats::summary;
@@ -170,8 +169,7 @@ pub fn default_point(paper: &Paper) -> Interpretation {
 impl<'a> Run<'a> {
     fn read(study: &'a Study, point: &Interpretation, folder: &Path) -> Result<Self, StudyError> {
         let manifest = Manifest::read(folder, &study.name)?;
-        let spec = sha256(study.document.text().as_bytes());
-        if manifest.spec != spec {
+        if manifest.spec != study.run_hash() {
             let path = Manifest::path(folder, &study.name);
             let reason = format!("the stored run was made by another spec; `replan run` runs study `{}` again", study.name);
             return Err(StudyError::Touched(format!("{}: {reason}", path.display())));

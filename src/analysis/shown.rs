@@ -5,7 +5,7 @@
 use super::evidence::Evidence;
 use super::selection::{Case, Selection, by_instance, cases};
 use super::statistic::{
-    Estimate, InstanceStatistic, Interval, LEVEL, OverallStatistic, differences_percent, plan, turned,
+    Estimate, InstanceStatistic, Interval, LEVEL, OverallStatistic, differences_percent, plan,
 };
 use stats::bands::{curves_of, distance_of_mean, sup_t_between};
 pub use stats::summary::means_along;
@@ -43,12 +43,6 @@ pub fn of_all(
     names: &[&str],
 ) -> Option<Estimate> {
     all.estimate(&of.instances(evidence), plan(names))
-}
-
-/// By how many per cent the mean changes against the other contender's: the reduction with its sign turned.
-pub fn change_percent(of: &Selection<'_>, evidence: &Evidence<'_>, names: &[&str]) -> Option<Estimate> {
-    let found = of_all(OverallStatistic::ReductionPercent, of, evidence, names)?;
-    Some(Estimate { value: 0.0 - found.value, interval: turned(found.interval), ..found })
 }
 
 /// The mean of each of the selection's contenders over the instances that all of them solve, and how many these are; the stream of

@@ -100,6 +100,15 @@ fn cell_of(run: &Run<'_>, group: &str, label: &str, cell: &CellSpec, metric: &Me
             .collect::<Option<Vec<String>>>()
             .map(|medians| medians.join(" · ")),
         Show::Percent => statistic::mean(&finite).map(|share| number(100.0 * share)),
+        Show::Ratio => cell.against.as_ref().and_then(|base| {
+            let pairs = run.pairs(group, base.get_ref(), label);
+            let values: Vec<[f64; 2]> = pairs
+                .iter()
+                .filter_map(|pair| Some([run.value(pair.other, metric)?, run.value(pair.base, metric)?]))
+                .collect();
+            let [own, base] = [0, 1].map(|side| values.iter().map(|pair| pair[side]).sum::<f64>());
+            (base > 0.0).then(|| number(100.0 * own / base))
+        }),
         Show::Solved => ended(Status::Solved),
         Show::Refused => ended(Status::Rejected),
         Show::NoPath => ended(Status::NoPath),

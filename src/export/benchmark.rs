@@ -131,7 +131,7 @@ fn group_name(study: &str, manifest: &Manifest, key: &TrialKey) -> String {
 fn setup(manifest: &Manifest) -> String {
     let quick = if manifest.quick { "a quick run with few instances\n" } else { "" };
     let command = one_line(&manifest.command);
-    format!("replan {}: {command}\n{quick}sha256 of the spec: {}\n", manifest.made_by.replan, manifest.spec)
+    format!("replan {}: {command}\n{quick}sha256 of what the spec runs: {}\n", manifest.made_by.replan, manifest.spec)
 }
 
 /// The least time of each timed trial in the first session, in seconds.

@@ -238,10 +238,25 @@ impl Canvas {
 
     /// Draws a data point about `radius_pt` in radius, with a thin white rim that parts neighbours.
     pub fn marker(&mut self, at: [f64; 2], marker: Marker, radius_pt: f64, color: Rgb) {
-        let fill = Some(Fill::solid(color));
-        let rim = Stroke::solid(WHITE, 0.35);
+        self.shaped(at, marker, radius_pt, Some(Fill::solid(color)), [&Stroke::solid(WHITE, 0.35), &Stroke::solid(color, 1.0)]);
+    }
+
+    /// Draws the outline of a data point about `radius_pt` in radius, which hides nothing below.
+    pub fn outlined(&mut self, at: [f64; 2], marker: Marker, radius_pt: f64, color: Rgb) {
+        self.shaped(at, marker, radius_pt, None, [&Stroke::solid(color, 1.1); 2]);
+    }
+
+    /// Draws a data point: an area with a rim, or strokes.
+    fn shaped(
+        &mut self,
+        at: [f64; 2],
+        marker: Marker,
+        radius_pt: f64,
+        fill: Option<Fill>,
+        [rim, stroke]: [&Stroke; 2],
+    ) {
         let outline: &[[f64; 2]] = match marker {
-            Marker::Circle => return self.circle(at, radius_pt, fill, Some(&rim)),
+            Marker::Circle => return self.circle(at, radius_pt, fill, Some(rim)),
             Marker::Square => &[[-0.88, -0.88], [0.88, -0.88], [0.88, 0.88], [-0.88, 0.88]],
             Marker::Triangle => &[[0.0, -1.2], [1.1, 0.8], [-1.1, 0.8]],
             Marker::Wedge => &[[0.0, 1.2], [1.1, -0.8], [-1.1, -0.8]],
@@ -252,9 +267,9 @@ impl Canvas {
         let place = |[x, y]: &[f64; 2]| [at[0] + radius_pt * x, at[1] + radius_pt * y];
         let placed: Vec<[f64; 2]> = outline.iter().map(place).collect();
         if matches!(marker, Marker::Plus | Marker::Cross) {
-            placed.chunks_exact(2).for_each(|ends| self.polyline(ends, &Stroke::solid(color, 1.0)));
+            placed.chunks_exact(2).for_each(|ends| self.polyline(ends, stroke));
         } else {
-            self.polygon(&placed, fill, Some(&rim));
+            self.polygon(&placed, fill, Some(rim));
         }
     }
 

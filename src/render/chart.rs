@@ -55,6 +55,19 @@ impl View {
         points.iter().map(|&point| self.at(point)).collect()
     }
 
+    /// Whether a chain of data points may pass through the frame: a piece between two of them whose box meets it.
+    pub fn shows(&self, points: &[[f64; 2]]) -> bool {
+        let placed = self.all(points);
+        let ends = [placed[..1.min(placed.len())].repeat(2), placed].concat();
+        ends.windows(2).any(|ends| {
+            let meets = |axis: usize, from: f64, to: f64| {
+                let [a, b] = [ends[0][axis], ends[1][axis]];
+                a.is_finite() && b.is_finite() && a.min(b) <= to && a.max(b) >= from
+            };
+            meets(0, self.frame.x, self.frame.right()) && meets(1, self.frame.y, self.frame.bottom())
+        })
+    }
+
     /// Draws elements of a series of plotters, given in data units, with lines broken by `dash`.
     ///
     /// They may leave the frame: plotters would move their points to the edge of its drawing area, so that
@@ -87,8 +100,8 @@ pub trait Mark {
     /// Draws what may reach over the edge of the frame: labels, markers on the edge.
     fn draw_over(&self, _canvas: &mut Canvas, _view: &View) {}
 
-    /// What it adds to the legend; equal entries appear once.
-    fn keys(&self) -> Vec<Key> {
+    /// What it adds to the legend of a panel that shows `view`; equal entries appear once.
+    fn keys(&self, _view: &View) -> Vec<Key> {
         Vec::new()
     }
 

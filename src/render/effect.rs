@@ -1,11 +1,24 @@
 //! Estimates in words, with their direction.
 
+use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Quantity};
 
 /// An estimate in words: `2.2 % shorter`; `None` where there is nothing to say beyond its number.
 pub fn effect(estimate: &Estimate) -> Option<String> {
     let Effect { size, decimals, words } = Effect::new(estimate);
-    (!words.is_empty()).then(|| format!("{size:.decimals$}{words}"))
+    (!words.is_empty()).then(|| rounded(size, decimals) + &words)
+}
+
+/// A share as a percentage, with the digits that its interval leaves certain.
+pub fn percentage(share: &Estimate) -> String {
+    let Effect { size, decimals, words } = Effect::scaled(share, |value| 100.0 * value, " %".to_owned());
+    rounded(size, decimals) + &words
+}
+
+/// `size` with so many decimals; a half goes away from zero.
+pub fn rounded(size: f64, decimals: usize) -> String {
+    let unit = libm::pow(10.0, decimals as f64);
+    format!("{:.decimals$}", libm::round(size * unit) / unit)
 }
 
 /// An estimate in words, and its size.
@@ -57,6 +70,13 @@ impl Effect {
     }
 }
 
+/// The title of an axis along which `metric` is less than with `base`, in per cent: what is more stands below zero.
+pub fn less_than(metric: &Metric, base: &str) -> String {
+    let less = direction(&metric.label.to_lowercase(), false);
+    let first = less[..1].to_uppercase();
+    format!("{first}{} than {base} (%)", &less[1..])
+}
+
 /// The comparative for more or less of a metric.
 fn direction(metric: &str, is_more: bool) -> String {
     let metric = metric.split(", ").next().unwrap_or(metric);
@@ -87,6 +107,7 @@ mod tests {
             (-3.1, [-3.9, -2.3], LessPercent, "expansions", "3 % more expansions"),
             (0.9169, [0.9153, 0.9185], Ratio, "path length", "8.3 % shorter"),
             (0.534, [0.498, 0.569], Share, "trials solved", "53 %"),
+            (0.505, [0.470, 0.540], Share, "trials solved", "51 %"),
             (1.0, [0.994, 1.0], Share, "instances", "100 %"),
             (18.15, [14.4, 21.9], MorePoints, "solved queries", "18 points more"),
             (99.87, [99.2, 100.4], PercentOfOther, "median bends", "99.9 % of the other's median bends"),
@@ -95,5 +116,17 @@ mod tests {
             assert_eq!(effect(&ours.measures(quantity, subject)).unwrap(), words);
         }
         assert_eq!(effect(&Estimate::bare(3.0, "change of path cost in %", 9)), None);
+    }
+
+    #[test]
+    fn a_percentage_has_the_digits_of_its_interval() {
+        for (value, interval, text) in [
+            (0.0058, [0.0055, 0.0060], "0.58 %"),
+            (0.505, [0.470, 0.540], "51 %"),
+            (1.0, [0.9965, 1.0], "100 %"),
+        ] {
+            let share = Estimate { interval: Some(interval), ..Estimate::bare(value, "share", 9) };
+            assert_eq!(percentage(&share), text);
+        }
     }
 }

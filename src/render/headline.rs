@@ -2,7 +2,7 @@
 //!
 //! The terminal, the report and the page open with them.
 
-use super::effect::{Effect, effect};
+use super::effect::{Effect, effect, rounded};
 use super::prose::number;
 use super::tables::short;
 use crate::analysis::verdict::{ClaimVerdict, Estimate, Quantity, Verdicts};
@@ -126,7 +126,7 @@ fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     let effects: Vec<Effect> = estimates.iter().map(|estimate| Effect::new(estimate)).collect();
     let decimals = effects.iter().map(|effect| effect.decimals).min()?;
     let mut sizes: Vec<f64> = effects.iter().map(|effect| effect.size).collect();
-    let rounded = |size: &f64| format!("{size:.decimals$}");
+    let in_digits = |size: &f64| rounded(*size, decimals);
     let mut counts: Vec<usize> = estimates.iter().map(|estimate| estimate.n).collect();
     if counts.iter().all(|n| *n == counts[0]) {
         counts.truncate(1);
@@ -134,7 +134,7 @@ fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     if sizes.len() <= LISTED {
         let joined = |all: Vec<String>| all.join(" / ");
         let n = joined(counts.iter().map(ToString::to_string).collect());
-        return Some(format!("{}{words} (n = {n})", joined(sizes.iter().map(rounded).collect())));
+        return Some(format!("{}{words} (n = {n})", joined(sizes.iter().map(in_digits).collect())));
     }
     sizes.sort_by(f64::total_cmp);
     counts.sort_unstable();
@@ -143,5 +143,5 @@ fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     } else {
         format!("{} to {}", counts[0], counts.last()?)
     };
-    Some(format!("{} to {}{words} (n = {n})", rounded(sizes.first()?), rounded(sizes.last()?)))
+    Some(format!("{} to {}{words} (n = {n})", in_digits(sizes.first()?), in_digits(sizes.last()?)))
 }

@@ -131,7 +131,7 @@ fn figure_outputs(scene: &Scene<'_>, spec: &FigureSpec) -> Result<Vec<Output>, R
     let sheet = sheet.noted(notes.join(" "));
     let drawn = sheet.draw(&Provenance {
         command: format!("replan render {} --only {id}", paper.id),
-        spec_hash: run.manifest.spec.clone(),
+        spec_hash: run.study.spec_hash(),
         title: spec.caption.clone(),
     })?;
     let drawn = fit_to_print(id, drawn)?;

@@ -1,6 +1,6 @@
 //! Text: a paper's own words with our numbers put in, Markdown that shows text as it is, and lines of limited length.
 
-use super::effect::effect;
+use super::effect::{effect, percentage};
 use crate::analysis::verdict::{ClaimVerdict, Verdicts};
 use base::text::shown;
 use study::paper::{OVER_INTERPRETATIONS, filled};
@@ -20,7 +20,7 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
             "n" => ours.map(|ours| ours.n.to_string()),
             "tenths" => ours.map(|ours| format!("{:.1}", ours.value)),
             "effect" => ours.map(|ours| effect(ours).unwrap_or_else(|| number(ours.value))),
-            "percent" => ours.map(|ours| format!("{:.0} %", 100.0 * ours.value)),
+            "percent" => ours.map(percentage),
             OVER_INTERPRETATIONS => judged.and_then(|judged| judged.across.as_ref()?.range).map(percents),
             "low" => ours.and_then(|ours| ours.interval).map(|[low, _]| number(low)),
             "high" => ours.and_then(|ours| ours.interval).map(|[_, high]| number(high)),

@@ -70,7 +70,7 @@ fn map_panel(title: &str) -> Panel {
     let ends =
         [("start", [0.5, 0.5], GREEN, Marker::Circle), ("goal", [29.5, 29.5], PURPLE, Marker::Diamond)];
     for (label, at, color, marker) in ends {
-        panel.add(Points { points: vec![at], marker, radius_pt: 3.0, color, label: label.into() });
+        panel.add(Points { points: vec![at], marker, radius_pt: 3.0, is_hollow: false, color, label: label.into() });
     }
     panel
 }
@@ -108,7 +108,7 @@ fn success_bands_with_printed_rows() {
             let printed = [200.0, 400.0, 800.0].map(|n| [n, level(n) - 4.0 + n / 100.0]).to_vec();
             let marker = series_marker(index);
             let label = format!("{label}, printed");
-            panel.add(Points { points: printed, marker, radius_pt: 2.6, color, label });
+            panel.add(Points { points: printed, marker, radius_pt: 2.6, is_hollow: false, color, label });
         }
         sheet.add(panel);
     }

@@ -16,11 +16,13 @@ use super::name::{self, Names};
 use super::preprocessing;
 use super::spec::{BudgetSpec, ExploredStudy, FigureSpec, QuickSpec, TimingSpec, TrialsSpec};
 use super::task;
+use base::hash::sha256;
 use base::settings::{Document, Settings, none_called};
 pub use shared::Shared;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::sync::Arc;
+use toml::Table;
 
 /// A checked study.
 #[derive(Debug, Clone)]
@@ -284,6 +286,18 @@ impl Study {
             return (self.task.build)(&self.task_settings).map_or_else(|_| Vec::new(), |task| task.labels());
         }
         self.contenders.iter().map(|contender| contender.label.clone()).collect()
+    }
+
+    /// SHA-256 of its spec as written.
+    pub fn spec_hash(&self) -> String {
+        sha256(self.document.text().as_bytes())
+    }
+
+    /// SHA-256 of what its spec asks to run: comments, the question and figures change nothing.
+    pub fn run_hash(&self) -> String {
+        let mut asked: Table = self.document.read_stored().expect("the spec of a checked study is TOML");
+        asked.retain(|key, _| !["question", "figure"].contains(&key));
+        sha256(asked.to_string().as_bytes())
     }
 
     /// Why there is no query called `name` in the problem groups `labels`; `None` if there is one, or if some group's queries are not known.

@@ -40,7 +40,7 @@ pub struct Manifest {
     pub choices: Vec<String>,
     /// The interpretations that were run: the option of each of the choices.
     pub interpretations: Vec<Vec<String>>,
-    /// SHA-256 of the spec.
+    /// SHA-256 of what the spec asks to run: its comments, question and figures are no part of it.
     pub spec: String,
     /// One hash of everything below that trials depend on.
     pub depends: String,
@@ -131,7 +131,7 @@ impl Manifest {
             seed: study.seed,
             choices: choices.iter().map(ToString::to_string).collect(),
             interpretations,
-            spec: sha256(study.document.text().as_bytes()),
+            spec: study.run_hash(),
             depends,
             recorded: study.recorded().map(str::to_owned).collect(),
             elsewhere: None,

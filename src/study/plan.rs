@@ -68,7 +68,7 @@ pub struct PlannedStudy {
     pub name: String,
     /// The root of its seeds.
     pub seed: u64,
-    /// SHA-256 of its spec.
+    /// SHA-256 of what its spec asks to run.
     pub spec: String,
     /// One hash of everything that its trials depend on.
     pub depends: String,

@@ -250,7 +250,8 @@ pub fn read_clock(study: &Study, options: &Options<'_>) -> Result<u32, StudyErro
     Ok(number)
 }
 
-/// The stored times, with their sessions, if no trial ran again and they are as many as the study wants.
+/// The stored times, if no trial ran again and they are as many as the study wants: the records stay those of the run before, and
+/// `manifest` names what made them.
 fn kept_times(
     study: &Study,
     stored: Option<&(Manifest, Records)>,
@@ -261,6 +262,8 @@ fn kept_times(
         none_ran && manifest.interpretations == before.interpretations && is_timed_as(study, &old.times)
     })?;
     manifest.sessions.clone_from(&before.sessions);
+    manifest.made_by.clone_from(&before.made_by);
+    manifest.command.clone_from(&before.command);
     Some(old.times.clone())
 }
 

@@ -185,15 +185,30 @@ fn a_figure_or_keep_added_later_gets_its_traces_and_another_timing_its_readings(
 }
 
 #[test]
-fn a_question_in_other_words_keeps_the_clock_readings() {
+fn a_question_a_caption_and_a_comment_make_no_run_stale() {
     let bench = Bench::new();
+    bench.done(&["repro", "./mini"]);
+    let runs = bench.tree(RUNS);
+    bench.edit("mini/draws.toml", "Which side opens more?", "Who opens more?");
+    bench.edit("mini/draws.toml", "[timing]", "# Twice on each.\n[timing]");
+    bench.edit("mini/room.toml", "A search in a room.", "The search in the room.");
+    bench.done(&["judge", "./mini", "--check"]);
     bench.done(&["run", "./mini"]);
+    assert!(bench.tree(RUNS) == runs, "words or figures changed what is stored");
+}
+
+#[test]
+fn a_change_that_runs_no_trial_again_keeps_the_times_and_what_made_them() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini"]);
     let read = |name: &str| fs::read(bench.at(&format!("{RUNS}/draws.{name}"))).unwrap();
     let times = read("times.parquet");
     let manifest = read("manifest.toml");
-    bench.edit("mini/draws.toml", "Which side opens more?", "Who opens more?");
+    bench.edit("mini/draws.toml", "[quick]\ninstances = 3", "[quick]\ninstances = 4");
     bench.done(&["run", "./mini"]);
-    assert!(read("manifest.toml") != manifest, "the manifest names the former spec");
+    let again = String::from_utf8(read("manifest.toml")).unwrap();
+    assert!(again.as_bytes() != manifest, "the manifest is of the former spec");
+    assert!(again.contains("command = \"replan repro ./mini\"\n"), "{again}");
     assert!(read("times.parquet") == times, "the clock was read again though no trial was");
 }
 

@@ -1,7 +1,7 @@
 //! A share with its interval: of trials solved or with a mark, of events, of instances on which something holds throughout.
 
 use super::{Criterion, Entry, without};
-use crate::analysis::censored::outside_in_words;
+use crate::analysis::censored::{not_posed, outside_in_words};
 use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::Evidence;
@@ -400,6 +400,7 @@ impl Criterion for Counted<'_> {
         let instances = self.of.instances(evidence);
         found.trial = self.shown(evidence, &instances, share);
         found.because.extend(self.refusals(&instances));
+        found.because.extend(not_posed(&self.of, evidence));
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {

@@ -17,6 +17,8 @@ pub struct Line {
     pub stroke: Stroke,
     /// Marker on each point.
     pub marker: Option<Marker>,
+    /// The size of these markers.
+    pub radius_pt: f64,
     /// Entry in the legend; none if empty.
     pub label: String,
 }
@@ -24,7 +26,7 @@ pub struct Line {
 impl Line {
     /// A line without markers and label.
     pub fn through(points: Vec<[f64; 2]>, stroke: Stroke) -> Self {
-        Self { points, stroke, marker: None, label: String::new() }
+        Self { points, stroke, marker: None, radius_pt: 2.2, label: String::new() }
     }
 
     /// The same with an entry in the legend.
@@ -54,18 +56,18 @@ impl Mark for Line {
         Points {
             points: self.points.clone(),
             marker,
-            radius_pt: 2.2,
+            radius_pt: self.radius_pt,
+            is_hollow: false,
             color: self.stroke.color,
             label: String::new(),
         }
         .draw_over(canvas, view);
     }
 
-    fn keys(&self) -> Vec<Key> {
-        Key::labelled(
-            &self.label,
-            Swatch::Line(self.stroke, self.marker.map(|marker| (marker, self.stroke.color))),
-        )
+    fn keys(&self, view: &View) -> Vec<Key> {
+        let marker = self.marker.map(|marker| (marker, self.stroke.color));
+        let keys = Key::labelled(&self.label, Swatch::Line(self.stroke, marker));
+        keys.into_iter().filter(|_| view.shows(&self.points)).collect()
     }
 }
 
@@ -88,7 +90,7 @@ impl Mark for Band {
         view.plot(canvas, Dash::Solid, [Polygon::new(outline, self.fill)]);
     }
 
-    fn keys(&self) -> Vec<Key> {
+    fn keys(&self, _: &View) -> Vec<Key> {
         Key::labelled(&self.label, Swatch::Area(self.fill, None))
     }
 }
@@ -102,6 +104,8 @@ pub struct Points {
     pub marker: Marker,
     /// Their size.
     pub radius_pt: f64,
+    /// Whether they are outlines, so that those that lie on each other all show.
+    pub is_hollow: bool,
     /// Their colour.
     pub color: Rgb,
     /// Entry in the legend; none if empty.
@@ -111,7 +115,7 @@ pub struct Points {
 impl Points {
     /// Points without a label.
     pub fn unlabelled(points: Vec<[f64; 2]>, marker: Marker, radius_pt: f64, color: Rgb) -> Self {
-        Self { points, marker, radius_pt, color, label: String::new() }
+        Self { points, marker, radius_pt, is_hollow: false, color, label: String::new() }
     }
 
     /// The same with an entry in the legend.
@@ -133,7 +137,11 @@ impl Points {
         };
         for at in view.all(&self.points) {
             if frame.contains(at) {
-                canvas.marker(at, self.marker, self.radius_pt, self.color);
+                if self.is_hollow {
+                    canvas.outlined(at, self.marker, self.radius_pt, self.color);
+                } else {
+                    canvas.marker(at, self.marker, self.radius_pt, self.color);
+                }
             }
         }
     }
@@ -146,8 +154,9 @@ impl Mark for Points {
         self.paint(canvas, view);
     }
 
-    fn keys(&self) -> Vec<Key> {
-        Key::labelled(&self.label, Swatch::Point(self.marker, self.color))
+    fn keys(&self, view: &View) -> Vec<Key> {
+        let is_shown = |_: &Key| self.points.iter().any(|point| view.shows(&[*point]));
+        Key::labelled(&self.label, Swatch::Point(self.marker, self.color)).into_iter().filter(is_shown).collect()
     }
 }
 
@@ -160,8 +169,8 @@ impl Mark for Behind {
         self.0.paint(canvas, view);
     }
 
-    fn keys(&self) -> Vec<Key> {
-        self.0.keys()
+    fn keys(&self, view: &View) -> Vec<Key> {
+        self.0.keys(view)
     }
 }
 
@@ -183,7 +192,7 @@ impl Mark for Shape {
         canvas.polygon(&view.all(&self.corners), self.fill, self.stroke.as_ref());
     }
 
-    fn keys(&self) -> Vec<Key> {
+    fn keys(&self, _: &View) -> Vec<Key> {
         let swatch = match (self.fill, self.stroke) {
             (Some(fill), stroke) => Swatch::Area(fill, stroke),
             (None, Some(stroke)) => Swatch::Line(stroke, None),
@@ -252,8 +261,20 @@ impl Mark for Cells {
         }
     }
 
-    fn keys(&self) -> Vec<Key> {
-        self.keys.clone()
+    fn keys(&self, view: &View) -> Vec<Key> {
+        let is_shown = |[from, row, to]: &[usize; 3]| {
+            let [x0, y0] = self.corner_at(view, *from, *row);
+            let [x1, y1] = self.corner_at(view, *to, row + 1);
+            let frame = view.frame;
+            x0.min(x1) < frame.right() && x0.max(x1) > frame.x && y0.min(y1) < frame.bottom() && y0.max(y1) > frame.y
+        };
+        let runs = self.runs();
+        let has = |color: &Rgb| runs.get(color).is_some_and(|runs| runs.iter().any(is_shown));
+        let is_there = |key: &&Key| match key.swatch {
+            Swatch::Area(fill, _) => has(&fill.color),
+            Swatch::Line(..) | Swatch::Point(..) => true,
+        };
+        self.keys.iter().filter(is_there).cloned().collect()
     }
 }
 

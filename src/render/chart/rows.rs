@@ -45,7 +45,7 @@ impl Mark for Interval {
         }
     }
 
-    fn keys(&self) -> Vec<Key> {
+    fn keys(&self, _: &View) -> Vec<Key> {
         let swatch = Swatch::Line(Stroke::solid(self.color, 1.0), Some((self.marker, self.color)));
         Key::labelled(&self.label, swatch)
     }
@@ -91,7 +91,7 @@ impl Mark for BoxStrip {
         view.plot(canvas, Dash::Solid, [PathElement::new(level(half, median), thick)]);
     }
 
-    fn keys(&self) -> Vec<Key> {
+    fn keys(&self, _: &View) -> Vec<Key> {
         let edge = Some(Stroke::solid(self.color.mixed(INK, 0.35), 0.9));
         let swatch = Swatch::Area(Fill::solid(self.color.mixed(WHITE, 0.55)), edge);
         Key::labelled(&self.label, swatch)
@@ -118,7 +118,7 @@ impl Mark for Bars {
         }
     }
 
-    fn keys(&self) -> Vec<Key> {
+    fn keys(&self, _: &View) -> Vec<Key> {
         let swatch = Swatch::Area(self.fill, None);
         Key::labelled(&self.label, swatch)
     }

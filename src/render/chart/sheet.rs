@@ -109,7 +109,7 @@ impl Sheet {
             views.extend(placed);
             y += height;
         }
-        let keys = self.keys();
+        let keys = self.keys(&views);
         let legend = Rect { x: EDGE_PT, y, w: inner_pt, h: legend::height_pt(&keys, inner_pt) };
         let below = legend.bottom() + if note.is_empty() { 0.0 } else { 3.0 };
         let height_pt = below + note.len() as f64 * line_pt(TextSize::TICK) + EDGE_PT;
@@ -126,11 +126,13 @@ impl Sheet {
         canvas.finish(provenance)
     }
 
-    fn keys(&self) -> Vec<Key> {
+    fn keys(&self, views: &[(View, Margin)]) -> Vec<Key> {
         let mut keys: Vec<Key> = Vec::new();
-        for key in self.panels.iter().flat_map(|panel| &panel.marks).flat_map(|mark| mark.keys()) {
-            if !keys.contains(&key) {
-                keys.push(key);
+        for (panel, (view, _)) in self.panels.iter().zip(views) {
+            for key in panel.marks.iter().flat_map(|mark| mark.keys(view)) {
+                if !keys.contains(&key) {
+                    keys.push(key);
+                }
             }
         }
         keys

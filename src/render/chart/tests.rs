@@ -51,7 +51,7 @@ fn an_entry_of_the_legend_appears_once_however_many_panels_use_it() {
         let mut panel = Panel::new("", Axis::over("x", [0.0, 2.0]), Axis::over("y", [0.0, 2.0]));
         let points = vec![[1.0, 1.0]];
         let label = "both".to_owned();
-        panel.add(Points { points, marker: Marker::Plus, radius_pt: 2.0, color: BLUE, label });
+        panel.add(Points { points, marker: Marker::Plus, radius_pt: 2.0, is_hollow: false, color: BLUE, label });
         sheet.add(panel);
     }
     assert_eq!(draw(&sheet).svg.matches("aria-label=\"both\"").count(), 1);

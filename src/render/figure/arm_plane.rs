@@ -163,7 +163,7 @@ impl ArmPlane {
         ask::add_ends(panel, &path, 3.0, [(Marker::Circle, GREEN), (Marker::Diamond, GREEN)]);
         let place = ask::place(scene, &row.key.contender);
         let line = Line::through(path.clone(), series_stroke(place)).labelled(row.key.contender.to_string());
-        panel.add(if self.nodes { line.marked(series_marker(place)) } else { line });
+        panel.add(if self.nodes { beneath(line, index).marked(series_marker(place)) } else { line });
         // Where no hop was judged it is unknown whether the arm hits, and none is drawn.
         let Some(hits) = row.value("unsafe_hops").filter(|_| self.stations > 0) else { return };
         for [lower, upper] in nearest_arms(scene, row, &stations).into_iter().take(hits as usize) {
@@ -206,6 +206,13 @@ fn links(from: &[f64], to: &[f64], moment: usize) -> [Segment2; 2] {
     let elbow = [l1 * libm::cos(q1), l1 * libm::sin(q1)];
     let tip = [elbow[0] + l2 * libm::cos(q1 + q2), elbow[1] + l2 * libm::sin(q1 + q2)];
     [[[0.0, 0.0], elbow], [elbow, tip]].map(|[a, b]| Segment2::new(a.into(), b.into()))
+}
+
+/// The line, with its nodes, of the path of number `index`: earlier ones are broader, so that they show where a later one lies on them.
+fn beneath(line: Line, index: usize) -> Line {
+    let width_pt = if index == 0 { 2.6 } else { 1.1 };
+    let radius_pt = if index == 0 { 3.4 } else { 2.0 };
+    Line { stroke: Stroke { width_pt, ..line.stroke }, radius_pt, ..line }
 }
 
 /// `count` of the stations, the ends among them.

@@ -10,6 +10,7 @@ use crate::render::chart::marks::Line;
 use crate::render::chart::rows::Interval;
 use crate::render::chart::rules::Rules;
 use crate::render::chart::{Axis, Panel, Sheet};
+use crate::render::effect::less_than;
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::style::{INK, Stroke, VERMILLION, Width, series_color, series_marker};
 use base::settings::{Accepted, Settings, SettingsError};
@@ -160,13 +161,14 @@ impl Intervals {
     fn axis(&self, index: usize, found: &[(f64, &String, Option<Estimate>)]) -> Result<Axis, RenderError> {
         let spec = &self.read.panels[index];
         let what = &self.panels[index];
-        if what.metric.is_some() {
+        if let Some(metric) = what.metric {
             let ends = found
                 .iter()
                 .filter_map(|(_, _, e)| e.as_ref())
                 .map(ask::bar)
                 .flat_map(|bar| [bar.low, bar.high]);
-            return Ok(Axis::over("reduction (%)", ends.chain(what.printed.iter().copied()).chain([0.0])));
+            let title = less_than(metric, spec.against.as_deref().unwrap_or("the other"));
+            return Ok(Axis::over(title, ends.chain(what.printed.iter().copied()).chain([0.0])));
         }
         match &spec.against {
             Some(against) => Axis::linear(format!("difference from “{against}” (points)"), -103.0, 103.0),

@@ -4,12 +4,13 @@
 use super::{Entry, Kind, Scene, ask, unit};
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::Selection;
-use crate::analysis::shown::{change_percent, means_of_whole_instances, median_point};
-use crate::analysis::statistic::{Estimate, Interval};
+use crate::analysis::shown::{means_of_whole_instances, median_point, of_all};
+use crate::analysis::statistic::{Estimate, Interval, OverallStatistic};
 use crate::render::RenderError;
 use crate::render::chart::labels::Labels;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
+use crate::render::effect::less_than;
 use crate::render::style::{BLACK, Marker, SERIES, Stroke, WHITE, Width, series_color, series_marker};
 use base::settings::Accepted;
 use schemars::JsonSchema;
@@ -50,7 +51,7 @@ struct Tradeoff {
     contenders: Vec<String>,
     /// The panels, in their order.
     panels: Vec<PanelSpec>,
-    /// Changes in per cent of both metrics against this contender, paired over the problems that both solve, in place of means.
+    /// How much less, in per cent, both metrics are than with this contender, paired over the problems that both solve, in place of means.
     /// Intervals of means hold what differs from problem to problem, which is no matter between contenders.
     against: Option<String>,
     /// Every trial as a point and medians, failures infinite, on a logarithmic axis, in place of means.
@@ -101,8 +102,8 @@ impl Ready {
         panel
     }
 
-    /// The change of one metric that a contender brings against another, in per cent.
-    fn change(
+    /// How much less one metric is with a contender than with another, in per cent.
+    fn reduction(
         &self,
         scene: &Scene<'_>,
         spec: &PanelSpec,
@@ -112,14 +113,15 @@ impl Ready {
         let metric = self.metrics[axis];
         let all = Selection::all(scene.run.study, &spec.problems, std::slice::from_ref(label));
         let of = Selection { metric: Some(metric), against: Some(base.clone()), ..all };
-        change_percent(&of, scene.evidence, &[&scene.run.study.name, label, base, metric.name])
+        let names = [scene.run.study.name.as_str(), label, base, metric.name];
+        of_all(OverallStatistic::ReductionPercent, &of, scene.evidence, &names)
     }
 
-    /// What each contender changes against `base`, which is the point without change.
-    fn changes(&self, scene: &Scene<'_>, spec: &PanelSpec, base: &String) -> Panel {
+    /// How much less each contender takes than `base`, which stands at zero.
+    fn reductions(&self, scene: &Scene<'_>, spec: &PanelSpec, base: &String) -> Panel {
         let others = self.read.contenders.iter().filter(|label| *label != base);
         let both = |label: &String| {
-            let [x, y] = [0, 1].map(|axis| self.change(scene, spec, [label, base], axis));
+            let [x, y] = [0, 1].map(|axis| self.reduction(scene, spec, [label, base], axis));
             Some((label.clone(), x?, y?))
         };
         let points: Vec<(String, Estimate, Estimate)> = others.filter_map(both).collect();
@@ -127,8 +129,7 @@ impl Ready {
             let of = move |(_, a, b): &(String, Estimate, Estimate)| ask::bar([a, b][axis]);
             points.iter().map(of).flat_map(|interval| [interval.low, interval.high]).chain([0.0])
         };
-        let named = |axis: usize| format!("Change of {} (%)", self.metrics[axis].label.to_lowercase());
-        let [x, y] = [0, 1].map(|axis| Axis::over(named(axis), ends(axis)));
+        let [x, y] = [0, 1].map(|axis| Axis::over(less_than(self.metrics[axis], base), ends(axis)));
         let units: BTreeSet<usize> = points.iter().map(|(_, a, _)| a.units).collect();
         let units: Vec<String> = units.iter().map(usize::to_string).collect();
         let mut panel = Panel::new(format!("{}, {} maps", spec.title, units.join(" or ")), x, y);
@@ -176,6 +177,8 @@ impl Ready {
         for (label, all) in &series {
             let at = median_point(all);
             let point = marked(at.into_iter().collect(), 3.6, ask::place(scene, label), 0.0);
+            // Medians lie on each other; names stand beside them where there are many.
+            let point = Points { is_hollow: is_named, ..point };
             names.extend(at.filter(|_| is_named).map(|at| (at, (*label).clone())));
             panel.add(if is_named { point } else { point.labelled(*label) });
         }
@@ -189,7 +192,7 @@ impl Kind for Ready {
         if self.read.trials {
             return Some("Failures are infinite and not drawn; {n}.");
         }
-        self.read.against.as_ref().map(|_| "Mean changes over pairs; {n}.")
+        self.read.against.as_ref().map(|_| "Mean reductions over pairs; {n}.")
     }
 
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
@@ -200,11 +203,11 @@ impl Kind for Ready {
         }
         if let Some(base) = &self.read.against {
             let note = format!(
-                "Changes of the mean against {base} over the maps that both solved, with 95 % intervals over pairs: bootstrap; what no map changes has none."
+                "How much less the mean is than with {base}, over the maps that both solved, with 95 % intervals over pairs: bootstrap; where no map differs there is none."
             );
             return sheet(190.0)
                 .noted(&note)
-                .with(panels.iter().map(|panel| Ok(self.changes(scene, panel, base))));
+                .with(panels.iter().map(|panel| Ok(self.reductions(scene, panel, base))));
         }
         let note = "Means over the maps that every contender solved, with 95 % bootstrap intervals of each mean over maps.";
         sheet(150.0).noted(note).with(panels.iter().map(|panel| Ok(self.means(scene, panel))))

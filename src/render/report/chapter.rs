@@ -82,8 +82,10 @@ impl Page<'_> {
         text.insert_str(text.find('\n').unwrap_or(0) + 1, &notes.concat());
         // Findings were written on the study's own run; of any other they may be false.
         let findings = if state.is_empty() { self.findings() } else { Vec::new() };
-        if !findings.is_empty() {
-            text += &(wrapped("", &findings.join(" "), 0, COLUMNS) + "\n\n");
+        if let Some((first, others)) = findings.split_first() {
+            text += &(wrapped("", first, 0, COLUMNS) + "\n\n");
+            text.extend(others.iter().map(|finding| item(0, finding)));
+            text += if others.is_empty() { "" } else { "\n" };
         }
         self.headlines(&mut text);
         text += &replies(self.verdicts, &self.details_file());

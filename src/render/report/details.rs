@@ -180,7 +180,7 @@ impl Page<'_> {
             let study = run.study;
             let trials = run.records.batch.rows.len();
             let seed = run.manifest.seed;
-            let spec = &run.manifest.spec[..12];
+            let spec = &study.spec_hash()[..12];
             let mark = recorded_mark(study.clock_bound());
             let about = format!(
                 "**`{}`**: {} {trials} trials, seed {seed}, spec `{spec}`.{}",
@@ -190,14 +190,14 @@ impl Page<'_> {
             );
             *text += &item(0, &about);
             for group in &study.groups {
-                let counted = study.contenders.iter().map(|contender| {
-                    let rows = run.rows(&group.label, &contender.label);
+                let counted = study.labels().into_iter().map(|label| {
+                    let rows = run.rows(&group.label, &label);
                     let of = |status: &Status| rows.iter().filter(|row| row.status == *status).count();
                     let counts =
                         Status::ALL.iter().map(|status| (of(status), status)).filter(|(count, _)| *count > 0);
                     let counts: Vec<String> =
                         counts.map(|(count, status)| format!("{count} {status}")).collect();
-                    (markdown(&contender.label), counts.join(", "))
+                    (markdown(&label), counts.join(", "))
                 });
                 let counted: Vec<(String, String)> =
                     counted.filter(|(_, counts)| !counts.is_empty()).collect();

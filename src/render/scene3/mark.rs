@@ -261,7 +261,7 @@ impl Mark for SceneMark {
         }
     }
 
-    fn keys(&self) -> Vec<Key> {
+    fn keys(&self, _: &View) -> Vec<Key> {
         self.keys.clone()
     }
 }

@@ -26,8 +26,8 @@ pub struct ReportSpec {
 /// How many figures a chapter shows at most.
 pub const FIGURES: usize = 6;
 
-/// The forms in which a place can ask for what was found: with one decimal, as a percentage, in words with
-/// a direction, the ends of the interval, the number of instances, the verdict and what interpretations make of it. The last one is
+/// The forms in which a place can ask for what was found: with one decimal, as a percentage with the
+/// digits of its interval, in words with a direction, the ends of the interval, the number of instances, the verdict and what interpretations make of it. The last one is
 /// the least and the greatest percentage over the interpretations that count.
 pub const FORMS: [&str; 9] =
     ["tenths", "percent", "effect", "low", "high", "n", "verdict", "interpretations", OVER_INTERPRETATIONS];

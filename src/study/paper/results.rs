@@ -45,6 +45,8 @@ pub struct CellSpec {
     pub metric: Spanned<String>,
     /// What is shown of it.
     pub show: Show,
+    /// The row that a `ratio` is to.
+    pub against: Option<Spanned<String>>,
     /// Its head, if the metric's own title does not say it.
     pub label: Option<String>,
     /// How many decimals it is shown with.
@@ -67,6 +69,8 @@ pub enum Show {
     Sessions,
     /// The mean over solved trials, in percent: of a metric that is 0 or 1.
     Percent,
+    /// The ratio of its mean to that of the row `against`, in percent, over the problems that both solve.
+    Ratio,
     /// The share of trials that were solved, in percent.
     Solved,
     /// The share of trials whose path the verifier refused, in percent.
@@ -107,6 +111,27 @@ impl Paper {
                     );
                     let fault = self.document.error(named.span(), message);
                     faults.add(fault.about(named.get_ref()).about(&labels_of(&study.name)));
+                }
+            }
+            for cell in &table.cells {
+                let is_ratio = cell.show == Show::Ratio;
+                match &cell.against {
+                    Some(base) if !is_ratio => {
+                        let message = "only a `ratio` is to another row; take `against` away, or show a `ratio`";
+                        faults.add(self.document.error(base.span(), message));
+                    }
+                    Some(base) if !study.labels().contains(base.get_ref()) => {
+                        let labels = study.labels();
+                        let message =
+                            none_called("contender", base.get_ref(), labels.iter().map(String::as_str));
+                        let fault = self.document.error(base.span(), message);
+                        faults.add(fault.about(base.get_ref()).about(&labels_of(&study.name)));
+                    }
+                    None if is_ratio => {
+                        let message = "a `ratio` is to another row; name it under `against`";
+                        faults.add(self.document.error(cell.metric.span(), message));
+                    }
+                    _ => {}
                 }
             }
         }
