@@ -2,10 +2,15 @@
 
 use super::Which;
 use super::verdicts::{COLUMNS, coloured, tallied};
-use crate::analysis::verdict::Verdicts;
+use crate::analysis::outcome::Outcome;
+use crate::analysis::verdict::{ClaimVerdict, Verdicts};
+use crate::analysis::verdict_rule::Verdict;
 use crate::render::headline::{Headline, headlines};
 use crate::render::prose::{plain, prose};
 use study::paper::Paper;
+
+/// How many claims that cannot be true are named.
+const IMPOSSIBLE: usize = 6;
 
 /// Columns for a verdict.
 const VERDICT: usize = 24;
@@ -23,7 +28,26 @@ fn text(paper: &Paper, verdicts: &Verdicts, which: &Which) -> String {
     for headline in headlines(paper, verdicts) {
         text += &lines(&headline, verdicts);
     }
+    text.extend(impossible(verdicts).map(|line| plain("\n", &line, 2, COLUMNS) + "\n"));
     text + "\n" + &tallied(verdicts, which)
+}
+
+/// The claims that a proof refuses, with what they print; of a row its cells.
+fn impossible(verdicts: &Verdicts) -> Option<String> {
+    let is_proved = |judged: &&ClaimVerdict| {
+        let is_whole = verdicts.claims.iter().any(|part| part.part_of.as_ref() == Some(&judged.claim));
+        !is_whole && judged.findings.iter().any(|finding| finding.outcome == Some(Outcome::Proved))
+    };
+    let name = |judged: &ClaimVerdict| {
+        let printed = judged.printed.as_ref().map_or_else(String::new, |printed| format!(" ({printed})"));
+        judged.claim.clone() + &printed
+    };
+    let proved = verdicts.claims.iter().filter(|judged| judged.verdict == Verdict::Impossible);
+    let names: Vec<String> = proved.filter(is_proved).map(name).collect();
+    let more = names.len().saturating_sub(IMPOSSIBLE);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    let listed = names.iter().take(IMPOSSIBLE).cloned().collect::<Vec<_>>().join(", ");
+    (!names.is_empty()).then(|| format!("cannot be true: {listed}{more}"))
 }
 
 /// The verdict, what the paper says and our number; below, the claim and what its verdict rests on.
