@@ -410,7 +410,11 @@ mod tests {
                 assert!(line.chars().count() <= 100, "{name}: too wide: {line}");
                 let example = line.trim().split("  ").next().unwrap_or_default();
                 let parsed = Cli::try_parse_from(words(example));
-                assert!(parsed.is_ok(), "{name}: {example}: {}", parsed.err().map(|e| e.to_string()).unwrap());
+                assert!(
+                    parsed.is_ok(),
+                    "{name}: {example}: {}",
+                    parsed.err().map(|e| e.to_string()).unwrap()
+                );
                 typed += 1;
             }
         }

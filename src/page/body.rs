@@ -5,8 +5,8 @@ use super::html::{escaped, prose as inline};
 use super::{interpretations, replies};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::outcome::Outcome;
-use crate::analysis::tally::Counts;
 use crate::analysis::tabulated::{grid, table_caption};
+use crate::analysis::tally::Counts;
 use crate::analysis::verdict::{ClaimVerdict, CriterionFinding, Effect, Verdicts};
 use crate::analysis::verdict_rule::Verdict;
 use crate::render::RenderError;
@@ -49,7 +49,8 @@ fn badge(name: &str, word: &str) -> String {
 /// How many sentences and rows have each verdict, in the verdicts' colours.
 pub(super) fn coloured(counts: &Counts) -> String {
     let of_each = counts.of_each.iter();
-    let badges = of_each.map(|(count, verdict)| badge(verdict.name(), &format!("{count} {}", verdict.name())));
+    let badges =
+        of_each.map(|(count, verdict)| badge(verdict.name(), &format!("{count} {}", verdict.name())));
     format!("{}: {}", escaped(&counts.whole), badges.collect::<Vec<_>>().join(" "))
 }
 
@@ -97,7 +98,8 @@ impl Body<'_> {
             .flatten()
             .map(String::as_str)
             .collect();
-        let up = if self.has_index { "<p class=\"up\"><a href=\"index.html\">All papers</a></p>\n" } else { "" };
+        let up =
+            if self.has_index { "<p class=\"up\"><a href=\"index.html\">All papers</a></p>\n" } else { "" };
         let mut text = format!("<main><header>{up}<h1>{}</h1>\n", escaped(&source.title));
         text += &format!("<p>{}</p>\n", escaped(&about.join(". ")));
         // Findings were written on the study's own run; of any other they may be false.

@@ -198,11 +198,13 @@ fn every_page_is_written_in_short_plain_sentences() {
 #[test]
 fn the_readme_is_short_and_the_numbers_of_its_sample_are_those_of_the_report() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let [readme, report] = ["README.md", "paper_repro.md"].map(|file| fs::read_to_string(root.join(file)).unwrap());
+    let [readme, report] =
+        ["README.md", "paper_repro.md"].map(|file| fs::read_to_string(root.join(file)).unwrap());
     let words = readme.split_whitespace().filter(|word| word.contains(char::is_alphanumeric)).count();
     assert!((400..=900).contains(&words), "{words} words");
     let report = report.split_whitespace().collect::<Vec<_>>().join(" ");
-    let sample: Vec<&str> = readme.lines().filter(|line| line.starts_with("    ") && line.contains("(n = ")).collect();
+    let sample: Vec<&str> =
+        readme.lines().filter(|line| line.starts_with("    ") && line.contains("(n = ")).collect();
     for line in &sample {
         let (_, ours) = line.rsplit_once(": ").unwrap();
         assert!(report.contains(ours), "the report does not say “{ours}”");
