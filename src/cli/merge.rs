@@ -28,8 +28,8 @@ pub struct Merge {
 }
 
 const EXAMPLES: &str = "Examples:
-  replan shard fu2018 --engine parallel --out parts
-  replan merge parts                  when all shards are done";
+  replan shard fu2018 --engine parallel --out parts --merge merged
+  replan merge parts --out merged     when all shards are done";
 
 impl Merge {
     /// Runs the command.

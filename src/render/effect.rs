@@ -104,7 +104,7 @@ mod tests {
             (15.15, [13.38, 17.04], MorePercent, "opened nodes", "15 % more nodes"),
             (-62.7, [-64.4, -61.1], MorePercent, "turn sum, exterior angles", "63 % less turn sum"),
             (40.52, [38.37, 42.75], LessPercent, "path cost", "41 % shorter"),
-            (-3.1, [-3.9, -2.3], LessPercent, "expansions", "3 % more expansions"),
+            (-3.1, [-3.9, -2.3], LessPercent, "expansions", "3.1 % more expansions"),
             (0.9169, [0.9153, 0.9185], Ratio, "path length", "8.3 % shorter"),
             (0.534, [0.498, 0.569], Share, "trials solved", "53 %"),
             (0.505, [0.470, 0.540], Share, "trials solved", "51 %"),

@@ -187,7 +187,7 @@ impl Claim {
         self.tests.iter().map(|(role, name, settings)| (*role, name.as_str(), settings))
     }
 
-    /// The claims of which the sentence means one, if they alone decide on it: it has no test of its own.
+    /// The meanings that the sentence may have, a claim each, if it is judged by them and has no test of its own.
     pub fn meanings(&self) -> Option<&[String]> {
         match &self.parts {
             Parts::MeansOneOf(ids) if self.untestable.is_none() && self.tests.is_empty() => Some(ids),
