@@ -155,9 +155,9 @@ class Across:
         )
         verdict, line = results.verdict()
         beside, on = self.wording(claim, counted, results, line)
-        beside = self.possible(claim) or beside
+        possible = self.possible(claim)
         unvaried = None if line in ("proved", "lacking") else not_varied(stored.get("not_varied", []))
-        beside = "; ".join(one for one in (beside, unvaried) if one) or None
+        beside = [one for one in (*([possible] if possible else beside), unvaried) if one]
         found = {"verdict": verdict, "beside": beside, "depends_on": on, "across": None}
         if is_explored:
             found["across"] = self.across_of(counted, results)
@@ -310,10 +310,8 @@ class Across:
             if again is None or SPEAKS[stored_outcome(again)] != SPEAKS[one.stored]:
                 one.vote = OPEN
 
-    def wording(
-        self, claim: str, counted: Counted, results: Results, line: str
-    ) -> tuple[str | None, str | None]:
-        """What stands beside the verdict, and on what it depends."""
+    def wording(self, claim: str, counted: Counted, results: Results, line: str) -> tuple[list[str], str | None]:
+        """What stands beside the verdict, the counts first, and on what it depends."""
         holds, left, fails = results.counts()
         every = len(results.outcomes)
         counts = f"{holds}/{left}/{fails} for/open/against" if every > 1 else None
@@ -321,16 +319,16 @@ class Across:
         on = None
         match line:
             case "met" if every > 1:
-                return f"met under {holds} of {every}{self.met(counted)}", None
+                return [f"met under {holds} of {every}{self.met(counted)}"], None
             case "proved" | "lacking" | "all" | "met":
                 is_same = counted.looked > 1 and not results.unvaried
-                return (f"same under all {counted.looked}" if is_same else None), None
+                return ([f"same under all {counted.looked}"] if is_same else []), None
             case "no example" if results.chosen != "existence":
-                return f"met under none of {every}", None
+                return [f"met under none of {every}"], None
             case "no example":
-                return f"no example found{f' under {every}' if every > 1 else ''}", None
+                return [f"no example found{f' under {every}' if every > 1 else ''}"], None
             case "refused":
-                return "the second seed contradicts what was fitted", None
+                return ["the second seed contradicts what was fitted"], None
             case "seed":
                 ways = {1: "holds", 0: "is open", -1: "contradicts"}
                 more = [
@@ -343,7 +341,7 @@ class Across:
             case "both":
                 on, rule = self.rule(claim, counted)
                 more = [rule]
-        return "; ".join(one for one in (counts, *more) if one) or None, on
+        return [one for one in (counts, *more) if one], on
 
     def met(self, counted: Counted) -> str:
         """The first interpretation that meets a claim, if it is not the default."""
@@ -456,6 +454,7 @@ def differences(paper: Paper, verdicts: dict[str, Any]) -> Iterator[str | None]:
     for claim, stored in own.verdicts.items():
         expected = {**found[claim], **meant(paper.claim(claim), found)}
         where = f"{paper.id}: `{claim}`"
+        stored = {"beside": [], **stored}
         wrong = [key for key in ("verdict", "beside", "depends_on") if stored.get(key) != expected[key]]
         for key in wrong:
             yield f"{where}: `{key}` is {stored.get(key)!r}; recomputed it is {expected[key]!r}"
@@ -486,7 +485,7 @@ def meant(claim: dict[str, Any], found: dict[str, dict[str, Any]]) -> dict[str, 
     meanings = [f"`{name}` {in_words(part)}" for name, part in zip(ids, parts, strict=True)]
     weakest = next((part for part in parts if part["verdict"] == verdict), {})
     on = (weakest.get("depends_on") or "what is meant") if verdict == "depends" else None
-    return {"verdict": verdict, "beside": f"meanings: {', '.join(meanings)}", "depends_on": on}
+    return {"verdict": verdict, "beside": [f"meanings: {', '.join(meanings)}"], "depends_on": on}
 
 
 def in_words(one: dict[str, Any]) -> str:

@@ -171,7 +171,10 @@ impl<'a> Run<'a> {
         let manifest = Manifest::read(folder, &study.name)?;
         if manifest.spec != study.run_hash() {
             let path = Manifest::path(folder, &study.name);
-            let reason = format!("the stored run was made by another spec; run study `{}` again", study.name);
+            let reason = format!(
+                "the stored run was made by another spec; `replan run` runs study `{}` again",
+                study.name
+            );
             return Err(StudyError::Touched(format!("{}: {reason}", path.display())));
         }
         let records = read_numbers(folder, &study.name, &manifest.files)?;

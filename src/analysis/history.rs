@@ -374,7 +374,7 @@ impl ClaimVerdict {
 }
 
 impl Verdicts {
-    /// What is to be known at once of claims and when they were written, a sentence each.
+    /// Warnings about claims that were changed or withdrawn after their data were seen, one sentence each.
     pub fn changed(&self) -> Vec<String> {
         let gone = self.history.is_none().then(|| {
             "No history of claims lies beside this run: whether a claim was changed after its data were seen is not known."

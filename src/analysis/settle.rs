@@ -175,10 +175,7 @@ fn agreeing_instances(found: &CriterionResult) -> String {
     let others = found.limits.iter().filter(|limit| **limit != ours.value);
     let nearest = others.map(far).fold(f64::INFINITY, f64::min);
     if nearest >= 1.0 {
-        return format!(
-            "no number of {}: however many agree, what all give may be another than {}",
-            found.units, ours.value
-        );
+        return format!("no number of {}: however many agree, the next may not", found.units);
     }
     // Unequal chances make ours wider than as many equal ones do; they will do so of more.
     let of_equal = -libm::expm1(libm::log((1.0 - LEVEL) / 2.0) / ours.n as f64);

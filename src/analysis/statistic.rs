@@ -8,7 +8,7 @@ use super::evidence::Run;
 use super::metric::Metric;
 use super::number::Number;
 use super::selection::{Case, Instance, Selection, by_instance, cases, is_unended, unended};
-use super::verdict::Estimate as VerdictEstimate;
+use super::verdict::{Estimate as VerdictEstimate, Quantity};
 use base::seed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -326,12 +326,13 @@ impl Share {
 
     /// It as our number beside a printed one: the share of `what`.
     pub fn estimate(&self, what: &str) -> VerdictEstimate {
-        match self.interval {
+        let ours = match self.interval {
             Some(interval) => {
                 VerdictEstimate::new(self.value, interval, format!("share of {what}, 95 %"), self.instances)
             }
             None => VerdictEstimate::bare(self.value, format!("share of {what}"), self.instances),
-        }
+        };
+        ours.measures(Quantity::Share, what)
     }
 }
 

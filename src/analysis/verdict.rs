@@ -7,6 +7,38 @@ use stats::interval::Interval;
 use std::collections::BTreeMap;
 use study::paper::Reply;
 
+/// What kind of number an estimate is.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// A number in the unit of its subject.
+    #[default]
+    Number,
+    /// By how many per cent there is more of the subject than with another contender.
+    MorePercent,
+    /// By how many per cent there is less of it.
+    LessPercent,
+    /// How many times as much of it there is as with another contender.
+    Ratio,
+    /// How many per cent of another contender's it is.
+    PercentOfOther,
+    /// How many points the subject lies above another contender's, both in per cent.
+    MorePoints,
+    /// Which part of the subject, from 0 to 1.
+    Share,
+    /// The p of a joint test.
+    Probability,
+    /// A rank among our instances: a probability, which no printed size compares with.
+    Rank,
+}
+
+impl Quantity {
+    /// Whether it is [`Number`](Self::Number).
+    pub fn is_number(&self) -> bool {
+        *self == Self::Number
+    }
+}
+
 /// Our number beside the printed one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -15,8 +47,14 @@ pub struct Estimate {
     pub value: f64,
     /// Its interval, if it has one.
     pub interval: Option<[f64; 2]>,
-    /// What the number and its interval are.
+    /// What the number and its interval are, in words.
     pub what: String,
+    /// What kind of number it is.
+    #[serde(default, skip_serializing_if = "Quantity::is_number")]
+    pub quantity: Quantity,
+    /// What it is a number of: a metric, or the cases that a share counts. Empty where `what` alone says so.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub subject: String,
     /// How many independent instances it rests on.
     pub n: usize,
     /// Of the cases, those that were solved by everyone who is compared, and all.
@@ -27,7 +65,7 @@ pub struct Estimate {
 impl Estimate {
     /// A number with its interval.
     pub fn new(value: f64, interval: Interval, what: impl Into<String>, n: usize) -> Self {
-        Self { value, interval: Some([interval.low, interval.high]), what: what.into(), n, solved: None }
+        Self { interval: Some([interval.low, interval.high]), ..Self::bare(value, what, n) }
     }
 
     /// A number that was estimated over instances.
@@ -37,7 +75,14 @@ impl Estimate {
 
     /// A number without an interval.
     pub fn bare(value: f64, what: impl Into<String>, n: usize) -> Self {
-        Self { value, interval: None, what: what.into(), n, solved: None }
+        let (quantity, subject) = (Quantity::Number, String::new());
+        Self { value, interval: None, what: what.into(), quantity, subject, n, solved: None }
+    }
+
+    /// It, as a number of this kind of `subject`.
+    #[must_use]
+    pub fn measures(self, quantity: Quantity, subject: impl Into<String>) -> Self {
+        Self { quantity, subject: subject.into(), ..self }
     }
 
     /// It, of so many cases that were solved, among all.
@@ -132,7 +177,7 @@ pub struct Across {
     /// The results of a joint test, the likeliest first, each with its interpretations.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tested: Vec<String>,
-    /// What probes that are never counted do, where they change its verdict.
+    /// How probes, which are never counted, would change its verdict.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub probes: Vec<String>,
     /// What each choice does alone, where it can touch it.
@@ -200,6 +245,9 @@ pub struct ClaimVerdict {
     pub at: String,
     /// The sentence, where it is not a number alone.
     pub says: Option<String>,
+    /// The sentence in a few words, for the first screens.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub short: Option<String>,
     /// The paper's own words, where they are given word for word.
     pub quote: Option<String>,
     /// The number as printed.
@@ -208,9 +256,10 @@ pub struct ClaimVerdict {
     pub unit: Option<String>,
     /// The verdict.
     pub verdict: Verdict,
-    /// What stands beside it: over how many interpretations it is the same, its exceptions, or on what it depends.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub beside: Option<String>,
+    /// What stands beside it: over how many interpretations it is the same or the counts for, open and against; then its exceptions,
+    /// on what it depends, and what was not varied.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub beside: Vec<String>,
     /// On what it depends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depends_on: Option<String>,
@@ -282,7 +331,18 @@ impl ClaimVerdict {
         }
     }
 
-    /// What stands beside its verdict, with its outcome on the second seed where that was run.
+    /// What its verdict rests on.
+    pub fn rests_on(&self) -> Option<String> {
+        (!self.beside.is_empty()).then(|| self.beside.join("; "))
+    }
+
+    /// What would settle it, where it is open.
+    pub fn settles(&self) -> Option<&str> {
+        let across = self.across.as_ref().and_then(|across| across.settles.as_deref());
+        across.or_else(|| self.findings.iter().find_map(|finding| finding.settles.as_deref()))
+    }
+
+    /// What its verdict rests on, with its outcome on the second seed where that was run.
     pub fn beside_with_seed(&self) -> Option<String> {
         let second = self.second.map(|second| {
             if self.is_seedless {
@@ -293,6 +353,11 @@ impl ClaimVerdict {
         });
         let words: Vec<String> = self.beside.iter().cloned().chain(second).collect();
         (!words.is_empty()).then(|| words.join("; "))
+    }
+
+    /// As [`beside_with_seed`](Self::beside_with_seed), with the second seed's outcome where it is another one.
+    pub fn beside_if_other(&self) -> Option<String> {
+        if self.second == Some(self.outcome) && !self.is_seedless { self.rests_on() } else { self.beside_with_seed() }
     }
 
     /// The number of ours that stands beside the printed one.

@@ -90,7 +90,7 @@ pub struct Tally {
     pub impossible: usize,
     /// Of them signals.
     pub signals: usize,
-    /// Of them refused for a cause that another finding tells.
+    /// Of these, those whose cause is another finding.
     pub follows: usize,
     /// Of them not decided.
     pub unchecked: usize,

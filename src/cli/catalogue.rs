@@ -24,7 +24,7 @@ const FIGURE: Frame = Frame("[[figure]]\nid = \"mine\"\nkind = \"{}\"\ncaption =
 const NONE: Frame = Frame("", "");
 
 impl Item {
-    /// Its example as it stands in a file, within the terminal's columns; none for what has no settings in one.
+    /// Its example as a file has it, wrapped to the terminal; `None` if it takes no settings.
     pub fn shown(&self) -> Option<String> {
         let [before, place] = [self.frame.0, self.frame.1].map(|text| text.replace("{}", self.name));
         (!place.is_empty()).then(|| example::shown(&before, &place, self.example))
@@ -48,7 +48,7 @@ pub struct Item {
     pub example: &'static str,
     /// A file of this repository that is one, if it is a kind of file.
     pub file: Option<&'static str>,
-    /// What stands before its settings in a file, with `{}` for its name, and the table that they are.
+    /// The text before its settings in a file, with `{}` for its name, and the table of the settings.
     pub frame: Frame,
     /// The columns that it fills.
     pub columns: &'static [&'static str],

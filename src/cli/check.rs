@@ -21,6 +21,7 @@ use study::rerun;
 
 /// Checks papers and specs.
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Check {
     /// Papers, folders or packs to check; all papers if absent
     #[arg(value_name = "PAPER")]
@@ -34,6 +35,11 @@ pub struct Check {
     #[command(flatten)]
     large: AllowLarge,
 }
+
+const EXAMPLES: &str = "Examples:
+  replan check                        every paper of the project
+  replan check ./my/paper
+  replan check zhang --rerun 20       run 20 trials of each study again";
 
 impl Check {
     /// Runs the command.

@@ -26,7 +26,7 @@ pub struct Compare {
     /// Two contenders of the first run instead of two runs
     #[arg(long, num_args = 2, value_names = ["X", "Y"])]
     contenders: Vec<String>,
-    /// The verdicts of two encodings of one paper instead of their records
+    /// Compare the verdicts of two encodings of one paper, not their records
     #[arg(long, requires = "second", conflicts_with_all = ["contenders", "studies", "metrics", "gates", "csv", "figure"])]
     verdicts: bool,
     /// Only this study; may be given several times

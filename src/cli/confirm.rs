@@ -27,9 +27,8 @@ use study::shard;
 /// The interpretations are taken in order while the paper's budget of trials lasts; one that is left out stays unconfirmed.
 ///
 /// No clock is read. What was run stays below target/replan/confirm/, so that a command that was stopped goes on from there.
-///
-/// Example: replan confirm zhang
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Confirm {
     #[command(flatten)]
     which: Which,
@@ -42,6 +41,9 @@ pub struct Confirm {
     #[arg(long, value_name = "K/N", value_parser = shard::parse, requires = "out")]
     shard: Option<(usize, usize)>,
 }
+
+const EXAMPLES: &str = "Examples:
+  replan confirm zhang";
 
 impl Confirm {
     /// Runs the command.

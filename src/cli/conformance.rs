@@ -17,6 +17,7 @@ use study::{Inputs, clock, contender::Pipeline, planner};
 
 /// Tries a planner from outside on small worlds of the kinds that it names.
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Conformance {
     /// Time limit of a query in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 2.0)]
@@ -28,6 +29,10 @@ pub struct Conformance {
     #[arg(required = true, last = true, value_name = "COMMAND")]
     command: Vec<String>,
 }
+
+const EXAMPLES: &str = "Examples:
+  replan conformance -- python3 planner.py
+  replan conformance --time-s 10 -- ./planner --fast";
 
 /// Families that pose small problems, by the kind of world, with what is laid over their examples.
 const WORLDS: [(Kind, &str, &str); 5] = [

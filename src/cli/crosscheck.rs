@@ -32,8 +32,9 @@ use study::runner::Progress as _;
 ///
 /// With --statistics every estimate, interval and outcome of verdicts.toml that rests on trials is computed again from
 /// the Parquet files, by code of its own. A bootstrap interval agrees if both ends lie where Monte-Carlo error can put
-/// them; an outcome that this error decides is listed as near. Example: replan crosscheck --statistics zhang
+/// them; an outcome that this error decides is listed as near.
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Crosscheck {
     /// A paper's name or folder; every paper with a crosscheck.toml, or with --statistics every paper, if none is given
     paper: Option<String>,
@@ -46,14 +47,17 @@ pub struct Crosscheck {
     /// The Python that the environment is made with; python3 or python3.11 if none is given
     #[arg(long, value_name = "PROGRAM")]
     python: Option<String>,
-    /// Judge MuJoCo's answers that are already there; replan alone answers again
+    /// Reuse MuJoCo's stored answers; only replan answers again
     #[arg(long)]
     answered: bool,
-    /// Leave report and picture as they are; say whether the report's chapter is what would be written. --statistics
-    /// writes neither
+    /// Write nothing; compare the stored report with what would be written
     #[arg(long)]
     check: bool,
 }
+
+const EXAMPLES: &str = "Examples:
+  replan crosscheck fu2018
+  replan crosscheck --statistics zhang";
 
 /// Where models, questions and answers lie, below the root of outputs.
 const FOLDER: &str = "target/replan/crosscheck";

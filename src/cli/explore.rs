@@ -20,9 +20,8 @@ use study::shard;
 ///
 /// What was run stays below target/replan/explore/, or scratch/ below --out, so that a command that was stopped goes on from there; what was found is
 /// stored beside the default run, which must be there.
-///
-/// Example: replan explore zhang
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Explore {
     #[command(flatten)]
     which: Which,
@@ -38,6 +37,10 @@ pub struct Explore {
     #[arg(long, value_name = "K/N", value_parser = shard::parse, requires = "out")]
     shard: Option<(usize, usize)>,
 }
+
+const EXAMPLES: &str = "Examples:
+  replan explore zhang --plan         what would run, and how long it takes at most
+  replan explore zhang";
 
 impl Explore {
     /// Runs the command.

@@ -18,6 +18,7 @@ use study::store::{Staged, check_records, csv};
 
 /// Exports a stored run.
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Export {
     /// A paper's name, a folder that holds a paper.toml, or a stored run: an earlier `--out` or its records
     pub paper: String,
@@ -37,6 +38,10 @@ pub struct Export {
     #[arg(long, value_name = "URL")]
     license: Option<String>,
 }
+
+const EXAMPLES: &str = "Examples:
+  replan export zhang --to csv
+  replan export zhang --to parquet --out trials";
 
 /// A format that stored runs are exported in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -20,13 +20,13 @@ pub struct Import {
     /// The format of the file
     #[arg(long, value_name = "FORMAT")]
     from: From,
-    /// A TOML file that says which columns are keys and metrics; of a log, which more of its properties are metrics
+    /// A TOML file that names the columns that are keys and metrics; for a log, more properties that are metrics
     #[arg(long, value_name = "FILE", required_if_eq_any = [("from", "csv"), ("from", "parquet")])]
     columns: Option<PathBuf>,
-    /// The study of a paper whose records they become, as `./my/paper/results`; its planners are `recorded`
+    /// The study that takes them as its records, as `./my/paper/results`; its planners are `recorded`
     #[arg(long, value_name = "PAPER/STUDY", required_unless_present = "out", conflicts_with = "out")]
     into: Option<String>,
-    /// Write records that belong to no paper into this folder, to be compared
+    /// Write records that belong to no paper into this folder, for `replan compare`
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }

@@ -22,6 +22,7 @@ use study::paper::Paper;
 
 /// Judges a paper's claims again.
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Judge {
     #[command(flatten)]
     which: Which,
@@ -32,6 +33,10 @@ pub struct Judge {
     #[arg(long)]
     check: bool,
 }
+
+const EXAMPLES: &str = "Examples:
+  replan judge zhang
+  replan judge zhang --check          are the stored verdicts those of the stored run?";
 
 impl Judge {
     /// Runs the command.

@@ -21,12 +21,17 @@ const ROBOTS: &str = "data/robots";
 
 /// Lists what there is.
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct List {
     /// The kind to list; everything if absent
     what: Option<What>,
     /// One entry, with its settings and an example
     name: Option<String>,
 }
+
+const EXAMPLES: &str = "Examples:
+  replan list planners
+  replan list criteria one_instance   one entry with its settings and an example";
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum What {

@@ -16,6 +16,7 @@ use study::plan::Plan;
 
 /// Puts parts together; those of an exploration or a confirmation are judged as well, and the next round is planned.
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Merge {
     /// The folder that holds the shards
     parts: PathBuf,
@@ -25,6 +26,10 @@ pub struct Merge {
     #[command(flatten)]
     consent: Consent,
 }
+
+const EXAMPLES: &str = "Examples:
+  replan shard fu2018 --engine parallel --out parts --merge merged
+  replan merge parts --out merged     when all shards are done";
 
 impl Merge {
     /// Runs the command.

@@ -97,15 +97,15 @@ struct Cli {
 }
 
 const EXAMPLES: &str = "Examples:
-  replan repro zhang                 run the paper's studies, judge its claims, draw its figures
-  replan repro zhang --quick         the same with few instances, below target/replan/
-  replan new ./my/paper --from grid  a small paper to be changed into your own; docs/YOUR_OWN_PAPER.md
-  replan repro ./my/paper            a paper of your own: a folder with paper.toml and studies
+  replan repro zhang                     run the paper's studies, judge its claims, draw its figures
+  replan repro zhang --quick             the same with few instances, below target/replan/
+  replan new ./my/paper --from grid      a small paper to change into your own
+  replan repro ./my/paper                a paper of your own: a folder with paper.toml and studies
   replan repro zhang --trial witness/w1/a-star
-  replan report zhang --open         the paper's report as a page, with replays
-  replan show zhang t1.improved.cost one claim with its evidence
-  replan render zhang --check        do the committed plots and tables match the stored run?
-  replan list planners               what contenders can name
+  replan report zhang --open             the paper's report as a page, with replays
+  replan show zhang t1.improved.cost     one claim with its evidence
+  replan render zhang --check            do the committed plots and tables match the stored run?
+  replan list planners                   what contenders can name
   replan list criteria one_instance      the settings of one criterion, with an example";
 
 #[derive(Subcommand)]
@@ -140,13 +140,13 @@ enum Command {
     Export(export::Export),
     /// Write a folder for reviewers: specs, records, verdicts, tables, page and hashes
     Pack(pack::Pack),
-    /// Make records of results that were recorded elsewhere
+    /// Turn results that were recorded elsewhere into records of a study
     Import(import::Import),
-    /// Show one claim with its evidence, or list all claims
+    /// Show one claim with its evidence, search claims by words, or list them all
     Show(show::Show),
     /// Search for a map on which several claims hold together
     Witness(witness::Witness),
-    /// Test whether an external planner follows the protocol
+    /// Test whether your own planner follows the protocol
     Conformance(conformance::Conformance),
     /// Let MuJoCo check robots, scenes and stored paths; needs Python
     Crosscheck(crosscheck::Crosscheck),
@@ -377,4 +377,47 @@ fn renamed(words: impl Iterator<Item = String>) -> Option<String> {
 fn command_line() -> String {
     let words = std::env::args().skip(1).filter(|word| word != "--why" && word != "--trust");
     base::text::command(&words.collect::<Vec<_>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    /// The words of a command line, with what stands in quotation marks as one.
+    fn words(line: &str) -> Vec<String> {
+        let pieces = line.split('\'').enumerate();
+        let words = pieces.map(|(at, piece)| {
+            let words: Vec<&str> = if at % 2 == 1 { vec![piece] } else { piece.split_whitespace().collect() };
+            words.into_iter().map(str::to_owned).collect::<Vec<_>>()
+        });
+        words.collect::<Vec<_>>().concat()
+    }
+
+    #[test]
+    fn every_help_has_examples_that_can_be_typed_within_the_terminal() {
+        let program = Cli::command();
+        let own = program.get_subcommands().filter(|command| command.get_name() != "audit");
+        let mut typed = 0;
+        for command in own.chain([&program]) {
+            let name = command.get_name();
+            let text = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+            let lines: Vec<&str> = text.strip_prefix("Examples:\n").unwrap_or_default().lines().collect();
+            assert!(!lines.is_empty(), "{name} --help has no examples");
+            let is_own = |line: &&str| line.contains(&format!("replan {name} ")) || name == "replan";
+            assert!(lines.iter().any(is_own), "no example of {name} has {name}: {text}");
+            for line in lines {
+                assert!(line.chars().count() <= 100, "{name}: too wide: {line}");
+                let example = line.trim().split("  ").next().unwrap_or_default();
+                let parsed = Cli::try_parse_from(words(example));
+                assert!(
+                    parsed.is_ok(),
+                    "{name}: {example}: {}",
+                    parsed.err().map(|e| e.to_string()).unwrap()
+                );
+                typed += 1;
+            }
+        }
+        assert!(typed > 40, "{typed} examples");
+    }
 }

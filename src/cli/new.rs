@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 /// Writes a new paper.
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct New {
     /// The new folder; its name becomes the name of the paper
     folder: PathBuf,
@@ -17,6 +18,10 @@ pub struct New {
     #[arg(long)]
     from: Template,
 }
+
+const EXAMPLES: &str = "Examples:
+  replan new ./my/paper --from grid
+  replan repro ./my/paper             run it";
 
 /// What a paper can begin as.
 #[derive(Clone, Copy, Debug, ValueEnum)]

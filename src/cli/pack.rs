@@ -22,6 +22,7 @@ use study::store::Staged;
 
 /// Writes a pack.
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Pack {
     #[command(flatten)]
     which: Which,
@@ -35,6 +36,9 @@ pub struct Pack {
     #[arg(long, value_name = "URL")]
     license: Option<String>,
 }
+
+const EXAMPLES: &str = "Examples:
+  replan pack zhang --to zhang-pack --date 2026-01-31";
 
 /// The file with the hash of each other file.
 const SUMS: &str = "SHA256SUMS";

@@ -16,6 +16,7 @@ use study::paper::Paper;
 
 /// Draws a paper's figures and tables again.
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Render {
     #[command(flatten)]
     which: Which,
@@ -26,6 +27,10 @@ pub struct Render {
     #[arg(long, value_name = "ID")]
     only: Option<String>,
 }
+
+const EXAMPLES: &str = "Examples:
+  replan render zhang --only ablation
+  replan render zhang --check         are the stored figures those of the stored run?";
 
 impl Render {
     /// Runs the command.

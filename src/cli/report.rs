@@ -6,6 +6,7 @@ use super::{Failure, How, Which};
 use crate::analysis::across::Stored;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::history::History;
+use crate::analysis::tally::Counts;
 use crate::page::{self, IndexLine};
 use crate::render::output::Output;
 use crate::render::prose::prose;
@@ -20,9 +21,8 @@ use study::paper::Paper;
 use study::store::write_whole;
 
 /// Writes reports as pages of HTML that need nothing else: claim, finding, trial, replay.
-///
-/// Example: replan report zhang --open
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Report {
     /// A paper's name, a folder that holds a paper.toml, or a stored run; every paper of the project if absent
     paper: Option<String>,
@@ -36,6 +36,10 @@ pub struct Report {
     #[arg(long)]
     open: bool,
 }
+
+const EXAMPLES: &str = "Examples:
+  replan report zhang --open
+  replan report --to pages            every paper, with an index";
 
 impl Report {
     /// Runs the command.
@@ -87,20 +91,21 @@ pub(super) fn write(
         Err(failure) => return (None, Err(failure)),
     };
     let file = folder.join(format!("{}.html", paper.id));
-    let line = |finding: String, counts: String| {
-        Some(IndexLine { id: paper.id.clone(), title: paper.source.title.clone(), finding, counts })
+    let line = |finding: String, state: String, counts: Option<Counts>| {
+        Some(IndexLine { id: paper.id.clone(), title: paper.source.title.clone(), finding, state, counts })
     };
     let (spent_ns, made) = timed(|| made(&paper, places, folder, has_index));
     match made {
-        Ok(Made { finding, counts, sizes }) => {
+        Ok(Made { finding, state, counts, sizes }) => {
             say!("{}: {sizes} in {:.1} s", paper.id, spent_ns as f64 / 1e9);
-            (line(finding, counts), Ok(()))
+            (line(finding, state, Some(counts)), Ok(()))
         }
         Err(failure) => {
             let why = page::unread(&paper.id, &paper.source.title, &failure.message);
             match write_whole(&file, why.as_bytes()) {
                 Ok(()) => {
-                    (line(String::new(), format!("Nothing is shown: {}", failure.message)), Err(failure))
+                    let state = format!("Nothing is shown: {}", failure.message);
+                    (line(String::new(), state, None), Err(failure))
                 }
                 Err(error) => (None, Err(error.into())),
             }
@@ -112,8 +117,10 @@ pub(super) fn write(
 struct Made {
     /// The finding; empty if the run is not the study's own.
     finding: String,
-    /// What its first line says, if anything, and how many claims have each verdict.
-    counts: String,
+    /// What its first line says; empty if the run is the study's own.
+    state: String,
+    /// How many sentences and rows have each verdict.
+    counts: Counts,
     /// How large it is, and what lies beside it.
     sizes: String,
 }
@@ -141,8 +148,8 @@ fn made(paper: &Paper, places: &Places, folder: &Path, has_index: bool) -> Resul
     let state = state(&evidence, &verdicts);
     let finding = paper.report.finding.as_ref().filter(|_| state.is_empty());
     let finding = finding.map_or_else(String::new, |finding| prose(finding, &verdicts));
-    let counts: Vec<String> = state.into_iter().chain([verdicts.counts().verdicts()]).collect();
-    Ok(Made { finding, counts: counts.join(" "), sizes: format!("{size:.2} MB{beside}") })
+    let sizes = format!("{size:.2} MB{beside}");
+    Ok(Made { finding, state: state.join(" "), counts: verdicts.counts(), sizes })
 }
 
 /// The figures of `paper` as they were drawn into `folder`; what is not there is not shown, and the page says so in its place.

@@ -20,6 +20,7 @@ use study::paper::Paper;
 
 /// Reproduces a paper.
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Repro {
     #[command(flatten)]
     which: Which,
@@ -36,6 +37,11 @@ pub struct Repro {
     #[arg(long)]
     all: bool,
 }
+
+const EXAMPLES: &str = "Examples:
+  replan repro zhang
+  replan repro zhang --quick          few instances, below target/replan/
+  replan repro zhang --trial witness/w1/a-star  one trial beside its stored row";
 
 impl Repro {
     /// Runs the command.

@@ -21,6 +21,7 @@ use study::{Interpretation, Study};
 
 /// Runs the studies of a paper.
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Run {
     #[command(flatten)]
     which: Which,
@@ -40,6 +41,11 @@ pub struct Run {
     #[arg(long, value_name = "K/N", value_parser = shard::parse, requires = "out")]
     shard: Option<(usize, usize)>,
 }
+
+const EXAMPLES: &str = "Examples:
+  replan run zhang                    run what is stale, reuse the rest
+  replan run zhang --quick --why      few instances; why trials were not reused
+  replan run zhang --with ties=lifo --out target/lifo";
 
 impl Run {
     /// Runs the command.

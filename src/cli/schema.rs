@@ -9,6 +9,7 @@ use std::path::PathBuf;
 
 /// Writes JSON Schemas.
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Schema {
     /// The folder for the schemas, one `<kind>.schema.json` each
     #[arg(default_value = "docs/schema")]
@@ -17,6 +18,10 @@ pub struct Schema {
     #[arg(long)]
     check: bool,
 }
+
+const EXAMPLES: &str = "Examples:
+  replan schema
+  replan schema --check               are the stored schemas up to date?";
 
 impl Schema {
     /// Runs the command.

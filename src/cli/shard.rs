@@ -16,6 +16,7 @@ use study::store::write_whole;
 
 /// Cuts a run into shards.
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Shard {
     /// A paper's name, or a folder that holds a paper.toml
     paper: String,
@@ -45,6 +46,10 @@ pub struct Shard {
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
     tasks: u32,
 }
+
+const EXAMPLES: &str = "Examples:
+  replan shard fu2018 --engine slurm --shards 200 --out parts --merge merged
+  replan shard zhang --engine parallel --explore --out parts";
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum Engine {

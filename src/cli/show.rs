@@ -70,8 +70,10 @@ impl Show {
 fn holding<'v>(verdicts: &'v Verdicts, words: &str) -> Vec<&'v ClaimVerdict> {
     let words = words.to_lowercase();
     let holds = |judged: &&ClaimVerdict| {
-        let texts = [Some(&judged.claim), Some(&judged.at), judged.says.as_ref(), judged.quote.as_ref()];
-        let text = texts.into_iter().flatten().map(|text| text.to_lowercase()).collect::<Vec<_>>().join(" ");
+        let own = [Some(&judged.claim), Some(&judged.at)];
+        let sentences = [&judged.says, &judged.short, &judged.quote].map(Option::as_ref);
+        let texts = own.into_iter().chain(sentences);
+        let text = texts.flatten().map(|text| text.to_lowercase()).collect::<Vec<_>>().join(" ");
         words.split_whitespace().all(|word| text.contains(word))
     };
     verdicts.claims.iter().filter(holds).collect()
@@ -105,7 +107,7 @@ fn shown(judged: &ClaimVerdict) -> String {
         ("says", judged.says.clone()),
         ("quote", judged.quote.as_ref().map(|quote| format!("“{quote}”"))),
         ("printed", printed),
-        ("interpretations", judged.beside.clone()),
+        ("interpretations", judged.rests_on()),
         ("under the defaults", Some(judged.outcome.name().to_owned())),
         ("second seed", judged.second.map(|outcome| outcome.name().to_owned())),
         ("part of", judged.part_of.clone()),

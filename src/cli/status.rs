@@ -9,6 +9,7 @@ use study::plan::{Plan, Progressed, State};
 
 /// Says how far the shards are.
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Status {
     /// The folder that holds the shards
     parts: PathBuf,
@@ -16,6 +17,9 @@ pub struct Status {
     #[arg(long)]
     json: bool,
 }
+
+const EXAMPLES: &str = "Examples:
+  replan status parts";
 
 /// How far the shards are.
 #[derive(Serialize)]

@@ -38,13 +38,26 @@ fn table(verdicts: &Verdicts, which: &Which) -> String {
             text += &(wrapped("   ", &what.join("; "), 4, COLUMNS) + "\n");
         }
     }
-    text + &tallied(verdicts, which)
+    text + &tallied(verdicts, which, Lines::All)
+}
+
+/// Which lines about all claims are printed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Lines {
+    /// All.
+    All,
+    /// All but how many parts there are and how many claims are asserted.
+    Few,
 }
 
 /// How many there are of each verdict, and what is to be known of them as a whole.
-pub(super) fn tallied(verdicts: &Verdicts, which: &Which) -> String {
+pub(super) fn tallied(verdicts: &Verdicts, which: &Which, lines: Lines) -> String {
     let mut text = String::new();
-    let counts = verdicts.counts();
+    let mut counts = verdicts.counts();
+    if lines == Lines::Few {
+        counts.parts = None;
+        counts.asserted = None;
+    }
     let of_each = counts.verdicts();
     let quick = verdicts
         .quick

@@ -21,9 +21,8 @@ use study::store::write_whole;
 /// Every search starts from a random map of its own and changes a few cells at a time. The first that finds a map ends the
 /// command, and the map is written with all that holds on it; searches that found none are remembered, so that the same
 /// command goes on behind them.
-///
-/// Example: replan witness zhang --claims t1.astar.turn,t1.astar.cost,t1.astar.nodes
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Witness {
     /// A paper's name, or a folder that holds a paper.toml
     paper: String,
@@ -49,6 +48,10 @@ pub struct Witness {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
+
+const EXAMPLES: &str = "Examples:
+  replan witness zhang --claims t1.astar.turn,t1.astar.cost,t1.astar.nodes
+  replan witness zhang --claims t1.astar.turn --also 'A*:path_cost_cells=17.65'";
 
 /// How many searches are begun between two looks at what was found.
 const TOGETHER: u32 = 8;

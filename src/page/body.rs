@@ -6,6 +6,7 @@ use super::{interpretations, replies};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::outcome::Outcome;
 use crate::analysis::tabulated::{grid, table_caption};
+use crate::analysis::tally::Counts;
 use crate::analysis::verdict::{ClaimVerdict, CriterionFinding, Effect, Verdicts};
 use crate::analysis::verdict_rule::Verdict;
 use crate::render::RenderError;
@@ -43,6 +44,14 @@ fn part(id: &str, title: &str, text: &str) -> String {
 /// A verdict or an outcome, by its name, as a word on its colour.
 fn badge(name: &str, word: &str) -> String {
     format!("<span class=\"class {}\">{}</span>", name.replace(' ', "-"), escaped(word))
+}
+
+/// How many sentences and rows have each verdict, in the verdicts' colours.
+pub(super) fn coloured(counts: &Counts) -> String {
+    let of_each = counts.of_each.iter();
+    let badges =
+        of_each.map(|(count, verdict)| badge(verdict.name(), &format!("{count} {}", verdict.name())));
+    format!("{}: {}", escaped(&counts.whole), badges.collect::<Vec<_>>().join(" "))
 }
 
 impl Body<'_> {
@@ -89,7 +98,9 @@ impl Body<'_> {
             .flatten()
             .map(String::as_str)
             .collect();
-        let mut text = format!("<main><header><h1>{}</h1>\n", escaped(&source.title));
+        let up =
+            if self.has_index { "<p class=\"up\"><a href=\"index.html\">All papers</a></p>\n" } else { "" };
+        let mut text = format!("<main><header>{up}<h1>{}</h1>\n", escaped(&source.title));
         text += &format!("<p>{}</p>\n", escaped(&about.join(". ")));
         // Findings were written on the study's own run; of any other they may be false.
         if is_own {
@@ -101,13 +112,7 @@ impl Body<'_> {
                     .map(|sentence| format!("<p><strong>{}</strong></p>\n", self.prose_html(sentence))),
             );
         }
-        let badges: Vec<String> = counts
-            .of_each
-            .iter()
-            .map(|(count, verdict)| badge(verdict.name(), &format!("{count} {}", verdict.name())))
-            .collect();
-        text += &format!("<p>{}: {}.</p>\n", counts.whole, badges.join(" "));
-        text += &self.headlines();
+        text += &format!("<p>{}</p>\n", coloured(&counts));
         text +=
             "<details><summary>What these words mean, and what is counted</summary><dl class=\"words\">\n";
         text.extend(counts.of_each.iter().map(|(_, verdict)| {
@@ -118,6 +123,7 @@ impl Body<'_> {
         let beside = counts.parts.into_iter().chain(counts.asserted);
         text.extend(beside.map(|sentence| format!("<p>{}.</p>", escaped(&sentence))));
         text += "</details>\n";
+        text += &self.headlines();
         if is_own && !paper.report.findings.is_empty() {
             text += "<details><summary>More findings, with numbers</summary><ul>\n";
             text.extend(
@@ -213,7 +219,7 @@ impl Body<'_> {
             || "–".to_owned(),
             |ours| format!("{} ({}; n = {})", short(ours), ours.what, ours.n),
         );
-        let interpretations = judged.beside.clone().unwrap_or_default();
+        let interpretations = judged.rests_on().unwrap_or_default();
         let second = judged.second.map_or_else(String::new, |outcome| {
             format!("<div class=\"second\">second seed: {}</div>", badge(outcome.name(), outcome.name()))
         });

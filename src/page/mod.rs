@@ -16,6 +16,7 @@ mod replies;
 use crate::analysis::across::Stored;
 use crate::analysis::across::by_interpretation::by_interpretation;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::tally::Counts;
 use crate::analysis::verdict::Verdicts;
 use crate::render::output::Output;
 use crate::render::{RenderError, state};
@@ -131,19 +132,22 @@ pub struct IndexLine {
     pub title: String,
     /// What was found, in a sentence or two.
     pub finding: String,
-    /// What its page begins with, and how many claims have each verdict.
-    pub counts: String,
+    /// What its page begins with, where its run is not the study's own.
+    pub state: String,
+    /// How many sentences and rows have each verdict; `None` if they cannot be read.
+    pub counts: Option<Counts>,
 }
 
 /// The page that leads to those of `papers`.
 pub fn index(papers: &[IndexLine]) -> String {
-    let row = |IndexLine { id, title, finding, counts }: &IndexLine| {
+    let row = |IndexLine { id, title, finding, state, counts }: &IndexLine| {
+        let counts = counts.as_ref().map_or_else(String::new, body::coloured);
         format!(
-            "<tr><td><a href=\"{0}.html\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td></tr>\n",
+            "<tr><td><a href=\"{0}.html\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3} {counts}</td></tr>\n",
             escaped(id),
             escaped(title),
             escaped(finding),
-            escaped(counts)
+            escaped(state),
         )
     };
     let rows: String = papers.iter().map(row).collect();

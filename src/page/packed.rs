@@ -56,7 +56,7 @@ impl Pack {
         Self { room: limit.saturating_sub(taken + limit / 50), rest: Vec::new() }
     }
 
-    /// It, whether or not there is room.
+    /// Packs it even if there is no room left.
     pub fn always(&mut self, packed: Packed) -> Packed {
         self.room = self.room.saturating_sub(packed.html().len());
         packed

@@ -145,7 +145,7 @@ pub fn csv(of: &Comparison) -> String {
     CHANGES.to_owned() + &of.changes.iter().map(line).collect::<String>()
 }
 
-/// What trials come to as comma-separated values under a head.
+/// Statistics of trials as comma-separated values under a line of heads.
 pub fn cells_csv(cells: &[Cell]) -> String {
     let line = |cell: &Cell| {
         let texts = [

@@ -1,7 +1,7 @@
 //! Estimates in words, with their direction.
 
 use crate::analysis::metric::Metric;
-use crate::analysis::verdict::Estimate;
+use crate::analysis::verdict::{Estimate, Quantity};
 
 /// An estimate in words: `2.2 % shorter`; `None` where there is nothing to say beyond its number.
 pub fn effect(estimate: &Estimate) -> Option<String> {
@@ -32,29 +32,25 @@ pub struct Effect {
 }
 
 impl Effect {
-    /// That of an estimate, from the name of its measure.
+    /// That of an estimate, from the kind of number that it is.
     pub fn new(estimate: &Estimate) -> Self {
-        let what = estimate.what.as_str();
-        let change = what.strip_prefix("change of ").and_then(|rest| rest.split_once(" in %"));
-        if let Some((metric, _)) = change {
-            return Self::of_change(metric, estimate, |value| value);
+        let subject = estimate.subject.as_str();
+        match estimate.quantity {
+            Quantity::MorePercent => Self::of_change(subject, estimate, |value| value),
+            Quantity::LessPercent => Self::of_change(subject, estimate, |value| -value),
+            Quantity::Ratio => Self::of_change(subject, estimate, |value| 100.0 * (value - 1.0)),
+            Quantity::Share => Self::scaled(estimate, |value| 100.0 * value, " %".to_owned()),
+            Quantity::MorePoints => {
+                let words = if estimate.value < 0.0 { " points fewer" } else { " points more" };
+                Self::scaled(estimate, f64::abs, words.to_owned())
+            }
+            Quantity::PercentOfOther => {
+                Self::scaled(estimate, |value| value, format!(" % of the other's {subject}"))
+            }
+            Quantity::Number | Quantity::Probability | Quantity::Rank => {
+                Self::scaled(estimate, |value| value, String::new())
+            }
         }
-        let ratio = what.strip_prefix("ratio of the means of ").and_then(|rest| rest.split_once(", "));
-        if let Some((metric, _)) = ratio {
-            return Self::of_change(metric, estimate, |value| 100.0 * (value - 1.0));
-        }
-        if what.starts_with("share of ") {
-            return Self::scaled(estimate, |value| 100.0 * value, " %".to_owned());
-        }
-        if what.contains("difference in points") {
-            let words = if estimate.value < 0.0 { " points fewer" } else { " points more" };
-            return Self::scaled(estimate, f64::abs, words.to_owned());
-        }
-        if let Some(rest) = what.strip_prefix("% of the other's ") {
-            let metric = rest.split(", ").next().unwrap_or(rest);
-            return Self::scaled(estimate, |value| value, format!(" % of the other's {metric}"));
-        }
-        Self::scaled(estimate, |value| value, String::new())
     }
 
     /// A change of a metric in per cent, which `percent` gives.
@@ -101,25 +97,25 @@ mod tests {
 
     #[test]
     fn an_effect_has_a_direction_in_words_and_the_digits_of_its_interval() {
-        for (value, interval, what, words) in [
-            (
-                -2.156,
-                [-2.393, -1.921],
-                "change of path cost in %, bootstrap 95 % over instances",
-                "2.2 % shorter",
-            ),
-            (0.412, [0.219, 0.661], "change of path length in %, bootstrap 95 %", "0.4 % longer"),
-            (15.15, [13.38, 17.04], "change of opened nodes in %, bootstrap 95 %", "15 % more nodes"),
-            (-62.7, [-64.4, -61.1], "change of turn sum, exterior angles in %, 95 %", "63 % less turn sum"),
-            (0.9169, [0.9153, 0.9185], "ratio of the means of path length, bootstrap 95 %", "8.3 % shorter"),
-            (0.534, [0.498, 0.569], "share of trials solved, 95 %", "53 %"),
-            (0.505, [0.470, 0.540], "share of trials solved, 95 %", "51 %"),
-            (1.0, [0.994, 1.0], "share of instances, 95 %", "100 %"),
-            (18.15, [14.4, 21.9], "least mean difference in points, at samples=1500", "18 points more"),
+        use Quantity::{LessPercent, MorePercent, MorePoints, PercentOfOther, Ratio, Share};
+        for (value, interval, quantity, subject, words) in [
+            (-2.156, [-2.393, -1.921], MorePercent, "path cost", "2.2 % shorter"),
+            (0.412, [0.219, 0.661], MorePercent, "path length", "0.4 % longer"),
+            (15.15, [13.38, 17.04], MorePercent, "opened nodes", "15 % more nodes"),
+            (-62.7, [-64.4, -61.1], MorePercent, "turn sum, exterior angles", "63 % less turn sum"),
+            (40.52, [38.37, 42.75], LessPercent, "path cost", "41 % shorter"),
+            (-3.1, [-3.9, -2.3], LessPercent, "expansions", "3.1 % more expansions"),
+            (0.9169, [0.9153, 0.9185], Ratio, "path length", "8.3 % shorter"),
+            (0.534, [0.498, 0.569], Share, "trials solved", "53 %"),
+            (0.505, [0.470, 0.540], Share, "trials solved", "51 %"),
+            (1.0, [0.994, 1.0], Share, "instances", "100 %"),
+            (18.15, [14.4, 21.9], MorePoints, "solved queries", "18 points more"),
+            (99.87, [99.2, 100.4], PercentOfOther, "median bends", "99.9 % of the other's median bends"),
         ] {
-            let estimate = Estimate { interval: Some(interval), ..Estimate::bare(value, what, 9) };
-            assert_eq!(effect(&estimate).unwrap(), words);
+            let ours = Estimate { interval: Some(interval), ..Estimate::bare(value, "as it is", 9) };
+            assert_eq!(effect(&ours.measures(quantity, subject)).unwrap(), words);
         }
+        assert_eq!(effect(&Estimate::bare(3.0, "change of path cost in %", 9)), None);
     }
 
     #[test]

@@ -3,8 +3,10 @@
 //! The terminal, the report and the page open with them.
 
 use super::effect::{Effect, effect, rounded};
+use super::prose::number;
 use super::tables::short;
-use crate::analysis::verdict::{ClaimVerdict, Estimate, Verdicts};
+use crate::analysis::verdict::{ClaimVerdict, Estimate, Quantity, Verdicts};
+use crate::analysis::verdict_rule::Verdict;
 use study::paper::Paper;
 
 /// A paper without headlines shows its first claims instead, at most so many.
@@ -22,6 +24,8 @@ pub struct Headline<'a> {
     /// Our number in words with how many instances it rests on; `None` if there is none, or if the parts of the claim measure
     /// different things.
     pub ours: Option<String>,
+    /// Whether the sentence means one of several claims, whose verdicts make its own.
+    has_meanings: bool,
 }
 
 /// The headline claims of a paper, in the order of its claims.
@@ -31,9 +35,10 @@ pub fn headlines<'a>(paper: &'a Paper, verdicts: &'a Verdicts) -> Vec<Headline<'
         shown = verdicts.claims.iter().filter(|judged| judged.is_counted()).take(CLAIMS).collect();
     }
     let headline = |judged: &'a ClaimVerdict| {
-        let short = paper.claim(&judged.claim).and_then(|claim| claim.short.as_ref());
-        let says = short.or(judged.says.as_ref()).or(judged.quote.as_ref()).unwrap_or(&judged.at);
-        Headline { judged, says: says.clone(), ours: ours(judged, verdicts) }
+        let sentences = [&judged.short, &judged.says, &judged.quote];
+        let says = sentences.into_iter().flatten().next().unwrap_or(&judged.at);
+        let has_meanings = paper.claim(&judged.claim).is_some_and(|claim| claim.meanings().is_some());
+        Headline { judged, says: says.clone(), ours: ours(judged, verdicts), has_meanings }
     };
     shown.into_iter().map(headline).collect()
 }
@@ -41,19 +46,31 @@ pub fn headlines<'a>(paper: &'a Paper, verdicts: &'a Verdicts) -> Vec<Headline<'
 impl Headline<'_> {
     /// The verdict with the counts over interpretations, where they were explored, or with how many meanings have which verdict.
     pub fn verdict(&self, verdicts: &Verdicts) -> String {
+        self.verdict_with(self.beside(verdicts))
+    }
+
+    /// The same, with what it depends on and its exceptions.
+    pub fn verdict_in_full(&self, verdicts: &Verdicts) -> String {
+        self.verdict_with(self.rests_on(verdicts))
+    }
+
+    fn verdict_with(&self, words: Option<String>) -> String {
         let verdict = self.judged.verdict_text();
-        match self.beside(verdicts) {
-            Some(counts) => format!("{verdict}, {counts}"),
-            None => verdict,
-        }
+        words.map_or_else(|| verdict.clone(), |words| format!("{verdict}, {words}"))
     }
 
     /// The counts over interpretations, or how many meanings have which verdict.
     pub fn beside(&self, verdicts: &Verdicts) -> Option<String> {
-        match self.judged.beside.as_deref()? {
-            counts if counts.starts_with("meanings: ") => meanings(self.judged, verdicts),
-            counts => counts.split("; ").next().map(str::to_owned),
-        }
+        if self.has_meanings { meanings(self.judged, verdicts) } else { self.judged.beside.first().cloned() }
+    }
+
+    /// The same, with what it depends on, its exceptions, and what would settle it if it is inconclusive.
+    pub fn rests_on(&self, verdicts: &Verdicts) -> Option<String> {
+        let judged = self.judged;
+        let words = if self.has_meanings { meanings(judged, verdicts) } else { judged.rests_on() };
+        let settles = judged.settles().filter(|_| judged.verdict == Verdict::Inconclusive);
+        let settles = settles.map(|settles| format!("what would settle it: {settles}"));
+        words.into_iter().chain(settles).reduce(|one, two| format!("{one}; {two}"))
     }
 }
 
@@ -87,30 +104,29 @@ fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
         let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
         let printed =
             judged.printed.as_ref().map_or_else(String::new, |printed| format!("printed {printed}, ours "));
-        // A rank among instances is a probability, not a size that a reader could compare.
-        let is_rank = ours.what.starts_with("the lesser rank");
-        let letter = if ours.what.starts_with("p of") { "p = " } else { "" };
-        let number = || effect(ours).unwrap_or_else(|| short(ours));
-        return (!is_rank).then(|| format!("{printed}{letter}{}{unit} (n = {})", number(), ours.n));
+        let number = match ours.quantity {
+            Quantity::Rank => return None,
+            Quantity::Probability => format!("p = {}", number(ours.value)),
+            _ => effect(ours).unwrap_or_else(|| short(ours) + &unit),
+        };
+        return Some(format!("{printed}{number} (n = {})", ours.n));
     }
     let parts = verdicts.claims.iter().filter(|part| part.part_of.as_ref() == Some(&judged.claim));
     let estimates: Vec<&Estimate> = parts.filter_map(ClaimVerdict::ours).collect();
-    // Whatever the events are: the sentence that they are parts of says what is counted.
-    let subject = |estimate: &Estimate| match estimate.what.split(", ").next() {
-        Some(what) if what.starts_with("share of events") => Some("share of events".to_owned()),
-        what => what.map(str::to_owned),
+    let first = estimates.first()?;
+    let words = Effect::new(first).words;
+    let is_alike = |estimate: &&Estimate| {
+        (estimate.quantity, &estimate.subject) == (first.quantity, &first.subject)
+            && Effect::new(estimate).words == words
+            && (!estimate.quantity.is_number() || estimate.what == first.what)
     };
-    let first = estimates.first().and_then(|estimate| subject(estimate))?;
-    let effects: Vec<Effect> = estimates.iter().map(|estimate| Effect::new(estimate)).collect();
-    let words = &effects[0].words;
-    let is_one = estimates.iter().all(|estimate| subject(estimate).as_ref() == Some(&first))
-        && effects.iter().all(|effect| effect.words == *words);
-    if !is_one {
+    if !estimates.iter().all(is_alike) {
         return None;
     }
+    let effects: Vec<Effect> = estimates.iter().map(|estimate| Effect::new(estimate)).collect();
     let decimals = effects.iter().map(|effect| effect.decimals).min()?;
     let mut sizes: Vec<f64> = effects.iter().map(|effect| effect.size).collect();
-    let number = |size: &f64| rounded(*size, decimals);
+    let in_digits = |size: &f64| rounded(*size, decimals);
     let mut counts: Vec<usize> = estimates.iter().map(|estimate| estimate.n).collect();
     if counts.iter().all(|n| *n == counts[0]) {
         counts.truncate(1);
@@ -118,7 +134,7 @@ fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     if sizes.len() <= LISTED {
         let joined = |all: Vec<String>| all.join(" / ");
         let n = joined(counts.iter().map(ToString::to_string).collect());
-        return Some(format!("{}{words} (n = {n})", joined(sizes.iter().map(number).collect())));
+        return Some(format!("{}{words} (n = {n})", joined(sizes.iter().map(in_digits).collect())));
     }
     sizes.sort_by(f64::total_cmp);
     counts.sort_unstable();
@@ -127,5 +143,5 @@ fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     } else {
         format!("{} to {}", counts[0], counts.last()?)
     };
-    Some(format!("{} to {}{words} (n = {n})", number(sizes.first()?), number(sizes.last()?)))
+    Some(format!("{} to {}{words} (n = {n})", in_digits(sizes.first()?), in_digits(sizes.last()?)))
 }

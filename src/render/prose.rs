@@ -16,7 +16,7 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
         let ours = judged.and_then(|judged| judged.ours());
         let found = match form {
             "verdict" => judged.map(ClaimVerdict::verdict_text),
-            "interpretations" => judged.and_then(|judged| judged.beside.clone()),
+            "interpretations" => judged.and_then(ClaimVerdict::rests_on),
             "n" => ours.map(|ours| ours.n.to_string()),
             "tenths" => ours.map(|ours| format!("{:.1}", ours.value)),
             "effect" => ours.map(|ours| effect(ours).unwrap_or_else(|| number(ours.value))),

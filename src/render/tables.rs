@@ -240,13 +240,18 @@ fn dash() -> String {
     "–".to_owned()
 }
 
-/// Our number as tables show it: four decimals at most; with its interval two, or as many as give the largest of the three two
-/// digits that count.
+/// Digits of a half-width from which on its first digit alone counts, as the Particle Data Group rounds errors.
+const ONE_DIGIT: f64 = 3.55;
+
+/// Our number as lists show it: four decimals at most, or with its interval as many as the half-width of that leaves certain.
 pub fn short(estimate: &Estimate) -> String {
-    let ends = estimate.interval.iter().flatten().map(|end| end.abs());
-    let largest = ends.fold(estimate.value.abs(), f64::max);
-    let leading = if largest == 0.0 { 0.0 } else { libm::log10(largest).floor() };
-    rounded(estimate, 1 + (-leading).clamp(1.0, 9.0) as usize)
+    let half = estimate.interval.map_or(0.0, |[low, high]| (high - low) / 2.0);
+    if half == 0.0 || !half.is_finite() {
+        return rounded(estimate, 2);
+    }
+    let leading = libm::log10(half).floor();
+    let more = if half / libm::pow(10.0, leading) < ONE_DIGIT { 1.0 } else { 0.0 };
+    rounded(estimate, (more - leading).clamp(0.0, 10.0) as usize)
 }
 
 /// The same with so many decimals where it has an interval that is more than the number itself.
@@ -302,17 +307,20 @@ mod tests {
     }
 
     #[test]
-    fn a_small_number_beside_its_interval_keeps_two_digits() {
+    fn a_number_beside_its_interval_keeps_the_digits_that_this_leaves_certain() {
         for (value, low, high, text) in [
             (-0.0004, -0.002, 0.001, "-0.0004 [-0.0020, 0.0010]"),
             (0.0043, 0.0038, 0.0048, "0.0043 [0.0038, 0.0048]"),
             (-0.0193, -0.0388, -0.0012, "-0.019 [-0.039, -0.001]"),
             (0.0, 0.0, 0.03, "0.000 [0.000, 0.030]"),
-            (-0.001, -0.002, 18.0, "0.00 [0.00, 18.00]"),
+            (-0.001, -0.002, 18.0, "0 [0, 18]"),
             (0.0, 0.0, 0.0, "0"),
             (1.42, 1.42, 1.42, "1.42"),
             (3e-9, 1e-9, 4e-9, "0.0000000030 [0.0000000010, 0.0000000040]"),
-            (18.149, 14.3, 22.0, "18.15 [14.30, 22.00]"),
+            (18.149, 14.3, 22.0, "18 [14, 22]"),
+            (40.52, 38.37, 42.75, "40.5 [38.4, 42.8]"),
+            (1016.51, 653.88, 1379.13, "1017 [654, 1379]"),
+            (99.4321, 99.4318, 99.4323, "99.43210 [99.43180, 99.43230]"),
             (f64::INFINITY, 1.0, f64::INFINITY, "inf [1.00, inf]"),
         ] {
             let estimate = Estimate { interval: Some([low, high]), ..Estimate::bare(value, "", 1) };

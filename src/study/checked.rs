@@ -280,7 +280,7 @@ impl Study {
         Ok(meant.map(|place| points[place].key.clone()).collect())
     }
 
-    /// The labels that stand in a contender's place in its trials: those of its contenders, or what its task tries in their place.
+    /// Labels in the contender column of its trials: its contenders', or those of what its task tries instead.
     pub fn labels(&self) -> Vec<String> {
         if self.contenders.is_empty() {
             return (self.task.build)(&self.task_settings).map_or_else(|_| Vec::new(), |task| task.labels());

@@ -237,7 +237,7 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// It, and after it all of `other`.
+    /// Its entries, followed by those of `other`.
     #[must_use]
     pub fn with(mut self, other: Self) -> Self {
         self.preprocessing.extend(other.preprocessing);

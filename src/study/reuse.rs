@@ -20,7 +20,7 @@ use std::iter;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What is stored of a study, and why it cannot stand for the run that a manifest describes.
+/// A study's stored records, and why they cannot be reused for the run that a manifest describes.
 #[derive(Default)]
 pub struct Before {
     /// The manifest and the records, without traces.

@@ -403,7 +403,7 @@ pub struct FigureSpec {
     pub kind: Spanned<String>,
     /// What it shows, printed below it.
     pub caption: String,
-    /// What the table of its numbers is called, if its kind has one and it does not bear the figure's name.
+    /// Name of its table of numbers, if it has one under another name than its own.
     pub table: Option<String>,
     /// What its table shows, if it has one; the figure's caption if absent.
     pub table_caption: Option<String>,

@@ -51,7 +51,7 @@ pub struct Unit<'a> {
 pub struct Entrant<'a> {
     /// The contender as the study names it.
     pub contender: &'a Contender,
-    /// Its label, as keys share it.
+    /// Its label, shared among keys.
     pub label: Text,
     /// The sweeps' values.
     pub sweep: SweepPoint,

@@ -182,7 +182,7 @@ impl Toy {
     /// The verdict of a claim and what stands beside it.
     pub fn class_and_across(&self, id: &str) -> (String, String) {
         let judged = self.claim(id);
-        (judged.verdict_text(), judged.beside.unwrap_or_default())
+        (judged.verdict_text(), judged.rests_on().unwrap_or_default())
     }
 }
 

@@ -185,7 +185,9 @@ fn records_of_another_spec_truncated_or_missing_are_not_judged() {
     bench.done(&["repro", "./mini", "--replace-damaged"]);
     assert!(fs::read(bench.at(trials)).unwrap() == whole, "the repaired run differs");
     bench.edit("mini/draws.toml", "seed = 7", "seed = 9");
-    refused("draws.manifest.toml: the stored run was made by another spec; run study `draws` again");
+    refused(
+        "draws.manifest.toml: the stored run was made by another spec; `replan run` runs study `draws` again",
+    );
     bench.write("target/replan/mini/data/runs/mini/draws.manifest.toml", b"study = 3");
     refused(
         "draws.manifest.toml:1:9: is not what replan wrote: truncated, edited, or of another version; put back",

@@ -195,6 +195,29 @@ fn every_page_is_written_in_short_plain_sentences() {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
+#[test]
+fn the_readme_is_short_and_the_numbers_of_its_sample_are_those_of_the_report() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let [readme, report] =
+        ["README.md", "paper_repro.md"].map(|file| fs::read_to_string(root.join(file)).unwrap());
+    let words = readme.split_whitespace().filter(|word| word.contains(char::is_alphanumeric)).count();
+    assert!((400..=900).contains(&words), "{words} words");
+    let report = report.split_whitespace().collect::<Vec<_>>().join(" ");
+    let sample: Vec<&str> =
+        readme.lines().filter(|line| line.starts_with("    ") && line.contains("(n = ")).collect();
+    for line in &sample {
+        let (_, ours) = line.rsplit_once(": ").unwrap();
+        assert!(report.contains(ours), "the report does not say “{ours}”");
+    }
+    assert!(sample.len() > 2, "{sample:?}");
+}
+
+/// Folders of `src` whose comments keep to the field's words.
+const PLAIN: [&str; 12] = [
+    "audit", "base", "cli", "engine", "export", "external", "page", "proofs", "render", "stats", "study",
+    "verify",
+];
+
 /// The comments of a file of Rust, each with the number of its first line.
 fn comments(text: &str) -> Vec<(usize, String)> {
     let mut found: Vec<(usize, String)> = Vec::new();
@@ -285,27 +308,43 @@ fn every_help_is_written_in_short_plain_sentences() {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
+/// The captions of a page in Markdown: the paragraphs that follow images, as they are read.
+fn captions(page: &str) -> Vec<String> {
+    let paragraphs: Vec<&str> = page.split("\n\n").collect();
+    let pairs = paragraphs.windows(2).filter(|pair| pair[0].trim().starts_with("!["));
+    pairs.map(|pair| read_aloud(pair[1])).collect()
+}
+
+/// The captions of tables in the specs of papers.
+fn table_captions(root: &Path) -> Vec<String> {
+    let papers = fs::read_dir(root.join("experiments")).unwrap().map(|entry| entry.unwrap().path());
+    let files = papers.flat_map(|paper| fs::read_dir(paper).unwrap()).map(|entry| entry.unwrap().path());
+    let specs = files.filter(|file| file.extension().is_some_and(|ending| ending == "toml"));
+    let tables = specs.flat_map(|file| {
+        let spec: toml::Table = fs::read_to_string(file).unwrap().parse().unwrap();
+        spec.get("table").and_then(|tables| tables.as_array().cloned()).unwrap_or_default()
+    });
+    tables.filter_map(|table| Some(table.get("caption")?.as_str()?.to_owned())).collect()
+}
+
 #[test]
 fn every_caption_has_at_most_sixty_words() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("experiments");
-    let papers = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let mut captions = 0;
-    let mut long = Vec::new();
-    for file in papers.flat_map(|paper| fs::read_dir(paper).unwrap()).map(|entry| entry.unwrap().path()) {
-        if file.extension().is_none_or(|ending| ending != "toml") {
-            continue;
-        }
-        let spec: toml::Table = fs::read_to_string(&file).unwrap().parse().unwrap();
-        let drawn = ["figure", "table"].into_iter().filter_map(|key| spec.get(key)?.as_array()).flatten();
-        for caption in drawn.filter_map(|drawn| drawn.get("caption")?.as_str()) {
-            let words = caption.split_whitespace().count();
-            captions += 1;
-            if words > 60 {
-                long.push(format!("{}: {words} words: {caption}", file.display()));
-            }
-        }
-    }
-    assert!(captions > 30, "{captions} captions");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let plots = fs::read_dir(root.join("plots")).unwrap().map(|entry| entry.unwrap().path());
+    let details = plots.map(|paper| paper.join("details.md")).filter(|path| path.is_file());
+    let pages = details.chain([root.join("paper_repro.md")]);
+    let mut captions: Vec<String> =
+        pages.flat_map(|page| captions(&fs::read_to_string(page).unwrap())).collect();
+    captions.extend(table_captions(root));
+    let words = |caption: &str| {
+        caption.split_whitespace().filter(|word| word.contains(char::is_alphanumeric)).count()
+    };
+    let long: Vec<String> = captions
+        .iter()
+        .filter(|caption| words(caption) > 60)
+        .map(|caption| format!("{} words: {caption}", words(caption)))
+        .collect();
+    assert!(captions.len() > 60, "{} captions", captions.len());
     assert!(long.is_empty(), "{}", long.join("\n"));
 }
 

@@ -32,7 +32,7 @@ fn a_spec_that_has_changed_has_one_exit_code_under_every_check() {
     ] {
         ends(&bench, check, 3);
     }
-    let why = "the stored run was made by another spec; run study `draws` again";
+    let why = "the stored run was made by another spec; `replan run` runs study `draws` again";
     for command in ["judge", "render"] {
         assert!(ends(&bench, &[command, "./mini"], 2).contains(why), "{command}");
     }

@@ -23,7 +23,7 @@ pub struct VotingChoices {
 /// Interpretations that give one result for a claim.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Group {
-    /// The first of them, by its place.
+    /// Index of the first of them.
     pub interpretation: usize,
     /// All of them that count.
     pub interpretations: Vec<usize>,

@@ -28,7 +28,7 @@ use count::{Counted, Group, VotingChoices};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use stored::Exploration;
-use study::paper::{Claim, Paper, Parts};
+use study::paper::{Claim, Paper};
 use study::{Choice, StudyError};
 use touched::Touched;
 use wording::{View, Wording};
@@ -157,8 +157,7 @@ impl OfClaim<'_> {
         let view = View { choices: self.choices, first: explored, id, counted: &counted, results: &results };
         self.say(judged, &view);
         if touched.is_elsewhere() {
-            let words = judged.beside.take().into_iter().chain([wording::ELSEWHERE.to_owned()]);
-            judged.beside = words.reduce(|one, two| format!("{one}; {two}"));
+            judged.beside.push(wording::ELSEWHERE.to_owned());
         }
         none_compatible
     }
@@ -177,8 +176,8 @@ impl OfClaim<'_> {
         let Wording { beside, depends_on } = view.wording(line);
         let is_bearing = !matches!(line, Line::Proved | Line::Lacking);
         let unvaried = wording::not_varied(&judged.not_varied).filter(|_| is_bearing);
-        let beside = judged.possible().map(str::to_owned).or(beside);
-        judged.beside = beside.into_iter().chain(unvaried).reduce(|one, two| format!("{one}; {two}"));
+        let beside = judged.possible().map_or(beside, |possible| vec![possible.to_owned()]);
+        judged.beside = beside.into_iter().chain(unvaried).collect();
         (judged.verdict, judged.depends_on) = (verdict, depends_on);
         judged.across = view.first.map(|first| self.across(first, judged, view, line));
     }
@@ -244,10 +243,7 @@ fn alone(judged: &ClaimVerdict) -> Counted {
 
 /// The verdict of a sentence that means one of its parts, from theirs, with what stands beside it; `None` of any other claim.
 fn meaning(claim: &Claim, verdicts: &Verdicts) -> Option<(String, Verdict, Wording)> {
-    let Parts::MeansOneOf(ids) = &claim.parts else { return None };
-    if claim.untestable.is_some() || claim.tests().next().is_some() {
-        return None;
-    }
+    let ids = claim.meanings()?;
     let parts: Vec<&ClaimVerdict> = ids.iter().filter_map(|id| verdicts.claim(id)).collect();
     let verdict = of_meanings(&parts.iter().map(|part| part.verdict).collect::<Vec<_>>());
     let meanings: Vec<String> =
@@ -258,7 +254,7 @@ fn meaning(claim: &Claim, verdicts: &Verdicts) -> Option<(String, Verdict, Wordi
     Some((
         claim.id.clone(),
         verdict,
-        Wording { beside: Some(format!("meanings: {}", meanings.join(", "))), depends_on },
+        Wording { beside: vec![format!("meanings: {}", meanings.join(", "))], depends_on },
     ))
 }
 

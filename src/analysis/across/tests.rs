@@ -139,8 +139,8 @@ impl Planted {
             counted: &counted,
             results: &results,
         };
-        let words = view.wording(line);
-        (words.beside.unwrap_or_default(), words.depends_on)
+        let found = view.wording(line);
+        (found.beside.join("; "), found.depends_on)
     }
 }
 

@@ -40,8 +40,8 @@ pub struct View<'a> {
 
 /// The words beside a verdict, and on what it depends.
 pub struct Wording {
-    /// What stands beside the verdict; `None` if nothing does.
-    pub beside: Option<String>,
+    /// What stands beside the verdict, the counts first.
+    pub beside: Vec<String>,
     /// On what it depends.
     pub depends_on: Option<String>,
 }
@@ -54,15 +54,15 @@ impl View<'_> {
         let mut depends_on = None;
         let is_witness = self.results.chosen == Some(Chosen::Existence);
         let beside = match line {
-            Line::Met if all > 1 => Some(format!("met under {holds} of {all}{}", self.met())),
+            Line::Met if all > 1 => vec![format!("met under {holds} of {all}{}", self.met())],
             Line::Proved | Line::Lacking | Line::All | Line::Met => {
                 let is_same = self.counted.looked > 1 && !self.results.is_unvaried;
-                is_same.then(|| format!("same under all {}", self.counted.looked))
+                is_same.then(|| format!("same under all {}", self.counted.looked)).into_iter().collect()
             }
-            Line::NoExample if !is_witness => Some(format!("met under none of {all}")),
-            Line::NoExample if all > 1 => Some(format!("no example found under {all}")),
-            Line::NoExample => Some("no example found".to_owned()),
-            Line::Refused => Some("the second seed contradicts what was fitted".to_owned()),
+            Line::NoExample if !is_witness => vec![format!("met under none of {all}")],
+            Line::NoExample if all > 1 => vec![format!("no example found under {all}")],
+            Line::NoExample => vec!["no example found".to_owned()],
+            Line::Refused => vec!["the second seed contradicts what was fitted".to_owned()],
             Line::SeedDecides => {
                 let [one, two] = [self.results.default, self.results.second].map(way);
                 self.with_counts([Some(format!("the seed decides: the first {one}, the second {two}")), None])
@@ -84,11 +84,11 @@ impl View<'_> {
     }
 
     /// The counts of several results, and more.
-    fn with_counts(&self, more: [Option<String>; 2]) -> Option<String> {
+    fn with_counts(&self, more: [Option<String>; 2]) -> Vec<String> {
         let [holds, open, fails] = self.results.counts();
         let is_counted = self.results.outcomes.len() > 1;
         let counts = is_counted.then(|| format!("{holds}/{open}/{fails} for/open/against"));
-        counts.into_iter().chain(more.into_iter().flatten()).reduce(|one, two| format!("{one}; {two}"))
+        counts.into_iter().chain(more.into_iter().flatten()).collect()
     }
 
     /// The first interpretation that meets the claim, if it is not the default.

@@ -14,7 +14,7 @@ use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Selection, is_unended};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{or_infinite, plan};
-use crate::analysis::verdict::Estimate;
+use crate::analysis::verdict::{Estimate, Quantity};
 use base::settings::{Accepted, Faults, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -349,15 +349,16 @@ impl Criterion for LeastOf<'_> {
         let all = compared(numbers, Ends::Measured);
         let outcome = self.outcome(numbers, Ends::Measured);
         let ours = largest(&all).and_then(|one| one.found().zip(Some(one))).map(|((ratio, ends), one)| {
+            let metric = self.metric.label.to_lowercase();
             let what = format!(
-                "% of the other's median {}, failures infinite, the largest of {}: {}",
-                self.metric.label.to_lowercase(),
+                "% of the other's median {metric}, failures infinite, the largest of {}: {}",
                 all.len(),
                 one.part
             );
             let is_finite = ends.low.is_finite() && ends.high.is_finite();
             let interval = is_finite.then_some([100.0 * ends.low, 100.0 * ends.high]);
-            Estimate { interval, ..Estimate::bare(100.0 * ratio, what, one.n) }
+            let ours = Estimate { interval, ..Estimate::bare(100.0 * ratio, what, one.n) };
+            ours.measures(Quantity::PercentOfOther, format!("median {metric}"))
         });
         let unended = whole(numbers).unended;
         let is_turned = unended > 0

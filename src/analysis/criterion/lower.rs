@@ -12,7 +12,7 @@ use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{
     FEWEST_INSTANCES, OverallStatistic, how, narrows, needs, plan, tied, turned,
 };
-use crate::analysis::verdict::Estimate;
+use crate::analysis::verdict::{Estimate, Quantity};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -131,9 +131,10 @@ impl<'a> Lower<'a> {
         // What fills in for those that are missing ties with nothing.
         let is_turned = ended(numbers).any(|filled| self.found(turned(filled), false) != found);
         let what = format!("change of {metric} in %, {} 95 % over instances", how(all.is_agreed));
+        let ours = Estimate::new(value, interval, what, all.n).measures(Quantity::MorePercent, metric);
         CriterionResult {
             outcome: Some(found),
-            ours: Some(Estimate::new(value, interval, what, all.n).of_cases(all.cases())),
+            ours: Some(ours.of_cases(all.cases())),
             because: std::iter::once(self.sentence(metric, (value, interval), all))
                 .chain(all.is_tied().then(|| tied(all.measured)).flatten())
                 .collect(),
@@ -219,13 +220,14 @@ impl<'a> Lower<'a> {
             points.len(),
         );
         let what = format!("least mean difference in points, at {}, simultaneous 95 % band", least.part);
+        let ours = Estimate::new(mean, band, what, all.n).measures(Quantity::MorePoints, "solved queries");
         let is_turned = [Ends::Least, Ends::Most]
             .into_iter()
             .filter_map(|ends| self.all_along(numbers, ends))
             .any(|(other, _)| other != outcome);
         CriterionResult {
             outcome: Some(outcome),
-            ours: Some(Estimate::new(mean, band, what, all.n).of_cases(all.cases())),
+            ours: Some(ours.of_cases(all.cases())),
             because: vec![because],
             limits: vec![0.0],
             units: "instances",

@@ -9,7 +9,7 @@ use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Instance, Selection};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{InstanceStatistic, LEVEL, mean, plan};
-use crate::analysis::verdict::Estimate;
+use crate::analysis::verdict::{Estimate, Quantity};
 use base::settings::{self, Accepted, SettingsError};
 use proofs::exact::Print;
 use proofs::printed::Printed;
@@ -277,9 +277,14 @@ impl Criterion for OneInstance<'_> {
             )
         }));
         let what = format!("{}: mean, 95 % predictive interval of one more instance", self.title());
+        let ours = Estimate::new(mean, interval, what, instances.values.len());
+        let ours = match self.of.metric.filter(|_| self.of.against.is_some()) {
+            Some(metric) => ours.measures(Quantity::LessPercent, metric.label.to_lowercase()),
+            None => ours,
+        };
         CriterionResult {
             outcome: Some(outcome),
-            ours: Some(Estimate::new(mean, interval, what, instances.values.len()).of_cases(all.cases())),
+            ours: Some(ours.of_cases(all.cases())),
             because,
             premises: self.premises.clone(),
             powerless,

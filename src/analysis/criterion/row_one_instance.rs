@@ -9,7 +9,7 @@ use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Case, Instance, Selection};
 use crate::analysis::selection_spec::{Labels, SelectionSpec};
 use crate::analysis::statistic::InstanceStatistic;
-use crate::analysis::verdict::Estimate;
+use crate::analysis::verdict::{Estimate, Quantity};
 use base::settings::{Accepted, Faults, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -312,7 +312,8 @@ impl Criterion for RowOneInstance<'_> {
         };
         let judged = rank.min(level.rank.p_two_sided());
         let n = place.instances;
-        let ours = Estimate::bare(judged, "the lesser rank, of shape or level", n);
+        let ours = Estimate::bare(judged, "the lesser rank, of shape or level", n)
+            .measures(Quantity::Rank, "our instances");
         CriterionResult {
             outcome: Some(outcome),
             censored: self.censored(numbers, (&level, outcome)),
@@ -345,14 +346,14 @@ mod tests {
     #[test]
     fn a_row_is_refused_from_where_few_instances_are_as_far() {
         let cells = vec![(0..101).map(|at| 30.0 + 0.4 * f64::from(at)).collect(); 3];
-        let said = power(&[50.0; 3], true, &cells, 0.05);
+        let sentence = power(&[50.0; 3], true, &cells, 0.05);
         assert_eq!(
-            said,
+            sentence,
             "power: a printed row that is 20 points lower or 20 points higher in every cell would have been refused"
         );
         // A share goes no further than 100.
         let near = vec![(0..101).map(|at| (80.0 + 0.4 * f64::from(at)).min(100.0)).collect(); 3];
-        let said = power(&[100.0; 3], true, &near, 0.05);
-        assert!(said.contains("lower in every cell") && !said.contains("higher"), "{said}");
+        let sentence = power(&[100.0; 3], true, &near, 0.05);
+        assert!(sentence.contains("lower in every cell") && !sentence.contains("higher"), "{sentence}");
     }
 }

@@ -10,6 +10,7 @@ use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Case, Instance, Selection, cases, is_unended, most_cases};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{Share, narrows, needs, plan};
+use crate::analysis::verdict::Quantity;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -378,9 +379,13 @@ impl Criterion for Counted<'_> {
             return CriterionResult { outcome: undecided, ..CriterionResult::open(because) };
         };
         let outcome = share.interval.map_or(undecided, |interval| self.outcome(interval));
+        let description = self.description();
+        // Marks and events of other columns are the same kind of number; those beyond other bounds are not.
+        let subject = self.settings.bound.map_or(self.settings.hits.label(), |_| description.as_str());
+        let ours = share.estimate(&description).measures(Quantity::Share, subject);
         CriterionResult {
             outcome,
-            ours: Some(share.estimate(&self.description()).of_cases(all.cases())),
+            ours: Some(ours.of_cases(all.cases())),
             because: std::iter::once(self.because(&share, all)).chain(self.outside(all.outside)).collect(),
             limits: self.settings.accepted.map_or_else(Vec::new, |accepted| accepted.to_vec()),
             units: "instances",

@@ -14,7 +14,7 @@ use crate::analysis::number::{Ends, Number, parts, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Instance, Selection, by_instance};
 use crate::analysis::statistic::mean;
-use crate::analysis::verdict::Estimate;
+use crate::analysis::verdict::{Estimate, Quantity};
 use base::settings::{Accepted, Faults, SettingsError};
 use nalgebra::DMatrix;
 use schemars::JsonSchema;
@@ -331,7 +331,8 @@ impl Criterion for TableMeans<'_> {
         };
         let p = combined(&rows.iter().map(|row| row.p).collect::<Vec<_>>());
         let is_kept = self.judged(p) >= self.refused_below;
-        let ours = Estimate::bare(p, "p of the joint test of all cells", all.ran);
+        let ours = Estimate::bare(p, "p of the joint test of all cells", all.ran)
+            .measures(Quantity::Probability, "the joint test");
         let power = self.power_percent(&rows).map(|percent| {
             format!("power: a table whose cells are all off by {percent:.1} % would have been refused")
         });

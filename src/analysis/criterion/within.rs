@@ -10,7 +10,7 @@ use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Instance, Selection};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_INSTANCES, OverallStatistic, how, narrows, needs, plan};
-use crate::analysis::verdict::Estimate;
+use crate::analysis::verdict::{Estimate, Quantity};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -221,6 +221,12 @@ impl Criterion for Within<'_> {
         let metric = self.metric.label.to_lowercase();
         let what =
             format!("{} of {metric}, {} 95 % over instances", self.statistic.name(), how(all.is_agreed));
+        let ours = Estimate::new(value, interval, what, all.n);
+        let ours = match self.statistic {
+            OverallStatistic::ReductionPercent => ours.measures(Quantity::LessPercent, metric.as_str()),
+            OverallStatistic::Ratio => ours.measures(Quantity::Ratio, metric.as_str()),
+            _ => ours,
+        };
         let Interval { low, high } = interval;
         let accepted = match self.printed {
             Some(printed) => format!("printed {printed}, margin {}", self.accepted.high - printed),
@@ -235,7 +241,7 @@ impl Criterion for Within<'_> {
         );
         CriterionResult {
             outcome: Some(outcome),
-            ours: Some(Estimate::new(value, interval, what, all.n).of_cases(all.cases())),
+            ours: Some(ours.of_cases(all.cases())),
             because: vec![because],
             limits: vec![self.accepted.low, self.accepted.high],
             units: "instances",

@@ -49,7 +49,7 @@ fn a_theorem_is_violated_by_what_contradicts_it_and_by_its_sign_alone() {
 #[test]
 fn a_seed_that_moves_nothing_says_so_in_place_of_its_outcome() {
     let one = |is_seedless| {
-        let beside = Some("same under all 3".to_owned());
+        let beside = vec!["same under all 3".to_owned()];
         ClaimVerdict {
             second: Some(Outcome::Holds),
             is_seedless,

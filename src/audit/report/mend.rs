@@ -81,7 +81,7 @@ pub(super) struct Refusal {
     pub(super) is_written: bool,
 }
 
-/// Takes out findings that follow from smaller ones and names them in these; gives the checks of those taken out.
+/// Removes findings that follow from smaller ones, and names them there; gives the checks of those removed.
 pub(super) fn one_a_cause(
     findings: &mut Vec<Finding>,
     mut refusals: Vec<Refusal>,

@@ -241,7 +241,7 @@ fn either(all: &[String]) -> String {
     }
 }
 
-/// What the keys of a table are where they are left out, switches aside.
+/// The defaults of a table's keys, switches aside.
 pub(super) fn defaults(schema: &Value) -> Vec<(String, toml::Value)> {
     let keys = schema.get("properties").and_then(Value::as_object).into_iter().flatten();
     let given = keys.filter_map(|(key, part)| Some((key.clone(), part.get("default")?)));

@@ -97,7 +97,7 @@ impl Settings {
         Self { table, origin, filled: Vec::new() }
     }
 
-    /// Changes what the table says; where it stands stays.
+    /// Changes the table's content; messages still name the place where it was written.
     pub fn change(&mut self, change: impl FnOnce(&mut Table)) {
         change(&mut self.table);
     }

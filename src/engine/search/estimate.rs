@@ -23,7 +23,7 @@ pub trait Estimate<C> {
 pub struct Combined<H, F> {
     /// The heuristic.
     pub h: H,
-    /// What f makes of g and h.
+    /// How g and h combine into f.
     pub combine: F,
 }
 

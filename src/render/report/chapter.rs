@@ -124,8 +124,8 @@ impl Page<'_> {
         *text += "| claim | at | ours | verdict |\n|---|---|---|---|\n";
         let details = self.details_file();
         for headline in headlines(self.evidence.paper, self.verdicts) {
-            let verdict = headline.verdict(self.verdicts);
-            let Headline { judged, says, ours } = headline;
+            let verdict = headline.verdict_in_full(self.verdicts);
+            let Headline { judged, says, ours, .. } = headline;
             let says = link(judged, &markdown(&says), &details);
             let ours = ours.map_or_else(|| "–".to_owned(), |ours| markdown(&ours));
             *text += &format!("| {says} | {} | {ours} | {} |\n", markdown(&judged.at), markdown(&verdict));

@@ -6,8 +6,8 @@ use crate::runner::BuiltStudy;
 use crate::{Inputs, Study, StudyError};
 
 impl Manifest {
-    /// What it says otherwise than a run of `study` as it is now would, one sentence each. The record files are held against it
-    /// where they are read; what cannot be found out again (the command, the machine) is believed.
+    /// How it differs from the manifest that a run of `study` would get now, one sentence each. Record files are compared with it
+    /// where they are read. The command and the machine cannot be found out again, and are believed.
     ///
     /// # Errors
     /// Those of [`Manifest::new`].

@@ -187,6 +187,14 @@ impl Claim {
         self.tests.iter().map(|(role, name, settings)| (*role, name.as_str(), settings))
     }
 
+    /// The meanings that the sentence may have, a claim each, if it is judged by them and has no test of its own.
+    pub fn meanings(&self) -> Option<&[String]> {
+        match &self.parts {
+            Parts::MeansOneOf(ids) if self.untestable.is_none() && self.tests.is_empty() => Some(ids),
+            _ => None,
+        }
+    }
+
     /// Whether it is meant under `interpretation`: what it takes for granted holds there.
     pub fn is_meant(&self, interpretation: &Interpretation) -> bool {
         let taken = interpretation.options();

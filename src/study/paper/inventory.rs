@@ -39,7 +39,7 @@ pub struct NumbersRow {
     /// begin so. Where there is `printed`, the one claim that they answer together.
     #[serde(default)]
     pub claims: Vec<Spanned<String>>,
-    /// The numbers that no claim prints by itself, digits and all, in the order in which they are printed.
+    /// Printed numbers that are no claim's own, with their digits, in the paper's order.
     #[serde(default)]
     pub printed: Vec<Spanned<String>>,
     /// The table that prints them, where its cells are no claims.

@@ -154,7 +154,7 @@ fn a_rule_that_refuses_nothing_says_what_is_possible_and_asks_for_no_instances()
     let claim = "[[claim]]\nid = \"asked\"\nat = \"here\"\nprinted = \"14.65\"\n\
                  [claim.rule.lattice_length]\nstart = [22, 15]\ngoal = [26, 28]\n";
     let judged = Synthetic::new(claim, Made::Plainly).judgement(Sample::default().records(), &[]);
-    assert_eq!(judged.beside.as_deref(), Some("possible: 9 + 4√2, cut off"));
+    assert_eq!(judged.beside, ["possible: 9 + 4√2, cut off"]);
     assert_eq!((judged.verdict.name(), judged.findings[0].outcome), ("inconclusive", None));
     let settles = judged.findings[0].settles.as_deref().unwrap();
     assert_eq!(settles, "the paper's own input: arithmetic alone can only refuse, and did not");

@@ -14,7 +14,7 @@ pub(super) struct Place {
     /// The links' frames at `q`.
     pub(super) frames: [Frame; AXES + 1],
     pub(super) rods: Vec<Capsule>,
-    /// The rods' surfaces are as far from everything at least.
+    /// Least distance of the rods' surfaces from everything else.
     pub(super) clearance_cm: f64,
 }
 

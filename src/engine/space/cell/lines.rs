@@ -71,7 +71,7 @@ pub enum Path {
 pub struct LineRules {
     /// What is straight.
     pub path: Path,
-    /// The longest step of the tool's place.
+    /// Longest step of the tool point, in metres.
     pub step_m: f64,
     /// The longest step of its orientation; of any joint on a path that is straight in joint space.
     pub step_rad: f64,

@@ -108,7 +108,7 @@ impl Local {
         }
     }
 
-    /// Whether the place goes straight on local paths, so that the distance of their ends is their length.
+    /// Whether the tool moves straight along local paths: their length is then the distance of their ends.
     pub fn is_straight(&self) -> bool {
         match self {
             Self::Arm(lines) => lines.rules().path == Path::Tool,
