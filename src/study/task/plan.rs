@@ -123,7 +123,9 @@ fn run_query(
     }
     let of_unit = |(unit, places): (&&Unit<'_>, Vec<usize>)| {
         let mut batch = Batch::default();
-        places.into_iter().for_each(|place| batch.add(done[place].under(&unit.key)));
+        for place in places {
+            batch.add(done[place].under(&unit.key));
+        }
         batch
     };
     units.iter().zip(places).map(of_unit).collect()
