@@ -8,6 +8,7 @@ use engine::planner::{Build, Entry, Invalid, Plan, Planner, Request, Stage};
 use std::collections::BTreeMap;
 use std::mem::discriminant;
 use std::ops::Range;
+use std::sync::Arc;
 use toml::Table;
 
 /// A pipeline under a label.
@@ -88,6 +89,37 @@ impl Contender {
                 faults.add(fault);
             }
         }
+    }
+}
+
+/// Pipelines that were built: most options change few contenders, so that one pipeline serves many interpretations.
+#[derive(Default)]
+pub struct Pipelines {
+    built: Vec<(usize, Vec<Table>, Arc<Pipeline>)>,
+}
+
+impl Pipelines {
+    /// The pipeline of `contender` under the interpretation `point` with the sweep's settings laid on top, built if it was not yet.
+    ///
+    /// # Errors
+    /// Those of [`Contender::pipeline`].
+    pub fn pipeline(
+        &mut self,
+        contender: &Contender,
+        point: &Interpretation,
+        sweep: &SweepPoint,
+    ) -> Result<Arc<Pipeline>, SettingsError> {
+        let settings = |stage: &StageUse| stage.effective(&contender.label, point, sweep).table().clone();
+        let settings: Vec<Table> = contender.stages.iter().map(settings).collect();
+        let is_it = |(place, tables, _): &&(usize, Vec<Table>, Arc<Pipeline>)| {
+            *place == contender.place && *tables == settings
+        };
+        if let Some((_, _, pipeline)) = self.built.iter().find(is_it) {
+            return Ok(pipeline.clone());
+        }
+        let pipeline = Arc::new(contender.pipeline(point, sweep)?);
+        self.built.push((contender.place, settings, pipeline.clone()));
+        Ok(pipeline)
     }
 }
 

@@ -255,6 +255,15 @@ impl Owner {
             Self::Trial(key) => &key.on,
         }
     }
+
+    /// The same on another instance.
+    #[must_use]
+    pub fn moved_to(self, on: Arc<InstanceKey>) -> Self {
+        match self {
+            Self::Instance(_) => Self::Instance(on),
+            Self::Trial(key) => Self::Trial(TrialKey { on, ..key }),
+        }
+    }
 }
 
 impl From<&Arc<InstanceKey>> for Owner {

@@ -8,7 +8,7 @@ mod timed;
 
 use super::checked::Study;
 use super::choice::Interpretation;
-use super::contender::SweepPoint;
+use super::contender::{Pipelines, SweepPoint};
 use super::error::StudyError;
 use super::family::Family;
 use super::group::{Families, Group};
@@ -87,6 +87,7 @@ impl<'a> BuiltStudy<'a> {
         let mut families = Vec::new();
         let mut entrants = Vec::new();
         let mut built = Families::default();
+        let mut pipelines = Pipelines::default();
         let labels: Vec<Text> = study.contenders.iter().map(|c| c.label.as_str().into()).collect();
         let sweeps = study.contender_points();
         for point in points {
@@ -95,7 +96,7 @@ impl<'a> BuiltStudy<'a> {
             let mut line_up = Vec::new();
             for (contender, label) in study.contenders.iter().zip(&labels) {
                 for sweep in &sweeps {
-                    let pipeline = contender.pipeline(point, sweep)?;
+                    let pipeline = pipelines.pipeline(contender, point, sweep)?;
                     line_up.push(Entrant { contender, label: label.clone(), sweep: sweep.clone(), pipeline });
                 }
             }
@@ -341,9 +342,11 @@ impl<'a> BuiltStudy<'a> {
             }
             Ok(found)
         };
-        // Roadmaps are dear and are searched by one thread; what else is prepared is cheap, or shared out among threads.
-        let is_apart =
-            |index: usize| parts.contains_key(&index) || units[index].family.world() != WorldKind::Roadmap;
+        // A trial of an arm or among polyhedra may take seconds, and what it is prepared for little: a stop would wait for all of them.
+        let is_apart = |index: usize| {
+            let is_long = [WorldKind::Arm, WorldKind::ArmAmongPolyhedra, WorldKind::Polyhedra];
+            parts.contains_key(&index) || is_long.contains(&units[index].family.world())
+        };
         let todo = alike(&units, &todo, is_apart);
         let fresh: Vec<_> = todo.par_iter().map(work).collect::<Result<_, _>>()?;
         progress.end();

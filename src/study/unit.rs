@@ -55,8 +55,8 @@ pub struct Entrant<'a> {
     pub label: Text,
     /// The sweeps' values.
     pub sweep: SweepPoint,
-    /// The pipeline built from both.
-    pub pipeline: Pipeline,
+    /// The pipeline built from both; interpretations that set nothing of it share it.
+    pub pipeline: Arc<Pipeline>,
 }
 
 impl Unit<'_> {
@@ -118,6 +118,13 @@ fn query_key(query: &Query) -> Option<Text> {
 }
 
 impl Entrant<'_> {
+    /// Whether its trials on a problem are also those of `other`, whose seeds are derived from the same names.
+    pub fn plans_as(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.pipeline, &other.pipeline)
+            && self.sweep.key == other.sweep.key
+            && !self.contender.is_recorded()
+    }
+
     /// The seed of one run: it depends on names only, so that adding a contender moves no other.
     pub fn seed(&self, terms: &StudyContext<'_>, problem: &str, repeat: u32) -> u64 {
         let label = &self.contender.label;

@@ -4,7 +4,7 @@ use super::lattice::{Posed, SightSetting, TiesSetting, check_sight, sees};
 use super::one_side::{Found, OneSided};
 use super::pool::Pool;
 use super::{Invalid, Plan, Planner, Request};
-use crate::search::{AnyAngle, AnyAngleRules, Branching, Heap, Observer, Seen, Sighted, When};
+use crate::search::{AnyAngle, AnyAngleRules, Branching, BucketHeap, Observer, Seen, Sighted, When};
 use crate::shorten::path_length;
 use base::settings::{Faults, Settings, SettingsError};
 use schemars::JsonSchema;
@@ -33,7 +33,7 @@ pub(super) struct AnyAngleSettings {
     /// Which lines of sight are counted; those that are `looked_at` if absent.
     counted_sight: Option<CountedSetting>,
     #[serde(skip)]
-    pool: Pool<AnyAngle<Heap>>,
+    pool: Pool<AnyAngle<BucketHeap>>,
 }
 
 /// How many neighbours a node has, as settings write it.
@@ -93,7 +93,7 @@ impl OneSided for Timed {
         let world = posed.world;
         let grid = posed.world.grid();
         let sight = settings.line_of_sight.into();
-        let sees = |from: u32, to: u32| sees(world, sight, grid.xy(from), grid.xy(to));
+        let sees = |from: [i32; 2], to: [i32; 2]| sees(world, sight, from, to);
         let on = Sighted { grid, moves: world.moves(), sees };
         let rules = AnyAngleRules {
             when: self.when,
@@ -107,7 +107,7 @@ impl OneSided for Timed {
             counts_all: settings.counted_sight == Some(CountedSetting::Printed),
             max_expansions: expansions,
         };
-        let mut search = settings.pool.any(|| AnyAngle::new(Heap::new(settings.ties.into())));
+        let mut search = settings.pool.any(|| AnyAngle::new(BucketHeap::new(settings.ties.into())));
         let Seen { report, sight_checks } = search.solve(&on, rules, [posed.start, posed.goal], observer);
         settings.pool.keep(search);
         Found { sight_checks: Some(sight_checks), ..report.into() }

@@ -6,7 +6,7 @@
 use super::corners::{self, TiesAlone};
 use super::lattice::COLUMNS_DISTINCT;
 use super::{Build, Entry};
-use crate::search::{AngleRanges, Heap};
+use crate::search::{AngleRanges, BucketHeap};
 use crate::space::WorldKind;
 use base::settings::Accepted;
 
@@ -21,5 +21,5 @@ pub static ENTRY: Entry = Entry {
     example: r#"
 ties = "smaller_g"
 "#,
-    build: Build::Planner(corners::built::<AngleRanges<Heap>>),
+    build: Build::Planner(corners::built::<AngleRanges<BucketHeap>>),
 };

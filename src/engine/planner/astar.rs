@@ -5,8 +5,8 @@ use super::one_side::{Found, OneSided};
 use super::pool::Pool;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
-    Combined, Estimate, GridGraph, Heap, Observer, Octile, Report, Rules, Search, SideInputs, Stop, Update,
-    euclidean_to, falling, octile_to, weighted,
+    BucketHeap, Combined, Estimate, GridGraph, Observer, Octile, Report, Rules, Search, SideInputs, Stop,
+    Update, euclidean_to, falling, octile_to, weighted,
 };
 use crate::space::WorldKind;
 use base::grid::NeighbourOrder;
@@ -57,7 +57,7 @@ struct Astar {
     /// The distance to the goal that h is; `euclidean` if absent.
     heuristic: Option<Heuristic>,
     #[serde(skip)]
-    pool: Pool<Search<Octile, Heap>>,
+    pool: Pool<Search<Octile, BucketHeap>>,
 }
 
 /// f = g + h.
@@ -149,7 +149,7 @@ impl Astar {
             update: Update { take_equal: self.equal_ways == Some(EqualWays::Last), ..UPDATE },
         };
         let rules = Rules { stop: Stop::GoalPopped, max_expansions: expansions };
-        let mut search = self.pool.any(|| Search::new(Heap::new(self.ties.into())));
+        let mut search = self.pool.any(|| Search::new(BucketHeap::new(self.ties.into())));
         let report = search.run(terms, posed.start, |cell| cell == goal, rules, &mut ());
         self.pool.keep(search);
         report

@@ -4,7 +4,7 @@ use super::lattice::{Posed, TiesSetting};
 use super::one_side::{Found, OneSided};
 use super::pool::Pool;
 use super::{Invalid, Plan, Planner, Request};
-use crate::search::{AngleRanges, Cornered, Heap, Interpolated, Observer};
+use crate::search::{AngleRanges, BucketHeap, Cornered, Interpolated, Observer};
 use crate::space::LatticeWorld;
 use base::settings::{Settings, SettingsError};
 use schemars::JsonSchema;
@@ -27,7 +27,7 @@ pub(super) struct TiesAlone {
 /// A search between corners of cells.
 pub(super) trait CornerSearch: Send + 'static {
     /// With an empty memory.
-    fn new(frontier: Heap) -> Self;
+    fn new(frontier: BucketHeap) -> Self;
 
     /// What it finds between `ends`.
     fn solve(
@@ -39,8 +39,8 @@ pub(super) trait CornerSearch: Send + 'static {
     ) -> Found<f64>;
 }
 
-impl CornerSearch for AngleRanges<Heap> {
-    fn new(frontier: Heap) -> Self {
+impl CornerSearch for AngleRanges<BucketHeap> {
+    fn new(frontier: BucketHeap) -> Self {
         Self::new(frontier)
     }
 
@@ -55,8 +55,8 @@ impl CornerSearch for AngleRanges<Heap> {
     }
 }
 
-impl CornerSearch for Interpolated<Heap> {
-    fn new(frontier: Heap) -> Self {
+impl CornerSearch for Interpolated<BucketHeap> {
+    fn new(frontier: BucketHeap) -> Self {
         Self::new(frontier)
     }
 
@@ -91,7 +91,7 @@ impl<S: CornerSearch> OneSided for BetweenCorners<S> {
     type Cost = f64;
 
     fn search<O: Observer>(&self, posed: &Posed<'_>, expansions: u64, observer: &mut O) -> Found<f64> {
-        let mut search = self.pool.any(|| S::new(Heap::new(self.ties.into())));
+        let mut search = self.pool.any(|| S::new(BucketHeap::new(self.ties.into())));
         let found = search.solve(&cornered(posed.world), [posed.start, posed.goal], expansions, observer);
         self.pool.keep(search);
         found

@@ -3,7 +3,7 @@
 use super::corners::{self, TiesAlone};
 use super::lattice::COLUMNS_DISTINCT;
 use super::{Build, Entry};
-use crate::search::{Heap, Interpolated};
+use crate::search::{BucketHeap, Interpolated};
 use crate::space::WorldKind;
 use base::settings::Accepted;
 
@@ -18,5 +18,5 @@ pub static ENTRY: Entry = Entry {
     example: r#"
 ties = "larger_g"
 "#,
-    build: Build::Planner(corners::built::<Interpolated<Heap>>),
+    build: Build::Planner(corners::built::<Interpolated<BucketHeap>>),
 };

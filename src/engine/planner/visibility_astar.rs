@@ -8,7 +8,7 @@ use super::one_side::{Found, OneSided};
 use super::pool::Pool;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
-    Combined, Cornered, Graph, Heap, Observer, Rules, Search, SideInputs, Stop, euclidean_to, sum,
+    BucketHeap, Combined, Cornered, Graph, Observer, Rules, Search, SideInputs, Stop, euclidean_to, sum,
 };
 use crate::space::WorldKind;
 use base::grid::seen_corners;
@@ -42,7 +42,7 @@ struct VisibilityAstar {
     /// Which corners of blocked cells are vertices.
     vertices: VerticesSetting,
     #[serde(skip)]
-    pool: Pool<Search<f64, Heap>>,
+    pool: Pool<Search<f64, BucketHeap>>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -133,7 +133,7 @@ impl OneSided for VisibilityAstar {
         }
         let estimate = Combined { h: euclidean_to(on.grid, goal), combine: sum };
         let mut graph = Visible::new(on, vertices);
-        let mut search = self.pool.any(|| Search::new(Heap::new(self.ties.into())));
+        let mut search = self.pool.any(|| Search::new(BucketHeap::new(self.ties.into())));
         let terms = SideInputs { graph: &mut graph, estimate: &estimate, observer, update: UPDATE };
         let rules = Rules { stop: Stop::GoalPopped, max_expansions: expansions };
         let report = search.run(terms, posed.start, |corner| corner == goal, rules, &mut ());

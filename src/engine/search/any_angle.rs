@@ -11,7 +11,7 @@
 //! Theta\*: Any-Angle Path Planning and Path Length Analysis in 3D*, AAAI 2010.
 
 use super::cost::Cost as _;
-use super::estimate::{Combined, euclidean_to, weighted};
+use super::estimate::{Combined, distance, euclidean_to, weighted};
 use super::frontier::Frontier;
 use super::graph::{Graph, GridGraph};
 use super::observe::{Observer, Place};
@@ -72,7 +72,7 @@ pub struct Sighted<'a, S> {
     pub grid: &'a Grid2,
     /// The legal moves.
     pub moves: &'a Moves,
-    /// Whether the second cell is seen from the first.
+    /// Whether the second cell is seen from the first, each by column and row.
     pub sees: S,
 }
 
@@ -98,7 +98,7 @@ impl<Q: Frontier> AnyAngle<Q> {
     }
 
     /// A path from the first to the second of `ends`; the search ends when the goal is taken from OPEN.
-    pub fn solve<S: Fn(u32, u32) -> bool>(
+    pub fn solve<S: Fn([i32; 2], [i32; 2]) -> bool>(
         &mut self,
         on: &Sighted<'_, S>,
         rules: AnyAngleRules,
@@ -123,7 +123,7 @@ impl<Q: Frontier> AnyAngle<Q> {
                 break Outcome::BudgetSpent;
             }
             self.side.close(offer.node, terms.observer);
-            let way = Way::from(&self.side, offer.node);
+            let way = Way::from(&self.side, on.grid, offer.node);
             let choose = |side: &Side<f64, Q>, to: u32, cost: f64| {
                 way.to(side, on, (to, cost), rules, &mut sight_checks)
             };
@@ -134,7 +134,7 @@ impl<Q: Frontier> AnyAngle<Q> {
 
     /// Hangs the open `node` under the closed neighbour over which it is reached at least cost, if its parent does not see
     /// it; how many lines of sight were looked at.
-    fn look<S: Fn(u32, u32) -> bool>(
+    fn look<S: Fn([i32; 2], [i32; 2]) -> bool>(
         &mut self,
         on: &Sighted<'_, S>,
         branching: Branching,
@@ -142,7 +142,7 @@ impl<Q: Frontier> AnyAngle<Q> {
         observer: &mut impl Observer,
     ) -> u64 {
         let Some(parent) = self.side.parent(node) else { return 0 };
-        if !(on.sees)(parent, node) {
+        if !(on.sees)(on.grid.xy(parent), on.grid.xy(node)) {
             let mut best: Option<(u32, f64)> = None;
             Plane::new(on, branching).successors(node, |from, cost| {
                 let is_closed = self.side.place(from) == Place::Closed;
@@ -167,18 +167,19 @@ impl<Q: Frontier> AnyAngle<Q> {
 struct Way {
     /// The node, and its g.
     node: (u32, f64),
-    /// Its parent, and the parent's g; the root has none.
-    parent: Option<(u32, f64)>,
+    /// Its parent, the parent's g, and where the parent is; the root has none.
+    parent: Option<(u32, f64, [i32; 2])>,
 }
 
 impl Way {
-    fn from<Q: Frontier>(side: &Side<f64, Q>, node: u32) -> Self {
-        let known = |node: u32| (node, side.g(node).unwrap_or_default());
-        Self { node: known(node), parent: side.parent(node).map(known) }
+    fn from<Q: Frontier>(side: &Side<f64, Q>, grid: &Grid2, node: u32) -> Self {
+        let g = |node: u32| side.g(node).unwrap_or_default();
+        let parent = side.parent(node).map(|parent| (parent, g(parent), grid.xy(parent)));
+        Self { node: (node, g(node)), parent }
     }
 
     /// The parent and g of a successor, one move of length `cost` away.
-    fn to<Q: Frontier, S: Fn(u32, u32) -> bool>(
+    fn to<Q: Frontier, S: Fn([i32; 2], [i32; 2]) -> bool>(
         &self,
         side: &Side<f64, Q>,
         on: &Sighted<'_, S>,
@@ -188,18 +189,22 @@ impl Way {
     ) -> (u32, f64) {
         let (node, g) = self.node;
         let place = side.place(to);
-        let is_left = place == Place::Closed && !rules.reopens;
-        let looks = rules.when == When::Generated && !is_left;
+        if place == Place::Closed && !rules.reopens {
+            // It stays as it is, whatever the way.
+            return (node, g + cost);
+        }
+        let looks = rules.when == When::Generated;
         *sight_checks += u64::from(looks && rules.counts_all);
-        let Some((parent, g_parent)) = self.parent else { return (node, g + cost) };
-        let straight = g_parent + euclidean_to(on.grid, parent)(to);
+        let Some((parent, g_parent, from)) = self.parent else { return (node, g + cost) };
+        let at = on.grid.xy(to);
+        let straight = g_parent + distance(from, at);
         // The way over the node is no shorter.
         let would_improve = place == Place::Unseen || side.g(to).is_none_or(|known| straight.is_below(known));
         if !(looks && would_improve) {
             return (parent, straight);
         }
         *sight_checks += u64::from(!rules.counts_all);
-        if (on.sees)(parent, to) { (parent, straight) } else { (node, g + cost) }
+        if (on.sees)(from, at) { (parent, straight) } else { (node, g + cost) }
     }
 }
 
@@ -224,14 +229,14 @@ struct Plane<'a, S> {
     branching: Branching,
 }
 
-impl<'a, S: Fn(u32, u32) -> bool> Plane<'a, S> {
+impl<'a, S: Fn([i32; 2], [i32; 2]) -> bool> Plane<'a, S> {
     fn new(on: &'a Sighted<'a, S>, branching: Branching) -> Self {
         let kept = if branching == Branching::Four { STRAIGHT } else { u8::MAX };
         Self { on, moves: GridGraph::new(on.moves).only(kept), branching }
     }
 }
 
-impl<S: Fn(u32, u32) -> bool> Graph for Plane<'_, S> {
+impl<S: Fn([i32; 2], [i32; 2]) -> bool> Graph for Plane<'_, S> {
     type Cost = f64;
 
     fn node_count(&self) -> usize {
@@ -247,7 +252,7 @@ impl<S: Fn(u32, u32) -> bool> Graph for Plane<'_, S> {
         for [dx, dy] in KNIGHT {
             if let Some(to) = self.on.grid.cell(x + dx, y + dy)
                 && self.on.grid.is_free(to)
-                && (self.on.sees)(node, to)
+                && (self.on.sees)([x, y], [x + dx, y + dy])
             {
                 visit(to, 5.0_f64.sqrt());
             }

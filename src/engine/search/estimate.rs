@@ -70,6 +70,12 @@ pub fn euclidean_to(grid: &Grid2, target: u32) -> impl Fn(u32) -> f64 {
     }
 }
 
+/// The Euclidean distance in cells between two cells, each by column and row.
+pub(super) fn distance(one: [i32; 2], other: [i32; 2]) -> f64 {
+    let [dx, dy] = [0, 1].map(|axis: usize| f64::from(one[axis].abs_diff(other[axis])));
+    (dx * dx + dy * dy).sqrt()
+}
+
 /// The octile distance in cells to `target`: the length of a shortest 8-connected path without obstacles.
 pub fn octile_to(grid: &Grid2, target: u32) -> impl Fn(u32) -> f64 {
     let distance = cells_apart(grid.width(), target);

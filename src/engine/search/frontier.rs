@@ -66,6 +66,24 @@ pub enum Ties {
     Smaller,
 }
 
+impl Ties {
+    /// What tells offers of one f apart before their places do.
+    pub(super) fn depth(self, g: f64, tie: u64) -> u64 {
+        match self {
+            Self::Fifo | Self::Lifo => 0,
+            Self::LargerG => !quantised(g),
+            Self::SmallerG => quantised(g),
+            Self::Smaller => tie,
+        }
+    }
+
+    /// The place of an offer among those that are equal but for it, and the offer's stamp in the last 32 bits.
+    pub(super) fn last(self, rank: u32, stamp: u32) -> u64 {
+        let place = if self == Self::Lifo { !rank } else { rank };
+        u64::from(place) << 32 | u64::from(stamp)
+    }
+}
+
 /// A binary heap in the total order (f, tie rule, offer).
 #[derive(Clone, Debug, Default)]
 pub struct Heap {
@@ -119,18 +137,10 @@ impl Frontier for Heap {
             self.nodes.resize(at + 1, 0);
         }
         self.nodes[at] = node;
-        let place = if self.ties == Ties::Lifo { !rank } else { rank };
-        let last = u64::from(place) << 32 | u64::from(stamp);
+        let last = self.ties.last(rank, stamp);
         match &mut self.keys {
             Keys::Flat(keys) => keys.push(Reverse(u128::from(f) << 64 | u128::from(last))),
-            Keys::Deep(keys) => {
-                let depth = match self.ties {
-                    Ties::LargerG => !quantised(g),
-                    Ties::SmallerG => quantised(g),
-                    _ => tie,
-                };
-                keys.push(Reverse([f, depth, last]));
-            }
+            Keys::Deep(keys) => keys.push(Reverse([f, self.ties.depth(g, tie), last])),
         }
     }
 

@@ -3,7 +3,7 @@
 //! Methods differ in parts and not in copies:
 //! - the successor rule ([`Graph`]);
 //! - the estimate f of (node, g) ([`Estimate`]): f = g + h, weighted, or with falling weight;
-//! - the order among equal f (the [`Frontier`]): a [`Heap`] with a [`Ties`] rule, or [`Buckets`];
+//! - the order among equal f (the [`Frontier`]): a [`Heap`] or [`BucketHeap`] with a [`Ties`] rule, or [`Buckets`];
 //! - whether the g of an open node is lowered, and whether closed nodes reopen ([`Update`]);
 //! - when to stop ([`Stop`]), what is tried before an expansion ([`BeforeExpansion`]) and who watches ([`Observer`]).
 //!
@@ -33,6 +33,7 @@
 mod angle_ranges;
 mod any_angle;
 mod bidirectional;
+mod bucket_heap;
 mod buckets;
 mod cost;
 mod cubic_astar;
@@ -57,6 +58,7 @@ mod tests;
 pub use angle_ranges::{AngleRanges, Cornered};
 pub use any_angle::{AnyAngle, AnyAngleRules, Branching, Seen, Sighted, When};
 pub use bidirectional::{Bidirectional, BidirectionalReport, BidirectionalRules, End, Meeting, SideChoice};
+pub use bucket_heap::BucketHeap;
 pub use buckets::Buckets;
 pub use cost::{Cost, Octile, quantised};
 pub use cubic_astar::{CubicAstar, CubicQuery};

@@ -187,14 +187,15 @@ impl<'a> Map<'a> {
             goal,
             ["opened by the start's side", "opened by the goal's side"],
         );
-        if let Some(raw) = self.trace("raw_path") {
-            let dashed = Stroke::solid(BLUE, 1.0).dashed(Dash::Dashed);
-            panel.add(Line::through(self.way(raw), dashed).labelled("path as searched"));
-        }
         if let Some(path) = self.trace("path") {
             panel
                 .add(Line::through(self.way(path), Stroke::solid(VERMILLION, 1.6)).labelled("returned path"));
             ask::add_ends(&mut panel, &self.way(path), 3.2, ENDS);
+        }
+        // On top: a path that was tidied by less than a cell would hide it.
+        if let Some(raw) = self.trace("raw_path") {
+            let dashed = Stroke::solid(BLUE, 1.0).dashed(Dash::Dashed);
+            panel.add(Line::through(self.way(raw), dashed).labelled("path as searched"));
         }
         Ok(panel)
     }

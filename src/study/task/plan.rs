@@ -2,7 +2,7 @@
 
 use super::{Entry, Task};
 use crate::family::Query;
-use crate::key::Owner;
+use crate::key::{InstanceKey, Owner, TrialKey};
 use crate::preprocessing::Preprocessing;
 use crate::record::{Batch, Kept, Row, Status};
 use crate::unit::{Entrant, Unit};
@@ -11,6 +11,7 @@ use base::settings::{Accepted, NoSettings};
 use engine::planner::{Counts, Invalid, Plan, Request, Trace};
 use rayon::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -30,33 +31,11 @@ struct PlanTask;
 
 impl Task for PlanTask {
     fn run(&self, unit: &Unit<'_>) -> Batch {
-        let queries = unit.queries();
-        let preprocessing = unit.family.prepare(unit.seed);
-        let guide = guide(&preprocessing, &queries);
-        let mut batch = Batch::default();
-        begin(unit, &preprocessing, &mut batch);
-        let run = |index: usize| {
-            let mut batch = Batch::default();
-            let truth =
-                preprocessing.as_ref().ok().map(|p| verification::truth(&p.world, &queries[index], &guide));
-            run_query(unit, (preprocessing.as_ref(), truth.as_ref()), (index, &queries[index]), &mut batch);
-            batch
-        };
-        // A roadmap numbers the ends of its queries as they come, so that their order matters; a lattice learns nothing.
-        let is_lattice = preprocessing.as_ref().is_ok_and(|p| p.world.as_lattice().is_some());
-        let done: Vec<Batch> = if is_lattice {
-            (0..queries.len()).into_par_iter().map(run).collect()
-        } else {
-            (0..queries.len()).map(run).collect()
-        };
-        for part in done {
-            batch.add(part);
-        }
-        batch
+        self.run_alike(&[unit]).remove(0)
     }
 
     fn run_alike(&self, units: &[&Unit<'_>]) -> Vec<Batch> {
-        let [first, _, ..] = units else { return units.iter().map(|unit| self.run(unit)).collect() };
+        let [first, ..] = units else { return Vec::new() };
         let queries = first.queries();
         let preprocessing = first.family.prepare(first.seed);
         let guide = guide(&preprocessing, &queries);
@@ -64,12 +43,21 @@ impl Task for PlanTask {
         for (unit, batch) in units.iter().zip(&mut batches) {
             begin(unit, &preprocessing, batch);
         }
-        for (index, query) in queries.iter().enumerate() {
+        let run = |index: usize| {
             // What the verifier learns about a query on one unit it need not work out again on the next.
-            let truth = preprocessing.as_ref().ok().map(|p| verification::truth(&p.world, query, &guide));
-            for (unit, batch) in units.iter().zip(&mut batches) {
-                run_query(unit, (preprocessing.as_ref(), truth.as_ref()), (index, query), batch);
-            }
+            let truth =
+                preprocessing.as_ref().ok().map(|p| verification::truth(&p.world, &queries[index], &guide));
+            run_query(units, (preprocessing.as_ref(), truth.as_ref()), (index, &queries[index]))
+        };
+        // A roadmap numbers the ends of its queries as they come, so that their order matters; a lattice learns nothing.
+        let is_lattice = preprocessing.as_ref().is_ok_and(|p| p.world.as_lattice().is_some());
+        let done: Vec<Vec<Batch>> = if is_lattice {
+            (0..queries.len()).into_par_iter().map(run).collect()
+        } else {
+            (0..queries.len()).map(run).collect()
+        };
+        for of_query in done {
+            batches.iter_mut().zip(of_query).for_each(|(batch, part)| batch.add(part));
         }
         batches
     }
@@ -89,15 +77,14 @@ fn begin(unit: &Unit<'_>, preprocessing: &Result<Preprocessing, Invalid>, batch:
     }
 }
 
-/// Every contender on one query.
+/// Every contender on one query in each of `units`; one that several units have plans once.
 fn run_query(
-    unit: &Unit<'_>,
+    units: &[&Unit<'_>],
     (preprocessing, truth): (Result<&Preprocessing, &Invalid>, Option<&Truth>),
     (index, query): (usize, &Query),
-    batch: &mut Batch,
-) {
-    let known = unit.family.known(index);
-    let run = |entrant: &Entrant<'_>| {
+) -> Vec<Batch> {
+    let known = units[0].family.known(index);
+    let run = |(unit, entrant): &(&Unit<'_>, &Entrant<'_>)| {
         let mut batch = Batch::default();
         for repeat in 0..entrant.contender.repeats {
             let trial = Trial { unit, query, entrant, repeat, known: &known };
@@ -109,16 +96,39 @@ fn run_query(
         }
         batch
     };
-    // Among polyhedra a single trial may take seconds, and nothing is learnt from one to the next.
-    let is_long = preprocessing.is_ok_and(|p| p.world.as_polyhedra().is_some());
-    let done: Vec<Batch> = if is_long {
-        unit.entrants.par_iter().map(|entrant| run(entrant)).collect()
-    } else {
-        unit.entrants.iter().map(|entrant| run(entrant)).collect()
-    };
-    for part in done {
-        batch.add(part);
+    let mut different: Vec<(&Unit<'_>, &Entrant<'_>)> = Vec::new();
+    let mut places = Vec::new();
+    for unit in units {
+        let mut of_unit = Vec::new();
+        for entrant in unit.entrants.iter().copied() {
+            let place = different.iter().position(|(_, known)| entrant.plans_as(known));
+            of_unit.push(place.unwrap_or(different.len()));
+            if place.is_none() {
+                different.push((unit, entrant));
+            }
+        }
+        places.push(of_unit);
     }
+    // Nothing is learnt from one trial to the next among polyhedra, where one may take seconds, and on a lattice, where units that
+    // share one may be all that there is to do.
+    let is_shared_out = preprocessing
+        .is_ok_and(|p| p.world.as_polyhedra().is_some() || p.world.as_lattice().is_some() && units.len() > 1);
+    let done: Vec<Batch> = if is_shared_out {
+        different.par_iter().map(run).collect()
+    } else {
+        different.iter().map(run).collect()
+    };
+    if units.len() == 1 {
+        return vec![done.into_iter().fold(Batch::default(), Batch::with)];
+    }
+    let of_unit = |(unit, places): (&&Unit<'_>, Vec<usize>)| {
+        let mut batch = Batch::default();
+        for place in places {
+            batch.add(done[place].under(&unit.key));
+        }
+        batch
+    };
+    units.iter().zip(places).map(of_unit).collect()
 }
 
 impl Batch {
@@ -126,6 +136,17 @@ impl Batch {
     fn add(&mut self, part: Self) {
         self.rows.extend(part.rows);
         self.kept.extend(part.kept);
+    }
+
+    /// The same trials, as those of the instance called `key`.
+    fn under(&self, key: &Arc<InstanceKey>) -> Self {
+        let row = |row: &Row| Row { key: TrialKey { on: key.clone(), ..row.key.clone() }, ..row.clone() };
+        let kept = |kept: &Kept| Kept { of: kept.of.clone().moved_to(key.clone()), ..kept.clone() };
+        Self {
+            preprocessing: Vec::new(),
+            rows: self.rows.iter().map(row).collect(),
+            kept: self.kept.iter().map(kept).collect(),
+        }
     }
 
     fn keep(&mut self, of: &Owner, traces: Vec<Trace>) {

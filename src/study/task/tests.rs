@@ -1,12 +1,15 @@
 use crate::Inputs;
+use crate::choice::Interpretation;
 use crate::lock::Lock;
 use crate::paper::Paper;
+use crate::record::Batch;
 use crate::rerun::rerun;
 use crate::runner::{BuiltStudy, Unwatched};
 use crate::session::{Again, Options, run, run_one};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 const PAPER: &str = "[source]\ntitle = 'a test'\n[prints]\nfigures = 0\ntables = 0\nequations = 0\n";
@@ -177,4 +180,31 @@ fn units_that_share_what_is_prepared_give_what_each_gives_alone() {
         assert!(together == [built.run_unit(&first), built.run_unit(&other)], "{name}");
         assert!(together[0].rows.len() > together[1].rows.len(), "{name}");
     }
+}
+
+#[test]
+fn interpretations_of_one_map_give_what_each_gives_alone_and_share_contenders_that_they_leave_as_they_are() {
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
+    let inputs = Inputs { roots: vec![root.to_owned()] };
+    let paper = Paper::load(&root.join("experiments/theta"), &inputs).unwrap();
+    let study = paper.study("replays").unwrap();
+    let points = [None, Some(("smoothing", "goal")), Some(("ties", "larger_g"))].map(|other| {
+        let other = other.iter().map(|(choice, option)| ((*choice).to_owned(), (*option).to_owned()));
+        Interpretation::new(&study.choices, &other.collect()).unwrap()
+    });
+    let built = BuiltStudy::new(study, &points, &inputs).unwrap();
+    let units = built.units();
+    let pipelines: BTreeSet<_> = units
+        .iter()
+        .flat_map(|unit| unit.entrants.iter().map(|entrant| Arc::as_ptr(&entrant.pipeline).addr()))
+        .collect();
+    // The six of the defaults, A* PS smoothed from the goal, Theta* and AP Theta* with the other ties.
+    assert_eq!(pipelines.len(), 9);
+    let task = (study.task.build)(&study.task_settings).unwrap();
+    let together = task.run_alike(&units.iter().collect::<Vec<_>>());
+    let alone: Vec<_> = units.iter().map(|unit| built.run_unit(unit)).collect();
+    assert!(together == alone);
+    let whole = |batch: &Batch| batch.rows.len() == 6 && !batch.kept.is_empty();
+    assert!(together.iter().all(whole));
+    assert_ne!(together[0].rows[5].values, together[1].rows[5].values, "A* PS is smoothed otherwise");
 }

@@ -16,7 +16,7 @@ struct Plain<'a, S> {
     looks: u64,
 }
 
-impl<S: Fn(u32, u32) -> bool> Plain<'_, S> {
+impl<S: Fn([i32; 2], [i32; 2]) -> bool> Plain<'_, S> {
     fn apart(&self, a: u32, b: u32) -> f64 {
         let ([ax, ay], [bx, by]) = (self.on.grid.xy(a), self.on.grid.xy(b));
         f64::from((ax - bx).pow(2) + (ay - by).pow(2)).sqrt()
@@ -24,7 +24,7 @@ impl<S: Fn(u32, u32) -> bool> Plain<'_, S> {
 
     fn look(&mut self, from: u32, to: u32) -> bool {
         self.looks += 1;
-        (self.on.sees)(from, to)
+        (self.on.sees)(self.on.grid.xy(from), self.on.grid.xy(to))
     }
 
     fn set_vertex(&mut self, node: u32) {
@@ -81,9 +81,10 @@ impl<S: Fn(u32, u32) -> bool> Plain<'_, S> {
     }
 }
 
-fn sighted(case: &Case) -> Sighted<'_, impl Fn(u32, u32) -> bool> {
+fn sighted(case: &Case) -> Sighted<'_, impl Fn([i32; 2], [i32; 2]) -> bool> {
     // Closed cells see no more than any corner rule lets through.
-    let sees = |from, to| Sight::ClosedCells.is_clear(&case.grid, from, to);
+    let sees =
+        |from, to| Sight::ClosedCells.all_cells(from, to, |[x, y]: [i32; 2]| case.grid.is_free_xy(x, y));
     Sighted { grid: &case.grid, moves: &case.moves, sees }
 }
 
@@ -141,7 +142,11 @@ fn a_path_is_a_polyline_of_free_segments_and_moves_as_long_as_it_says() {
             let mut length = 0.0;
             for pair in route.nodes.windows(2) {
                 let is_move = case.moves.from_cell(pair[0]).any(|(to, _)| to == pair[1]);
-                assert!(is_move || (on.sees)(pair[0], pair[1]), "seed {}: {pair:?}", case.seed);
+                assert!(
+                    is_move || (on.sees)(on.grid.xy(pair[0]), on.grid.xy(pair[1])),
+                    "seed {}: {pair:?}",
+                    case.seed
+                );
                 length += euclidean_to(&case.grid, pair[1])(pair[0]);
             }
             assert!((length - route.cost).abs() < 1e-9, "seed {}", case.seed);
