@@ -1,5 +1,6 @@
 //! From a spec to checked types. A fault is reported with file, line, column, the value found and the values accepted.
 
+use super::super::choice::Change;
 use super::super::contender::{StageUse, SweepPoint, Swept};
 use super::super::error::StudyError;
 use super::super::inputs::Inputs;
@@ -231,7 +232,10 @@ fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, Setting
         Some(file) => written.overlaid(&each::filled(written.table(), file), &format!("file {file}")),
         None => written,
     };
+    let place = || Place::of_table(document, &["problems", &spec.place.to_string()]);
+    let stage = Some(&spec.stage).filter(|stage| !stage.is_empty());
     Ok(Group {
+        stage: stage.map(|stage| Change::by_problems(spec.label.get_ref(), stage.clone(), place())),
         label: spec.label.get_ref().clone(),
         place: spec.place,
         family,
