@@ -15,10 +15,10 @@ from statistics_judge.intervals import (
     clopper_pearson,
     deviation,
     median,
-    share_below,
     percentile,
     predictive,
     ratio_of_sums,
+    share_below,
     slope,
 )
 from statistics_judge.shares import share
