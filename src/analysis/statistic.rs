@@ -399,9 +399,8 @@ mod tests {
     #[test]
     fn failures_are_the_largest_numbers_of_every_quantile() {
         // In the place of the largest of 21 numbers stands a failure: the others keep their quantiles.
-        let numbers: Vec<Vec<f64>> = (0..21)
-            .map(|i| vec![if i == 20 { f64::INFINITY } else { f64::from(i) }])
-            .collect();
+        let numbers: Vec<Vec<f64>> =
+            (0..21).map(|i| vec![if i == 20 { f64::INFINITY } else { f64::from(i) }]).collect();
         for (statistic, value) in [
             (OverallStatistic::LowerQuartile, 5.0),
             (OverallStatistic::Median, 10.0),
@@ -409,7 +408,11 @@ mod tests {
             (OverallStatistic::NinetyFifthPercentile, 19.0),
         ] {
             let share = statistic.quantile().unwrap();
-            assert_eq!(pooled::quantile(&numbers, share, plan(&["x"])).unwrap().value, value, "{statistic:?}");
+            assert_eq!(
+                pooled::quantile(&numbers, share, plan(&["x"])).unwrap().value,
+                value,
+                "{statistic:?}"
+            );
             assert_eq!((statistic.is_paired(), statistic.no_difference()), (false, None));
         }
         assert_eq!(OverallStatistic::Deviation.quantile(), None);

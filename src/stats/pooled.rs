@@ -94,11 +94,7 @@ pub fn deviation(instances: &[Vec<f64>], plan: Resampling) -> Option<Estimate> {
     of_all(instances, summary::standard_deviation, plan)
 }
 
-fn of_all(
-    instances: &[Vec<f64>],
-    of: impl Fn(&[f64]) -> Option<f64>,
-    plan: Resampling,
-) -> Option<Estimate> {
+fn of_all(instances: &[Vec<f64>], of: impl Fn(&[f64]) -> Option<f64>, plan: Resampling) -> Option<Estimate> {
     let all = |instances: &[&Vec<f64>]| {
         let numbers: Vec<f64> = instances.iter().flat_map(|instance| instance.iter().copied()).collect();
         of(&numbers)

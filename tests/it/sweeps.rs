@@ -300,7 +300,8 @@ fn what_a_group_lays_over_a_planner_runs_its_trials_again_and_no_other() {
     run(&bench, "out", &[]);
     let group = "label = \"plain\"\n";
     bench.edit("mini/study.toml", group, &format!("{group}stage.astar = {{ weight = 9 }}\n"));
-    let output = bench.done(&["run", "./mini", "--out", "out"]);
+    let output = bench.done(&["run", "./mini", "--out", "out", "--why"]);
+    assert!(output.contains("(18 of 21 units reused)"), "{output}");
     assert!(output.contains("why: problem group `plain` has changed\n"), "{output}");
 }
 
@@ -308,7 +309,11 @@ fn what_a_group_lays_over_a_planner_runs_its_trials_again_and_no_other() {
 fn what_a_group_lays_over_no_contender_or_under_a_sweep_is_refused_at_its_key() {
     let group = "label = \"plain\"\n";
     for (laid, sweep, expected) in [
-        ("stage.astarr = { weight = 9 }", "", "no contender uses `astarr` (did you mean `astar`?); they use astar, jps"),
+        (
+            "stage.astarr = { weight = 9 }",
+            "",
+            "no contender uses `astarr` (did you mean `astar`?); they use astar, jps",
+        ),
         ("stage.astar = { weigth = 9 }", "", "unknown key `weigth` (did you mean `weight`?)"),
         (
             "stage.astar = { weight = 9 }",

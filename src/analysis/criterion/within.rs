@@ -132,9 +132,8 @@ impl<'a> Within<'a> {
             Some([above, below]) => ratio(context, above, below),
             None => Ok(context.print()?.printed.value()),
         };
-        let about = |printed: f64, margin: f64| {
-            (Interval::new(printed - margin, printed + margin), Some(printed))
-        };
+        let about =
+            |printed: f64, margin: f64| (Interval::new(printed - margin, printed + margin), Some(printed));
         let (accepted, printed) = match (settings.margin, settings.margin_percent, settings.accepted) {
             (Some(margin), None, None) => about(printed()?, margin),
             (None, Some(percent), None) => {

@@ -258,7 +258,9 @@ impl Study {
     fn check_what_groups_lay(&self, faults: &mut Faults) {
         let used = self.stage_names();
         let laid = self.groups.iter().filter_map(|group| Some((group, group.stage.as_ref()?)));
-        for (group, (entry, over)) in laid.flat_map(|(group, laid)| laid.stage().iter().map(move |one| (group, one))) {
+        for (group, (entry, over)) in
+            laid.flat_map(|(group, laid)| laid.stage().iter().map(move |one| (group, one)))
+        {
             let mut refuse = |key: &str, message: String| {
                 let place = format!("problems.{}.stage.{entry}{key}", group.place);
                 faults.add(self.document.error_at(&place, message).about(entry));
@@ -277,7 +279,13 @@ impl Study {
                 keys.map(move |key| (key.as_str(), format!("the default of choice `{}`", choice.id)))
             });
             for (key, by) in swept.chain(defaults).filter(|(key, _)| over.contains_key(*key)) {
-                refuse(&format!(".{key}"), format!("{by} would hide this `{key}` of problems `{}`; one of both is accepted", group.label));
+                refuse(
+                    &format!(".{key}"),
+                    format!(
+                        "{by} would hide this `{key}` of problems `{}`; one of both is accepted",
+                        group.label
+                    ),
+                );
             }
         }
     }
