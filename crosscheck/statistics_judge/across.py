@@ -20,7 +20,7 @@ OPTIONS = 2
 NO_POWER = 80.0
 
 # Settings of criteria that state a size.
-SIZES = ("by_percent", "margin", "printed_ratio", "accepted")
+SIZES = ("by_percent", "margin", "margin_percent", "printed_ratio", "accepted")
 
 # Interpretations under which nothing was seen of a claim.
 UNSEEN = ("unexplored", "unmeant")

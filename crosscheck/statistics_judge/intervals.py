@@ -216,18 +216,26 @@ def ratio_of_sums(above: Reals, below: Reals) -> Callable[[Weights], Reals]:
 
 def median(unit: Places, values: Reals) -> Callable[[Weights], Reals]:
     """The median over the cases of the units drawn; infinite numbers count."""
+    return share_below(unit, values, 0.5)
+
+
+def share_below(unit: Places, values: Reals, share: float) -> Callable[[Weights], Reals]:
+    """The number that a share of the cases of the units drawn lie below; infinite numbers count."""
     order = np.argsort(values, kind="stable")
     ordered, owner = values[order], unit[order]
 
     def statistic(weights: Weights) -> Reals:
         up_to = np.cumsum(weights[:, owner], axis=1)
         total = up_to[:, -1]
-        middles = [
-            ordered[np.minimum((up_to < place[:, None]).sum(axis=1), len(ordered) - 1)]
-            for place in ((total + 1) // 2, total // 2 + 1)
-        ]
-        # Two infinite middles have an infinite mean.
-        return np.where(total > 0, middles[0] / 2 + middles[1] / 2, np.nan)
+        place = (total - 1) * share
+        low, high = (
+            ordered[np.minimum((up_to < rank[:, None]).sum(axis=1), len(ordered) - 1)]
+            for rank in (np.floor(place) + 1, np.ceil(place) + 1)
+        )
+        part = place - np.floor(place)
+        # Infinity times nothing is no number.
+        known = np.where(part > 0, high, low)
+        return np.where(total > 0, np.where(low == known, low, low * (1 - part) + known * part), np.nan)
 
     return statistic
 

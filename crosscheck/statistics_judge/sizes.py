@@ -17,6 +17,7 @@ from statistics_judge.intervals import (
     hull,
     median,
     ratio_of_sums,
+    share_below,
     slope,
     sums_by_unit,
 )
@@ -28,6 +29,8 @@ from statistics_judge.selection import Cases, groups_of, is_drawn
 NO_DIFFERENCE = 1e-3
 # Sums of the same steps in another order are equal up to this share of them.
 EQUAL = 1e-9
+# Which share of the cases lies below a quantile.
+QUANTILES = {"lower_quartile": 0.25, "median": 0.5, "upper_quartile": 0.75, "ninety_fifth_percentile": 0.95}
 
 Outcome = Callable[[float, float], str]
 
@@ -76,7 +79,7 @@ def otherwise(cases: Cases, statistic: str, seed: str, of: Callable[[Interval], 
     least, far, middle = min(0.0, seen.min()), np.abs(seen).max() * len(seen), seen.mean()
     ends = {
         "deviation": [(middle, middle), (far, far)],
-        "median": [(least, least), (np.inf, np.inf)],
+        **dict.fromkeys(QUANTILES, [(least, least), (np.inf, np.inf)]),
         "ratio_of_groups": [(least, np.inf), (np.inf, least)],
     }.get(statistic, [(least, least), (far, far)])
     found = []
@@ -313,16 +316,17 @@ def of_all(cases: Cases, statistic: str, seed: str) -> tuple[float, Interval, in
         return 100 * (1 - found[0]), reduction(found[1]), found[2]
     if statistic == "ratio_of_groups":
         return ratio_of_groups(cases, seed)
-    values = cases.values
-    if statistic == "median":
+    values, share = cases.values, QUANTILES.get(statistic)
+    if share is not None:
         values = np.where(cases.own_solved, values, np.inf)
     kept = ~np.isnan(values)
     names, unit = np.unique(cases.unit[kept], return_inverse=True)
     values, units = values[kept], len(names)
     if units < 2:
         return None
-    if statistic == "median":
-        value, of = np.median(values), median(unit, values)
+    if share is not None:
+        of = share_below(unit, values, share)
+        value = of(np.ones((1, units), dtype=int))[0]
     elif statistic == "deviation":
         value, of = values.std(ddof=1), deviation(unit, units, values)
     else:
@@ -368,7 +372,8 @@ def accepted(asked: Asked) -> tuple[float, float, float | None]:
         middle = above / below
     else:
         middle = printed(asked.paper, asked.claim).value
-    return middle - settings["margin"], middle + settings["margin"], middle
+    margin = settings.get("margin", abs(middle) * settings.get("margin_percent", 0.0) / 100)
+    return middle - margin, middle + margin, middle
 
 
 def printed(paper: Paper, claim: dict) -> Printed:

@@ -129,6 +129,12 @@ pub enum OverallStatistic {
     Mean,
     /// The median over all cases, failures infinite.
     Median,
+    /// The number that a quarter of all cases lie below, failures infinite.
+    LowerQuartile,
+    /// The number that three quarters of all cases lie below, failures infinite.
+    UpperQuartile,
+    /// The number that 95 % of all cases lie below, failures infinite.
+    NinetyFifthPercentile,
     /// The standard deviation over all solved cases.
     Deviation,
     /// By how many per cent the sum over the cases that both solve is below the other contender's.
@@ -145,6 +151,9 @@ impl OverallStatistic {
         match self {
             Self::Mean => "mean",
             Self::Median => "median, failures infinite,",
+            Self::LowerQuartile => "lower quartile, failures infinite,",
+            Self::UpperQuartile => "upper quartile, failures infinite,",
+            Self::NinetyFifthPercentile => "95th percentile, failures infinite,",
             Self::Deviation => "standard deviation",
             Self::ReductionPercent => "reduction in % of the mean",
             Self::Ratio => "ratio of the means",
@@ -162,7 +171,18 @@ impl OverallStatistic {
         match self {
             Self::ReductionPercent => Some(0.0),
             Self::Ratio | Self::RatioOfGroups => Some(1.0),
-            Self::Mean | Self::Median | Self::Deviation => None,
+            _ => None,
+        }
+    }
+
+    /// The share of cases that lie below it, if it is a quantile.
+    fn quantile(self) -> Option<f64> {
+        match self {
+            Self::LowerQuartile => Some(0.25),
+            Self::Median => Some(0.5),
+            Self::UpperQuartile => Some(0.75),
+            Self::NinetyFifthPercentile => Some(0.95),
+            _ => None,
         }
     }
 
@@ -174,16 +194,17 @@ impl OverallStatistic {
         if self == Self::RatioOfGroups {
             return of_groups(instances, plan);
         }
-        let values = by_instance(instances, |case| match (self, case.value) {
-            (Self::Median, None) if !case.row.is_solved() => Some(f64::INFINITY),
+        let quantile = self.quantile();
+        let values = by_instance(instances, |case| match (quantile, case.value) {
+            (Some(_), None) if !case.row.is_solved() => Some(f64::INFINITY),
             (_, value) => value,
         });
         let sums = || {
             values.iter().map(|instance| [instance.iter().sum(), instance.len() as f64]).collect::<Vec<_>>()
         };
-        match self {
-            Self::Median => pooled::median(&values, plan),
-            Self::Deviation => pooled::deviation(&values, plan),
+        match (self, quantile) {
+            (_, Some(share)) => pooled::quantile(&values, share, plan),
+            (Self::Deviation, None) => pooled::deviation(&values, plan),
             _ => pooled::ratio_of_sums(&sums(), plan),
         }
     }
@@ -212,7 +233,7 @@ impl OverallStatistic {
         let middle = summary::mean(&seen).unwrap_or_default();
         let [low, high] = match self {
             Self::Deviation => [[middle; 2], [far; 2]],
-            Self::Median => [[least; 2], [f64::INFINITY; 2]],
+            _ if self.quantile().is_some() => [[least; 2], [f64::INFINITY; 2]],
             // What lowers a ratio is a lower first group and a higher second one.
             Self::RatioOfGroups => [[least, f64::INFINITY], [f64::INFINITY, least]],
             _ => [[least; 2], [far; 2]],
@@ -374,6 +395,28 @@ mod tests {
         assert!((between[0] - 0.7 + 0.7 * differ).abs() < 1e-12, "{between:?}");
         assert!((between[1] - 0.7 - 0.3 * differ).abs() < 1e-12, "{between:?}");
         assert!(of(7.0).is_agreed && !of(7.0).is_exact, "of fewer than ten instances it is not firm");
+    }
+
+    #[test]
+    fn failures_are_the_largest_numbers_of_every_quantile() {
+        // In the place of the largest of 21 numbers stands a failure: the others keep their quantiles.
+        let numbers: Vec<Vec<f64>> =
+            (0..21).map(|i| vec![if i == 20 { f64::INFINITY } else { f64::from(i) }]).collect();
+        for (statistic, value) in [
+            (OverallStatistic::LowerQuartile, 5.0),
+            (OverallStatistic::Median, 10.0),
+            (OverallStatistic::UpperQuartile, 15.0),
+            (OverallStatistic::NinetyFifthPercentile, 19.0),
+        ] {
+            let share = statistic.quantile().unwrap();
+            assert_eq!(
+                pooled::quantile(&numbers, share, plan(&["x"])).unwrap().value,
+                value,
+                "{statistic:?}"
+            );
+            assert_eq!((statistic.is_paired(), statistic.no_difference()), (false, None));
+        }
+        assert_eq!(OverallStatistic::Deviation.quantile(), None);
     }
 
     #[test]

@@ -75,7 +75,15 @@ pub fn mean_between(values: &[f64], ends: [f64; 2], plan: Resampling) -> Option<
 /// # Panics
 /// If a number is NaN.
 pub fn median(instances: &[Vec<f64>], plan: Resampling) -> Option<Estimate> {
-    of_all(instances, summary::median, plan)
+    quantile(instances, 0.5, plan)
+}
+
+/// The number that a `share` of all numbers of all instances lie below; failures may be infinite. None below two instances.
+///
+/// # Panics
+/// If a number is NaN.
+pub fn quantile(instances: &[Vec<f64>], share: f64, plan: Resampling) -> Option<Estimate> {
+    of_all(instances, |all| quantile_type7(all, share), plan)
 }
 
 /// The standard deviation of all numbers of all instances. None below two instances.
@@ -86,7 +94,7 @@ pub fn deviation(instances: &[Vec<f64>], plan: Resampling) -> Option<Estimate> {
     of_all(instances, summary::standard_deviation, plan)
 }
 
-fn of_all(instances: &[Vec<f64>], of: fn(&[f64]) -> Option<f64>, plan: Resampling) -> Option<Estimate> {
+fn of_all(instances: &[Vec<f64>], of: impl Fn(&[f64]) -> Option<f64>, plan: Resampling) -> Option<Estimate> {
     let all = |instances: &[&Vec<f64>]| {
         let numbers: Vec<f64> = instances.iter().flat_map(|instance| instance.iter().copied()).collect();
         of(&numbers)

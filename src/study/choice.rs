@@ -140,13 +140,24 @@ pub struct Interpretation {
 
 /// What an option changes, who says so, and where.
 #[derive(Debug, Clone, PartialEq)]
-struct Change {
+pub struct Change {
     by: String,
     option: Arc<OptionSpec>,
     place: Option<Place>,
 }
 
 impl Change {
+    /// What the problem group called `label`, which stands at `place`, lays over planners and stages, by their names.
+    pub fn by_problems(label: &str, stage: BTreeMap<String, Table>, place: Place) -> Self {
+        let option = Arc::new(OptionSpec { stage, ..OptionSpec::default() });
+        Self { by: format!("problems `{label}`"), option, place: Some(place) }
+    }
+
+    /// What it lays over planners and stages, by their names.
+    pub fn stage(&self) -> &BTreeMap<String, Table> {
+        &self.option.stage
+    }
+
     /// `settings` with `over`, which stands under `steps` in the option, laid on top.
     fn over(&self, settings: &Settings, over: &Table, steps: &[&str]) -> Settings {
         let of_file = |place: &Place| {
@@ -252,6 +263,14 @@ impl Interpretation {
     /// How printed digits end, if an option says so.
     pub fn digits(&self) -> Option<Digits> {
         self.changes.iter().find_map(|change| change.option.digits)
+    }
+
+    /// The same options on top of `change`.
+    #[must_use]
+    pub fn above(&self, change: &Change) -> Self {
+        let mut laid = self.clone();
+        laid.changes.insert(0, change.clone());
+        laid
     }
 
     /// The settings of a problem with what the options lay over them; `accepts` says whether its family has all of these settings.

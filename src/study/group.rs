@@ -1,6 +1,6 @@
 //! Groups of problems drawn from one family.
 
-use super::choice::Interpretation;
+use super::choice::{Change, Interpretation};
 use super::contender::SweepPoint;
 use super::error::StudyError;
 use super::family::{Entry, Family};
@@ -26,6 +26,8 @@ pub struct Group {
     pub shared_instances: Option<String>,
     /// Whether the spec asks for more than one instance: their names then carry a number.
     pub is_numbered: bool,
+    /// What it lays over the settings of planners and stages, if anything.
+    pub stage: Option<Change>,
     /// The family's settings.
     pub settings: Settings,
     /// The points of the sweeps over its settings; one empty point without such sweeps.
@@ -42,6 +44,11 @@ impl Group {
     /// The point of the sweeps over its settings that is called `key`; the first if none is.
     pub fn point(&self, key: &SweepKey) -> &SweepPoint {
         self.points.iter().find(|point| point.key == *key).unwrap_or(&self.points[0])
+    }
+
+    /// The interpretation `point` as contenders see it on its problems: on top of what the group lays over planners and stages.
+    pub fn seen_by_contenders(&self, point: &Interpretation) -> Interpretation {
+        self.stage.as_ref().map_or_else(|| point.clone(), |change| point.above(change))
     }
 
     /// The columns of trials on its problems: those of its family and, between corners of cells, the length of a shortest path.

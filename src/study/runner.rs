@@ -71,7 +71,8 @@ pub struct BuiltStudy<'a> {
     points: &'a [Interpretation],
     interpretations: Vec<InterpretationKey>,
     families: Vec<Vec<Arc<dyn Family>>>,
-    entrants: Vec<Vec<Entrant<'a>>>,
+    /// By interpretation, then by problem group at its points of the sweeps.
+    entrants: Vec<Vec<Arc<Vec<Entrant<'a>>>>>,
 }
 
 impl<'a> BuiltStudy<'a> {
@@ -93,14 +94,23 @@ impl<'a> BuiltStudy<'a> {
         for point in points {
             let of = |posed| built.family(posed, point, inputs);
             families.push(study.posed().map(of).collect::<Result<Vec<_>, _>>()?);
-            let mut line_up = Vec::new();
-            for (contender, label) in study.contenders.iter().zip(&labels) {
-                for sweep in &sweeps {
-                    let pipeline = pipelines.pipeline(contender, point, sweep)?;
-                    line_up.push(Entrant { contender, label: label.clone(), sweep: sweep.clone(), pipeline });
+            let mut line_up = |point: &Interpretation| -> Result<_, StudyError> {
+                let mut line_up = Vec::new();
+                for (contender, label) in study.contenders.iter().zip(&labels) {
+                    for sweep in &sweeps {
+                        let (label, sweep) = (label.clone(), sweep.clone());
+                        let pipeline = pipelines.pipeline(contender, point, &sweep)?;
+                        line_up.push(Entrant { contender, label, sweep, pipeline });
+                    }
                 }
-            }
-            entrants.push(line_up);
+                Ok(Arc::new(line_up))
+            };
+            let shared = line_up(point)?;
+            let of_group = |(group, _): (&Group, _)| match group.stage {
+                Some(_) => line_up(&group.seen_by_contenders(point)),
+                None => Ok(shared.clone()),
+            };
+            entrants.push(study.posed().map(of_group).collect::<Result<Vec<_>, _>>()?);
         }
         let paper = &study.paper;
         let name = &study.name;
@@ -170,7 +180,7 @@ impl<'a> BuiltStudy<'a> {
             group,
             family,
             point: &self.points[interpretation],
-            entrants: self.entrants[interpretation].iter().collect(),
+            entrants: self.entrants[interpretation][place].iter().collect(),
             seed: if is_numbered { key.instance.into() } else { seed::derive(self.study.seed, &names) },
             key: Arc::new(key),
             keeps_all: false,
@@ -216,13 +226,14 @@ impl<'a> BuiltStudy<'a> {
         interpretation: usize,
         label: &str,
     ) -> Result<BTreeMap<String, String>, StudyError> {
-        let own = self.entrants[interpretation].iter().filter(|entrant| *entrant.label == *label);
-        let files = own.flat_map(|entrant| entrant.pipeline.planner.files());
+        let all = self.entrants[interpretation].iter().flat_map(|line_up| line_up.iter());
+        let own = all.filter(|entrant| *entrant.label == *label);
+        let files: BTreeSet<&PathBuf> = own.flat_map(|entrant| entrant.pipeline.planner.files()).collect();
         let hash = |path: &PathBuf| {
             let bytes = fs::read(path).map_err(StudyError::io(path, "reading a planner's file"))?;
             Ok((path.display().to_string(), sha256(&bytes)))
         };
-        files.map(hash).collect()
+        files.into_iter().map(hash).collect()
     }
 
     /// That the files are there that the problems of a unit need.

@@ -86,6 +86,11 @@ pub struct ProblemsSpec {
     /// and so do the points of a sweep over the group: their settings can then be compared in pairs. The study, the label and the
     /// point of the sweep if absent.
     pub shared_instances: Option<String>,
+    /// Settings laid over those of a planner or stage, by its name, in every contender on these problems; options and sweeps lie on
+    /// top of them.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, AnyTable>")]
+    pub stage: BTreeMap<String, Table>,
     /// The family's settings.
     #[schemars(with = "Option<AnyTable>")]
     pub settings: Option<Spanned<Table>>,

@@ -277,3 +277,57 @@ fn groups_that_share_no_sweep_may_sweep_one_setting_each_with_values_of_its_own(
     };
     assert_eq!((shares("maps"), shares("plain"), shares("rectangles")), (vec![0.2, 0.4], vec![0.25], vec![]));
 }
+
+#[test]
+fn what_a_group_lays_over_a_planner_holds_on_its_problems_alone() {
+    let [plain, laid, everywhere] = [bench(), bench(), bench()];
+    let group = "label = \"plain\"\n";
+    laid.edit("mini/study.toml", group, &format!("{group}stage.astar = {{ weight = 9 }}\n"));
+    everywhere.edit("mini/study.toml", "weight = 1,", "weight = 9,");
+    let [plain, laid, everywhere] = [plain, laid, everywhere].map(|bench| run(&bench, "out", &[]).rows);
+    let of = |rows: &[Row], is_own: bool| -> Vec<Row> {
+        rows.iter().filter(|row| (*row.key.on.group == *"plain") == is_own).cloned().collect()
+    };
+    assert_eq!(of(&laid, true), of(&everywhere, true));
+    assert_eq!(of(&laid, false), of(&plain, false));
+    assert_ne!(of(&laid, true), of(&plain, true), "a weight of 9 changes nothing here");
+    assert_ne!(of(&laid, false), of(&everywhere, false), "a weight of 9 changes nothing here");
+}
+
+#[test]
+fn what_a_group_lays_over_a_planner_runs_its_trials_again_and_no_other() {
+    let bench = bench();
+    run(&bench, "out", &[]);
+    let group = "label = \"plain\"\n";
+    bench.edit("mini/study.toml", group, &format!("{group}stage.astar = {{ weight = 9 }}\n"));
+    let output = bench.done(&["run", "./mini", "--out", "out", "--why"]);
+    assert!(output.contains("(18 of 21 units reused)"), "{output}");
+    assert!(output.contains("why: problem group `plain` has changed\n"), "{output}");
+}
+
+#[test]
+fn what_a_group_lays_over_no_contender_or_under_a_sweep_is_refused_at_its_key() {
+    let group = "label = \"plain\"\n";
+    for (laid, sweep, expected) in [
+        (
+            "stage.astarr = { weight = 9 }",
+            "",
+            "no contender uses `astarr` (did you mean `astar`?); they use astar, jps",
+        ),
+        ("stage.astar = { weigth = 9 }", "", "unknown key `weigth` (did you mean `weight`?)"),
+        (
+            "stage.astar = { weight = 9 }",
+            "[[sweep]]\nkey = \"weight\"\nof = \"astar\"\nvalues = [1, 2]\n",
+            "sweep `weight` would hide this `weight` of problems `plain`; one of both is accepted",
+        ),
+    ] {
+        let bench = bench();
+        bench.edit("mini/study.toml", group, &format!("{group}{laid}\n"));
+        bench.edit("mini/study.toml", "[[contender]]", &format!("{sweep}[[contender]]"));
+        let answer = bench.run(&["check", "./mini"]);
+        assert_eq!(answer.code, Some(2), "{laid}: {}{}", answer.out, answer.err);
+        assert!(answer.err.contains(expected), "should be said: {expected}\nis said: {}", answer.err);
+        let at = answer.err.lines().find(|line| line.contains(expected)).unwrap();
+        assert!(at.contains("mini/study.toml:13:"), "{at}");
+    }
+}

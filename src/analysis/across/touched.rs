@@ -40,7 +40,7 @@ impl<'p> Touched<'p> {
 
     /// Whether it states a size that can be missed: a printed number, or a margin.
     pub fn states_size(&self) -> bool {
-        const SIZES: [&str; 4] = ["by_percent", "margin", "printed_ratio", "accepted"];
+        const SIZES: [&str; 5] = ["by_percent", "margin", "margin_percent", "printed_ratio", "accepted"];
         self.claims.iter().any(|claim| {
             let has_size =
                 |key: &&str| claim.tests().any(|(.., settings)| settings.table().contains_key(*key));

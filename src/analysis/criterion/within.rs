@@ -21,10 +21,10 @@ use stats::paired::{self, snapped};
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "within",
-    about: "does the interval of a mean, median, deviation, ratio or reduction lie within a margin or within bounds?",
+    about: "does the interval of a mean, quantile, deviation, ratio or reduction lie within a margin or within bounds?",
     revision: |_| 4,
     question: |settings| {
-        without(settings, &["margin", "printed_ratio", "accepted"]);
+        without(settings, &["margin", "margin_percent", "printed_ratio", "accepted"]);
         Some(OVERALL)
     },
     settings: Accepted::shape::<Settings>(),
@@ -46,6 +46,9 @@ struct Settings {
     /// How far the statistic may be from the printed number, in its unit.
     #[schemars(range(min = 0.0, max = 1e9))]
     margin: Option<f64>,
+    /// The same, in per cent of the printed number.
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    margin_percent: Option<f64>,
     /// Two claims whose printed numbers' ratio the margin is about, in place of the claim's own number.
     printed_ratio: Option<[String; 2]>,
     /// The least and the greatest number of the statistic under which the claim holds; without `margin`.
@@ -125,23 +128,28 @@ impl<'a> Within<'a> {
             let message = format!("`of` names {} problem groups; two are accepted", of.groups.len());
             return Err(context.settings.error_at("of.problems", message));
         }
-        let (accepted, printed) = match (settings.margin, settings.accepted) {
-            (Some(margin), None) => {
-                let printed = match &settings.printed_ratio {
-                    Some([above, below]) => ratio(context, above, below)?,
-                    None => context.print()?.printed.value(),
-                };
-                (Interval::new(printed - margin, printed + margin), Some(printed))
+        let printed = || match &settings.printed_ratio {
+            Some([above, below]) => ratio(context, above, below),
+            None => Ok(context.print()?.printed.value()),
+        };
+        let about =
+            |printed: f64, margin: f64| (Interval::new(printed - margin, printed + margin), Some(printed));
+        let (accepted, printed) = match (settings.margin, settings.margin_percent, settings.accepted) {
+            (Some(margin), None, None) => about(printed()?, margin),
+            (None, Some(percent), None) => {
+                let printed = printed()?;
+                about(printed, percent / 100.0 * printed.abs())
             }
-            (None, Some([low, high])) => {
+            (None, None, Some([low, high])) => {
                 context.rising("accepted", [low, high], [f64::MIN, f64::MAX])?;
                 (Interval::new(low, high), None)
             }
             _ => {
                 return Err(context
                     .settings
-                    .error("one of `margin` and `accepted` is accepted")
+                    .error("one of `margin`, `margin_percent` and `accepted` is accepted")
                     .about("margin")
+                    .about("margin_percent")
                     .about("accepted"));
             }
         };

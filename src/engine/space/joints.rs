@@ -14,7 +14,7 @@ use crate::geometry::{Frame, Placed, Rounded, Vec3, intersects_placed_placed};
 use crate::kinematics::open_chain::OpenChain;
 use base::robot::{MayTouch, Robot};
 use base::solid::{Form, Solid};
-use lanes::{Look, Spheres};
+use lanes::{Doubt, Other, Spheres};
 
 /// A path that is returned is checked four times in each step, and 64 times where the robot is nearly in contact.
 const FINER: [f64; 2] = [4.0, 64.0];
@@ -43,6 +43,7 @@ pub struct JointSpace {
 /// Buffers that are reused from motion to motion.
 #[derive(Debug, Default, Clone)]
 pub struct MotionMemory {
+    changes: Vec<f64>,
     rows: Vec<RoughRow>,
     lanes: lanes::Memory,
 }
@@ -69,18 +70,34 @@ impl SelfContact {
     }
 }
 
-fn rounded(solid: &Solid) -> Rounded {
+fn is_touched(part: &Placed<'_>, still: &Rounded) -> bool {
+    intersects_placed_placed(part, &Placed { solid: still, frame: &Frame::IDENTITY })
+}
+
+/// A solid with a margin of so many metres around it.
+fn rounded(solid: &Solid, margin_m: f64) -> Rounded {
     let (points, radius_m) = solid.rounded();
-    Rounded::new(points.into_iter().map(Vec3::from).collect(), radius_m)
+    Rounded::new(points.into_iter().map(Vec3::from).collect(), radius_m + margin_m)
 }
 
 impl JointSpace {
     /// The robot among these obstacles, its motions checked every `step_rad`; it must not touch itself as `contact` says.
     pub fn new(robot: Robot, obstacles: Vec<Solid>, contact: &SelfContact, step_rad: f64) -> Self {
+        Self::with_clearance(robot, obstacles, contact, step_rad, 0.0)
+    }
+
+    /// The same, where the robot must also be farther than `clearance_m` metres from every obstacle.
+    pub fn with_clearance(
+        robot: Robot,
+        obstacles: Vec<Solid>,
+        contact: &SelfContact,
+        step_rad: f64,
+        clearance_m: f64,
+    ) -> Self {
         let count = robot.solids.len();
         let pairs = (0..count).flat_map(|b| (0..b).map(move |a| [a, b]));
         let self_pairs: Vec<_> = pairs.filter(|pair| contact.is_checked(&robot, *pair)).collect();
-        let mut space = Self::of_pairs(robot, obstacles, self_pairs, step_rad);
+        let mut space = Self::of_pairs(robot, obstacles, self_pairs, step_rad, clearance_m);
         if space.spheres.is_some() {
             let mut robot = space.robot.clone();
             for (_, solid) in &mut robot.solids {
@@ -90,19 +107,26 @@ impl JointSpace {
             }
             let obstacles = space.obstacles.clone();
             let pairs = space.self_pairs.clone();
-            space.larger = Some(Box::new(Self::of_pairs(robot, obstacles, pairs, step_rad)));
+            let larger = Self::of_pairs(robot, obstacles, pairs, step_rad, clearance_m);
+            space.larger = Some(Box::new(larger));
         }
         space
     }
 
-    fn of_pairs(robot: Robot, obstacles: Vec<Solid>, self_pairs: Vec<[usize; 2]>, step_rad: f64) -> Self {
+    fn of_pairs(
+        robot: Robot,
+        obstacles: Vec<Solid>,
+        self_pairs: Vec<[usize; 2]>,
+        step_rad: f64,
+        clearance_m: f64,
+    ) -> Self {
         let chain = OpenChain::new(&robot);
         Self {
-            spheres: Spheres::new(&robot, &chain, &obstacles, &self_pairs),
+            spheres: Spheres::new(&robot, &chain, (&obstacles, clearance_m), &self_pairs),
             larger: None,
             chain,
-            parts: robot.solids.iter().map(|(link, solid)| (*link, rounded(solid))).collect(),
-            stills: obstacles.iter().map(rounded).collect(),
+            parts: robot.solids.iter().map(|(link, solid)| (*link, rounded(solid, 0.0))).collect(),
+            stills: obstacles.iter().map(|solid| rounded(solid, clearance_m)).collect(),
             robot,
             obstacles,
             self_pairs,
@@ -197,12 +221,16 @@ impl JointSpace {
         if self.chain.outside(to).is_some() {
             return false;
         }
-        let changes: Vec<f64> = self.chain.change(from, to).collect();
+        let MotionMemory { changes, rows, lanes } = memory;
+        changes.clear();
+        changes.extend(self.chain.change(from, to));
+        let changes: &[f64] = changes;
         let change = changes.iter().map(|change| change.abs()).fold(0.0, f64::max);
         let blocks = (finer * change / self.step_rad / ROUGH_LANES as f64).ceil().max(1.0) as u32;
         let at =
-            |share: f64| -> Vec<f64> { from.iter().zip(&changes).map(|(a, by)| a + by * share).collect() };
-        let in_lanes = self.spheres.as_ref().filter(|_| Spheres::takes(from) && Spheres::takes(&at(1.0)));
+            |share: f64| -> Vec<f64> { from.iter().zip(changes).map(|(a, by)| a + by * share).collect() };
+        let ends = || from.iter().zip(changes).flat_map(|(a, by)| [*a, a + by]);
+        let in_lanes = self.spheres.as_ref().filter(|_| Spheres::takes(ends()));
         (0..blocks).all(|block| {
             *checked += ROUGH_LANES as u64;
             let back = f64::from(block) / f64::from(blocks);
@@ -210,18 +238,29 @@ impl JointSpace {
             let Some(spheres) = in_lanes else {
                 return (0..ROUGH_LANES).all(|lane| self.is_clear(&at(share(lane))));
             };
-            memory.rows.resize(from.len(), [0.0; ROUGH_LANES]);
-            for (row, (a, by)) in memory.rows.iter_mut().zip(from.iter().zip(&changes)) {
+            rows.resize(from.len(), [0.0; ROUGH_LANES]);
+            for (row, (a, by)) in rows.iter_mut().zip(from.iter().zip(changes)) {
                 *row = std::array::from_fn(|lane| (a + by * share(lane)) as f32);
             }
-            let MotionMemory { rows, lanes } = &mut *memory;
-            match dispatch!(level(), simd => spheres.look(simd, rows, lanes)) {
-                Look::Contact => false,
-                Look::FreeBut(doubt) => {
-                    (0..ROUGH_LANES).all(|lane| !doubt[lane] || self.is_clear(&at(share(lane))))
-                }
-            }
+            !dispatch!(level(), simd => spheres.touches(simd, rows, lanes))
+                && (lanes.doubts.is_empty()
+                    || (0..ROUGH_LANES).all(|lane| self.settles(lane, &lanes.doubts, || at(share(lane)))))
         })
+    }
+
+    /// Whether nothing touches that is in doubt in one of eight configurations, which `at` gives.
+    fn settles(&self, lane: usize, doubts: &[Doubt], at: impl Fn() -> Vec<f64>) -> bool {
+        let mut own = doubts.iter().filter(|doubt| doubt.is_at[lane]).peekable();
+        own.peek().is_none() || {
+            let frames = self.chain.frames(&at());
+            own.all(|doubt| {
+                let solid = self.placed(doubt.solid, &frames);
+                !match doubt.other {
+                    Other::Still(still) => is_touched(&solid, &self.stills[still]),
+                    Other::Own(other) => intersects_placed_placed(&solid, &self.placed(other, &frames)),
+                }
+            })
+        }
     }
 
     /// Whether a motion of a path that is returned is free. It is checked four times in each step. Where a robot made of spheres is nearly
@@ -245,9 +284,7 @@ impl JointSpace {
         let moving = (0..self.parts.len()).filter(|part| self.parts[*part].0 > 0);
         moving.into_iter().find_map(|part| {
             let placed = self.placed(part, frames);
-            let hit = |still: &Rounded| {
-                intersects_placed_placed(&placed, &Placed { solid: still, frame: &Frame::IDENTITY })
-            };
+            let hit = |still: &Rounded| is_touched(&placed, still);
             self.stills.iter().position(hit).map(|still| (part, still))
         })
     }

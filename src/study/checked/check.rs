@@ -34,6 +34,7 @@ impl Study {
         faults.keep((self.task.build)(&self.task_settings));
         faults.keep((self.task.build)(&self.quick_task_settings()));
         self.check_sweeps(faults);
+        self.check_what_groups_lay(faults);
         self.check_what_defaults_hide(inputs, faults);
         let mut known = Families::default();
         if let Some(points) = keep(faults, self.single_options())? {
@@ -137,12 +138,31 @@ impl Study {
         }
         let kinds: BTreeSet<_> = families.iter().map(|(_, family)| family.world()).collect();
         for contender in &self.contenders {
+            self.check_needs(contender, &kinds, faults);
+        }
+        let (own, shared): (Vec<_>, Vec<_>) =
+            families.into_iter().partition(|(group, _)| group.stage.is_some());
+        self.check_contenders(point, &shared, faults);
+        for (group, family) in own {
+            self.check_contenders(&group.seen_by_contenders(point), &[(group, family)], faults);
+        }
+        Ok(())
+    }
+
+    /// Refuses contenders that cannot run on the problems of these families under the interpretation `point`.
+    fn check_contenders(
+        &self,
+        point: &Interpretation,
+        families: &[(&Group, Arc<dyn Family>)],
+        faults: &mut Faults,
+    ) {
+        for contender in &self.contenders {
             for sweep in self.contender_points() {
                 let Some(pipeline) = faults.keep(contender.pipeline(point, &sweep)) else {
                     contender.check_rest(point, &sweep, faults);
                     continue;
                 };
-                faults.keep(check_extent(contender, &sweep, pipeline.planner.asks(), &families));
+                faults.keep(check_extent(contender, &sweep, pipeline.planner.asks(), families));
                 if contender.repeats > 1 && !pipeline.planner.draws() {
                     let message = format!(
                         "`repeats` is {}, and contender `{}` draws nothing at random; 1 is accepted",
@@ -152,9 +172,7 @@ impl Study {
                     faults.add(self.document.error_at(&place, message));
                 }
             }
-            self.check_needs(contender, &kinds, faults);
         }
-        Ok(())
     }
 
     /// Refuses stages that need worlds of another kind than the problems are posed in.
@@ -231,6 +249,43 @@ impl Study {
             if unfilled.iter().filter(accepts).any(lacks) {
                 // The missing setting follows from the fault of the sweep, which is reported already.
                 group.points.clear();
+            }
+        }
+    }
+
+    /// Refuses settings that a group lays over a planner or stage that no contender uses, or that a sweep or the default of a choice
+    /// would hide.
+    fn check_what_groups_lay(&self, faults: &mut Faults) {
+        let used = self.stage_names();
+        let laid = self.groups.iter().filter_map(|group| Some((group, group.stage.as_ref()?)));
+        for (group, (entry, over)) in
+            laid.flat_map(|(group, laid)| laid.stage().iter().map(move |one| (group, one)))
+        {
+            let mut refuse = |key: &str, message: String| {
+                let place = format!("problems.{}.stage.{entry}{key}", group.place);
+                faults.add(self.document.error_at(&place, message).about(entry));
+            };
+            if !used.contains(entry.as_str()) {
+                let hint = did_you_mean(entry, used.iter().copied());
+                let used = Vec::from_iter(used.clone()).join(", ");
+                refuse("", format!("no contender uses `{entry}`{hint}; they use {used}"));
+            }
+            let sweeps = self.sweeps.iter().filter(|sweep| sweep.entry() == Some(entry));
+            let swept = sweeps.map(|sweep| (sweep.key.as_str(), format!("sweep `{}`", sweep.key)));
+            let defaults = self.choices.iter().flat_map(|choice| {
+                let default = &choice.options[&choice.default];
+                let tables = std::iter::once(&default.stage).chain(default.contender.values());
+                let keys = tables.filter_map(|all| all.get(entry)).flat_map(Table::keys);
+                keys.map(move |key| (key.as_str(), format!("the default of choice `{}`", choice.id)))
+            });
+            for (key, by) in swept.chain(defaults).filter(|(key, _)| over.contains_key(*key)) {
+                refuse(
+                    &format!(".{key}"),
+                    format!(
+                        "{by} would hide this `{key}` of problems `{}`; one of both is accepted",
+                        group.label
+                    ),
+                );
             }
         }
     }

@@ -41,6 +41,7 @@ fn of_file(group: &ProblemsSpec, place: usize, file: &str) -> ProblemsSpec {
         each: None,
         instances: group.instances,
         shared_instances: group.shared_instances.clone(),
+        stage: group.stage.clone(),
         file: Some(file.to_owned()),
         place,
         settings: group.settings.clone(),

@@ -1,5 +1,6 @@
 //! From a spec to checked types. A fault is reported with file, line, column, the value found and the values accepted.
 
+use super::super::choice::Change;
 use super::super::contender::{StageUse, SweepPoint, Swept};
 use super::super::error::StudyError;
 use super::super::inputs::Inputs;
@@ -342,6 +343,7 @@ impl Alike for ProblemsSpec {
             None => written,
         };
         Ok(Group {
+            stage: self.stage(document),
             label: self.label.get_ref().clone(),
             place: self.place,
             family,
@@ -360,6 +362,7 @@ impl Alike for ProblemsSpec {
         self.refuse_files(document)?;
         let instances = self.instances.unwrap_or(base.instances);
         Ok(Group {
+            stage: self.stage(document).or_else(|| base.stage.clone()),
             label: self.label.get_ref().clone(),
             place: self.place,
             instances,
@@ -378,6 +381,13 @@ impl Alike for ProblemsSpec {
 }
 
 impl ProblemsSpec {
+    /// What it says of planners and stages on its problems.
+    fn stage(&self, document: &Arc<Document>) -> Option<Change> {
+        let place = Place::of_table(document, &["problems", &self.place.to_string()]);
+        let stage = Some(&self.stage).filter(|stage| !stage.is_empty());
+        stage.map(|stage| Change::by_problems(self.label.get_ref(), stage.clone(), place))
+    }
+
     /// That it does not stand for a group a file: those that do are one group each by now.
     fn refuse_files(&self, document: &Document) -> Result<(), SettingsError> {
         let message = "`each` is accepted in a study, in groups that are `like` no other";

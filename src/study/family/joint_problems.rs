@@ -82,6 +82,9 @@ struct JointProblems {
     /// under `capsules` alone.
     #[schemars(length(min = 1))]
     boxes_in: Option<String>,
+    /// How far the robot must be from every obstacle, besides not touching it; nothing if absent.
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    clearance_mm: Option<f64>,
     /// How files that are not in the repository are brought and known.
     archive: Option<Archive>,
 }
@@ -126,6 +129,7 @@ struct Set {
     contact: SelfContact,
     support: Support,
     step_rad: f64,
+    clearance_m: f64,
     cylinders: CylinderSetting,
     boxes_in: Option<String>,
     queries: [Query; 1],
@@ -192,6 +196,7 @@ fn build(settings: &Settings, inputs: &Inputs) -> Result<Box<dyn Family>, Settin
         contact,
         support,
         step_rad: read.step_deg.to_radians(),
+        clearance_m: read.clearance_mm.unwrap_or(0.0) * 1e-3,
         cylinders: read.cylinders.unwrap_or(CylinderSetting::Prisms),
         boxes_in: read.boxes_in,
         queries: unposed(),
@@ -287,7 +292,8 @@ impl Set {
     /// The robot among the obstacles of a problem.
     fn space(&self, problem: &Problem) -> JointSpace {
         let obstacles = under(&self.support).into_iter().chain(problem.obstacles.iter().cloned()).collect();
-        JointSpace::new(self.robot.clone(), obstacles, &self.contact, self.step_rad)
+        let robot = self.robot.clone();
+        JointSpace::with_clearance(robot, obstacles, &self.contact, self.step_rad, self.clearance_m)
     }
 
     /// That a start or goal that is planned for is beyond the limits of a joint, at its place.

@@ -41,6 +41,8 @@ pub(super) fn problem_hashes(
             );
             let also: Vec<u32> = kept.iter().flat_map(|trials| trials.also.iter().copied()).collect();
             let text = if also.is_empty() { text } else { format!("{text} {also:?}") };
+            let laid = group.stage.as_ref().map(|change| format!(" {:?}", change.stage()));
+            let text = text + &laid.unwrap_or_default();
             note(&mut hashes, &name::group(&group.label, &at.key), &text, interpretation);
         }
     }

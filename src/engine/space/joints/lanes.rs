@@ -1,8 +1,9 @@
 //! Robots made of spheres, eight configurations at once.
 //!
 //! Places and distances run in f32. A comparison inside the error band of an obstacle, and one with a solid that lanes only bound (a
-//! cylinder's prism, a hull), leaves its configurations in doubt, and the scalar code decides those. So a verdict from here is the
-//! scalar code's. Spheres of one link are first compared by a ball around them all.
+//! cylinder's prism, a hull), leaves its configurations in doubt, and the scalar code decides those two solids there. So a verdict
+//! from here is the scalar code's. Spheres of one link are first compared by a ball around them all, and obstacles by balls around
+//! them; obstacles out of a link's reach are left out. Links go from the last to the first, since what is far out meets most.
 //!
 //! A closure over lanes, or `map` over them, would be compiled for every machine's instructions and call each operation of theirs: so there
 //! is none here.
@@ -16,7 +17,7 @@ use crate::geometry::lanes::{
     ExtractToken, Frames, Point, ROUGH_LANES, ROUGHNESS, Rough, RoughRow, Select, Simd, SimdBase, SimdFloat,
     SimdMask, sincos_rough,
 };
-use crate::kinematics::open_chain::{OpenChain, frame};
+use crate::kinematics::open_chain::{OpenChain, OpenJoint, frame};
 use base::robot::{Kind, Robot};
 use base::solid::{Form, Solid, prism_radius_m};
 use nalgebra::Matrix3;
@@ -26,13 +27,24 @@ const MOST: f64 = 7.0;
 /// How far f32 may put a sphere of a robot off, metres.
 const PLACED_M: f64 = 2e-5;
 
-/// What a block of eight configurations comes to.
+/// Two solids that may touch in some of eight configurations, by their numbers: what the scalar code decides.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Look {
-    /// One at least is in contact.
-    Contact,
-    /// None is in contact but those that are marked, which the scalar code decides.
-    FreeBut([bool; ROUGH_LANES]),
+pub(super) struct Doubt {
+    /// The robot's solid.
+    pub(super) solid: usize,
+    /// Another of the robot's, or an obstacle.
+    pub(super) other: Other,
+    /// In which configurations.
+    pub(super) is_at: [bool; ROUGH_LANES],
+}
+
+/// What a solid of a robot may touch, by its number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Other {
+    /// An obstacle.
+    Still(usize),
+    /// Another solid of the robot.
+    Own(usize),
 }
 
 /// A joint: the fixed turn and place before it, after which it turns about or slides along z.
@@ -52,6 +64,8 @@ struct Link {
     spheres: Vec<Ball>,
     /// The number of its first sphere among all.
     first: usize,
+    /// The obstacles that it can come near to.
+    near: Vec<usize>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -66,6 +80,10 @@ struct Still {
     axes: [[f32; 3]; 3],
     origin: [f32; 3],
     form: StillForm,
+    /// How far its farthest point and the clearance about it are from its origin.
+    reach: f32,
+    /// How near nothing may come to it.
+    clearance: f32,
     band: f32,
 }
 
@@ -83,7 +101,14 @@ enum StillForm {
 #[derive(Debug, Clone)]
 struct LinkPair {
     links: [usize; 2],
-    spheres: Vec<[usize; 2]>,
+    spheres: Vec<SpherePair>,
+}
+
+/// Two spheres, by their numbers among all, and the sum of their radii.
+#[derive(Debug, Clone)]
+struct SpherePair {
+    spheres: [usize; 2],
+    reach: f32,
 }
 
 /// A robot of spheres among obstacles.
@@ -91,6 +116,8 @@ struct LinkPair {
 pub(super) struct Spheres {
     joints: Vec<LaneJoint>,
     links: Vec<Link>,
+    /// The robot's solid that each sphere is.
+    solids: Vec<usize>,
     stills: Vec<Still>,
     pairs: Vec<LinkPair>,
 }
@@ -102,6 +129,8 @@ pub(super) struct Memory {
     balls: Vec<[RoughRow; 3]>,
     spheres: Vec<[RoughRow; 3]>,
     is_placed: Vec<bool>,
+    /// What the last block left to the scalar code.
+    pub(super) doubts: Vec<Doubt>,
 }
 
 fn rough(v: &Vec3) -> [f32; 3] {
@@ -119,6 +148,16 @@ fn from_z(axis: &Vec3) -> Matrix3<f64> {
     Matrix3::from_columns(&[y.cross(axis), y, *axis])
 }
 
+/// How far the frame of joint `index`, from 1, can be from the first joint's place, metres.
+fn reach(chain: &OpenChain, index: usize) -> f64 {
+    let slid = |joint: &OpenJoint| match joint.joint.kind {
+        Kind::Slides => joint.joint.limits.iter().fold(0.0_f64, |most, end| most.max(end.abs())),
+        Kind::Turns | Kind::TurnsOn => 0.0,
+    };
+    let joints = chain.joints().iter().take(index).enumerate();
+    joints.map(|(i, joint)| if i == 0 { slid(joint) } else { joint.before.origin.norm() + slid(joint) }).sum()
+}
+
 /// A ball around spheres.
 fn around(spheres: &[(Vec3, f64)]) -> Ball {
     let middle = spheres.iter().map(|(at, _)| at).sum::<Vec3>() / spheres.len() as f64;
@@ -127,15 +166,15 @@ fn around(spheres: &[(Vec3, f64)]) -> Ball {
 }
 
 impl Spheres {
-    /// `None` if a part of the robot is no sphere.
+    /// `None` if a part of the robot is no sphere; it must keep a clearance from obstacles, metres.
     pub(super) fn new(
         robot: &Robot,
         chain: &OpenChain,
-        obstacles: &[Solid],
+        (obstacles, clearance_m): (&[Solid], f64),
         pairs: &[[usize; 2]],
     ) -> Option<Self> {
         let turns: Vec<Matrix3<f64>> = chain.joints().iter().map(|joint| from_z(&joint.axis)).collect();
-        let joint = |(index, joint): (usize, &crate::kinematics::open_chain::OpenJoint)| {
+        let joint = |(index, joint): (usize, &OpenJoint)| {
             let back = index.checked_sub(1).map_or(Matrix3::identity(), |last| turns[last].transpose());
             LaneJoint {
                 axes: columns(&(back * joint.before.rotation * turns[index])),
@@ -158,6 +197,7 @@ impl Spheres {
             places.push((link, links[link].2.len()));
             links[link].2.push(sphere);
         }
+        let stills: Vec<Still> = obstacles.iter().map(|solid| Still::new(solid, clearance_m)).collect();
         let mut first = 0;
         let links: Vec<Link> = links
             .into_iter()
@@ -167,48 +207,85 @@ impl Spheres {
                     .map(|(at, radius)| Ball { centre: rough(at), radius: *radius as f32 })
                     .collect();
                 first += spheres.len();
-                Link { moved_by, ball: around(&spheres), spheres: own, first: first - spheres.len() }
+                let within = |(at, radius): &(Vec3, f64)| at.norm() + radius;
+                let own_reach = spheres.iter().map(within).fold(0.0, f64::max);
+                let reach = own_reach + reach(chain, moved_by);
+                let pivot = chain.joints().first().map_or(Vec3::zeros(), |joint| joint.before.origin);
+                let is_near = |still: &usize| {
+                    let solid = &obstacles[*still];
+                    let still = &stills[*still];
+                    let apart = (Vec3::from(solid.pose.origin_m) - pivot).norm();
+                    apart < reach + f64::from(still.reach) + 2.0 * f64::from(still.band)
+                };
+                Link {
+                    moved_by,
+                    ball: around(&spheres),
+                    spheres: own,
+                    first: first - spheres.len(),
+                    near: (0..stills.len()).filter(is_near).collect(),
+                }
             })
             .collect();
+        let mut solids = vec![0; first];
+        for (solid, (link, place)) in places.iter().enumerate() {
+            solids[links[*link].first + place] = solid;
+        }
         let mut link_pairs: Vec<LinkPair> = Vec::new();
         for pair in pairs {
             let [(a, i), (b, j)] = pair.map(|solid| places[solid]);
-            let spheres = [links[a].first + i, links[b].first + j];
+            let radius = |link: usize, place: usize| links[link].spheres[place].radius;
+            let spheres = SpherePair {
+                spheres: [links[a].first + i, links[b].first + j],
+                reach: radius(a, i) + radius(b, j),
+            };
             match link_pairs.iter_mut().find(|known| known.links == [a, b]) {
                 Some(known) => known.spheres.push(spheres),
                 None => link_pairs.push(LinkPair { links: [a, b], spheres: vec![spheres] }),
             }
         }
-        let stills = obstacles.iter().map(Still::new).collect();
-        Some(Self { joints, links, stills, pairs: link_pairs })
+        Some(Self { joints, links, solids, stills, pairs: link_pairs })
     }
 
     /// Whether f32 has digits enough for these values.
-    pub(super) fn takes(q: &[f64]) -> bool {
-        q.iter().all(|value| value.abs() <= MOST)
+    pub(super) fn takes(mut values: impl Iterator<Item = f64>) -> bool {
+        values.all(|value| value.abs() <= MOST)
     }
 
-    /// What eight configurations come to, whose joints are in `values`.
+    /// Whether one of eight configurations at least, whose joints are in `values`, is in contact. If none is, those that may be are
+    /// left in the memory's doubts.
     #[inline(always)]
-    pub(super) fn look<S: Simd>(&self, simd: S, values: &[RoughRow], memory: &mut Memory) -> Look {
+    pub(super) fn touches<S: Simd>(&self, simd: S, values: &[RoughRow], memory: &mut Memory) -> bool {
         self.place(simd, values, memory);
-        let mut doubt = Rough::splat(simd, 0.0);
-        for (index, link) in self.links.iter().enumerate().filter(|(_, link)| link.moved_by > 0) {
-            for still in &self.stills {
-                let centre = point(simd, &memory.balls[index]);
-                let least = still.squares(simd, &centre).0;
-                if !least.simd_lt(square(link.ball.radius + still.band)).any_true() {
+        memory.doubts.clear();
+        for (index, link) in self.links.iter().enumerate().rev().filter(|(_, link)| link.moved_by > 0) {
+            let centre = point(simd, &memory.balls[index]);
+            for number in &link.near {
+                let still = &self.stills[*number];
+                let ball = link.ball.radius + still.clearance;
+                let apart = centre - Point::splat_rough(simd, still.origin);
+                let far = square(link.ball.radius + still.reach + still.band);
+                if !apart.dot(apart).simd_lt(far).any_true()
+                    || !still.squares(simd, &apart).0.simd_lt(square(ball + still.band)).any_true()
+                {
                     continue;
                 }
                 self.place_spheres(simd, index, memory);
-                for (sphere, at) in link.spheres.iter().zip(&memory.spheres[link.first..]) {
-                    let (least, most) = still.squares(simd, &point(simd, at));
-                    let near = least.simd_lt(square(sphere.radius + still.band));
+                let Memory { spheres, doubts, .. } = &mut *memory;
+                for (place, (sphere, at)) in link.spheres.iter().zip(&spheres[link.first..]).enumerate() {
+                    let apart = point(simd, at) - Point::splat_rough(simd, still.origin);
+                    let (least, most) = still.squares(simd, &apart);
+                    let radius = sphere.radius + still.clearance;
+                    let near = least.simd_lt(square(radius + still.band));
                     if near.any_true() {
-                        if most.simd_lt(square((sphere.radius - still.band).max(0.0))).any_true() {
-                            return Look::Contact;
+                        if most.simd_lt(square((radius - still.band).max(0.0))).any_true() {
+                            return true;
                         }
-                        doubt = near.select(Rough::splat(simd, 1.0), doubt);
+                        let marks = near.select(Rough::splat(simd, 1.0), Rough::splat(simd, 0.0)).to_array();
+                        doubts.push(Doubt {
+                            solid: self.solids[link.first + place],
+                            other: Other::Still(*number),
+                            is_at: is_marked(marks),
+                        });
                     }
                 }
             }
@@ -222,22 +299,25 @@ impl Spheres {
             }
             self.place_spheres(simd, a, memory);
             self.place_spheres(simd, b, memory);
-            for [i, j] in &pair.spheres {
-                let apart = point(simd, &memory.spheres[*i]) - point(simd, &memory.spheres[*j]);
-                let [i, j] = [(a, *i), (b, *j)];
-                let [r, s] =
-                    [i, j].map(|(link, i)| self.links[link].spheres[i - self.links[link].first].radius);
+            let Memory { spheres, doubts, .. } = &mut *memory;
+            for SpherePair { spheres: [i, j], reach } in &pair.spheres {
+                let apart = point(simd, &spheres[*i]) - point(simd, &spheres[*j]);
                 let gap = apart.dot(apart);
-                let near = gap.simd_lt(square(r + s + BAND));
+                let near = gap.simd_lt(square(reach + BAND));
                 if near.any_true() {
-                    if gap.simd_lt(square(r + s - BAND)).any_true() {
-                        return Look::Contact;
+                    if gap.simd_lt(square(reach - BAND)).any_true() {
+                        return true;
                     }
-                    doubt = near.select(Rough::splat(simd, 1.0), doubt);
+                    let marks = near.select(Rough::splat(simd, 1.0), Rough::splat(simd, 0.0)).to_array();
+                    doubts.push(Doubt {
+                        solid: self.solids[*i],
+                        other: Other::Own(self.solids[*j]),
+                        is_at: is_marked(marks),
+                    });
                 }
             }
         }
-        Look::FreeBut(doubt.to_array().map(|mark| mark > 0.5))
+        false
     }
 
     /// Writes the frames of all links and the balls around their spheres.
@@ -296,14 +376,14 @@ impl Spheres {
 const BAND: f32 = PLACED_M as f32;
 
 impl Still {
-    fn new(solid: &Solid) -> Self {
+    fn new(solid: &Solid, clearance_m: f64) -> Self {
         let at = frame(&solid.pose);
         let (form, reach) = match &solid.form {
             Form::Box(half) => (StillForm::Box(half.map(|x| x as f32)), Vec3::from(*half).norm()),
             Form::Cylinder(radius, length) => {
                 let corner = prism_radius_m(*radius);
                 let radii = [*radius, corner].map(|x| x as f32);
-                (StillForm::Cylinder(radii, 0.5 * *length as f32), corner + length)
+                (StillForm::Cylinder(radii, 0.5 * *length as f32), libm::hypot(corner, 0.5 * length))
             }
             Form::Sphere(radius) => (StillForm::Sphere(*radius as f32), *radius),
             Form::Hull(points) => {
@@ -312,13 +392,20 @@ impl Still {
             }
         };
         let band = PLACED_M + ROUGHNESS * (at.origin.norm() + reach);
-        Self { axes: columns(&at.rotation), origin: rough(&at.origin), form, band: band as f32 }
+        Self {
+            axes: columns(&at.rotation),
+            origin: rough(&at.origin),
+            form,
+            reach: (reach + clearance_m) as f32,
+            clearance: clearance_m as f32,
+            band: band as f32,
+        }
     }
 
-    /// At least and at most the squares of the distances from eight points.
+    /// At least and at most the squares of the distances from eight points, which are so far from the origin.
     #[inline(always)]
-    fn squares<S: Simd>(&self, simd: S, at: &Point<Rough<S>>) -> (Rough<S>, Rough<S>) {
-        let apart = *at - Point::splat_rough(simd, self.origin);
+    fn squares<S: Simd>(&self, simd: S, apart: &Point<Rough<S>>) -> (Rough<S>, Rough<S>) {
+        let apart = *apart;
         match self.form {
             StillForm::Box([a, b, c]) => {
                 let x = beyond(self.along(simd, apart, 0).abs(), a);
@@ -349,6 +436,10 @@ impl Still {
     fn along<S: Simd>(&self, simd: S, apart: Point<Rough<S>>, axis: usize) -> Rough<S> {
         apart.dot(Point::splat_rough(simd, self.axes[axis]))
     }
+}
+
+fn is_marked(marks: RoughRow) -> [bool; ROUGH_LANES] {
+    marks.map(|mark| mark > 0.5)
 }
 
 /// By how much lengths are greater than `half`, or 0.

@@ -52,6 +52,18 @@ fn seven_axes_move_and_stop_at_what_is_in_the_way() {
 }
 
 #[test]
+fn a_robot_that_keeps_a_clearance_is_refused_beside_what_it_does_not_touch() {
+    let level = [0.0, std::f64::consts::FRAC_PI_2, 0.0, 0.0, 0.0, 0.0, 0.0];
+    // The ball ends 40 mm below the axis of the rods, whose prisms end 30.3 mm below it at most.
+    let below = || vec![ball(0.8, 0.26)];
+    let space = |clearance_m| {
+        JointSpace::with_clearance(seven(), below(), &SelfContact::Apart, 0.05, clearance_m)
+    };
+    assert_eq!(space(0.009).refusal(&level), None);
+    assert!(space(0.011).refusal(&level).is_some_and(|text| text.contains("`ball`")));
+}
+
+#[test]
 fn a_robot_that_folds_onto_itself_is_reported_unless_nobody_asks() {
     let mut folded = [0.0; 7];
     (folded[1], folded[3], folded[5]) = (0.0, 2.4, 2.4);
@@ -92,7 +104,13 @@ fn motions_in_lanes_are_free_where_the_scalar_code_finds_them_free() {
             Form::Hull(vec![[0.0; 3], [0.3, 0.0, 0.0], [0.0, 0.3, 0.0], [0.0, 0.0, 0.3]]),
         ),
     ];
-    let space = JointSpace::new(of_spheres(), obstacles, &SelfContact::Apart, 0.1);
+    for clearance_m in [0.0, 0.02] {
+        compare_with_the_scalar_code(obstacles.clone(), clearance_m);
+    }
+}
+
+fn compare_with_the_scalar_code(obstacles: Vec<Solid>, clearance_m: f64) {
+    let space = JointSpace::with_clearance(of_spheres(), obstacles, &SelfContact::Apart, 0.1, clearance_m);
     assert!(space.spheres.is_some(), "the robot is made of spheres");
     let scalar = JointSpace { spheres: None, ..space.clone() };
     let mut stream = base::seed::stream(23);
@@ -115,7 +133,11 @@ fn motions_in_lanes_are_free_where_the_scalar_code_finds_them_free() {
             let found = crate::geometry::lanes::on_level(level, || {
                 space.goes([&from, &to], 1.0, &mut memory, &mut wide)
             });
-            assert_eq!((found, wide), (truth, plain), "seed 23 case {case} on {level:?}: {from:?} {to:?}");
+            assert_eq!(
+                (found, wide),
+                (truth, plain),
+                "seed 23 case {case} on {level:?}, {clearance_m} m apart: {from:?} {to:?}"
+            );
         }
         if truth { free += 1 } else { hit += 1 }
     }
@@ -133,8 +155,8 @@ fn few_configurations_are_left_to_the_scalar_code() {
         let rows: Vec<RoughRow> = (0..7)
             .map(|_| std::array::from_fn(|_| rand::RngExt::random_range(&mut stream, -0.4_f32..0.4)))
             .collect();
-        if let Look::FreeBut(doubt) = dispatch!(level(), simd => spheres.look(simd, &rows, &mut lanes)) {
-            doubts += doubt.iter().filter(|doubt| **doubt).count();
+        if !dispatch!(level(), simd => spheres.touches(simd, &rows, &mut lanes)) {
+            doubts += lanes.doubts.iter().flat_map(|doubt| doubt.is_at).filter(|is_in| *is_in).count();
         }
     }
     assert!(doubts < 10, "{doubts} of 4000 configurations in doubt");
