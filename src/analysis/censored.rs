@@ -81,9 +81,8 @@ pub fn not_posed(of: &Selection<'_>, evidence: &Evidence<'_>) -> Option<String> 
     let invalid = rows.iter().filter(|row| row.status == Status::InvalidProblem);
     let left: BTreeSet<_> = invalid.clone().map(|row| (&row.key.on, &row.key.query)).collect();
     let reason = invalid.filter_map(|row| row.reason.as_deref()).next().unwrap_or("no reason is stored");
-    (!left.is_empty()).then(|| {
-        format!("{} of {} problems cannot be posed and are left out: {reason}", left.len(), problems.len())
-    })
+    (!left.is_empty())
+        .then(|| format!("no problem could be posed in {} of {}: {reason}", left.len(), problems.len()))
 }
 
 /// The share of the paths that come back, of all that is selected, which the verifier refuses.

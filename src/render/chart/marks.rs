@@ -275,7 +275,8 @@ impl Mark for Cells {
                 && y0.max(y1) > frame.y
         };
         let runs = self.runs();
-        let has = |color: &Rgb| runs.get(color).is_some_and(|runs| runs.iter().any(is_shown));
+        // A colour that no cell has is of another mark.
+        let has = |color: &Rgb| runs.get(color).is_none_or(|runs| runs.iter().any(is_shown));
         let is_there = |key: &&Key| match key.swatch {
             Swatch::Area(fill, _) => has(&fill.color),
             Swatch::Line(..) | Swatch::Point(..) => true,
