@@ -1,6 +1,8 @@
 //! Problem groups and contenders that are like another: what they have, what stands in the place of it, and what is refused.
 
 use crate::paper::Bench;
+use std::collections::BTreeMap;
+use std::path::Path;
 use study::paper::Paper;
 use study::{Contender, Group, Inputs, Study};
 
@@ -206,4 +208,30 @@ fn what_cannot_be_like_another_is_refused_once_where_it_stands() {
         assert!(lines.len() == 1 && lines[0].contains(refused), "{to}\n{}", output.err);
         assert!(lines[0].contains(&format!("/mini/{file}.toml:")), "{to}: {}", lines[0]);
     }
+}
+
+#[test]
+fn no_group_and_no_contender_of_a_committed_study_is_written_twice() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut twice = Vec::new();
+    for name in crate::paper::committed() {
+        let folder = root.join("experiments").join(&name);
+        let mut seen = BTreeMap::new();
+        for path in std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
+            let spec: toml::Table = std::fs::read_to_string(&path).unwrap().parse().unwrap();
+            for (part, key) in [("problems", "family"), ("contender", "planner")] {
+                let entries = spec.get(part).and_then(toml::Value::as_array).into_iter().flatten();
+                for entry in entries.filter(|entry| entry.get(key).is_some()) {
+                    let settings = entry.get("settings").and_then(toml::Value::as_table);
+                    let Some(settings) = settings.filter(|settings| settings.len() > 3) else { continue };
+                    let text = format!("{key} {} {settings}", entry[key]);
+                    let place = format!("{}: {}", path.display(), entry["label"]);
+                    if let Some(first) = seen.insert(text, place.clone()) {
+                        twice.push(format!("{first} and {place}"));
+                    }
+                }
+            }
+        }
+    }
+    assert_eq!(twice, [""; 0], "say `like`:\n{}", twice.join("\n"));
 }
