@@ -56,9 +56,8 @@ fn a_robot_that_keeps_a_clearance_is_refused_beside_what_it_does_not_touch() {
     let level = [0.0, std::f64::consts::FRAC_PI_2, 0.0, 0.0, 0.0, 0.0, 0.0];
     // The ball ends 40 mm below the axis of the rods, whose prisms end 30.3 mm below it at most.
     let below = || vec![ball(0.8, 0.26)];
-    let space = |clearance_m| {
-        JointSpace::with_clearance(seven(), below(), &SelfContact::Apart, 0.05, clearance_m)
-    };
+    let space =
+        |clearance_m| JointSpace::with_clearance(seven(), below(), &SelfContact::Apart, 0.05, clearance_m);
     assert_eq!(space(0.009).refusal(&level), None);
     assert!(space(0.011).refusal(&level).is_some_and(|text| text.contains("`ball`")));
 }
