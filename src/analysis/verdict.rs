@@ -357,7 +357,11 @@ impl ClaimVerdict {
 
     /// As [`beside_with_seed`](Self::beside_with_seed), with the second seed's outcome where it is another one.
     pub fn beside_if_other(&self) -> Option<String> {
-        if self.second == Some(self.outcome) && !self.is_seedless { self.rests_on() } else { self.beside_with_seed() }
+        if self.second == Some(self.outcome) && !self.is_seedless {
+            self.rests_on()
+        } else {
+            self.beside_with_seed()
+        }
     }
 
     /// The number of ours that stands beside the printed one.
