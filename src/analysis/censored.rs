@@ -78,9 +78,9 @@ pub fn not_posed(of: &Selection<'_>, evidence: &Evidence<'_>) -> Option<String> 
         .flat_map(|group| contenders().flat_map(|contender| run.rows(group, contender)))
         .collect();
     let problems: BTreeSet<_> = rows.iter().map(|row| (&row.key.on, &row.key.query)).collect();
-    let invalid = rows.iter().filter(|row| row.status == Status::InvalidProblem);
+    let mut invalid = rows.iter().filter(|row| row.status == Status::InvalidProblem);
     let left: BTreeSet<_> = invalid.clone().map(|row| (&row.key.on, &row.key.query)).collect();
-    let reason = invalid.filter_map(|row| row.reason.as_deref()).next().unwrap_or("no reason is stored");
+    let reason = invalid.find_map(|row| row.reason.as_deref()).unwrap_or("no reason is stored");
     (!left.is_empty())
         .then(|| format!("no problem could be posed in {} of {}: {reason}", left.len(), problems.len()))
 }

@@ -11,13 +11,18 @@ pub fn defaults(study: &Study) -> Vec<String> {
     if spec.get("quick").is_none_or(|quick| quick.get("instances").is_none()) {
         all.push(format!("quick: instances = {}", study.quick.instances));
     }
-    for (table, what, key) in
-        [("problems", "problem group", "instances"), ("contender", "contender", "repeats")]
-    {
+    // What is like another may have its number from there.
+    let instances =
+        |label: &str| study.groups.iter().any(|group| group.label == label && group.instances > 1);
+    let repeats = |label: &str| study.contenders.iter().any(|own| own.label == label && own.repeats > 1);
+    let several: [&dyn Fn(&str) -> bool; 2] = [&instances, &repeats];
+    let counted = [("problems", "problem group", "instances"), ("contender", "contender", "repeats")];
+    for ((table, what, key), are_several) in counted.into_iter().zip(several) {
         let entries = spec.get(table).and_then(Value::as_array).into_iter().flatten();
         let without = entries.filter(|entry| entry.get(key).is_none());
-        let label = |entry: &Value| Some(entry.get("label")?.as_str()?.to_owned());
-        all.extend(without.filter_map(label).map(|label| format!("{what} `{label}`: {key} = 1")));
+        let labels = without.filter_map(|entry| entry.get("label")?.as_str());
+        let labels = labels.filter(|label| !are_several(label));
+        all.extend(labels.map(|label| format!("{what} `{label}`: {key} = 1")));
     }
     let task = study.task_settings.clone().completed(study.task.settings);
     all.extend(filled(&format!("task {}", study.task.name), &task));

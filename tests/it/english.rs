@@ -212,12 +212,6 @@ fn the_readme_is_short_and_the_numbers_of_its_sample_are_those_of_the_report() {
     assert!(sample.len() > 2, "{sample:?}");
 }
 
-/// Folders of `src` whose comments keep to the field's words.
-const PLAIN: [&str; 12] = [
-    "audit", "base", "cli", "engine", "export", "external", "page", "proofs", "render", "stats", "study",
-    "verify",
-];
-
 /// The comments of a file of Rust, each with the number of its first line.
 fn comments(text: &str) -> Vec<(usize, String)> {
     let mut found: Vec<(usize, String)> = Vec::new();

@@ -119,7 +119,9 @@ fn other_units(source: &Source, entries: &[Spanned<JointEntry>]) -> Vec<Settings
         let asked = found.and_then(|(size, index, key)| {
             Some((index, key, seems_in_metres(&format!("the longest {key} of {written}"), size)?))
         });
-        asked.into_iter().for_each(|(index, key, message)| fault(index, key, message));
+        if let Some((index, key, message)) = asked {
+            fault(index, key, message);
+        }
     }
     let widest = farthest(entries, &LIMITS).filter(|(size, ..)| *size < LITTLE_DEG);
     if let Some((size, index, key)) = widest {
@@ -132,13 +134,17 @@ fn other_units(source: &Source, entries: &[Spanned<JointEntry>]) -> Vec<Settings
     for column in &TURNS {
         let angles: Vec<f64> = numbers(entries, column).map(|(_, angle)| angle).collect();
         let asked = seems_in_radians(column.0, &angles);
-        asked.into_iter().for_each(|(index, message)| fault(index, column.0, message));
+        if let Some((index, message)) = asked {
+            fault(index, column.0, message);
+        }
     }
     // One joint may have limits in radians where the others' are in degrees.
     for (index, entry) in entries.iter().enumerate().filter(|_| widest.is_none()) {
         let limits = LIMITS.map(|(_, of)| of(entry.get_ref()).unwrap_or_default());
         let asked = seems_in_radians("a limit", &limits);
-        asked.into_iter().for_each(|(limit, message)| fault(index, LIMITS[limit].0, message));
+        if let Some((limit, message)) = asked {
+            fault(index, LIMITS[limit].0, message);
+        }
     }
     if let Some((speed, index, key)) = farthest(entries, &SPEEDS_DEG_S) {
         let fastest = FASTEST_RAD_S.to_degrees();
