@@ -1,7 +1,7 @@
 //! Two encodings of one paper side by side: which claims they judge alike, and what differs where they do not.
 //!
-//! Claims are matched by their id, or else by what they mean, or else by what is printed: the same number with the same unit at the
-//! same place. What means the same as another claim of its side, or prints what another prints, matches nothing by it.
+//! Claims are matched by their id, or else by their meaning, or else by the same printed number with the same unit at the same
+//! place. Two claims of one side with one meaning, or with one printed number, match nothing.
 
 use super::compare::stored_studies;
 use super::history::History;
@@ -21,7 +21,7 @@ pub struct Encoding {
     meanings: BTreeMap<String, Vec<String>>,
     /// The form of these hashes.
     form: u32,
-    /// The studies of which records are stored.
+    /// The studies with stored records.
     studies: BTreeMap<String, Manifest>,
 }
 

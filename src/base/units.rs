@@ -164,8 +164,8 @@ mod tests {
             ("1.125", false),
             ("110", false),
         ] {
-            let asked = setting_in_radians("jump_deg", angle_deg.parse().unwrap(), 1.0);
-            assert_eq!(asked.is_some(), is_asked, "{angle_deg}: {asked:?}");
+            let doubt = setting_in_radians("jump_deg", angle_deg.parse().unwrap(), 1.0);
+            assert_eq!(doubt.is_some(), is_asked, "{angle_deg}: {doubt:?}");
         }
         assert_eq!(
             points_in_metres("from_mm and to_mm", &[0.0, -0.4, 0.0, 0.3]).unwrap(),

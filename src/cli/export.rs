@@ -6,15 +6,14 @@
 use super::Failure;
 use super::beside::become_program;
 use super::pack::{Pack, day};
-use super::places::stored_run;
+use super::places::{check_stored, stored_run};
 use super::progress::doing;
-use crate::analysis::compare::{StoredRun, cells, stored_studies};
+use crate::analysis::compare::{StoredRun, cells};
 use crate::render::comparison::cells_csv;
 use clap::{Args, ValueEnum};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-use study::manifest::Manifest;
-use study::store::{Staged, check_records, csv};
+use study::store::{Staged, csv};
 
 /// Exports a stored run.
 #[derive(Args)]
@@ -62,14 +61,6 @@ pub enum Format {
 
 /// The kinds of record that are exported; traces are lists of numbers without a table's shape.
 const PARTS: [&str; 3] = ["trials", "preprocessing", "times"];
-
-/// Refuses a folder in which some record is gone or is not what its manifest names.
-pub(super) fn check_stored(folder: &Path) -> Result<(), Failure> {
-    for study in stored_studies(folder) {
-        check_records(folder, &study, &Manifest::read(folder, &study)?.files)?;
-    }
-    Ok(())
-}
 
 impl Export {
     /// Runs the command.

@@ -71,7 +71,7 @@ impl Pack {
         let places = Places::find(&self.which, "")?;
         let paper = super::load::load(&places, &How::plain(None))?;
         let verdicts = Verdicts::read(&places.runs)?;
-        super::export::check_stored(&places.runs)?;
+        super::places::check_stored(&places.runs)?;
         // What the README promises a reviewer: verdicts follow from records, tables and figures from both.
         judge::check(&paper, How::plain(None).interpretation(&paper.choices)?, &places)?;
         render::check(&paper, &places, None, stop_flag())?;
@@ -382,7 +382,7 @@ pub fn check(folder: &Path) -> Result<(), Failure> {
         )));
     }
     for entry in fs::read_dir(folder.join("data/runs"))?.flatten() {
-        super::export::check_stored(&entry.path()).map_err(Failure::in_check)?;
+        super::places::check_stored(&entry.path()).map_err(Failure::in_check)?;
         Verdicts::read(&entry.path()).map_err(Failure::from).map_err(Failure::in_check)?;
     }
     say!("{}: {} files are as they were packed", folder.display(), known.len());

@@ -11,7 +11,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::iter;
 use std::path::{Component, Path, PathBuf};
+use study::manifest::Manifest;
 use study::paper::Paper;
+use study::store::check_records;
 use study::{Inputs, Interpretation, Study};
 
 /// Where the papers of the project lie.
@@ -346,4 +348,12 @@ impl How {
         }
         Ok(())
     }
+}
+
+/// Refuses a folder in which some record is gone or is not what its manifest names.
+pub(super) fn check_stored(folder: &Path) -> Result<(), Failure> {
+    for study in stored_studies(folder) {
+        check_records(folder, &study, &Manifest::read(folder, &study)?.files)?;
+    }
+    Ok(())
 }

@@ -2,7 +2,7 @@
 
 use super::places::Places;
 use super::verdicts::{COLUMNS, coloured, print};
-use super::{Failure, Which, export::check_stored};
+use super::{Failure, Which, places::check_stored};
 use crate::analysis::history::History;
 use crate::analysis::verdict::{ClaimVerdict, CriterionFinding, Verdicts};
 use crate::render::prose::{plain, wrapped};

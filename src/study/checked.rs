@@ -295,9 +295,9 @@ impl Study {
 
     /// SHA-256 of what its spec asks to run: comments, the question and figures change nothing.
     pub fn run_hash(&self) -> String {
-        let mut asked: Table = self.document.read_stored().expect("the spec of a checked study is TOML");
-        asked.retain(|key, _| !["question", "figure"].contains(&key));
-        sha256(asked.to_string().as_bytes())
+        let mut run: Table = self.document.read_stored().expect("the spec of a checked study is TOML");
+        run.retain(|key, _| !["question", "figure"].contains(&key));
+        sha256(run.to_string().as_bytes())
     }
 
     /// Why there is no query called `name` in the problem groups `labels`; `None` if there is one, or if some group's queries are not known.

@@ -146,8 +146,11 @@ fn the_ways_in_which_searches_end_add_up_to_all_of_them() {
     let report = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("paper_repro.md")).unwrap();
     let table = report.split("|  | Solved | Refused | No path | Budget spent |").nth(1).unwrap();
     let rows = table.lines().skip(2).take_while(|line| line.starts_with('|'));
-    let shares =
-        |line: &str| line.split('|').filter_map(|cell| cell.trim().parse().ok()).collect::<Vec<f64>>();
+    // The label, and then the four ways; other columns may follow.
+    let shares = |line: &str| {
+        let cells = line.split('|').skip(2).take(4);
+        cells.filter_map(|cell| cell.trim().parse().ok()).collect::<Vec<f64>>()
+    };
     let rows: Vec<Vec<f64>> = rows.map(shares).filter(|shares| !shares.is_empty()).collect();
     for shares in &rows {
         let sum: f64 = shares.iter().sum();

@@ -252,7 +252,7 @@ fn every_example_of_a_figure_builds_in_a_committed_paper() {
 }
 
 /// The words of JSON Schema that the validator and the descriptions understand, and those that need no understanding.
-const WORDS: [&str; 27] = [
+const WORDS: [&str; 28] = [
     "$defs",
     "$ref",
     "$schema",
@@ -265,6 +265,7 @@ const WORDS: [&str; 27] = [
     "enum",
     "exclusiveMaximum",
     "exclusiveMinimum",
+    "minLength",
     "format",
     "if",
     "items",

@@ -485,7 +485,7 @@ const NO_MESSAGES: &[(&str, usize)] = &[
     ("study/explore.rs", 9),
     ("study/family/conditioned.rs", 2),
     ("study/manifest.rs", 2),
-    ("study/manifest/hashes.rs", 7),
+    ("study/manifest/hashes.rs", 8),
     ("study/plan.rs", 1),
     ("verify/arm/depth.rs", 3),
 ];

@@ -77,7 +77,7 @@ fn anchors_of_a_page_are_each_there_once() {
 #[test]
 fn the_report_is_short_and_no_line_of_the_details_is_long() {
     let report = read(&root().join("paper_repro.md"));
-    assert!(report.len() < 90_000, "{} bytes", report.len());
+    assert!(report.len() < 100_000, "{} bytes", report.len());
     for page in pages().iter().filter(|page| page.ends_with("details.md")) {
         for (line, at) in read(page).lines().zip(1..) {
             let length = line.chars().count();
@@ -96,7 +96,7 @@ fn whether_a_cost_below_the_straight_line_is_possible_is_answered_within_three_c
     let report = read(&root().join("paper_repro.md"));
     // First click: what was found in the paper. Second: the printed number's verdict.
     let found = report.split("### [zhang](#zhang)").nth(1).unwrap().split("###").next().unwrap();
-    assert!(found.contains("Four printed entries cannot be true"), "{found}");
+    assert!(found.contains("Printed entries contradict arithmetic or each other"), "{found}");
     let chapter = report.split("<a id=\"zhang\"></a>").nth(1).unwrap();
     let target = "plots/zhang/details.md#t1.improved.cost";
     assert!(

@@ -240,47 +240,7 @@ fn of_row(
     let same: Vec<usize> = (0..table.columns.len()).filter(others).collect();
     let is_alike =
         |other: usize| same.iter().all(|at| table.rows[other][*at].text == table.rows[row][*at].text);
-    // A row that divides blocks holds its name alone; where a dash stands, something is not printed.
-    let is_empty = |other: usize| {
-        let cells = table.rows[other].iter().zip(&table.columns);
-        cells.filter(|(_, column)| column.meaning.kind != Kind::Skip).all(|(cell, _)| cell.text.is_empty())
-    };
-    let [mut block, mut all, mut before] = [Vec::new(), Vec::new(), Vec::new()];
-    let mut is_in_block = true;
-    let (mut gap, mut perhaps_gap) = (None, None);
-    let line = |other: usize| table.rows[other][column].place.line;
-    for other in neighbours(table, labels, row) {
-        // A row without numbers right below one with them may begin a block, or its numbers may be missing.
-        let is_below_a_row = other > 0
-            && labels[other - 1].is_none()
-            && !is_empty(other - 1)
-            && !is_statistic(table, other - 1);
-        if is_empty(other) && is_below_a_row && is_alike(other) {
-            perhaps_gap = Some(format!("line {} has no number here, or begins a block", line(other)));
-        }
-        if is_empty(other) || labels[other].is_some() || is_statistic(table, other) {
-            is_in_block &= block.is_empty();
-            if labels[other].is_some() && is_alike(other) && table.print(other, column).is_some() {
-                before.push(other);
-            }
-            continue;
-        }
-        if !is_alike(other) {
-            continue;
-        }
-        // Where one is not printed, what the others give is not known.
-        if table.print(other, column).is_none() {
-            gap = Some(format!("line {} has no number here", line(other)));
-            continue;
-        }
-        if all.len() == MOST {
-            return None;
-        }
-        all.push(other);
-        if is_in_block {
-            block.push(other);
-        }
-    }
+    let Above { block, all, before, gap, perhaps_gap } = rows_above(table, labels, [row, column], is_alike)?;
     if all.len() < 2 && gap.is_none() {
         return None;
     }
@@ -310,6 +270,71 @@ fn of_row(
         steps: Cell::default(),
     };
     Some((word, summary))
+}
+
+/// The rows that a summary may sum up.
+#[derive(Default)]
+struct Above {
+    /// Those of its block.
+    block: Vec<usize>,
+    /// All that are no summaries.
+    all: Vec<usize>,
+    /// Other summaries.
+    before: Vec<usize>,
+    /// Which row has no number.
+    gap: Option<String>,
+    /// Which row has no number, unless it begins a block.
+    perhaps_gap: Option<String>,
+}
+
+/// The rows that the summary in `row` may sum up in `column`, of those that are alike; `None` if they are too many.
+fn rows_above(
+    table: &Table,
+    labels: &[Option<usize>],
+    [row, column]: [usize; 2],
+    is_alike: impl Fn(usize) -> bool,
+) -> Option<Above> {
+    // A row that divides blocks holds its name alone; where a dash stands, something is not printed.
+    let is_empty = |other: usize| {
+        let cells = table.rows[other].iter().zip(&table.columns);
+        cells.filter(|(_, column)| column.meaning.kind != Kind::Skip).all(|(cell, _)| cell.text.is_empty())
+    };
+    let mut found = Above::default();
+    let mut is_in_block = true;
+    let line = |other: usize| table.rows[other][column].place.line;
+    for other in neighbours(table, labels, row) {
+        // A row without numbers right below one with them may begin a block, or its numbers may be missing.
+        let is_below_a_row = other > 0
+            && labels[other - 1].is_none()
+            && !is_empty(other - 1)
+            && !is_statistic(table, other - 1);
+        if is_empty(other) && is_below_a_row && is_alike(other) {
+            found.perhaps_gap = Some(format!("line {} has no number here, or begins a block", line(other)));
+        }
+        if is_empty(other) || labels[other].is_some() || is_statistic(table, other) {
+            is_in_block &= found.block.is_empty();
+            if labels[other].is_some() && is_alike(other) && table.print(other, column).is_some() {
+                found.before.push(other);
+            }
+            continue;
+        }
+        if !is_alike(other) {
+            continue;
+        }
+        // Where one is not printed, what the others give is not known.
+        if table.print(other, column).is_none() {
+            found.gap = Some(format!("line {} has no number here", line(other)));
+            continue;
+        }
+        if found.all.len() == MOST {
+            return None;
+        }
+        found.all.push(other);
+        if is_in_block {
+            found.block.push(other);
+        }
+    }
+    Some(found)
 }
 
 /// The rows that a summary may be of, the nearest first: those above, or below if there are none above.

@@ -57,11 +57,11 @@ pub fn parse_urdf(document: &Document) -> Result<Robot, SettingsError> {
     let mut notes = Keys { xml, format: "URDF", read: READ }.unread(root)?;
     let robot = walk::robot(&Tree::new(xml, root)?)?;
     notes.extend(robot.joints.iter().filter(|joint| joint.is_too_fast()).map(|joint| {
-        let (accepted, asked) =
+        let (accepted, other_unit) =
             if joint.kind == Kind::Slides { ("metres", "millimetres") } else { ("radians", "degrees") };
         let speed = joint.speed.unwrap_or_default();
         format!(
-            "the velocity of joint `{}` is {speed}; is it in {asked} a second? The format has {accepted}",
+            "the velocity of joint `{}` is {speed}; is it in {other_unit} a second? The format has {accepted}",
             joint.name
         )
     }));

@@ -359,6 +359,16 @@ fn a_wrong_average_or_total_is_a_signal_and_a_right_one_is_none() {
         assert_eq!(found(&rows("Overall", right)), [], "{right}");
     }
     assert_eq!(found(&rows("Overall", "72.0 | 500")), [("summary", Class::Signal); 2]);
+}
+
+#[test]
+fn a_summary_of_counts_of_trials_or_of_a_method_called_mean_is_read_as_it_is_meant() {
+    let rows = |word: &str, value: &str| {
+        table(
+            "planner | success [% of 250] | nodes [value]",
+            &["A | 33.2 | 100", "B | 50.0 | 150", "C | 60.0 | 201", &format!("{word} | {value}")],
+        )
+    };
     let solved = |last: &str| table("map | solved", &["a | 10/20", "b | 15/20", last]);
     assert_eq!(found(&solved("Total | 25/40")), []);
     assert_eq!(found(&solved("Total | 26/40")), [("summary", Class::Signal)], "counts are not rounded");

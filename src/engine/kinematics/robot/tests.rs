@@ -157,13 +157,13 @@ fn rows_in_metres_and_limits_in_radians_are_queried() {
     let faster = message(&FILE.replacen("speed_deg_s = 500", "speed_deg_s = 5000", 1)).unwrap_err();
     let expected = "speed_deg_s is 5000; no joint is faster than 1432; less is accepted";
     assert!(faster.starts_with("up6.toml:") && faster.contains(expected), "{faster}");
-    for (key, length, asked) in [
+    for (key, length, doubt) in [
         ("d_mm", "d_mm = 640", "the longest d_mm of 3 is 0.64"),
         ("a_mm", "a_mm = 570", "the longest a_mm of 3 is 0.57"),
     ] {
         let column = message(&scaled([key, key], 1e-3)).unwrap_err();
         let line = FILE[..FILE.find(length).unwrap()].lines().count() + 1;
-        assert!(column.starts_with(&format!("up6.toml:{line}:8: {asked}")), "{column}");
+        assert!(column.starts_with(&format!("up6.toml:{line}:8: {doubt}")), "{column}");
         assert!(column.contains("; is it in metres? millimetres are accepted ("), "{column}");
     }
     let offsets = FILE.replacen(
@@ -176,13 +176,13 @@ fn rows_in_metres_and_limits_in_radians_are_queried() {
         "a calibrated arm"
     );
     let turned = |limits: &str| message(&FILE.replacen("lower_deg = -135\nupper_deg = 135", limits, 1));
-    for (limits, line, asked) in [
+    for (limits, line, doubt) in [
         ("lower_deg = -1.5708\nupper_deg = 1.5708", "up6.toml:59:13", "a limit is -1.5708"),
         ("lower_deg = -1.57\nupper_deg = 1.57", "up6.toml:59:13", "a limit is -1.57"),
         ("lower_deg = -90\nupper_deg = 1.5708", "up6.toml:60:13", "a limit is 1.5708"),
     ] {
         let turned = turned(limits).unwrap_err();
-        let expected = format!("{line}: {asked}; is it in radians? degrees are accepted");
+        let expected = format!("{line}: {doubt}; is it in radians? degrees are accepted");
         assert!(turned.contains(&expected), "should say {expected}\nsays {turned}");
     }
     assert!(turned("lower_deg = -1.57\nupper_deg = 90").is_ok(), "of two digits, beside one in degrees");

@@ -309,7 +309,7 @@ fn a_radius_is_multiplied_and_nothing_else_is() {
 /// Settings without a radius of places.
 #[test]
 fn angles_and_distances_of_settings_in_other_units_are_asked_about() {
-    for (over, asked) in [
+    for (over, doubt) in [
         (
             "jump_deg = 0.349",
             "jump_deg is 0.349; is it in radians? degrees are accepted (0.349 rad is 20.0°)",
@@ -320,15 +320,15 @@ fn angles_and_distances_of_settings_in_other_units_are_asked_about() {
         ("radius_mm = 1.5", "radius_mm is 1.5; is it in metres?"),
     ] {
         let message = Posed::new(&settings(over), &inputs(None)).err().expect(over).to_string();
-        assert!(message.contains(asked), "{over}: {message}");
+        assert!(message.contains(doubt), "{over}: {message}");
     }
     for (radius_deg, is_asked) in
         [("1.5", true), ("2.618", true), ("0.5", true), ("2.5", false), ("30", false)]
     {
         let posed = Posed::new(&by_configuration(&format!("radius_deg = {radius_deg}")), &inputs(None));
         let message = posed.err().map_or_else(String::new, |error| error.to_string());
-        let asked = format!("radius_deg is {radius_deg}; is it in radians?");
-        assert_eq!(message.contains(&asked), is_asked, "{message}");
+        let doubt = format!("radius_deg is {radius_deg}; is it in radians?");
+        assert_eq!(message.contains(&doubt), is_asked, "{message}");
     }
 }
 

@@ -116,10 +116,10 @@ fn other_units(source: &Source, entries: &[Spanned<JointEntry>]) -> Vec<Settings
     for column in LENGTHS.iter().filter(|_| longest.is_some_and(|(size, ..)| size >= SHORT_MM)) {
         let written = numbers(entries, column).filter(|(_, length)| *length != 0.0).count();
         let found = farthest(entries, std::slice::from_ref(column)).filter(|_| written > 1);
-        let asked = found.and_then(|(size, index, key)| {
+        let doubt = found.and_then(|(size, index, key)| {
             Some((index, key, seems_in_metres(&format!("the longest {key} of {written}"), size)?))
         });
-        if let Some((index, key, message)) = asked {
+        if let Some((index, key, message)) = doubt {
             fault(index, key, message);
         }
     }
@@ -133,16 +133,16 @@ fn other_units(source: &Source, entries: &[Spanned<JointEntry>]) -> Vec<Settings
     }
     for column in &TURNS {
         let angles: Vec<f64> = numbers(entries, column).map(|(_, angle)| angle).collect();
-        let asked = seems_in_radians(column.0, &angles);
-        if let Some((index, message)) = asked {
+        let doubt = seems_in_radians(column.0, &angles);
+        if let Some((index, message)) = doubt {
             fault(index, column.0, message);
         }
     }
     // One joint may have limits in radians where the others' are in degrees.
     for (index, entry) in entries.iter().enumerate().filter(|_| widest.is_none()) {
         let limits = LIMITS.map(|(_, of)| of(entry.get_ref()).unwrap_or_default());
-        let asked = seems_in_radians("a limit", &limits);
-        if let Some((limit, message)) = asked {
+        let doubt = seems_in_radians("a limit", &limits);
+        if let Some((limit, message)) = doubt {
             fault(index, LIMITS[limit].0, message);
         }
     }
