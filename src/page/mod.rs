@@ -141,13 +141,14 @@ pub struct IndexLine {
 /// The page that leads to those of `papers`.
 pub fn index(papers: &[IndexLine]) -> String {
     let row = |IndexLine { id, title, finding, state, counts }: &IndexLine| {
-        let counts = counts.as_ref().map_or_else(String::new, body::coloured);
+        let state = Some(escaped(state)).filter(|state| !state.is_empty());
+        let last: Vec<String> = state.into_iter().chain(counts.as_ref().map(body::coloured)).collect();
         format!(
-            "<tr><td><a href=\"{0}.html\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3} {counts}</td></tr>\n",
+            "<tr><td><a href=\"{0}.html\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td></tr>\n",
             escaped(id),
             escaped(title),
             escaped(finding),
-            escaped(state),
+            last.join(" "),
         )
     };
     let rows: String = papers.iter().map(row).collect();
