@@ -310,7 +310,9 @@ class Across:
             if again is None or SPEAKS[stored_outcome(again)] != SPEAKS[one.stored]:
                 one.vote = OPEN
 
-    def wording(self, claim: str, counted: Counted, results: Results, line: str) -> tuple[list[str], str | None]:
+    def wording(
+        self, claim: str, counted: Counted, results: Results, line: str
+    ) -> tuple[list[str], str | None]:
         """What stands beside the verdict, the counts first, and on what it depends."""
         holds, left, fails = results.counts()
         every = len(results.outcomes)
