@@ -79,7 +79,7 @@ def otherwise(cases: Cases, statistic: str, seed: str, of: Callable[[Interval], 
     least, far, middle = min(0.0, seen.min()), np.abs(seen).max() * len(seen), seen.mean()
     ends = {
         "deviation": [(middle, middle), (far, far)],
-        **dict.fromkeys(QUANTILES, [(least, least), (np.inf, np.inf)]),
+        **{name: [(least, least), (np.inf, np.inf)] for name in QUANTILES},
         "ratio_of_groups": [(least, np.inf), (np.inf, least)],
     }.get(statistic, [(least, least), (far, far)])
     found = []

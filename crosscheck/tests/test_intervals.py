@@ -126,9 +126,9 @@ def test_statistics_of_resamples_are_those_of_the_cases_drawn() -> None:
         ordered = np.sort(y_failed[drawn])
         middle = ordered[(len(drawn) - 1) // 2] / 2 + ordered[len(drawn) // 2] / 2
         assert found[0][row] == pytest.approx(middle)
-        for share in (0.25, 0.75, 0.95):
-            own = share_below(unit, y, share)(times[None, :])[0]
-            assert own == pytest.approx(np.quantile(y[drawn], share)), f"seed {SEED}, row {row}"
+        for below in (0.25, 0.75, 0.95):
+            own = share_below(unit, y, below)(times[None, :])[0]
+            assert own == pytest.approx(np.quantile(y[drawn], below)), f"seed {SEED}, row {row}"
         if len(drawn) > 1:
             assert found[1][row] == pytest.approx(np.std(y[drawn], ddof=1))
         if np.ptp(x[drawn]) > 0:
