@@ -203,8 +203,8 @@ def test_what_speaks_against_most_is_a_flip_and_of_as_many_what_speaks_against_t
     assert of(GOOD, NO) == []
 
 
-def wording_of(options: list[str], votes: list[str]) -> tuple[str | None, str | None]:
-    """What stands beside the verdict of results under these options of two choices, `a` by default."""
+def wording_of(options: list[str], votes: list[str]) -> tuple[str, str | None]:
+    """What stands beside the verdict, in one line, of results under these options of two choices, `a` by default."""
     across = Across.__new__(Across)
     across.choices = [Choice(name, "a", fitted=False, bounds=None, options={}) for name in ("order", "side")]
     interpretations = [
@@ -225,7 +225,8 @@ def wording_of(options: list[str], votes: list[str]) -> tuple[str | None, str | 
     )
     way = {GOOD: 1, BAD: -1}.get(votes[0], 0)
     results = Results(votes, way, way)
-    return across.wording("fewer", counted, results, results.verdict()[1])
+    words, on = across.wording("fewer", counted, results, results.verdict()[1])
+    return "; ".join(words), on
 
 
 ALL = [one + two for one in "abc" for two in "abc"]
