@@ -1,4 +1,4 @@
-//! PRM*: a roadmap of free samples, each joined with its `e (1 + 1 / d) ln n` nearest, searched as it grows.
+//! PRM*: a roadmap of free samples, each joined with its `e (1 + 1 / d) ln n` nearest, or with as many as a setting says, searched as it grows.
 //!
 //! # Source
 //! Karaman & Frazzoli, *Int. J. Robotics Research* 30(7), 846 (2011), algorithm 4 with k-nearest neighbours, one sample at a time.
@@ -43,6 +43,9 @@ struct PrmStar {
     /// The roadmap is searched after the first, and whenever there were so many times as many iterations as at the search before.
     #[schemars(range(min = 1.001, max = 100))]
     growth: f64,
+    /// With how many nearest samples each is joined, however many there are (k-nearest sPRM, the same source's algorithm 2); `e (1 + 1 / d) ln n` if absent.
+    #[schemars(range(min = 1, max = 1000))]
+    nearest: Option<usize>,
 }
 
 /// The roadmap: a node's neighbours, each with how far it is.
@@ -65,8 +68,9 @@ impl Graph for &Roadmap {
 
 impl Roadmap {
     /// Adds a free configuration and joins it with those near.
-    fn add(&mut self, motions: &mut Motions<'_>, config: &[f64]) {
-        let near = self.nodes.nearest_of(config, neighbour_count(self.links.len(), config.len()));
+    fn add(&mut self, motions: &mut Motions<'_>, config: &[f64], nearest: Option<usize>) {
+        let count = nearest.unwrap_or_else(|| neighbour_count(self.links.len(), config.len()));
+        let near = self.nodes.nearest_of(config, count);
         let node = self.nodes.add(config, 0);
         self.links.push(Vec::new());
         for (other, gap) in near {
@@ -106,14 +110,14 @@ impl SampledSearch for PrmStar {
         let mut found = Progress::default();
         let mut draw = Draw::new(self.sampler, request.seed);
         let mut map = Roadmap { nodes: Tree::new(motions, request.start), links: vec![Vec::new()] };
-        map.add(motions, request.goal);
+        map.add(motions, request.goal, self.nearest);
         let limit = self.limit(request);
         let mut due = 1.0;
         while found.iterations < limit {
             found.iterations += 1;
             let sample = motions.sample(&mut draw);
             if local(request).refusal(&sample).is_none() {
-                map.add(motions, &sample);
+                map.add(motions, &sample, self.nearest);
             }
             if (found.iterations as f64) < due && found.iterations < limit {
                 continue;
