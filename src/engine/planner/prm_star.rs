@@ -1,7 +1,7 @@
-//! PRM*: a roadmap of free samples, each joined with its `e (1 + 1 / d) ln n` nearest, or with as many as a setting says, searched as it grows.
+//! PRM*: a roadmap of free samples, each joined with its `e (1 + 1 / d) ln n` nearest or with as many as a setting says.
 //!
 //! # Source
-//! Karaman & Frazzoli, *Int. J. Robotics Research* 30(7), 846 (2011), algorithm 4 with k-nearest neighbours, one sample at a time.
+//! Karaman & Frazzoli, *Int. J. Robotics Research* 30(7), 846 (2011), algorithm 4 with k-nearest neighbours, built anew whenever it is searched.
 
 use super::rrt_star::neighbour_count;
 use super::sampled::{IMPROVING_COLUMNS, Progress, SampledPlanner, SampledSearch, local};
@@ -17,7 +17,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "prm_star",
     about: "a roadmap whose samples are joined with ever more nearest ones, searched whenever it has grown by a share",
-    revision: 2,
+    revision: 3,
     needs: WorldKind::Roadmap,
     columns: IMPROVING_COLUMNS,
     settings: Accepted::shape::<PrmStar>(),
@@ -40,7 +40,7 @@ struct PrmStar {
     /// Samples; without a path after as many there is none to be found; the study's budget of expansions limits them as well.
     #[schemars(range(min = 1, max = 10_000_000))]
     iterations: u64,
-    /// The roadmap is searched after the first, and whenever there were so many times as many iterations as at the search before.
+    /// The roadmap is built and searched after the first, and whenever there were so many times as many iterations as at the search before.
     #[schemars(range(min = 1.001, max = 100))]
     growth: f64,
     /// With how many nearest samples each is joined, however many there are (k-nearest sPRM, the same source's algorithm 2); `e (1 + 1 / d) ln n` if absent.
@@ -67,16 +67,18 @@ impl Graph for &Roadmap {
 }
 
 impl Roadmap {
-    /// Adds a free configuration and joins it with those near.
-    fn add(&mut self, motions: &mut Motions<'_>, config: &[f64], nearest: Option<usize>) {
-        let count = nearest.unwrap_or_else(|| neighbour_count(self.links.len(), config.len()));
-        let near = self.nodes.nearest_of(config, count);
-        let node = self.nodes.add(config, 0);
-        self.links.push(Vec::new());
-        for (other, gap) in near {
-            if motions.goes(self.nodes.config(other), config) {
-                self.links[node as usize].push((other, gap));
-                self.links[other as usize].push((node, gap));
+    /// Joins each node with the nearest of all, so many or `e (1 + 1 / d) ln n`.
+    fn join(&mut self, motions: &mut Motions<'_>, nearest: Option<usize>) {
+        let count = self.nodes.count();
+        let nearest = nearest.unwrap_or_else(|| neighbour_count(count, self.nodes.config(0).len()));
+        self.links = vec![Vec::new(); count];
+        for node in 0..count as u32 {
+            for (other, gap) in self.nodes.nearest_of(self.nodes.config(node), nearest + 1) {
+                let is_known = other == node || self.links[node as usize].iter().any(|(to, _)| *to == other);
+                if !is_known && motions.goes(self.nodes.config(node), self.nodes.config(other)) {
+                    self.links[node as usize].push((other, gap));
+                    self.links[other as usize].push((node, gap));
+                }
             }
         }
     }
@@ -109,20 +111,21 @@ impl SampledSearch for PrmStar {
     fn search(&self, motions: &mut Motions<'_>, request: &Request<'_>) -> Progress {
         let mut found = Progress::default();
         let mut draw = Draw::new(self.sampler, request.seed);
-        let mut map = Roadmap { nodes: Tree::new(motions, request.start), links: vec![Vec::new()] };
-        map.add(motions, request.goal, self.nearest);
+        let mut map = Roadmap { nodes: Tree::new(motions, request.start), links: Vec::new() };
+        map.nodes.add(request.goal, 0);
         let limit = self.limit(request);
         let mut due = 1.0;
         while found.iterations < limit {
             found.iterations += 1;
             let sample = motions.sample(&mut draw);
             if local(request).refusal(&sample).is_none() {
-                map.add(motions, &sample, self.nearest);
+                map.nodes.add(&sample, 0);
             }
             if (found.iterations as f64) < due && found.iterations < limit {
                 continue;
             }
             due = found.iterations as f64 * self.growth;
+            map.join(motions, self.nearest);
             while let Some(nodes) = map.shortest(motions) {
                 let path: Vec<Vec<f64>> = nodes.iter().map(|node| map.nodes.config(*node).to_vec()).collect();
                 let Some(leg) = motions.refused_leg(&path) else {
@@ -134,7 +137,7 @@ impl SampledSearch for PrmStar {
                 map.part([nodes[leg], nodes[leg + 1]]);
             }
         }
-        found.nodes = map.links.len();
+        found.nodes = map.nodes.count();
         found
     }
 
