@@ -16,7 +16,7 @@ use serde::Deserialize;
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "prm_star",
-    about: "a roadmap whose samples are joined with ever more nearest ones, searched whenever it has grown by a share",
+    about: "a roadmap whose samples are joined with their nearest ones, more as it grows; built and searched once or as it grows",
     revision: 3,
     needs: WorldKind::Roadmap,
     columns: IMPROVING_COLUMNS,
@@ -40,9 +40,10 @@ struct PrmStar {
     /// Samples; without a path after as many there is none to be found; the study's budget of expansions limits them as well.
     #[schemars(range(min = 1, max = 10_000_000))]
     iterations: u64,
-    /// The roadmap is built and searched after the first, and whenever there were so many times as many iterations as at the search before.
+    /// The roadmap is built and searched after the first, whenever there were so many times as many iterations as at the search before,
+    /// and after the last; after the last alone if absent.
     #[schemars(range(min = 1.001, max = 100))]
-    growth: f64,
+    growth: Option<f64>,
     /// With how many nearest samples each is joined, however many there are (k-nearest sPRM, the same source's algorithm 2); `e (1 + 1 / d) ln n` if absent.
     #[schemars(range(min = 1, max = 1000))]
     nearest: Option<usize>,
@@ -114,7 +115,7 @@ impl SampledSearch for PrmStar {
         let mut map = Roadmap { nodes: Tree::new(motions, request.start), links: Vec::new() };
         map.nodes.add(request.goal, 0);
         let limit = self.limit(request);
-        let mut due = 1.0;
+        let mut due = self.growth.map_or(f64::INFINITY, |_| 1.0);
         while found.iterations < limit {
             found.iterations += 1;
             let sample = motions.sample(&mut draw);
@@ -124,7 +125,7 @@ impl SampledSearch for PrmStar {
             if (found.iterations as f64) < due && found.iterations < limit {
                 continue;
             }
-            due = found.iterations as f64 * self.growth;
+            due = self.growth.map_or(due, |growth| found.iterations as f64 * growth);
             map.join(motions, self.nearest);
             while let Some(nodes) = map.shortest(motions) {
                 let path: Vec<Vec<f64>> = nodes.iter().map(|node| map.nodes.config(*node).to_vec()).collect();

@@ -117,6 +117,37 @@ fn planners_that_go_on_come_near_the_shortest_path_and_each_path_they_note_is_sh
     }
 }
 
+/// What Karaman and Frazzoli prove of RRT and of roadmaps with a fixed number of neighbours.
+#[test]
+fn trees_that_never_change_and_roadmaps_with_few_neighbours_stay_longer_than_the_shortest_path() {
+    let world = world();
+    let mean = |name: &str, settings: &str| -> f64 {
+        let planner = planner(name, settings);
+        (0..5).map(|seed| plan(planner.as_ref(), &world, seed).cost.unwrap()).sum::<f64>() / 5.0
+    };
+    let tree = "range = 20\nreach = 5\nsampler = 'seeded'\ngoal_share = 0\niterations = 2000\ninformed = false";
+    let roadmap = "sampler = 'seeded'\niterations = 2000";
+    for (name, shared, change) in
+        [("rrt_star", tree, "rewire = false"), ("prm_star", roadmap, "nearest = 4")]
+    {
+        let [star, other] = ["", change].map(|change| mean(name, &format!("{shared}\n{change}")));
+        assert!(
+            star < 1.03 * SHORTEST_MM && other > 1.06 * SHORTEST_MM,
+            "{name}: {star} mm, with {change} {other} mm; {SHORTEST_MM} mm at the least"
+        );
+    }
+}
+
+/// A node joins the goal within `reach` and no farther off.
+#[test]
+fn a_short_reach_leaves_the_goal_to_nodes_near_it() {
+    let settings =
+        "range = 30\nreach = 2\nsampler = 'seeded'\ngoal_share = 0\niterations = 3000\ninformed = false";
+    let path = plan(planner("rrt_star", settings).as_ref(), &world(), 1).path;
+    let [before, goal] = [&path[path.len() - 2], &path[path.len() - 1]];
+    assert!((before[0] - goal[0]).hypot(before[1] - goal[1]) <= 2.0, "{before:?} to {goal:?}");
+}
+
 /// Dynamic domains are for traps: most samples lie behind walls that surround the start. In the open they spare next to nothing.
 #[test]
 fn in_a_trap_a_dynamic_domain_spares_two_in_five_of_the_steps_that_fail() {
