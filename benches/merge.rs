@@ -112,7 +112,7 @@ fn main() {
     let values: Vec<&'static str> = study.columns().into_iter().collect();
     let columns = Columns { keys: study.key_columns(), values: &values };
     let units = studies[0].0.units();
-    let cut = plan.cut(&studies).remove(0);
+    let cut = plan.cut().remove(0);
     let mut part_bytes = 0;
     for number in 1..=SHARDS {
         let mut manifest = studies[0].1.clone();

@@ -1,6 +1,6 @@
 //! The records that claims are judged by.
 
-use super::metric::{self, Metric};
+use super::metric::Metric;
 use super::polylines::Polylines;
 use engine::planner::Trace;
 use rayon::prelude::*;
@@ -152,11 +152,6 @@ impl<'a> Evidence<'a> {
     /// [`StudyError::Touched`] for the first file that could not.
     pub fn traces_read(&self) -> Result<(), StudyError> {
         self.runs().try_for_each(|run| run.kept.damage())
-    }
-
-    /// The metric that `name` stands for under the interpretation.
-    pub fn metric(&self, name: &str) -> Option<&'static Metric> {
-        metric::find(self.point.metric(name))
     }
 }
 

@@ -95,17 +95,6 @@ impl Outcome {
     pub fn is_chosen(self) -> bool {
         matches!(self, Self::Fitted | Self::Attainable)
     }
-
-    /// What an interval says of a claim that a number is at least `bound`.
-    pub fn at_least(low: f64, high: f64, bound: f64) -> Self {
-        if low >= bound {
-            Self::Holds
-        } else if high < bound {
-            Self::Fails
-        } else {
-            Self::Open
-        }
-    }
 }
 
 /// How the trials behind a finding came about.

@@ -150,8 +150,7 @@ pub struct Trials {
 
 /// The trials of the problem groups, contenders and points of sweeps that `settings` name, of all where they name none.
 pub fn trials(run: &Run<'_>, settings: Option<&toml::Table>) -> Trials {
-    let mut named = BTreeSet::new();
-    settings.into_iter().flat_map(toml::Table::values).for_each(|value| texts(value, &mut named));
+    let named = settings.into_iter().flat_map(toml::Table::values).flat_map(texts_in).collect();
     let groups: Vec<&str> = run.study.groups.iter().map(|group| group.label.as_str()).collect();
     let contenders: Vec<&str> = run.study.contenders.iter().map(|one| one.label.as_str()).collect();
     let points: Vec<String> = run.study.sweep_points().iter().map(|point| name::sweep(&point.key)).collect();
@@ -167,21 +166,20 @@ pub fn trials(run: &Run<'_>, settings: Option<&toml::Table>) -> Trials {
     Trials { instances: instances.len(), solved, all: rows.len() }
 }
 
+/// Every text in `value`.
+pub fn texts_in(value: &toml::Value) -> Vec<&str> {
+    match value {
+        toml::Value::String(text) => vec![text],
+        toml::Value::Array(elements) => elements.iter().flat_map(texts_in).collect(),
+        toml::Value::Table(table) => table.values().flat_map(texts_in).collect(),
+        _ => Vec::new(),
+    }
+}
+
 /// Those of `labels` that are named; all if none is.
 fn among<'a>(labels: Vec<&'a str>, named: &BTreeSet<&str>) -> Vec<&'a str> {
     let found: Vec<&str> = labels.iter().copied().filter(|label| named.contains(label)).collect();
     if found.is_empty() { labels } else { found }
-}
-
-fn texts<'a>(value: &'a toml::Value, found: &mut BTreeSet<&'a str>) {
-    match value {
-        toml::Value::String(text) => {
-            found.insert(text);
-        }
-        toml::Value::Array(values) => values.iter().for_each(|value| texts(value, found)),
-        toml::Value::Table(table) => table.values().for_each(|value| texts(value, found)),
-        _ => {}
-    }
 }
 
 /// Means over instances of the shares, in per cent, that `part` has of `whole`; an instance without a whole is left out.

@@ -68,11 +68,6 @@ impl Estimate {
         Self { interval: Some([interval.low, interval.high]), ..Self::bare(value, what, n) }
     }
 
-    /// A number that was estimated over instances.
-    pub fn from_bootstrap(found: stats::bootstrap::Estimate, what: impl Into<String>) -> Self {
-        Self::new(found.value, found.interval, what, found.units)
-    }
-
     /// A number without an interval.
     pub fn bare(value: f64, what: impl Into<String>, n: usize) -> Self {
         let (quantity, subject) = (Quantity::Number, String::new());
@@ -353,15 +348,6 @@ impl ClaimVerdict {
         });
         let words: Vec<String> = self.beside.iter().cloned().chain(second).collect();
         (!words.is_empty()).then(|| words.join("; "))
-    }
-
-    /// As [`beside_with_seed`](Self::beside_with_seed), with the second seed's outcome where it is another one.
-    pub fn beside_if_other(&self) -> Option<String> {
-        if self.second == Some(self.outcome) && !self.is_seedless {
-            self.rests_on()
-        } else {
-            self.beside_with_seed()
-        }
     }
 
     /// The number of ours that stands beside the printed one.

@@ -54,18 +54,21 @@ pub struct Item {
     pub columns: &'static [&'static str],
 }
 
+/// A thing that is set, by what its registry has of it.
+fn item(
+    frame: Frame,
+    [name, about, example]: [&'static str; 3],
+    settings: Accepted,
+    columns: &'static [&'static str],
+) -> Item {
+    Item { name, about, settings: Some(settings), example, file: None, frame, columns }
+}
+
 fn planners_or_stages(first: bool) -> Vec<Item> {
     let fits = |entry: &&planner::Entry| matches!(entry.build, Build::Planner(_)) == first;
-    let item = |e: &planner::Entry| Item {
-        name: e.name,
-        about: e.about,
-        settings: Some(e.settings),
-        example: e.example,
-        file: None,
-        frame: if first { PLANNER } else { STAGE },
-        columns: e.columns,
-    };
-    study::planner::all().filter(fits).map(item).collect()
+    let frame = if first { PLANNER } else { STAGE };
+    let planners = study::planner::all().filter(fits);
+    planners.map(|e| item(frame, [e.name, e.about, e.example], e.settings, e.columns)).collect()
 }
 
 /// Planners: the first in a contender's pipeline.
@@ -80,30 +83,13 @@ pub fn stages() -> Vec<Item> {
 
 /// Families of problems.
 pub fn families() -> Vec<Item> {
-    let item = |e: &&family::Entry| Item {
-        name: e.name,
-        about: e.about,
-        settings: Some(e.settings),
-        example: e.example,
-        file: None,
-        frame: FAMILY,
-        columns: e.columns,
-    };
-    family::REGISTRY.iter().map(item).collect()
+    let families = family::REGISTRY.iter();
+    families.map(|e| item(FAMILY, [e.name, e.about, e.example], e.settings, e.columns)).collect()
 }
 
 /// Tasks.
 pub fn tasks() -> Vec<Item> {
-    let item = |e: &&task::Entry| Item {
-        name: e.name,
-        about: e.about,
-        settings: Some(e.settings),
-        example: e.example,
-        file: None,
-        frame: TASK,
-        columns: e.columns,
-    };
-    task::REGISTRY.iter().map(item).collect()
+    task::REGISTRY.iter().map(|e| item(TASK, [e.name, e.about, e.example], e.settings, e.columns)).collect()
 }
 
 /// Criteria of claims.
@@ -117,35 +103,17 @@ pub fn rules() -> Vec<Item> {
 }
 
 fn criteria_or_rules(registry: &[&criterion::Entry], frame: Frame) -> Vec<Item> {
-    let item = |e: &&criterion::Entry| Item {
-        name: e.name,
-        about: e.about,
-        settings: Some(e.settings),
-        example: e.example,
-        file: None,
-        frame,
-        columns: &[],
-    };
-    registry.iter().map(item).collect()
+    registry.iter().map(|e| item(frame, [e.name, e.about, e.example], e.settings, &[])).collect()
 }
 
 /// Kinds of figure.
 pub fn figures() -> Vec<Item> {
-    let item = |e: &&figure::Entry| Item {
-        name: e.name,
-        about: e.about,
-        settings: Some(e.settings),
-        example: e.example,
-        file: None,
-        frame: FIGURE,
-        columns: &[],
-    };
-    figure::REGISTRY.iter().map(item).collect()
+    figure::REGISTRY.iter().map(|e| item(FIGURE, [e.name, e.about, e.example], e.settings, &[])).collect()
 }
 
 /// Kinds of preprocessed object, which have no settings of their own: their family's make them.
 pub fn preprocessing() -> Vec<Item> {
-    let item = |e: &&preprocessing::Entry| Item {
+    let kind = |e: &&preprocessing::Entry| Item {
         name: e.name,
         about: e.about,
         settings: None,
@@ -154,7 +122,7 @@ pub fn preprocessing() -> Vec<Item> {
         frame: NONE,
         columns: e.columns,
     };
-    preprocessing::REGISTRY.iter().map(item).collect()
+    preprocessing::REGISTRY.iter().map(kind).collect()
 }
 
 /// What `replan-audit` reads: the committed schema, which its tests hold to its checks.
@@ -199,16 +167,11 @@ pub fn files() -> Vec<Item> {
             example: "docs/PLANNER_PROTOCOL.md",
         },
     ];
-    let item = |kind: &FileKind| Item {
-        name: kind.name,
-        about: kind.about,
-        settings: Some(kind.accepted),
-        example: "",
+    let kind = |kind: &FileKind| Item {
         file: Some(kind.example),
-        frame: NONE,
-        columns: &[],
+        ..item(NONE, [kind.name, kind.about, ""], kind.accepted, &[])
     };
-    let mut all: Vec<Item> = named.iter().chain(files::KINDS).map(item).collect();
+    let mut all: Vec<Item> = named.iter().chain(files::KINDS).map(kind).collect();
     all.sort_by_key(|item| item.name);
     all
 }

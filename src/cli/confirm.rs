@@ -3,11 +3,11 @@
 use super::consent::Consent;
 use super::explorer::{Explorer, judged, most_instances, scratch, within};
 use super::load::load;
-use super::one_shard::OneShard;
+use super::one_shard::RoundArgs;
 use super::places::Places;
 use super::progress::doing;
 use super::rounds::{Halt, Round, Rounds, unless_planned};
-use super::{Failure, How, Which, command_line, counted, judge, verdicts};
+use super::{Failure, How, Which, counted, judge, verdicts};
 use crate::analysis::across::stored::Exploration;
 use crate::analysis::across::to_confirm;
 use crate::analysis::estimates::{Estimates, Explored};
@@ -17,9 +17,7 @@ use clap::Args;
 use std::collections::BTreeMap;
 use study::Interpretation;
 use study::lock::Lock;
-use study::manifest::MadeBy;
 use study::paper::Paper;
-use study::shard;
 
 /// Runs a paper's studies once more on the second seed that each spec writes down, and with it every interpretation that turns a
 /// claim, with more instances: an outcome that turns counts only if it turns twice.
@@ -31,15 +29,7 @@ use study::shard;
 #[command(after_help = EXAMPLES)]
 pub struct Confirm {
     #[command(flatten)]
-    which: Which,
-    /// Threads for the trials; all cores if absent
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
-    threads: Option<u32>,
-    #[command(flatten)]
-    consent: Consent,
-    /// Run only this shard of N of the current round and keep it below --out for `replan merge`
-    #[arg(long, value_name = "K/N", value_parser = shard::parse, requires = "out")]
-    shard: Option<(usize, usize)>,
+    round: RoundArgs,
 }
 
 const EXAMPLES: &str = "Examples:
@@ -48,11 +38,7 @@ const EXAMPLES: &str = "Examples:
 impl Confirm {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
-        MadeBy::here();
-        if let Some(one) = OneShard::new(&self.which, self.shard, (self.threads, self.consent)) {
-            return one.run(Round::Default, first_points);
-        }
-        confirm(&self.which, self.threads, None, (command_line(), self.consent))
+        self.round.run(Round::Default, first_points, confirm)
     }
 }
 

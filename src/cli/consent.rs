@@ -6,6 +6,7 @@
 
 use super::Failure;
 use super::places::Places;
+use crate::analysis::tabulated::texts_in;
 use base::hash::sha256;
 use base::text::{around, one_line};
 use clap::Args;
@@ -15,7 +16,7 @@ use std::fs::{self, OpenOptions};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use study::{Study, planner};
-use toml::{Table, Value};
+use toml::Table;
 
 /// The most commands that are listed.
 const MOST_LISTED: usize = 10;
@@ -136,7 +137,7 @@ fn programs(study: &Study) -> Vec<Table> {
 /// The hash of the description of a program, and of every file that is named there.
 fn hash(program: &Table) -> String {
     let mut text = program.to_string();
-    for name in program.values().flat_map(words) {
+    for name in program.values().flat_map(texts_in) {
         if let Ok(bytes) = base::file::read(Path::new(name)) {
             text += &format!("\n{name} {}", sha256(&bytes));
         }
@@ -144,19 +145,11 @@ fn hash(program: &Table) -> String {
     sha256(text.as_bytes())
 }
 
-/// Every text in `value`.
-fn words(value: &Value) -> Vec<&str> {
-    match value {
-        Value::String(text) => vec![text],
-        Value::Array(values) => values.iter().flat_map(words).collect(),
-        Value::Table(table) => table.values().flat_map(words).collect(),
-        _ => Vec::new(),
-    }
-}
-
 /// The command in `program` as people read it; what is laid over one, as it is written.
 fn command(program: &Table) -> String {
-    one_line(&program.get("command").map_or_else(|| program.to_string(), |command| words(command).join(" ")))
+    one_line(
+        &program.get("command").map_or_else(|| program.to_string(), |command| texts_in(command).join(" ")),
+    )
 }
 
 /// The file of what is trusted; none without a home.

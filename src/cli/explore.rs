@@ -3,17 +3,15 @@
 use super::consent::Consent;
 use super::explorer::{Explorer, budget, judged, scratch};
 use super::load::load;
-use super::one_shard::OneShard;
+use super::one_shard::RoundArgs;
 use super::places::Places;
 use super::rounds::{Round, Rounds, unless_planned};
-use super::{Failure, How, Which, command_line, counted, judge, verdicts};
+use super::{Failure, How, Which, counted, judge, verdicts};
 use crate::analysis::estimates::{Estimates, Explored};
 use crate::analysis::evidence::default_point;
 use clap::Args;
 use study::Interpretation;
 use study::lock::Lock;
-use study::manifest::MadeBy;
-use study::shard;
 
 /// Explores a paper's choices: runs what each study says under the defaults, every other option by itself and a sample of
 /// their product, within the paper's budget of trials, and judges every claim under each.
@@ -24,18 +22,10 @@ use study::shard;
 #[command(after_help = EXAMPLES)]
 pub struct Explore {
     #[command(flatten)]
-    which: Which,
-    /// Threads for the trials; all cores if absent
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
-    threads: Option<u32>,
-    #[command(flatten)]
-    consent: Consent,
+    round: RoundArgs,
     /// Print what would run and the most that it takes, and run nothing
     #[arg(long, conflicts_with = "shard")]
     plan: bool,
-    /// Run only this shard of N of the current round and keep it below --out for `replan merge`
-    #[arg(long, value_name = "K/N", value_parser = shard::parse, requires = "out")]
-    shard: Option<(usize, usize)>,
 }
 
 const EXAMPLES: &str = "Examples:
@@ -45,14 +35,10 @@ const EXAMPLES: &str = "Examples:
 impl Explore {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
-        MadeBy::here();
-        if let Some(one) = OneShard::new(&self.which, self.shard, (self.threads, self.consent)) {
-            return one.run(Round::First, first_points);
-        }
         if self.plan {
-            return plan(&self.which);
+            return plan(&self.round.which);
         }
-        explore(&self.which, self.threads, None, (command_line(), self.consent))
+        self.round.run(Round::First, first_points, explore)
     }
 }
 

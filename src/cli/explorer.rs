@@ -4,8 +4,8 @@ use super::judge;
 use super::places::Places;
 use super::progress::{Bar, doing, safe_point, stop_flag};
 use super::rounds::{Halt, Round, Rounds};
-use super::sharded::Sharded;
-use super::{Failure, command_line, counted};
+use super::sharded::{Sharded, options};
+use super::{Failure, How, counted};
 use crate::analysis::across::stored::{Exploration, differing, met_exactly};
 use crate::analysis::across::{compatible, near_a_flip};
 use crate::analysis::claims;
@@ -40,7 +40,7 @@ pub struct Explorer<'p> {
     /// Its places.
     pub places: &'p Places,
     /// Threads for the trials.
-    pub threads: Option<usize>,
+    pub threads: Option<u32>,
     /// Where trials are kept.
     pub folder: PathBuf,
     /// Every seed is the second one.
@@ -78,7 +78,6 @@ pub fn judged(paper: &Paper, places: &Places) -> Result<Verdicts, Failure> {
 impl<'p> Explorer<'p> {
     /// One that explores on this machine alone.
     pub fn new(paper: &'p Paper, places: &'p Places, threads: Option<u32>, folder: PathBuf) -> Self {
-        let threads = threads.map(|threads| threads as usize);
         Self { paper, places, threads, folder, second_seed: false, rounds: None }
     }
 
@@ -366,22 +365,12 @@ impl<'p> Explorer<'p> {
     ) -> Result<(Manifest, Records), Failure> {
         let folder = self.folder.join(round.name());
         let lock = Lock::take(&folder)?;
-        let report = session::run(
-            study,
-            &Options {
-                lock: &lock,
-                points: &study.as_trials_see(points),
-                inputs: &self.places.inputs,
-                command: command_line(),
-                portion: None,
-                quick: false,
-                // What an exploration left is its own and can be had again.
-                again: session::Again { replaces_damaged: true, ..session::Again::default() },
-                threads: self.threads,
-                stop: stop_flag(),
-                progress: &Bar::default(),
-            },
-        )?;
+        let points = study.as_trials_see(points);
+        let bar = Bar::default();
+        let whole = options((&points, &bar), self.places, &How::plain(self.threads), &lock);
+        // What an exploration left is its own and can be had again.
+        let again = session::Again { replaces_damaged: true, ..session::Again::default() };
+        let report = session::run(study, &Options { again, ..whole })?;
         let records = read_numbers(&folder, &study.name, &report.manifest.files)?;
         Ok((report.manifest, records))
     }

@@ -1,4 +1,4 @@
-//! One shard of the round of an exploration or a confirmation that is at work.
+//! What `explore` and `confirm` take on the command line, and one shard of the round that is at work.
 
 use super::consent::Consent;
 use super::explorer::Explorer;
@@ -6,45 +6,48 @@ use super::load::load;
 use super::places::Places;
 use super::rounds::{Round, Rounds, at_work};
 use super::sharded::Sharded;
-use super::{Again, Failure, How, Which};
+use super::{Again, Failure, How, Which, command_line};
+use clap::Args;
 use std::path::Path;
 use study::Interpretation;
+use study::manifest::MadeBy;
 use study::plan::{Plan, PlannedRound};
+use study::shard;
 
-/// A shard of an exploration or a confirmation, as the command line asks for it.
-pub struct OneShard<'a> {
-    /// The paper, as the command line named it.
-    pub paper: &'a str,
-    /// Its number and how many there are.
-    pub shard: (usize, usize),
-    /// The folder of all parts.
-    pub parts: &'a Path,
-    /// Threads for the trials.
-    pub threads: Option<u32>,
-    /// What people allow.
-    pub consent: Consent,
+/// What is explored or confirmed: a paper, or one shard of a round.
+#[derive(Args)]
+pub struct RoundArgs {
+    #[command(flatten)]
+    pub which: Which,
+    /// Threads for the trials; all cores if absent
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    threads: Option<u32>,
+    #[command(flatten)]
+    consent: Consent,
+    /// Run only this shard of N of the current round and keep it below --out for `replan merge`
+    #[arg(long, value_name = "K/N", value_parser = shard::parse, requires = "out")]
+    shard: Option<(usize, usize)>,
 }
 
-impl<'a> OneShard<'a> {
-    /// The shard that the command line asks for, if it asks for one: it then names the folder of all parts, too.
-    pub fn new(
-        which: &'a Which,
-        shard: Option<(usize, usize)>,
-        (threads, consent): (Option<u32>, Consent),
-    ) -> Option<Self> {
-        let (shard, parts) = shard.zip(which.out.as_deref())?;
-        Some(Self { paper: &which.paper, shard, parts, threads, consent })
-    }
+/// What explores or confirms a whole paper.
+type Whole = fn(&Which, Option<u32>, Option<Rounds>, (String, Consent)) -> Result<(), Failure>;
 
-    /// Runs it in the round that is at work; in `first` under the points that it gives if none is planned yet.
+impl RoundArgs {
+    /// Runs the `whole`. If one shard is asked for, runs that shard of the round that is at work, or of `first` under the points
+    /// that it gives if none is planned yet.
     pub fn run(
         &self,
         first: Round,
         points: impl Fn(&Explorer<'_>) -> Result<Vec<Interpretation>, Failure>,
+        whole: Whole,
     ) -> Result<(), Failure> {
-        let sharded = sharded(self.paper, self.threads, self.parts, first, points)?;
-        let folder = sharded.folder(self.parts);
-        sharded.run_shard(self.shard, &folder, (Again::default(), self.consent), false)
+        MadeBy::here();
+        let Some((shard, parts)) = self.shard.zip(self.which.out.as_deref()) else {
+            return whole(&self.which, self.threads, None, (command_line(), self.consent));
+        };
+        let sharded = sharded(&self.which.paper, self.threads, parts, first, points)?;
+        let folder = sharded.folder(parts);
+        sharded.run_shard(shard, &folder, (Again::default(), self.consent), false)
     }
 }
 
@@ -62,7 +65,7 @@ pub fn sharded(
     let explorer = Explorer {
         paper: &paper,
         places: &places,
-        threads: threads.map(|threads| threads as usize),
+        threads,
         folder: Rounds::merged(parts),
         second_seed: first.has_second_seed(),
         rounds: None,

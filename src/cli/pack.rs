@@ -8,6 +8,7 @@ use super::places::Places;
 use super::progress::{doing, stop_flag};
 use super::{Failure, How, Which, judge, render, report};
 use crate::analysis::compare::stored_studies;
+use crate::analysis::tabulated::texts_in;
 use crate::analysis::verdict::Verdicts;
 use base::hash::sha256;
 use clap::Args;
@@ -221,12 +222,8 @@ fn add_named(files: &mut BTreeMap<String, Vec<u8>>, places: &Places) -> Result<(
             continue;
         }
         let text = String::from_utf8_lossy(&files[&spec]);
-        let mut names = Vec::new();
-        text.parse::<toml::Table>()
-            .iter()
-            .flat_map(toml::Table::values)
-            .for_each(|value| texts(value, &mut names));
-        for name in names {
+        let table: toml::Table = text.parse().unwrap_or_default();
+        for name in table.values().flat_map(texts_in).map(str::to_owned) {
             let mut parts = Path::new(&name).components();
             let is_plain = name.contains('/') && parts.all(|part| matches!(part, Component::Normal(_)));
             if !is_plain || name.starts_with("target/") || files.contains_key(&name) {
@@ -240,16 +237,6 @@ fn add_named(files: &mut BTreeMap<String, Vec<u8>>, places: &Places) -> Result<(
         }
     }
     Ok(())
-}
-
-/// Puts every text in `value` to `found`.
-fn texts(value: &toml::Value, found: &mut Vec<String>) {
-    match value {
-        toml::Value::String(text) => found.push(text.clone()),
-        toml::Value::Array(values) => values.iter().for_each(|value| texts(value, found)),
-        toml::Value::Table(table) => table.values().for_each(|value| texts(value, found)),
-        _ => {}
-    }
 }
 
 /// The programs and processors that made the records in `runs`, in words.

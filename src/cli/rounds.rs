@@ -132,7 +132,7 @@ impl Rounds {
             return Err(Halt::Planned(format!(
                 "round `{}`: {} units under {} interpretations are left to run, and then to merge: {}",
                 round.name(),
-                plan.units.iter().sum::<usize>(),
+                plan.units(),
                 interpretations,
                 base::text::command(&plan.arguments(&folder, &shard))
             )));

@@ -3,21 +3,21 @@
 use super::consent::Consent;
 use super::load::load;
 use super::places::Places;
-use super::progress::{Bar, doing, stop_flag};
+use super::progress::{Bar, doing};
 use super::rounds::at_work;
-use super::sharded::Sharded;
+use super::sharded::{Sharded, options};
 use super::summary::summary;
 use super::{Again, Failure, How, Which, command_line};
 use crate::analysis::history::History;
 use clap::Args;
 use std::path::Path;
+use study::Study;
 use study::lock::Lock;
 use study::manifest::MadeBy;
 use study::paper::Paper;
 use study::plan::Plan;
 use study::session::{self, Options, Report};
 use study::shard;
-use study::{Interpretation, Study};
 
 /// Runs the studies of a paper.
 #[derive(Args)]
@@ -122,27 +122,6 @@ fn run_study(
     let bar = Bar::default();
     let options = options((&points, &bar), places, how, lock);
     Ok(session::run(study, &Options { again: again.into(), ..options })?)
-}
-
-/// How a whole run of a study is to be done, reusing what is stored.
-fn options<'a>(
-    (points, bar): (&'a [Interpretation], &'a Bar),
-    places: &'a Places,
-    how: &How,
-    lock: &'a Lock,
-) -> Options<'a> {
-    Options {
-        lock,
-        points,
-        inputs: &places.inputs,
-        command: command_line(),
-        portion: None,
-        quick: how.quick,
-        again: session::Again::default(),
-        threads: how.threads.map(|threads| threads as usize),
-        stop: stop_flag(),
-        progress: bar,
-    }
 }
 
 /// Reads the clock of every timed study once more.

@@ -77,14 +77,7 @@ impl Shard {
         };
         let path = self.out.join(name);
         write_whole(&path, self.filled(template, &plan, &folder)?.as_bytes())?;
-        let all = plan.cost_ns.iter().sum::<u64>();
-        let most = plan.cost_ns.iter().max().copied().unwrap_or(0);
-        say!(
-            "{} units in {shards} shards: about {:.0} s of one core in all, {:.1} s in the longest shard",
-            plan.units.iter().sum::<usize>(),
-            all as f64 / 1e9,
-            most as f64 / 1e9
-        );
+        say!("{} units in {shards} shards", plan.units());
         say!("to run them: {start} {}", path.display());
         Ok(())
     }

@@ -66,11 +66,11 @@ impl Sharded {
     pub fn of_round(
         named: &str,
         places: &Places,
-        threads: Option<usize>,
+        threads: Option<u32>,
         round: PlannedRound,
         runs: Vec<(Study, Vec<Interpretation>)>,
     ) -> Self {
-        let how = How::plain(threads.and_then(|threads| threads.try_into().ok()));
+        let how = How::plain(threads);
         let claims = BTreeMap::new();
         Self { places: places.clone(), how, runs, claims, named: named.to_owned(), round: Some(round) }
     }
@@ -121,26 +121,13 @@ impl Sharded {
         why: bool,
     ) -> Result<(), Failure> {
         consent.check(self.studies_alone(), &self.places)?;
-        let (plan, portions) = {
-            let studies = self.studies()?;
-            let plan = Plan::agreed(folder, &self.wanted(of), &studies)?;
-            let portions = plan.portions(&studies, number);
-            (plan, portions)
-        };
+        let plan = Plan::agreed(folder, &self.wanted(of), &self.studies()?)?;
+        let portions = plan.portions(number);
         let lock = Lock::take(&plan.part(folder, number))?;
         for ((study, points), portion) in self.runs.iter().zip(&portions) {
-            let options = Options {
-                lock: &lock,
-                points,
-                inputs: &self.places.inputs,
-                command: command_line(),
-                portion: Some(portion),
-                quick: self.how.quick,
-                again: again.into(),
-                threads: self.how.threads.map(|threads| threads as usize),
-                stop: stop_flag(),
-                progress: &Bar::default(),
-            };
+            let bar = Bar::default();
+            let whole = options((points, &bar), &self.places, &self.how, &lock);
+            let options = Options { portion: Some(portion), again: again.into(), ..whole };
             say!("{}", summary(&session::run(study, &options)?, why));
         }
         say!("shard {number}/{of} is in {}", lock.folder().display());
@@ -165,5 +152,26 @@ impl Sharded {
         }
         say!("records are in {}", runs.display());
         Ok(())
+    }
+}
+
+/// How a whole run of a study is to be done, reusing what is stored.
+pub fn options<'a>(
+    (points, bar): (&'a [Interpretation], &'a Bar),
+    places: &'a Places,
+    how: &How,
+    lock: &'a Lock,
+) -> Options<'a> {
+    Options {
+        lock,
+        points,
+        inputs: &places.inputs,
+        command: command_line(),
+        portion: None,
+        quick: how.quick,
+        again: session::Again::default(),
+        threads: how.threads.map(|threads| threads as usize),
+        stop: stop_flag(),
+        progress: bar,
     }
 }

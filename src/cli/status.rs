@@ -34,8 +34,6 @@ struct ShardProgress {
     waiting: usize,
     units: usize,
     units_done: usize,
-    /// What is left, in seconds of one core, as far as the plan's costs tell.
-    core_seconds_left: f64,
 }
 
 impl Status {
@@ -48,12 +46,6 @@ impl Status {
         let with = |state: State| -> Vec<usize> {
             (1..=plan.shards).filter(|number| found[number - 1].state == state).collect()
         };
-        let left = |number: usize| {
-            let units = plan.units[number - 1];
-            let done = found[number - 1].units;
-            let share = if units == 0 { 0.0 } else { 1.0 - done as f64 / units as f64 };
-            share * plan.cost_ns[number - 1] as f64 / 1e9
-        };
         let found = ShardProgress {
             round: plan.round.as_ref().map(|round| round.name.clone()),
             shards: plan.shards,
@@ -61,9 +53,8 @@ impl Status {
             running: with(State::Running),
             stopped: with(State::Stopped),
             waiting: with(State::Waiting).len(),
-            units: plan.units.iter().sum(),
+            units: plan.units(),
             units_done: found.iter().map(|found| found.units).sum(),
-            core_seconds_left: (1..=plan.shards).map(left).sum(),
         };
         if self.json {
             say!("{}", serde_json::to_string(&found).expect("a state is numbers"));
@@ -98,22 +89,9 @@ fn progress_text(found: &ShardProgress, plan: &Plan, all: &Path, folder: &Path) 
         let merge = base::text::command(&["merge".to_owned(), all.display().to_string()]);
         return text + &format!("\nput together by: {merge}{out}");
     }
-    text += &format!("\nabout {} of one core left", duration(found.core_seconds_left));
-    if !found.running.is_empty() {
-        let each = found.core_seconds_left / found.running.len() as f64;
-        text += &format!(", {} with {} cores", duration(each), found.running.len());
-    }
     if let Some(first) = found.stopped.first() {
         let shard = format!("{first}/{}", plan.shards);
         text += &format!("\nto go on: {}", base::text::command(&plan.arguments(folder, &shard)));
     }
     text
-}
-
-fn duration(seconds: f64) -> String {
-    match seconds {
-        s if s < 120.0 => format!("{s:.0} s"),
-        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
-        s => format!("{:.1} h", s / 3600.0),
-    }
 }

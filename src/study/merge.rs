@@ -53,7 +53,7 @@ impl<'a> Parts<'a> {
             reasons.push(how_to_run(plan, folder, &missing));
         }
         if reasons.is_empty() {
-            return Ok(Self { plan, folder, cut: plan.cut(studies) });
+            return Ok(Self { plan, folder, cut: plan.cut() });
         }
         let reasons = reasons.join("\n  ");
         Err(StudyError::stored(folder, format!("the parts cannot be put together:\n  {reasons}")))

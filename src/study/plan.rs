@@ -1,15 +1,13 @@
-//! Plans: how the units of a paper's studies are cut into shards, by costs that were measured once.
+//! Plans: how the units of a paper's studies are cut into shards.
 //!
-//! A plan lies beside the parts of its run as `plan.toml`. Whoever comes first measures and writes it; all others read it, so
-//! that every shard is cut alike, and merging refuses what was cut otherwise.
+//! A plan lies beside the parts of its run as `plan.toml`. Whoever comes first writes it. All others read it, so that merging
+//! refuses what was cut otherwise.
 
 use super::StudyError;
-use super::clock;
 use super::lock::Lock;
 use super::manifest::{MadeBy, Manifest};
-use super::name;
 use super::runner::BuiltStudy;
-use super::shard::{self, Portion, Shard};
+use super::shard::{Portion, Shard, shard_of};
 use super::store::{journal_units, write_first};
 use base::hash::sha256;
 use base::settings::Document;
@@ -31,10 +29,6 @@ pub struct Plan {
     pub seed: Option<u64>,
     /// The options of `--with`, if there were any.
     pub with: Option<String>,
-    /// How many units each shard runs.
-    pub units: Vec<usize>,
-    /// What each shard's units cost, in nanoseconds of one core, as far as the first instance of each problem group tells.
-    pub cost_ns: Vec<u64>,
     /// The program that the plan was made by, and with which its parts must run.
     pub made_by: MadeBy,
     /// Which round of an exploration or a confirmation it is, if it is no plain run.
@@ -74,8 +68,6 @@ pub struct PlannedStudy {
     pub depends: String,
     /// How many units it has.
     pub units: usize,
-    /// What the first instance of each problem group cost under the first interpretation, in nanoseconds of one core.
-    pub cost_ns: BTreeMap<String, u64>,
 }
 
 /// The run that a plan is wanted for.
@@ -120,7 +112,7 @@ pub struct Progressed {
 }
 
 impl Plan {
-    /// The plan in `folder`; measured, made and left there if there is none.
+    /// The plan in `folder`; made and left there if there is none.
     ///
     /// # Errors
     /// [`StudyError::Stored`] if there is one of another run.
@@ -131,9 +123,8 @@ impl Plan {
     ) -> Result<Self, StudyError> {
         let path = Self::path(folder);
         if !path.exists() {
-            let text =
-                toml::to_string(&Self::measured(wanted, studies)).expect("a plan is texts and numbers");
-            // Two may measure at once; the first to be done is the one that all follow.
+            let text = toml::to_string(&Self::new(wanted, studies)).expect("a plan is texts and numbers");
+            // Two may write at once; the first to be done is the one that all follow.
             write_first(&path, text.as_bytes())?;
         }
         let plan = Self::read(folder)?;
@@ -141,39 +132,18 @@ impl Plan {
         Ok(plan)
     }
 
-    fn measured(wanted: &Wanted, studies: &[(BuiltStudy<'_>, Manifest)]) -> Self {
+    fn new(wanted: &Wanted, studies: &[(BuiltStudy<'_>, Manifest)]) -> Self {
         let planned = |(built, manifest): &(BuiltStudy<'_>, Manifest)| PlannedStudy {
             name: manifest.study.clone(),
             seed: manifest.seed,
             spec: manifest.spec.clone(),
             depends: manifest.depends.clone(),
             units: built.units().len(),
-            cost_ns: costs(built),
         };
         let Wanted { paper, shards, quick, seed, with, round, claims } = wanted.clone();
-        let units = vec![0; shards];
-        let cost_ns = vec![0; shards];
         let made_by = MadeBy::here().clone();
-        let studies_planned = studies.iter().map(planned).collect();
-        let mut plan = Self {
-            paper,
-            shards,
-            quick,
-            seed,
-            with,
-            units,
-            cost_ns,
-            made_by,
-            round,
-            claims,
-            studies: studies_planned,
-        };
-        let costs = plan.unit_costs(studies);
-        for (shard, cost) in shard::cut(&costs, plan.shards).into_iter().zip(costs) {
-            plan.units[shard - 1] += 1;
-            plan.cost_ns[shard - 1] += cost;
-        }
-        plan
+        let studies = studies.iter().map(planned).collect();
+        Self { paper, shards, quick, seed, with, made_by, round, claims, studies }
     }
 
     /// The plan in `folder`.
@@ -189,12 +159,8 @@ impl Plan {
             ));
         }
         let plan: Self = Document::open(&path)?.read_stored()?;
-        let counts = [plan.units.len(), plan.cost_ns.len()];
-        if plan.shards == 0 || counts.iter().any(|count| *count != plan.shards) {
-            return Err(StudyError::stored(
-                &path,
-                format!("{} shards with {} and {} of their numbers", plan.shards, counts[0], counts[1]),
-            ));
+        if plan.shards == 0 {
+            return Err(StudyError::stored(&path, "`shards` is 0; at least 1 is accepted"));
         }
         Ok(plan)
     }
@@ -240,14 +206,24 @@ impl Plan {
         words
     }
 
+    /// How many units there are.
+    pub fn units(&self) -> usize {
+        self.studies.iter().map(|study| study.units).sum()
+    }
+
+    /// How many of them the shard of this number runs.
+    fn units_of(&self, number: usize) -> usize {
+        (self.units() + self.shards - number) / self.shards
+    }
+
     /// The shard of every unit of each study.
-    pub fn cut(&self, studies: &[(BuiltStudy<'_>, Manifest)]) -> Vec<Vec<usize>> {
-        let mut shards = shard::cut(&self.unit_costs(studies), self.shards).into_iter();
+    pub fn cut(&self) -> Vec<Vec<usize>> {
+        let mut shards = (0..).map(|unit| shard_of(unit, self.shards));
         self.studies.iter().map(|planned| shards.by_ref().take(planned.units).collect()).collect()
     }
 
     /// What of each study the shard of this number runs.
-    pub fn portions(&self, studies: &[(BuiltStudy<'_>, Manifest)], number: usize) -> Vec<Portion> {
+    pub fn portions(&self, number: usize) -> Vec<Portion> {
         let own = |shards: Vec<usize>| -> BTreeSet<usize> {
             shards
                 .into_iter()
@@ -257,17 +233,7 @@ impl Plan {
                 .collect()
         };
         let portion = |shards| Portion { shard: self.shard(number), units: own(shards) };
-        self.cut(studies).into_iter().map(portion).collect()
-    }
-
-    /// What every unit costs, study after study.
-    fn unit_costs(&self, studies: &[(BuiltStudy<'_>, Manifest)]) -> Vec<u64> {
-        let mut costs = Vec::new();
-        for (planned, (built, _)) in self.studies.iter().zip(studies) {
-            let cost = |group: String| planned.cost_ns.get(&group).copied().unwrap_or(1);
-            costs.extend(built.groups_of_units().map(cost));
-        }
-        costs
+        self.cut().into_iter().map(portion).collect()
     }
 
     /// Refuses a plan of another run than `wanted`.
@@ -310,7 +276,7 @@ impl Plan {
     pub fn progressed(&self, folder: &Path, number: usize) -> Progressed {
         let part = self.part(folder, number);
         let whole = |study: &&PlannedStudy| Manifest::path(&part, &study.name).exists();
-        let units = self.units[number - 1];
+        let units = self.units_of(number);
         if self.studies.iter().all(|study| whole(&study)) {
             return Progressed { state: State::Done, units };
         }
@@ -367,22 +333,4 @@ pub fn unlike<'m>(one: &'m MadeBy, other: &'m MadeBy) -> impl Iterator<Item = [S
 /// So much of a hash as tells two apart.
 pub fn brief(hash: &str) -> String {
     hash.chars().take(12).collect()
-}
-
-/// What takes longer is measured once: 50 ms.
-const WARM_NS: u64 = 50_000_000;
-
-/// What the first instance of each problem group costs under the first interpretation.
-fn costs(built: &BuiltStudy<'_>) -> BTreeMap<String, u64> {
-    let mut costs = BTreeMap::new();
-    for unit in built.units() {
-        let group = name::group(&unit.key.group, &unit.key.sweep);
-        costs.entry(group).or_insert_with(|| {
-            let cost = || clock::timed(|| built.run_unit(&unit)).0;
-            let first = cost();
-            // What is over soon is as much warming up as work: the second time is measured then.
-            if first < WARM_NS { first.min(cost()) } else { first }
-        });
-    }
-    costs
 }

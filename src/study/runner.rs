@@ -146,14 +146,6 @@ impl<'a> BuiltStudy<'a> {
         units
     }
 
-    /// What each unit's problem group is called at its point of the sweeps, in the order of records.
-    pub fn groups_of_units(&self) -> impl Iterator<Item = String> {
-        let of_group = |(group, at): (&'a Group, &'a SweepPoint)| {
-            vec![name::group(&group.label, &at.key); group.instances as usize]
-        };
-        self.points.iter().flat_map(move |_| self.study.posed().flat_map(of_group))
-    }
-
     /// The unit called `key`: of the reading and of the problem group at its point of the sweeps at these places.
     fn unit<'s>(
         &'s self,

@@ -55,11 +55,6 @@ impl StoredRun {
         }
         Ok(Self { name: name.to_owned(), studies })
     }
-
-    /// The names of its studies.
-    pub fn names(&self) -> String {
-        self.studies.keys().map(String::as_str).collect::<Vec<_>>().join(", ")
-    }
 }
 
 /// The studies with a stored run in `folder`, in the order of their names.

@@ -169,12 +169,3 @@ fn each_cap_does_what_it_says() {
         assert_eq!(of_finding(outcome, elsewhere), None, "{outcome:?} counts where the claim is meant");
     }
 }
-
-#[test]
-fn an_interval_that_holds_the_bound_leaves_it_open() {
-    let outcome = |low, high| Outcome::at_least(low, high, 0.5);
-    assert_eq!(
-        [outcome(0.5, 0.7), outcome(0.4, 0.7), outcome(0.1, 0.4)],
-        [Outcome::Holds, Outcome::Open, Outcome::Fails]
-    );
-}
