@@ -21,6 +21,62 @@ pub fn rounded(size: f64, decimals: usize) -> String {
     format!("{:.decimals$}", libm::round(size * unit) / unit)
 }
 
+/// More numbers of one kind are shown as a range.
+const LISTED: usize = 3;
+
+/// Numbers of more kinds than these are not shown side by side.
+const KINDS: usize = 2;
+
+/// The numbers of a claim's parts, and how many instances they rest on: `2.2 / 2.3 % shorter`. Two kinds stand one after the other, if
+/// words tell them apart.
+pub fn side_by_side(estimates: &[&Estimate]) -> Option<[String; 2]> {
+    let mut kinds: Vec<Vec<&Estimate>> = Vec::new();
+    for estimate in estimates {
+        match kinds.iter_mut().find(|kind| is_alike(kind[0], estimate)) {
+            Some(kind) => kind.push(estimate),
+            None => kinds.push(vec![estimate]),
+        }
+    }
+    let is_named = |kind: &Vec<&Estimate>| !["", " %"].contains(&Effect::new(kind[0]).words.as_str());
+    if kinds.is_empty() || kinds.len() > KINDS || kinds.len() > 1 && !kinds.iter().all(is_named) {
+        return None;
+    }
+    let (numbers, mut counts): (Vec<String>, Vec<String>) = kinds.iter().map(|kind| of_one_kind(kind)).unzip();
+    counts.dedup();
+    Some([numbers.join("; "), counts.join("; ")])
+}
+
+/// Whether two numbers measure the same, in the same direction.
+fn is_alike(one: &Estimate, other: &Estimate) -> bool {
+    (one.quantity, &one.subject, Effect::new(one).words)
+        == (other.quantity, &other.subject, Effect::new(other).words)
+        && (!one.quantity.is_number() || one.what == other.what)
+}
+
+/// Numbers that measure the same, in the digits that all their intervals leave certain, and their counts of instances.
+fn of_one_kind(estimates: &[&Estimate]) -> (String, String) {
+    let effects: Vec<Effect> = estimates.iter().map(|estimate| Effect::new(estimate)).collect();
+    let decimals = effects.iter().map(|effect| effect.decimals).min().unwrap_or_default();
+    let words = &effects[0].words;
+    let mut sizes: Vec<f64> = effects.iter().map(|effect| effect.size).collect();
+    let mut counts: Vec<usize> = estimates.iter().map(|estimate| estimate.n).collect();
+    let between = if sizes.len() <= LISTED {
+        " / "
+    } else {
+        sizes.sort_by(f64::total_cmp);
+        counts.sort_unstable();
+        sizes = vec![sizes[0], sizes[sizes.len() - 1]];
+        counts = vec![counts[0], counts[counts.len() - 1]];
+        " to "
+    };
+    if counts.iter().all(|n| *n == counts[0]) {
+        counts.truncate(1);
+    }
+    let sizes: Vec<String> = sizes.into_iter().map(|size| rounded(size, decimals)).collect();
+    let counts: Vec<String> = counts.iter().map(ToString::to_string).collect();
+    (sizes.join(between) + words, counts.join(between))
+}
+
 /// An estimate in words, and its size.
 pub struct Effect {
     /// Its size, without a sign where the words give the direction.
@@ -116,6 +172,28 @@ mod tests {
             assert_eq!(effect(&ours.measures(quantity, subject)).unwrap(), words);
         }
         assert_eq!(effect(&Estimate::bare(3.0, "change of path cost in %", 9)), None);
+    }
+
+    #[test]
+    fn numbers_of_parts_stand_side_by_side_if_words_tell_their_kinds_apart() {
+        use Quantity::{MorePercent, PercentOfOther, Share};
+        let of = |value: f64, quantity, subject: &str, n| {
+            Estimate { interval: Some([value - 0.5, value + 0.5]), ..Estimate::bare(value, "as it is", n) }
+                .measures(quantity, subject)
+        };
+        let shown = |parts: &[Estimate]| side_by_side(&parts.iter().collect::<Vec<_>>());
+        let [shorter, longer] =
+            [-2.0, 3.0].map(|value| of(value, MorePercent, "path cost", if value < 0.0 { 9 } else { 8 }));
+        let work = [10.0, 20.0].map(|value| of(value, PercentOfOther, "closed nodes", 9));
+        assert_eq!(shown(&[]), None);
+        assert_eq!(shown(&[shorter.clone(), longer]).unwrap(), ["2.0 % shorter; 3.0 % longer", "9; 8"]);
+        assert_eq!(shown(&work).unwrap(), ["10.0 / 20.0 % of the other's closed nodes", "9"]);
+        assert_eq!(shown(&[&work[..], &work[..]].concat()).unwrap()[0], "10.0 to 20.0 % of the other's closed nodes");
+        let two = [&work[..1], &[shorter.clone()]].concat();
+        assert_eq!(shown(&two).unwrap(), ["10.0 % of the other's closed nodes; 2.0 % shorter", "9"]);
+        let nameless = [of(0.5, Share, "trials solved", 9), of(0.5, Share, "instances", 9)];
+        assert_eq!(shown(&nameless), None, "two shares would not say of what");
+        assert_eq!(shown(&[&two[..], &nameless[..1]].concat()), None, "three kinds");
     }
 
     #[test]

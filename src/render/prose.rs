@@ -1,7 +1,7 @@
 //! Text: a paper's own words with our numbers put in, Markdown that shows text as it is, and lines of limited length.
 
-use super::effect::{effect, percentage};
-use crate::analysis::verdict::{ClaimVerdict, Verdicts};
+use super::effect::{effect, percentage, side_by_side};
+use crate::analysis::verdict::{ClaimVerdict, Estimate, Verdicts};
 use base::text::shown;
 use study::paper::{OVER_INTERPRETATIONS, filled};
 
@@ -19,7 +19,15 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
             "interpretations" => judged.and_then(ClaimVerdict::rests_on),
             "n" => ours.map(|ours| ours.n.to_string()),
             "tenths" => ours.map(|ours| format!("{:.1}", ours.value)),
-            "effect" => ours.map(|ours| effect(ours).unwrap_or_else(|| number(ours.value))),
+            "effect" => ours.map(|ours| effect(ours).unwrap_or_else(|| number(ours.value))).or_else(|| {
+                let [numbers, _] = side_by_side(&verdicts.parts_ours(judged?))?;
+                Some(numbers)
+            }),
+            "shown" => judged.and_then(|judged| {
+                let shown: Vec<&Estimate> = judged.shown().collect();
+                let [numbers, _] = side_by_side(&shown)?;
+                Some(numbers)
+            }),
             "percent" => ours.map(percentage),
             OVER_INTERPRETATIONS => judged.and_then(|judged| judged.across.as_ref()?.range).map(percents),
             "low" => ours.and_then(|ours| ours.interval).map(|[low, _]| number(low)),
