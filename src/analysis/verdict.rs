@@ -374,7 +374,10 @@ impl ClaimVerdict {
 
     /// The numbers that are shown and decide nothing.
     pub fn shown(&self) -> impl Iterator<Item = &Estimate> {
-        self.findings.iter().filter(|finding| finding.outcome.is_none()).filter_map(|finding| finding.ours.as_ref())
+        self.findings
+            .iter()
+            .filter(|finding| finding.outcome.is_none())
+            .filter_map(|finding| finding.ours.as_ref())
     }
 }
 

@@ -41,7 +41,8 @@ pub fn side_by_side(estimates: &[&Estimate]) -> Option<[String; 2]> {
     if kinds.is_empty() || kinds.len() > KINDS || kinds.len() > 1 && !kinds.iter().all(is_named) {
         return None;
     }
-    let (numbers, mut counts): (Vec<String>, Vec<String>) = kinds.iter().map(|kind| of_one_kind(kind)).unzip();
+    let (numbers, mut counts): (Vec<String>, Vec<String>) =
+        kinds.iter().map(|kind| of_one_kind(kind)).unzip();
     counts.dedup();
     Some([numbers.join("; "), counts.join("; ")])
 }
@@ -101,7 +102,8 @@ impl Effect {
                 Self::scaled(estimate, f64::abs, words.to_owned())
             }
             Quantity::PercentOfOther => {
-                Self::scaled(estimate, |value| value, format!(" % of the other's {subject}"))
+                let subject = bare(subject);
+                Self::scaled(estimate, |value| value, format!(" % of the best rival's {subject}"))
             }
             Quantity::Number | Quantity::Probability | Quantity::Rank => {
                 Self::scaled(estimate, |value| value, String::new())
@@ -133,9 +135,14 @@ pub fn less_than(metric: &Metric, base: &str) -> String {
     format!("{first}{} than {base} (%)", &less[1..])
 }
 
+/// A metric without what its label adds after a comma.
+fn bare(metric: &str) -> &str {
+    metric.split(", ").next().unwrap_or(metric)
+}
+
 /// The comparative for more or less of a metric.
 fn direction(metric: &str, is_more: bool) -> String {
-    let metric = metric.split(", ").next().unwrap_or(metric);
+    let metric = bare(metric);
     let metric = metric.strip_prefix("opened ").unwrap_or(metric);
     let [less, more] = if metric == "path cost" || metric == "path length" {
         return if is_more { "longer" } else { "shorter" }.to_owned();
@@ -166,7 +173,7 @@ mod tests {
             (0.505, [0.470, 0.540], Share, "trials solved", "51 %"),
             (1.0, [0.994, 1.0], Share, "instances", "100 %"),
             (18.15, [14.4, 21.9], MorePoints, "solved queries", "18 points more"),
-            (99.87, [99.2, 100.4], PercentOfOther, "median bends", "99.9 % of the other's median bends"),
+            (99.87, [99.2, 100.4], PercentOfOther, "median bends", "99.9 % of the best rival's median bends"),
         ] {
             let ours = Estimate { interval: Some(interval), ..Estimate::bare(value, "as it is", 9) };
             assert_eq!(effect(&ours.measures(quantity, subject)).unwrap(), words);
@@ -187,10 +194,13 @@ mod tests {
         let work = [10.0, 20.0].map(|value| of(value, PercentOfOther, "closed nodes", 9));
         assert_eq!(shown(&[]), None);
         assert_eq!(shown(&[shorter.clone(), longer]).unwrap(), ["2.0 % shorter; 3.0 % longer", "9; 8"]);
-        assert_eq!(shown(&work).unwrap(), ["10.0 / 20.0 % of the other's closed nodes", "9"]);
-        assert_eq!(shown(&[&work[..], &work[..]].concat()).unwrap()[0], "10.0 to 20.0 % of the other's closed nodes");
+        assert_eq!(shown(&work).unwrap(), ["10.0 / 20.0 % of the best rival's closed nodes", "9"]);
+        assert_eq!(
+            shown(&[&work[..], &work[..]].concat()).unwrap()[0],
+            "10.0 to 20.0 % of the best rival's closed nodes"
+        );
         let two = [&work[..1], &[shorter.clone()]].concat();
-        assert_eq!(shown(&two).unwrap(), ["10.0 % of the other's closed nodes; 2.0 % shorter", "9"]);
+        assert_eq!(shown(&two).unwrap(), ["10.0 % of the best rival's closed nodes; 2.0 % shorter", "9"]);
         let nameless = [of(0.5, Share, "trials solved", 9), of(0.5, Share, "instances", 9)];
         assert_eq!(shown(&nameless), None, "two shares would not say of what");
         assert_eq!(shown(&[&two[..], &nameless[..1]].concat()), None, "three kinds");

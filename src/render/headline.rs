@@ -106,7 +106,10 @@ fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
             Quantity::Probability => format!("p = {}", number(ours.value)),
             _ => effect(ours).unwrap_or_else(|| short(ours) + &unit),
         };
-        return Some(format!("{printed}{number} (n = {})", ours.n));
+        // One instance may hold many cases, such as the queries of one map.
+        let cases = ours.solved.map(|[_, cases]| cases).filter(|&cases| ours.n == 1 && cases > 1);
+        let cases = cases.map_or_else(String::new, |cases| format!(" with {cases} cases"));
+        return Some(format!("{printed}{number} (n = {}{cases})", ours.n));
     }
     side_by_side(&verdicts.parts_ours(judged)).map(|[numbers, n]| format!("{numbers} (n = {n})"))
 }
