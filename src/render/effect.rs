@@ -203,7 +203,8 @@ mod tests {
         assert_eq!(shown(&two).unwrap(), ["10.0 % of the best rival's closed nodes; 2.0 % shorter", "9"]);
         let nameless = [of(0.5, Share, "trials solved", 9), of(0.5, Share, "instances", 9)];
         assert_eq!(shown(&nameless), None, "two shares would not say of what");
-        assert_eq!(shown(&[&two[..], &nameless[..1]].concat()), None, "three kinds");
+        let third = of(10.0, PercentOfOther, "generated successors", 9);
+        assert_eq!(shown(&[&two[..], &[third]].concat()), None, "three kinds");
     }
 
     #[test]

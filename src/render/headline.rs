@@ -2,7 +2,7 @@
 //!
 //! The terminal, the report and the page open with them.
 
-use super::effect::{effect, side_by_side};
+use super::effect::{effect, percentage, side_by_side};
 use super::prose::number;
 use super::tables::short;
 use crate::analysis::verdict::{ClaimVerdict, Quantity, Verdicts};
@@ -102,7 +102,7 @@ fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
         let printed =
             judged.printed.as_ref().map_or_else(String::new, |printed| format!("printed {printed}, ours "));
         let number = match ours.quantity {
-            Quantity::Rank => return None,
+            Quantity::Rank => format!("{} of ours are as extreme", percentage(ours)),
             Quantity::Probability => format!("p = {}", number(ours.value)),
             _ => effect(ours).unwrap_or_else(|| short(ours) + &unit),
         };
