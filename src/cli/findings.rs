@@ -13,7 +13,7 @@ use study::paper::Paper;
 const IMPOSSIBLE: usize = 6;
 
 /// How many lines of 40 the terminal leaves beside those that `repro` prints before and after.
-const LINES: usize = 34;
+const LINES: usize = 32;
 
 /// Columns for a verdict.
 const VERDICT: usize = 24;

@@ -84,7 +84,7 @@ impl Repro {
             say!("why: {show} CLAIM; all claims: {show}; one page: {report} --open");
         }
         say!(
-            "records: {}; figures: {}; report: {}",
+            "records and verdicts are in {}\nfigures and tables are in {}\nthe report is {}",
             places.runs.display(),
             places.plots.display(),
             places.report.display()
