@@ -16,7 +16,7 @@ pub fn percentage(share: &Estimate) -> String {
 }
 
 /// `size` with so many decimals; a half goes away from zero.
-pub fn rounded(size: f64, decimals: usize) -> String {
+fn rounded(size: f64, decimals: usize) -> String {
     let unit = libm::pow(10.0, decimals as f64);
     format!("{:.decimals$}", libm::round(size * unit) / unit)
 }
@@ -79,18 +79,18 @@ fn of_one_kind(estimates: &[&Estimate]) -> (String, String) {
 }
 
 /// An estimate in words, and its size.
-pub struct Effect {
+struct Effect {
     /// Its size, without a sign where the words give the direction.
-    pub size: f64,
+    size: f64,
     /// How many decimals its interval leaves certain.
-    pub decimals: usize,
+    decimals: usize,
     /// The unit and the direction; empty if the number is shown as it is.
-    pub words: String,
+    words: String,
 }
 
 impl Effect {
     /// That of an estimate, from the kind of number that it is.
-    pub fn new(estimate: &Estimate) -> Self {
+    fn new(estimate: &Estimate) -> Self {
         let subject = estimate.subject.as_str();
         match estimate.quantity {
             Quantity::MorePercent => Self::of_change(subject, estimate, |value| value),
