@@ -287,8 +287,7 @@ fn notes(seen: &[BTreeMap<&str, Seen<'_>>; 2], lines: &[Line<'_>]) -> Vec<String
         let others = pairs().filter(|pair| !pair.is_same_instance).count();
         if others > 0 {
             notes.push(format!(
-                "{study}: {others} of {} pairs are of instances with other seeds (the runs' are {} and {}): pairing takes nothing \
-                 out of their changes, and wins are luck as much as merit",
+                "{study}: {others} of {} pairs have other seeds (the runs' are {} and {}): pairing removes no spread, and wins may be luck",
                 pairs().count(),
                 one.seed,
                 other.seed

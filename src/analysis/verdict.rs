@@ -357,6 +357,14 @@ impl ClaimVerdict {
             .and_then(|finding| finding.ours.as_ref())
             .or_else(|| self.findings.iter().find_map(|finding| finding.ours.as_ref()))
     }
+
+    /// The numbers that are shown and decide nothing.
+    pub fn shown(&self) -> impl Iterator<Item = &Estimate> {
+        self.findings
+            .iter()
+            .filter(|finding| finding.outcome.is_none())
+            .filter_map(|finding| finding.ours.as_ref())
+    }
 }
 
 /// How a line begins that says what a rule found possible.
@@ -432,6 +440,12 @@ impl Verdicts {
     /// The claim called `id`.
     pub fn claim(&self, id: &str) -> Option<&ClaimVerdict> {
         self.claims.iter().find(|judged| judged.claim == id)
+    }
+
+    /// Our numbers beside the parts of a claim.
+    pub fn parts_ours(&self, whole: &ClaimVerdict) -> Vec<&Estimate> {
+        let parts = self.claims.iter().filter(|part| part.part_of.as_ref() == Some(&whole.claim));
+        parts.filter_map(ClaimVerdict::ours).collect()
     }
 
     /// The replies about the claim called `id`.

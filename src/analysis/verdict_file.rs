@@ -30,7 +30,7 @@ impl Verdicts {
             return Ok(verdicts);
         }
         let path = Self::path(folder);
-        let what = "is not what replan wrote: its last line is no seal of the text above it; edited, or of another version; \
+        let what = "is not what replan wrote: its last line does not seal the text above it: edited, or of another version; \
                     `replan judge` writes it again";
         Err(StudyError::Touched(format!("{}: {what}", path.display())))
     }

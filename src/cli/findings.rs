@@ -12,8 +12,8 @@ use study::paper::Paper;
 /// How many claims that cannot be true are named.
 const IMPOSSIBLE: usize = 6;
 
-/// How many lines the terminal leaves beside those that `repro` prints before and after.
-const LINES: usize = 35;
+/// How many lines of 40 the terminal leaves beside those that `repro` prints before and after.
+const LINES: usize = 32;
 
 /// Columns for a verdict.
 const VERDICT: usize = 24;

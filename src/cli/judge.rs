@@ -95,7 +95,7 @@ pub fn must_hold(verdicts: &Verdicts) -> Result<(), Failure> {
     let paper = &verdicts.paper;
     let claims = violated.join("`, `");
     let message = format!(
-        "{paper}: `{claims}` must hold whatever was drawn, and does not: the program is wrong, or the theorem that is stated; \
+        "{paper}: `{claims}` must hold whatever was drawn, and does not: the program is wrong, or the theorem; \
          `replan show {paper} {}` has what was found",
         violated[0]
     );

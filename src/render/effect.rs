@@ -16,24 +16,81 @@ pub fn percentage(share: &Estimate) -> String {
 }
 
 /// `size` with so many decimals; a half goes away from zero.
-pub fn rounded(size: f64, decimals: usize) -> String {
+fn rounded(size: f64, decimals: usize) -> String {
     let unit = libm::pow(10.0, decimals as f64);
     format!("{:.decimals$}", libm::round(size * unit) / unit)
 }
 
+/// More numbers of one kind are shown as a range.
+const LISTED: usize = 3;
+
+/// Numbers of more kinds than these are not shown side by side.
+const KINDS: usize = 2;
+
+/// The numbers of a claim's parts, and how many instances they rest on: `2.2 / 2.3 % shorter`. Two kinds stand one after the other, if
+/// words tell them apart.
+pub fn side_by_side(estimates: &[&Estimate]) -> Option<[String; 2]> {
+    let mut kinds: Vec<Vec<&Estimate>> = Vec::new();
+    for estimate in estimates {
+        match kinds.iter_mut().find(|kind| is_alike(kind[0], estimate)) {
+            Some(kind) => kind.push(estimate),
+            None => kinds.push(vec![estimate]),
+        }
+    }
+    let is_named = |kind: &Vec<&Estimate>| !["", " %"].contains(&Effect::new(kind[0]).words.as_str());
+    if kinds.is_empty() || kinds.len() > KINDS || kinds.len() > 1 && !kinds.iter().all(is_named) {
+        return None;
+    }
+    let (numbers, mut counts): (Vec<String>, Vec<String>) =
+        kinds.iter().map(|kind| of_one_kind(kind)).unzip();
+    counts.dedup();
+    Some([numbers.join("; "), counts.join("; ")])
+}
+
+/// Whether two numbers measure the same, in the same direction.
+fn is_alike(one: &Estimate, other: &Estimate) -> bool {
+    (one.quantity, &one.subject, Effect::new(one).words)
+        == (other.quantity, &other.subject, Effect::new(other).words)
+        && (!one.quantity.is_number() || one.what == other.what)
+}
+
+/// Numbers that measure the same, in the digits that all their intervals leave certain, and their counts of instances.
+fn of_one_kind(estimates: &[&Estimate]) -> (String, String) {
+    let effects: Vec<Effect> = estimates.iter().map(|estimate| Effect::new(estimate)).collect();
+    let decimals = effects.iter().map(|effect| effect.decimals).min().unwrap_or_default();
+    let words = &effects[0].words;
+    let mut sizes: Vec<f64> = effects.iter().map(|effect| effect.size).collect();
+    let mut counts: Vec<usize> = estimates.iter().map(|estimate| estimate.n).collect();
+    let between = if sizes.len() <= LISTED {
+        " / "
+    } else {
+        sizes.sort_by(f64::total_cmp);
+        counts.sort_unstable();
+        sizes = vec![sizes[0], sizes[sizes.len() - 1]];
+        counts = vec![counts[0], counts[counts.len() - 1]];
+        " to "
+    };
+    if counts.iter().all(|n| *n == counts[0]) {
+        counts.truncate(1);
+    }
+    let sizes: Vec<String> = sizes.into_iter().map(|size| rounded(size, decimals)).collect();
+    let counts: Vec<String> = counts.iter().map(ToString::to_string).collect();
+    (sizes.join(between) + words, counts.join(between))
+}
+
 /// An estimate in words, and its size.
-pub struct Effect {
+struct Effect {
     /// Its size, without a sign where the words give the direction.
-    pub size: f64,
+    size: f64,
     /// How many decimals its interval leaves certain.
-    pub decimals: usize,
+    decimals: usize,
     /// The unit and the direction; empty if the number is shown as it is.
-    pub words: String,
+    words: String,
 }
 
 impl Effect {
     /// That of an estimate, from the kind of number that it is.
-    pub fn new(estimate: &Estimate) -> Self {
+    fn new(estimate: &Estimate) -> Self {
         let subject = estimate.subject.as_str();
         match estimate.quantity {
             Quantity::MorePercent => Self::of_change(subject, estimate, |value| value),
@@ -45,7 +102,8 @@ impl Effect {
                 Self::scaled(estimate, f64::abs, words.to_owned())
             }
             Quantity::PercentOfOther => {
-                Self::scaled(estimate, |value| value, format!(" % of the other's {subject}"))
+                let subject = bare(subject);
+                Self::scaled(estimate, |value| value, format!(" % of the best rival's {subject}"))
             }
             Quantity::Number | Quantity::Probability | Quantity::Rank => {
                 Self::scaled(estimate, |value| value, String::new())
@@ -77,9 +135,14 @@ pub fn less_than(metric: &Metric, base: &str) -> String {
     format!("{first}{} than {base} (%)", &less[1..])
 }
 
+/// A metric without what its label adds after a comma.
+fn bare(metric: &str) -> &str {
+    metric.split(", ").next().unwrap_or(metric)
+}
+
 /// The comparative for more or less of a metric.
 fn direction(metric: &str, is_more: bool) -> String {
-    let metric = metric.split(", ").next().unwrap_or(metric);
+    let metric = bare(metric);
     let metric = metric.strip_prefix("opened ").unwrap_or(metric);
     let [less, more] = if metric == "path cost" || metric == "path length" {
         return if is_more { "longer" } else { "shorter" }.to_owned();
@@ -110,12 +173,38 @@ mod tests {
             (0.505, [0.470, 0.540], Share, "trials solved", "51 %"),
             (1.0, [0.994, 1.0], Share, "instances", "100 %"),
             (18.15, [14.4, 21.9], MorePoints, "solved queries", "18 points more"),
-            (99.87, [99.2, 100.4], PercentOfOther, "median bends", "99.9 % of the other's median bends"),
+            (99.87, [99.2, 100.4], PercentOfOther, "median bends", "99.9 % of the best rival's median bends"),
         ] {
             let ours = Estimate { interval: Some(interval), ..Estimate::bare(value, "as it is", 9) };
             assert_eq!(effect(&ours.measures(quantity, subject)).unwrap(), words);
         }
         assert_eq!(effect(&Estimate::bare(3.0, "change of path cost in %", 9)), None);
+    }
+
+    #[test]
+    fn numbers_of_parts_stand_side_by_side_if_words_tell_their_kinds_apart() {
+        use Quantity::{MorePercent, PercentOfOther, Share};
+        let of = |value: f64, quantity, subject: &str, n| {
+            Estimate { interval: Some([value - 0.5, value + 0.5]), ..Estimate::bare(value, "as it is", n) }
+                .measures(quantity, subject)
+        };
+        let shown = |parts: &[Estimate]| side_by_side(&parts.iter().collect::<Vec<_>>());
+        let [shorter, longer] =
+            [-2.0, 3.0].map(|value| of(value, MorePercent, "path cost", if value < 0.0 { 9 } else { 8 }));
+        let work = [10.0, 20.0].map(|value| of(value, PercentOfOther, "closed nodes", 9));
+        assert_eq!(shown(&[]), None);
+        assert_eq!(shown(&[shorter.clone(), longer]).unwrap(), ["2.0 % shorter; 3.0 % longer", "9; 8"]);
+        assert_eq!(shown(&work).unwrap(), ["10.0 / 20.0 % of the best rival's closed nodes", "9"]);
+        assert_eq!(
+            shown(&[&work[..], &work[..]].concat()).unwrap()[0],
+            "10.0 to 20.0 % of the best rival's closed nodes"
+        );
+        let two = [&work[..1], &[shorter.clone()]].concat();
+        assert_eq!(shown(&two).unwrap(), ["10.0 % of the best rival's closed nodes; 2.0 % shorter", "9"]);
+        let nameless = [of(0.5, Share, "trials solved", 9), of(0.5, Share, "instances", 9)];
+        assert_eq!(shown(&nameless), None, "two shares would not say of what");
+        let third = of(10.0, PercentOfOther, "generated successors", 9);
+        assert_eq!(shown(&[&two[..], &[third]].concat()), None, "three kinds");
     }
 
     #[test]

@@ -2,18 +2,15 @@
 //!
 //! The terminal, the report and the page open with them.
 
-use super::effect::{Effect, effect, rounded};
+use super::effect::{effect, percentage, side_by_side};
 use super::prose::number;
 use super::tables::short;
-use crate::analysis::verdict::{ClaimVerdict, Estimate, Quantity, Verdicts};
+use crate::analysis::verdict::{ClaimVerdict, Quantity, Verdicts};
 use crate::analysis::verdict_rule::Verdict;
 use study::paper::Paper;
 
 /// A paper without headlines shows its first claims instead, at most so many.
 const CLAIMS: usize = 8;
-
-/// The numbers of a claim with more parts are shown as a range.
-const LISTED: usize = 3;
 
 /// A headline claim.
 pub struct Headline<'a> {
@@ -22,7 +19,7 @@ pub struct Headline<'a> {
     /// What the paper says.
     pub says: String,
     /// Our number in words with how many instances it rests on; `None` if there is none, or if the parts of the claim measure
-    /// different things.
+    /// more than two things.
     pub ours: Option<String>,
     /// Whether the sentence means one of several claims, whose verdicts make its own.
     has_meanings: bool,
@@ -98,50 +95,21 @@ pub fn evidence(verdicts: &Verdicts) -> String {
     format!("Explored: {} interpretations, {seed}. {again}", explored.interpretations)
 }
 
-/// Our number beside a claim, or those of its parts where they measure the same.
+/// Our number beside a claim, or those of its parts.
 fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     if let Some(ours) = judged.ours() {
         let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
         let printed =
             judged.printed.as_ref().map_or_else(String::new, |printed| format!("printed {printed}, ours "));
         let number = match ours.quantity {
-            Quantity::Rank => return None,
+            Quantity::Rank => format!("{} of ours are as extreme", percentage(ours)),
             Quantity::Probability => format!("p = {}", number(ours.value)),
             _ => effect(ours).unwrap_or_else(|| short(ours) + &unit),
         };
-        return Some(format!("{printed}{number} (n = {})", ours.n));
+        // One instance may hold many cases, such as the queries of one map.
+        let cases = ours.solved.map(|[_, cases]| cases).filter(|&cases| ours.n == 1 && cases > 1);
+        let cases = cases.map_or_else(String::new, |cases| format!(" with {cases} cases"));
+        return Some(format!("{printed}{number} (n = {}{cases})", ours.n));
     }
-    let parts = verdicts.claims.iter().filter(|part| part.part_of.as_ref() == Some(&judged.claim));
-    let estimates: Vec<&Estimate> = parts.filter_map(ClaimVerdict::ours).collect();
-    let first = estimates.first()?;
-    let words = Effect::new(first).words;
-    let is_alike = |estimate: &&Estimate| {
-        (estimate.quantity, &estimate.subject) == (first.quantity, &first.subject)
-            && Effect::new(estimate).words == words
-            && (!estimate.quantity.is_number() || estimate.what == first.what)
-    };
-    if !estimates.iter().all(is_alike) {
-        return None;
-    }
-    let effects: Vec<Effect> = estimates.iter().map(|estimate| Effect::new(estimate)).collect();
-    let decimals = effects.iter().map(|effect| effect.decimals).min()?;
-    let mut sizes: Vec<f64> = effects.iter().map(|effect| effect.size).collect();
-    let in_digits = |size: &f64| rounded(*size, decimals);
-    let mut counts: Vec<usize> = estimates.iter().map(|estimate| estimate.n).collect();
-    if counts.iter().all(|n| *n == counts[0]) {
-        counts.truncate(1);
-    }
-    if sizes.len() <= LISTED {
-        let joined = |all: Vec<String>| all.join(" / ");
-        let n = joined(counts.iter().map(ToString::to_string).collect());
-        return Some(format!("{}{words} (n = {n})", joined(sizes.iter().map(in_digits).collect())));
-    }
-    sizes.sort_by(f64::total_cmp);
-    counts.sort_unstable();
-    let n = if counts.len() == 1 {
-        counts[0].to_string()
-    } else {
-        format!("{} to {}", counts[0], counts.last()?)
-    };
-    Some(format!("{} to {}{words} (n = {n})", in_digits(sizes.first()?), in_digits(sizes.last()?)))
+    side_by_side(&verdicts.parts_ours(judged)).map(|[numbers, n]| format!("{numbers} (n = {n})"))
 }

@@ -1,7 +1,7 @@
 //! Text: a paper's own words with our numbers put in, Markdown that shows text as it is, and lines of limited length.
 
-use super::effect::{effect, percentage};
-use crate::analysis::verdict::{ClaimVerdict, Verdicts};
+use super::effect::{effect, percentage, side_by_side};
+use crate::analysis::verdict::{ClaimVerdict, Estimate, Verdicts};
 use base::text::shown;
 use study::paper::{OVER_INTERPRETATIONS, filled};
 
@@ -11,6 +11,7 @@ pub const COLUMNS: usize = 120;
 /// `text` with every `{claim}` replaced by our number beside that claim, and every `{claim:form}` by the text that the form names; a
 /// dash where there is none.
 pub fn prose(text: &str, verdicts: &Verdicts) -> String {
+    let beside = |estimates: Vec<&Estimate>| side_by_side(&estimates).map(|[numbers, _]| numbers);
     filled(text, |claim, form| {
         let judged = verdicts.claim(claim);
         let ours = judged.and_then(|judged| judged.ours());
@@ -19,7 +20,10 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
             "interpretations" => judged.and_then(ClaimVerdict::rests_on),
             "n" => ours.map(|ours| ours.n.to_string()),
             "tenths" => ours.map(|ours| format!("{:.1}", ours.value)),
-            "effect" => ours.map(|ours| effect(ours).unwrap_or_else(|| number(ours.value))),
+            "effect" => ours
+                .map(|ours| effect(ours).unwrap_or_else(|| number(ours.value)))
+                .or_else(|| beside(verdicts.parts_ours(judged?))),
+            "shown" => judged.and_then(|judged| beside(judged.shown().collect())),
             "percent" => ours.map(percentage),
             OVER_INTERPRETATIONS => judged.and_then(|judged| judged.across.as_ref()?.range).map(percents),
             "low" => ours.and_then(|ours| ours.interval).map(|[low, _]| number(low)),

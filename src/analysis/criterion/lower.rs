@@ -111,9 +111,11 @@ impl<'a> Lower<'a> {
     ) -> String {
         let &Number { below, equal, above, n, .. } = all;
         format!(
-            "{}: {metric} changes by {value:.2} % on the whole (95 % interval {low:.2} to {high:.2}, {} over {n} instances); lower on \
+            "{}: {metric} is {:.2} % {} on the whole (95 % interval of the change {low:.2} to {high:.2}, {} over {n} instances); lower on \
              {below}, equal on {equal}, higher on {above} of {} cases{}",
             self.of.description(),
+            value.abs(),
+            if value < 0.0 { "lower" } else { "higher" },
             how(all.is_agreed),
             below + equal + above,
             if self.of.all_ends { "" } else { " that both solve" },

@@ -273,7 +273,7 @@ impl Criterion for OneInstance<'_> {
         let mut because = vec![rank_sentence(&instances, self.print.printed)];
         because.extend(powerless.then(|| {
             format!(
-                "no power: the interval covers {NO_POWER_POINTS} points or more, so hardly any printed value could be refused; no number of instances of ours narrows it, for what is printed is one instance"
+                "no power: the interval covers {NO_POWER_POINTS} points or more, so almost any printed value would fit; more instances of ours do not narrow it, since the paper prints one"
             )
         }));
         let what = format!("{}: mean, 95 % predictive interval of one more instance", self.title());

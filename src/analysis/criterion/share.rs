@@ -293,12 +293,11 @@ impl<'a> Counted<'a> {
 impl Counted<'_> {
     /// What is counted, in words.
     fn description(&self) -> String {
-        let named = match self.settings.bound {
-            Some(bound) => {
-                format!("{} {bound}", self.of.metric.map_or("", |metric| &metric.label).to_lowercase())
-            }
-            None => self.settings.columns.join(" and "),
-        };
+        if let Some(bound) = self.settings.bound {
+            let metric = self.of.metric.map_or("", |metric| &metric.label).to_lowercase();
+            return format!("trials with {metric} above {bound}");
+        }
+        let named = self.settings.columns.join(" and ");
         let hits = self.settings.hits.label();
         if named.is_empty() { hits.to_owned() } else { format!("{hits} ({named})") }
     }

@@ -203,7 +203,7 @@ impl Kind for Ready {
         }
         if let Some(base) = &self.read.against {
             let note = format!(
-                "How much less the mean is than with {base}, over the maps that both solved, with 95 % intervals over pairs: bootstrap; where no map differs there is none."
+                "Means over maps that both solve, against {base}. Bars: 95 % bootstrap intervals over pairs; none where no map differs."
             );
             return sheet(190.0)
                 .noted(&note)

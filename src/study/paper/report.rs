@@ -26,11 +26,22 @@ pub struct ReportSpec {
 /// How many figures a chapter shows at most.
 pub const FIGURES: usize = 6;
 
-/// The forms in which a place can ask for what was found: with one decimal, as a percentage with the
-/// digits of its interval, in words with a direction, the ends of the interval, the number of instances, the verdict and what interpretations make of it. The last one is
-/// the least and the greatest percentage over the interpretations that count.
-pub const FORMS: [&str; 9] =
-    ["tenths", "percent", "effect", "low", "high", "n", "verdict", "interpretations", OVER_INTERPRETATIONS];
+/// The forms in which a place can ask for what was found: with one decimal, as a percentage with the digits of its interval, in words
+/// with a direction (of a claim with parts those of its parts), so what is shown and decides nothing, the ends of the interval, the
+/// number of instances, the verdict and what interpretations make of it. The last one is the least and the greatest percentage over the
+/// interpretations that count.
+pub const FORMS: [&str; 10] = [
+    "tenths",
+    "percent",
+    "effect",
+    "shown",
+    "low",
+    "high",
+    "n",
+    "verdict",
+    "interpretations",
+    OVER_INTERPRETATIONS,
+];
 
 /// The form that asks what a number is over interpretations.
 pub const OVER_INTERPRETATIONS: &str = "percents";
