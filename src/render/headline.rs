@@ -112,7 +112,8 @@ fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
         return Some(format!("{printed}{number} (n = {})", ours.n));
     }
     let parts = verdicts.claims.iter().filter(|part| part.part_of.as_ref() == Some(&judged.claim));
-    let estimates: Vec<&Estimate> = parts.filter_map(ClaimVerdict::ours).collect();
+    let measured = parts.filter_map(|part| Some((part, part.ours()?)));
+    let (parts, estimates): (Vec<&ClaimVerdict>, Vec<&Estimate>) = measured.unzip();
     let first = estimates.first()?;
     let words = Effect::new(first).words;
     let is_alike = |estimate: &&Estimate| {
@@ -125,8 +126,13 @@ fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     }
     let effects: Vec<Effect> = estimates.iter().map(|estimate| Effect::new(estimate)).collect();
     let decimals = effects.iter().map(|effect| effect.decimals).min()?;
-    let mut sizes: Vec<f64> = effects.iter().map(|effect| effect.size).collect();
-    let in_digits = |size: &f64| rounded(*size, decimals);
+    let are_named = parts.iter().all(|part| part.short.is_some());
+    let in_words = |(size, part): &(f64, &ClaimVerdict)| {
+        let of = part.short.as_ref().filter(|_| are_named).map(|short| format!("{words} ({short})"));
+        rounded(*size, decimals) + &of.unwrap_or_default()
+    };
+    let words_of_all = if are_named { "" } else { &words };
+    let mut sizes: Vec<_> = effects.iter().map(|effect| effect.size).zip(parts).collect();
     let mut counts: Vec<usize> = estimates.iter().map(|estimate| estimate.n).collect();
     if counts.iter().all(|n| *n == counts[0]) {
         counts.truncate(1);
@@ -134,14 +140,16 @@ fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     if sizes.len() <= LISTED {
         let joined = |all: Vec<String>| all.join(" / ");
         let n = joined(counts.iter().map(ToString::to_string).collect());
-        return Some(format!("{}{words} (n = {n})", joined(sizes.iter().map(in_digits).collect())));
+        let ours = joined(sizes.iter().map(in_words).collect());
+        return Some(format!("{ours}{words_of_all} (n = {n})"));
     }
-    sizes.sort_by(f64::total_cmp);
+    sizes.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     counts.sort_unstable();
     let n = if counts.len() == 1 {
         counts[0].to_string()
     } else {
         format!("{} to {}", counts[0], counts.last()?)
     };
-    Some(format!("{} to {}{words} (n = {n})", in_digits(sizes.first()?), in_digits(sizes.last()?)))
+    let [least, greatest] = [sizes.first()?, sizes.last()?].map(in_words);
+    Some(format!("{least} to {greatest}{words_of_all} (n = {n})"))
 }
