@@ -164,16 +164,16 @@ fn views(case: &Case) -> [(&'static str, World, [Vec<f64>; 2]); 3] {
 }
 
 /// The exact planner finds paths of one length. The others break ties by the order of neighbours, which is not mirrored, and search
-/// from the start: their lengths are the same on most maps and within 5 % on all.
+/// from the start: their lengths are the same on 95 % of mirrored maps, on 80 % of swapped ones, and within 5 % on all.
 #[test]
 fn a_mirrored_exchanged_or_swapped_query_has_a_path_as_short_or_nearly() {
     let sight = "line_of_sight = 'exact_interior'\nties = 'smaller_g'";
     let all = [
         ("visibility_astar", "ties = 'larger_g'\nvertices = 'all'", 0.0, [1.0; 3]),
-        ("theta_star", sight, 0.05, [0.9, 0.9, 0.5]),
-        ("lazy_theta_star", sight, 0.05, [0.9, 0.9, 0.5]),
-        ("ap_theta_star", "ties = 'smaller_g'", 0.05, [0.9, 0.9, 0.5]),
-        ("field_dstar", "ties = 'larger_g'", 0.05, [0.9, 0.9, 0.5]),
+        ("theta_star", sight, 0.05, [0.95, 0.95, 0.8]),
+        ("lazy_theta_star", sight, 0.05, [0.95, 0.95, 0.8]),
+        ("ap_theta_star", "ties = 'smaller_g'", 0.05, [0.95, 0.95, 0.8]),
+        ("field_dstar", "ties = 'larger_g'", 0.05, [0.95, 0.95, 0.8]),
         ("astar", "ties = 'larger_g'", 0.0, [1.0; 3]),
     ];
     for (name, text, most, shares) in all {
@@ -193,7 +193,6 @@ fn a_mirrored_exchanged_or_swapped_query_has_a_path_as_short_or_nearly() {
             }
             solved += f64::from(u8::from(there.cost.is_some()));
         }
-        println!("{name}: {same:?} of {solved}");
         let are_same = same.iter().zip(shares).all(|(count, share)| *count >= share * solved);
         assert!(solved > 50.0 && are_same, "{name}: {same:?} of {solved} are as long");
     }
