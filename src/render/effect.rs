@@ -83,7 +83,7 @@ fn direction(metric: &str, is_more: bool) -> String {
     let metric = metric.strip_prefix("opened ").unwrap_or(metric);
     let [less, more] = if metric == "path cost" || metric == "path length" {
         return if is_more { "longer" } else { "shorter" }.to_owned();
-    } else if metric.ends_with('s') {
+    } else if metric.split(" of ").next().is_some_and(|noun| noun.ends_with('s')) {
         ["fewer", "more"]
     } else {
         ["less", "more"]
@@ -105,6 +105,7 @@ mod tests {
             (-62.7, [-64.4, -61.1], MorePercent, "turn sum, exterior angles", "63 % less turn sum"),
             (40.52, [38.37, 42.75], LessPercent, "path cost", "41 % shorter"),
             (-3.1, [-3.9, -2.3], LessPercent, "expansions", "3.1 % more expansions"),
+            (-99.857, [-99.860, -99.854], MorePercent, "lines of sight", "99.86 % fewer lines of sight"),
             (0.9169, [0.9153, 0.9185], Ratio, "path length", "8.3 % shorter"),
             (0.534, [0.498, 0.569], Share, "trials solved", "53 %"),
             (0.505, [0.470, 0.540], Share, "trials solved", "51 %"),
