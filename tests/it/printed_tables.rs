@@ -316,7 +316,10 @@ fn a_number_that_two_tables_print_of_the_same_trials_counts_once() {
         bench.run(&["check", "./forty"])
     };
     for (printed, wanted) in [
-        ("[\"23.5\"] }]", "`again.one.length` prints the number that `t.astar0.length` prints of the same trials"),
+        (
+            "[\"23.5\"] }]",
+            "`again.one.length` prints the number that `t.astar0.length` prints of the same trials",
+        ),
         (
             "[\"23.4\"], cell.length.same_as = \"t.astar0.length\" }]",
             "same_as: no cell `t.astar0.length` prints 23.4",

@@ -70,7 +70,8 @@ impl Paper {
                 let Some(same) = row.cell.get(id).and_then(|cell| cell.same_as.as_ref()) else { continue };
                 let number = Some(printed.get_ref());
                 if !cells.iter().any(|cell| cell.id == *same.get_ref() && cell.printed.as_ref() == number) {
-                    let message = format!("same_as: no cell `{}` prints {}", same.get_ref(), printed.get_ref());
+                    let message =
+                        format!("same_as: no cell `{}` prints {}", same.get_ref(), printed.get_ref());
                     faults.add(self.document.error(same.span(), message));
                 }
             }
