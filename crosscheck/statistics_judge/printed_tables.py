@@ -31,7 +31,9 @@ def of_table(table: Settings) -> Iterator[Settings]:
         cells = [
             of_cell(f"{begin}.{row['id']}.{name}", printed, (table, column, row), name)
             for printed, (column, name) in zip(row["printed"], columns, strict=True)
-            if printed != "N/A" and "none" not in table and "none" not in column
+            if printed != "N/A"
+            and "none" not in {**table, **column}
+            and "same_as" not in row.get("cell", {}).get(name, {})
         ]
         cells += differences((table, row), every, cells)
         parts = [cell["id"] for cell in cells if "untestable" not in cell] + row.get("with", [])

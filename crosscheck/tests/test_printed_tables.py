@@ -82,6 +82,8 @@ def test_what_one_column_has_more_than_another_is_a_cell() -> None:
     assert more["check"]["mean_of"] == {"instances": 5, "of": {"contender": "A", "against": "B"}}
     assert claims["t.one"]["cells"] == ["t.one.a", "t.one.b", "t.one.more"]
     assert not {"t.two.more", "t.three.more"} & set(claims)
+    repeated = COMPARED.replace('["1", "2"]', '["1", "2"]\ncell.b.same_as = "u.one.b"')
+    assert set(claims) - {claim["id"] for claim in claims_of(tomllib.loads(repeated))} == {"t.three.b"}
 
 
 @pytest.mark.parametrize(

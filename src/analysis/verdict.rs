@@ -442,10 +442,10 @@ impl Verdicts {
         self.claims.iter().find(|judged| judged.claim == id)
     }
 
-    /// Our numbers beside the parts of a claim.
-    pub fn parts_ours(&self, whole: &ClaimVerdict) -> Vec<&Estimate> {
+    /// Our numbers beside the parts of a claim, each with the part's short name.
+    pub fn parts_ours(&self, whole: &ClaimVerdict) -> Vec<(&Estimate, Option<&str>)> {
         let parts = self.claims.iter().filter(|part| part.part_of.as_ref() == Some(&whole.claim));
-        parts.filter_map(ClaimVerdict::ours).collect()
+        parts.filter_map(|part| Some((part.ours()?, part.short.as_deref()))).collect()
     }
 
     /// The replies about the claim called `id`.

@@ -27,18 +27,18 @@ const LISTED: usize = 3;
 /// Numbers of more kinds than these are not shown side by side.
 const KINDS: usize = 2;
 
-/// The numbers of a claim's parts, and how many instances they rest on: `2.2 / 2.3 % shorter`. Two kinds stand one after the other, if
-/// words tell them apart.
-pub fn side_by_side(estimates: &[&Estimate]) -> Option<[String; 2]> {
-    let mut kinds: Vec<Vec<&Estimate>> = Vec::new();
-    for estimate in estimates {
-        match kinds.iter_mut().find(|kind| is_alike(kind[0], estimate)) {
-            Some(kind) => kind.push(estimate),
-            None => kinds.push(vec![estimate]),
+/// The numbers of a claim's parts, and how many instances they rest on: `2.2 / 2.3 % shorter`, or `2.2 % (C1) / 2.3 % (C2)` where all parts
+/// have names. Two kinds stand one after the other, if words tell them apart.
+pub fn side_by_side(parts: &[(&Estimate, Option<&str>)]) -> Option<[String; 2]> {
+    let mut kinds: Vec<Vec<(&Estimate, Option<&str>)>> = Vec::new();
+    for part in parts {
+        match kinds.iter_mut().find(|kind| is_alike(kind[0].0, part.0)) {
+            Some(kind) => kind.push(*part),
+            None => kinds.push(vec![*part]),
         }
     }
-    let is_named = |kind: &Vec<&Estimate>| !["", " %"].contains(&Effect::new(kind[0]).words.as_str());
-    if kinds.is_empty() || kinds.len() > KINDS || kinds.len() > 1 && !kinds.iter().all(is_named) {
+    let has_words = |kind: &Vec<(&Estimate, _)>| !["", " %"].contains(&Effect::new(kind[0].0).words.as_str());
+    if kinds.is_empty() || kinds.len() > KINDS || kinds.len() > 1 && !kinds.iter().all(has_words) {
         return None;
     }
     let (numbers, mut counts): (Vec<String>, Vec<String>) =
@@ -55,27 +55,32 @@ fn is_alike(one: &Estimate, other: &Estimate) -> bool {
 }
 
 /// Numbers that measure the same, in the digits that all their intervals leave certain, and their counts of instances.
-fn of_one_kind(estimates: &[&Estimate]) -> (String, String) {
-    let effects: Vec<Effect> = estimates.iter().map(|estimate| Effect::new(estimate)).collect();
-    let decimals = effects.iter().map(|effect| effect.decimals).min().unwrap_or_default();
-    let words = &effects[0].words;
-    let mut sizes: Vec<f64> = effects.iter().map(|effect| effect.size).collect();
-    let mut counts: Vec<usize> = estimates.iter().map(|estimate| estimate.n).collect();
-    let between = if sizes.len() <= LISTED {
+fn of_one_kind(parts: &[(&Estimate, Option<&str>)]) -> (String, String) {
+    let mut effects: Vec<(Effect, Option<&str>)> =
+        parts.iter().map(|(estimate, name)| (Effect::new(estimate), *name)).collect();
+    let decimals = effects.iter().map(|(effect, _)| effect.decimals).min().unwrap_or_default();
+    let words = effects[0].0.words.clone();
+    let are_named = effects.iter().all(|(_, name)| name.is_some());
+    let mut counts: Vec<usize> = parts.iter().map(|(estimate, _)| estimate.n).collect();
+    let between = if effects.len() <= LISTED {
         " / "
     } else {
-        sizes.sort_by(f64::total_cmp);
+        effects.sort_by(|(one, _), (other, _)| one.size.total_cmp(&other.size));
+        effects.drain(1..effects.len() - 1);
         counts.sort_unstable();
-        sizes = vec![sizes[0], sizes[sizes.len() - 1]];
         counts = vec![counts[0], counts[counts.len() - 1]];
         " to "
     };
     if counts.iter().all(|n| *n == counts[0]) {
         counts.truncate(1);
     }
-    let sizes: Vec<String> = sizes.into_iter().map(|size| rounded(size, decimals)).collect();
+    let in_words = |(effect, name): &(Effect, Option<&str>)| match name.filter(|_| are_named) {
+        Some(name) => format!("{}{words} ({name})", rounded(effect.size, decimals)),
+        None => rounded(effect.size, decimals),
+    };
+    let sizes: Vec<String> = effects.iter().map(in_words).collect();
     let counts: Vec<String> = counts.iter().map(ToString::to_string).collect();
-    (sizes.join(between) + words, counts.join(between))
+    (sizes.join(between) + if are_named { "" } else { &words }, counts.join(between))
 }
 
 /// An estimate in words, and its size.
@@ -146,7 +151,7 @@ fn direction(metric: &str, is_more: bool) -> String {
     let metric = metric.strip_prefix("opened ").unwrap_or(metric);
     let [less, more] = if metric == "path cost" || metric == "path length" {
         return if is_more { "longer" } else { "shorter" }.to_owned();
-    } else if metric.ends_with('s') {
+    } else if metric.split(" of ").next().is_some_and(|noun| noun.ends_with('s')) {
         ["fewer", "more"]
     } else {
         ["less", "more"]
@@ -168,6 +173,7 @@ mod tests {
             (-62.7, [-64.4, -61.1], MorePercent, "turn sum, exterior angles", "63 % less turn sum"),
             (40.52, [38.37, 42.75], LessPercent, "path cost", "41 % shorter"),
             (-3.1, [-3.9, -2.3], LessPercent, "expansions", "3.1 % more expansions"),
+            (-99.857, [-99.860, -99.854], MorePercent, "lines of sight", "99.86 % fewer lines of sight"),
             (0.9169, [0.9153, 0.9185], Ratio, "path length", "8.3 % shorter"),
             (0.534, [0.498, 0.569], Share, "trials solved", "53 %"),
             (0.505, [0.470, 0.540], Share, "trials solved", "51 %"),
@@ -188,13 +194,17 @@ mod tests {
             Estimate { interval: Some([value - 0.5, value + 0.5]), ..Estimate::bare(value, "as it is", n) }
                 .measures(quantity, subject)
         };
-        let shown = |parts: &[Estimate]| side_by_side(&parts.iter().collect::<Vec<_>>());
+        let shown = |parts: &[Estimate]| {
+            side_by_side(&parts.iter().map(|part| (part, None)).collect::<Vec<_>>())
+        };
         let [shorter, longer] =
             [-2.0, 3.0].map(|value| of(value, MorePercent, "path cost", if value < 0.0 { 9 } else { 8 }));
         let work = [10.0, 20.0].map(|value| of(value, PercentOfOther, "closed nodes", 9));
         assert_eq!(shown(&[]), None);
         assert_eq!(shown(&[shorter.clone(), longer]).unwrap(), ["2.0 % shorter; 3.0 % longer", "9; 8"]);
         assert_eq!(shown(&work).unwrap(), ["10.0 / 20.0 % of the best rival's closed nodes", "9"]);
+        let named = [(&shorter, Some("C1")), (&shorter, Some("C2"))];
+        assert_eq!(side_by_side(&named).unwrap()[0], "2.0 % shorter (C1) / 2.0 % shorter (C2)");
         assert_eq!(
             shown(&[&work[..], &work[..]].concat()).unwrap()[0],
             "10.0 to 20.0 % of the best rival's closed nodes"

@@ -11,7 +11,7 @@ pub const COLUMNS: usize = 120;
 /// `text` with every `{claim}` replaced by our number beside that claim, and every `{claim:form}` by the text that the form names; a
 /// dash where there is none.
 pub fn prose(text: &str, verdicts: &Verdicts) -> String {
-    let beside = |estimates: Vec<&Estimate>| side_by_side(&estimates).map(|[numbers, _]| numbers);
+    let beside = |parts: Vec<(&Estimate, Option<&str>)>| side_by_side(&parts).map(|[numbers, _]| numbers);
     filled(text, |claim, form| {
         let judged = verdicts.claim(claim);
         let ours = judged.and_then(|judged| judged.ours());
@@ -23,7 +23,7 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
             "effect" => ours
                 .map(|ours| effect(ours).unwrap_or_else(|| number(ours.value)))
                 .or_else(|| beside(verdicts.parts_ours(judged?))),
-            "shown" => judged.and_then(|judged| beside(judged.shown().collect())),
+            "shown" => judged.and_then(|judged| beside(judged.shown().map(|ours| (ours, None)).collect())),
             "percent" => ours.map(percentage),
             OVER_INTERPRETATIONS => judged.and_then(|judged| judged.across.as_ref()?.range).map(percents),
             "low" => ours.and_then(|ours| ours.interval).map(|[low, _]| number(low)),

@@ -1,7 +1,7 @@
 //! Lattices whose vertices are corners of cells: planners of both kinds of lattice, and the laws of their lengths.
 
 use crate::worlds::{Case, worlds};
-use base::grid::{corners_see, parse_text_map};
+use base::grid::{Grid2, corners_see, parse_text_map};
 use base::settings::Settings;
 use engine::planner::{self, Build, Ending, Plan, Planner, Request, Stage};
 use engine::space::{LatticeWorld, World, WorldKind};
@@ -22,14 +22,21 @@ fn smoothing(from: &str) -> Box<dyn Stage> {
 }
 
 fn request(case: &Case) -> Request<'_> {
-    let Case { world, start, goal, .. } = case;
+    posed(&case.world, [&case.start, &case.goal])
+}
+
+fn posed<'a>(world: &'a World, [start, goal]: [&'a [f64]; 2]) -> Request<'a> {
     Request { world, start, goal, expansions: 100_000, seed: 1, trace: false }
 }
 
 /// Why the verifier refuses the plan.
-fn refusal(case: &Case, plan: &Plan, [in_graph, optimal]: [bool; 2]) -> Option<String> {
-    let cells = case.world.as_lattice().unwrap().cells();
-    let query = CornerCase::new(cells, [&case.start, &case.goal]);
+fn refusal(case: &Case, plan: &Plan, holds: [bool; 2]) -> Option<String> {
+    refusal_of(&request(case), plan, holds)
+}
+
+fn refusal_of(request: &Request<'_>, plan: &Plan, [in_graph, optimal]: [bool; 2]) -> Option<String> {
+    let cells = request.world.as_lattice().unwrap().cells();
+    let query = CornerCase::new(cells, [request.start, request.goal]);
     let least = query.least();
     if plan.ending == Ending::NoPath {
         return query.refuse_no_path(least);
@@ -134,29 +141,61 @@ fn every_closed_vertex_is_traced_with_a_parent_that_sees_it() {
     assert!(far[..4].iter().all(|count| *count > 50) && far[4..] == [0, 0], "{far:?}");
 }
 
-#[test]
-fn a_mirrored_or_swapped_query_has_a_path_as_short() {
-    let exact = planner("visibility_astar", "ties = 'larger_g'\nvertices = 'all'");
-    let mut mirrored = 0;
-    for case in worlds(WorldKind::CornerLattice).iter().take(60) {
-        let cells = case.world.as_lattice().unwrap().cells();
-        let width = cells.width();
-        let mut flipped = cells.clone();
+/// The map and the ends of a case mirrored at a vertical line, at the diagonal, and with start and goal swapped.
+fn views(case: &Case) -> [(&'static str, World, [Vec<f64>; 2]); 3] {
+    let cells = case.world.as_lattice().unwrap().cells();
+    let [width, height] = [cells.width(), cells.height()];
+    let turned = |size: [u32; 2], to: &dyn Fn([u32; 2]) -> [u32; 2]| {
+        let mut grid = Grid2::new(size[0], size[1]).unwrap();
         for cell in 0..cells.cell_count() {
-            let [x, y] = [cell % width, cell / width];
-            flipped.set_blocked(y * width + width - 1 - x, !cells.is_free(cell));
+            let [x, y] = to([cell % width, cell / width]);
+            grid.set_blocked(y * size[0] + x, !cells.is_free(cell));
         }
-        let world = World::Lattice(LatticeWorld::of_corners(flipped));
-        let flip = |at: &[f64]| vec![f64::from(width) - at[0], at[1]];
-        let ends = [flip(&case.goal), flip(&case.start)];
-        let there = exact.plan(&request(case)).unwrap();
-        let back = exact.plan(&Request { world: &world, start: &ends[0], goal: &ends[1], ..request(case) });
-        let back = back.unwrap();
-        let same = there.cost.zip(back.cost).map(|(a, b)| (a - b).abs() < 1e-9);
-        assert_eq!(same, there.cost.map(|_| true), "{}: {there:?}\n{back:?}", case.name);
-        mirrored += u32::from(same.is_some());
+        World::Lattice(LatticeWorld::of_corners(grid))
+    };
+    let ends = [&case.start, &case.goal];
+    let flipped = ends.map(|at| vec![f64::from(width) - at[0], at[1]]);
+    let exchanged = ends.map(|at| vec![at[1], at[0]]);
+    [
+        ("mirrored", turned([width, height], &|[x, y]| [width - 1 - x, y]), flipped),
+        ("exchanged", turned([height, width], &|[x, y]| [y, x]), exchanged),
+        ("swapped", turned([width, height], &|at| at), [case.goal.clone(), case.start.clone()]),
+    ]
+}
+
+/// The exact planner finds paths of one length. The others break ties by the order of neighbours, which is not mirrored, and search
+/// from the start: their lengths are the same on 95 % of mirrored maps, on 80 % of swapped ones, and within 5 % on all.
+#[test]
+fn a_mirrored_exchanged_or_swapped_query_has_a_path_as_short_or_nearly() {
+    let sight = "line_of_sight = 'exact_interior'\nties = 'smaller_g'";
+    let all = [
+        ("visibility_astar", "ties = 'larger_g'\nvertices = 'all'", 0.0, [1.0; 3]),
+        ("theta_star", sight, 0.05, [0.95, 0.95, 0.8]),
+        ("lazy_theta_star", sight, 0.05, [0.95, 0.95, 0.8]),
+        ("ap_theta_star", "ties = 'smaller_g'", 0.05, [0.95, 0.95, 0.8]),
+        ("field_dstar", "ties = 'larger_g'", 0.05, [0.95, 0.95, 0.8]),
+        ("astar", "ties = 'larger_g'", 0.0, [1.0; 3]),
+    ];
+    for (name, text, most, shares) in all {
+        let planner = planner(name, text);
+        let (mut same, mut solved) = ([0.0; 3], 0.0);
+        for case in worlds(WorldKind::CornerLattice).iter().take(100) {
+            let there = planner.plan(&request(case)).unwrap();
+            for (count, (view, world, [start, goal])) in same.iter_mut().zip(&views(case)) {
+                let what = format!("{name} on {}, {view}", case.name);
+                let request = posed(world, [start, goal]);
+                let back = planner.plan(&request).unwrap();
+                assert_eq!(refusal_of(&request, &back, [false; 2]), None, "{what}");
+                let apart = there.cost.zip(back.cost).map(|(a, b)| (a - b).abs() / a.max(1.0));
+                assert_eq!(apart.is_some(), there.cost.is_some(), "{what}");
+                assert!(apart.is_none_or(|apart| apart < most + 1e-9), "{what}: {apart:?}");
+                *count += f64::from(u8::from(apart.is_some_and(|apart| apart < 1e-9)));
+            }
+            solved += f64::from(u8::from(there.cost.is_some()));
+        }
+        let are_same = same.iter().zip(shares).all(|(count, share)| *count >= share * solved);
+        assert!(solved > 50.0 && are_same, "{name}: {same:?} of {solved} are as long");
     }
-    assert!(mirrored > 30, "{mirrored}");
 }
 
 #[test]

@@ -296,6 +296,48 @@ fn what_one_column_has_more_than_another_is_a_claim_in_a_table_of_its_own() {
     assert!(!details.contains("| two | N/A |"), "a row without a difference: {details}");
 }
 
+const REPEATED: &str = r#"
+[[table]]
+id = "again"
+at = "Table 2"
+caption = "One row of Table 1, printed again."
+of = { study = "maps", metric = "path_cost_cells", contender = "A*", problems = "0" }
+check.within = { statistic = "mean", margin = 2.0 }
+column = [{ id = "length" }]
+row = [{ id = "one", printed = ["23.5"] }]
+"#;
+
+#[test]
+fn a_number_that_two_tables_print_of_the_same_trials_counts_once() {
+    let bench = forty();
+    let text = std::fs::read_to_string(bench.at("forty/paper.toml")).unwrap() + REPEATED;
+    let with = |printed: &str| {
+        bench.write("forty/paper.toml", text.replace("[\"23.5\"] }]", printed).as_bytes());
+        bench.run(&["check", "./forty"])
+    };
+    for (printed, wanted) in [
+        (
+            "[\"23.5\"] }]",
+            "`again.one.length` prints the number that `t.astar0.length` prints of the same trials",
+        ),
+        (
+            "[\"23.4\"], cell.length.same_as = \"t.astar0.length\" }]",
+            "same_as: no cell `t.astar0.length` prints 23.4",
+        ),
+        ("[\"23.5\"], cell.length.same_as = \"t.astar0\" }]", "same_as: no cell `t.astar0` prints 23.5"),
+    ] {
+        let output = with(printed);
+        assert!(output.code == Some(2) && output.err.contains(wanted), "{printed}: {}", output.err);
+    }
+    assert_eq!(with("[\"23.4\"] }]").code, Some(0), "another number is another claim");
+    assert_eq!(with("[\"23.5\"], cell.length.same_as = \"t.astar0.length\" }]").code, Some(0));
+    assert!(loaded(&bench, "forty").claim("again.one.length").is_none());
+    bench.done(&["repro", "./forty"]);
+    let report = std::fs::read_to_string(bench.at("target/replan/forty/paper_repro.md")).unwrap();
+    let row = report.split("printed again").nth(1).unwrap();
+    assert!(row.contains("details.md#t.astar0.length"), "the claim of the first table is shown: {report}");
+}
+
 #[test]
 fn means_and_differences_that_cannot_be_computed_are_refused_where_they_stand() {
     for (from, to, wanted) in [

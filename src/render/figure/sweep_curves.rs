@@ -343,7 +343,7 @@ impl SweepCurves {
             for curve in &mut curves {
                 *curve = ratios(curve, &first);
             }
-            title = format!("{} over {}'s", metric.label.to_lowercase(), self.rows[0].contender);
+            title = format!("{}, ratio", metric.label.to_lowercase());
             let line = first.iter().map(|[x, _]| [*x, *ratio]).collect::<Vec<_>>();
             (line, format!("printed: {ratio}"))
         });

@@ -37,9 +37,15 @@ impl TableSpec {
         own.unwrap_or_else(|| format!("{}.{}.{column}", self.prefix(), row.id))
     }
 
-    /// Whether what is `printed` in a column is a claim.
-    pub(super) fn is_claim(&self, column: &ColumnSpec, printed: &Spanned<String>) -> bool {
-        self.none.is_none() && column.none.is_none() && printed.get_ref() != NOT_PRINTED
+    /// Whether what is `printed` in a row and the column called `id` is a claim.
+    pub(super) fn is_claim(
+        &self,
+        row: &RowSpec,
+        (column, id): (&ColumnSpec, &str),
+        printed: &Spanned<String>,
+    ) -> bool {
+        let is_repeated = row.cell.get(id).is_some_and(|cell| cell.same_as.is_some());
+        self.none.is_none() && column.none.is_none() && !is_repeated && printed.get_ref() != NOT_PRINTED
     }
 
     /// What stands in a row of the column `column`; `None` where one of its two numbers is not printed or no claim that can be tested.
@@ -52,7 +58,9 @@ impl TableSpec {
         let cell = |wanted: &Spanned<String>| {
             let cells = row.printed.iter().zip(columns(self)).enumerate();
             let mut own = cells.filter(|(_, (printed, (column, _, id)))| {
-                id == wanted.get_ref() && self.is_claim(column, printed) && column.untestable.is_none()
+                id == wanted.get_ref()
+                    && self.is_claim(row, (column, id), printed)
+                    && column.untestable.is_none()
             });
             own.next().map(|(at, (printed, (.., id)))| (at, printed, self.cell_id(row, id)))
         };

@@ -1,5 +1,6 @@
 //! What must hold in a paper as a whole: names that exist, tables that fit, an inventory without gaps.
 
+use super::columns::columns;
 use super::table_spec::TableSpec;
 use super::{Claim, ClaimSpec, Paper, Parts};
 use base::settings::{Faults, Spanned, none_called};
@@ -19,6 +20,8 @@ impl Paper {
         let with: Vec<&Spanned<String>> =
             tables.iter().flat_map(|table| &table.rows).flat_map(|row| &row.with).collect();
         self.check_parts(specs, &with, &claims, faults);
+        self.check_repeated(tables, faults);
+        self.check_repeated(tables, faults);
         self.check_headlines(faults);
         self.check_inventory(&claims, &studies, &figures, faults);
         self.check_report(&claims, &figures, faults);
@@ -44,6 +47,33 @@ impl Paper {
                 let why = if is_whole { "has parts itself" } else { "is a part already" };
                 let message = format!("claim `{id}` {why}; a part counts with one sentence or row");
                 faults.add(self.document.error(part.span(), message));
+            }
+        }
+    }
+
+    /// A number that two tables print of the same trials is one claim, which the cell of the second names as `same_as`.
+    fn check_repeated(&self, tables: &[TableSpec], faults: &mut Faults) {
+        let cells: Vec<&Claim> = self.cells.iter().filter_map(|id| self.claim(id)).collect();
+        let table = |cell: &Claim| cell.written.around().last().map(str::to_owned);
+        for (place, cell) in cells.iter().enumerate().filter(|(_, cell)| cell.criteria().next().is_some()) {
+            let is_same = |other: &&&Claim| other.tests_alike(cell) && table(other) != table(cell);
+            if let Some(other) = cells[..place].iter().find(is_same) {
+                let message = format!(
+                    "`{}` prints the number that `{}` prints of the same trials; same_as = \"{}\" under its row's `cell` counts it once",
+                    cell.id, other.id, other.id
+                );
+                faults.add(self.document.error_at(&cell.written.printed, message));
+            }
+        }
+        for (table, row) in tables.iter().flat_map(|table| table.rows.iter().map(move |row| (table, row))) {
+            for (printed, (.., id)) in row.printed.iter().zip(columns(table)) {
+                let Some(same) = row.cell.get(id).and_then(|cell| cell.same_as.as_ref()) else { continue };
+                let number = Some(printed.get_ref());
+                if !cells.iter().any(|cell| cell.id == *same.get_ref() && cell.printed.as_ref() == number) {
+                    let message =
+                        format!("same_as: no cell `{}` prints {}", same.get_ref(), printed.get_ref());
+                    faults.add(self.document.error(same.span(), message));
+                }
             }
         }
     }

@@ -172,6 +172,8 @@ pub(super) struct RowSpec {
 pub(super) struct CellSpec {
     /// The name of its claim, if not made of those of table, row and column.
     pub(super) id: Option<String>,
+    /// The cell of another table that prints the same number of the same trials: its claim is shown here, and this cell is none.
+    pub(super) same_as: Option<Spanned<String>>,
     /// Where it stands in the paper.
     pub(super) at: Option<String>,
     /// The sentence, where it is not a number alone.

@@ -117,7 +117,7 @@ pub(super) fn cell_ids(tables: &[TableSpec]) -> Vec<String> {
     for table in tables {
         for row in &table.rows {
             for (printed, (column, _, id)) in row.printed.iter().zip(columns(table)) {
-                if table.is_claim(column, printed) {
+                if table.is_claim(row, (column, id), printed) {
                     ids.push(table.cell_id(row, id));
                 }
             }
@@ -152,10 +152,12 @@ pub(super) fn printed(
                     column,
                     printed: (printed, at),
                 };
-                let claim = table.is_claim(column.0, printed).then(|| cell.claim(faults));
+                let is_claim = table.is_claim(row, (column.0, column.2), printed);
+                let claim = is_claim.then(|| cell.claim(faults));
+                let repeated = || cell.own().same_as.as_ref().map(|id| id.get_ref().clone());
                 cells.push(PrintedCell {
                     printed: printed.get_ref().clone(),
-                    claim: claim.as_ref().map(|claim| claim.id.clone()),
+                    claim: claim.as_ref().map(|claim| claim.id.clone()).or_else(repeated),
                     beside: claim.as_ref().and_then(|_| cell.beside()),
                 });
                 own.extend(claim);
@@ -261,7 +263,9 @@ impl TableSpec {
         for id in row.cell.keys() {
             let cell = row.printed.iter().zip(columns(self)).find(|(_, (.., own))| own == id);
             let message = match cell {
-                Some((printed, (column, ..))) if !self.is_claim(column, printed) => {
+                Some((printed, (column, ..)))
+                    if row.cell[id].same_as.is_none() && !self.is_claim(row, (column, id), printed) =>
+                {
                     format!("row `{}`, column `{id}`: the cell is no claim, so nothing is set for it", row.id)
                 }
                 None if !ids.contains(&id.as_str()) => none_called("column", id, ids.iter().copied()),
