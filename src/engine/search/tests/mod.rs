@@ -16,7 +16,7 @@ use base::grid::{CornerRule, Grid2, Moves, independent_cells};
 use base::seed;
 use rand::RngExt as _;
 use world::geometry::planar::Touch;
-use world::kinematics::{ElbowRule, Planar2r};
+use world::kinematics::planar_2r::{ElbowRule, Planar2r};
 use world::space::{ArmRules, HopRule, TipLattice};
 
 /// The rules of the reproduced planar workspace.
