@@ -76,8 +76,8 @@ fn records(study: &study::Study, inputs: &Inputs) -> (Manifest, Records) {
     let built = BuiltStudy::new(study, &points, inputs).unwrap();
     let manifest = Manifest::new(study, &points, &built, String::new(), false).unwrap();
     let mut batch = Batch::default();
-    for (index, unit) in built.units().iter().enumerate() {
-        for (place, key) in built.trials(unit).into_iter().enumerate() {
+    for (index, unit) in built.units().enumerate() {
+        for (place, key) in built.trials(&unit).into_iter().enumerate() {
             let opened = Value::Count((index * 7 + place) as u64 % 37);
             let values = [("opened", opened)].into_iter().collect();
             batch.rows.push(Row { key, seed: Some(unit.seed), status: Status::Solved, reason: None, values });

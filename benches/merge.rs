@@ -109,9 +109,8 @@ fn main() {
         claims: BTreeMap::new(),
     };
     let (planning, plan) = clock::timed(|| Plan::agreed(&parts, &wanted, &studies).unwrap());
-    let values: Vec<&'static str> = study.columns().into_iter().collect();
-    let columns = Columns { keys: study.key_columns(), values: &values };
-    let units = studies[0].0.units();
+    let columns = Columns::new(study);
+    let units: Vec<_> = studies[0].0.units().collect();
     let cut = plan.cut().remove(0);
     let mut part_bytes = 0;
     for number in 1..=SHARDS {

@@ -206,7 +206,7 @@ impl<'p> Explorer<'p> {
     pub fn trials_of(&self, study: &Study) -> Result<u64, Failure> {
         let points = [default_point(self.paper).for_trials(&study.choices)];
         let built = BuiltStudy::new(study, &points, &self.places.inputs)?;
-        Ok(built.units().iter().map(|unit| built.trials(unit).len() as u64).sum())
+        Ok(built.units().map(|unit| built.trials(&unit).len() as u64).sum())
     }
 
     /// Runs and judges `points`; what runs where interpretations are compatible, under those; and once more with more instances where an

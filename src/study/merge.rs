@@ -71,7 +71,7 @@ impl<'a> Parts<'a> {
         mut manifest: Manifest,
         into: &Path,
     ) -> Result<usize, StudyError> {
-        let keys: Vec<Arc<InstanceKey>> = built.units().into_iter().map(|unit| unit.key).collect();
+        let keys: Vec<Arc<InstanceKey>> = built.units().map(|unit| unit.key).collect();
         let units = Units { numbers: keys.iter().cloned().zip(0..).collect(), shards: &self.cut[place] };
         let mut rows = Vec::new();
         let mut preprocessing = Vec::new();

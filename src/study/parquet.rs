@@ -22,7 +22,7 @@ use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 use std::io::{Cursor, Read, Seek, SeekFrom, Write};
 
 /// How many rows a group has at most.
-const GROUP_ROWS: usize = 1 << 18;
+pub const GROUP_ROWS: usize = 1 << 17;
 
 /// A page of another program may hold no more values: for each of them there must be room in memory.
 const MOST_VALUES: usize = 1 << 28;
@@ -78,15 +78,15 @@ impl<W: Write> FrameWriter<W> {
         Ok(())
     }
 
-    /// Ends the file.
+    /// Ends the file, and gives back what it was written to.
     ///
     /// # Errors
     /// What the system refused.
-    pub fn finish(mut self) -> PolarsResult<()> {
+    pub fn finish(mut self) -> PolarsResult<W> {
         let entries = self.entries.into_iter().map(|(key, value)| KeyValue { key, value: Some(value) });
         let metadata = [schema_to_metadata_key(self.file.schema())].into_iter().chain(entries).collect();
         self.file.end(Some(metadata))?;
-        Ok(())
+        Ok(self.file.into_inner())
     }
 }
 
@@ -97,7 +97,7 @@ impl<W: Write> FrameWriter<W> {
 pub fn write_frame(out: impl Write, frame: DataFrame, entries: Vec<(String, String)>) -> PolarsResult<()> {
     let mut writer = FrameWriter::new(out, &frame, entries)?;
     writer.write(frame)?;
-    writer.finish()
+    writer.finish().map(drop)
 }
 
 /// A file that was opened: what it says of itself is read, its rows are not.

@@ -6,6 +6,7 @@ use super::manifest::Manifest;
 use super::record::Row;
 use super::runner::BuiltStudy;
 use super::store::read_numbers;
+use super::unit::Unit;
 use super::{Inputs, Study, StudyError};
 use base::seed;
 use rand::RngExt as _;
@@ -47,11 +48,10 @@ pub fn rerun(
     let mut rows = records.batch.rows.clone();
     rows.retain(|row| !recorded.contains(&*row.key.contender));
     let wanted = sample(study, &rows, count);
-    let mut units = built.units();
+    let mut units: Vec<Unit<'_>> = built.units().filter(|unit| wanted.contains_key(&unit.key)).collect();
     for unit in &mut units {
         unit.entrants.retain(|entrant| !entrant.contender.is_recorded());
     }
-    units.retain(|unit| wanted.contains_key(&unit.key));
     units.iter().try_for_each(|unit| built.check_files(unit))?;
     let pool = super::session::pool(Some(threads));
     let again = pool.install(|| units.par_iter().map(|unit| built.run_unit(unit)).collect::<Vec<_>>());

@@ -6,16 +6,15 @@ use super::contender::Contender;
 use super::error::StudyError;
 use super::key::{InstanceKey, Owner, Text, TrialKey};
 use super::manifest::Manifest;
-use super::name::Names;
 use super::record::{Batch, Kept, Row};
-use super::runner::{BuiltStudy, Part};
+use super::runner::{BuiltStudy, Part, StoredUnit};
 use super::store::{
-    GROUP_VALUES, Journal, KeptTraces, Records, Traces, read_numbers, salvaged, set_aside, set_parts_aside,
+    Journal, KeptTraces, Records, Shape, read_numbers, salvaged, set_aside, set_parts_aside,
     set_records_aside,
 };
 use super::unit::{Entrant, Unit};
 use engine::planner::Trace;
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet};
 use std::iter;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -121,22 +120,22 @@ impl Keeps {
 
 /// What of a run is stored, by the number of the unit.
 #[derive(Default)]
-pub struct Reusable {
+pub struct Reusable<'s> {
     /// Units that are stored whole.
-    pub units: BTreeMap<usize, Batch>,
+    pub units: BTreeMap<usize, StoredUnit<'s>>,
     /// Units with the trials of some contenders only.
-    pub parts: BTreeMap<usize, Part>,
+    pub parts: BTreeMap<usize, Part<'s>>,
     /// The contenders of each of these units whose traces are stored; of all in a task that does without contenders.
     pub traces: BTreeMap<usize, Option<BTreeSet<Text>>>,
 }
 
-impl Reusable {
+impl<'s> Reusable<'s> {
     /// What of the run that `manifest` describes stands in `records`, which `before` describes.
     pub fn new(
         built: &BuiltStudy<'_>,
         manifest: &Manifest,
         before: &Manifest,
-        records: &Records,
+        records: &'s Records,
         keeps: Keeps,
     ) -> Self {
         let mut found = Self::default();
@@ -144,18 +143,18 @@ impl Reusable {
             return found;
         }
         let mut stored = by_instance(&records.batch);
-        for (index, unit) in built.units().iter().enumerate() {
+        for (index, unit) in built.units().enumerate() {
             let interpretation = &unit.key.interpretation;
             let problem = |of: &Manifest| of.problem(&unit.key).map(str::to_owned);
-            let Some(batch) = stored.remove(&unit.key) else { continue };
+            let Some(records) = stored.remove(&*unit.key) else { continue };
             if problem(manifest) != problem(before) {
                 continue;
             }
             let labels: BTreeSet<Text> = unit.entrants.iter().map(|entrant| entrant.label.clone()).collect();
             let is_there = if labels.is_empty() {
-                keeps.repeated && is_prepared(&batch)
+                keeps.repeated && !records.preprocessing.is_empty()
             } else {
-                !batch.rows.is_empty()
+                !records.rows.is_empty()
             };
             if !is_there {
                 continue;
@@ -166,27 +165,20 @@ impl Reusable {
                     && keeps.keeps(entrant.contender)
             };
             let same = unit.entrants.iter().filter(is_same).map(|entrant| entrant.label.clone()).collect();
-            found.put(built, index, unit, batch, labels.len(), same);
+            found.put(index, records, labels.len(), same);
         }
         found
     }
 
     /// Notes what is stored of a unit; of its so many `contenders` those in `same` have not changed.
-    fn put(
-        &mut self,
-        built: &BuiltStudy<'_>,
-        index: usize,
-        unit: &Unit<'_>,
-        mut stored: Batch,
-        contenders: usize,
-        same: BTreeSet<Text>,
-    ) {
+    fn put(&mut self, index: usize, mut stored: StoredUnit<'s>, contenders: usize, same: BTreeSet<Text>) {
         if contenders == 0 {
             // A task that does without contenders depends on its problems alone.
             self.units.insert(index, stored);
             self.traces.insert(index, None);
-        } else if same.len() == contenders && is_prepared(&stored) {
-            self.units.insert(index, built.in_order(unit, [&stored, &Batch::default()]));
+        } else if same.len() == contenders && !stored.preprocessing.is_empty() {
+            // The file of what was built before queries may have been damaged.
+            self.units.insert(index, stored);
             self.traces.insert(index, Some(same));
         } else if !same.is_empty() {
             let is_same = |key: &TrialKey| same.contains(&key.contender);
@@ -202,84 +194,70 @@ impl Reusable {
     }
 }
 
-/// Whether what was built before queries is among the records of a unit; the file that holds it may have been damaged.
-fn is_prepared(stored: &Batch) -> bool {
-    !stored.preprocessing.is_empty()
-}
-
 /// The records of each instance.
-fn by_instance(batch: &Batch) -> BTreeMap<Arc<InstanceKey>, Batch> {
-    let mut instances: BTreeMap<Arc<InstanceKey>, Batch> = BTreeMap::new();
+fn by_instance(batch: &Batch) -> BTreeMap<&InstanceKey, StoredUnit<'_>> {
+    let mut instances: BTreeMap<&InstanceKey, StoredUnit<'_>> = BTreeMap::new();
     for row in &batch.preprocessing {
-        instances.entry(row.key.clone()).or_default().preprocessing.push(row.clone());
+        instances.entry(&row.key).or_default().preprocessing.push(row);
     }
     for row in &batch.rows {
-        instances.entry(row.key.on.clone()).or_default().rows.push(row.clone());
+        instances.entry(&row.key.on).or_default().rows.push(row);
     }
     instances
 }
 
-/// The traces of a run on their way to its records: those of trials that ran are in the journal, the others in the file of the
-/// run before.
+/// The records of a run on their way to its files: those of trials that ran are in the journal, the others of the run before.
 pub struct Gathered<'r, 'a> {
     built: &'r BuiltStudy<'a>,
-    journal: &'r mut Journal,
+    journal: Journal,
     before: KeptTraces,
-    reused: BTreeMap<usize, Option<BTreeSet<Text>>>,
+    reused: Reusable<'r>,
 }
 
 impl<'r, 'a> Gathered<'r, 'a> {
-    /// Those of a run that took over what `reused` says of `before`.
+    /// Those of a run that takes over `reused` of the run before, whose traces are `before`.
     pub fn new(
         built: &'r BuiltStudy<'a>,
-        journal: &'r mut Journal,
+        journal: Journal,
         before: KeptTraces,
-        reused: BTreeMap<usize, Option<BTreeSet<Text>>>,
+        reused: Reusable<'r>,
     ) -> Self {
         Self { built, journal, before, reused }
     }
 
-    /// All of them in the order of records; `rows` are the run's.
+    /// What must be known of them before the first is written.
     ///
     /// # Errors
     /// Those of the file of the run before.
-    pub fn all(mut self, rows: &[Row]) -> Result<Traces<'r>, StudyError>
-    where
-        'a: 'r,
-    {
-        let built = self.built;
-        let units = built.units();
-        let numbers: BTreeMap<&Arc<InstanceKey>, usize> =
-            units.iter().map(|unit| &unit.key).zip(0..).collect();
-        let is_taken = |owner: &&Owner| match owner {
-            Owner::Instance(_) => false,
-            Owner::Trial(key) => {
-                let of_unit = numbers.get(&key.on).and_then(|unit| self.reused.get(unit));
-                of_unit.is_some_and(|taken| taken.as_ref().is_none_or(|taken| taken.contains(&key.contender)))
-            }
-        };
-        let has_trials = self.journal.sweep().is_some() || self.before.owners()?.iter().any(is_taken);
-        let sweep = rows.first().filter(|_| has_trials).map(|row| row.key.sweep.clone());
-        let mut units = units.into_iter().enumerate();
-        let mut unit = VecDeque::new();
-        let each = std::iter::from_fn(move || {
-            while unit.is_empty() {
-                let (index, next) = units.next()?;
-                match self.of_unit(index, &next) {
-                    Ok(kept) => unit.extend(kept),
-                    Err(error) => return Some(Err(error)),
-                }
-            }
-            unit.pop_front().map(Ok)
-        });
-        Ok(Traces { each: Box::new(each), sweep, group_values: GROUP_VALUES })
+    pub fn shape(&self) -> Result<Shape, StudyError> {
+        let mut shape = self.journal.shape().clone();
+        let parts = self.reused.parts.values().map(|part| &part.stored);
+        let stored = self.reused.units.values().chain(parts);
+        shape.note(stored.flat_map(|unit| unit.preprocessing.iter().copied()));
+        if shape.sweep.is_none() {
+            let units = self.built.units();
+            let numbers: BTreeMap<Arc<InstanceKey>, usize> = units.map(|unit| unit.key).zip(0..).collect();
+            shape.sweep = self.before.owners()?.into_iter().find_map(|owner| {
+                let Owner::Trial(key) = owner else { return None };
+                let taken = self.reused.traces.get(numbers.get(&key.on)?)?;
+                let is_taken = taken.as_ref().is_none_or(|taken| taken.contains(&key.contender));
+                is_taken.then(|| key.sweep.clone())
+            });
+        }
+        Ok(shape)
     }
 
-    fn of_unit(&mut self, index: usize, unit: &Unit<'_>) -> Result<Vec<Kept>, StudyError> {
-        let ran = self.journal.traces(index)?;
-        let Some(reused) = self.reused.get(&index) else { return Ok(ran) };
+    /// Those of one unit, which has this number.
+    ///
+    /// # Errors
+    /// Those of the journal and of the file of the run before.
+    pub fn unit(&mut self, index: usize, unit: &Unit<'_>) -> Result<Batch, StudyError> {
+        let ran = self.journal.take(index)?;
+        let stored = || self.reused.units.get(&index).map(|stored| self.built.stored_whole(unit, stored));
+        let mut batch = ran.or_else(stored).unwrap_or_default();
+        let Some(reused) = self.reused.traces.get(&index) else { return Ok(batch) };
         let mut by_owner: BTreeMap<Owner, Vec<Trace>> = BTreeMap::new();
-        for Kept { of, trace } in ran {
+        for Kept { of, trace } in batch.kept.drain(..) {
             by_owner.entry(of).or_default().push(trace);
         }
         let owners: Vec<Owner> = if reused.is_none() {
@@ -292,30 +270,48 @@ impl<'r, 'a> Gathered<'r, 'a> {
             (Owner::Trial(key), Some(reused)) => reused.contains(&key.contender),
             _ => true,
         };
-        let mut all = Vec::new();
         for of in owners {
             let traces = match by_owner.remove(&of) {
                 Some(traces) => traces,
                 None if is_reused(&of) => self.before.take(&of)?,
                 None => continue,
             };
-            all.extend(traces.into_iter().map(|trace| Kept { of: of.clone(), trace }));
+            batch.kept.extend(traces.into_iter().map(|trace| Kept { of: of.clone(), trace }));
         }
-        Ok(all)
+        Ok(batch)
+    }
+
+    /// Removes the journal: the records are in their places.
+    ///
+    /// # Errors
+    /// [`StudyError::Io`].
+    pub fn remove_journal(self) -> Result<(), StudyError> {
+        self.journal.remove()
     }
 }
 
 /// Trials whose problem and contender are unchanged but whose row is not what was stored, by their names.
-pub fn moved(manifest: &Manifest, before: &Manifest, old: &Batch, new: &Batch, names: &Names) -> Vec<String> {
-    let old: BTreeMap<&TrialKey, &Row> = old.rows.iter().map(|row| (&row.key, row)).collect();
-    let unchanged = |row: &&Row| {
+pub struct Moved<'r> {
+    manifest: &'r Manifest,
+    before: &'r Manifest,
+    old: BTreeMap<&'r TrialKey, &'r Row>,
+}
+
+impl<'r> Moved<'r> {
+    /// Those of the run that `manifest` describes since the one before.
+    pub fn new(manifest: &'r Manifest, before: &'r Manifest, old: &'r [Row]) -> Self {
+        Self { manifest, before, old: old.iter().map(|row| (&row.key, row)).collect() }
+    }
+
+    /// Whether `row` is one.
+    pub fn has(&self, row: &Row) -> bool {
+        let Self { manifest, before, old } = self;
         let interpretation = &row.key.on.interpretation;
         let label = &row.key.contender;
-        manifest.problem(&row.key.on) == before.problem(&row.key.on)
+        old.get(&row.key).is_some_and(|stored| *stored != row)
+            && manifest.problem(&row.key.on) == before.problem(&row.key.on)
             && manifest.contender(interpretation, label) == before.contender(interpretation, label)
-    };
-    let differs = |row: &&Row| old.get(&row.key).is_some_and(|stored| *stored != *row);
-    new.rows.iter().filter(differs).filter(unchanged).map(|row| names.trial(&row.key)).collect()
+    }
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ use super::group::{Families, Group};
 use super::inputs::Inputs;
 use super::key::{InstanceKey, InterpretationKey, Text, TrialKey};
 use super::name::{self, Names};
-use super::record::{Batch, Row};
+use super::record::{Batch, PreprocessingRow, Row};
 use super::store::Journal;
 use super::task::Task;
 use super::unit::{Entrant, StudyContext, Unit};
@@ -23,10 +23,11 @@ use base::hash::sha256;
 use base::seed;
 use engine::space::WorldKind;
 use rayon::prelude::*;
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
 /// Who watches a run.
@@ -53,13 +54,22 @@ impl Progress for Unwatched {
 /// beside it.
 pub const SESSION: u32 = 1;
 
+/// What is stored of a unit.
+#[derive(Debug, Clone, Default)]
+pub struct StoredUnit<'s> {
+    /// Its preprocessed objects.
+    pub preprocessing: Vec<&'s PreprocessingRow>,
+    /// Its trials.
+    pub rows: Vec<&'s Row>,
+}
+
 /// What is stored of a unit when other contenders' trials of it must run.
 #[derive(Debug, Default)]
-pub struct Part {
+pub struct Part<'s> {
     /// The contenders whose trials are stored.
     pub contenders: BTreeSet<Text>,
     /// What is stored of the unit.
-    pub stored: Batch,
+    pub stored: StoredUnit<'s>,
 }
 
 /// A study with everything built that its trials share.
@@ -70,6 +80,10 @@ pub struct BuiltStudy<'a> {
     task: Box<dyn Task>,
     points: &'a [Interpretation],
     interpretations: Vec<InterpretationKey>,
+    /// Every problem group at every point of the sweeps over it.
+    posed: Vec<(&'a Group, Text, &'a SweepPoint)>,
+    /// The number of each one's first unit, and after them how many units an interpretation has.
+    starts: Vec<usize>,
     families: Vec<Vec<Arc<dyn Family>>>,
     /// By interpretation, then by problem group at its points of the sweeps.
     entrants: Vec<Vec<Arc<Vec<Entrant<'a>>>>>,
@@ -121,33 +135,41 @@ impl<'a> BuiltStudy<'a> {
         let terms = StudyContext { paper, study: name, names, seed, budget, keeps };
         let interpretations = points.iter().map(|point| point.key(&study.choices)).collect();
         let task = (study.task.build)(&study.task_settings)?;
-        Ok(Self { study, inputs, terms, task, points, interpretations, families, entrants })
+        let posed: Vec<(&Group, Text, &SweepPoint)> =
+            study.posed().map(|(group, at)| (group, group.label.as_str().into(), at)).collect();
+        let mut starts = vec![0];
+        starts.extend(posed.iter().scan(0, |end, (group, ..)| {
+            *end += group.instances as usize;
+            Some(*end)
+        }));
+        Ok(Self { study, inputs, terms, task, points, interpretations, posed, starts, families, entrants })
     }
 
     /// Every unit, in the order of records.
-    pub fn units(&self) -> Vec<Unit<'_>> {
-        let mut units = Vec::new();
-        let posed: Vec<(&Group, Text, &SweepPoint)> =
-            self.study.posed().map(|(group, at)| (group, group.label.as_str().into(), at)).collect();
-        for interpretation in 0..self.points.len() {
-            for (place, (group, label, at)) in posed.iter().enumerate() {
-                for instance in 0..group.instances {
-                    let interpretation_key = self.interpretations[interpretation].clone();
-                    let key = InstanceKey {
-                        group: label.clone(),
-                        sweep: at.key.clone(),
-                        instance,
-                        interpretation: interpretation_key,
-                    };
-                    units.push(self.unit(key, group, interpretation, place));
-                }
-            }
-        }
-        units
+    pub fn units(&self) -> impl ExactSizeIterator<Item = Unit<'_>> {
+        (0..self.starts.last().map_or(0, |count| count * self.points.len())).map(|index| self.unit(index))
+    }
+
+    /// The unit with this number.
+    ///
+    /// # Panics
+    /// If there is none.
+    pub fn unit(&self, index: usize) -> Unit<'_> {
+        let each = self.starts[self.posed.len()];
+        let (interpretation, number) = (index / each, index % each);
+        let place = self.starts.partition_point(|start| *start <= number) - 1;
+        let (group, label, at) = &self.posed[place];
+        let key = InstanceKey {
+            group: label.clone(),
+            sweep: at.key.clone(),
+            instance: (number - self.starts[place]) as u32,
+            interpretation: self.interpretations[interpretation].clone(),
+        };
+        self.posed_unit(key, group, interpretation, place)
     }
 
     /// The unit called `key`: of the reading and of the problem group at its point of the sweeps at these places.
-    fn unit<'s>(
+    fn posed_unit<'s>(
         &'s self,
         key: InstanceKey,
         group: &'s Group,
@@ -239,26 +261,22 @@ impl<'a> BuiltStudy<'a> {
         Err(StudyError::LacksFiles { study, group, lacks })
     }
 
-    /// That every program and every archive is there whose trials are not `done` and not in `parts`.
+    /// That every program and every archive is there whose trials are to run: those of the units in `todo` that are not in `parts`.
     ///
     /// # Errors
     /// [`StudyError::Lacks`] or [`StudyError::LacksFiles`] for the first that is not.
     pub fn check_programs(
         &self,
-        only: Option<&BTreeSet<usize>>,
-        done: &BTreeMap<usize, Batch>,
-        parts: &BTreeMap<usize, Part>,
+        todo: &[usize],
+        parts: &BTreeMap<usize, Part<'_>>,
     ) -> Result<(), StudyError> {
-        let units = self.units();
-        let is_left = |(index, _): &(usize, &Unit<'_>)| {
-            !done.contains_key(index) && only.is_none_or(|only| only.contains(index))
-        };
-        for (index, unit) in units.iter().enumerate().filter(is_left) {
+        for index in todo {
+            let unit = self.unit(*index);
             let stored = |entrant: &Entrant<'_>| {
-                parts.get(&index).is_some_and(|part| part.contenders.contains(&entrant.label))
+                parts.get(index).is_some_and(|part| part.contenders.contains(&entrant.label))
             };
             for entrant in unit.entrants.iter().filter(|entrant| !stored(entrant)) {
-                self.check_files(unit)?;
+                self.check_files(&unit)?;
                 if let Some(lacks) = entrant.pipeline.planner.lacks() {
                     let study = self.study.name.clone();
                     let contender = entrant.contender.label.clone();
@@ -290,110 +308,110 @@ impl<'a> BuiltStudy<'a> {
     }
 
     /// One unit's records: those stored in `part`, and those of the other contenders, which run now.
-    fn run_rest(&self, unit: &Unit<'_>, part: &Part) -> Batch {
+    fn run_rest(&self, unit: &Unit<'_>, part: &Part<'_>) -> Batch {
         let mut rest = unit.clone();
         rest.entrants.retain(|entrant| !part.contenders.contains(&entrant.label));
         let fresh = self.run_unit(&rest);
-        self.in_order(unit, [&part.stored, &fresh])
+        let stored = &part.stored;
+        let preprocessing = stored.preprocessing.first().copied().or(fresh.preprocessing.first());
+        let rows = self.in_order(unit, stored.rows.iter().copied().chain(&fresh.rows));
+        Batch { preprocessing: preprocessing.into_iter().cloned().collect(), rows, kept: fresh.kept }
     }
 
-    /// The records of `batches` that are the unit's, in the order in which a run gives them; traces are the last one's.
-    pub fn in_order(&self, unit: &Unit<'_>, batches: [&Batch; 2]) -> Batch {
-        let rows = batches.iter().flat_map(|batch| &batch.rows);
+    /// The records of a unit that is stored whole.
+    pub fn stored_whole(&self, unit: &Unit<'_>, stored: &StoredUnit<'_>) -> Batch {
+        let rows = stored.rows.iter().copied();
+        let preprocessing = stored.preprocessing.iter().copied().cloned();
+        let (rows, preprocessing) = if unit.entrants.is_empty() {
+            (rows.cloned().collect(), preprocessing.collect())
+        } else {
+            (self.in_order(unit, rows), preprocessing.take(1).collect())
+        };
+        Batch { preprocessing, rows, kept: Vec::new() }
+    }
+
+    /// Those of `rows` that are the unit's, in the order in which a run gives them.
+    fn in_order<'r>(&self, unit: &Unit<'_>, rows: impl Iterator<Item = &'r Row>) -> Vec<Row> {
         let rows: BTreeMap<&TrialKey, &Row> = rows.map(|row| (&row.key, row)).collect();
-        let preprocessing = batches.iter().flat_map(|batch| &batch.preprocessing);
-        let preprocessing = preprocessing.take(1).cloned().collect();
-        let rows =
-            self.trials(unit).iter().filter_map(|key| rows.get(key).map(|row| (*row).clone())).collect();
-        Batch { preprocessing, rows, kept: batches[1].kept.clone() }
+        self.trials(unit).iter().filter_map(|key| rows.get(key).copied().cloned()).collect()
     }
 
-    /// Runs every unit, or those among `only`, that `done` does not hold yet, in the current thread pool. Where
-    /// `parts` holds some contenders' trials of a unit, only the others' run. The traces are in the journal, or where the stored
-    /// trials are.
+    /// Runs the units in `todo` in the current thread pool and leaves their records in the journal. Where `parts` holds some
+    /// contenders' trials of a unit, only the others' run.
     ///
     /// # Errors
-    /// [`StudyError::Interrupted`] if `stop` was set; an error of the journal.
+    /// [`StudyError::Interrupted`] if `stop` was set, with how many of the run's units, `total` in all, are kept; an error of the
+    /// journal.
     pub fn run(
         &self,
-        only: Option<&BTreeSet<usize>>,
-        mut done: BTreeMap<usize, Batch>,
-        parts: &BTreeMap<usize, Part>,
+        (todo, total): (&[usize], usize),
+        parts: &BTreeMap<usize, Part<'_>>,
         journal: &Mutex<Journal>,
         stop: &AtomicBool,
         progress: &dyn Progress,
-    ) -> Result<Batch, StudyError> {
-        let units = self.units();
-        let is_own = |index: &usize| only.is_none_or(|only| only.contains(index));
-        let total = only.map_or(units.len(), BTreeSet::len);
-        done.retain(|index, _| is_own(index));
-        let todo: Vec<usize> =
-            (0..units.len()).filter(|index| is_own(index) && !done.contains_key(index)).collect();
+    ) -> Result<(), StudyError> {
         progress.begin(&format!("{}: trials", self.study.name), todo.len());
-        let work = |alike: &Vec<usize>| -> Result<Vec<(usize, Batch)>, StudyError> {
+        let left = AtomicUsize::new(todo.len());
+        let work = |alike: &Vec<usize>| -> Result<(), StudyError> {
             if stop.load(Ordering::Relaxed) {
-                return Ok(Vec::new());
+                return Ok(());
             }
-            let mut found = self.run_alike(&units, alike, parts);
+            let found = self.run_alike(alike, parts);
             if external::is_interrupted() && self.study.recorded().next().is_some() {
                 // What a planner from outside was cut off in is no result.
-                return Ok(Vec::new());
+                return Ok(());
             }
-            for (index, batch) in &mut found {
+            for (index, batch) in alike.iter().zip(found) {
                 journal.lock().expect("no thread panics while it writes").append(*index, batch)?;
+                left.fetch_sub(1, Ordering::Relaxed);
                 progress.step();
             }
-            Ok(found)
+            Ok(())
         };
-        // A trial of an arm or among polyhedra may take seconds, and what it is prepared for little: a stop would wait for all of them.
-        let is_apart = |index: usize| {
-            let is_long = [WorldKind::Arm, WorldKind::ArmAmongPolyhedra, WorldKind::Polyhedra];
-            parts.contains_key(&index) || is_long.contains(&units[index].family.world())
-        };
-        let todo = alike(&units, &todo, is_apart);
-        let fresh: Vec<_> = todo.par_iter().map(work).collect::<Result<_, _>>()?;
+        self.alike(todo, parts).par_iter().try_for_each(work)?;
         progress.end();
-        done.extend(fresh.into_iter().flatten());
-        if done.len() < total {
-            let study = self.study.name.clone();
-            return Err(StudyError::Interrupted { study, kept: done.len(), total });
+        match left.into_inner() {
+            0 => Ok(()),
+            left => {
+                Err(StudyError::Interrupted { study: self.study.name.clone(), kept: total - left, total })
+            }
         }
-        Ok(done.into_values().fold(Batch::default(), Batch::with))
     }
 
     /// The records of the units with these numbers, which share what is prepared.
-    fn run_alike(
-        &self,
-        units: &[Unit<'_>],
-        alike: &[usize],
-        parts: &BTreeMap<usize, Part>,
-    ) -> Vec<(usize, Batch)> {
-        let batches = match (alike, alike.first().and_then(|index| parts.get(index))) {
-            ([index], Some(part)) => vec![self.run_rest(&units[*index], part)],
-            _ => self.task.run_alike(&alike.iter().map(|index| &units[*index]).collect::<Vec<_>>()),
-        };
-        alike.iter().copied().zip(batches).collect()
+    fn run_alike(&self, alike: &[usize], parts: &BTreeMap<usize, Part<'_>>) -> Vec<Batch> {
+        let units: Vec<Unit<'_>> = alike.iter().map(|index| self.unit(*index)).collect();
+        match (&units[..], alike.first().and_then(|index| parts.get(index))) {
+            ([unit], Some(part)) => vec![self.run_rest(unit, part)],
+            _ => self.task.run_alike(&units.iter().collect::<Vec<_>>()),
+        }
     }
-}
 
-/// The units in `todo`, grouped by family and seed, since such units share what is prepared; interpretations that
-/// change contenders alone go together too. Units that are `apart` stand by themselves. Groups are in the order of their first
-/// units.
-fn alike(units: &[Unit<'_>], todo: &[usize], apart: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
-    let mut all: Vec<Vec<usize>> = Vec::new();
-    let mut places = BTreeMap::new();
-    for &index in todo {
-        let unit = &units[index];
-        let of = (std::ptr::from_ref(unit.family).cast::<()>(), unit.group.place, &unit.key.group, unit.seed);
-        if let Some(place) = places.get(&of).filter(|_| !apart(index)) {
-            let of_family: &mut Vec<usize> = &mut all[*place];
-            of_family.push(index);
-            continue;
+    /// The units in `todo`, grouped by family and seed, since such units share what is prepared; interpretations that
+    /// change contenders alone go together too. Groups are in the order of their first units.
+    fn alike(&self, todo: &[usize], parts: &BTreeMap<usize, Part<'_>>) -> Vec<Vec<usize>> {
+        let mut all: Vec<Vec<usize>> = Vec::new();
+        let mut places = BTreeMap::new();
+        for &index in todo {
+            let unit = self.unit(index);
+            // A trial of an arm or among polyhedra may take seconds, and what it is prepared for little: a stop would wait for all.
+            let is_long = [WorldKind::Arm, WorldKind::ArmAmongPolyhedra, WorldKind::Polyhedra];
+            if parts.contains_key(&index) || is_long.contains(&unit.family.world()) {
+                all.push(vec![index]);
+                continue;
+            }
+            let family = std::ptr::from_ref(unit.family).cast::<()>();
+            match places.entry((family, std::ptr::from_ref(unit.group), unit.seed)) {
+                Entry::Occupied(place) => {
+                    let alike: &mut Vec<usize> = &mut all[*place.get()];
+                    alike.push(index);
+                }
+                Entry::Vacant(place) => {
+                    place.insert(all.len());
+                    all.push(vec![index]);
+                }
+            }
         }
-        if !apart(index) {
-            places.insert(of, all.len());
-        }
-        all.push(vec![index]);
+        all
     }
-    all
 }

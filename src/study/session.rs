@@ -6,17 +6,17 @@ use super::lock::Lock;
 use super::manifest::{MadeBy, Manifest, Session};
 use super::name::Names;
 use super::record::{Batch, Row, Status, Timing};
-use super::reuse::{self, Before, Damage, Gathered, Keeps, Reusable, moved};
+use super::reuse::{self, Before, Damage, Gathered, Keeps, Moved, Reusable};
 use super::runner::{BuiltStudy, Progress, SESSION};
 use super::shard::Portion;
 use super::store::{
-    Columns, GROUP_VALUES, Journal, Records, Staged, Traces, finish_put, open_traces, read_endings,
-    remove_temporaries, stage_records,
+    Columns, GROUP_VALUES, Journal, RecordWriter, Records, Shape, Staged, Traces, finish_put, open_traces,
+    read_endings, remove_temporaries, stage_records,
 };
 use super::unit::Unit;
 use super::{Inputs, StudyError};
 use base::settings::did_you_mean;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
@@ -70,13 +70,13 @@ impl Options<'_> {
     }
 
     /// What of the run that `manifest` describes is stored and need not run again.
-    fn reusable(
+    fn reusable<'s>(
         &self,
         built: &BuiltStudy<'_>,
         manifest: &Manifest,
-        stored: Option<&(Manifest, Records)>,
+        stored: Option<&'s (Manifest, Records)>,
         damage: &Damage,
-    ) -> Reusable {
+    ) -> Reusable<'s> {
         let keeps =
             Keeps { repeated: !self.again.fresh && !damage.is_of_trials, recorded: !self.again.record };
         stored.map_or_else(Reusable::default, |(before, old)| {
@@ -144,36 +144,47 @@ struct Counts {
 }
 
 impl Report {
-    fn new(manifest: Manifest, counts: &Counts, rows: &[Row], names: &Names, why: Vec<String>) -> Self {
+    fn new(manifest: Manifest, counts: &Counts, tally: Tally<'_>, why: Vec<String>) -> Self {
         let Counts { resumed, units, reused, kept } = *counts;
-        let trials = rows.len();
-        let odd = UnexpectedStatus::among(rows, names);
-        Self {
-            manifest,
-            trials,
-            resumed,
-            reused,
-            kept,
-            units,
-            why,
-            moved: Vec::new(),
-            aside: Vec::new(),
-            odd,
-        }
+        let Tally { trials, moved, odd, .. } = tally;
+        let odd = odd.into_values().collect();
+        Self { manifest, trials, resumed, reused, kept, units, why, moved, aside: Vec::new(), odd }
     }
 }
 
-impl UnexpectedStatus {
-    /// Those among `rows`, in the order of [`Status::ALL`].
-    fn among(rows: &[Row], names: &Names) -> Vec<Self> {
-        let is_odd = |status: &Status| ![Status::Solved, Status::NoPath].contains(status);
-        let of = |status: Status| {
-            let all: Vec<&Row> = rows.iter().filter(|row| row.status == status).collect();
-            let first = all.first()?;
-            let reason = first.reason.clone().unwrap_or_default();
-            Some(Self { status, count: all.len(), trial: names.trial(&first.key), reason })
-        };
-        Status::ALL.into_iter().filter(is_odd).filter_map(of).collect()
+/// What is noted of a run's trials while they pass by, in the order of records.
+struct Tally<'r> {
+    names: &'r Names,
+    trials: usize,
+    odd: BTreeMap<Status, UnexpectedStatus>,
+    moved: Vec<String>,
+    /// How many of the first trials are as the run before has them.
+    as_before: usize,
+}
+
+impl<'r> Tally<'r> {
+    fn new(names: &'r Names) -> Self {
+        Self { names, trials: 0, odd: BTreeMap::new(), moved: Vec::new(), as_before: 0 }
+    }
+
+    fn note(&mut self, row: &Row, old: &[Row], moved: Option<&Moved<'_>>) {
+        if self.as_before == self.trials && old.get(self.trials) == Some(row) {
+            self.as_before += 1;
+        }
+        self.trials += 1;
+        let Row { key, status, reason, .. } = row;
+        if moved.is_some_and(|moved| moved.has(row)) {
+            self.moved.push(self.names.trial(key));
+        }
+        if ![Status::Solved, Status::NoPath].contains(status) {
+            let first = || UnexpectedStatus {
+                status: *status,
+                count: 0,
+                trial: self.names.trial(key),
+                reason: reason.clone().unwrap_or_default(),
+            };
+            self.odd.entry(*status).or_insert_with(first).count += 1;
+        }
     }
 }
 
@@ -193,39 +204,57 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     remove_temporaries(folder, &study.name);
     let units = only.map_or_else(|| built.units().len(), BTreeSet::len);
     let open_journal = || Journal::open(&Journal::path(folder, &study.name), &manifest.depends);
+    let mut tally = Tally::new(built.names());
     if let Some((before, rows)) = options.current(folder, &manifest) {
-        let (journal, done) = open_journal()?;
+        let journal = open_journal()?;
+        let counts = Counts { resumed: journal.units().len(), units, reused: units, kept: 0 };
         journal.remove()?;
-        let counts = Counts { resumed: done.len(), units, reused: units, kept: 0 };
+        for row in &rows {
+            tally.note(row, &[], None);
+        }
         let why = manifest.differs_from(&before);
-        return Ok(Report::new(before, &counts, &rows, built.names(), why));
+        return Ok(Report::new(before, &counts, tally, why));
     }
     let Before { stored, kept, why, damage } =
         Before::read(folder, &manifest, options.again.replaces_damaged)?;
-    let (journal, mut done) = open_journal()?;
-    let resumed = done.len();
+    let journal = open_journal()?;
+    let resumed = journal.units().len();
     let found = options.reusable(&built, &manifest, stored.as_ref(), &damage);
     let counts = Counts { resumed, units, reused: found.units.len(), kept: found.kept() };
-    done = found.units.into_iter().chain(done).collect();
-    built.check_programs(only, &done, &found.parts)?;
+    let is_own = |index: &usize| only.is_none_or(|only| only.contains(index));
+    let is_left = |index: &usize| !journal.has(*index) && !found.units.contains_key(index);
+    let todo: Vec<usize> = (0..built.units().len()).filter(is_own).filter(is_left).collect();
+    built.check_programs(&todo, &found.parts)?;
     let journal = Mutex::new(journal);
-    let parts = &found.parts;
-    let run = || built.run(only, done, parts, &journal, options.stop, options.progress);
-    let batch = pool(options.threads).install(run)?;
+    let run = || built.run((&todo, units), &found.parts, &journal, options.stop, options.progress);
+    pool(options.threads).install(run)?;
+    let journal = journal.into_inner().expect("no thread panicked while it wrote");
+    let mut gathered = Gathered::new(&built, journal, kept, found);
+    let shape = Shape { group_values: group_values(&manifest), ..gathered.shape()? };
+    let columns = Columns::new(study);
+    let mut staged = Staged::default();
+    let mut files = RecordWriter::new(&mut staged, folder, &study.name, &columns, shape)?;
+    let old = stored.as_ref().map_or(&[][..], |(_, old)| &old.batch.rows);
+    let moved = stored.as_ref().map(|(before, _)| Moved::new(&manifest, before, old));
+    for (index, unit) in built.units().enumerate().filter(|(index, _)| is_own(index)) {
+        let batch = gathered.unit(index, &unit)?;
+        for row in &batch.rows {
+            tally.note(row, old, moved.as_ref());
+        }
+        files.add(batch)?;
+    }
+    drop(moved);
+    let is_as_before = old.len() == tally.trials && tally.as_before == tally.trials;
     let times = match kept_times(study, stored.as_ref(), &mut manifest, counts.reused == units) {
         Some(times) => times,
         None if only.is_some() => Vec::new(),
-        None => times_beside(&built, options, stored.as_ref(), &mut manifest, &batch)?,
+        None => times_beside(&built, options, stored.as_ref(), &mut manifest, is_as_before)?,
     };
-    let records = Records { batch, times };
-    let mut journal = journal.into_inner().expect("no thread panicked while it wrote");
-    let traces = Gathered::new(&built, &mut journal, kept, found.traces).all(&records.batch.rows)?;
-    write(study, folder, &mut manifest, &records, traces)?;
-    journal.remove()?;
-    let new = &records.batch;
-    let names = built.names();
-    let moved = stored.map_or_else(Vec::new, |(was, old)| moved(&manifest, &was, &old.batch, new, names));
-    Ok(Report { moved, aside: damage.aside, ..Report::new(manifest, &counts, &new.rows, names, why) })
+    manifest.files = files.finish(&times)?;
+    manifest.stage(&mut staged, folder)?;
+    staged.put()?;
+    gathered.remove_journal()?;
+    Ok(Report { aside: damage.aside, ..Report::new(manifest, &counts, tally, why) })
 }
 
 /// Reads the clock of a stored run once more, in a session of its own beside those that are stored; the session's number.
@@ -274,14 +303,13 @@ fn times_beside(
     options: &Options<'_>,
     stored: Option<&(Manifest, Records)>,
     manifest: &mut Manifest,
-    batch: &Batch,
+    is_as_before: bool,
 ) -> Result<Vec<Timing>, StudyError> {
     let is_of_these = |(before, old): &&(Manifest, Records)| {
         manifest.interpretations == before.interpretations
             && !manifest.sessions.is_empty()
             && is_timed_as(built.study(), &old.times)
-            && (old.batch.rows == batch.rows
-                || old.batch.rows.is_empty() && manifest.depends == before.depends)
+            && (is_as_before || old.batch.rows.is_empty() && manifest.depends == before.depends)
     };
     let Some((before, old)) = stored.filter(is_of_these) else {
         return built.time(SESSION, options.stop, options.progress);
@@ -307,6 +335,11 @@ fn is_timed_as(study: &Study, times: &[Timing]) -> bool {
 /// The least that a group of a part's traces holds, so that many parts do not make many files of crumbs.
 const LEAST_GROUP_VALUES: usize = 1 << 12;
 
+/// How many numbers a group of traces holds: who puts parts together holds a group of each.
+fn group_values(manifest: &Manifest) -> usize {
+    manifest.shard.as_ref().map_or(GROUP_VALUES, |shard| (GROUP_VALUES / shard.of).max(LEAST_GROUP_VALUES))
+}
+
 /// Puts records and manifest in their places, the manifest last: it says which records are whole.
 pub(super) fn write(
     study: &Study,
@@ -315,12 +348,8 @@ pub(super) fn write(
     records: &Records,
     mut traces: Traces<'_>,
 ) -> Result<(), StudyError> {
-    if let Some(shard) = &manifest.shard {
-        // Who puts parts together holds a group of each.
-        traces.group_values = (GROUP_VALUES / shard.of).max(LEAST_GROUP_VALUES);
-    }
-    let values: Vec<&'static str> = study.columns().into_iter().collect();
-    let columns = Columns { keys: study.key_columns(), values: &values };
+    traces.group_values = group_values(manifest);
+    let columns = Columns::new(study);
     let mut staged = Staged::default();
     manifest.files = stage_records(&mut staged, folder, &study.name, &columns, records, traces)?;
     manifest.stage(&mut staged, folder)?;
@@ -339,14 +368,13 @@ pub fn run_one(
     trial: &str,
 ) -> Result<(Batch, Option<Row>), StudyError> {
     let built = BuiltStudy::new(study, points, inputs)?;
-    let units = built.units();
     let names = built.names();
     let unknown = || {
-        let all = units.iter().flat_map(|unit| built.trials(unit)).map(|key| names.trial(&key));
+        let all = built.units().flat_map(|unit| built.trials(&unit)).map(|key| names.trial(&key));
         unknown_trial(&study.name, trial, &all.collect::<Vec<String>>())
     };
-    let is_it = |unit: &&Unit<'_>| built.trials(unit).iter().any(|key| names.trial(key) == trial);
-    let unit = units.iter().find(is_it).ok_or_else(unknown)?;
+    let is_it = |unit: &Unit<'_>| built.trials(unit).iter().any(|key| names.trial(key) == trial);
+    let unit = built.units().find(is_it).ok_or_else(unknown)?;
     let mut batch = built.run_unit(&Unit { keeps_all: true, ..unit.clone() });
     batch.rows.retain(|row| names.trial(&row.key) == trial);
     batch.kept.retain(|kept| names.owner(&kept.of) == trial);

@@ -63,8 +63,7 @@ fn stored_records_are_the_bytes_that_this_program_would_write_of_them() {
                 continue;
             }
             let records = read_records(&runs, &study.name, &manifest.files).unwrap();
-            let values: Vec<&'static str> = study.columns().into_iter().collect();
-            let columns = Columns { keys: study.key_columns(), values: &values };
+            let columns = Columns::new(study);
             let place = tempfile::tempdir().unwrap();
             let traces = Traces::held(&records.batch.kept);
             let mut staged = Staged::default();

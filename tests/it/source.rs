@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Folders of `src` that are packages of their own; what is in none of them belongs to the package `replan`.
-pub const PACKAGES: [&str; 9] =
-    ["audit", "base", "engine", "export", "external", "proofs", "stats", "study", "verify"];
+pub const PACKAGES: [&str; 10] =
+    ["audit", "base", "engine", "export", "external", "proofs", "stats", "study", "verify", "world"];
 
 /// One file below `src`.
 pub struct File {

@@ -114,8 +114,7 @@ impl<'a> Sample<'a> {
         let mut batch = batches.into_iter().fold(Batch::default(), Batch::with);
         batch.kept.retain(|kept| kept.trace.name == self.entry.paths.trace);
         let records = Records { batch, times: Vec::new() };
-        let values: Vec<&'static str> = study.columns().into_iter().collect();
-        let columns = Columns { keys: study.key_columns(), values: &values };
+        let columns = Columns::new(study);
         let mut staged = Staged::default();
         let traces = Traces::held(&records.batch.kept);
         stage_records(&mut staged, folder, &study.name, &columns, &records, traces)?;

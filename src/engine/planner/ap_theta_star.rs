@@ -7,8 +7,8 @@ use super::corners::{self, TiesAlone};
 use super::lattice::COLUMNS_DISTINCT;
 use super::{Build, Entry};
 use crate::search::{AngleRanges, BucketHeap};
-use crate::space::WorldKind;
 use base::settings::Accepted;
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -8,11 +8,11 @@ use crate::search::{
     BucketHeap, Combined, Estimate, GridGraph, Observer, Octile, Report, Rules, Search, SideInputs, Stop,
     Update, euclidean_to, falling, octile_to, weighted,
 };
-use crate::space::WorldKind;
 use base::grid::NeighbourOrder;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

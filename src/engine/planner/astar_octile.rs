@@ -4,12 +4,12 @@ use super::lattice::{self, COLUMNS_DISTINCT, Posed};
 use super::pool::Pool;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::OctileAstar;
-use crate::space::WorldKind;
 use base::grid::Moves;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::sync::Arc;
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

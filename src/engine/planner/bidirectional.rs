@@ -7,12 +7,12 @@ use crate::search::{
     Bidirectional, BidirectionalReport, BidirectionalRules, Closings, Combined, End, GridGraph, Heap,
     Meeting, Observer, Octile, SideChoice, euclidean_to, falling, sum,
 };
-use crate::space::WorldKind;
 use base::grid::NeighbourOrder;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::cell::Cell;
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -7,12 +7,12 @@
 
 use super::polyhedra::{densified, points, polyhedra, replace, trace};
 use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
-use crate::geometry::{Segment, Vec3};
 use crate::shorten::cubic_spline;
-use crate::space::{PolyhedraWorld, WorldKind};
 use base::settings::{Accepted, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::geometry::{Segment, Vec3};
+use world::space::{PolyhedraWorld, WorldKind};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -128,7 +128,7 @@ pub(super) fn raise<T>(
 /// How deep a point of the curve lies in an obstacle.
 fn depth(world: &PolyhedraWorld, curve: &Curve) -> f64 {
     let below = |point: &Vec3| {
-        let within = |convex: &crate::geometry::Convex| {
+        let within = |convex: &world::geometry::Convex| {
             convex.faces().iter().map(|face| -face.plane.height(point)).fold(f64::INFINITY, f64::min)
         };
         world.obstacles().iter().map(within).fold(0.0, f64::max)

@@ -7,13 +7,13 @@ use super::tips::{
 };
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::Successors;
-use crate::space::{ArmWorld, WorldKind};
 use base::grid::{MAX_REACH_CELLS, Offsets};
 use base::seed::{self, Stream};
 use base::settings::Accepted;
 use rand::RngExt as _;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::space::{ArmWorld, WorldKind};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -245,8 +245,9 @@ impl Planner for Ready {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::search::tests::reproduced_rules;
     use crate::search::{ColumnGraph, Graph as _};
-    use crate::space::{HopRule, reproduced_rules};
+    use world::space::HopRule;
 
     fn settings(drawn: Drawn, goal_in_region: GoalInRegion, source: Source) -> ChaosAstar {
         ChaosAstar {

@@ -5,10 +5,10 @@ use super::one_side::{Found, OneSided};
 use super::pool::Pool;
 use super::{Invalid, Plan, Planner, Request};
 use crate::search::{AngleRanges, BucketHeap, Cornered, Interpolated, Observer};
-use crate::space::LatticeWorld;
 use base::settings::{Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::space::LatticeWorld;
 
 /// The corners of the cells of `world`; a checked study gives these planners no other lattice.
 pub(super) fn cornered(world: &LatticeWorld) -> Cornered<'_> {

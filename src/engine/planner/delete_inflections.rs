@@ -3,11 +3,11 @@
 use super::lattice::{SightCorners, SightSetting, lattice, sees_under};
 use super::{Build, Ending, Entry, Plan, Request, Stage};
 use crate::shorten::{bends, inflection_deletion, path_length};
-use crate::space::WorldKind;
 use base::grid::{CornerRule, Sight};
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -2,10 +2,10 @@
 
 use super::roadmap::{Posed, solved, unsolved};
 use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request};
-use crate::space::WorldKind;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -1,12 +1,12 @@
 //! What a planner is given, what it gives back, and what it says of itself.
 
-use crate::space::roadmap::Extent;
-use crate::space::{World, WorldKind};
 use base::grid::CornerRule;
 use base::settings::{Accepted, Settings, SettingsError};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use world::space::roadmap::Extent;
+use world::space::{World, WorldKind};
 
 /// One query, posed to a planner.
 #[derive(Debug, Clone, Copy)]

@@ -11,18 +11,18 @@
 use super::lattice::{COLUMNS, UPDATE};
 use super::polyhedra::polyhedra;
 use super::{Build, Ending, Entry, Invalid, Plan, Planner, Request};
-use crate::geometry::Vec3;
-use crate::kinematics::{AXES, Joints};
 use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, SideInputs, Stop, Ties, sum};
 use crate::shorten::path_length;
-use crate::space::polyhedra::{Apart, CarriedArm, DOWN};
-use crate::space::{PolyhedraWorld, WorldKind};
 use base::settings::Accepted;
 use base::units::setting_in_radians;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use states::{Around, Cell, States};
 use std::cell::RefCell;
+use world::geometry::Vec3;
+use world::kinematics::{AXES, Joints};
+use world::space::polyhedra::{Apart, CarriedArm, DOWN};
+use world::space::{PolyhedraWorld, WorldKind};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -11,13 +11,13 @@ use super::bspline::{check_points, raise};
 use super::polyhedra::polyhedra;
 use super::posture::trails;
 use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
-use crate::kinematics::{AXES, Joints};
 use crate::shorten::{cubic_spline, path_length};
-use crate::space::polyhedra::{Apart, CarriedArm};
-use crate::space::{PolyhedraWorld, WorldKind};
 use base::settings::{Accepted, Settings};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::kinematics::{AXES, Joints};
+use world::space::polyhedra::{Apart, CarriedArm};
+use world::space::{PolyhedraWorld, WorldKind};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -12,8 +12,8 @@
 use super::jump_points::{COLUMNS, JumpPoints, Preparation};
 use super::lattice::Posed;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
-use crate::space::{JumpLines, WorldKind};
 use base::settings::Accepted;
+use world::space::{JumpLines, WorldKind};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

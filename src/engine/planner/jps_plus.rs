@@ -13,8 +13,8 @@
 use super::jump_points::{COLUMNS, JumpPoints, Preparation};
 use super::lattice::Posed;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
-use crate::space::{JumpTable, WorldKind};
 use base::settings::Accepted;
+use world::space::{JumpTable, WorldKind};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -4,9 +4,9 @@ use super::lattice::{self, Posed};
 use super::pool::Pool;
 use super::{Invalid, Plan, Request, Value};
 use crate::search::JumpSearch;
-use crate::space::Jumps;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::space::Jumps;
 
 /// The columns that every search by jump points fills.
 pub(super) const COLUMNS: &[&str] = &["opened", "closed", "expansions", "generated", "preprocessing_bytes"];

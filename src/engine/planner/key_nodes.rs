@@ -1,6 +1,6 @@
 //! Key nodes: where the way round an obstacle's edge is shortest.
 
-use crate::geometry::{Convex, Vec3};
+use world::geometry::{Convex, Vec3};
 
 /// The point of an edge at which a detour over it is shortest.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -18,14 +18,14 @@ mod walk;
 use super::lattice26_astar::{self, Checked, LatticeSearch};
 use super::polyhedra::{Posed, plan};
 use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Value};
-use crate::geometry::{Segment, Vec3};
 use crate::search::Ties;
 use crate::shorten::{Resume, stepwise_straightening};
-use crate::space::{PolyhedraWorld, WorldKind};
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use walk::Guards;
+use world::geometry::{Segment, Vec3};
+use world::space::{PolyhedraWorld, WorldKind};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

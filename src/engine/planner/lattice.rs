@@ -2,10 +2,10 @@
 
 use super::{Counts, Ending, Invalid, Plan, Request, Trace, Value};
 use crate::search::{Closing, Closings, Cost, Counters, Outcome, Ties, Update};
-use crate::space::{LatticeWorld, World};
 use base::grid::{CornerRule, Grid2, Sight, corners_see};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::space::{LatticeWorld, World};
 
 /// The columns that every search on a lattice fills.
 pub(super) const COLUMNS: &[&str] = &["opened", "closed", "expansions", "generated"];

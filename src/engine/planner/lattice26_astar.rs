@@ -4,17 +4,17 @@ use super::lattice::{COLUMNS, TiesSetting, UPDATE};
 use super::polyhedra::{Posed, plan};
 use super::pool::Pool;
 use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Value};
-use crate::geometry::{Segment, Vec3};
 use crate::search::{
     Combined, CubicAstar, CubicQuery, Graph, Heap, Outcome, Report, Rules, Search, SideInputs, Stop, Ties,
     sum,
 };
-use crate::space::{PolyhedraWorld, WorldKind};
 use base::grid::STEPS_26;
 use base::settings::Accepted;
 use base::text::listed;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::geometry::{Segment, Vec3};
+use world::space::{PolyhedraWorld, WorldKind};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

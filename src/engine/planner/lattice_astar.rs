@@ -7,11 +7,11 @@ use super::tips::{
 };
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::Successors;
-use crate::space::{ArmWorld, WorldKind};
 use base::grid::Offsets;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::space::{ArmWorld, WorldKind};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -6,8 +6,8 @@
 use super::any_angle::{AnyAngleSettings, COLUMNS, built};
 use super::{Build, Entry};
 use crate::search::When;
-use crate::space::WorldKind;
 use base::settings::Accepted;
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -2,11 +2,11 @@
 //! else.
 
 use super::{Build, Counts, Plan, Planner, Request, Stage, find};
-use crate::space::{LatticeWorld, World};
 use base::grid::{CornerRule, Grid2, NeighbourOrder, independent_cells};
 use base::seed::{self, Stream};
 use base::settings::Settings;
 use rand::RngExt as _;
+use world::space::{LatticeWorld, World};
 
 const RULES: [CornerRule; 3] = [CornerRule::Allow, CornerRule::ForbidBoth, CornerRule::ForbidAny];
 

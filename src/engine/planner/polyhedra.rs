@@ -1,9 +1,9 @@
 //! What the planners among polyhedra share: their ends, their plans, walking in steps.
 
 use super::{Counts, Ending, Invalid, Plan, Request, Trace};
-use crate::geometry::{Segment, Vec3};
 use crate::shorten::path_length;
-use crate::space::{PolyhedraWorld, World};
+use world::geometry::{Segment, Vec3};
+use world::space::{PolyhedraWorld, World};
 
 /// The world of a request with its start and goal.
 pub(super) struct Posed<'a> {

@@ -6,10 +6,10 @@
 use super::lattice::{SightSetting, lattice, sees};
 use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
 use crate::shorten::{path_length, smoothing};
-use crate::space::WorldKind;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

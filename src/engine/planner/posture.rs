@@ -17,15 +17,15 @@ pub(super) mod tests;
 
 use super::polyhedra::{densified, points, polyhedra, trace};
 use super::{Build, Ending, Entry, Plan, Request, Stage, Trace, Value};
-use crate::geometry::{Capsule, Vec3};
-use crate::kinematics::Joints;
-use crate::kinematics::ik::Branch;
 use crate::shorten::path_length;
-use crate::space::polyhedra::{CarriedArm, DOWN};
-use crate::space::{PolyhedraWorld, WorldKind};
 use base::settings::Accepted;
 use follow::Follower;
 use settings::{Branches, Posture};
+use world::geometry::{Capsule, Vec3};
+use world::kinematics::Joints;
+use world::kinematics::ik::Branch;
+use world::space::polyhedra::{CarriedArm, DOWN};
+use world::space::{PolyhedraWorld, WorldKind};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

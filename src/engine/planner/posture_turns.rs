@@ -8,11 +8,11 @@
 
 use super::posture::turn_between;
 use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
-use crate::kinematics::Joints;
-use crate::space::WorldKind;
 use base::settings::{Accepted, Settings};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::kinematics::Joints;
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -8,10 +8,10 @@ use super::sampled::{IMPROVING_COLUMNS, Progress, SampledPlanner, SampledSearch,
 use super::{Build, Entry, Request};
 use crate::sampling::{Draw, DrawSetting, Motions, Tree};
 use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, SideInputs, Stop, Ties, Update, sum};
-use crate::space::WorldKind;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -2,8 +2,8 @@
 
 use super::{Counts, Ending, Invalid, Plan, Request};
 use crate::search::Graph;
-use crate::space::World;
-use crate::space::roadmap::{Links, Roadmap};
+use world::space::World;
+use world::space::roadmap::{Links, Roadmap};
 
 /// The roadmap of a request with the numbers of its start and goal.
 pub(super) struct Posed<'a> {

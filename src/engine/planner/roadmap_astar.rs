@@ -5,12 +5,12 @@ use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Trace
 use crate::search::{
     Combined, Counters, Heap, Outcome, Rules, Search, Shot, SideInputs, Stop, Ties, Update, VisitOrder, sum,
 };
-use crate::space::WorldKind;
-use crate::space::roadmap::{Extent, Roadmap};
 use base::settings::Accepted;
 use base::units::seems_in_metres;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::space::WorldKind;
+use world::space::roadmap::{Extent, Roadmap};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

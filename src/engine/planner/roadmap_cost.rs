@@ -2,10 +2,10 @@
 
 use super::roadmap::roadmap;
 use super::{Build, Entry, Plan, Request, Stage, Value};
-use crate::space::WorldKind;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -7,10 +7,10 @@
 use super::sampled::{COLUMNS, Progress, SampledPlanner, SampledSearch, extended};
 use super::{Build, Entry, Request};
 use crate::sampling::{Draw, DrawSetting, Motions, Tree};
-use crate::space::WorldKind;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -8,10 +8,10 @@
 use super::sampled::{COLUMNS, Progress, SampledPlanner, SampledSearch, extended};
 use super::{Build, Entry, Request};
 use crate::sampling::{Draw, DrawSetting, Motions, Tree};
-use crate::space::WorldKind;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -214,7 +214,7 @@ fn joined(sides: &[Side; 2], own: usize, [last, target]: [u32; 2]) -> (Vec<Vec<f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::space::roadmap::{Local, PlaneMap};
+    use world::space::roadmap::{Local, PlaneMap};
 
     #[test]
     fn each_leg_of_a_joined_path_has_the_node_that_its_tree_loses_if_it_is_refused() {

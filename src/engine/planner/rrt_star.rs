@@ -12,10 +12,10 @@ use super::rrt::sample;
 use super::sampled::{IMPROVING_COLUMNS, Progress, SampledPlanner, SampledSearch, extended};
 use super::{Build, Entry, Request};
 use crate::sampling::{Draw, DrawSetting, Motions, Tree};
-use crate::space::WorldKind;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -248,8 +248,8 @@ fn insert(motions: &mut Motions<'_>, costs: &mut Costs, nearest: u32, config: &[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::space::World;
-    use crate::space::roadmap::{Counted, Local, Near, PlaneMap, Roadmap};
+    use world::space::World;
+    use world::space::roadmap::{Counted, Local, Near, PlaneMap, Roadmap};
 
     #[test]
     fn informed_samples_are_even_within_the_limits_and_on_no_longer_way() {

@@ -4,7 +4,7 @@ use super::roadmap::roadmap;
 use super::{Counts, Ending, Invalid, Plan, Planner, Request, Trace, Value};
 use crate::sampling::{Motions, Tree};
 use crate::shorten::path_length;
-use crate::space::roadmap::Local;
+use world::space::roadmap::Local;
 
 /// What every planner that samples counts; `joint_length_rad` is the verifier's, beside a length that the planner measures.
 pub(super) const COLUMNS: &[&str] =

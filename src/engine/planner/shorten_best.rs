@@ -3,10 +3,10 @@
 use super::roadmap::{roadmap, solved};
 use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
 use crate::shorten::least_selection;
-use crate::space::WorldKind;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

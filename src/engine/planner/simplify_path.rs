@@ -7,11 +7,11 @@ use super::roadmap::roadmap;
 use super::sampled::claimed;
 use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
 use crate::sampling::{BSpline, Draw, DrawSetting, Motions, Operation, Reduce, simplify};
-use crate::space::WorldKind;
 use base::seed;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

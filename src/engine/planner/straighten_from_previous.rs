@@ -2,12 +2,12 @@
 
 use super::polyhedra::{points, polyhedra, replace, trace};
 use super::{Build, Ending, Entry, Plan, Request, Stage};
-use crate::geometry::Segment;
 use crate::shorten::{Resume, stepwise_straightening};
-use crate::space::WorldKind;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::geometry::Segment;
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -1,16 +1,16 @@
 //! What the planners share that move an arm's tip over its lattice: their ends, their settings' words, their plans.
 
 use super::{Counts, Ending, Invalid, Plan, Request, Trace, Value};
-use crate::geometry::Vec2;
 use crate::search::{
     Bent, BentGraph, ColumnGraph, Combined, Cost as _, Graph, Heap, LatticeAstar, LatticeQuery, ListScans,
     Outcome, Report, Route, Rules, Search, SideInputs, Stop, Successors, Ties, Update, sum,
 };
-use crate::space::ArmWorld;
 use base::grid::{MAX_REACH_CELLS, Offsets};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::SQRT_2;
+use world::geometry::Vec2;
+use world::space::ArmWorld;
 
 /// The columns that every search over tip positions fills.
 pub(super) const COLUMNS: &[&str] = &[

@@ -10,11 +10,11 @@ use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
     BucketHeap, Combined, Cornered, Graph, Observer, Rules, Search, SideInputs, Stop, euclidean_to, sum,
 };
-use crate::space::WorldKind;
 use base::grid::seen_corners;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

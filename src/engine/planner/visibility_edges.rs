@@ -8,12 +8,12 @@
 use super::key_nodes::{GUARDED, key};
 use super::polyhedra::{Posed, plan};
 use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Value};
-use crate::geometry::{Segment, Vec3};
 use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, SideInputs, Stop, Ties, Update, sum};
-use crate::space::{PolyhedraWorld, WorldKind};
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use world::geometry::{Segment, Vec3};
+use world::space::{PolyhedraWorld, WorldKind};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

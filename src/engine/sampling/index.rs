@@ -8,9 +8,9 @@
 //! # Source
 //! Bentley & Saxe, *Decomposable Searching Problems I*, J. Algorithms 1(4), 301 (1980).
 
-use crate::geometry::lanes::{dispatch, level};
 use std::collections::BinaryHeap;
 use std::f64::consts::TAU;
+use world::geometry::lanes::{dispatch, level};
 
 /// How many points or boxes are measured side by side.
 const GROUP: usize = 8;

@@ -1,8 +1,8 @@
 //! A robot's configurations as a space: distances, points between, and which straight motions are free.
 
 use super::Draw;
-use crate::space::roadmap::{Local, MotionScratch};
 use std::f64::consts::TAU;
+use world::space::roadmap::{Local, MotionScratch};
 
 /// The space of a query, which counts its checks.
 #[derive(Debug)]

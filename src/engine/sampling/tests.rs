@@ -1,11 +1,11 @@
 //! Samples, trees and simplification against what is known of them.
 
 use super::*;
-use crate::geometry::planar::ConvexPolygon;
-use crate::space::roadmap::{Local, PlaneMap};
 use base::seed;
 use rand::RngExt as _;
 use std::f64::consts::TAU;
+use world::geometry::planar::ConvexPolygon;
+use world::space::roadmap::{Local, PlaneMap};
 
 /// A particle in a square of 100 mm with a wall that leaves a gap at the top.
 fn plane() -> Local {

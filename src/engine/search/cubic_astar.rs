@@ -16,8 +16,8 @@
 use super::frontier::Ties;
 use super::node_lists::{NodeLists, Way, improved};
 use super::{Counters, Outcome, Report};
-use crate::geometry::lanes::{LANES, Row, Simd, dispatch, level};
 use base::grid::Grid3;
+use world::geometry::lanes::{LANES, Row, Simd, dispatch, level};
 
 /// The bit of the node itself among those of its neighbourhood.
 const OWN: u32 = 13;

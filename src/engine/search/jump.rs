@@ -1,7 +1,7 @@
 //! A* over jump points, on 8-connected grids with the octile distance.
 //!
 //! Nodes are the start, the goal and jump points. From a node the search runs in every direction that the pruning rules leave
-//! ([`Pruning`](crate::space::Pruning)). A straight run goes to the first jump point. A diagonal one goes to the wall, with both
+//! ([`Pruning`](world::space::Pruning)). A straight run goes to the first jump point. A diagonal one goes to the wall, with both
 //! straight runs from every cell on the way. Their jump points are successors of the node itself, and the cell on the diagonal is
 //! never a node (intermediate pruning). Where a corner may be cut, the diagonal run ends at a jump point of its own. A run that
 //! meets the goal ends there. One search serves both ways to follow runs, [`JumpLines`] (bits of rows and columns, scanned) and
@@ -26,16 +26,16 @@
 //! Harabor & Grastien, *Online graph pruning for pathfinding on grid maps*, AAAI 2011; *Improving jump point search*,
 //! ICAPS 2014: block-based scanning, preprocessing, and pruning of intermediate nodes.
 //!
-//! [`JumpLines`]: crate::space::JumpLines
-//! [`JumpTable`]: crate::space::JumpTable
+//! [`JumpLines`]: world::space::JumpLines
+//! [`JumpTable`]: world::space::JumpTable
 
 use super::cost::Octile;
 use super::estimate::ScaledOctile;
 use super::octile::{MAX_CELLS, SearchError};
 use super::radix::RadixHeap;
 use super::{Counters, Outcome, Report, Route};
-use crate::space::Jumps;
 use base::grid::DIRECTIONS;
+use world::space::Jumps;
 
 /// A cell as [column, row].
 type Place = [u32; 2];

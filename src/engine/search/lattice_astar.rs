@@ -17,8 +17,8 @@ use super::neighbourhood::{Block, MOST_ROWS, Shape, Step, Successors, reach, str
 use super::node_lists::{NodeLists, Way, improved};
 use super::observe::{ListScans, Lists};
 use super::{Counters, Outcome, Report, Route};
-use crate::geometry::lanes::{LANES, Simd, dispatch, level};
 use base::grid::{Columns, MAX_REACH_CELLS, Offsets};
+use world::geometry::lanes::{LANES, Simd, dispatch, level};
 
 /// One query of a [`LatticeAstar`].
 #[derive(Debug)]

@@ -53,7 +53,7 @@ mod radix;
 mod side;
 mod straight;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use angle_ranges::{AngleRanges, Cornered};
 pub use any_angle::{AnyAngle, AnyAngleRules, Branching, Seen, Sighted, When};

@@ -1,8 +1,8 @@
 //! Neighbourhoods of any size, looked at a column at a time.
 
 use super::graph::Graph;
-use crate::geometry::lanes::{LANES, Row};
 use base::grid::{Columns, MAX_REACH_CELLS, Offsets};
+use world::geometry::lanes::{LANES, Row};
 
 /// Rows that the window of the widest neighbourhood fills.
 pub(super) const MOST_ROWS: usize = (2 * MAX_REACH_CELLS as usize + 1).div_ceil(LANES);

@@ -11,8 +11,8 @@ use super::Route;
 use super::cost::quantised;
 use super::frontier::Ties;
 use super::open_list::{Node, OpenList, Waiting};
-use crate::geometry::lanes::{LANES, Lane, Row, Simd, SimdBase as _, SimdMask as _};
 use base::grid::Bits;
+use world::geometry::lanes::{LANES, Lane, Row, Simd, SimdBase as _, SimdMask as _};
 
 /// The place before the start.
 const NONE: u32 = u32::MAX;

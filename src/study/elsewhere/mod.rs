@@ -106,7 +106,7 @@ impl Imported {
             .flat_map(|trial| trial.row.values.iter().map(|(column, _)| column.name))
             .collect();
         let values = column::COLUMNS.iter().map(|column| column.name).filter(|name| filled.contains(name));
-        let columns = Columns { keys: KeyColumns::default(), values: &values.collect::<Vec<_>>() };
+        let columns = Columns { keys: KeyColumns::default(), values: values.collect() };
         let rows = self.trials.iter().map(|trial| trial.row.clone()).collect();
         self.stage(staged, folder, manifest, &columns, Batch { rows, ..Batch::default() })
     }
@@ -135,11 +135,10 @@ impl Imported {
         }
         let points = vec![Interpretation::new(&study.choices, &BTreeMap::new()).map_err(refused)?];
         let built = BuiltStudy::new(study, &points, inputs)?;
-        let units = built.units();
-        let mut wanted: BTreeSet<TrialKey> = units.iter().flat_map(|unit| built.trials(unit)).collect();
+        let mut wanted: BTreeSet<TrialKey> = built.units().flat_map(|unit| built.trials(&unit)).collect();
         let key = points[0].key(&study.choices);
         // Of every unit its object, without which no stored trial is used again.
-        let preprocessing = units.iter().flat_map(|unit| built.run_unit(unit).preprocessing).collect();
+        let preprocessing = built.units().flat_map(|unit| built.run_unit(&unit).preprocessing).collect();
         let mut rows = Vec::new();
         for trial in &self.trials {
             let mut trial = trial.clone();
@@ -158,8 +157,7 @@ impl Imported {
             )));
         }
         let manifest = Manifest::new(study, &points, &built, command, false)?;
-        let values: Vec<&'static str> = study.columns().into_iter().collect();
-        let columns = Columns { keys: study.key_columns(), values: &values };
+        let columns = Columns::new(study);
         let batch = Batch { rows, preprocessing, kept: Vec::new() };
         self.stage(staged, folder, manifest, &columns, batch)
     }
@@ -169,7 +167,7 @@ impl Imported {
         staged: &mut Staged,
         folder: &Path,
         manifest: Manifest,
-        columns: &Columns<'_>,
+        columns: &Columns,
         batch: Batch,
     ) -> Result<(), StudyError> {
         let records = Records { batch, times: Vec::new() };

@@ -105,8 +105,7 @@ impl House {
     fn rewrite(&self, folder: &Path, records: &Records) {
         let paper = Paper::load(&self.at("p"), &Inputs { roots: vec![self.at("p")] }).unwrap();
         let study = &paper.studies[0];
-        let values: Vec<&'static str> = study.columns().into_iter().collect();
-        let columns = Columns { keys: study.key_columns(), values: &values };
+        let columns = Columns::new(study);
         let mut staged = Staged::default();
         let mut manifest = Manifest::read(folder, "s").unwrap();
         manifest.files =

@@ -29,14 +29,13 @@ impl BuiltStudy<'_> {
         progress: &dyn Progress,
     ) -> Result<Vec<Timing>, StudyError> {
         let Some(timing) = self.study.timing else { return Ok(Vec::new()) };
-        let units = self.units();
-        let total = units.len();
-        let is_timed =
-            |unit: &&Unit<'_>| *unit.point == self.points[0] && unit.key.instance < timing.problems;
-        let sample: Vec<(&Unit<'_>, Preprocessing)> = units
-            .iter()
+        let total = self.units().len();
+        let is_timed = |unit: &Unit<'_>| *unit.point == self.points[0] && unit.key.instance < timing.problems;
+        let sample: Vec<(Unit<'_>, Preprocessing)> = self
+            .units()
             .filter(is_timed)
-            .filter_map(|unit| Some((unit, unit.family.prepare(unit.seed).ok()?)))
+            .filter_map(|unit| Some((unit.family.prepare(unit.seed).ok()?, unit)))
+            .map(|(preprocessing, unit)| (unit, preprocessing))
             .collect();
         let passes = PASSES.min(timing.repeats);
         progress.begin(&format!("{}: clock", self.study.name), sample.len() * passes as usize);

@@ -9,15 +9,17 @@ mod pick;
 mod read;
 mod table;
 mod traces;
+mod write;
 
 pub use journal::{Journal, journal_units};
 pub use pick::KeptTraces;
 pub use read::quoted;
 pub(crate) use read::{UNREADABLE, unpanicked};
 pub use traces::{GROUP_VALUES, TraceReader};
+pub use write::{RecordWriter, Shape};
 
 use self::read::{Instances, Stored};
-use self::traces::TraceWriter;
+use super::checked::Study;
 use super::column;
 use super::error::{REMEDY, StudyError};
 use super::key::{KeyColumns, SweepKey};
@@ -41,11 +43,18 @@ pub struct Records {
 
 /// The columns of a study's records besides those that every study has.
 #[derive(Debug)]
-pub struct Columns<'a> {
+pub struct Columns {
     /// Those of keys.
     pub keys: KeyColumns,
     /// Those that its trials can fill.
-    pub values: &'a [&'static str],
+    pub values: Vec<&'static str>,
+}
+
+impl Columns {
+    /// Those of `study`.
+    pub fn new(study: &Study) -> Self {
+        Self { keys: study.key_columns(), values: study.columns().into_iter().collect() }
+    }
 }
 
 /// How names of half-written files end.
@@ -86,33 +95,15 @@ pub fn stage_records(
     staged: &mut Staged,
     folder: &Path,
     study: &str,
-    columns: &Columns<'_>,
+    columns: &Columns,
     records: &Records,
     traces: Traces<'_>,
 ) -> Result<BTreeMap<String, String>, StudyError> {
-    let keys = &columns.keys;
-    let mut hashes = BTreeMap::new();
-    let mut frame = |staged: &mut Staged, part: &str, frame| -> Result<(), StudyError> {
-        let bytes = table::to_parquet(frame, keys);
-        staged.add(&part_path(folder, study, part), &bytes)?;
-        hashes.insert(part.to_owned(), sha256(&bytes));
-        Ok(())
-    };
-    frame(staged, "trials", table::trials(&records.batch.rows, keys, columns.values))?;
-    frame(staged, "preprocessing", table::preprocessing(&records.batch.preprocessing, keys))?;
-    let path = part_path(folder, study, "traces");
-    let hash = staged.add_with(&path, |out| {
-        let io = || StudyError::io(&path, "writing the file");
-        let Traces { each, sweep, group_values } = traces;
-        let mut file = TraceWriter::new(out, keys, sweep, group_values).map_err(io())?;
-        for kept in each {
-            file.add(kept?).map_err(io())?;
-        }
-        file.finish().map_err(io())
-    })?;
-    frame(staged, "times", table::times(&records.times, keys))?;
-    hashes.insert("traces".to_owned(), hash);
-    Ok(hashes)
+    let mut shape = Shape { group_values: traces.group_values, ..Shape::new(traces.sweep.clone()) };
+    shape.note(&records.batch.preprocessing);
+    let mut files = RecordWriter::new(staged, folder, study, columns, shape)?;
+    files.add_with(&records.batch, traces)?;
+    files.finish(&records.times)
 }
 
 /// Reads every part of `study`'s records in `folder`, each checked against its hash in `hashes`.
@@ -365,20 +356,16 @@ impl Staged {
     /// # Errors
     /// [`StudyError::Io`] with the path and what was being done, also if a folder stands in its place.
     pub fn add(&mut self, path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
-        let write =
-            |out: &mut dyn Write| out.write_all(bytes).map_err(StudyError::io(path, "writing the file"));
-        self.add_with(path, write).map(drop)
+        let mut out = self.begin(path)?;
+        let written = out.write_all(bytes).and_then(|()| out.finish());
+        written.map(drop).map_err(StudyError::io(path, "writing the file"))
     }
 
-    /// Has `write` write beside `path`, and gives the SHA-256 of what it wrote.
+    /// Begins a file beside `path`.
     ///
     /// # Errors
-    /// As [`add`](Self::add); those of `write`.
-    pub fn add_with(
-        &mut self,
-        path: &Path,
-        write: impl FnOnce(&mut dyn Write) -> Result<(), StudyError>,
-    ) -> Result<String, StudyError> {
+    /// As [`add`](Self::add).
+    fn begin(&mut self, path: &Path) -> Result<Hashed, StudyError> {
         let folder = path.parent().unwrap_or(Path::new("."));
         fs::create_dir_all(folder).map_err(StudyError::io(folder, "creating the folder"))?;
         let io = || StudyError::io(path, "writing the file");
@@ -392,11 +379,8 @@ impl Staged {
         self.files.push((temporary.clone(), path.to_owned()));
         // What was planted under the temporary name is replaced, not written through.
         let _ = fs::remove_file(&temporary);
-        let mut out =
-            Hashed { file: fs::File::create_new(&temporary).map_err(io())?, hasher: Hasher::default() };
-        write(&mut out)?;
-        out.file.sync_all().map_err(io())?;
-        Ok(out.hasher.finish())
+        let file = fs::File::create_new(&temporary).map_err(io())?;
+        Ok(Hashed { file, hasher: Hasher::default() })
     }
 
     /// Puts every file in its place, in the order in which they were added.
@@ -414,6 +398,13 @@ impl Staged {
 struct Hashed {
     file: fs::File,
     hasher: Hasher,
+}
+
+impl Hashed {
+    /// Has the file on disk; its SHA-256.
+    fn finish(self) -> io::Result<String> {
+        self.file.sync_all().map(|()| self.hasher.finish())
+    }
 }
 
 impl Write for Hashed {

@@ -3,7 +3,6 @@
 use super::describe::{CHOICE, SWEEP, described};
 use crate::column::{self, Kind};
 use crate::key::{InstanceKey, KeyColumns, Owner, SweepKey, SweepValue, TrialKey};
-use crate::parquet::write_frame;
 use crate::record::{Kept, PreprocessingRow, Row, Timing, Values};
 use engine::planner::Value;
 use polars::prelude::{Column, DataFrame, NamedFrom as _, Series};
@@ -12,9 +11,14 @@ use std::collections::BTreeSet;
 /// The key of a file's metadata under which its columns are described: JSON, a list of name, unit and meaning.
 pub const DESCRIPTION: &str = "columns";
 
-/// The trials as a frame; `columns` are those that the study can fill, in any order.
-pub fn trials(rows: &[Row], keys: &KeyColumns, columns: &[&'static str]) -> DataFrame {
-    let mut frame = trial_keys(rows, keys, |row| &row.key);
+/// The trials as a frame; `columns` are those that the study can fill, in any order. Sweeps are of the kinds that `sweep` has.
+pub fn trials(
+    rows: &[Row],
+    keys: &KeyColumns,
+    columns: &[&'static str],
+    sweep: Option<&SweepKey>,
+) -> DataFrame {
+    let mut frame = keys_of(rows, keys, sweep, |row| (&*row.key.on, Some(&row.key)));
     frame.extend([
         whole("seed", rows, |row| row.seed),
         text("status", rows, |row| Some(row.status.name())),
@@ -24,8 +28,12 @@ pub fn trials(rows: &[Row], keys: &KeyColumns, columns: &[&'static str]) -> Data
     assemble(rows.len(), frame)
 }
 
-/// The preprocessed objects as a frame, with the columns that any of them fills.
-pub fn preprocessing(rows: &[PreprocessingRow], keys: &KeyColumns) -> DataFrame {
+/// The preprocessed objects as a frame, with the columns that are `filled`.
+pub fn preprocessing(
+    rows: &[PreprocessingRow],
+    keys: &KeyColumns,
+    filled: &BTreeSet<&'static str>,
+) -> DataFrame {
     let mut frame = instance_keys(rows, keys, |row| &*row.key);
     frame.extend(choice_columns(rows, keys, |row| &*row.key));
     frame.extend([
@@ -33,8 +41,6 @@ pub fn preprocessing(rows: &[PreprocessingRow], keys: &KeyColumns) -> DataFrame 
         whole("seed", rows, |row| Some(row.seed)),
         text("reason", rows, |row| row.reason.as_deref()),
     ]);
-    let filled: BTreeSet<&str> =
-        rows.iter().flat_map(|row| row.values.iter().map(|(column, _)| column.name)).collect();
     frame.extend(values(rows, |name| filled.contains(name), |row| &row.values));
     assemble(rows.len(), frame)
 }
@@ -66,21 +72,13 @@ pub fn traces(kept: &[Kept], keys: &KeyColumns, sweep: Option<&SweepKey>) -> Dat
 
 /// The times as a frame.
 pub fn times(times: &[Timing], keys: &KeyColumns) -> DataFrame {
-    let mut frame = trial_keys(times, keys, |time| &time.trial);
+    let mut frame = keys_of(times, keys, None, |time| (&*time.trial.on, Some(&time.trial)));
     frame.extend([
         whole("session", times, |time| Some(u64::from(time.session))),
         whole("clock_repeat", times, |time| Some(u64::from(time.clock_repeat))),
         whole("plan_wall_ns", times, |time| Some(time.plan_wall_ns)),
     ]);
     assemble(times.len(), frame)
-}
-
-/// The bytes of `frame` as a Parquet file: the same for the same frame.
-pub fn to_parquet(frame: DataFrame, keys: &KeyColumns) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    let entries = description(&frame, keys);
-    write_frame(&mut bytes, frame, entries).expect("a frame of equally long columns is written to memory");
-    bytes
 }
 
 /// What a file of frames with the columns of `frame` says of them.
@@ -93,10 +91,6 @@ pub fn description(frame: &DataFrame, keys: &KeyColumns) -> Vec<(String, String)
 
 fn assemble(height: usize, columns: Vec<Column>) -> DataFrame {
     DataFrame::new(height, columns).expect("columns are as long as the records are many")
-}
-
-fn trial_keys<'a, R>(rows: &'a [R], keys: &KeyColumns, key: impl Fn(&'a R) -> &'a TrialKey) -> Vec<Column> {
-    keys_of(rows, keys, None, |row| (&*key(row).on, Some(key(row))))
 }
 
 /// The columns that name records which belong to an instance and, if there is one, to a trial on it; sweeps are of the kinds that

@@ -2,15 +2,17 @@ use super::KeptTraces;
 use super::describe::{Described, described};
 use super::read::{Instances, Stored, quoted};
 use super::table::{self, DESCRIPTION};
-use super::traces::{self, GROUP_VALUES, TraceReader, TraceWriter};
+use super::traces::{self, GROUP_VALUES, TraceReader};
+use super::write::GroupWriter;
 use super::{Staged, remove_temporaries, write_whole};
 use crate::column;
 use crate::key::{InstanceKey, InterpretationKey, KeyColumns, Owner, SweepKey, SweepValue, Text, TrialKey};
-use crate::parquet::FrameReader;
+use crate::parquet::{FrameReader, write_frame};
 use crate::record::{Kept, PreprocessingRow, Row, Status, Timing, Values};
 use base::hash::sha256;
 use engine::planner::{Trace, Value};
-use std::collections::BTreeMap;
+use polars::prelude::DataFrame;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::Cursor;
 use std::path::PathBuf;
@@ -75,15 +77,22 @@ fn kept(count: u32) -> Vec<Kept> {
     (0..count).map(|number| Kept { of: of(number), trace: trace(number) }).collect()
 }
 
-fn stored(frame: polars::prelude::DataFrame) -> Stored {
-    Stored::open(PathBuf::from("a.parquet"), table::to_parquet(frame, &keys())).unwrap()
+fn to_parquet(frame: DataFrame) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let entries = table::description(&frame, &keys());
+    write_frame(&mut bytes, frame, entries).unwrap();
+    bytes
+}
+
+fn stored(frame: DataFrame) -> Stored {
+    Stored::open(PathBuf::from("a.parquet"), to_parquet(frame)).unwrap()
 }
 
 #[test]
 fn typed_keys_and_values_come_back_from_parquet_as_they_were() {
     let rows = rows();
     let instances = &mut Instances::default();
-    let trials = table::trials(&rows, &keys(), &["path_cost_cells", "opened", "closed"]);
+    let trials = table::trials(&rows, &keys(), &["path_cost_cells", "opened", "closed"], None);
     let kinds = ["sweep_weight", "sweep_samples", "sweep_kind", "sweep_lazy", "choice_ties"]
         .map(|name| trials.column(name).unwrap().dtype().to_string());
     assert_eq!(kinds, ["f64", "i64", "str", "bool", "str"]);
@@ -100,7 +109,9 @@ fn typed_keys_and_values_come_back_from_parquet_as_they_were() {
         values: Values::default(),
     }];
     assert_eq!(
-        stored(table::preprocessing(&preprocessing, &keys())).preprocessing(instances).unwrap(),
+        stored(table::preprocessing(&preprocessing, &keys(), &BTreeSet::new()))
+            .preprocessing(instances)
+            .unwrap(),
         preprocessing
     );
     let trace = |values: Vec<f64>| Trace { name: "path".to_owned(), width: 1, values };
@@ -117,9 +128,9 @@ fn typed_keys_and_values_come_back_from_parquet_as_they_were() {
 #[test]
 fn every_column_of_a_file_is_described_in_its_metadata() {
     let columns: Vec<&'static str> = column::COLUMNS.iter().map(|column| column.name).collect();
-    let frame = table::trials(&rows(), &keys(), &columns);
+    let frame = table::trials(&rows(), &keys(), &columns, None);
     let names: Vec<String> = frame.columns().iter().map(|column| column.name().to_string()).collect();
-    let bytes = table::to_parquet(frame, &keys());
+    let bytes = to_parquet(frame);
     let reader = FrameReader::open(Cursor::new(bytes)).unwrap();
     let found: Vec<Described> = serde_json::from_str(reader.entry(DESCRIPTION).unwrap()).unwrap();
     assert_eq!(found.iter().map(|column| &column.name).collect::<Vec<_>>(), names.iter().collect::<Vec<_>>());
@@ -134,9 +145,12 @@ fn every_column_of_a_file_is_described_in_its_metadata() {
         "value of the setting `weight` of `a_planner`, which the study sweeps"
     );
     assert_eq!(of("choice_ties").about, "option taken of the choice `ties`");
-    for frame in
-        [table::preprocessing(&[], &keys()), table::traces(&[], &keys(), None), table::times(&[], &keys())]
-    {
+    let nothing = BTreeSet::new();
+    for frame in [
+        table::preprocessing(&[], &keys(), &nothing),
+        table::traces(&[], &keys(), None),
+        table::times(&[], &keys()),
+    ] {
         for column in frame.columns() {
             assert!(described(column.name(), &keys()).is_some(), "{} is not described", column.name());
         }
@@ -155,14 +169,15 @@ fn measured_columns_are_distinguished_from_those_of_keys_by_their_names() {
 
 /// The file of `kept` in groups of at most so many numbers.
 fn in_groups(kept: &[Kept], most: usize) -> Vec<u8> {
-    let mut bytes = Vec::new();
     let keys = keys();
-    let mut file = TraceWriter::new(&mut bytes, &keys, traces::sweep_of(kept), most).unwrap();
+    let sweep = traces::sweep_of(kept);
+    let weight = |kept: &Kept| kept.trace.values.len();
+    let frame = |kept: &[Kept]| table::traces(kept, &keys, sweep.as_ref());
+    let mut file = GroupWriter::new(Vec::new(), &keys, (weight, most), frame);
     for kept in kept {
         file.add(kept.clone()).unwrap();
     }
-    file.finish().unwrap();
-    bytes
+    file.finish().unwrap()
 }
 
 #[test]
@@ -195,7 +210,7 @@ fn traces_are_written_and_read_group_by_group() {
     let kept = kept(40);
     let keys = keys();
     let written = |most: usize| in_groups(&kept, most);
-    assert!(written(GROUP_VALUES) == table::to_parquet(table::traces(&kept, &keys, None), &keys));
+    assert!(written(GROUP_VALUES) == to_parquet(table::traces(&kept, &keys, None)));
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.traces.parquet");
     let mut sizes = Vec::new();

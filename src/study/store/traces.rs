@@ -2,78 +2,17 @@
 
 use super::Traces;
 use super::read::{Instances, Stored, UNREADABLE, touched, unpanicked};
-use super::table;
 use crate::StudyError;
-use crate::key::{KeyColumns, Owner, SweepKey};
-use crate::parquet::{FrameReader, FrameWriter};
+use crate::key::{Owner, SweepKey};
+use crate::parquet::FrameReader;
 use crate::record::{Kept, Row};
-use polars::prelude::PolarsError;
 use std::collections::VecDeque;
 use std::fs::File;
-use std::io::{self, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// How many numbers a group holds, but for a trace that has more: 16 MB.
 pub const GROUP_VALUES: usize = 1 << 21;
-
-/// A file of traces at work.
-pub struct TraceWriter<'k, W: Write> {
-    file: FrameWriter<W>,
-    keys: &'k KeyColumns,
-    sweep: Option<SweepKey>,
-    group: Vec<Kept>,
-    values: usize,
-    most: usize,
-}
-
-impl<'k, W: Write> TraceWriter<'k, W> {
-    /// Begins a file in `out` whose groups hold at most so many numbers; `sweep` is that of any trial that has a trace.
-    ///
-    /// # Errors
-    /// What the system refused.
-    pub fn new(out: W, keys: &'k KeyColumns, sweep: Option<SweepKey>, most: usize) -> io::Result<Self> {
-        let empty = table::traces(&[], keys, sweep.as_ref());
-        let file = FrameWriter::new(out, &empty, table::description(&empty, keys)).map_err(io_error)?;
-        Ok(Self { file, keys, sweep, group: Vec::new(), values: 0, most })
-    }
-
-    /// Adds a trace; they come in the order of records.
-    ///
-    /// # Errors
-    /// As [`new`](Self::new).
-    pub fn add(&mut self, kept: Kept) -> io::Result<()> {
-        let count = kept.trace.values.len();
-        if !self.group.is_empty() && self.values + count > self.most {
-            self.flush()?;
-        }
-        self.values += count;
-        self.group.push(kept);
-        Ok(())
-    }
-
-    /// Ends the file.
-    ///
-    /// # Errors
-    /// As [`new`](Self::new).
-    pub fn finish(mut self) -> io::Result<()> {
-        self.flush()?;
-        self.file.finish().map_err(io_error)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        let frame = table::traces(&self.group, self.keys, self.sweep.as_ref());
-        (self.group, self.values) = (Vec::new(), 0);
-        self.file.write(frame).map_err(io_error)
-    }
-}
-
-fn io_error(error: PolarsError) -> io::Error {
-    match error {
-        PolarsError::IO { error, .. } => io::Error::new(error.kind(), error.to_string()),
-        other => io::Error::other(other.to_string()),
-    }
-}
 
 /// The sweep of the first trace that belongs to a trial.
 pub fn sweep_of(kept: &[Kept]) -> Option<SweepKey> {

@@ -170,7 +170,7 @@ fn units_that_share_what_is_prepared_give_what_each_gives_alone() {
         let study = paper.study(name).unwrap();
         let points = study.trial_interpretations().unwrap();
         let built = BuiltStudy::new(study, &points[..1], &inputs).unwrap();
-        let first = built.units().remove(0);
+        let first = built.unit(0);
         // The other asks for less and in another order, so that what the first learned would show.
         let mut other = first.clone();
         other.entrants.reverse();
@@ -193,7 +193,7 @@ fn interpretations_of_one_map_give_what_each_gives_alone_and_share_contenders_th
         Interpretation::new(&study.choices, &other.collect()).unwrap()
     });
     let built = BuiltStudy::new(study, &points, &inputs).unwrap();
-    let units = built.units();
+    let units: Vec<_> = built.units().collect();
     let pipelines: BTreeSet<_> = units
         .iter()
         .flat_map(|unit| unit.entrants.iter().map(|entrant| Arc::as_ptr(&entrant.pipeline).addr()))

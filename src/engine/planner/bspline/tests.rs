@@ -1,9 +1,9 @@
 //! A path over the edges of a cube, smoothed in three ways.
 
 use super::*;
-use crate::geometry::{Aabb, Convex};
 use crate::planner::Counts;
-use crate::space::World;
+use world::geometry::{Aabb, Convex};
+use world::space::World;
 
 fn smoothed(settings: &str) -> (World, Plan) {
     let cube = Convex::cuboid(Vec3::repeat(20.0), Vec3::repeat(10.0)).unwrap();

@@ -1,7 +1,7 @@
 //! The states that a search over joint angles has reached.
 
-use crate::kinematics::AXES;
 use std::collections::BTreeMap;
+use world::kinematics::AXES;
 
 /// Whole multiples of the step, one a joint.
 pub(super) type Cell = [i16; AXES];

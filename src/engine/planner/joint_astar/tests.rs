@@ -1,12 +1,12 @@
 //! Steps, ends and work of the joint-space search.
 
 use super::*;
-use crate::geometry::{Aabb, Convex, Frame};
-use crate::kinematics::Robot;
 use crate::planner::Value;
-use crate::space::{Support, World};
 use base::settings::Settings;
 use std::path::Path;
+use world::geometry::{Aabb, Convex, Frame};
+use world::kinematics::Robot;
+use world::space::{Support, World};
 
 fn world(bodies: Vec<Convex>) -> World {
     let robot =

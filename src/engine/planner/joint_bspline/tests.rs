@@ -1,11 +1,11 @@
 //! Curves through a trail with a corner, with and without a box that the corner goes round.
 
 use super::*;
-use crate::geometry::{Aabb, Convex, Frame, Vec3};
-use crate::kinematics::Robot;
 use crate::planner::Counts;
-use crate::space::{Support, World};
 use std::path::Path;
+use world::geometry::{Aabb, Convex, Frame, Vec3};
+use world::kinematics::Robot;
+use world::space::{Support, World};
 
 /// From one configuration of the trail to the next, radians.
 const STEP: f64 = 0.4;

@@ -1,14 +1,14 @@
 //! Key nodes as the nodes of A*: what is seen round each obstacle in the way, searched best first.
 
 use super::{Tally, Walked};
-use crate::geometry::{Segment, Vec3, distance_segment_convex};
 use crate::planner::Ending;
 use crate::planner::key_nodes::{GUARDED, Key, key, keys};
 use crate::planner::polyhedra::{Posed, densified, is_within, steps};
 use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, SideInputs, Stop, Ties, Update, sum};
-use crate::space::PolyhedraWorld;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use world::geometry::{Segment, Vec3, distance_segment_convex};
+use world::space::PolyhedraWorld;
 
 const START: u32 = 0;
 const GOAL: u32 = 1;
@@ -188,8 +188,8 @@ fn touching(world: &PolyhedraWorld, first: usize) -> Vec<usize> {
 
 /// Whether two polyhedra share a point: an edge of one then meets the other, unless one lies within the other,
 /// and then its edges do.
-fn touch(a: &crate::geometry::Convex, b: &crate::geometry::Convex) -> bool {
-    let edges_meet = |one: &crate::geometry::Convex, other: &crate::geometry::Convex| {
+fn touch(a: &world::geometry::Convex, b: &world::geometry::Convex) -> bool {
+    let edges_meet = |one: &world::geometry::Convex, other: &world::geometry::Convex| {
         one.edges().iter().any(|edge| {
             let [from, to] = edge.ends.map(|end| one.vertices()[end]);
             distance_segment_convex(&Segment::new(from, to), other) <= 1e-9

@@ -1,12 +1,12 @@
 //! Scenes that break careless searches, each with what must come out.
 
-use crate::geometry::{Aabb, Convex, Segment, Vec3};
 use crate::planner::{Build, Ending, Entry, Plan, Planner, Request, Value, find};
 use crate::shorten::path_length;
-use crate::space::{PolyhedraWorld, World};
 use base::seed;
 use base::settings::Settings;
 use rand::RngExt as _;
+use world::geometry::{Aabb, Convex, Segment, Vec3};
+use world::space::{PolyhedraWorld, World};
 
 const FULL: &str = "search = 'open_list'\ncluster = true\nlast_resort = true";
 const CLUSTER: &str = "search = 'open_list'\ncluster = true\nlast_resort = false";

@@ -1,12 +1,12 @@
 //! The walk: straight at the goal, and over a key node whenever an obstacle stands in the way.
 
 use super::{Tally, Walked};
-use crate::geometry::{Segment, Vec3};
 use crate::planner::Ending;
 use crate::planner::key_nodes::{Front, GUARDED, Key, PRINTED, keys};
 use crate::planner::polyhedra::{Posed, is_within, steps};
-use crate::space::PolyhedraWorld;
 use std::collections::BTreeSet;
+use world::geometry::{Segment, Vec3};
+use world::space::PolyhedraWorld;
 
 /// A key node this near is where the walk already stands.
 const SAME_PLACE: f64 = 1e-3;
@@ -158,6 +158,6 @@ impl Walk<'_> {
 /// The first obstacle that `point` is within, as printed (eq. 3): behind every plane, on none.
 fn interior(world: &PolyhedraWorld, point: &Vec3) -> Option<usize> {
     let is_within =
-        |convex: &crate::geometry::Convex| convex.faces().iter().all(|face| face.plane.height(point) < 0.0);
+        |convex: &world::geometry::Convex| convex.faces().iter().all(|face| face.plane.height(point) < 0.0);
     world.obstacles().iter().position(is_within)
 }

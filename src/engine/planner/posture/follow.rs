@@ -4,12 +4,12 @@ use super::place::Place;
 use super::potential::{Field, direction, field, inverse};
 use super::rotation::{exp, log};
 use super::settings::{Bounds, Pose, Posture};
-use crate::geometry::{Capsule, Vec3};
-use crate::kinematics::ik::Branch;
-use crate::kinematics::{AXES, Joints};
-use crate::space::PolyhedraWorld;
-use crate::space::polyhedra::{Apart, CarriedArm, DOWN};
 use nalgebra::{Matrix3, Vector6};
+use world::geometry::{Capsule, Vec3};
+use world::kinematics::ik::Branch;
+use world::kinematics::{AXES, Joints};
+use world::space::PolyhedraWorld;
+use world::space::polyhedra::{Apart, CarriedArm, DOWN};
 
 /// A joint that moves more than this between two stored configurations has jumped.
 const JUMP_RAD: f64 = 0.35;

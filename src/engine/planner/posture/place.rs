@@ -1,8 +1,8 @@
 //! Where the arm is and how much room its rods have there, so that a short way on need not be looked at.
 
-use crate::geometry::{Capsule, Convex, Frame};
-use crate::kinematics::{AXES, Joints};
-use crate::space::polyhedra::{Apart, CarriedArm};
+use world::geometry::{Capsule, Convex, Frame};
+use world::kinematics::{AXES, Joints};
+use world::space::polyhedra::{Apart, CarriedArm};
 
 /// Beyond what rounding can do to a rod's place, in centimetres.
 const SLACK_CM: f64 = 1e-6;
@@ -53,11 +53,11 @@ impl Place {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kinematics::Robot;
-    use crate::space::Support;
     use base::seed;
     use rand::RngExt as _;
     use std::path::Path;
+    use world::kinematics::Robot;
+    use world::space::Support;
 
     #[test]
     fn no_rod_moves_farther_on_its_way_than_its_bound() {

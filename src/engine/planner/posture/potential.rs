@@ -4,11 +4,11 @@
 //! Tang, Zhou & Xu (2023), eqs. 21 to 26. Only the direction of the gradient is used, so the gain kr is left out.
 
 use super::settings::{Clamp, Posture, Sign};
-use crate::geometry::{Capsule, Frame, Vec3};
-use crate::kinematics::AXES;
-use crate::space::PolyhedraWorld;
-use crate::space::polyhedra::{Apart, CarriedArm, Contact};
 use nalgebra::{Matrix6, RowVector6};
+use world::geometry::{Capsule, Frame, Vec3};
+use world::kinematics::AXES;
+use world::space::PolyhedraWorld;
+use world::space::polyhedra::{Apart, CarriedArm, Contact};
 
 /// The least distance that is put into the potential, unless it is taken literally.
 const FLOOR_CM: f64 = 0.1;

@@ -1,7 +1,7 @@
 //! Rotations as vectors: axis times angle, in the world's axes.
 
-use crate::geometry::{Frame, Vec3};
 use nalgebra::Matrix3;
+use world::geometry::{Frame, Vec3};
 
 /// The rotation by the vector `w`.
 pub(super) fn exp(w: &Vec3) -> Matrix3<f64> {

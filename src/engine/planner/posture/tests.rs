@@ -4,12 +4,12 @@ use super::follow::Follower;
 use super::potential::{direction, field};
 use super::settings::Posture;
 use super::*;
-use crate::geometry::{Aabb, Convex, Frame};
-use crate::kinematics::Robot;
 use crate::planner::{Counts, Stage};
-use crate::space::{Support, World};
 use base::settings::Settings;
 use std::path::Path;
+use world::geometry::{Aabb, Convex, Frame};
+use world::kinematics::Robot;
+use world::space::{Support, World};
 
 mod options;
 pub(in crate::planner) use options::followed;

@@ -1,12 +1,12 @@
 use super::*;
-use crate::geometry::Vec2;
-use crate::geometry::planar::ConvexPolygon;
-use crate::space::World;
-use crate::space::roadmap::{Counted, Local, Near, PlaneMap, Sample};
 use base::seed;
 use base::settings::{Settings, SettingsError};
 use rand::RngExt as _;
 use std::collections::{BTreeMap, VecDeque};
+use world::geometry::Vec2;
+use world::geometry::planar::ConvexPolygon;
+use world::space::World;
+use world::space::roadmap::{Counted, Local, Near, PlaneMap, Sample};
 
 const SAMPLES: u32 = 40;
 const RADIUS_MM: f64 = 28.0;

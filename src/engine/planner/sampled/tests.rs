@@ -2,14 +2,14 @@
 
 use super::super::roadmap::roadmap;
 use super::super::{Build, Counts, Ending, Plan, Planner, Request, find};
-use crate::geometry::planar::ConvexPolygon;
 use crate::sampling::Motions;
-use crate::space::{JointSpace, SelfContact, World};
+use world::geometry::planar::ConvexPolygon;
+use world::space::{JointSpace, SelfContact, World};
 
-use crate::space::roadmap::{Counted, Local, Near, PlaneMap, RASTER_MM, Roadmap};
 use base::robot::{Joint, Kind, Robot};
 use base::settings::Settings;
 use base::solid::{Form, Pose, Solid};
+use world::space::roadmap::{Counted, Local, Near, PlaneMap, RASTER_MM, Roadmap};
 
 /// Over both upper corners of the wall: two legs of 65 mm and its width.
 const SHORTEST_MM: f64 = 140.0;

@@ -1,10 +1,10 @@
 //! Searches by jump points cost what the fast A* costs, whichever way they follow their runs.
 
 use super::*;
-use crate::space::LatticeWorld;
 use base::grid::{GridError, bars, maze, read_movingai_map, read_scenarios, rectangles, rooms, streets};
 use base::seed::Stream;
 use std::path::Path;
+use world::space::LatticeWorld;
 
 /// A world with every search over it.
 struct Searched {

@@ -1,9 +1,9 @@
 //! A* over a lattice with a wide neighbourhood: the specialisation is the general form.
 
 use super::*;
-use crate::space::{ArmRules, ArmWorld, HopRule, Obstacle, reproduced_rules};
 use base::grid::{Columns, Offsets};
 use std::collections::BTreeSet;
+use world::space::{ArmRules, ArmWorld, HopRule, Obstacle};
 
 const ORDERS: [Ties; 2] = [Ties::Fifo, Ties::Lifo];
 
@@ -178,7 +178,7 @@ const CASE_1: [[f64; 2]; 4] = [[35.0, 18.0], [7.0, 35.0], [-13.0, 35.0], [-30.0,
 
 fn workspace(hop: HopRule, corner_rule: CornerRule, places: [[f64; 2]; 4]) -> ArmWorld {
     let disc = |at: [f64; 2]| {
-        Obstacle::Circle(crate::geometry::planar::Circle::new(at.into(), 5.0).expect("a disc has a size"))
+        Obstacle::Circle(world::geometry::planar::Circle::new(at.into(), 5.0).expect("a disc has a size"))
     };
     ArmWorld::new(ArmRules { corner_rule, ..reproduced_rules(hop) }, places.map(disc).to_vec())
 }

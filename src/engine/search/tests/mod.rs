@@ -15,6 +15,23 @@ use super::*;
 use base::grid::{CornerRule, Grid2, Moves, independent_cells};
 use base::seed;
 use rand::RngExt as _;
+use world::geometry::planar::Touch;
+use world::kinematics::planar_2r::{ElbowRule, Planar2r};
+use world::space::{ArmRules, HopRule, TipLattice};
+
+/// The rules of the reproduced planar workspace.
+pub fn reproduced_rules(hop: HopRule) -> ArmRules {
+    ArmRules {
+        arm: Planar2r::new(30.0, 20.0).unwrap(),
+        elbow: ElbowRule::NegativeQ2,
+        lattice: TipLattice::new([-50.0, 50.0], [0.0, 50.0], 1.0).unwrap(),
+        inner_radius_cm: 20.0,
+        q2_limit_rad: f64::INFINITY,
+        touch: Touch::Contact,
+        corner_rule: CornerRule::Allow,
+        hop,
+    }
+}
 
 const RULES: [CornerRule; 3] = [CornerRule::Allow, CornerRule::ForbidBoth, CornerRule::ForbidAny];
 

@@ -1,8 +1,8 @@
 //! What each option of the stage does, one at a time.
 
 use super::*;
-use crate::geometry::Convex;
 use nalgebra::Matrix3;
+use world::geometry::Convex;
 
 /// A box beside lines along y, near which postures are adjusted.
 fn beside() -> World {

@@ -4,7 +4,7 @@ use base::seed;
 use rand::RngExt as _;
 
 /// The rules of the reproduced workspace.
-pub fn rules(hop: HopRule) -> ArmRules {
+fn rules(hop: HopRule) -> ArmRules {
     ArmRules {
         arm: Planar2r::new(30.0, 20.0).unwrap(),
         elbow: ElbowRule::NegativeQ2,

@@ -74,20 +74,21 @@ pub use tests::{levels, on_level};
 ///
 /// On `x86_64` there is one version for AVX2 and one for what every such machine has; the levels between and above
 /// would gain nothing here and take as long again to compile each.
+#[macro_export]
 macro_rules! dispatch {
     ($level:expr, $simd:ident => $op:expr) => {{
         let level: $crate::geometry::lanes::Level = $level;
         #[cfg(target_arch = "x86_64")]
         {
             if let Some($simd) = level.as_avx2() {
-                ::fearless_simd::Simd::vectorize(
+                $crate::geometry::lanes::Simd::vectorize(
                     $simd,
                     #[inline(always)]
                     || $op,
                 )
             } else {
                 let $simd = level.as_sse2().expect("x86_64 has SSE2");
-                ::fearless_simd::Simd::vectorize(
+                $crate::geometry::lanes::Simd::vectorize(
                     $simd,
                     #[inline(always)]
                     || $op,
@@ -96,11 +97,13 @@ macro_rules! dispatch {
         }
         #[cfg(not(target_arch = "x86_64"))]
         {
-            ::fearless_simd::dispatch!(level, $simd => $op)
+            $crate::geometry::lanes::every_level!(level, $simd => $op)
         }
     }};
 }
-pub(crate) use dispatch;
+pub use crate::dispatch;
+#[doc(hidden)]
+pub use fearless_simd::dispatch as every_level;
 
 /// A number a case, of either kind.
 pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {

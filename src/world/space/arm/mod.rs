@@ -16,8 +16,6 @@ mod tip_line;
 
 pub use lattice::TipLattice;
 pub use obstacle::Obstacle;
-#[cfg(test)]
-pub use tests::rules as reproduced_rules;
 
 use crate::geometry::Vec2;
 use crate::geometry::planar::{Segment2, Touch};

@@ -10,8 +10,6 @@ pub mod polyhedra;
 pub mod roadmap;
 mod support;
 
-#[cfg(test)]
-pub use arm::reproduced_rules;
 pub use arm::{ArmRules, ArmWorld, HopRule, Obstacle, TipLattice, Zone};
 pub use joints::{JointSpace, MotionMemory, SelfContact};
 pub use lattice::{JumpLines, JumpTable, Jumps, LatticeWorld, Pruning};
