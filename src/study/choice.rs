@@ -6,7 +6,7 @@ use super::spec::{BoundsSpec, ChoiceSpec, Digits, OptionSpec, ROBOT_WITH, SCENE_
 use base::settings::{Document, Place, Settings, SettingsError, did_you_mean, none_called};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
-use toml::Table;
+use toml::{Table, Value};
 
 /// Something that the paper leaves open.
 #[derive(Debug, Clone)]
@@ -166,7 +166,28 @@ impl Change {
         };
         let places =
             self.place.iter().flat_map(|place| [place.inside(steps)].into_iter().chain(of_file(place)));
-        settings.overlaid_from(over, &self.by, places.collect())
+        // Options of several choices may be laid over one file, each over other parts of it.
+        let mut over = over.clone();
+        for file in [ROBOT_WITH, SCENE_WITH] {
+            if let (Some(Value::Table(under)), Some(Value::Table(own))) =
+                (settings.table().get(file), over.get_mut(file))
+            {
+                let mut both = under.clone();
+                lay(&mut both, own);
+                *own = both;
+            }
+        }
+        settings.overlaid_from(&over, &self.by, places.collect())
+    }
+}
+
+/// Lays `over` over `table`, table by table.
+fn lay(table: &mut Table, over: &Table) {
+    for (key, value) in over {
+        match (table.get_mut(key), value) {
+            (Some(Value::Table(under)), Value::Table(inner)) => lay(under, inner),
+            _ => drop(table.insert(key.clone(), value.clone())),
+        }
     }
 }
 

@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// The interpretations to explore: those that must be, and those to be added in this order while the budget lasts.
 #[derive(Debug)]
 pub struct Interpretations {
-    /// The defaults, every other option by itself, and what contenders depart to.
+    /// The defaults, every other option by itself, and those that are named.
     pub alone: Vec<Interpretation>,
     /// Those drawn from the product of options that vote.
     pub drawn: Vec<Vec<Interpretation>>,
@@ -23,13 +23,13 @@ pub struct Interpretations {
 /// The interpretations of `choices`: `sample` settings drawn from `seed` with equal chance for every voting option. Each setting
 /// of the choices that are not fitted stands with every option of those that are.
 ///
-/// Contenders with an entry in `departures` have trials that count under these interpretations only.
+/// `named` are explored as well: what contenders depart to, whose trials count there alone, and what a paper names together.
 ///
 /// # Errors
 /// A choice whose default is not among its options.
 pub fn interpretations(
     choices: &[Choice],
-    departures: Vec<Interpretation>,
+    named: Vec<Interpretation>,
     sample: u32,
     seed: u64,
 ) -> Result<Interpretations, String> {
@@ -38,7 +38,7 @@ pub fn interpretations(
         all.into_iter().filter(|one| known.insert(one.name().to_owned())).collect()
     };
     let mut alone = Vec::new();
-    for single in single_options(choices)?.into_iter().chain(departures) {
+    for single in single_options(choices)?.into_iter().chain(named) {
         alone.extend(new(with_fitted(choices, &single)?));
     }
     let moving: Vec<&Choice> = choices.iter().filter(|choice| !choice.fitted).collect();

@@ -259,6 +259,9 @@ pub struct ExploreSpec {
     /// How many settings of choices are drawn from the product of options that vote, at most and without repetition.
     #[schemars(range(max = 10_000))]
     pub sample: u32,
+    /// Options of several choices that are explored together, beside those that are drawn: `{ groove = "90_mm", shelf = "100_mm" }`.
+    #[serde(default)]
+    pub together: Vec<BTreeMap<String, String>>,
     /// How many trials `replan explore` may run in all, and `replan confirm` once more.
     #[schemars(range(min = 1, max = 1_000_000_000_000_u64))]
     pub trials: u64,
