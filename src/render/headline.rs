@@ -105,7 +105,9 @@ fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
         let printed =
             judged.printed.as_ref().map_or_else(String::new, |printed| format!("printed {printed}, ours "));
         let number = match ours.quantity {
-            Quantity::Rank => return None,
+            Quantity::Rank => {
+                return Some(format!("{:.0} % of ours as far out (n = {})", 100.0 * ours.value, ours.n));
+            }
             Quantity::Probability => format!("p = {}", number(ours.value)),
             _ => effect(ours).unwrap_or_else(|| short(ours) + &unit),
         };

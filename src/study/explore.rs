@@ -205,6 +205,15 @@ mod tests {
     }
 
     #[test]
+    fn what_is_named_together_is_explored_with_every_option_of_a_fitted_choice() {
+        let choices = [choice("a", 2, 2, false), choice("b", 2, 2, false), choice("f", 2, 2, true)];
+        let both = ["a", "b"].map(|id| (id.to_owned(), "1".to_owned()));
+        let named = Interpretation::new(&choices, &both.into()).unwrap();
+        let found = interpretations(&choices, vec![named], 0, 1).unwrap();
+        assert_eq!(names(&found.alone)[6..], ["a=1,b=1", "a=1,b=1,f=1"]);
+    }
+
+    #[test]
     fn an_option_is_explored_only_with_those_that_it_names() {
         let only = |choice: &mut Choice, id: &str| {
             let only_with = [(id.to_owned(), vec!["1".to_owned()])].into();

@@ -44,6 +44,9 @@ pub struct StudySpec {
     /// Choices of the paper that touch what the study runs and that it does not inherit, by name; `all` stands for all of them.
     #[serde(default)]
     pub leaves_out: Vec<Spanned<String>>,
+    /// Choices that it does not inherit because its problems draw with each instance what their options set.
+    #[serde(default)]
+    pub draws: Vec<Spanned<String>>,
     /// Limits on each trial; the paper's if absent.
     pub budget: Option<BudgetSpec>,
     /// How clocks are read.

@@ -34,7 +34,9 @@ fn lay(table: &mut Table, over: &Table, way: &str) -> Result<(), String> {
                         (Some(Value::Table(under)), Value::Table(inner)) => {
                             lay(under, inner, &format!("{way}.{wanted}"))?;
                         }
-                        (Some(under), value) if !under.is_table() && !value.is_table() => *under = value.clone(),
+                        (Some(under), value) if !under.is_table() && !value.is_table() => {
+                            *under = value.clone()
+                        }
                         _ => {
                             return Err(format!(
                                 "{way}: there is no table `{wanted}`; a number from 0 or a `name` is accepted"
