@@ -1,5 +1,6 @@
 //! Choices: what a paper leaves open, the options that settle it, and interpretations, which take one option of each.
 
+use super::family::lay;
 use super::key::InterpretationKey;
 use super::name;
 use super::spec::{BoundsSpec, ChoiceSpec, Digits, OptionSpec, ROBOT_WITH, SCENE_WITH};
@@ -173,21 +174,13 @@ impl Change {
                 (settings.table().get(file), over.get_mut(file))
             {
                 let mut both = under.clone();
-                lay(&mut both, own);
-                *own = both;
+                // What cannot be laid is refused where the file is read.
+                if lay(&mut both, own, file).is_ok() {
+                    *own = both;
+                }
             }
         }
         settings.overlaid_from(&over, &self.by, places.collect())
-    }
-}
-
-/// Lays `over` over `table`, table by table.
-fn lay(table: &mut Table, over: &Table) {
-    for (key, value) in over {
-        match (table.get_mut(key), value) {
-            (Some(Value::Table(under)), Value::Table(inner)) => lay(under, inner),
-            _ => drop(table.insert(key.clone(), value.clone())),
-        }
     }
 }
 

@@ -368,7 +368,7 @@ fn nothing_of_choices_is_written_twice_in_the_committed_specs() {
                         assert_ne!(choice.get(key), Some(source), "{paper}, {id} = {name}: {key} twice");
                     }
                 }
-                let sets = ["problem", "stage", "contender", "metric", "digits"]
+                let sets = ["problem", "robot", "scene", "stage", "contender", "metric", "digits"]
                     .map(|key| option.get(key).map(|value| format!("{key} = {value}")).unwrap_or_default());
                 once(&mut seen, (paper, id, format!("sets {}", sets.concat())));
             }

@@ -23,7 +23,7 @@ pub(super) fn overlaid(
 }
 
 /// Lays `over`, which stands at `way`, over `table`.
-fn lay(table: &mut Table, over: &Table, way: &str) -> Result<(), String> {
+pub fn lay(table: &mut Table, over: &Table, way: &str) -> Result<(), String> {
     for (key, value) in over {
         match (table.get_mut(key), value) {
             (Some(Value::Table(under)), Value::Table(inner)) => lay(under, inner, &format!("{way}.{key}"))?,
@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     fn laid(over: &str) -> Result<Table, String> {
-        let under = "tool_mm = 1\n[support]\nunder = \"floor\"\nyaw_deg = 0\n[[box]]\nname = \"a\"\nsize = 1\n[[box]]\nname = \"b\"\n";
+        let under = "tool_mm = 1\n[support]\nunder = \"floor\"\nyaw_deg = 0\n[[box]]\nname = \"a\"\nsize = 1\n[[box]]\nname = \"b\"\nmin_mm = [0, 0]\n";
         let mut table: Table = toml::from_str(under).unwrap();
         lay(&mut table, &toml::from_str(over).unwrap(), "with").map(|()| table)
     }
