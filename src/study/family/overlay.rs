@@ -35,7 +35,7 @@ pub fn lay(table: &mut Table, over: &Table, way: &str) -> Result<(), String> {
                             lay(under, inner, &format!("{way}.{wanted}"))?;
                         }
                         (Some(under), value) if !under.is_table() && !value.is_table() => {
-                            *under = value.clone()
+                            *under = value.clone();
                         }
                         _ => {
                             return Err(format!(
