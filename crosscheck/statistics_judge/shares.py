@@ -126,11 +126,13 @@ def directions(cases: Cases, that: str, bound: float) -> tuple[Reals, Flags]:
         return np.where(cases.values <= bound * cases.bases + EQUAL, 1.0, -1.0), cases.paired
     if that == "above":
         return np.where(cases.values > bound + EQUAL, 1.0, -1.0), ~np.isnan(cases.values)
+    returned = np.isin(cases.study.status[cases.own], ["solved", "rejected"])
+    if that == "accepted":
+        return np.where(cases.own_solved, 1.0, -1.0), returned
     if that != "at_most":
         raise ValueError(f"on_every: that = {that!r} is not known here")
     assert cases.metric is not None
     value = cases.raw(cases.metric)
-    returned = np.isin(cases.study.status[cases.own], ["solved", "rejected"])
     return np.where(value <= bound + EQUAL, 1.0, -1.0), returned & ~np.isnan(value)
 
 

@@ -222,6 +222,15 @@ def test_what_did_not_end_is_neither_solved_nor_not() -> None:
         assert (solved(case).outcome, firm(solved(case))) == (HOLDS, is_firm), case
 
 
+def test_one_path_that_is_refused_contradicts_that_every_path_is_accepted() -> None:
+    def found(end: float | str) -> tuple[str, bool]:
+        one = shares.on_every(asked([(1.0, 1.0)] * 20 + [(NONE, 1.0), (end, 1.0)], {"that": "accepted"}))
+        return one.outcome, firm(one)
+
+    assert [found(end) for end in (1.0, NONE, SPENT)] == [(HOLDS, True), (HOLDS, True), (HOLDS, False)]
+    assert found(REFUSED)[0] == FAILS
+
+
 def test_what_holds_on_each_of_few_draws_of_a_problem_that_is_drawn_is_not_firm() -> None:
     def few(instances: int, group: str) -> bool:
         one = asked([(4.0, 5.0)] * instances, {"that": "lower", "of": {"problems": [group]}})

@@ -88,7 +88,10 @@ impl<'p> Explorer<'p> {
         doing(&format!("{}: counting the trials of its interpretations", paper.id));
         let seed = seed::derive(0, &[&paper.id, "explore"]);
         let refuse = |message: String| Failure::from(paper.document.error_at("explore", message));
-        let found = interpretations(&paper.choices, paper.departures(), budget.sample, seed);
+        let together = budget.together.iter().map(|options| Interpretation::new(&paper.choices, options));
+        let together = together.collect::<Result<Vec<_>, _>>().map_err(refuse)?;
+        let others = [paper.departures(), together].concat();
+        let found = interpretations(&paper.choices, others, budget.sample, seed);
         let Interpretations { alone, drawn } = found.map_err(refuse)?;
         let each = self.trials_each(first_instances, |study| !budget.is_late(&study.name))?;
         let mut chosen = alone;

@@ -55,6 +55,8 @@ pub struct Study {
     pub choices: Vec<Choice>,
     /// The choices that touch what it runs and that it leaves out.
     pub leaves_out: Vec<String>,
+    /// Those of them that its problems draw with each instance.
+    pub draws: Vec<String>,
     /// What `replan explore` runs of it under every interpretation.
     pub explore: Option<ExploredStudy>,
     /// Limits on each trial.

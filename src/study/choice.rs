@@ -1,12 +1,13 @@
 //! Choices: what a paper leaves open, the options that settle it, and interpretations, which take one option of each.
 
+use super::family::lay;
 use super::key::InterpretationKey;
 use super::name;
 use super::spec::{BoundsSpec, ChoiceSpec, Digits, OptionSpec, ROBOT_WITH, SCENE_WITH};
 use base::settings::{Document, Place, Settings, SettingsError, did_you_mean, none_called};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
-use toml::Table;
+use toml::{Table, Value};
 
 /// Something that the paper leaves open.
 #[derive(Debug, Clone)]
@@ -166,7 +167,20 @@ impl Change {
         };
         let places =
             self.place.iter().flat_map(|place| [place.inside(steps)].into_iter().chain(of_file(place)));
-        settings.overlaid_from(over, &self.by, places.collect())
+        // Options of several choices may be laid over one file, each over other parts of it.
+        let mut over = over.clone();
+        for file in [ROBOT_WITH, SCENE_WITH] {
+            if let (Some(Value::Table(under)), Some(Value::Table(own))) =
+                (settings.table().get(file), over.get_mut(file))
+            {
+                let mut both = under.clone();
+                // What cannot be laid is refused where the file is read.
+                if lay(&mut both, own, file).is_ok() {
+                    *own = both;
+                }
+            }
+        }
+        settings.overlaid_from(&over, &self.by, places.collect())
     }
 }
 

@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// The interpretations to explore: those that must be, and those to be added in this order while the budget lasts.
 #[derive(Debug)]
 pub struct Interpretations {
-    /// The defaults, every other option by itself, and what contenders depart to.
+    /// The defaults, every other option by itself, and those that are named.
     pub alone: Vec<Interpretation>,
     /// Those drawn from the product of options that vote.
     pub drawn: Vec<Vec<Interpretation>>,
@@ -23,13 +23,13 @@ pub struct Interpretations {
 /// The interpretations of `choices`: `sample` settings drawn from `seed` with equal chance for every voting option. Each setting
 /// of the choices that are not fitted stands with every option of those that are.
 ///
-/// Contenders with an entry in `departures` have trials that count under these interpretations only.
+/// `named` are explored as well: what contenders depart to, whose trials count there alone, and what a paper names together.
 ///
 /// # Errors
 /// A choice whose default is not among its options.
 pub fn interpretations(
     choices: &[Choice],
-    departures: Vec<Interpretation>,
+    named: Vec<Interpretation>,
     sample: u32,
     seed: u64,
 ) -> Result<Interpretations, String> {
@@ -38,7 +38,7 @@ pub fn interpretations(
         all.into_iter().filter(|one| known.insert(one.name().to_owned())).collect()
     };
     let mut alone = Vec::new();
-    for single in single_options(choices)?.into_iter().chain(departures) {
+    for single in single_options(choices)?.into_iter().chain(named) {
         alone.extend(new(with_fitted(choices, &single)?));
     }
     let moving: Vec<&Choice> = choices.iter().filter(|choice| !choice.fitted).collect();
@@ -202,6 +202,15 @@ mod tests {
         let found = interpretations(&choices, Vec::new(), 9, 1).unwrap();
         assert_eq!(names(&found.alone), ["default", "f=1", "f=2", "a=1", "a=1,f=1", "a=1,f=2"]);
         assert!(found.drawn.is_empty());
+    }
+
+    #[test]
+    fn what_is_named_together_is_explored_with_every_option_of_a_fitted_choice() {
+        let choices = [choice("a", 2, 2, false), choice("b", 2, 2, false), choice("f", 2, 2, true)];
+        let both = ["a", "b"].map(|id| (id.to_owned(), "1".to_owned()));
+        let named = Interpretation::new(&choices, &both.into()).unwrap();
+        let found = interpretations(&choices, vec![named], 0, 1).unwrap();
+        assert_eq!(names(&found.alone)[6..], ["a=1,b=1", "a=1,b=1,f=1"]);
     }
 
     #[test]

@@ -44,6 +44,9 @@ pub struct StudySpec {
     /// Choices of the paper that touch what the study runs and that it does not inherit, by name; `all` stands for all of them.
     #[serde(default)]
     pub leaves_out: Vec<Spanned<String>>,
+    /// Choices that it does not inherit because its problems draw with each instance what their options set.
+    #[serde(default)]
+    pub draws: Vec<Spanned<String>>,
     /// Limits on each trial; the paper's if absent.
     pub budget: Option<BudgetSpec>,
     /// How clocks are read.
@@ -259,6 +262,9 @@ pub struct ExploreSpec {
     /// How many settings of choices are drawn from the product of options that vote, at most and without repetition.
     #[schemars(range(max = 10_000))]
     pub sample: u32,
+    /// Options of several choices that are explored together, beside those that are drawn: `{ groove = "90_mm", shelf = "100_mm" }`.
+    #[serde(default)]
+    pub together: Vec<BTreeMap<String, String>>,
     /// How many trials `replan explore` may run in all, and `replan confirm` once more.
     #[schemars(range(min = 1, max = 1_000_000_000_000_u64))]
     pub trials: u64,

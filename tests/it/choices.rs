@@ -101,9 +101,13 @@ fn an_option_is_laid_over_the_files_of_a_robot_and_of_its_scene() {
     let [robot, scene] = ["tool.length_mm = 160", "box.wall.max_mm = [900, 40, 700]"];
     bench.edit("arm/paper.toml", "short = { problem = { tool_mm = 100 } }", "short = {}");
     bench.edit("arm/paper.toml", "long = { problem = { tool_mm = 160 } }", &over(robot, scene));
-    let built = |paper: &Paper, option: &str| {
+    let wall = "[[choice]]\nid = \"wall\"\nwhy = \"its width is lost\"\ndefault = \"thin\"\n[choice.option]\nthin = {}\n\
+                thick = { scene = { box.wall.max_mm.1 = 70 } }\n";
+    bench.edit("arm/paper.toml", "[[table]]", &format!("{wall}\n[[table]]"));
+    let built = |paper: &Paper, option: &str, wall: &str| {
         let study = &paper.studies[0];
-        let taken = [("tool".to_owned(), option.to_owned())].into();
+        let taken =
+            [("tool", option), ("wall", wall)].map(|(id, option)| (id.to_owned(), option.to_owned())).into();
         let interpretation = Interpretation::new(&study.choices, &taken).unwrap();
         let inputs = Inputs { roots: vec![bench.at("arm")] };
         let preprocessing = study.groups[0]
@@ -115,13 +119,16 @@ fn an_option_is_laid_over_the_files_of_a_robot_and_of_its_scene() {
         let Local::Arm(lines) = map.local() else { panic!("it is that of an arm in a cell") };
         let scene = lines.cell().scene();
         let wall = scene.obstacles().iter().find(|obstacle| obstacle.name == "wall").unwrap();
-        [lines.cell().robot().tool_length_m(), wall.solid.aabb().max.z]
-            .map(|metres| (metres * 1e3).round() as u32)
+        let top = wall.solid.aabb().max;
+        [lines.cell().robot().tool_length_m(), top.z, top.y].map(|metres| (metres * 1e3).round() as u32)
     };
     let paper = loaded(&bench, "arm");
-    let [short, long] = ["short", "long"].map(|option| built(&paper, option));
-    assert_eq!(long, [160, 700]);
+    let [short, long] = ["short", "long"].map(|option| built(&paper, option, "thin"));
+    assert_eq!(long, [160, 700, 40]);
     assert!(short[0] < 160 && short[1] == 550, "{short:?}");
+    // What two choices lay over one file stands side by side: whole lists below, numbers in them above.
+    assert_eq!(built(&paper, "long", "thick"), [160, 700, 70]);
+    assert_eq!(built(&paper, "short", "thick")[1..], [550, 70]);
     for (robot, scene, refused) in [
         ("tool.length = 160", scene, "unknown key `length` (did you mean `length_mm`?)"),
         (
@@ -361,7 +368,7 @@ fn nothing_of_choices_is_written_twice_in_the_committed_specs() {
                         assert_ne!(choice.get(key), Some(source), "{paper}, {id} = {name}: {key} twice");
                     }
                 }
-                let sets = ["problem", "stage", "contender", "metric", "digits"]
+                let sets = ["problem", "robot", "scene", "stage", "contender", "metric", "digits"]
                     .map(|key| option.get(key).map(|value| format!("{key} = {value}")).unwrap_or_default());
                 once(&mut seen, (paper, id, format!("sets {}", sets.concat())));
             }

@@ -66,10 +66,12 @@ impl<'p> Touched<'p> {
             || self.studies.iter().any(|study| self.changes(choice, study))
     }
 
-    /// Whether `choice` would change trials of a study that does not have it, nor has what is explored in its place. A witness is judged
+    /// Whether `choice` would change trials of a study that neither has it nor draws it, nor has what is explored in its place. A witness is judged
     /// under the interpretations that its contender ran under, whatever its study has.
     pub fn is_without(&self, paper: &Paper, choice: &Choice) -> bool {
-        let has = |study: &Study| study.choices.iter().any(|own| own.id == choice.id);
+        let has = |study: &Study| {
+            study.choices.iter().any(|own| own.id == choice.id) || study.draws.contains(&choice.id)
+        };
         let stands_for = |other: &&Study, study: &Study| {
             let explored = other.explore.as_ref().and_then(|explore| explore.stands_for.as_ref());
             explored == Some(&study.name)

@@ -20,7 +20,7 @@ use study::record::Row;
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "on_every",
-    about: "does it hold on every case that a contender is lower, within a bound, or solves what another solves?",
+    about: "does it hold on every case that a contender is lower, within a bound, accepted, or solves what another solves?",
     // Since 5, a few cases that all tie are too few.
     revision: |settings| {
         if settings.get("that").is_some_and(|that| that.as_str() == Some("lower")) { 5 } else { 4 }
@@ -58,6 +58,8 @@ enum Condition {
     Above,
     /// It is solved wherever the other contender solves it.
     Solved,
+    /// The verifier accepts every path that comes back.
+    Accepted,
 }
 
 struct OnEvery<'a> {
@@ -90,10 +92,10 @@ impl<'a> OnEvery<'a> {
             let message = format!("this kind of `that` {needs}");
             return Err(context.settings.error_at("that", message).about("bound"));
         }
-        if !matches!(that, Condition::AtMost | Condition::Above) {
+        if !matches!(that, Condition::AtMost | Condition::Above | Condition::Accepted) {
             of.against(context)?;
         }
-        if that != Condition::Solved {
+        if !matches!(that, Condition::Solved | Condition::Accepted) {
             of.metric(context)?;
         }
         let plan = plan(&context.seed_names());
@@ -120,6 +122,7 @@ impl<'a> OnEvery<'a> {
                 let is_asked = case.base.is_some_and(Row::is_solved) && !selection::is_unended(case.row);
                 is_asked.then(|| holds(case.row.is_solved()))
             }
+            Condition::Accepted => case.row.is_returned().then(|| holds(case.row.is_solved())),
         }
     }
 
@@ -132,6 +135,7 @@ impl<'a> OnEvery<'a> {
             Condition::AtMost => format!("{metric} is at most {}", self.bound),
             Condition::Above => format!("{metric} is above {}", self.bound),
             Condition::Solved => "it is solved where the other solves it".to_owned(),
+            Condition::Accepted => "the verifier accepts the path that comes back".to_owned(),
         }
     }
 
@@ -147,9 +151,11 @@ impl<'a> OnEvery<'a> {
                 cases(instances).filter(might_part).count()
             }
             // What ended without a number is outside of a claim about what is solved, or what comes back.
-            Condition::Lower | Condition::AtMostTimes | Condition::Above | Condition::AtMost => {
-                cases(instances).filter(|case| case.might_be_solved()).count()
-            }
+            Condition::Lower
+            | Condition::AtMostTimes
+            | Condition::Above
+            | Condition::AtMost
+            | Condition::Accepted => cases(instances).filter(|case| case.might_be_solved()).count(),
         }
     }
 

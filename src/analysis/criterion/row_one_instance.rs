@@ -210,6 +210,24 @@ impl RowOneInstance<'_> {
         (2.0 / self.refused_below).floor() as usize
     }
 
+    /// Of a row that prints a least and a greatest value, how many of our instances have all their cases between the two, in words.
+    fn inside(&self, cells: &[Vec<f64>]) -> Option<String> {
+        let [Row { cells: Cells::Statistics(statistics), .. }] = &self.rows[..] else { return None };
+        let ([InstanceStatistic::Least, InstanceStatistic::Greatest], [least, greatest]) =
+            (&statistics[..], cells)
+        else {
+            return None;
+        };
+        let reaches = |value: &&f64| **value >= self.printed[0];
+        let is_inside = |(least, greatest): &(&f64, &f64)| reaches(least) && **greatest <= self.printed[1];
+        Some(format!(
+            "all cases lie between the printed least and greatest on {} of {} instances; the least reaches the printed one on {}",
+            least.iter().zip(greatest).filter(is_inside).count(),
+            least.len(),
+            least.iter().filter(reaches).count()
+        ))
+    }
+
     fn because(&self, place: &Place, level: &Level, rank: f64, cells: &[Vec<f64>]) -> Vec<String> {
         let who = self.rows.iter().map(|row| row.of.description()).collect::<Vec<_>>().join(" and ");
         let below = self.refused_below;
@@ -225,6 +243,7 @@ impl RowOneInstance<'_> {
             ),
             level_sentence(level, below),
         ];
+        because.extend(self.inside(cells));
         let is_sweep = self.rows.iter().all(|row| matches!(row.cells, Cells::Sweep(_)));
         because.extend(monotone_probability(cells).filter(|_| self.rows.len() == 1 && is_sweep).map(|chance| {
             format!(

@@ -40,9 +40,11 @@ impl Study {
             return Ok(None);
         };
         spec.problems = each::expanded(spec.problems, document, inputs, faults);
-        let leaves_out = std::mem::take(&mut spec.leaves_out);
+        let draws = std::mem::take(&mut spec.draws);
+        let leaves_out = [std::mem::take(&mut spec.leaves_out), draws.clone()].concat();
         let mut study = Self::resolve(name, spec, document, shared, faults);
         study.inherit(&shared.choices, &leaves_out, faults);
+        study.draws = draws.into_iter().map(Spanned::into_inner).collect();
         study.check(inputs, faults)?;
         Ok(Some(study))
     }
@@ -85,6 +87,7 @@ impl Study {
             sweeps: sweeps(spec.sweeps, document, faults),
             choices: Vec::new(),
             leaves_out: Vec::new(),
+            draws: Vec::new(),
             budget,
             timing: spec.timing,
             keeps: spec.keeps,

@@ -25,6 +25,7 @@ mod random_rectangles;
 mod recorded;
 
 pub use entry::{ArmPlacement, Entry, Family, Query};
+pub(super) use overlay::lay;
 
 /// Every family, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[

@@ -207,6 +207,11 @@ impl Paper {
         for name in explore.where_compatible.iter().filter(|name| !explore.instances.contains_key(*name)) {
             wrong(&["where_compatible"], none_called("explored study", name, explored()), name);
         }
+        for (index, options) in explore.together.iter().enumerate() {
+            if let Err(message) = Interpretation::new(&self.choices, options) {
+                wrong(&["together", &index.to_string()], message, &self.id);
+            }
+        }
     }
 }
 

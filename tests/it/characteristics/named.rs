@@ -1,7 +1,7 @@
 //! What an outcome names beside itself: ties, refused paths, what was left out, what is possible, and its power.
 
 use super::censored::{judged, pairs};
-use super::synthetic::End::{self, At, Rejected, Unposed};
+use super::synthetic::End::{self, At, NoPath, Rejected, Spent, Unposed};
 use super::synthetic::{Made, Sample, Synthetic};
 
 #[test]
@@ -57,6 +57,17 @@ fn paths_that_the_verifier_refuses_are_named_where_they_keep_a_claim_open() {
     let one = judged("lower", of, Made::Plainly, pairs(&all));
     let settles = one.findings[0].settles.as_deref().unwrap();
     assert!(one.outcome.name() == "open" && settles.contains("it refuses 20"), "{settles}");
+}
+
+#[test]
+fn one_path_that_the_verifier_refuses_contradicts_that_it_accepts_every_path() {
+    let of = |more: (usize, End, End)| {
+        let settings = "of = { OF, contender = \"A\" }\nthat = \"accepted\"";
+        let all = [(30, At(4.0), At(5.0)), (10, NoPath, At(5.0)), more];
+        judged("on_every", settings, Made::Plainly, pairs(&all)).outcome.name()
+    };
+    let ends = [At(6.0), NoPath, Spent, Rejected].map(|end| of((1, end, At(5.0))));
+    assert_eq!(ends, ["holds", "holds", "open", "contradicted"]);
 }
 
 #[test]
