@@ -194,9 +194,8 @@ mod tests {
             Estimate { interval: Some([value - 0.5, value + 0.5]), ..Estimate::bare(value, "as it is", n) }
                 .measures(quantity, subject)
         };
-        let shown = |parts: &[Estimate]| {
-            side_by_side(&parts.iter().map(|part| (part, None)).collect::<Vec<_>>())
-        };
+        let shown =
+            |parts: &[Estimate]| side_by_side(&parts.iter().map(|part| (part, None)).collect::<Vec<_>>());
         let [shorter, longer] =
             [-2.0, 3.0].map(|value| of(value, MorePercent, "path cost", if value < 0.0 { 9 } else { 8 }));
         let work = [10.0, 20.0].map(|value| of(value, PercentOfOther, "closed nodes", 9));
@@ -209,7 +208,7 @@ mod tests {
             shown(&[&work[..], &work[..]].concat()).unwrap()[0],
             "10.0 to 20.0 % of the best rival's closed nodes"
         );
-        let two = [&work[..1], &[shorter.clone()]].concat();
+        let two = [&work[..1], std::slice::from_ref(&shorter)].concat();
         assert_eq!(shown(&two).unwrap(), ["10.0 % of the best rival's closed nodes; 2.0 % shorter", "9"]);
         let nameless = [of(0.5, Share, "trials solved", 9), of(0.5, Share, "instances", 9)];
         assert_eq!(shown(&nameless), None, "two shares would not say of what");

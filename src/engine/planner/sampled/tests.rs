@@ -125,10 +125,10 @@ fn trees_that_never_change_and_roadmaps_with_few_neighbours_stay_longer_than_the
         let planner = planner(name, settings);
         (0..5).map(|seed| plan(planner.as_ref(), &world, seed).cost.unwrap()).sum::<f64>() / 5.0
     };
-    let tree = "range = 20\nreach = 5\nsampler = 'seeded'\ngoal_share = 0\niterations = 2000\ninformed = false";
+    let tree =
+        "range = 20\nreach = 5\nsampler = 'seeded'\ngoal_share = 0\niterations = 2000\ninformed = false";
     let roadmap = "sampler = 'seeded'\niterations = 2000";
-    for (name, shared, change) in
-        [("rrt_star", tree, "rewire = false"), ("prm_star", roadmap, "nearest = 4")]
+    for (name, shared, change) in [("rrt_star", tree, "rewire = false"), ("prm_star", roadmap, "nearest = 4")]
     {
         let [star, other] = ["", change].map(|change| mean(name, &format!("{shared}\n{change}")));
         assert!(
@@ -145,7 +145,7 @@ fn a_short_reach_leaves_the_goal_to_nodes_near_it() {
         "range = 30\nreach = 2\nsampler = 'seeded'\ngoal_share = 0\niterations = 3000\ninformed = false";
     let path = plan(planner("rrt_star", settings).as_ref(), &world(), 1).path;
     let [before, goal] = [&path[path.len() - 2], &path[path.len() - 1]];
-    assert!((before[0] - goal[0]).hypot(before[1] - goal[1]) <= 2.0, "{before:?} to {goal:?}");
+    assert!(libm::hypot(before[0] - goal[0], before[1] - goal[1]) <= 2.0, "{before:?} to {goal:?}");
 }
 
 /// Dynamic domains are for traps: most samples lie behind walls that surround the start. In the open they spare next to nothing.
