@@ -111,7 +111,7 @@ impl<'a> Lower<'a> {
     ) -> String {
         let &Number { below, equal, above, n, .. } = all;
         format!(
-            "{}: {metric} is {:.2} % {} on the whole (95 % interval of the change {low:.2} to {high:.2}, {} over {n} instances); lower on \
+            "{}: {metric} {:.2} % {} on the whole (95 % interval of the change {low:.2} to {high:.2}, {} over {n} instances); lower on \
              {below}, equal on {equal}, higher on {above} of {} cases{}",
             self.of.description(),
             value.abs(),
