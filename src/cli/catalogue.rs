@@ -54,7 +54,7 @@ pub struct Item {
     pub columns: &'static [&'static str],
 }
 
-/// A thing that is set, by what its registry has of it.
+/// A thing that is set, from what its registry has of it.
 fn item(
     frame: Frame,
     [name, about, example]: [&'static str; 3],

@@ -33,7 +33,7 @@ pub struct RoundArgs {
 type Whole = fn(&Which, Option<u32>, Option<Rounds>, (String, Consent)) -> Result<(), Failure>;
 
 impl RoundArgs {
-    /// Runs the `whole`. If one shard is asked for, runs that shard of the round that is at work, or of `first` under the points
+    /// Runs the `whole`. With `--shard` it runs that shard of the round that is at work, or of `first` under the points
     /// that it gives if none is planned yet.
     pub fn run(
         &self,

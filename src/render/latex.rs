@@ -7,6 +7,7 @@ mod table;
 pub use table::{Cell, Column, Table};
 
 use super::RenderError;
+use super::prose::capital;
 use base::text::{one_line, shown};
 use std::collections::BTreeMap;
 
@@ -150,13 +151,6 @@ impl Numbers {
 /// `text` as comments, a line each: nothing in it ends the comment.
 fn comment(text: &str) -> String {
     text.lines().fold(String::new(), |all, line| all + "% " + &one_line(line) + "\n")
-}
-
-/// `name` with a capital first letter.
-fn capital(name: &str) -> String {
-    let mut letters = name.chars();
-    let first = letters.next().map(|letter| letter.to_ascii_uppercase());
-    first.into_iter().chain(letters).collect()
 }
 
 #[cfg(test)]

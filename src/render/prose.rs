@@ -34,6 +34,13 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
     })
 }
 
+/// `name` with a capital first letter.
+pub fn capital(name: &str) -> String {
+    let mut letters = name.chars();
+    let first = letters.next().map(|letter| letter.to_ascii_uppercase());
+    first.into_iter().chain(letters).collect()
+}
+
 /// Two shares as percentages, those below one per cent with a decimal.
 fn percents(ends: [f64; 2]) -> String {
     let percent = |share: f64| {

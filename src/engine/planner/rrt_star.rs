@@ -61,14 +61,10 @@ struct RrtStar {
     /// How near the goal a node must be to be joined with it, in the unit of `range`; as near as `range` if absent.
     #[schemars(extend("exclusiveMinimum" = 0))]
     reach: Option<f64>,
-    /// Whether a new node takes the cheapest of its neighbours as parent and is offered to them; without, this is RRT that goes on after
-    /// its first path.
-    #[serde(default = "is_rewired")]
-    rewire: bool,
-}
-
-fn is_rewired() -> bool {
-    true
+    /// Whether every node keeps the nearest one as parent, in place of the cheapest of its neighbours: this is RRT that goes on after its
+    /// first path.
+    #[serde(default)]
+    nearest_parent: bool,
 }
 
 /// How many nearest nodes are neighbours among `count`: `e (1 + 1 / d) ln n`.
@@ -179,11 +175,11 @@ impl SampledSearch for RrtStar {
             let Some(sample) = sample else { continue };
             let near = costs.tree.nearest(&sample).0;
             let Some(step) = extended(motions, &costs.tree, near, &sample, self.range) else { continue };
-            let node = if self.rewire {
-                insert(motions, &mut costs, near, &step)
-            } else {
+            let node = if self.nearest_parent {
                 let cost = costs.cost[near as usize] + motions.distance(costs.tree.config(near), &step);
                 costs.add(&step, near, cost)
+            } else {
+                insert(motions, &mut costs, near, &step)
             };
             let to_goal = motions.distance(&step, request.goal);
             if to_goal <= self.reach.unwrap_or(self.range) && motions.goes(&step, request.goal) {

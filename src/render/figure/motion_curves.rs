@@ -19,7 +19,7 @@ pub static ENTRY: Entry = Entry {
     statistic: "Single trials.",
     settings: Accepted::shape::<Read>(),
     example: r#"
-panels = [{ problem = "C1", contenders = ["This method"] }]
+panels = [{ problem = "C1", contenders = ["Open list, smoothed (ours)"] }]
 quantity = "joints"
 sweep = "delta_deg=10.0"
 "#,

@@ -7,7 +7,7 @@ use crate::analysis::verdict::{ClaimVerdict, Verdicts};
 use crate::analysis::verdict_rule::Column;
 use crate::render::figure::caption;
 use crate::render::headline::{Headline, evidence, headlines};
-use crate::render::prose::{COLUMNS, markdown, prose, wrapped};
+use crate::render::prose::{COLUMNS, capital, markdown, prose, wrapped};
 use crate::render::tables;
 use crate::render::{RenderError, results, state};
 use std::collections::BTreeSet;
@@ -113,7 +113,7 @@ impl Page<'_> {
         text.extend(first.map(|first| wrapped("", &first, 0, COLUMNS) + "\n\n"));
         for headline in headlines(paper, self.verdicts) {
             let ours = headline.ours.as_ref().map_or_else(String::new, |ours| format!(": {ours}"));
-            let verdict = headline.verdict(self.verdicts);
+            let verdict = capital(&headline.verdict(self.verdicts));
             text += &item(0, &format!("{}. **{}**", markdown(&(headline.says + &ours)), markdown(&verdict)));
         }
         text + "\n" + &paragraph(&evidence(self.verdicts))

@@ -184,15 +184,7 @@ pub(super) fn printed(
                 });
                 own.push(claim);
             }
-            let whole = table.whole(document, (number, index), &own, ids);
-            if whole.is_none() && row.whole.is_some() && !document.is_part("table") {
-                let message = format!(
-                    "row `{}` of table `{}` is no claim by itself: fewer than two of its cells can be tested",
-                    row.id, table.id
-                );
-                faults.add(document.error_at(&format!("table.{number}.row.{index}.whole"), message));
-            }
-            claims.extend(whole);
+            claims.extend(table.whole(document, (number, index), (&own, ids), faults));
             claims.extend(own);
             let label = with_unit(row.label(), row.unit.as_ref());
             if more.iter().any(|cell| cell.claim.is_some()) {
@@ -281,8 +273,8 @@ impl TableSpec {
         &self,
         document: &Arc<Document>,
         (number, index): (usize, usize),
-        cells: &[Claim],
-        ids: &[String],
+        (cells, ids): (&[Claim], &[String]),
+        faults: &mut Faults,
     ) -> Option<Claim> {
         let row = &self.rows[index];
         let own = row.whole.as_ref().unwrap_or(&NOTHING);
@@ -290,6 +282,13 @@ impl TableSpec {
         let with = row.with.iter().map(|id| id.get_ref().clone());
         let parts: Vec<String> = parts.chain(with).collect();
         if parts.len() < 2 {
+            if row.whole.is_some() && !document.is_part("table") {
+                let message = format!(
+                    "row `{}` of table `{}` is no claim by itself: fewer than two of its cells can be tested",
+                    row.id, self.id
+                );
+                faults.add(document.error_at(&format!("table.{number}.row.{index}.whole"), message));
+            }
             return None;
         }
         let steps = ["table".to_owned(), number.to_string(), "row".to_owned(), index.to_string()];

@@ -74,7 +74,11 @@ impl<'k, T, W: Write> GroupWriter<'k, T, W> {
 fn io_error(error: PolarsError) -> io::Error {
     match error {
         PolarsError::IO { error, .. } => io::Error::new(error.kind(), error.to_string()),
-        other => io::Error::other(other.to_string()),
+        // The Parquet library words what the system refused as a fault of the format.
+        other => {
+            let text = other.to_string();
+            io::Error::other(text.rsplit("underlying IO error: ").next().unwrap_or_default().to_owned())
+        }
     }
 }
 

@@ -119,7 +119,7 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
         "prm_star",
         &[
             "sampler = 'halton'\niterations = 300\ngrowth = 1.2",
-            "sampler = 'seeded'\niterations = 300\nnearest = 6",
+            "sampler = 'seeded'\niterations = 300\nnearest = 30",
         ],
     ),
     (
@@ -152,7 +152,7 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
         &[
             "range = 20\nsampler = 'halton'\ngoal_share = 0.05\niterations = 600\ninformed = false",
             "range = 20\nsampler = 'seeded'\ngoal_share = 0.05\niterations = 600\ninformed = true",
-            "range = 20\nreach = 10\nsampler = 'seeded'\ngoal_share = 0.05\niterations = 600\ninformed = false\nrewire = false",
+            "range = 20\nreach = 10\nsampler = 'seeded'\ngoal_share = 0.05\niterations = 600\ninformed = false\nnearest_parent = true",
         ],
     ),
     ("shorten_best", &["least = 'length'", "least = 'nodes'"]),

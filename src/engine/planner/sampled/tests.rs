@@ -128,7 +128,8 @@ fn trees_that_never_change_and_roadmaps_with_few_neighbours_stay_longer_than_the
     let tree =
         "range = 20\nreach = 5\nsampler = 'seeded'\ngoal_share = 0\niterations = 2000\ninformed = false";
     let roadmap = "sampler = 'seeded'\niterations = 2000";
-    for (name, shared, change) in [("rrt_star", tree, "rewire = false"), ("prm_star", roadmap, "nearest = 4")]
+    for (name, shared, change) in
+        [("rrt_star", tree, "nearest_parent = true"), ("prm_star", roadmap, "nearest = 4")]
     {
         let [star, other] = ["", change].map(|change| mean(name, &format!("{shared}\n{change}")));
         assert!(
