@@ -59,6 +59,8 @@ pub struct Study {
     pub draws: Vec<String>,
     /// What `replan explore` runs of it under every interpretation.
     pub explore: Option<ExploredStudy>,
+    /// To how many instances of each group and repeats it is cut down, if it is explored.
+    pub cut_to: Option<[u32; 2]>,
     /// Limits on each trial.
     pub budget: BudgetSpec,
     /// How clocks are read.
@@ -183,11 +185,13 @@ impl Study {
     /// The study cut down to what is explored of it under each interpretation: no clock is read, and nothing is kept for figures.
     #[must_use]
     pub fn explored(mut self, explore: &ExploredStudy, instances: u32) -> Self {
+        let repeats = explore.repeats.unwrap_or(u32::MAX);
+        self.cut_to = Some([instances, repeats]);
         for group in &mut self.groups {
             group.instances = group.instances.min(instances);
         }
         for contender in &mut self.contenders {
-            contender.repeats = contender.repeats.min(explore.repeats.unwrap_or(u32::MAX));
+            contender.repeats = contender.repeats.min(repeats);
         }
         self.timing = None;
         self.keeps.clear();
@@ -295,10 +299,11 @@ impl Study {
         sha256(self.document.text().as_bytes())
     }
 
-    /// SHA-256 of what its spec asks to run: comments, the question and figures change nothing.
+    /// SHA-256 of what its spec asks to run, and of how an exploration cuts it down: comments, the question and figures change nothing.
     pub fn run_hash(&self) -> String {
         let mut run: Table = self.document.read_stored().expect("the spec of a checked study is TOML");
         run.retain(|key, _| !["question", "figure"].contains(&key));
+        run.extend(self.cut_to.map(|cut| ("cut_to".to_owned(), cut.to_vec().into())));
         sha256(run.to_string().as_bytes())
     }
 

@@ -59,6 +59,19 @@ fn a_second_round_draws_more_only_where_a_class_is_near_a_flip() {
 }
 
 #[test]
+fn another_number_of_instances_is_explored_anew() {
+    let toy = Toy::unexplored(&[CITED, MORE, MET]);
+    toy.0.done(&["explore", "./toy"]);
+    let file = toy.0.at("toy/paper.toml");
+    let text = fs::read_to_string(&file).unwrap();
+    let [before, after] = ["more_instances = { draws = 30 }", "more_instances = { draws = 36 }"];
+    assert!(text.contains(before));
+    fs::write(&file, text.replace(before, after)).unwrap();
+    toy.0.done(&["explore", "./toy"]);
+    assert_eq!(instances(&toy.first()), [BTreeSet::from([36]), BTreeSet::from([36])]);
+}
+
+#[test]
 fn a_second_round_draws_more_where_too_few_instances_are_solved() {
     let toy = Toy::unexplored(&[CROWD, MORE]);
     let (_, first_round) = planned(&toy);

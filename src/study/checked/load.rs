@@ -83,6 +83,7 @@ impl Study {
             groups: read_all(&spec.problems, &shared.groups, document, Some(&name), faults),
             contenders: read_all(&spec.contenders, &shared.contenders, document, Some(&name), faults),
             explore: shared.explore.as_ref().and_then(|explore| explore.study(&name)),
+            cut_to: None,
             name,
             sweeps: sweeps(spec.sweeps, document, faults),
             choices: Vec::new(),
