@@ -387,8 +387,8 @@ impl<'a> BuiltStudy<'a> {
         }
     }
 
-    /// The units in `todo`, grouped by family and seed, since such units share what is prepared; interpretations that
-    /// change contenders alone go together too. Groups are in the order of their first units.
+    /// The units in `todo`, grouped by family and seed, since such units of several interpretations share what is prepared;
+    /// interpretations that change contenders alone go together too. Groups are in the order of their first units.
     fn alike(&self, todo: &[usize], parts: &BTreeMap<usize, Part<'_>>) -> Vec<Vec<usize>> {
         let mut all: Vec<Vec<usize>> = Vec::new();
         let mut places = BTreeMap::new();
@@ -396,7 +396,8 @@ impl<'a> BuiltStudy<'a> {
             let unit = self.unit(index);
             // A trial of an arm or among polyhedra may take seconds, and what it is prepared for little: a stop would wait for all.
             let is_long = [WorldKind::Arm, WorldKind::ArmAmongPolyhedra, WorldKind::Polyhedra];
-            if parts.contains_key(&index) || is_long.contains(&unit.family.world()) {
+            let is_alone = self.interpretations.len() == 1 || parts.contains_key(&index);
+            if is_alone || is_long.contains(&unit.family.world()) {
                 all.push(vec![index]);
                 continue;
             }

@@ -4,6 +4,7 @@ use super::super::urdf::capsule_around;
 use super::*;
 use crate::geometry::{Frame, Vec3};
 use crate::kinematics::open_chain::OpenChain;
+use base::robot::Kind;
 use std::fs;
 use std::path::PathBuf;
 
@@ -44,6 +45,10 @@ fn hull_ends_m(file: &Path) -> Vec<(String, f64)> {
         return robot.bodies().iter().map(|body| (body.name.clone(), end(body))).collect();
     }
     let read = base::robot::read_urdf(file).unwrap();
+    if read.joints.iter().all(|joint| joint.kind == Kind::Slides) {
+        // What slides alone is a point with a body about it.
+        return Vec::new();
+    }
     let open = OpenChain::new(&read);
     let zero = vec![0.0; read.joints.len()];
     let frames = open.frames(&zero);
