@@ -88,9 +88,12 @@ def test_a_combination_that_is_missing_and_a_second_outcome_made_wrong_are_notic
     of = paper(name)
     verdicts = stored(of)
     wrong = copy.deepcopy(verdicts)
-    claim = next(claim for claim in wrong["claim"] if "across" in claim)
-    del claim["across"]
-    assert any("verdicts.toml says nothing" in line for line in different(of, wrong))
+    # Where no explored option votes, no claim says anything across interpretations.
+    claim = next((claim for claim in wrong["claim"] if "across" in claim), None)
+    assert claim is not None or name == "vamp"
+    if claim is not None:
+        del claim["across"]
+        assert any("verdicts.toml says nothing" in line for line in different(of, wrong))
     wrong = copy.deepcopy(verdicts)
     claim = next((claim for claim in wrong["claim"] if "second" in claim), None)
     assert (claim is not None) == (of.explorations[1] is not None)
