@@ -110,12 +110,15 @@ impl<'a> Lower<'a> {
         all: &Number,
     ) -> String {
         let &Number { below, equal, above, n, .. } = all;
+        let change = if value == 0.0 {
+            "unchanged".to_owned()
+        } else {
+            format!("{:.2} % {}", value.abs(), if value < 0.0 { "lower" } else { "higher" })
+        };
         format!(
-            "{}: {metric} {:.2} % {} on the whole (95 % interval of the change {low:.2} to {high:.2}, {} over {n} instances); lower on \
+            "{}: {metric} {change} on the whole (95 % interval of the change {low:.2} to {high:.2}, {} over {n} instances); lower on \
              {below}, equal on {equal}, higher on {above} of {} cases{}",
             self.of.description(),
-            value.abs(),
-            if value < 0.0 { "lower" } else { "higher" },
             how(all.is_agreed),
             below + equal + above,
             if self.of.all_ends { "" } else { " that both solve" },

@@ -21,7 +21,6 @@ impl Paper {
             tables.iter().flat_map(|table| &table.rows).flat_map(|row| &row.with).collect();
         self.check_parts(specs, &with, &claims, faults);
         self.check_repeated(tables, faults);
-        self.check_repeated(tables, faults);
         self.check_headlines(faults);
         self.check_inventory(&claims, &studies, &figures, faults);
         self.check_report(&claims, &figures, faults);
