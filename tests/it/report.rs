@@ -96,7 +96,7 @@ fn whether_a_cost_below_the_straight_line_is_possible_is_answered_within_three_c
     let report = read(&root().join("paper_repro.md"));
     // First click: what was found in the paper. Second: the printed number's verdict.
     let found = report.split("### [zhang](#zhang)").nth(1).unwrap().split("###").next().unwrap();
-    assert!(found.contains("Printed entries contradict arithmetic or each other"), "{found}");
+    assert!(found.contains("Two printed costs cannot be true"), "{found}");
     let chapter = report.split("<a id=\"zhang\"></a>").nth(1).unwrap();
     let target = "plots/zhang/details.md#t1.improved.cost";
     assert!(
