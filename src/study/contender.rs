@@ -77,19 +77,6 @@ impl Contender {
         let planner = planner.expect("a checked contender starts with a planner");
         Ok(Pipeline { planner, stages })
     }
-
-    /// What else is wrong with the settings of its stages, where some of them are not accepted: one fault hides no other.
-    pub fn check_rest(&self, point: &Interpretation, sweep: &SweepPoint, faults: &mut Faults) {
-        for stage in &self.stages {
-            let built = |settings: &Settings| stage.built(settings).err();
-            let schema = stage.entry.settings.schema();
-            let example = stage.entry.example;
-            let found = stage.effective(&self.label, point, sweep).faults_beside(&schema, example, built);
-            for fault in found {
-                faults.add(fault);
-            }
-        }
-    }
 }
 
 /// Pipelines that were built: most options change few contenders, so that one pipeline serves many interpretations.

@@ -7,7 +7,7 @@ use super::family::{Entry, Family};
 use super::inputs::Inputs;
 use super::key::SweepKey;
 use super::verification::CORNER_COLUMNS;
-use base::settings::{Faults, Settings, SettingsError};
+use base::settings::{Settings, SettingsError};
 use std::sync::Arc;
 use toml::Table;
 
@@ -70,18 +70,6 @@ impl Group {
         inputs: &Inputs,
     ) -> Result<Box<dyn Family>, StudyError> {
         (self.family.build)(&self.settings_under(at, point), inputs)
-    }
-
-    /// What else is wrong with its settings and the files that they name, where some of them are not accepted: one fault hides no
-    /// other.
-    pub fn check_rest(&self, at: &SweepPoint, point: &Interpretation, inputs: &Inputs, faults: &mut Faults) {
-        let built = |settings: &Settings| self.built(settings, inputs).err();
-        let schema = self.family.settings.schema();
-        let example = self.family.example;
-        let found = self.settings_under(at, point).faults_beside(&schema, example, built);
-        for fault in found {
-            faults.add(fault);
-        }
     }
 
     /// Builds its family from `settings`, to find faults. Those of a file that they name are reported elsewhere.

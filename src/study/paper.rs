@@ -28,9 +28,9 @@ use self::table_spec::TableSpec;
 pub use self::tables::{PrintedCell, PrintedRow, PrintedTable};
 pub use self::withdrawn::Withdrawn;
 pub use super::spec::Digits;
-use super::spec::{BudgetSpec, ChoiceSpec, ContenderSpec, ExploreSpec, ProblemsSpec, StudySpec};
+use super::spec::{BudgetSpec, ChoiceSpec, ContenderSpec, ExploreSpec, ProblemsSpec};
 use super::{Choice, Inputs, Interpretation, Shared, Study, StudyError, files};
-use base::settings::{Accepted, Document, Faults, schema_of};
+use base::settings::{Accepted, Document, Faults};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -277,9 +277,9 @@ impl Paper {
             return Err(StudyError::Missing { path, what });
         }
         let files = files::beside(folder)?;
-        let written = Document::open(&path)?;
-        let document = written.salvaged(&schema("paper"), faults);
-        let mut spec = faults.keep(document.read::<PaperSpec>());
+        let document = Document::open(&path)?;
+        let read = document.validate(&schema("paper")).and_then(|()| document.read::<PaperSpec>());
+        let mut spec = faults.keep(read);
         let shared = spec.as_mut().map(|spec| spec.shared(&document, faults)).unwrap_or_default();
         if spec.is_none() {
             // What studies lack may be written there.
@@ -290,12 +290,10 @@ impl Paper {
         let mut studies = Vec::new();
         let mut others = Vec::new();
         for path in &files {
-            let Some(document) = faults.keep(Document::open(path)) else { continue };
-            match files::kind_of(&document, &written) {
+            let Some(own) = faults.keep(Document::open(path)) else { continue };
+            match files::kind_of(&own, &document) {
                 files::STUDY => {
-                    // Settings stay as they are written: who reads them tells what is wrong there, and what else is.
-                    let document = document.salvaged(&schema_of::<StudySpec>(), faults);
-                    let study = Study::gather(&document, &shared, inputs, faults)?;
+                    let study = Study::gather(&own, &shared, inputs, faults)?;
                     if study.as_ref().is_none_or(|study| study.contenders.is_empty()) && faults.are_in(path) {
                         faults.unread("contender");
                     }
@@ -342,9 +340,6 @@ impl Paper {
             study.of_paper = spec.left_out();
         }
         let cells = tables::cell_ids(&spec.tables);
-        if document.is_part("table") {
-            faults.unread(names_of("claim"));
-        }
         let (mut claims, tables) = tables::printed(document, &spec.tables, &cells, faults);
         claims
             .extend(spec.claims.iter().enumerate().map(|claim| self::claim(document, claim, &cells, faults)));

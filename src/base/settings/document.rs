@@ -1,6 +1,5 @@
 //! A TOML file in memory: its text, what it says, and where each value stands.
 
-use super::nearest::nearest;
 use super::reader::{self, Refused};
 use super::validate::{Fault, faults};
 use super::{Faults, SettingsError, schema_of};
@@ -21,8 +20,6 @@ use toml::de::{DeTable, DeValue};
 pub struct Document {
     path: PathBuf,
     parsed: Parsed,
-    /// The keys at its top under which a part of it was taken away.
-    parted: BTreeSet<String>,
 }
 
 /// The most bytes of a spec: twenty thousand boxes have room, and `check` reads them in seconds.
@@ -59,26 +56,7 @@ impl Document {
 
     /// A document with the given text, as if read from `path`.
     pub fn new(path: &Path, text: String) -> Arc<Self> {
-        Arc::new(Self {
-            path: path.to_owned(),
-            parsed: Parsed::new(text, |text| parse(text)),
-            parted: BTreeSet::new(),
-        })
-    }
-
-    /// The document with a part of what it says taken away, and its text as it was; `change` gives the keys at its top under
-    /// which it took something.
-    pub(super) fn in_part(
-        &self,
-        change: impl FnOnce(&mut Spanned<DeValue<'_>>) -> BTreeSet<String>,
-    ) -> Arc<Self> {
-        let mut parted = BTreeSet::new();
-        let parsed = Parsed::new(self.text().to_owned(), |text| {
-            let mut value = parse(text)?;
-            parted = change(&mut value);
-            Ok(value)
-        });
-        Arc::new(Self { path: self.path.clone(), parsed, parted })
+        Arc::new(Self { path: path.to_owned(), parsed: Parsed::new(text, |text| parse(text)) })
     }
 
     /// The path it was read from.
@@ -105,7 +83,7 @@ impl Document {
             return Err(self.error(0..0, "the file is empty; a TOML table is expected"));
         }
         let value = self.parsed()?;
-        self.refuse_parted(faults(&schema_of::<T>(), value))?;
+        self.refuse(faults(&schema_of::<T>(), value))?;
         reader::read(value).map_err(|e| self.refused(e, value.span()))
     }
 
@@ -123,18 +101,7 @@ impl Document {
     /// # Errors
     /// A syntax error, or every fault at its own place.
     pub fn validate(&self, schema: &serde_json::Value) -> Result<(), SettingsError> {
-        self.refuse_parted(faults(schema, self.parsed()?))
-    }
-
-    /// Whether something was taken away under the key at its top, or under one that is nearly written so: what seems to be missing
-    /// there may be written.
-    pub fn is_part(&self, key: &str) -> bool {
-        self.parted.iter().any(|part| part == key || nearest(part, [key]).is_some())
-    }
-
-    /// Whether something was taken away from it.
-    pub fn is_rest(&self) -> bool {
-        !self.parted.is_empty()
+        self.refuse(faults(schema, self.parsed()?))
     }
 
     /// Whether it is TOML.
@@ -216,17 +183,6 @@ impl Document {
         let mut all = Faults::default();
         for fault in found {
             all.add(self.error(fault.span, fault.message));
-        }
-        all.done()
-    }
-
-    /// The same of the whole document: what seems to be lacking where a part was taken away may be written.
-    fn refuse_parted(&self, found: Vec<Fault>) -> Result<(), SettingsError> {
-        let mut all = Faults::default();
-        for fault in found {
-            let lacks = fault.lacks.filter(|_| !self.parted.is_empty());
-            let error = self.error(fault.span, fault.message);
-            all.add(lacks.into_iter().fold(error, |error, key| error.about(&key)));
         }
         all.done()
     }

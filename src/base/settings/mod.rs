@@ -15,7 +15,6 @@ mod nearest;
 mod place;
 mod reader;
 mod renamed;
-mod salvage;
 mod schema;
 mod spanned;
 mod table;

@@ -35,8 +35,6 @@ enum Origin {
     Parts { whole: Box<Settings>, keys: Vec<String>, whose: String },
     /// It was put together from tables of a document, the one whose values win first; faults that are in none of them stand at `span`.
     Layered { document: Arc<Document>, span: Range<usize>, layers: Vec<Part> },
-    /// It is what was accepted of other settings, under `kept`, and something else for the rest.
-    Remains { whole: Box<Settings>, kept: BTreeSet<String> },
     /// The program put it together.
     Composed(String),
 }
@@ -126,11 +124,6 @@ impl Settings {
         let keys = keys.iter().map(|key| (*key).to_owned()).collect();
         let origin = Origin::Parts { whole: Box::new(whole.clone()), keys, whose: whose.into() };
         Self { table, origin, filled: Vec::new() }
-    }
-
-    /// What was accepted of `whole`, under `kept`, and something else for the rest: what is wrong with the rest is reported at no place.
-    pub(super) fn remains(whole: &Self, kept: BTreeSet<String>, table: Table) -> Self {
-        Self { table, origin: Origin::Remains { whole: Box::new(whole.clone()), kept }, filled: Vec::new() }
     }
 
     /// These settings with the keys of `over` laid on top, on behalf of `by`.
@@ -298,10 +291,6 @@ impl Settings {
                 let whole = parts().find_map(|part| part.place.find_whole(sought));
                 let found = whole.or_else(|| parts().find_map(|part| part.place.find(sought)));
                 document.error(found.unwrap_or_else(|| span.clone()), message)
-            }
-            Origin::Remains { whole, kept } if kept.contains(sought.first()) => whole.placed(message, sought),
-            Origin::Remains { .. } => {
-                SettingsError::Composed { origin: "what is left of wrong settings".to_owned(), message }
             }
             Origin::Composed(origin) => SettingsError::Composed { origin: origin.clone(), message },
         }

@@ -23,13 +23,11 @@ pub(super) struct Fault {
     pub(super) span: Range<usize>,
     /// What was found and what is accepted.
     pub(super) message: String,
-    /// The key that is missing, or that an unknown key was meant to be.
-    pub(super) lacks: Option<String>,
 }
 
 impl Fault {
     fn new(span: Range<usize>, message: String) -> Self {
-        Self { span, message, lacks: None }
+        Self { span, message }
     }
 }
 
@@ -262,18 +260,15 @@ fn keys(node: Node<'_>, subject: Subject<'_>, table: &DeTable<'_>, found: &mut F
             }
             Some(_) if matches!(found, FoundFaults::Any(_)) => *found = FoundFaults::Any(true),
             Some(_) => {
-                let near = nearest(name, node.properties().map(|(key, _)| key));
-                meant.extend(near);
-                let lacks = near.map(str::to_owned);
-                found.push(|| Fault { lacks, ..Fault::new(span, unknown(node, name)) });
+                meant.extend(nearest(name, node.properties().map(|(key, _)| key)));
+                found.push(|| Fault::new(span, unknown(node, name)));
             }
             None => {}
         }
     }
     // A key that is only misspelled is not missing as well.
     for key in node.required().filter(|key| table.get(*key).is_none() && !meant.contains(key)) {
-        let fault = || Fault::new(subject.span(), missing(node, key));
-        found.push(|| Fault { lacks: Some(key.to_owned()), ..fault() });
+        found.push(|| Fault::new(subject.span(), missing(node, key)));
     }
 }
 

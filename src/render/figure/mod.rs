@@ -253,9 +253,7 @@ pub fn build(figure: &FigureSpec, study: &Study, paper: &Paper) -> Result<Box<dy
         let message = format!("figure `{}` has no settings: {}", figure.id.get_ref(), error.message());
         study.document.error(figure.id.span(), message).about("settings")
     })?;
-    if !["figure", "keep"].iter().any(|key| study.document.is_part(key)) {
-        check_kept(figure, study, kind.as_ref())?;
-    }
+    check_kept(figure, study, kind.as_ref())?;
     Ok(kind)
 }
 

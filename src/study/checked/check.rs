@@ -131,10 +131,8 @@ impl Study {
     ) -> Result<(), StudyError> {
         let mut families: Vec<(&Group, Arc<dyn Family>)> = Vec::new();
         for (group, at) in self.posed() {
-            match keep(faults, known.family((group, at), point, inputs))? {
-                Some(family) => families.push((group, family)),
-                None => group.check_rest(at, point, inputs, faults),
-            }
+            let family = keep(faults, known.family((group, at), point, inputs))?;
+            families.extend(family.map(|family| (group, family)));
         }
         let kinds: BTreeSet<_> = families.iter().map(|(_, family)| family.world()).collect();
         for contender in &self.contenders {
@@ -158,10 +156,7 @@ impl Study {
     ) {
         for contender in &self.contenders {
             for sweep in self.contender_points() {
-                let Some(pipeline) = faults.keep(contender.pipeline(point, &sweep)) else {
-                    contender.check_rest(point, &sweep, faults);
-                    continue;
-                };
+                let Some(pipeline) = faults.keep(contender.pipeline(point, &sweep)) else { continue };
                 faults.keep(check_extent(contender, &sweep, pipeline.planner.asks(), families));
                 if contender.repeats > 1 && !pipeline.planner.draws() {
                     let message = format!(

@@ -8,7 +8,7 @@ use super::super::name::slug;
 use super::super::spec::{BudgetSpec, ContenderSpec, ProblemsSpec, StageSpec, StudySpec, SweepSpec};
 use super::super::{family, planner, task};
 use super::check::check_selections;
-use super::{Contender, Group, Settings, Shared, Study, Sweep, columns_of, each, labels_of, sweeps_of};
+use super::{Contender, Group, Settings, Shared, Study, Sweep, columns_of, each, labels_of};
 use base::settings::{Document, Faults, Place, SettingsError, Spanned, did_you_mean, none_called, schema_of};
 use engine::planner::{Build, Entry};
 use serde_json::Value;
@@ -236,12 +236,9 @@ fn read_one<S: Alike>(
 fn check_labels(spec: &StudySpec, document: &Document, study: &str, faults: &mut Faults) {
     let mut labels = spec.problems.iter().map(|p| &p.label).chain(spec.contenders.iter().map(|c| &c.label));
     let is_nameless = labels.any(|label| slug(label.get_ref()).is_empty());
-    if is_nameless || document.is_part("problems") || document.is_part("contender") {
+    if is_nameless {
         faults.unread(labels_of(study));
         faults.unread(columns_of(study));
-    }
-    if document.is_part("sweep") {
-        faults.unread(sweeps_of(study));
     }
     unique(document, "problem group", spec.problems.iter().map(|p| &p.label), faults);
     unique(document, "contender", spec.contenders.iter().map(|c| &c.label), faults);

@@ -40,9 +40,6 @@ impl Study {
 
     /// Refuses a study that plans nothing: without problems, or without a contender.
     fn check_runs(&self, faults: &mut Faults) {
-        if self.document.is_rest() {
-            return;
-        }
         let lists = [("problems", self.groups.is_empty()), ("contender", self.contenders.is_empty())];
         for (key, is_empty) in lists {
             if is_empty && self.task.name == task::default().name {

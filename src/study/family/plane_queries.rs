@@ -39,12 +39,8 @@ radius_mm = 220
         let read: PlaneQueries = settings.read()?;
         let file = inputs.locate(&read.map).map_err(|message| settings.error_at("map", message))?;
         let document = Document::open(&file)?;
-        let mut faults = Faults::default();
-        let Some((map, document)) = document.read_rest::<MapFile>(&mut faults) else {
-            return Err(faults.error().into());
-        };
-        let plane = faults.keep(map.plane(&document));
-        let plane = faults.or(plane)?;
+        let map: MapFile = document.read()?;
+        let plane = map.plane(&document)?;
         let [start, goal] = [
             EndOf { what: "start", key: "start_mm", written: &map.start_mm, over: read.start_mm.as_ref() },
             EndOf { what: "goal", key: "goal_mm", written: &map.goal_mm, over: read.goal_mm.as_ref() },
@@ -155,7 +151,7 @@ impl MapFile {
             ConvexPolygon::new(vertices).map_err(|e| document.error(entry.span(), e.to_string()))
         };
         let mut faults = Faults::default();
-        if !document.is_part("size_mm") && !self.size_mm.iter().all(|side| side.is_finite() && *side > 0.0) {
+        if !self.size_mm.iter().all(|side| side.is_finite() && *side > 0.0) {
             let message = format!("size_mm is {}; two lengths above 0 are accepted", listed(self.size_mm));
             faults.add(document.error_at("size_mm", message));
         }

@@ -241,11 +241,7 @@ pub(super) fn claim(
     }
     let parts = faults.keep(parts(document, spec)).unwrap_or(Parts::None);
     let tests = tests(document, (number, spec), cells);
-    if tests.is_empty()
-        && spec.untestable.is_none()
-        && given(spec).next().is_none()
-        && !document.is_part("claim")
-    {
+    if tests.is_empty() && spec.untestable.is_none() && given(spec).next().is_none() {
         let message = format!(
             "claim `{id}` needs `check`, `rule`, parts, or `untestable` with what the paper leaves out"
         );

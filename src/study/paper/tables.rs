@@ -236,9 +236,6 @@ impl TableSpec {
 
     /// A row has a cell for each column, and says nothing of cells that there are not.
     fn check_row(&self, document: &Document, (number, index): (usize, usize), faults: &mut Faults) {
-        if document.is_part("table") {
-            return;
-        }
         let row = &self.rows[index];
         let place = format!("table.{number}.row.{index}");
         let ids: Vec<&str> = columns(self).map(|(.., id)| id).collect();
@@ -282,7 +279,7 @@ impl TableSpec {
         let with = row.with.iter().map(|id| id.get_ref().clone());
         let parts: Vec<String> = parts.chain(with).collect();
         if parts.len() < 2 {
-            if row.whole.is_some() && !document.is_part("table") {
+            if row.whole.is_some() {
                 let message = format!(
                     "row `{}` of table `{}` is no claim by itself: fewer than two of its cells can be tested",
                     row.id, self.id
@@ -402,7 +399,7 @@ impl Cell<'_> {
         for (_, _, settings) in &mut tests {
             fill(settings, &[("{row}", &row.id), ("{column}", self.column.2)]);
         }
-        if tests.is_empty() && untestable.is_none() && !self.document.is_part("table") {
+        if tests.is_empty() && untestable.is_none() {
             let message = format!(
                 "column `{}` of table `{}`: its cells are printed, and nothing says how they are judged; `check`, `rule`, `untestable` \
                  with what the paper leaves out, or `none` with what else they are is needed",

@@ -1,4 +1,4 @@
-//! What is left of documents that are not accepted as they are, what they are like, and where their keys stand.
+//! What documents are like, and where their keys stand.
 
 use super::*;
 
@@ -30,30 +30,6 @@ struct Joint {
 
 fn document(text: &str) -> std::sync::Arc<Document> {
     Document::new(Path::new("a.toml"), text.to_owned())
-}
-
-#[test]
-fn a_wrong_first_table_of_a_list_takes_no_other_with_it() {
-    let text = "name = 'a'\ntool = { name = 't', length = 1 }\n[[joint]]\nspeed = 1\n[[joint]]\nlower = 2\n";
-    let mut faults = Faults::default();
-    let (arm, rest) = document(text).read_rest::<Arm>(&mut faults).unwrap();
-    assert_eq!(arm.joint, [Joint { lower: 2.0, speed: None }]);
-    assert!(rest.is_part("joint") && rest.is_rest() && !rest.is_part("tool"));
-    let message = faults.error().to_string();
-    assert!(
-        message.starts_with("a.toml:3:1: missing key `lower`") && message.lines().count() == 2,
-        "{message}"
-    );
-}
-
-#[test]
-fn a_list_that_lacks_an_element_is_called_unread() {
-    let text = "name = 'a'\ntool = { name = 't', length = 1 }\njoint = [3, { lower = 2 }]\n";
-    let mut faults = Faults::default();
-    let (_, rest) = document(text).read_rest::<Arm>(&mut faults).unwrap();
-    faults.add(rest.error_at("joint", "two joints are needed").about("joint"));
-    let message = faults.error().to_string();
-    assert!(message.starts_with("a.toml:3:10: `joint[0]` is 3") && message.lines().count() == 2, "{message}");
 }
 
 #[test]

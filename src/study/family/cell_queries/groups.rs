@@ -11,7 +11,6 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::ops::Range;
-use std::sync::Arc;
 
 /// What a file of groups may hold.
 pub const GROUPS_FILE: Accepted = Accepted::shape::<GroupsFile>();
@@ -43,11 +42,9 @@ struct GroupEntry {
 pub(super) type Placed = (Vec<Query>, Vec<[Range<usize>; 2]>);
 
 /// The queries of a file of groups.
-pub(super) fn read_queries(written: &Arc<Document>) -> Result<Placed, SettingsError> {
+pub(super) fn read_queries(document: &Document) -> Result<Placed, SettingsError> {
+    let file: GroupsFile = document.read()?;
     let mut faults = Faults::default();
-    let Some((file, document)) = written.read_rest::<GroupsFile>(&mut faults) else {
-        return Err(faults.error());
-    };
     let mut pose = |name: &Spanned<String>| {
         let found = file.pose_deg.get(name.get_ref()).ok_or_else(|| {
             let known = file.pose_deg.keys().map(String::as_str);
@@ -72,11 +69,11 @@ pub(super) fn read_queries(written: &Arc<Document>) -> Result<Placed, SettingsEr
         Some(Query { name: group.name.get_ref().clone(), start: start?, goal: goal? })
     };
     let queries: Vec<Query> = file.groups.iter().filter_map(query).collect();
-    faults.keep(all_in_degrees(&file.pose_deg, &document));
+    faults.keep(all_in_degrees(&file.pose_deg, document));
     for (place, message) in name::repeated(file.groups.iter().map(|group| group.name.get_ref().as_str())) {
         faults.add(document.error(file.groups[place].name.span(), message));
     }
-    if file.groups.is_empty() && !document.is_part("group") {
+    if file.groups.is_empty() {
         faults.add(document.error_at("group", "there is no group; at least one is accepted"));
     }
     let places = file.groups.iter().map(|group| [group.from.span(), group.to.span()]).collect();

@@ -14,7 +14,7 @@ use crate::{
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned, did_you_mean};
 use base::units::{points_in_metres, radius_in_metres, seems_in_metres, unbent};
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize, de::IgnoredAny};
+use serde::{Deserialize, Serialize};
 use std::{collections::BTreeSet, ops::Range, path::Path};
 
 /// What a robot file may hold.
@@ -92,17 +92,12 @@ struct CapsuleEntry {
     radius_mm: Spanned<f64>,
 }
 
-/// The file being read, without what is not accepted in it, which knows the places in it.
-struct Source<'a>(&'a Document, &'a [Range<usize>]);
+/// The file being read, which knows the places in it.
+struct Source<'a>(&'a Document);
 
 impl Source<'_> {
     fn fault(&self, span: &Range<usize>, message: impl Into<String>) -> SettingsError {
         self.0.error(span.clone(), message)
-    }
-
-    /// The number, from 0, that the joint of the number `index` has in the whole file.
-    fn number<T>(&self, index: usize, joint: &Spanned<T>) -> usize {
-        self.1.iter().position(|written| *written == joint.span()).unwrap_or(index)
     }
 
     fn finite(&self, key: &str, value: &Spanned<f64>) -> Result<f64, SettingsError> {
@@ -114,32 +109,19 @@ impl Source<'_> {
     }
 }
 
-/// The joints of a file whatever stands in them.
-#[derive(Deserialize, Default)]
-struct Joints {
-    #[serde(default)]
-    joint: Vec<Spanned<IgnoredAny>>,
-}
-
 pub(super) fn parse(text: &str, path: &Path) -> Result<Robot, KinematicsError> {
-    let written = Document::new(path, text.to_owned());
-    let all: Joints = written.read_stored().unwrap_or_default();
-    let all: Vec<Range<usize>> = all.joint.iter().map(Spanned::span).collect();
+    let document = Document::new(path, text.to_owned());
+    let file: RobotFile = document.read()?;
     let mut faults = Faults::default();
-    let Some((file, document)) = written.read_rest::<RobotFile>(&mut faults) else {
-        return Err(faults.error().into());
-    };
-    let source = Source(&document, &all);
+    let source = Source(&document);
     let tool_length_m = faults.keep(tool_length_m(&source, &file.tool.length_mm));
     let joints = joints::joints(&source, &file, &mut faults);
     let tool = tool_frame(tool_length_m.unwrap_or(SOME_TOOL_M));
-    // Rows mean nothing certain without the convention that they are written by.
-    let joints = joints.filter(|_| !document.is_part("convention"));
     let chain = joints.and_then(|joints| faults.keep(joints::chain(&source, &file, &joints, tool)));
     let (chain, far) = chain.unzip();
     let arm = chain.and_then(|chain| faults.keep(arm(&source, &file, chain)));
     let links = Links {
-        chain: arm.as_ref().map(Arm::chain).filter(|_| !document.is_part("body")),
+        chain: arm.as_ref().map(Arm::chain),
         far: far.flatten(),
         tool_length_m: tool_length_m.unwrap_or(SOME_TOOL_M),
     };
@@ -235,7 +217,7 @@ fn bodies(
             faults.add(source.fault(&name.span(), message));
         }
     }
-    if names.is_empty() && !source.0.is_part("body") {
+    if names.is_empty() {
         faults.add(source.fault(&entries.span(), "no body is given; accepted: at least one"));
     }
     faults.keep_each(entries.get_ref().iter().map(|entry| body(source, entry, links)))
@@ -258,7 +240,7 @@ fn body(source: &Source, entry: &BodyEntry, links: &Links) -> Result<Body, Setti
             faults.add(source.fault(&name.span(), message));
         }
     }
-    if names.is_empty() && !source.0.is_part("body") {
+    if names.is_empty() {
         faults.add(source.fault(&entry.name.span(), "the body has no capsule; accepted: at least one"));
     }
     let parts = faults.keep_each(entry.capsule.iter().map(|capsule| part(source, capsule, links)));

@@ -376,21 +376,19 @@ fn a_longer_tool_takes_its_capsules_along_and_moves_nothing_else() {
 }
 
 #[test]
-fn a_value_out_of_range_hides_no_fault_of_another_joint_or_capsule() {
+fn a_value_that_makes_no_sense_hides_no_fault_of_another_joint_or_capsule() {
     let text = FILE
-        .replacen("lower_deg = -170", "lower_deg = -1e308", 1)
         .replacen("lower_deg = -135", "lower_deg = 500", 1)
         .replacen("radius_mm = 150", "radius_mm = -150", 1)
         .replacen("length_mm = 150", "length_mm = -150", 1);
     let refused = Robot::parse(&text, Path::new("up6.toml")).unwrap_err().to_string();
     let lines: Vec<&str> = refused.lines().filter(|line| line.starts_with("up6.toml:")).collect();
     let parts = [
-        "`lower_deg` is -1e308; a number from -3600 to 3600",
         "joint 5: upper_deg is 135; accepted: more than lower_deg",
         "tool.length_mm is -150",
         "the capsule's radius is -0.15",
     ];
-    assert!(lines.len() == 4 && lines.iter().zip(parts).all(|(line, part)| line.contains(part)), "{refused}");
+    assert!(lines.len() == 3 && lines.iter().zip(parts).all(|(line, part)| line.contains(part)), "{refused}");
 }
 
 #[test]

@@ -9,7 +9,6 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use std::ops::Range;
 use std::path::Path;
-use std::sync::Arc;
 
 /// What stands still around a robot.
 #[derive(Debug, Clone, PartialEq)]
@@ -258,7 +257,7 @@ impl Scene {
     /// # Errors
     /// As [`parse`](Self::parse), and if the file cannot be read.
     pub fn load(path: &Path) -> Result<Self, SettingsError> {
-        Self::parse(&Document::open(path)?)
+        Self::parse(&*Document::open(path)?)
     }
 
     /// The scene that `document` describes.
@@ -266,20 +265,13 @@ impl Scene {
     /// # Errors
     /// All of them at once: the line and column of an unknown key, a number that is not finite, a size that is not above 0, a shape that
     /// encloses nothing, a name that stands twice, or obstacles that all lie within 10 mm, as in a file in metres.
-    pub fn parse(written: &Arc<Document>) -> Result<Self, SettingsError> {
+    pub fn parse(document: &Document) -> Result<Self, SettingsError> {
+        let file: SceneFile = document.read()?;
         let mut faults = Faults::default();
-        let Some((file, document)) = written.read_rest::<SceneFile>(&mut faults) else {
-            return Err(faults.error());
-        };
-        let document = document.as_ref();
-        if !document.is_rest() {
-            faults.keep(file.millimetres(document));
-        }
+        faults.keep(file.millimetres(document));
         let mut scene =
             Self { name: file.name.clone(), base: Frame::IDENTITY, obstacles: Vec::new(), under: 0 };
-        if !document.is_part("support") {
-            scene.stand_on(document, &file.support, &mut faults);
-        }
+        scene.stand_on(document, &file.support, &mut faults);
         for (kind, obstacles) in file.solids() {
             for (index, (name, solid)) in obstacles.into_iter().enumerate() {
                 let fault = |key: &str, message: &str| {

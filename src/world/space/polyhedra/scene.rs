@@ -6,7 +6,6 @@ use base::settings::{Accepted, Document, Faults, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
-use std::sync::Arc;
 
 /// Obstacles and the domain they stand in, as read.
 #[derive(Debug, Clone, PartialEq)]
@@ -188,18 +187,16 @@ impl Shape {
 /// A [`SettingsError`] with line and column for what is not TOML, not known or missing, and for an obstacle that
 /// is not convex, unbounded, flat or has a plane twice.
 pub fn read_scene(path: &Path) -> Result<Scene, SettingsError> {
-    parse_scene(&Document::open(path)?)
+    parse_scene(&*Document::open(path)?)
 }
 
-/// The scene that `written` describes.
+/// The scene that `document` describes.
 ///
 /// # Errors
 /// As [`read_scene`], but for a file that cannot be read.
-pub fn parse_scene(written: &Arc<Document>) -> Result<Scene, SettingsError> {
+pub fn parse_scene(document: &Document) -> Result<Scene, SettingsError> {
+    let file: SceneFile = document.read()?;
     let mut faults = Faults::default();
-    let Some((file, document)) = written.read_rest::<SceneFile>(&mut faults) else {
-        return Err(faults.error());
-    };
     let solid = |(index, entry): (usize, &Shape)| {
         let wrong = |e: GeometryError| {
             document.error_at(&format!("obstacle.{index}.{}", e.place("points")), e.to_string())
@@ -210,11 +207,10 @@ pub fn parse_scene(written: &Arc<Document>) -> Result<Scene, SettingsError> {
         entry.support().map_err(|(key, message)| document.error_at(&format!("support.{key}"), message))
     };
     let bodies = faults.keep_each(file.obstacle.iter().enumerate().map(solid));
-    let stands = file.support.as_ref().filter(|_| !document.is_part("support"));
-    let support = faults.keep(stands.map(support).transpose()).flatten();
+    let support = faults.keep(file.support.as_ref().map(support).transpose()).flatten();
     let DomainEntry { min, max } = file.domain;
     let turned = min.iter().zip(&max).enumerate().filter(|(_, (low, high))| low >= high);
-    for (axis, (low, high)) in turned.filter(|_| !document.is_part("domain")) {
+    for (axis, (low, high)) in turned {
         let message = format!("`max[{axis}]` is {high}; a number above `min[{axis}]`, {low}, is accepted");
         faults.add(document.error_at(&format!("domain.max.{axis}"), message));
     }

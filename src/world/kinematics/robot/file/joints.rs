@@ -54,19 +54,15 @@ pub(super) fn about_joint(source: &Source, error: &KinematicsError) -> Option<Se
 /// The joints of `file`; what is wrong with them goes to `faults`.
 pub(super) fn joints(source: &Source, file: &RobotFile, faults: &mut Faults) -> Option<[Joint; AXES]> {
     let entries = file.joint.get_ref();
-    let numbered =
-        entries.iter().enumerate().map(|(index, entry)| (index, source.number(index, entry), entry));
-    let joints = faults.keep_each(numbered.map(|(index, number, entry)| joint(source, index, number, entry)));
-    // What was not accepted may be the joint that seems to be missing, or the longest link.
-    if !source.0.is_part("joint") {
-        let count = entries.len();
-        if count != AXES {
-            let span = entries.last().map_or(file.joint.span(), Spanned::span);
-            faults.add(source.fault(&span, format!("{count} joints were given; accepted: {AXES}")));
-        }
-        for fault in other_units(source, entries) {
-            faults.add(fault);
-        }
+    let joints =
+        faults.keep_each(entries.iter().enumerate().map(|(index, entry)| joint(source, index, entry)));
+    let count = entries.len();
+    if count != AXES {
+        let span = entries.last().map_or(file.joint.span(), Spanned::span);
+        faults.add(source.fault(&span, format!("{count} joints were given; accepted: {AXES}")));
+    }
+    for fault in other_units(source, entries) {
+        faults.add(fault);
     }
     joints.try_into().ok()
 }
@@ -189,12 +185,7 @@ pub(super) fn chain(
     chain.map_err(fault)
 }
 
-fn joint(
-    source: &Source,
-    index: usize,
-    number: usize,
-    entry: &Spanned<JointEntry>,
-) -> Result<Joint, SettingsError> {
+fn joint(source: &Source, index: usize, entry: &Spanned<JointEntry>) -> Result<Joint, SettingsError> {
     let joint = entry.get_ref();
     let (speed_key, speed_rad_s) = match (joint.speed_deg_s, &joint.speed_rad_s) {
         (Some(speed_deg_s), None) => ("speed_deg_s", speed_deg_s.to_radians()),
@@ -217,7 +208,7 @@ fn joint(
     let mut faults = Faults::default();
     for (key, found, accepted) in read.faults() {
         let key = if key == "speed_deg_s" { speed_key } else { key };
-        let error = KinematicsError::joint(number, key, found, accepted);
+        let error = KinematicsError::joint(index, key, found, accepted);
         faults.add(fault_at(source, index, key, error.to_string()));
     }
     faults.or(Some(read))
