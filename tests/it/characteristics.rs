@@ -16,17 +16,17 @@ mod theory;
 mod universal;
 mod verdicts;
 
-use crate::paper::thoroughly;
 use rayon::prelude::*;
 use scenario::{Counts, Scenario};
 use std::sync::OnceLock;
 
-/// Papers drawn for a scenario where tests are thorough; the gate draws a fifth, and `REPLAN_PAPERS` says otherwise. The page of rates is
+/// Papers drawn for a scenario where tests are thorough; the gate draws a tenth, and `REPLAN_PAPERS` says otherwise. The page of rates is
 /// of all.
 const PAPERS: usize = 250;
 
 fn papers() -> usize {
-    std::env::var("REPLAN_PAPERS").map_or_else(|_| thoroughly(PAPERS), |text| text.parse().unwrap())
+    let thorough = || if std::env::var_os("REPLAN_THOROUGH").is_some() { PAPERS } else { PAPERS / 10 };
+    std::env::var("REPLAN_PAPERS").map_or_else(|_| thorough(), |text| text.parse().unwrap())
 }
 
 /// Every scenario, by criterion, with how it came out.

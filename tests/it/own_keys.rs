@@ -98,31 +98,26 @@ fn a_value_out_of_range_hides_no_fault_of_another_table() {
         ("compare.toml", "weight = 2", "weight = 1e308"),
         ("compare.toml", "weight = 1,", "weight = -1,"),
         ("compare.toml", "goal = [36, 30]", "goal = [46, 30]"),
-        ("compare.toml", "instances = 60", "instances = 4000000000"),
         ("paper.toml", "\"50.9\", \"60\"", "\"50.9\", \"nan\""),
-        ("paper.toml", "bound = 1.1", "bound = inf"),
     ];
     let wanted = [
-        "compare.toml:18:13: `instances` is 4000000000",
         "compare.toml:22:8: goal is [46, 30]",
         "compare.toml:31:23: weight is -1",
         "compare.toml:36:23: `weight` is 1e308",
         "paper.toml:71:20: claim `table1.weighted.saving`: `nan`",
-        "paper.toml:93:9: `bound` is inf",
     ];
     assert_faults("grid", &changes, &wanted);
 }
 
 #[test]
 fn a_fault_of_the_first_claim_hides_none_of_the_second() {
-    let first = ("paper.toml", "at = \"section 4\"\nsays = \"its paths", "says = \"its paths");
-    let second = (
+    let second = ("paper.toml", "metric = \"path_cost_cells\" }\nthat", "metric = \"path_cost\" }\nthat");
+    let first = (
         "paper.toml",
         "problems = \"maps\", contender = \"Weighted A*\"",
         "problems = \"maps\", contender = \"WA\"",
     );
-    let wanted =
-        ["paper.toml:83:58: study `compare` has no contender `WA`", "paper.toml:86:1: missing key `at`"];
+    let wanted = ["paper.toml:83:58: study `compare` has no contender `WA`", "paper.toml:91:"];
     assert_faults("grid", &[first, second], &wanted);
 }
 

@@ -115,12 +115,9 @@ impl Document {
         table.into_iter().flatten().map(|(key, _)| key.get_ref().as_ref()).collect()
     }
 
-    /// Every text in quotes and every word of its text, whether it is TOML or not: a name that it gives is among them.
-    pub fn words(&self) -> BTreeSet<&str> {
-        let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
-        let bare = self.text().split(|c| !is_part(c));
-        let quoted = self.text().lines().flat_map(|line| line.split(['"', '\'']).skip(1));
-        bare.chain(quoted).filter(|word| !word.is_empty()).collect()
+    /// Every text in quotes, whether it is TOML or not: a name that it gives is among them.
+    pub fn quoted(&self) -> BTreeSet<&str> {
+        self.text().lines().flat_map(|line| line.split(['"', '\'']).skip(1)).collect()
     }
 
     /// Whether some value in it is the text `word`.

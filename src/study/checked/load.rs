@@ -9,9 +9,8 @@ use super::super::spec::{BudgetSpec, ContenderSpec, ProblemsSpec, StageSpec, Stu
 use super::super::{family, planner, task};
 use super::check::check_selections;
 use super::{Contender, Group, Settings, Shared, Study, Sweep, columns_of, each, labels_of};
-use base::settings::{Document, Faults, Place, SettingsError, Spanned, did_you_mean, none_called, schema_of};
+use base::settings::{Document, Faults, Place, SettingsError, Spanned, did_you_mean, none_called};
 use engine::planner::{Build, Entry};
-use serde_json::Value;
 use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
@@ -31,9 +30,8 @@ impl Study {
     ) -> Result<Option<Self>, StudyError> {
         let name = document.path().file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let Some(mut spec) = faults.keep(document.read::<StudySpec>()) else {
-            // Any word of it may be a name that it gives, but for those that all studies have.
-            let keys = keys_in(&schema_of::<StudySpec>());
-            for word in document.words().into_iter().filter(|word| !keys.contains(*word)) {
+            // Any text in it may be a name that it gives.
+            for word in document.quoted() {
                 faults.unread(word);
             }
             faults.unread(name);
@@ -126,18 +124,6 @@ impl Shared {
             faults.add(document.error_at(&format!("{key}.{place}.label"), message));
         }
     }
-}
-
-/// Every key that `schema` knows in some table.
-fn keys_in(schema: &Value) -> BTreeSet<String> {
-    let own = schema.get("properties").and_then(Value::as_object).into_iter().flatten();
-    let own = own.map(|(key, _)| key.clone());
-    let parts: Vec<&Value> = match schema {
-        Value::Object(parts) => parts.values().collect(),
-        Value::Array(parts) => parts.iter().collect(),
-        _ => Vec::new(),
-    };
-    own.chain(parts.into_iter().flat_map(keys_in)).collect()
 }
 
 /// An entry of a spec that may be like another of its kind.
