@@ -137,16 +137,21 @@ fn a_wrong_scene_says_which_obstacle_where_and_what_is_accepted() {
 }
 
 #[test]
-fn a_value_of_the_wrong_kind_hides_no_fault_of_another_obstacle() {
-    let message = refusal(
-        "[[box]]\nname = 'b'\nmin_mm = [0, 0, '0']\nmax_mm = [1, 2, 3]\n\
-         [[box]]\nname = 'c'\nmin_mm = [0, 5, 7]\nmax_mm = [300, 2, 3]\n",
-    );
-    let lines: Vec<&str> = message.lines().filter(|line| line.starts_with("s.toml:")).collect();
+fn a_fault_of_an_obstacle_hides_none_of_another_unless_its_value_is_of_the_wrong_kind() {
+    let faults = |least: &str| {
+        let message = refusal(&format!(
+            "[[box]]\nname = 'b'\nmin_mm = [2, 0, {least}]\nmax_mm = [1, 2, 3]\n\
+             [[box]]\nname = 'c'\nmin_mm = [0, 5, 7]\nmax_mm = [300, 2, 3]\n",
+        ));
+        message.lines().filter(|line| line.starts_with("s.toml:")).map(str::to_owned).collect::<Vec<_>>()
+    };
     let parts =
-        ["s.toml:4:17: `min_mm[2]` is \"0\"", "s.toml:9:16: obstacle `c`: `max_mm[1]`", "s.toml:9:19: "];
+        ["s.toml:5:11: obstacle `b`: `max_mm[0]`", "s.toml:9:16: obstacle `c`: `max_mm[1]`", "s.toml:9:19: "];
+    let lines = faults("0");
     assert!(
         lines.len() == 3 && lines.iter().zip(parts).all(|(line, part)| line.starts_with(part)),
-        "{message}"
+        "{lines:?}"
     );
+    let lines = faults("'0'");
+    assert!(lines.len() == 1 && lines[0].starts_with("s.toml:4:17: `min_mm[2]` is \"0\""), "{lines:?}");
 }
