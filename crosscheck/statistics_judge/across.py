@@ -324,7 +324,8 @@ class Across:
                 return [f"met under {holds} of {every}{self.met(counted)}"], None
             case "proved" | "lacking" | "all" | "met":
                 is_same = counted.looked > 1 and not results.unvaried
-                return ([f"same under all {counted.looked}"] if is_same else []), None
+                what = "same" if len(set(results.outcomes)) < 2 else "same direction"
+                return ([f"{what} under all {counted.looked}"] if is_same else []), None
             case "no example" if results.chosen != "existence":
                 return [f"met under none of {every}"], None
             case "no example":

@@ -57,7 +57,9 @@ impl View<'_> {
             Line::Met if all > 1 => vec![format!("met under {holds} of {all}{}", self.met())],
             Line::Proved | Line::Lacking | Line::All | Line::Met => {
                 let is_same = self.counted.looked > 1 && !self.results.is_unvaried;
-                is_same.then(|| format!("same under all {}", self.counted.looked)).into_iter().collect()
+                let alike = self.results.outcomes.windows(2).all(|pair| pair[0] == pair[1]);
+                let what = if alike { "same" } else { "same direction" };
+                is_same.then(|| format!("{what} under all {}", self.counted.looked)).into_iter().collect()
             }
             Line::NoExample if !is_witness => vec![format!("met under none of {all}")],
             Line::NoExample if all > 1 => vec![format!("no example found under {all}")],
