@@ -57,8 +57,8 @@ pub struct TurnQuery {
     pub starts: Vec<Cell>,
     /// Cells it may end at.
     pub goals: Vec<Cell>,
-    /// A step to a neighbour: the heading from which its first segment turns; `None` if that turns from none.
-    pub heading: Option<Cell>,
+    /// Steps to neighbours: the headings from any of which its first segment turns; if empty, that turns from none.
+    pub headings: Vec<Cell>,
     /// How bends count.
     pub convention: Convention,
     /// The turn sum wanted, degrees; `high` may be infinite.
@@ -98,26 +98,6 @@ pub struct Polyline {
 /// If `length.high` is infinite.
 pub fn shortest_polyline(query: &TurnQuery) -> Option<Polyline> {
     assert!(query.length.high.is_finite(), "a polyline of any length");
-    match query.heading {
-        Some(heading) => shortest_turning_from(query, heading),
-        None => shortest_in_strides(query),
-    }
-}
-
-/// As [`shortest_polyline`]: one step before the start, along the heading, begins a polyline whose first segment is along the heading too.
-fn shortest_turning_from(query: &TurnQuery, heading: Cell) -> Option<Polyline> {
-    let step = distance([0, 0], heading);
-    let low = if query.length.low > 0.0 { query.length.low + step } else { 0.0 };
-    let length = Interval { low, high: query.length.high + step };
-    let starts = query.starts.iter().map(|&start| difference(heading, start)).collect();
-    let found = shortest_in_strides(&TurnQuery { starts, length, ..query.clone() })?;
-    let mut cells = found.cells;
-    cells[0] = [cells[0][0] + heading[0], cells[0][1] + heading[1]];
-    cells.dedup();
-    Some(Polyline { cells, length: found.length - step, turn_deg: found.turn_deg })
-}
-
-fn shortest_in_strides(query: &TurnQuery) -> Option<Polyline> {
     let straight = straight_line_between(&query.starts, &query.goals)?;
     // Looking a little further each time costs less than looking once much too far.
     let first = if query.length.low > 0.0 { query.length.high } else { straight + STRIDE };
@@ -148,13 +128,13 @@ pub fn distance(a: Cell, b: Cell) -> f64 {
 const STRIDE: f64 = 0.5;
 
 fn shortest_within(query: &TurnQuery) -> Option<Polyline> {
-    let forward = Half::new(query, true);
+    let forward = Half::new(query, &[]);
     let mut best = forward.arrival().map(|label| (label.length, forward.chain(label)));
     if query.turn_deg.high.is_finite() {
         let (starts, goals) = (query.goals.clone(), query.starts.clone());
-        let reverse = TurnQuery { starts, goals, heading: None, ..query.clone() };
-        // A way back to the start that arrives from elsewhere than the heading answers nothing.
-        let backward = Half::new(&reverse, query.heading.is_none());
+        let reverse = TurnQuery { starts, goals, headings: Vec::new(), ..query.clone() };
+        let onward: Vec<Cell> = query.headings.iter().map(|heading| heading.map(|step| -step)).collect();
+        let backward = Half::new(&reverse, &onward);
         for (towards, from) in meetings(query, &forward, &backward) {
             let length = towards.length + from.length;
             if best.as_ref().is_none_or(|(least, _)| length < *least) {
@@ -166,9 +146,23 @@ fn shortest_within(query: &TurnQuery) -> Option<Polyline> {
     }
     best.map(|(_, cells)| {
         let length = cells.windows(2).map(|w| distance(w[0], w[1])).sum();
-        let turn_deg = turn_sum_deg(&cells, query.convention);
+        let turn_deg = turn_from_headings_deg(query, &cells);
         Polyline { cells, length, turn_deg }
     })
+}
+
+/// The turn sum of an answer, from the heading that lets it answer.
+fn turn_from_headings_deg(query: &TurnQuery, cells: &[Cell]) -> f64 {
+    let from = |heading: &Cell| {
+        let before = difference(*heading, cells[0]);
+        let with_heading: Vec<Cell> = [before].iter().chain(cells).copied().collect();
+        turn_sum_deg(&with_heading, query.convention)
+    };
+    let Interval { low, high } = query.turn_deg;
+    let beyond = |turn_deg: &f64| (low - turn_deg).max(turn_deg - high).max(0.0);
+    let sums = query.headings.iter().map(from);
+    let nearest = sums.min_by(|a, b| beyond(a).total_cmp(&beyond(b)));
+    nearest.unwrap_or_else(|| turn_sum_deg(cells, query.convention))
 }
 
 /// Every pair of halves that meet in one cell, bend there, and together have the requested length and turn.

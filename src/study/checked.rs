@@ -148,21 +148,13 @@ impl Study {
         self.groups.iter().any(|own| own.label == group && own.is_drawn)
     }
 
-    /// The defaults and, for every other option, the interpretation that differs in it alone.
+    /// The defaults and, for every other option that trials depend on, the interpretation that differs in it alone.
     ///
     /// # Errors
     /// A choice whose default is not among its options.
-    pub fn single_options(&self) -> Result<Vec<Interpretation>, StudyError> {
-        choice::single_options(&self.choices)
-            .map_err(|message| StudyError::from(self.document.error_at("", message)))
-    }
-
-    /// [`single_options`](Self::single_options) as trials see them: those that run the same trials appear once.
-    ///
-    /// # Errors
-    /// As [`single_options`](Self::single_options).
     pub fn trial_interpretations(&self) -> Result<Vec<Interpretation>, StudyError> {
-        Ok(self.as_trials_see(&self.single_options()?))
+        choice::single_options_of_trials(&self.choices)
+            .map_err(|message| StudyError::from(self.document.error_at("", message)))
     }
 
     /// `interpretations` of the paper as trials of the study see them: those that run the same trials appear once.

@@ -320,8 +320,20 @@ impl Interpretation {
 /// # Errors
 /// A choice whose default is not among its options.
 pub fn single_options(choices: &[Choice]) -> Result<Vec<Interpretation>, String> {
+    departing(choices, |_| true)
+}
+
+/// As [`single_options`], but for the choices that touch no trial: those keep their defaults.
+///
+/// # Errors
+/// As [`single_options`].
+pub fn single_options_of_trials(choices: &[Choice]) -> Result<Vec<Interpretation>, String> {
+    departing(choices, |choice| choice.touches_trials)
+}
+
+fn departing(choices: &[Choice], may_depart: fn(&Choice) -> bool) -> Result<Vec<Interpretation>, String> {
     let mut all = vec![Interpretation::new(choices, &BTreeMap::new())?];
-    for choice in choices {
+    for choice in choices.iter().filter(|choice| may_depart(choice)) {
         let others = choice.options.keys().filter(|name| **name != choice.default && choice.can_run(name));
         for name in others {
             let single = Interpretation::new(choices, &[(choice.id.clone(), name.clone())].into())?;

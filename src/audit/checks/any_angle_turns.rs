@@ -131,7 +131,7 @@ impl AnyAngle {
             size: self.size,
             starts: vec![start],
             goals: vec![goal],
-            heading: None,
+            headings: Vec::new(),
             convention,
             turn_deg,
             length,

@@ -4,7 +4,6 @@ use super::{Ends, Proof};
 use crate::exact::Print;
 use crate::neighbourhood;
 use crate::turns::{Cell, Convention, Polyline, TurnQuery};
-use rayon::prelude::*;
 use stats::interval::Interval;
 
 /// Polylines between printed ends that turn by a printed sum.
@@ -29,22 +28,21 @@ const BOTH: [(Convention, &str); 2] =
 
 /// What a path may have other than as printed.
 #[derive(Clone, Copy)]
-struct Varied {
+struct Varied<'a> {
     /// Whether the start, and whether the goal, may be any neighbour of its cell.
     near: [bool; 2],
-    /// The heading from which the first move turns; none as printed.
-    heading: Option<Cell>,
+    /// The headings from any of which the first move turns; none as printed.
+    headings: &'a [Cell],
 }
 
-const AS_PRINTED: Varied = Varied { near: [false, false], heading: None };
-const START_NEAR: Varied = Varied { near: [true, false], ..AS_PRINTED };
-const GOAL_NEAR: Varied = Varied { near: [false, true], ..AS_PRINTED };
+const AS_PRINTED: Varied<'_> = Varied { near: [false, false], headings: &[] };
+const START_NEAR: Varied<'_> = Varied { near: [true, false], ..AS_PRINTED };
+const GOAL_NEAR: Varied<'_> = Varied { near: [false, true], ..AS_PRINTED };
 
-/// The path as printed, but that its first move turns from each of the eight headings in turn.
-fn turning_from_headings() -> Vec<Varied> {
+/// The eight headings from which a first move may turn.
+fn eight_headings() -> Vec<Cell> {
     let steps = neighbourhood([1, 1], [3, 3]).into_iter().map(|[x, y]| [x - 1, y - 1]);
-    let headings = steps.filter(|step| *step != [0, 0]);
-    headings.map(|heading| Varied { heading: Some(heading), ..AS_PRINTED }).collect()
+    steps.filter(|step| *step != [0, 0]).collect()
 }
 
 impl Search<'_> {
@@ -54,16 +52,17 @@ impl Search<'_> {
         convention: Convention,
         turn_deg: Interval,
         length: Interval,
-        Varied { near, heading }: Varied,
+        Varied { near, headings }: Varied<'_>,
     ) -> Option<Polyline> {
         let Ends { size, start, goal } = self.ends;
         let cells = |cell, near| if near { neighbourhood(cell, size) } else { vec![cell] };
         let (starts, goals) = (cells(start, near[0]), cells(goal, near[1]));
-        (self.shortest)(&TurnQuery { size, starts, goals, heading, convention, turn_deg, length })
+        let headings = headings.to_owned();
+        (self.shortest)(&TurnQuery { size, starts, goals, headings, convention, turn_deg, length })
     }
 
     /// The least length with a turn sum in the window.
-    fn least(&self, convention: Convention, turn_deg: Interval, varied: Varied) -> Option<f64> {
+    fn least(&self, convention: Convention, turn_deg: Interval, varied: Varied<'_>) -> Option<f64> {
         let length = Interval::new(0.0, self.longest);
         self.find(convention, turn_deg, length, varied).map(|found| found.length)
     }
@@ -113,7 +112,8 @@ fn both_impossible(
             format!("{name} angles: no path of up to {} cells has a turn sum of {turn}", search.longest)
         }
     };
-    let pair = |varied| search.find(convention, search.turn.interval(), length.interval(), varied);
+    let pair =
+        |varied: Varied<'_>| search.find(convention, search.turn.interval(), length.interval(), varied);
     let both = format!("{} and {turn}", length.printed);
     if let Some(found) = pair(AS_PRINTED) {
         let met = format!("{name} angles: {both} are met together by {:?}", found.cells);
@@ -129,12 +129,17 @@ fn both_impossible(
     };
     // The search without a least length keeps much less, so it runs first.
     let no_longer = Interval::new(0.0, length.interval().high);
-    let alone_from =
-        |varied: &Varied| search.find(convention, search.turn.interval(), no_longer, *varied).is_some();
-    let turning = turning_from_headings().into_par_iter().filter(alone_from);
-    let turning = turning.filter(|varied| pair(*varied).is_some());
-    let turning: Vec<String> =
-        turning.filter_map(|varied| varied.heading).map(|heading| format!("{heading:?}")).collect();
+    let is_met_from = |headings: &[Cell]| {
+        let varied = Varied { headings, ..AS_PRINTED };
+        search.find(convention, search.turn.interval(), no_longer, varied).is_some() && pair(varied).is_some()
+    };
+    let mut turning = eight_headings();
+    if is_met_from(&turning) {
+        turning.retain(|heading| is_met_from(&[*heading]));
+    } else {
+        turning.clear();
+    }
+    let turning: Vec<String> = turning.iter().map(|heading| format!("{heading:?}")).collect();
     let headings = if turning.is_empty() {
         format!("no polyline has {both} if the first move turns from one of the eight headings")
     } else {
@@ -172,9 +177,8 @@ pub fn turn_needs_length(search: &Search<'_>, beside: Print, is_shorter: bool) -
              so the proof {rests} on the printed ends"
         ));
         let no_longer = Interval::new(0.0, beside.interval().high);
-        let is_rescued = turning_from_headings()
-            .into_par_iter()
-            .any(|varied| search.find(search.meant, search.turn.interval(), no_longer, varied).is_some());
+        let turning = Varied { headings: &eight_headings(), ..AS_PRINTED };
+        let is_rescued = search.find(search.meant, search.turn.interval(), no_longer, turning).is_some();
         let (is, rests) = if is_rescued { ("may be no", "rests") } else { ("is", "does not rest") };
         because.push(format!(
             "with a first move that turns from one of the eight headings such a path {is} longer than {}, so the proof {rests} \

@@ -7,7 +7,8 @@ use std::{
 
 use super::{Cell, SLACK, TurnQuery, fits, net::Net, reserve::Reserve};
 
-/// A way to a cell. `parent` leads back to the start; there is none for the first segment.
+/// A way to a cell. `parent` leads back to the start; there is none for the first segment, or for what stands at a start
+/// with a heading and has no length yet.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Label {
     cell: usize,
@@ -48,12 +49,15 @@ struct Best {
 }
 
 impl Half {
-    /// The ways from `query`'s starts; up to the first that answers it alone, if one may.
-    pub(super) fn new(query: &TurnQuery, may_answer: bool) -> Self {
+    /// The ways from `query`'s starts; up to the first that answers it alone. If each goes on in one of the directions `onward` from its
+    /// goal, which adds a bend there, none answers alone.
+    pub(super) fn new(query: &TurnQuery, onward: &[Cell]) -> Self {
         let net = Net::new(query);
         let mut search = Search {
             net: &net,
-            reserve: Reserve::new(&net, query.turn_deg.low - SLACK),
+            reserve: Reserve::new(&net, query.turn_deg.low - SLACK, |arrival| {
+                net.most_onward_deg(arrival, onward)
+            }),
             query,
             most_deg: (query.turn_deg.high / 2.0) + SLACK,
             labels: Vec::new(),
@@ -61,7 +65,14 @@ impl Half {
             queue: BinaryHeap::new(),
         };
         for &start in net.starts() {
-            search.extend(start, None);
+            if net.headings().is_empty() {
+                search.extend(start, None);
+            }
+            for &direction in net.headings() {
+                let at_start =
+                    Label { cell: start, direction, length: 0.0, turn_deg: 0.0, parent: None, from: start };
+                search.queue(0.0, at_start);
+            }
         }
         let mut arrival = None;
         while let Some(Reverse((_, id))) = search.queue.pop() {
@@ -69,7 +80,7 @@ impl Half {
             if !search.settle(id, &label) {
                 continue;
             }
-            if may_answer && search.is_answer(&label) {
+            if onward.is_empty() && search.is_answer(&label) {
                 arrival = Some(label);
                 break;
             }
@@ -108,7 +119,7 @@ impl Half {
     pub(super) fn chain(&self, label: &Label) -> Vec<Cell> {
         let mut cells = vec![self.net.cell(label.cell)];
         let mut next = Some(label);
-        while let Some(label) = next {
+        while let Some(label) = next.filter(|label| label.length > 0.0) {
             cells.push(self.net.cell(label.from));
             next = label.parent.map(|id| &self.labels[id]);
         }
@@ -153,12 +164,12 @@ impl Search<'_> {
 
     fn is_answer(&self, label: &Label) -> bool {
         self.net.is_goal(label.cell)
+            && label.length > 0.0
             && label.turn_deg >= self.query.turn_deg.low - SLACK
             && fits(self.query, label.length)
     }
 
-    /// Queues every segment that leaves `cell` with a bend. If there is no label to bend from, every one along the heading, or every one
-    /// if there is none.
+    /// Queues every segment that leaves `cell` with a bend, and every one that leaves a start.
     fn extend(&mut self, cell: usize, parent: Option<usize>) {
         let (length, turn_deg, arrival) = parent.map_or((0.0, 0.0, None), |id| {
             let label = &self.labels[id];
@@ -170,11 +181,11 @@ impl Search<'_> {
             if length + segment.least_total > longest {
                 break;
             }
-            let is_off_heading = |heading| arrival.is_none() && self.net.vector(segment.direction) != heading;
-            if arrival == Some(segment.direction) || self.query.heading.is_some_and(is_off_heading) {
-                continue;
-            }
-            let bend_deg = arrival.map_or(0.0, |arrival| self.net.bend_deg(arrival, segment.direction));
+            let bend_deg = match arrival {
+                None => 0.0,
+                Some(straight_on) if straight_on == segment.direction && length > 0.0 => continue,
+                Some(arrival) => self.net.turn_deg(arrival, segment.direction),
+            };
             let length = length + segment.length;
             let turn_deg = turn_deg + bend_deg;
             let to = segment.to;

@@ -17,6 +17,9 @@ pub(super) struct Segment {
 pub(super) struct Net {
     cells: Vec<Cell>,
     starts: Vec<usize>,
+    /// The directions that the query may turn from at a start.
+    headings: Vec<usize>,
+    convention: Convention,
     /// By cell, the straight line from the nearest start.
     from_start: Vec<f64>,
     is_goal: Vec<bool>,
@@ -36,14 +39,9 @@ impl Net {
         let nearest = |cell: Cell, ends: &[Cell]| {
             ends.iter().map(|&end| distance(cell, end)).fold(f64::INFINITY, f64::min)
         };
-        let is_on_map = |cell: Cell| (0..2).all(|axis| (0..query.size[axis]).contains(&cell[axis]));
-        // A step before the start may be off the map: nothing leads there but from the start.
-        let all = (-1..=query.size[1]).flat_map(|y| (-1..=query.size[0]).map(move |x| [x, y]));
-        let is_meant = |&c: &Cell| is_on_map(c) || query.starts.contains(&c) || query.goals.contains(&c);
+        let all = (0..query.size[1]).flat_map(|y| (0..query.size[0]).map(move |x| [x, y]));
         let is_near = |&c: &Cell| nearest(c, &query.starts) + nearest(c, &query.goals) <= longest;
-        let cells: Vec<Cell> = all.filter(is_meant).filter(is_near).collect();
-        let may_leave = |cell| is_on_map(cell) || query.starts.contains(&cell);
-        let may_reach = |cell| is_on_map(cell) || query.goals.contains(&cell);
+        let cells: Vec<Cell> = all.filter(is_near).collect();
         let from_start: Vec<f64> = cells.iter().map(|&c| nearest(c, &query.starts)).collect();
         let to_goal: Vec<f64> = cells.iter().map(|&c| nearest(c, &query.goals)).collect();
         let mut directions = BTreeMap::new();
@@ -53,21 +51,34 @@ impl Net {
             for (j, &to) in cells.iter().enumerate() {
                 let length = distance(from, to);
                 let least_total = length + to_goal[j];
-                if i != j && may_leave(from) && may_reach(to) && from_start[i] + least_total <= longest {
-                    let known = directions.len();
-                    let direction = *directions.entry(primitive(difference(from, to))).or_insert(known);
+                if i != j && from_start[i] + least_total <= longest {
+                    let direction = index_of(primitive(difference(from, to)), &mut directions);
                     leaving.push(Segment { to: j, direction, length, least_total });
                 }
             }
             leaving.sort_by(|a, b| a.least_total.total_cmp(&b.least_total));
             segments.push(leaving);
         }
+        let headings = query.headings.iter().map(|&heading| index_of(heading, &mut directions)).collect();
         let starts = (0..cells.len()).filter(|&i| query.starts.contains(&cells[i])).collect();
         let is_goal = cells.iter().map(|cell| query.goals.contains(cell)).collect();
         let vectors = by_index(&directions);
         let bends_deg = bends_deg(&vectors, query.convention);
         let least_turns_deg = least_turns_deg(&cells, &vectors, query);
-        Self { cells, starts, from_start, is_goal, longest, segments, vectors, bends_deg, least_turns_deg }
+        let convention = query.convention;
+        Self {
+            cells,
+            starts,
+            headings,
+            convention,
+            from_start,
+            is_goal,
+            longest,
+            segments,
+            vectors,
+            bends_deg,
+            least_turns_deg,
+        }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -80,6 +91,10 @@ impl Net {
 
     pub(super) fn starts(&self) -> &[usize] {
         &self.starts
+    }
+
+    pub(super) fn headings(&self) -> &[usize] {
+        &self.headings
     }
 
     pub(super) fn least_from_start(&self, cell: usize) -> f64 {
@@ -112,9 +127,28 @@ impl Net {
         self.bends_deg[arrival][departure]
     }
 
+    /// What going on in `departure` adds: nothing straight on.
+    pub(super) fn turn_deg(&self, arrival: usize, departure: usize) -> f64 {
+        if arrival == departure { 0.0 } else { self.bends_deg[arrival][departure] }
+    }
+
+    /// The most that going on from a goal in one of the directions `onward` adds; nothing if there are none.
+    pub(super) fn most_onward_deg(&self, arrival: usize, onward: &[Cell]) -> f64 {
+        let changes = onward.iter().map(|&onward| change_deg(self.vectors[arrival], onward));
+        changes
+            .filter(|&change| change > 0.0)
+            .map(|change| self.convention.bend_deg(change))
+            .fold(0.0, f64::max)
+    }
+
     pub(super) fn least_turn_deg(&self, cell: usize, direction: usize) -> f64 {
         self.least_turns_deg[cell][direction]
     }
+}
+
+fn index_of(vector: Cell, directions: &mut BTreeMap<Cell, usize>) -> usize {
+    let known = directions.len();
+    *directions.entry(vector).or_insert(known)
 }
 
 fn by_index(directions: &BTreeMap<Cell, usize>) -> Vec<Cell> {

@@ -33,8 +33,8 @@ struct Backward<'a> {
 }
 
 impl Reserve {
-    /// The ways of `net` towards a turn sum of `wanted_deg`.
-    pub(super) fn new(net: &Net, wanted_deg: f64) -> Self {
+    /// The ways of `net` towards a turn sum of `wanted_deg`; arriving at a goal in a direction adds `at_goal_deg` of it.
+    pub(super) fn new(net: &Net, wanted_deg: f64, at_goal_deg: impl Fn(usize) -> f64) -> Self {
         let directions = net.directions();
         let states = net.len() * net.directions();
         let mut incoming = vec![Vec::new(); states];
@@ -45,7 +45,7 @@ impl Reserve {
         }
         let reserve = Self { wanted_deg, directions, ways: vec![Vec::new(); states] };
         let mut backward = Backward { net, reserve, incoming, found: Vec::new(), queue: BinaryHeap::new() };
-        backward.run();
+        backward.run(at_goal_deg);
         backward.reserve
     }
 
@@ -62,11 +62,11 @@ impl Reserve {
 const ROUNDING_DEG: f64 = 1e-9;
 
 impl Backward<'_> {
-    fn run(&mut self) {
+    fn run(&mut self, at_goal_deg: impl Fn(usize) -> f64) {
         let directions = self.net.directions();
         for goal in (0..self.net.len()).filter(|&cell| self.net.is_goal(cell)) {
             for direction in 0..directions {
-                self.arrive(goal, direction, 0.0, 0.0);
+                self.arrive(goal, direction, 0.0, at_goal_deg(direction));
             }
         }
         let mut most_deg = vec![-1.0; self.net.len() * directions];

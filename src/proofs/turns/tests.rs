@@ -11,7 +11,7 @@ fn shortest(ends: [Cell; 2], low: f64, high: f64, longest: f64, convention: Conv
         size: SIZE,
         starts,
         goals,
-        heading: None,
+        headings: Vec::new(),
         convention,
         turn_deg,
         length: Interval::new(0.0, longest),
@@ -48,9 +48,9 @@ fn an_end_off_by_a_cell_does_not_rescue_the_grid_papers_pairs() {
             let convention = Convention::Exterior;
             let turn_deg = Interval::new(low, high);
             let pair = Interval::new(length[0], length[1]);
-            let heading = None;
+            let headings = Vec::new();
             let mut query =
-                TurnQuery { size: SIZE, starts, goals, heading, convention, turn_deg, length: pair };
+                TurnQuery { size: SIZE, starts, goals, headings, convention, turn_deg, length: pair };
             assert_eq!(shortest_polyline(&query), None);
             // The turn alone is within reach of the complex pair: only both together are not.
             query.length = Interval::new(0.0, length[1]);
@@ -105,15 +105,21 @@ fn no_enumerated_polyline_is_shorter_and_one_is_as_short() {
     let mut missing = 0;
     // A start in the corner has headings whose step before it is off the map.
     for (start, goal, longest) in [([0, 0], [3, 2], 6.9), ([1, 1], [2, 2], 6.1), ([0, 3], [3, 3], 6.7)] {
-        for (heading, convention) in [
-            (None, Convention::Exterior),
-            (None, Convention::Interior),
-            (Some([1, 0]), Convention::Exterior),
-            (Some([-1, -1]), Convention::Exterior),
-            (Some([0, -1]), Convention::Interior),
+        for (headings, convention) in [
+            (vec![], Convention::Exterior),
+            (vec![], Convention::Interior),
+            (vec![[1, 0]], Convention::Exterior),
+            (vec![[-1, -1]], Convention::Exterior),
+            (vec![[0, -1]], Convention::Interior),
+            (vec![[0, -1], [1, 1], [-1, 0]], Convention::Exterior),
+            (vec![[1, 0], [-1, 1]], Convention::Interior),
         ] {
             let mut all = Vec::new();
-            enumerate(4, &mut vec![start], goal, longest, (heading, convention), &mut all);
+            let each =
+                if headings.is_empty() { vec![None] } else { headings.iter().copied().map(Some).collect() };
+            for heading in each {
+                enumerate(4, &mut vec![start], goal, longest, (heading, convention), &mut all);
+            }
             assert!(all.len() > 300, "only {} polylines", all.len());
             for i in 0..130 {
                 let low = f64::from(i) * 2.7 + 0.013;
@@ -123,9 +129,11 @@ fn no_enumerated_polyline_is_shorter_and_one_is_as_short() {
                 let fits = |p: &&[f64; 2]| length.contains(p[0]) && turn_deg.contains(p[1]);
                 let expected = all.iter().filter(fits).map(|p| p[0]).min_by(f64::total_cmp);
                 let (starts, goals) = (vec![start], vec![goal]);
-                let query = TurnQuery { size: [4, 4], starts, goals, heading, convention, turn_deg, length };
+                let headings = headings.clone();
+                let query = TurnQuery { size: [4, 4], starts, goals, headings, convention, turn_deg, length };
                 let got = shortest_polyline(&query);
                 *if got.is_some() { &mut found } else { &mut missing } += 1;
+                assert!(got.iter().all(|p| turn_deg.contains(p.turn_deg)), "{query:?}: {got:?}");
                 let got = got.map_or(-1.0, |p| p.length);
                 let expected = expected.unwrap_or(-1.0);
                 assert!((got - expected).abs() < 1e-9, "{query:?}: {got}, not {expected}");
@@ -153,7 +161,8 @@ fn the_first_segment_turns_from_the_heading() {
         let convention = Convention::Exterior;
         let turn_deg = Interval::new(120.0, 120.05);
         let longest = Interval::new(0.0, 15.6);
-        let query = TurnQuery { size: SIZE, starts, goals, heading, convention, turn_deg, length: longest };
+        let headings = heading.into_iter().collect();
+        let query = TurnQuery { size: SIZE, starts, goals, headings, convention, turn_deg, length: longest };
         let found = shortest_polyline(&query);
         let ends = found.iter().map(|found| (found.cells[0], found.cells[found.cells.len() - 1]));
         assert!(ends.into_iter().all(|ends| ends == SIMPLE.into()), "{found:?}");
@@ -173,7 +182,8 @@ fn several_ends_give_the_best_pair() {
         let best = pairs.min_by(f64::total_cmp).unwrap();
         let (starts, goals) = (starts.clone(), goals.clone());
         let length = Interval::new(0.0, 10.0);
-        let query = TurnQuery { size: SIZE, starts, goals, heading: None, convention, turn_deg, length };
+        let query =
+            TurnQuery { size: SIZE, starts, goals, headings: Vec::new(), convention, turn_deg, length };
         let found = shortest_polyline(&query).unwrap();
         assert!((found.length - best).abs() < 1e-9, "from {low}: {found:?}, not {best}");
     }

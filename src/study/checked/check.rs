@@ -37,7 +37,7 @@ impl Study {
         self.check_what_groups_lay(faults);
         self.check_what_defaults_hide(inputs, faults);
         let mut known = Families::default();
-        if let Some(points) = keep(faults, self.single_options())? {
+        if let Some(points) = keep(faults, self.trial_interpretations())? {
             for point in &points {
                 self.check_point(point, inputs, &mut known, faults)?;
             }
