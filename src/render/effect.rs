@@ -62,14 +62,14 @@ fn of_one_kind(parts: &[(&Estimate, Option<&str>)]) -> (String, String) {
     let words = effects[0].0.words.clone();
     let are_named = effects.iter().all(|(_, name)| name.is_some());
     let mut counts: Vec<usize> = parts.iter().map(|(estimate, _)| estimate.n).collect();
-    let between = if effects.len() <= LISTED {
-        " / "
+    let [first, between] = if effects.len() <= LISTED {
+        ["", " / "]
     } else {
         effects.sort_by(|(one, _), (other, _)| one.size.total_cmp(&other.size));
         effects.drain(1..effects.len() - 1);
         counts.sort_unstable();
         counts = vec![counts[0], counts[counts.len() - 1]];
-        " to "
+        ["from ", " to "]
     };
     if counts.iter().all(|n| *n == counts[0]) {
         counts.truncate(1);
@@ -80,7 +80,7 @@ fn of_one_kind(parts: &[(&Estimate, Option<&str>)]) -> (String, String) {
     };
     let sizes: Vec<String> = effects.iter().map(in_words).collect();
     let counts: Vec<String> = counts.iter().map(ToString::to_string).collect();
-    (sizes.join(between) + if are_named { "" } else { &words }, counts.join(between))
+    (first.to_owned() + &sizes.join(between) + if are_named { "" } else { &words }, counts.join(between))
 }
 
 /// An estimate in words, and its size.
@@ -206,7 +206,7 @@ mod tests {
         assert_eq!(side_by_side(&named).unwrap()[0], "2.0 % shorter (C1) / 2.0 % shorter (C2)");
         assert_eq!(
             shown(&[&work[..], &work[..]].concat()).unwrap()[0],
-            "10.0 to 20.0 % of the best rival's closed nodes"
+            "from 10.0 to 20.0 % of the best rival's closed nodes"
         );
         let two = [&work[..1], std::slice::from_ref(&shorter)].concat();
         assert_eq!(shown(&two).unwrap(), ["10.0 % of the best rival's closed nodes; 2.0 % shorter", "9"]);
