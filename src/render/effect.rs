@@ -69,7 +69,7 @@ fn of_one_kind(parts: &[(&Estimate, Option<&str>)]) -> (String, String) {
         effects.drain(1..effects.len() - 1);
         counts.sort_unstable();
         counts = vec![counts[0], counts[counts.len() - 1]];
-        ["from ", " to "]
+        [if are_named { "from " } else { "" }, " to "]
     };
     if counts.iter().all(|n| *n == counts[0]) {
         counts.truncate(1);
@@ -206,7 +206,7 @@ mod tests {
         assert_eq!(side_by_side(&named).unwrap()[0], "2.0 % shorter (C1) / 2.0 % shorter (C2)");
         assert_eq!(
             shown(&[&work[..], &work[..]].concat()).unwrap()[0],
-            "from 10.0 to 20.0 % of the best rival's closed nodes"
+            "10.0 to 20.0 % of the best rival's closed nodes"
         );
         let two = [&work[..1], std::slice::from_ref(&shorter)].concat();
         assert_eq!(shown(&two).unwrap(), ["10.0 % of the best rival's closed nodes; 2.0 % shorter", "9"]);

@@ -149,7 +149,7 @@ impl Page<'_> {
         let further: Vec<&str> =
             paper.tables.iter().filter(further).map(|table| table.caption.as_str()).collect();
         if !further.is_empty() {
-            let captions = markdown(&further.join("; "));
+            let captions = markdown(&further.join(". "));
             let line = format!("[In the details]({details}#figures) stand: {captions}.");
             *text += &(wrapped("", &line, 0, COLUMNS) + "\n\n");
         }
