@@ -437,7 +437,7 @@ class Across:
 def not_varied(interpretations: list[str]) -> str | None:
     """The interpretations that touch a claim and were not varied, in words."""
     more = f" and {len(interpretations) - LISTED} more" if len(interpretations) > LISTED else ""
-    return f"not varied: {', '.join(interpretations[:LISTED])}{more}" if interpretations else None
+    return f"choices not varied: {', '.join(interpretations[:LISTED])}{more}" if interpretations else None
 
 
 def flips(results: list[Result]) -> list[Result]:

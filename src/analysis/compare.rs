@@ -281,7 +281,7 @@ fn notes(seen: &[BTreeMap<&str, Seen<'_>>; 2], lines: &[Line<'_>]) -> Vec<String
             notes.push(format!("{study}: one of the runs is quick and the other full"));
         }
         if one.choices != other.choices {
-            notes.push(format!("{study}: other choices touch trials in each run, so that no keys agree"));
+            notes.push(format!("{study}: other choices touch trials in each run, so no keys agree"));
         }
         let pairs = || lines.iter().filter(|line| line.study == *study).flat_map(|line| &line.pairs);
         let others = pairs().filter(|pair| !pair.is_same_instance).count();

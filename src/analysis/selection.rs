@@ -168,7 +168,7 @@ impl<'a> Selection<'a> {
             return Ok(());
         }
         let message = format!(
-            "`of` names no contender, so that it selects nothing; study `{}` has {}",
+            "`of` names no contender, so it selects nothing; study `{}` has {}",
             self.study.name,
             self.study.labels().join(", ")
         );

@@ -109,22 +109,26 @@ impl Verdict {
             Self::Reproduced => {
                 "holds under every interpretation, or under nine tenths with named exceptions"
             }
-            Self::RightInDirection => "the same of its sign; the size that it states is missed",
+            Self::RightInDirection => "its sign holds so, but its size is not the printed one",
             Self::Supported => {
-                "more results hold than are open and none contradicts it, or an interpretation was not varied"
+                "most interpretations agree and none contradicts it, or a choice that touches it was not varied"
             }
             Self::Attainable => "met on an input that was searched for, or on one of many",
-            Self::Fitted => "met where something was chosen so that it would be",
+            Self::Fitted => "holds, but something in the study was chosen to make it hold",
             Self::Depends => {
-                "holds under some interpretations and is contradicted under others, by the options that are named"
+                "some interpretations agree and others contradict it; the choice that decides is named"
             }
-            Self::Inconclusive => "too little is known; it says what would settle it",
-            Self::NotSupported => "the mirror image of supported",
+            Self::Inconclusive => {
+                "data or interpretations do not decide; the report names what would settle it"
+            }
+            Self::NotSupported => {
+                "most interpretations contradict it and none agrees, or a choice that touches it was not varied"
+            }
             Self::NotReproduced => {
                 "contradicted under every interpretation, or under nine tenths with named exceptions"
             }
             Self::Impossible => "the printed numbers contradict arithmetic, geometry or each other",
-            Self::NotTestable => "the paper leaves out what is needed",
+            Self::NotTestable => "the paper leaves out what a test needs",
         }
     }
 

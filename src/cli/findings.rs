@@ -13,28 +13,49 @@ use study::paper::Paper;
 const IMPOSSIBLE: usize = 6;
 
 /// How many lines of 40 the terminal leaves beside those that `repro` prints before and after.
-const LINES: usize = 32;
+const LINES: usize = 34;
+
+/// What counts over interpretations are followed by.
+const COUNTED: &str = "for/open/against";
 
 /// Columns for a verdict.
 const VERDICT: usize = 24;
 
 /// Prints the finding and the headline claims, a line for what it says and one for what its verdict rests on.
 pub(super) fn print(paper: &Paper, verdicts: &Verdicts, which: &Which) {
-    let full = text(paper, verdicts, which, true);
-    let fits = full.lines().count() <= LINES;
-    let text = if fits { full } else { text(paper, verdicts, which, false) };
-    say!("{}", text.trim_end());
+    let shapes = [Below::Everything, Below::Counts, Below::Nothing];
+    let mut texts = shapes.map(|below| text(paper, verdicts, which, below)).into_iter();
+    let fits = |text: &String| text.lines().count() <= LINES;
+    let shortest = texts.next_back().unwrap_or_default();
+    say!("{}", texts.find(fits).unwrap_or(shortest).trim_end());
 }
 
-/// The text; `is_full` adds on what verdicts depend, and their exceptions.
-fn text(paper: &Paper, verdicts: &Verdicts, which: &Which, is_full: bool) -> String {
+/// What stands below a headline claim.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Below {
+    /// Its id, the counts, on what its verdict depends, and the exceptions.
+    Everything,
+    /// Its id and the counts.
+    Counts,
+    /// Nothing: its id stands behind our number.
+    Nothing,
+}
+
+fn text(paper: &Paper, verdicts: &Verdicts, which: &Which, below: Below) -> String {
     let mut text = String::from("\n");
     if let Some(finding) = &paper.report.finding {
         text += &(plain("", &prose(finding, verdicts), 0, COLUMNS) + "\n\n");
     }
     for headline in headlines(paper, verdicts) {
-        let words = if is_full { headline.rests_on(verdicts) } else { headline.beside(verdicts) };
-        text += &lines(&headline, words);
+        let words = match below {
+            Below::Everything => headline.rests_on(verdicts),
+            Below::Counts | Below::Nothing => headline.beside(verdicts),
+        };
+        text += &lines(&headline, words, below == Below::Nothing);
+    }
+    if text.contains(COUNTED) {
+        text +=
+            &format!("\n{COUNTED}: interpretations that agree with the claim, cannot tell, contradict it\n");
     }
     text.extend(impossible(verdicts).map(|line| plain("\n", &line, 2, COLUMNS) + "\n"));
     text + "\n" + &tallied(verdicts, which, Lines::Few)
@@ -58,8 +79,8 @@ fn impossible(verdicts: &Verdicts) -> Option<String> {
     (!names.is_empty()).then(|| format!("cannot be true: {listed}{more}"))
 }
 
-/// The verdict, what the paper says and our number; below, the claim and what its verdict rests on.
-fn lines(headline: &Headline<'_>, rests_on: Option<String>) -> String {
+/// The verdict, what the paper says and our number; below, or with `is_one` behind them, the claim and what its verdict rests on.
+fn lines(headline: &Headline<'_>, rests_on: Option<String>, is_one: bool) -> String {
     let judged = headline.judged;
     let word = judged.verdict_text();
     let pad = " ".repeat((VERDICT + 1).saturating_sub(word.chars().count()));
@@ -67,7 +88,11 @@ fn lines(headline: &Headline<'_>, rests_on: Option<String>) -> String {
     let ours = headline.ours.as_ref().map_or_else(String::new, |ours| format!(": {ours}"));
     let beside = rests_on.map_or_else(String::new, |words| format!(": {words}"));
     let indent = VERDICT + 2;
-    let says = plain(&(first + " "), &format!("{}{ours}", headline.says), indent, COLUMNS);
-    let rests = plain(&" ".repeat(indent), &(judged.claim.clone() + &beside), indent, COLUMNS);
-    format!("{says}\n{rests}\n")
+    let says = format!("{}{ours}", headline.says);
+    let rests = judged.claim.clone() + &beside;
+    if is_one {
+        return plain(&(first + " "), &format!("{says} ({rests})"), indent, COLUMNS) + "\n";
+    }
+    let says = plain(&(first + " "), &says, indent, COLUMNS);
+    format!("{says}\n{}\n", plain(&" ".repeat(indent), &rests, indent, COLUMNS))
 }

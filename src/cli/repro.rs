@@ -8,10 +8,12 @@ use super::progress::{safe_point, stop_flag};
 use super::run::run_studies;
 use super::stamp::Stamp;
 use super::summary::summary;
+use super::verdicts::COLUMNS;
 use super::{Again, Failure, How, Which, findings, trial, verdicts};
 use super::{judge, render};
 use crate::analysis::verdict::Verdicts;
 use crate::render::output::{CROSSCHECK, Outputs};
+use crate::render::prose::wrapped;
 use clap::Args;
 use std::sync::atomic::AtomicBool;
 use study::lock::Lock;
@@ -83,12 +85,8 @@ impl Repro {
             let [show, report] = ["show", "report"].map(|name| self.which.command(name));
             say!("why: {show} CLAIM; all claims: {show}; one page: {report} --open");
         }
-        say!(
-            "records and verdicts are in {}\nfigures and tables are in {}\nthe report is {}",
-            places.runs.display(),
-            places.plots.display(),
-            places.report.display()
-        );
+        let written = [&places.runs, &places.plots, &places.report].map(|path| path.display().to_string());
+        say!("{}", wrapped("", &format!("written: {}", written.join(", ")), 2, COLUMNS));
         render::all_drawn(&outputs)?;
         judge::must_hold(&judged)
     }

@@ -65,33 +65,31 @@ pub(super) fn tallied(verdicts: &Verdicts, which: &Which, lines: Lines) -> Strin
     for line in [Some(of_each), counts.parts, counts.asserted, quick].into_iter().flatten() {
         text += &(wrapped("", &line, 2, COLUMNS) + "\n");
     }
-    for line in explored(verdicts, which).into_iter().chain(verdicts.changed()) {
+    let named = if lines == Lines::Few { 1 } else { NAMED };
+    for line in explored(verdicts, which, named).into_iter().chain(verdicts.changed()) {
         text += &(wrapped("", &line, 2, COLUMNS) + "\n");
     }
     text
 }
 
-/// How many stale claims are named.
+/// How many stale claims are named where there is room.
 const NAMED: usize = 6;
 
-/// What is to be known of interpretations and the second seed as a whole.
-fn explored(verdicts: &Verdicts, which: &Which) -> Vec<String> {
+/// What is to be known of interpretations and the second seed as a whole; of stale claims so many are `named`.
+fn explored(verdicts: &Verdicts, which: &Which, named: usize) -> Vec<String> {
     let Some(explored) = &verdicts.explored else { return Vec::new() };
     let stale = |claims: &[String], what: &str, command: &str| {
         let command = which.command(command);
         let verb = if claims.len() == 1 { "is" } else { "are" };
-        let names: Vec<String> = claims.iter().take(NAMED).map(|id| format!("`{id}`")).collect();
-        let more = claims.len().saturating_sub(NAMED);
+        let names: Vec<String> = claims.iter().take(named).map(|id| format!("`{id}`")).collect();
+        let more = claims.len().saturating_sub(named);
         let more = if more > 0 { format!(" and {more} more claims") } else { String::new() };
         (!claims.is_empty()).then(|| {
-            format!(
-                "{}{more} {verb} {what}: what they ask is not among the estimates, or what their studies run has changed since; run `{command}` again",
-                names.join(", ")
-            )
+            format!("{}{more} {verb} {what}: new, or changed since; run `{command}` again", names.join(", "))
         })
     };
     let compatible = explored.none_compatible.then(|| {
-        "no voting interpretation agrees with all that the studies were calibrated to, so that all of them are judged".to_owned()
+        "no voting interpretation agrees with all that the studies were calibrated to, so all of them are judged".to_owned()
     });
     let interpretations = stale(&explored.stale, "judged under the default interpretation alone", "explore");
     let second = stale(&explored.second_stale, "without a second seed", "confirm");
@@ -103,8 +101,7 @@ pub fn refused_paths(verdicts: &Verdicts) -> Option<String> {
     let refused = &verdicts.explored.as_ref()?.refused;
     (!refused.is_empty()).then(|| {
         format!(
-            "the verifier refuses many paths under {}: where the paper calls its paths free, `refused_above_percent` in [explore] sets \
-             such interpretations apart",
+            "the verifier refuses many paths under {}; `refused_above_percent` in [explore] can set these apart",
             refused.join(", ")
         )
     })

@@ -119,7 +119,7 @@ impl Body<'_> {
             let word = badge(verdict.name(), verdict.name());
             format!("<dt>{word}</dt><dd>{}</dd>\n", escaped(verdict.about()))
         }));
-        text += "</dl>";
+        text += "<dt>50/0/9 for/open/against</dt><dd>50 interpretations agree with the claim, 0 cannot tell and 9 contradict it</dd></dl>";
         let beside = counts.parts.into_iter().chain(counts.asserted);
         text.extend(beside.map(|sentence| format!("<p>{}.</p>", escaped(&sentence))));
         text += "</details>\n";
@@ -183,7 +183,7 @@ impl Body<'_> {
             "<form class=\"filter\" id=\"filter\" role=\"search\">\
              <label>words <input type=\"search\" name=\"words\"></label>\
              <label>verdict <select name=\"class\"><option value=\"\">any</option>{verdicts}</select></label>\
-             <label>hangs on <select name=\"hangs\"><option value=\"\">anything</option></select></label>\
+             <label>depends on <select name=\"hangs\"><option value=\"\">anything</option></select></label>\
              <label hidden>under this interpretation <select name=\"under\"><option value=\"\">any</option>\
              <option value=\"differs\">not as under the default</option>{outcomes}</select></label>\
              <label><input type=\"checkbox\" name=\"parts\"> with parts and cells</label>\

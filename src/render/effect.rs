@@ -62,14 +62,14 @@ fn of_one_kind(parts: &[(&Estimate, Option<&str>)]) -> (String, String) {
     let words = effects[0].0.words.clone();
     let are_named = effects.iter().all(|(_, name)| name.is_some());
     let mut counts: Vec<usize> = parts.iter().map(|(estimate, _)| estimate.n).collect();
-    let between = if effects.len() <= LISTED {
-        " / "
+    let [first, between] = if effects.len() <= LISTED {
+        ["", " / "]
     } else {
         effects.sort_by(|(one, _), (other, _)| one.size.total_cmp(&other.size));
         effects.drain(1..effects.len() - 1);
         counts.sort_unstable();
         counts = vec![counts[0], counts[counts.len() - 1]];
-        " to "
+        [if are_named { "from " } else { "" }, " to "]
     };
     if counts.iter().all(|n| *n == counts[0]) {
         counts.truncate(1);
@@ -80,7 +80,7 @@ fn of_one_kind(parts: &[(&Estimate, Option<&str>)]) -> (String, String) {
     };
     let sizes: Vec<String> = effects.iter().map(in_words).collect();
     let counts: Vec<String> = counts.iter().map(ToString::to_string).collect();
-    (sizes.join(between) + if are_named { "" } else { &words }, counts.join(between))
+    (first.to_owned() + &sizes.join(between) + if are_named { "" } else { &words }, counts.join(between))
 }
 
 /// An estimate in words, and its size.

@@ -3,6 +3,7 @@
 //! The terminal, the report and the page open with them.
 
 use super::effect::{effect, percentage, side_by_side};
+use super::figure::noun;
 use super::prose::number;
 use super::tables::short;
 use crate::analysis::verdict::{ClaimVerdict, Quantity, Verdicts};
@@ -11,6 +12,9 @@ use study::paper::Paper;
 
 /// A paper without headlines shows its first claims instead, at most so many.
 const CLAIMS: usize = 8;
+
+/// A smaller p-value says no more.
+const LEAST_P: f64 = 0.0001;
 
 /// A headline claim.
 pub struct Headline<'a> {
@@ -35,7 +39,7 @@ pub fn headlines<'a>(paper: &'a Paper, verdicts: &'a Verdicts) -> Vec<Headline<'
         let sentences = [&judged.short, &judged.says, &judged.quote];
         let says = sentences.into_iter().flatten().next().unwrap_or(&judged.at);
         let has_meanings = paper.claim(&judged.claim).is_some_and(|claim| claim.meanings().is_some());
-        Headline { judged, says: says.clone(), ours: ours(judged, verdicts), has_meanings }
+        Headline { judged, says: says.clone(), ours: ours(judged, paper, verdicts), has_meanings }
     };
     shown.into_iter().map(headline).collect()
 }
@@ -82,7 +86,8 @@ fn meanings(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
         }
     }
     let of_each: Vec<String> = counts.iter().map(|(verdict, count)| format!("{count} {verdict}")).collect();
-    (counts.len() > 1).then(|| format!("by meaning: {}", of_each.join(", ")))
+    let all: usize = counts.iter().map(|(_, count)| count).sum();
+    (counts.len() > 1).then(|| format!("its {all} meanings: {}", of_each.join(", ")))
 }
 
 /// How much was explored, and the command that does it again. A headline names the choices that were not varied for it.
@@ -92,24 +97,34 @@ pub fn evidence(verdicts: &Verdicts) -> String {
         return format!("Judged under the defaults alone. {again}");
     };
     let seed = if explored.second_seed { "and a second seed" } else { "but no second seed" };
-    format!("Explored: {} interpretations, {seed}. {again}", explored.interpretations)
+    let explored = explored.interpretations;
+    format!("Explored: {explored} interpretations, {seed}. Numbers are those of the defaults. {again}")
 }
 
-/// Our number beside a claim, or those of its parts.
-fn ours(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
+/// Our number beside a claim, or those of its parts, with how many instances they rest on.
+fn ours(judged: &ClaimVerdict, paper: &Paper, verdicts: &Verdicts) -> Option<String> {
+    let noun = noun(paper.studies_of(&judged.claim));
     if let Some(ours) = judged.ours() {
         let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
         let printed =
             judged.printed.as_ref().map_or_else(String::new, |printed| format!("printed {printed}, ours "));
         let number = match ours.quantity {
-            Quantity::Rank => format!("{} of ours are as extreme", percentage(ours)),
+            Quantity::Rank => format!("{} of our {noun} are at least as unusual", percentage(ours)),
+            Quantity::Probability if ours.value < LEAST_P => format!("p below {LEAST_P}"),
             Quantity::Probability => format!("p = {}", number(ours.value)),
             _ => effect(ours).unwrap_or_else(|| short(ours) + &unit),
         };
         // One instance may hold many cases, such as the queries of one map.
         let cases = ours.solved.map(|[_, cases]| cases).filter(|&cases| ours.n == 1 && cases > 1);
         let cases = cases.map_or_else(String::new, |cases| format!(" with {cases} cases"));
-        return Some(format!("{printed}{number} (n = {}{cases})", ours.n));
+        return Some(format!("{printed}{number} (n = {} {}{cases})", ours.n, counted(ours.n, noun)));
     }
-    side_by_side(&verdicts.parts_ours(judged)).map(|[numbers, n]| format!("{numbers} (n = {n})"))
+    let [numbers, n] = side_by_side(&verdicts.parts_ours(judged))?;
+    let noun = if n == "1" { counted(1, noun) } else { noun };
+    Some(format!("{numbers} (n = {n} {noun})"))
+}
+
+/// The noun for so many instances: the plural without its s for one.
+fn counted(n: usize, plural: &str) -> &str {
+    plural.strip_suffix('s').filter(|_| n == 1).unwrap_or(plural)
 }

@@ -18,6 +18,7 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 use study::StudyError;
+use study::paper::{Paper, PrintedTable};
 use study::store::write_whole;
 
 /// A figure that could not be drawn.
@@ -42,7 +43,8 @@ const SECTIONS: [(&str, &str); 7] = [
 
 const OPENING: &str = "# What the papers claim and what we found
 
-Each paper has a chapter below. [README](README.md) explains the words of a verdict. `replan repro PAPER` writes what stands
+Each paper has a chapter below. [README](README.md) explains the words of a verdict. Counts such as 50/0/9 for/open/against are
+of interpretations: 50 agree with the claim, 0 cannot tell and 9 contradict it. `replan repro PAPER` writes what stands
 between the markers.
 ";
 
@@ -172,6 +174,18 @@ fn links(claims: &[impl AsRef<str>]) -> String {
 /// A paragraph, its text shown as it is.
 fn paragraph(text: &str) -> String {
     wrapped("", &markdown(text), 0, COLUMNS) + "\n\n"
+}
+
+/// Whether the chapter shows one of the paper's own tables; the details show the others.
+fn is_in_chapter(paper: &Paper, table: &PrintedTable) -> bool {
+    let is_left = paper.report.in_details.iter().any(|id| *id.get_ref() == table.id);
+    table.has_claims() && !table.compares && !is_left
+}
+
+/// A table in Markdown between its caption and its notes.
+fn with_caption(table: &PrintedTable, markdown: &str) -> String {
+    let notes = if table.notes.is_empty() { String::new() } else { paragraph(&table.notes.join(" ")) };
+    format!("{}{markdown}\n{notes}", paragraph(&table.caption))
 }
 
 /// An item of a list, its text taken as Markdown.

@@ -59,7 +59,7 @@ fn a_reading_that_the_study_of_a_witness_does_not_have_is_not_looked_at_if_it_to
 #[test]
 fn a_reading_that_touches_a_claim_and_was_not_varied_caps_it_at_supported() {
     let toy = choices_of_one_study("", &[]);
-    assert_eq!(toy.class_and_across("calibrated"), pair("supported", "not varied: hurry"));
+    assert_eq!(toy.class_and_across("calibrated"), pair("supported", "choices not varied: hurry"));
     // With the interpretation in the room too, its other option was asked.
     assert_eq!(Toy::new(&[CITED, FITTED]).class_and_across("calibrated"), pair("fitted", "met under 1 of 2"));
 }

@@ -451,7 +451,7 @@ fn a_selection_that_selects_nothing_is_refused_with_the_names_there_are() {
     let share = "[claim.check.share]\nhits = \"solved\"\naccepted = [0.0, 0.5]\nof = { study = \"maps\", problems = \"0\" }\n";
     let bench = swept(share);
     let wanted =
-        "paper.toml:9:6: `of` names no contender, so that it selects nothing; study `maps` has A*, Weighted";
+        "paper.toml:9:6: `of` names no contender, so it selects nothing; study `maps` has A*, Weighted";
     let output = bench.run(&["check", "./forty"]).err;
     assert!(output.contains(wanted), "{output}");
     // What a task tries in the place of contenders has names too.

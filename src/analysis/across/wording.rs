@@ -21,7 +21,7 @@ pub fn not_varied(choices: &[String]) -> Option<String> {
     let listed = choices.iter().take(LISTED).cloned().collect::<Vec<_>>().join(", ");
     let more = choices.len().saturating_sub(LISTED);
     let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-    (!choices.is_empty()).then(|| format!("not varied: {listed}{more}"))
+    (!choices.is_empty()).then(|| format!("choices not varied: {listed}{more}"))
 }
 
 /// The results of a claim that count, and where they come from.

@@ -75,7 +75,7 @@ impl Gate {
         if by * worse < 0.0 {
             let (way, sign) = if worse > 0.0 { ("lower", '+') } else { ("higher", '-') };
             return Err(format!(
-                "--gate: `{text}`: {way} is better, so that a margin for the worse is {sign}{}{}",
+                "--gate: `{text}`: {way} is better, so a margin for the worse is {sign}{}{}",
                 by.abs(),
                 if is_percent { "%" } else { "" }
             ));
@@ -185,8 +185,8 @@ mod tests {
             ("expansions", "is not `METRIC ±NUMBER`"),
             ("expansions two", "is not `METRIC ±NUMBER`"),
             ("expansions +inf", "is not `METRIC ±NUMBER`"),
-            ("expansions -2%", "lower is better, so that a margin for the worse is +2%"),
-            ("solved +1%", "higher is better, so that a margin for the worse is -1%"),
+            ("expansions -2%", "lower is better, so a margin for the worse is +2%"),
+            ("solved +1%", "higher is better, so a margin for the worse is -1%"),
             (
                 "expansion +2%",
                 "`expansion` is no metric that can be compared (did you mean `expansions`?); solved, ",

@@ -274,7 +274,7 @@ impl<'a> LeastOf<'a> {
         (longer + shorter + equal > 0).then(|| {
             let kept = match broken {
                 0 => "the runs keep to both".to_owned(),
-                broken => format!("{broken} of them do not keep to it, so that the program is wrong"),
+                broken => format!("{broken} of them do not keep to it, so the program is wrong"),
             };
             format!(
                 "by set inclusion, on any map, {longer} of {} cannot be longer (all steps of the other are its own) and {} cannot \

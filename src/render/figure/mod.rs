@@ -168,20 +168,21 @@ pub fn caption(spec: &FigureSpec, run: &Run<'_>, paper: &Paper, verdicts: &Verdi
     let own = build(spec, run.study, paper).ok().and_then(|kind| kind.statistic());
     let settings = spec.settings.as_ref().map(base::settings::Spanned::get_ref);
     let Trials { instances, solved, all } = trials(run, settings);
-    let unit = unit(run.study);
-    let n = format!("n = {instances} {unit}, {solved}/{all} trials solved");
+    let noun = noun([run.study]);
+    let n = format!("n = {instances} {noun}, {solved}/{all} trials solved");
     let interpretations = verdicts.explored.as_ref().map_or(0, |explored| explored.interpretations);
     let statistic = own.unwrap_or(entry.statistic);
     let statistic = statistic
-        .replace("instances", unit)
+        .replace("instances", noun)
         .replace("{n}", &n)
         .replace("{interpretations}", &format!("n = {interpretations} interpretations"));
     format!("{} {statistic}", spec.caption)
 }
 
-/// The noun for the instances of `study`: that of its families if they agree.
-pub(crate) fn unit(study: &Study) -> &'static str {
-    let nouns: BTreeSet<&str> = study.groups.iter().map(|group| group.noun).collect();
+/// The noun for the instances of studies, in the plural: that of their families if they agree.
+pub(crate) fn noun<'a>(studies: impl IntoIterator<Item = &'a Study>) -> &'static str {
+    let groups = studies.into_iter().flat_map(|study| &study.groups);
+    let nouns: BTreeSet<&str> = groups.map(|group| group.noun).collect();
     match nouns.first() {
         Some(noun) if nouns.len() == 1 => noun,
         _ => "instances",

@@ -4,7 +4,7 @@
 mod across;
 mod ratios;
 
-use super::{CurveLine, Curves, Entry, Kind, Scene, ask, unit};
+use super::{CurveLine, Curves, Entry, Kind, Scene, ask, noun};
 use crate::analysis::metric::Metric;
 use crate::analysis::shown;
 use crate::render::RenderError;
@@ -257,7 +257,7 @@ impl SweepCurves {
         };
         let edges = self.over(&found.band).map(|(x, [low, high])| [x, *low, *high]).collect();
         let count = curves.instances.len();
-        let unit = unit(scene.run.study);
+        let unit = noun([scene.run.study]);
         let label = format!("{}: mean of {count} {unit}, 95 % band", row.contender);
         panel.add(Band { edges, fill: Fill::sheer(series_color(index), 0.25), label: String::new() });
         let points = self.over(&found.mean).map(|(x, y)| [x, *y]).collect();
@@ -307,13 +307,13 @@ impl SweepCurves {
                 self.over(curve).map(|(x, y)| [x, (y + shift).clamp(0.0, 100.0)]).collect(),
                 thin,
             );
-            let label = format!("one {} (first {DRAWN})", unit(scene.run.study).trim_end_matches('s'));
+            let label = format!("one {} (first {DRAWN})", noun([scene.run.study]).trim_end_matches('s'));
             panel.add(line.labelled(if instance == 0 { label } else { String::new() }));
         }
         let means = self.over(curves.means()).map(|(x, y)| [x, y]).collect();
         panel.add(
             Line::through(means, Stroke::solid(GREY, 1.8))
-                .labelled(format!("mean of all {}", unit(scene.run.study))),
+                .labelled(format!("mean of all {}", noun([scene.run.study]))),
         );
         let printed = Points::unlabelled(row.printed.clone(), series_marker(0), 2.8, VERMILLION);
         panel.add(printed.labelled("printed"));
@@ -392,7 +392,7 @@ impl Kind for SweepCurves {
             let found = curves.band(&["success_bands", &row.contender])?;
             let band = [0, 1].map(|end| found.band.iter().map(|ends| ends[end]).collect());
             let count = curves.instances.len();
-            let unit = unit(scene.run.study);
+            let unit = noun([scene.run.study]);
             let label = format!("{}: mean of {count} {unit}", row.contender);
             let values = found.mean.into_iter().map(Some).collect();
             Some(CurveLine { label, of, values, band: Some(band), is_printed: false })

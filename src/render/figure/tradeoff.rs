@@ -1,7 +1,7 @@
 //! One metric against another, a point a contender: means over the same problems with intervals both ways, or every trial
 //! with the medians.
 
-use super::{Entry, Kind, Scene, ask, unit};
+use super::{Entry, Kind, Scene, ask, noun};
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::Selection;
 use crate::analysis::shown::{means_of_whole_instances, median_point, of_all};
@@ -86,7 +86,7 @@ impl Ready {
             let of = move |(a, b): &(Estimate, Estimate)| [a.interval, b.interval][axis];
             points.iter().flatten().map(of).flat_map(|interval| [interval.low, interval.high])
         };
-        let title = format!("{}, {instances} {}", spec.title, unit(scene.run.study));
+        let title = format!("{}, {instances} {}", spec.title, noun([scene.run.study]));
         let [x, y] = [0, 1].map(|axis| Axis::over(self.metrics[axis].title(), ends(axis)));
         let mut panel = Panel::new(title, x, y);
         for (contender, point) in self.read.contenders.iter().zip(&points) {

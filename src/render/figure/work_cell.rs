@@ -1,6 +1,6 @@
 //! A work cell from two sides: its robot at several poses, or the ways of its tool.
 
-use super::{Entry, Kind, Scene, Shown, ask, unit};
+use super::{Entry, Kind, Scene, Shown, ask, noun};
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::{Key, Panel, Sheet, axis};
@@ -307,7 +307,7 @@ impl WorkCell {
             "saving {own:.1} %: {} of {} {} save less, the median saves {:.1} %",
             rank.below,
             rank.instances(),
-            unit(scene.run.study),
+            noun([scene.run.study]),
             savings.median?
         ))
     }

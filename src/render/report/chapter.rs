@@ -1,7 +1,10 @@
 //! A paper's chapter: what was found, its tables beside ours, figures, and claims that lead to their evidence.
 
 use super::replies::replies;
-use super::{SECTIONS, Undrawn, anchor, begin_of_row, item, link, linked, paragraph, place};
+use super::{
+    SECTIONS, Undrawn, anchor, begin_of_row, is_in_chapter, item, link, linked, paragraph, place,
+    with_caption,
+};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::{ClaimVerdict, Verdicts};
 use crate::analysis::verdict_rule::Column;
@@ -11,7 +14,7 @@ use crate::render::prose::{COLUMNS, capital, markdown, prose, wrapped};
 use crate::render::tables;
 use crate::render::{RenderError, results, state};
 use std::collections::BTreeSet;
-use study::paper::{FIGURES, Paper};
+use study::paper::{FIGURES, Paper, PrintedTable};
 use study::spec::FigureSpec;
 
 /// A chapter, and what opens the report.
@@ -138,13 +141,17 @@ impl Page<'_> {
         let paper = self.evidence.paper;
         let details = self.details_file();
         let verdict = |judged: &ClaimVerdict| link(judged, &judged.verdict_text(), &details);
-        for table in paper.tables.iter().filter(|table| table.has_claims() && !table.compares) {
-            *text += &paragraph(&table.caption);
-            *text += &tables::markdown(self.evidence, table, self.verdicts, verdict)?;
-            *text += "\n";
-            if !table.notes.is_empty() {
-                *text += &paragraph(&table.notes.join(" "));
-            }
+        for table in paper.tables.iter().filter(|table| is_in_chapter(paper, table)) {
+            *text += &with_caption(table, &tables::markdown(self.evidence, table, self.verdicts, verdict)?);
+        }
+        let further =
+            |table: &&PrintedTable| paper.report.in_details.iter().any(|id| *id.get_ref() == table.id);
+        let further: Vec<&str> =
+            paper.tables.iter().filter(further).map(|table| table.caption.as_str()).collect();
+        if !further.is_empty() {
+            let captions = markdown(&further.join(". "));
+            let line = format!("[In the details]({details}#figures) stand: {captions}.");
+            *text += &(wrapped("", &line, 0, COLUMNS) + "\n\n");
         }
         for table in paper.report.tables.iter().filter_map(|id| paper.results_called(id.get_ref())) {
             *text += &results::markdown(self.evidence, table)?;

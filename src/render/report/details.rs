@@ -3,7 +3,10 @@
 
 use super::chapter::Page;
 use super::interpretations::across_lines;
-use super::{SECTIONS, anchor, item, linked, links, paper_statement, paragraph, place};
+use super::{
+    SECTIONS, anchor, is_in_chapter, item, link, linked, links, paper_statement, paragraph, place,
+    with_caption,
+};
 use crate::analysis::citation::version_in;
 use crate::analysis::verdict::{ClaimVerdict, CriterionFinding, Together, Verdicts};
 use crate::render::prose::{COLUMNS, markdown, wrapped};
@@ -104,12 +107,10 @@ impl Page<'_> {
         for figure in self.further() {
             *text += &self.figure(figure, "");
         }
-        for table in paper.tables.iter().filter(|table| !table.has_claims() || table.compares) {
-            *text += &paragraph(&table.caption);
-            let shown = tables::markdown(self.evidence, table, self.verdicts, |_| String::new());
-            *text += &shown.unwrap_or_else(|error| paragraph(&error.to_string()));
-            *text += "\n";
-            *text += &paragraph(&table.notes.join(" "));
+        for table in paper.tables.iter().filter(|table| !is_in_chapter(paper, table)) {
+            let verdict = |judged: &ClaimVerdict| link(judged, &judged.verdict_text(), "");
+            let shown = tables::markdown(self.evidence, table, self.verdicts, verdict);
+            *text += &with_caption(table, &shown.unwrap_or_else(|error| paragraph(&error.to_string())));
         }
         let is_shown = |id: &String| paper.report.tables.iter().any(|shown| shown.get_ref() == id);
         for table in paper.results.iter().filter(|table| !is_shown(table.id.get_ref())) {

@@ -42,7 +42,7 @@ impl Page<'_> {
             explored.interpretations, explored.trials
         );
         if explored.none_compatible {
-            about += " No voting interpretation agrees with all that the studies were calibrated to, so that all of them are judged.";
+            about += " No voting interpretation agrees with all that the studies were calibrated to, so all of them are judged.";
         }
         *text += &paragraph(&about);
         for (claims, what) in

@@ -21,6 +21,8 @@ pub struct ReportSpec {
     pub figures: Option<Vec<Spanned<String>>>,
     /// Tables of our results that it shows beside the paper's own.
     pub tables: Vec<Spanned<String>>,
+    /// The paper's own tables that stand in the details and not in the chapter.
+    pub in_details: Vec<Spanned<String>>,
 }
 
 /// How many figures a chapter shows at most.
@@ -100,6 +102,8 @@ impl Paper {
         let results: BTreeSet<&str> = self.results.iter().map(|table| table.id.get_ref().as_str()).collect();
         self.known("figure", report.figures.as_deref().unwrap_or_default(), figures, faults);
         self.known("table of results", &report.tables, &results, faults);
+        let printed = self.tables.iter().map(|table| table.id.as_str()).collect();
+        self.known("table", &report.in_details, &printed, faults);
     }
 }
 
