@@ -240,8 +240,8 @@ fn contenders_that_are_on_both_sides_are_refused() {
     );
     let of = (
         "paper.toml",
-        "of = { study = \"lengths\", problems = \"case 1\", contender = \"24 neighbours\", against = \"8 neighbours\", metric",
-        "of = { study = \"lengths\", problems = \"case 1\", metric",
+        "select = { study = \"lengths\", problems = \"case 1\", contender = \"24 neighbours\", against = \"8 neighbours\", metric",
+        "select = { study = \"lengths\", problems = \"case 1\", metric",
     );
     let that = ("paper.toml", "that = \"lower\"\n", "");
     let wanted = "paper.toml:72:10: `24 neighbours` is held against itself; another contender is accepted";

@@ -29,7 +29,7 @@ fn a_misspelt_criterion_is_reported_at_its_name() {
         "paper.toml",
         "[claim.check.lower]\nof = { study = \"compare\", problems = \"maps\", contender = \"Weighted A*\", against = \"A*\", \
          metric = \"opened\" }",
-        "check.lowr = { of = { study = \"compare\", problems = \"maps\", contender = \"Weighted A*\", against = \"A*\", \
+        "check.lowr = { select = { study = \"compare\", problems = \"maps\", contender = \"Weighted A*\", against = \"A*\", \
          metric = \"opened\" } }",
     );
     assert_alone("grid", inline, &format!("paper.toml:82:7: {wanted}"));

@@ -33,7 +33,7 @@ title = "A paper of forty numbers"
 id = "t"
 at = "Table 1"
 caption = "Means over twelve maps."
-of = { study = "maps" }
+select = { study = "maps" }
 check.within = { statistic = "mean", margin = 2.0 }
 row = [
 ROWS
@@ -41,22 +41,22 @@ ROWS
 
 [[table.column]]
 id = "length"
-of = { metric = "path_cost_cells" }
+select = { metric = "path_cost_cells" }
 unit = "cells"
 
 [[table.column]]
 id = "nodes"
-of = { metric = "opened" }
+select = { metric = "opened" }
 check.within = { margin = 20.0 }
 
 [[table.column]]
 id = "expansions"
-of = { metric = "expansions" }
+select = { metric = "expansions" }
 check.within = { margin = 20.0 }
 
 [[table.column]]
 id = "bends"
-check.within.of = { metric = "bends" }
+check.within.select = { metric = "bends" }
 "#;
 
 /// A paper with a table of forty numbers, in a folder called `forty`.
@@ -74,7 +74,7 @@ fn forty() -> Bench {
         for (id, label) in [("astar", "A*"), ("weighted", "Weighted")] {
             writeln!(
                 rows,
-                "  {{ id = \"{id}{number}\", of = {{ contender = \"{label}\", problems = \"{number}\" }}, printed = [\"23.5\", \"120\", \
+                "  {{ id = \"{id}{number}\", select = {{ contender = \"{label}\", problems = \"{number}\" }}, printed = [\"23.5\", \"120\", \
                  \"60.0\", \"6.5\"] }},"
             )
             .unwrap();
@@ -233,31 +233,31 @@ const COMPARED: &str = r#"
 id = "u"
 at = "Table 2"
 caption = "Means over twelve maps."
-of = { study = "maps", metric = "opened" }
+select = { study = "maps", metric = "opened" }
 check.mean_of = { instances = 12 }
 
 [[table.column]]
 id = "astar"
-of = { contender = "A*" }
+select = { contender = "A*" }
 
 [[table.column]]
 id = "weighted"
-of = { contender = "Weighted" }
+select = { contender = "Weighted" }
 
 [[table.column]]
 id = "more"
 difference = ["astar", "weighted"]
-of = { contender = "A*", against = "Weighted" }
+select = { contender = "A*", against = "Weighted" }
 
 [[table.row]]
 id = "one"
 printed = ["120.5", "9000"]
-of = { problems = "1" }
+select = { problems = "1" }
 
 [[table.row]]
 id = "two"
 printed = ["N/A", "60"]
-of = { problems = "2" }
+select = { problems = "2" }
 
 [[claim]]
 id = "whole"
@@ -301,7 +301,7 @@ const REPEATED: &str = r#"
 id = "again"
 at = "Table 2"
 caption = "One row of Table 1, printed again."
-of = { study = "maps", metric = "path_cost_cells", contender = "A*", problems = "0" }
+select = { study = "maps", metric = "path_cost_cells", contender = "A*", problems = "0" }
 check.within = { statistic = "mean", margin = 2.0 }
 column = [{ id = "length" }]
 row = [{ id = "one", printed = ["23.5"] }]

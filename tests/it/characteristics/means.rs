@@ -32,7 +32,7 @@ fn deviation() -> f64 {
 }
 
 const OF: &str =
-    "of = { study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }\n";
+    "select = { study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }\n";
 
 fn at_most(false_against: f64) -> Bounds {
     Bounds { false_against: Some(false_against), ..Bounds::default() }
