@@ -41,8 +41,8 @@ check.row_one_draw.rows = [{ claims = ["t.*", "d"] }]
 def test_the_nearest_layer_says_how_a_cell_is_judged() -> None:
     claims = {claim["id"]: claim for claim in claims_of(tomllib.loads(PAPER))}
     assert list(claims) == ["t.a.10", "t.a.time", "t.b", "t.b.10", "t.b.20", "t.b.time", "c"]
-    select = {"study": "s", "sweep": "n=10", "contender": "A"}
-    assert claims["t.a.10"]["check"] == {"within": {"statistic": "mean", "margin": 2.0, "select": of}}
+    selection = {"study": "s", "sweep": "n=10", "contender": "A"}
+    assert claims["t.a.10"]["check"] == {"within": {"statistic": "mean", "margin": 2.0, "select": selection}}
     assert claims["t.b"]["cells"] == ["t.b.10", "t.b.20", "c"]
     assert claims["t.a.time"] == {"id": "t.a.time", "printed": "3", "untestable": "no machine"}
     assert claims["t.b.20"]["check"] == {"exists": {"in": [], "contenders": "B", "metric": "m"}}

@@ -331,14 +331,14 @@ fn a_changed_margin_printed_number_or_criterion_of_the_same_numbers_needs_no_tri
     // What is printed.
     toy.0.edit("toy/paper.toml", "printed = \"24\"", "printed = \"4\"");
     // A margin that the weight does not reach.
-    toy.0.edit("toy/paper.toml", "check.lower.of", "check.lower.by_percent = 99.0\ncheck.lower.of");
+    toy.0.edit("toy/paper.toml", "check.lower.select", "check.lower.by_percent = 99.0\ncheck.lower.select");
     let output = toy.0.done(&["judge", "./toy"]);
     assert!(!output.contains("default interpretation alone") && !output.contains("trials:"), "{output}");
     assert_eq!(toy.verdicts().explored.unwrap().stale, [""; 0]);
     assert_eq!([outcome("witness"), outcome("fewer")], [Outcome::Attainable, Outcome::SignOnly]);
     // Another criterion of the same numbers: the reduction, held against bounds.
-    let lower = "check.lower.by_percent = 99.0\ncheck.lower.of = ";
-    let within = "check.within.accepted = [-1e6, 1e6]\ncheck.within.statistic = \"reduction_percent\"\ncheck.within.of = ";
+    let lower = "check.lower.by_percent = 99.0\ncheck.lower.select = ";
+    let within = "check.within.accepted = [-1e6, 1e6]\ncheck.within.statistic = \"reduction_percent\"\ncheck.within.select = ";
     toy.0.edit("toy/paper.toml", lower, within);
     toy.0.done(&["judge", "./toy"]);
     assert_eq!(toy.verdicts().explored.unwrap().stale, [""; 0]);

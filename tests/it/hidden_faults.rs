@@ -222,7 +222,7 @@ fn a_ratio_to_a_printed_zero_is_refused() {
 #[test]
 fn what_nothing_could_speak_against_is_refused() {
     let own = ("paper.toml", "against = \"8 neighbours\"", "against = \"24 neighbours\"");
-    let wanted = "paper.toml:71:87: `24 neighbours` is held against itself; another contender is accepted";
+    let wanted = "paper.toml:71:91: `24 neighbours` is held against itself; another contender is accepted";
     assert_faults("arm", &[own], &[wanted]);
     let any =
         ("paper.toml", "[claim.check.on_every]", "[claim.check.share]\nhits = \"lower\"\naccepted = [0, 1]");

@@ -36,7 +36,7 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-of = { study = "compare", problems = ["maps"], metric = "expansions" }
+select = { study = "compare", problems = ["maps"], metric = "expansions" }
 lower = "Weighted A*"
 higher = ["A*"]
 by_percent = 20

@@ -33,7 +33,7 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-of = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
+select = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
 instances = 500
 "#,
     build: |context| Ok(Box::new(MeanOf::new(context)?)),

@@ -28,7 +28,7 @@ pub static ENTRY: Entry = Entry {
     question: |_| Some("every case 1"),
     settings: Accepted::shape::<Settings>(),
     example: r#"
-of = { study = "compare", problems = "maps", contender = "Weighted A*", against = "A*", metric = "opened" }
+select = { study = "compare", problems = "maps", contender = "Weighted A*", against = "A*", metric = "opened" }
 that = "lower"
 "#,
     build: |context| Ok(Box::new(OnEvery::new(context)?)),

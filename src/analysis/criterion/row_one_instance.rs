@@ -16,6 +16,7 @@ use serde::Deserialize;
 use stats::rows::{Level, Place, monotone_probability};
 use std::collections::BTreeMap;
 use study::key::SweepKey;
+use study::sweeps_of;
 use toml::Value;
 
 /// The registry's entry.
@@ -31,7 +32,7 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-of = { study = "compare", problems = "maps", metric = "opened" }
+select = { study = "compare", problems = "maps", metric = "opened" }
 rows = [{ contender = "Weighted A*", against = "A*", statistics = ["mean"], claims = ["table1.weighted.saving"] }]
 refused_below = 0.05
 "#,
@@ -102,7 +103,8 @@ impl<'a> RowOneInstance<'a> {
             if row.claims.len() != count {
                 let message = format!("the row has {} claims for {count} cells", row.claims.len());
                 let error = context.settings.error_at(&format!("rows.{index}.claims"), message);
-                return Err(error.about("claims").about("statistics").about("select"));
+                let error = error.about("claims").about("statistics").about("select");
+                return Err(error.about(&sweeps_of(&selection.study.name)));
             }
             for id in &row.claims {
                 printed.push(context.print_of(id)?.printed.value());

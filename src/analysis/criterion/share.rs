@@ -35,7 +35,7 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-of = { study = "compare", problems = ["maps"], contender = "A*" }
+select = { study = "compare", problems = ["maps"], contender = "A*" }
 hits = "solved"
 accepted = [0.995, 1.0]
 "#,

@@ -30,7 +30,7 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-of = { study = "compare", problems = "maps", contender = "A*", metric = "opened" }
+select = { study = "compare", problems = "maps", contender = "A*", metric = "opened" }
 over = "path_cost_cells"
 rising = true
 "#,

@@ -29,7 +29,7 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-of = { study = "compare", problems = "maps", contender = "Weighted A*", against = "A*", metric = "opened" }
+select = { study = "compare", problems = "maps", contender = "Weighted A*", against = "A*", metric = "opened" }
 statistic = "ratio"
 accepted = [0.0, 0.5]
 "#,

@@ -65,7 +65,7 @@ fn along_a_sweep_what_did_not_end_might_have_been_solved() {
                 sample.query("B", Some(query), Some(value), if query == 0 { At(1.0) } else { other });
             }
         }
-        let settings = "is = \"higher\"\nof = { OF, contender = \"A\", against = \"B\" }";
+        let settings = "is = \"higher\"\nselect = { OF, contender = \"A\", against = \"B\" }";
         class("lower", settings, Made::Swept, sample)
     };
     assert_eq!([of(At(1.0), NoPath), of(NoPath, At(1.0))], ["holds", "contradicted"]);

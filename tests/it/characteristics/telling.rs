@@ -45,7 +45,7 @@ fn along_a_sweep_the_other_alone_solves_the_trial_that_is_named() {
             sample.query("B", Some(query), Some(value), At(1.0));
         }
     }
-    let settings = format!("is = \"higher\"\nof = {{ {OF}, contender = \"A\", against = \"B\" }}");
+    let settings = format!("is = \"higher\"\nselect = {{ {OF}, contender = \"A\", against = \"B\" }}");
     let found = shown("lower", &settings, Made::Swept, sample);
     assert_eq!(found, ("contradicted", "drawn/map/0/3/a/weight=3".to_owned()));
 }
