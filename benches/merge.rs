@@ -50,7 +50,7 @@ fn made_up(built: &BuiltStudy<'_>, units: &[Unit<'_>], portion: &Portion) -> Bat
         for key in built.trials(unit) {
             if index % 10 == 0 {
                 let trace = Trace { name: "path".to_owned(), width: 2, values: vec![index as f64; 24] };
-                batch.kept.push(Kept { of: Owner::from(&key), trace });
+                batch.kept.push(Kept { owner: Owner::from(&key), trace });
             }
             let count = |times: usize| Value::Count((index * times % 4093) as u64);
             let counts = ["opened", "closed", "expansions", "generated", "bends"];

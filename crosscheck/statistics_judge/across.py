@@ -242,7 +242,7 @@ class Across:
         """Whether a saving of one more instance, stored for a claim, could have refused next to nothing."""
         asked = self.paper.claim(claim).get("check", {}).get("one_instance", {})
         ends = result.get("interval")
-        is_saving = "against" in asked.get("of", {})
+        is_saving = "against" in asked.get("select", {})
         is_for = SPEAKS[stored_outcome(result)] > 0
         return is_for and is_saving and ends is not None and ends[1] - ends[0] >= NO_POWER
 

@@ -84,4 +84,4 @@ class Asked:
 
     def cases(self, **other: str) -> Cases:
         """The cases that it looks at."""
-        return select(self.paper, {**self.settings["of"], **other}, self.session)
+        return select(self.paper, {**self.settings["select"], **other}, self.session)

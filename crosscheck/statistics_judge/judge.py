@@ -177,7 +177,7 @@ def is_few(name: str, settings: dict[str, Any], found: Found) -> bool:
 
 def selections_of(settings: dict[str, Any]) -> list[dict[str, Any]]:
     """Where only whole instances count, the selections of a criterion, one a row."""
-    of = settings.get("of", {})
+    of = settings.get("select", {})
     if not of.get("whole_instances", False):
         return []
     rows = settings.get("rows", [{}])
@@ -186,14 +186,14 @@ def selections_of(settings: dict[str, Any]) -> list[dict[str, Any]]:
 
 def studies_of(settings: dict[str, Any]) -> list[str]:
     """The studies whose trials a criterion looks at."""
-    if "of" in settings:
-        return [settings["of"]["study"]]
+    if "select" in settings:
+        return [settings["select"]["study"]]
     return [place["study"] for place in settings["in"]]
 
 
 def reads_clock(paper: Paper, settings: dict[str, Any]) -> bool:
     """Whether a criterion rests on our own clock."""
-    name = settings.get("metric") or settings.get("of", {}).get("metric")
+    name = settings.get("metric") or settings.get("select", {}).get("metric")
     return name is not None and paper.metric(name).clock
 
 

@@ -68,7 +68,7 @@ def of_values(asked: Asked, values: Reals) -> tuple[Interval, frozenset[str | No
     spread = stats.t.isf((1 - LEVEL) / 2, len(values) - 1) * stats.sem(values)
     cell = printed(asked.paper, asked.claim).value
     signs = [(values.mean() + way * spread) * cell for way in (-1, 1)]
-    refused = SIGN if "against" in asked.settings["of"] and min(signs) > 0 else FAILS
+    refused = SIGN if "against" in asked.settings["select"] and min(signs) > 0 else FAILS
 
     def outcome(low: float, high: float) -> str:
         return HOLDS if low <= most and least <= high else refused
@@ -126,7 +126,7 @@ def table_means(asked: Asked) -> Found:
             cases, count = own.cases(), own.settings["instances"]
             units = dict(zip(*(one.tolist() for one in of_units(cases)), strict=True))
             cell = Cell(printed(asked.paper, claim).value, rounded(own, claim), count, units, cases)
-            rows.setdefault((place["study"], str(own.settings["of"]["problems"]), count), []).append(cell)
+            rows.setdefault((place["study"], str(own.settings["select"]["problems"]), count), []).append(cell)
     cells = [cell for row in rows.values() for cell in row]
     probabilities = [of_row(row) for row in rows.values()]
     is_cut = any(bool(cell.cases.unended.any()) for cell in cells)

@@ -24,7 +24,7 @@ NARROWED = ("query", "sweep")
 
 def least_of(asked: Asked) -> Found:
     """Some contenders' medians over seeds, failures infinite, are below those of others on every problem."""
-    settings, of = asked.settings, asked.settings["of"]
+    settings, of = asked.settings, asked.settings["select"]
     study = asked.paper.studies[of["study"]]
     # Problems of which none could be posed say nothing.
     every = groups_of(study, of["problems"])
@@ -74,7 +74,7 @@ def could_be_posed(study: Study, group: str, pairs: list[tuple[str, str]]) -> bo
 def has_few_seeds(asked: Asked, group: str, contender: str) -> bool:
     """Whether a contender that draws, or one on a problem that was drawn, has too few seeds."""
     found = side(asked, group, contender, np.inf)
-    study = asked.paper.studies[asked.settings["of"]["study"]]
+    study = asked.paper.studies[asked.settings["select"]["study"]]
     least = 1 if is_drawn(study, group) else 2
     return found is not None and least <= found.n < FEWEST_SEEDS
 
@@ -94,7 +94,7 @@ def compare(
 
 def unended(asked: Asked, group: str, contender: str) -> bool:
     """Whether some trial of a contender did not come to an end."""
-    of = asked.settings["of"]
+    of = asked.settings["select"]
     study = asked.paper.studies[of["study"]]
     return bool(np.isin(study.status[posed(study, group, contender, of)], CUT).any())
 
@@ -107,7 +107,7 @@ def greatest(ends: Iterable[End]) -> End:
 
 def side(asked: Asked, group: str, contender: str, given: float) -> Estimate | None:
     """The median of one contender on one problem, computed once for all claims that compare it."""
-    of = asked.settings["of"]
+    of = asked.settings["select"]
     known = asked.paper.studies[of["study"]].known
     key = (
         group,

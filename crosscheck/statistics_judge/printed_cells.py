@@ -110,7 +110,7 @@ def prints_as(asked: Asked) -> Found:
     elif not any(agree) and (float(least) > high or float(most) < low):
         outcome = FAILS
     found = certain(outcome, Estimate(low, len(values), None, cases.solved_of_all()))
-    few = outcome == HOLDS and needs_draws(cases, labels(asked.settings["of"]["problems"]))
+    few = outcome == HOLDS and needs_draws(cases, labels(asked.settings["select"]["problems"]))
     cut = outcome != OPEN and bool(cases.unended.any())
     return replace(found, censored=frozenset([cut]), few=few)
 

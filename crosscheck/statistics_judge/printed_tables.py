@@ -39,7 +39,7 @@ def of_table(table: Settings) -> Iterator[Settings]:
         parts = [cell["id"] for cell in cells if "untestable" not in cell] + row.get("with", [])
         if len(parts) > 1:
             whole = {"id": f"{begin}.{row['id']}", **row.get("whole", {}), "cells": parts}
-            layers = [{"of": table.get("of", {})}, row.get("whole", {})]
+            layers = [{"select": table.get("select", {})}, row.get("whole", {})]
             yield {**whole, **judged(layers, untestable=False, names={"{row}": row["id"]})}
         yield from cells
 
@@ -84,7 +84,7 @@ def judged(layers: list[Settings], *, untestable: bool, names: dict[str, str]) -
     """Rules and criteria with their settings: the nearest layer that names any says which, all say how."""
     of: Settings = {}
     for layer in layers:
-        of.update(layer.get("of", {}))
+        of.update(layer.get("select", {}))
     found: Settings = {}
     for kind in ("rule", "check"):
         named = [layer for layer in layers if layer.get(kind)]
@@ -110,7 +110,7 @@ def laid_over(of: Settings, settings: Settings) -> Settings:
     if "in" in settings:
         keys = {"metric": "metric", "contender": "contenders", "against": "against"}
         return {**{to: of[key] for key, to in keys.items() if key in of}, **copy.deepcopy(settings)}
-    under: Settings = {"of": copy.deepcopy(of)} if of else {}
+    under: Settings = {"select": copy.deepcopy(of)} if of else {}
     merge(under, settings)
     return under
 

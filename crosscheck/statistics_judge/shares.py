@@ -56,7 +56,7 @@ def equals(asked: Asked) -> Found:
     cases = asked.cases()
     if "truth" in asked.settings:
         truth = cases.raw(asked.paper.metric(asked.settings["truth"]))
-        own = cases.raw(asked.paper.metric(asked.settings["of"]["metric"]))
+        own = cases.raw(asked.paper.metric(asked.settings["select"]["metric"]))
         known = ~np.isnan(truth)
         own = np.where(np.isnan(own), np.inf, own)
     else:
@@ -70,7 +70,7 @@ def equals(asked: Asked) -> Found:
     found = certain(HOLDS if same[known].all() else FAILS, estimate)
     # That something is wrong hangs on what did not end only if nothing else is.
     is_wrong = bool((~same & known & ~cut).any())
-    few = found.outcome == HOLDS and needs_draws(cases, labels(asked.settings["of"]["problems"]))
+    few = found.outcome == HOLDS and needs_draws(cases, labels(asked.settings["select"]["problems"]))
     return replace(found, censored=frozenset([not is_wrong and bool(cut.any())]), few=few)
 
 
@@ -91,7 +91,7 @@ def on_every(asked: Asked) -> Found:
         return certain(FAILS, estimate)
     outcome = FAILS if kept == 0 else OPEN if equal else HOLDS
     cut = bool(counterexamples(cases, that).any())
-    few = outcome != OPEN and needs_draws(cases, labels(asked.settings["of"]["problems"]))
+    few = outcome != OPEN and needs_draws(cases, labels(asked.settings["select"]["problems"]))
     return replace(certain(outcome, estimate), censored=frozenset([cut]), few=few)
 
 

@@ -292,7 +292,7 @@ def within(asked: Asked) -> Found:
 
 def has_few_draws(asked: Asked, cases: Cases) -> bool:
     """Whether one of two groups has too few instances, but for one in which nothing is drawn."""
-    names = groups_of(cases.study, asked.settings["of"]["problems"])
+    names = groups_of(cases.study, asked.settings["select"]["problems"])
     for place, name in enumerate(names):
         instances = len(np.unique(cases.unit[cases.group == place]))
         if instances < FEWEST_INSTANCES and (instances != 1 or is_drawn(cases.study, name)):

@@ -32,7 +32,7 @@ def asked(ends: Ends, settings: dict[str, Any]) -> SimpleNamespace:
     place = np.arange(len(ends))
     metric = SimpleNamespace(better="lower", name="cost")
     cases = Cases(study, metric, 1, "B", 2 * place, 2 * place + 1, place, np.zeros(len(ends), dtype=int))
-    settings = {"of": {"problems": ["g"]}, **settings}
+    settings = {"select": {"problems": ["g"]}, **settings}
     return SimpleNamespace(cases=lambda **other: cases, settings=settings, seed="a test", paper=None)
 
 
@@ -205,7 +205,7 @@ def test_a_row_hangs_on_what_did_not_end_and_needs_draws_of_which_one_could_be_r
 def test_two_groups_need_ten_draws_each_unless_nothing_is_drawn() -> None:
     def few(first: int, second: int) -> bool:
         one = asked([(5.0, 1.0)] * (first + second), {"statistic": "ratio_of_groups", "accepted": [0.5, 2.0]})
-        one.settings["of"] = {"problems": ["g", "h"]}
+        one.settings["select"] = {"problems": ["g", "h"]}
         one.cases().group = np.repeat([0, 1], [first, second])
         return sizes.within(one).few
 
@@ -233,11 +233,11 @@ def test_one_path_that_is_refused_contradicts_that_every_path_is_accepted() -> N
 
 def test_what_holds_on_each_of_few_draws_of_a_problem_that_is_drawn_is_not_firm() -> None:
     def few(instances: int, group: str) -> bool:
-        one = asked([(4.0, 5.0)] * instances, {"that": "lower", "of": {"problems": [group]}})
+        one = asked([(4.0, 5.0)] * instances, {"that": "lower", "select": {"problems": [group]}})
         return shares.on_every(one).few
 
     assert [few(1, "h"), few(9, "h"), few(10, "h"), few(1, "g")] == [True, True, False, False]
-    searched = asked([(4.0, 5.0)], {"that": "lower", "of": {"problems": ["h"]}})
+    searched = asked([(4.0, 5.0)], {"that": "lower", "select": {"problems": ["h"]}})
     searched.cases().study.spec["searched"] = True
     assert not shares.on_every(searched).few
 
@@ -289,9 +289,9 @@ def test_draws_that_might_have_been_whole_are_not_forgotten(lost: str, is_cut: b
     paper, of = drawn(["solved"] * 7 + [lost], family="random_cells")
     cases = select(paper, {**of, "whole_instances": True}, 1)
     assert (cases.units, cases.cut_left_out) == (4 if lost == "solved" else 3, is_cut)
-    assert selections_of({"of": of}) == []
+    assert selections_of({"select": of}) == []
     rows = [{"contender": "A", "claims": []}, {"contender": "B", "against": "A", "claims": []}]
-    whole = selections_of({"of": {**of, "whole_instances": True}, "rows": rows})
+    whole = selections_of({"select": {**of, "whole_instances": True}, "rows": rows})
     assert [(one["contender"], one.get("against")) for one in whole] == [("A", None), ("B", "A")]
 
 

@@ -13,17 +13,17 @@ PAPER = """
 [[table]]
 id = "table1"
 claims = "t"
-of = { study = "s" }
+select = { study = "s" }
 check.within = { statistic = "mean", margin = 1.0 }
 [[table.column]]
 id = ["10", "20"]
-of = { sweep = "n={column}" }
+select = { sweep = "n={column}" }
 [[table.column]]
 id = "time"
 untestable = "no machine"
 [[table.row]]
 id = "a"
-of = { contender = "A" }
+select = { contender = "A" }
 printed = ["1.0", "N/A", "3"]
 cell.10.check.within.margin = 2.0
 [[table.row]]
@@ -31,7 +31,7 @@ id = "b"
 printed = ["4", "5", "6"]
 with = ["c"]
 cell.20.check.exists = { in = [] }
-cell.20.of = { contender = "B", metric = "m" }
+cell.20.select = { contender = "B", metric = "m" }
 [[claim]]
 id = "c"
 check.row_one_draw.rows = [{ claims = ["t.*", "d"] }]
@@ -41,8 +41,8 @@ check.row_one_draw.rows = [{ claims = ["t.*", "d"] }]
 def test_the_nearest_layer_says_how_a_cell_is_judged() -> None:
     claims = {claim["id"]: claim for claim in claims_of(tomllib.loads(PAPER))}
     assert list(claims) == ["t.a.10", "t.a.time", "t.b", "t.b.10", "t.b.20", "t.b.time", "c"]
-    of = {"study": "s", "sweep": "n=10", "contender": "A"}
-    assert claims["t.a.10"]["check"] == {"within": {"statistic": "mean", "margin": 2.0, "of": of}}
+    selection = {"study": "s", "sweep": "n=10", "contender": "A"}
+    assert claims["t.a.10"]["check"] == {"within": {"statistic": "mean", "margin": 2.0, "select": selection}}
     assert claims["t.b"]["cells"] == ["t.b.10", "t.b.20", "c"]
     assert claims["t.a.time"] == {"id": "t.a.time", "printed": "3", "untestable": "no machine"}
     assert claims["t.b.20"]["check"] == {"exists": {"in": [], "contenders": "B", "metric": "m"}}
@@ -61,7 +61,7 @@ id = "b"
 [[table.column]]
 id = "more"
 difference = ["a", "b"]
-of = { contender = "A", against = "B" }
+select = { contender = "A", against = "B" }
 [[table.row]]
 id = "one"
 printed = ["1.25", "3.5"]
@@ -79,7 +79,7 @@ def test_what_one_column_has_more_than_another_is_a_cell() -> None:
     claims = {claim["id"]: claim for claim in claims_of(tomllib.loads(COMPARED))}
     more = claims["t.one.more"]
     assert (more["printed"], more["difference"]) == ("-2.25", ["t.one.a", "t.one.b"])
-    assert more["check"]["mean_of"] == {"instances": 5, "of": {"contender": "A", "against": "B"}}
+    assert more["check"]["mean_of"] == {"instances": 5, "select": {"contender": "A", "against": "B"}}
     assert claims["t.one"]["cells"] == ["t.one.a", "t.one.b", "t.one.more"]
     assert not {"t.two.more", "t.three.more"} & set(claims)
     repeated = COMPARED.replace('["1", "2"]', '["1", "2"]\ncell.b.same_as = "u.one.b"')

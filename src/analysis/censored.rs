@@ -62,17 +62,17 @@ pub fn outside(instances: &[Instance<'_>]) -> usize {
     cases(instances).filter(|case| !case.is_solved() && !case.might_be_solved()).count()
 }
 
-/// That so many cases are outside of a claim about `of`, in words; `None` if none is.
-pub fn outside_in_words(of: &Selection<'_>, count: usize) -> Option<String> {
-    let both = if of.against.is_some() { "solved by both" } else { "solved" };
+/// That so many cases are outside of a claim about `selection`, in words; `None` if none is.
+pub fn outside_in_words(selection: &Selection<'_>, count: usize) -> Option<String> {
+    let both = if selection.against.is_some() { "solved by both" } else { "solved" };
     (count > 0).then(|| format!("{count} more cases are outside of the claim: not {both}"))
 }
 
-/// How many problems of `of` cannot be posed, with the reason of the first, in words; `None` if all can.
-pub fn not_posed(of: &Selection<'_>, evidence: &Evidence<'_>) -> Option<String> {
-    let run = of.run(evidence)?;
-    let contenders = || of.contenders.iter().chain(&of.against);
-    let rows: Vec<&Row> = of
+/// How many problems of `selection` cannot be posed, with the reason of the first, in words; `None` if all can.
+pub fn not_posed(selection: &Selection<'_>, evidence: &Evidence<'_>) -> Option<String> {
+    let run = selection.run(evidence)?;
+    let contenders = || selection.contenders.iter().chain(&selection.against);
+    let rows: Vec<&Row> = selection
         .groups
         .iter()
         .flat_map(|group| contenders().flat_map(|contender| run.rows(group, contender)))
@@ -88,11 +88,12 @@ pub fn not_posed(of: &Selection<'_>, evidence: &Evidence<'_>) -> Option<String> 
 /// The share of the paths that come back, of all that is selected, which the verifier refuses.
 pub fn refused_share(selections: &[&Selection<'_>], evidence: &Evidence<'_>) -> f64 {
     let [mut refused, mut returned] = [0_usize; 2];
-    for of in selections {
-        let Some(run) = of.run(evidence) else { continue };
-        let contenders = of.contenders.iter().chain(&of.against);
-        let cases = contenders.flat_map(|contender| of.groups.iter().map(move |group| (group, contender)));
-        for row in cases.flat_map(|(group, contender)| of.rows(run, group, contender)) {
+    for selection in selections {
+        let Some(run) = selection.run(evidence) else { continue };
+        let contenders = selection.contenders.iter().chain(&selection.against);
+        let cases =
+            contenders.flat_map(|contender| selection.groups.iter().map(move |group| (group, contender)));
+        for row in cases.flat_map(|(group, contender)| selection.rows(run, group, contender)) {
             returned += usize::from(row.is_returned());
             refused += usize::from(row.status == Status::Rejected);
         }

@@ -5,6 +5,7 @@ use super::context::Context;
 use super::criterion::{self, Criterion, Entry};
 use super::criterion_result::CriterionResult;
 use super::evidence::{Evidence, Run};
+use super::meaning::in_first_words;
 use super::number::{Number, Numbers};
 use super::outcome::{self, Caps, Outcome, Sessions};
 use super::polylines::Polylines;
@@ -186,7 +187,9 @@ impl<'a> ClaimTest<'a> {
 fn stripped(entry: &Entry, settings: &Settings) -> Option<(&'static str, String)> {
     let mut settings = settings.table().clone();
     let statistic = (entry.question)(&mut settings)?;
-    let text = serde_json::to_value(&settings).expect("settings are tables of plain values").to_string();
+    let text = serde_json::to_value(in_first_words(&settings))
+        .expect("settings are tables of plain values")
+        .to_string();
     Some((statistic, text))
 }
 

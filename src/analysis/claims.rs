@@ -4,7 +4,7 @@ use super::claim_test::{CappedFinding, ClaimTest, claim_tests, premises};
 use super::context;
 use super::criterion;
 use super::evidence::{Evidence, default_point};
-use super::meaning;
+use super::meaning::{self, in_first_words};
 use super::metric;
 use super::outcome::{self, Caps, Outcome};
 use super::rule;
@@ -68,8 +68,10 @@ fn check_metrics(paper: &Paper, faults: &mut Faults) {
 
 /// What a claim says and how it is judged, in a line.
 fn question(claim: &Claim) -> String {
-    let tests = claim.tests().map(|(role, name, settings)| format!("{role:?} {name}: {}", settings.table()));
-    let tests = tests.collect::<Vec<_>>();
+    let test = |(role, name, settings): (TestRole, &str, &Settings)| {
+        format!("{role:?} {name}: {}", in_first_words(settings.table()))
+    };
+    let tests = claim.tests().map(test).collect::<Vec<_>>();
     let parts = &claim.parts;
     let when = premises(claim).map(|premise| format!(" {premise}")).collect::<Vec<_>>().concat();
     format!(

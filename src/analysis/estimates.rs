@@ -295,33 +295,33 @@ type Lens<T> = (&'static str, fn(&mut Row) -> &mut T);
 struct Row {
     is_second: bool,
     /// The place of its answer among all of the table.
-    answer: usize,
-    of: Answer,
+    place: usize,
+    answer: Answer,
     session: usize,
     number: Number,
 }
 
 const TEXTS: [Lens<String>; 13] = [
-    ("question", |row| &mut row.of.question),
-    ("claim", |row| &mut row.of.about.claim),
-    ("statistic", |row| &mut row.of.about.statistic),
-    ("study", |row| &mut row.of.about.study),
-    ("groups", |row| &mut row.of.about.groups),
-    ("contender", |row| &mut row.of.about.contender),
-    ("against", |row| &mut row.of.about.against),
-    ("metric", |row| &mut row.of.about.metric),
-    ("unit", |row| &mut row.of.about.unit),
-    ("query", |row| &mut row.of.about.query),
-    ("sweep", |row| &mut row.of.about.sweep),
-    ("trials", |row| &mut row.of.numbers.trials),
+    ("question", |row| &mut row.answer.question),
+    ("claim", |row| &mut row.answer.about.claim),
+    ("statistic", |row| &mut row.answer.about.statistic),
+    ("study", |row| &mut row.answer.about.study),
+    ("groups", |row| &mut row.answer.about.groups),
+    ("contender", |row| &mut row.answer.about.contender),
+    ("against", |row| &mut row.answer.about.against),
+    ("metric", |row| &mut row.answer.about.metric),
+    ("unit", |row| &mut row.answer.about.unit),
+    ("query", |row| &mut row.answer.about.query),
+    ("sweep", |row| &mut row.answer.about.sweep),
+    ("trials", |row| &mut row.answer.numbers.trials),
     ("part", |row| &mut row.number.part),
 ];
 
 const COUNTS: [Lens<usize>; 16] = [
-    ("answer", |row| &mut row.answer),
+    ("answer", |row| &mut row.place),
     ("session", |row| &mut row.session),
-    ("sessions", |row| &mut row.of.numbers.sessions),
-    ("left_out", |row| &mut row.of.numbers.left_out),
+    ("sessions", |row| &mut row.answer.numbers.sessions),
+    ("left_out", |row| &mut row.answer.numbers.left_out),
     ("n", |row| &mut row.number.n),
     ("ran", |row| &mut row.number.ran),
     ("measured", |row| &mut row.number.measured),
@@ -337,7 +337,7 @@ const COUNTS: [Lens<usize>; 16] = [
 ];
 
 const NUMBERS: [Lens<f64>; 3] = [
-    ("refused_share", |row| &mut row.of.numbers.refused),
+    ("refused_share", |row| &mut row.answer.numbers.refused),
     ("hits", |row| &mut row.number.hits),
     ("chances", |row| &mut row.number.chances),
 ];
@@ -352,28 +352,28 @@ const MEASURES: [Lens<Option<f64>>; 4] = [
 
 const FACTS: [Lens<bool>; 6] = [
     ("is_second_seed", |row| &mut row.is_second),
-    ("has_more_instances", |row| &mut row.of.is_more),
-    ("is_covered", |row| &mut row.of.numbers.is_covered),
-    ("is_posed", |row| &mut row.of.numbers.is_posed),
+    ("has_more_instances", |row| &mut row.answer.is_more),
+    ("is_covered", |row| &mut row.answer.numbers.is_covered),
+    ("is_posed", |row| &mut row.answer.numbers.is_posed),
     ("is_agreed", |row| &mut row.number.is_agreed),
     ("is_exact", |row| &mut row.number.is_exact),
 ];
 
 /// The rows of the table, those of the first seed first.
-fn rows(of: &Estimates) -> Vec<Row> {
+fn rows(estimates: &Estimates) -> Vec<Row> {
     let mut rows = Vec::new();
-    let seeds = [(false, &of.first), (true, &of.second)].into_iter();
-    let all = seeds.flat_map(|(is_second, of)| {
-        of.iter().flat_map(move |of| of.answers.iter().map(move |one| (is_second, one)))
+    let seeds = [(false, &estimates.first), (true, &estimates.second)].into_iter();
+    let all = seeds.flat_map(|(is_second, seed)| {
+        seed.iter().flat_map(move |seed| seed.answers.iter().map(move |one| (is_second, one)))
     });
-    for (answer, (is_second, one)) in all.enumerate() {
+    for (place, (is_second, one)) in all.enumerate() {
         let numbers = Numbers { by_session: Vec::new(), ..one.numbers.clone() };
-        let of = Answer { numbers, ..one.clone() };
+        let answer = Answer { numbers, ..one.clone() };
         for (session, numbers) in one.numbers.by_session.iter().enumerate() {
             let row = |number: &Number| Row {
                 is_second,
-                answer,
-                of: of.clone(),
+                place,
+                answer: answer.clone(),
                 session: session + 1,
                 number: number.clone(),
             };
@@ -384,8 +384,8 @@ fn rows(of: &Estimates) -> Vec<Row> {
 }
 
 /// The table as a frame.
-fn frame(of: &Estimates) -> DataFrame {
-    let mut rows = rows(of);
+fn frame(estimates: &Estimates) -> DataFrame {
+    let mut rows = rows(estimates);
     let mut columns: Vec<Column> = Vec::new();
     for (name, of) in TEXTS {
         let cells: Vec<&str> = rows.iter_mut().map(|row| &**of(row)).collect();
@@ -411,7 +411,7 @@ fn frame(of: &Estimates) -> DataFrame {
     let drawn: Vec<Option<u64>> = rows.iter().map(|row| row.number.drawn.map(|drawn| drawn as u64)).collect();
     let [low, high] = [|of: Interval| of.low, |of: Interval| of.high]
         .map(|end| rows.iter().map(|row| row.number.interval.map(end)).collect::<Vec<Option<f64>>>());
-    let places = |row: &Row| row.of.places.iter().map(|place| *place as u64).collect::<Vec<u64>>();
+    let places = |row: &Row| row.answer.places.iter().map(|place| *place as u64).collect::<Vec<u64>>();
     columns.extend([
         Series::new("ends".into(), ends).into(),
         Series::new("drawn".into(), drawn).into(),
@@ -463,7 +463,7 @@ fn answers(frame: &DataFrame) -> PolarsResult<[Vec<Answer>; 2]> {
     for (at, row) in rows.iter_mut().enumerate() {
         let (places, values) = (places.get_as_series(at), values.get_as_series(at));
         for place in places.as_ref().map(Series::u64).transpose()?.into_iter().flat_map(ChunkedArray::iter) {
-            row.of.places.push(place.unwrap_or_default() as usize);
+            row.answer.places.push(place.unwrap_or_default() as usize);
         }
         for value in values.as_ref().map(Series::f64).transpose()?.into_iter().flat_map(ChunkedArray::iter) {
             row.number.values.push(value.unwrap_or_default());
@@ -471,11 +471,11 @@ fn answers(frame: &DataFrame) -> PolarsResult<[Vec<Answer>; 2]> {
     }
     let mut found = [Vec::new(), Vec::new()];
     let mut last = None;
-    for Row { is_second, answer, mut of, session, number } in rows {
+    for Row { is_second, place, mut answer, session, number } in rows {
         let own: &mut Vec<Answer> = &mut found[usize::from(is_second)];
-        if last.replace(answer) != Some(answer) {
-            of.numbers.by_session.clear();
-            own.push(of);
+        if last.replace(place) != Some(place) {
+            answer.numbers.by_session.clear();
+            own.push(answer);
         }
         let Some(last) = own.last_mut() else { continue };
         last.numbers.by_session.resize_with(session.max(last.numbers.by_session.len()), Vec::new);

@@ -19,7 +19,7 @@ pub const FORM: u32 = 1;
 pub const DIGITS: usize = 16;
 
 /// Keys and names of specs that form 1 has by another word.
-const RENAMED: [(&str, &str); 0] = [];
+const RENAMED: [(&str, &str); 1] = [("select", "of")];
 
 /// The keys under which criteria and rules name claims for the numbers that they print.
 const CLAIM_KEYS: [&str; 9] =
@@ -89,7 +89,7 @@ fn text(paper: &Paper, claim: &Claim, given: &dyn Fn(&Claim) -> String) -> Strin
             usual.iter().flat_map(Settings::filled).any(|(own, usual)| own == key && is_same(usual, value))
         };
         table.retain(|key, value| !is_usual(key, value));
-        tests.push(format!("{} {}\n", word(name), canonical_table(paper, &table, given)));
+        tests.push(format!("{} {}\n", word(name), canonical_table(paper, &in_first_words(&table), given)));
     }
     tests.sort();
     text.extend(tests);
@@ -109,9 +109,21 @@ fn word(name: &str) -> &str {
     RENAMED.iter().find(|(now, _)| *now == name).map_or(name, |(_, first)| first)
 }
 
+/// `table`, and the tables in it, with the keys that form 1 has. Hashes of settings are of this.
+pub fn in_first_words(table: &Table) -> Table {
+    fn inside(value: &Value) -> Value {
+        match value {
+            Value::Table(table) => Value::Table(in_first_words(table)),
+            Value::Array(values) => Value::Array(values.iter().map(inside).collect()),
+            other => other.clone(),
+        }
+    }
+    table.iter().map(|(key, value)| (word(key).to_owned(), inside(value))).collect()
+}
+
 fn canonical_table(paper: &Paper, table: &Table, given: &dyn Fn(&Claim) -> String) -> String {
     let kept = table.iter().filter(|(key, _)| !WORD_KEYS.contains(&key.as_str()));
-    let each = kept.filter_map(|(key, value)| Some((word(key), canonical(paper, key, value, given)?)));
+    let each = kept.filter_map(|(key, value)| Some((key.as_str(), canonical(paper, key, value, given)?)));
     let sorted: BTreeMap<&str, String> = each.collect();
     let each: Vec<String> = sorted.into_iter().map(|(key, value)| format!("{key} = {value}")).collect();
     format!("{{{}}}", each.join(", "))
@@ -135,4 +147,17 @@ fn canonical(paper: &Paper, key: &str, value: &Value, given: &dyn Fn(&Claim) -> 
         },
         other => number(other).map_or_else(|| other.to_string(), |value| value.to_string()),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_first_words;
+
+    #[test]
+    fn hashes_have_the_key_that_selections_first_had() {
+        let table = |text: &str| toml::from_str(text).unwrap();
+        let now = "select = { study = 's' }\nrows = [{ select = { metric = 'm' } }]\nthat = 'select'";
+        let first = "of = { study = 's' }\nrows = [{ of = { metric = 'm' } }]\nthat = 'select'";
+        assert_eq!(in_first_words(&table(now)), table(first));
+    }
 }

@@ -112,36 +112,36 @@ impl<'a> Selection<'a> {
         Self { study, groups, contenders, against, metric, query, sweep, whole_instances, all_ends }
     }
 
-    /// The selection `of` with every name looked up.
+    /// The selection `spec` with every name looked up.
     ///
     /// # Errors
     /// A study, problem group, contender, metric or sweep point that does not exist, at its own place.
-    pub fn new(context: &Context<'a>, of: &SelectionSpec) -> Result<Self, SettingsError> {
-        let contenders = of.contender.listed();
-        let named: Vec<&str> = contenders.iter().chain(&of.against).map(String::as_str).collect();
-        let study = context.study("of", &of.study, &[])?;
+    pub fn new(context: &Context<'a>, spec: &SelectionSpec) -> Result<Self, SettingsError> {
+        let contenders = spec.contender.listed();
+        let named: Vec<&str> = contenders.iter().chain(&spec.against).map(String::as_str).collect();
+        let study = context.study("select", &spec.study, &[])?;
         let mut faults = Faults::default();
-        faults.keep(context.study("of", &of.study, &named));
-        let groups = faults.keep(context.groups("of", study, &of.problems)).unwrap_or_default();
-        let metric = of.metric.as_ref().and_then(|name| faults.keep(context.metric(name, study)));
+        faults.keep(context.study("select", &spec.study, &named));
+        let groups = faults.keep(context.groups("select", study, &spec.problems)).unwrap_or_default();
+        let metric = spec.metric.as_ref().and_then(|name| faults.keep(context.metric(name, study)));
         let labels: Vec<&str> = groups.iter().map(String::as_str).collect();
-        let query = of.query.as_ref().map(Labels::listed);
+        let query = spec.query.as_ref().map(Labels::listed);
         let lacking = query.iter().flatten().find_map(|query| study.lacks_query(&labels, query));
         if let Some(message) = lacking {
-            faults.add(context.settings.error_at("of.query", message));
+            faults.add(context.settings.error_at("select.query", message));
         }
-        let sweep = of
+        let sweep = spec
             .sweep
             .as_ref()
             .and_then(|texts| faults.keep(sweep_keys(context, (study, &groups), &texts.listed())));
-        if let Some(own) = of.against.as_ref().filter(|against| contenders.contains(against)) {
+        if let Some(own) = spec.against.as_ref().filter(|against| contenders.contains(against)) {
             let message = format!("`{own}` is held against itself; another contender is accepted");
-            faults.add(context.settings.error_at("of.against", message));
+            faults.add(context.settings.error_at("select.against", message));
         }
         faults.done()?;
-        let against = of.against.clone();
-        let whole_instances = of.whole_instances;
-        let all_ends = of.all_ends;
+        let against = spec.against.clone();
+        let whole_instances = spec.whole_instances;
+        let all_ends = spec.all_ends;
         Ok(Self { study, groups, contenders, against, metric, query, sweep, whole_instances, all_ends })
     }
 
@@ -153,9 +153,10 @@ impl<'a> Selection<'a> {
         match &self.contenders[..] {
             [one] => Ok(one),
             [] => self.some_contender(context).map(|()| ""),
-            all => Err(context
-                .settings
-                .error_at("of.contender", format!("`of` names {} contenders; one is accepted", all.len()))),
+            all => Err(context.settings.error_at(
+                "select.contender",
+                format!("`select` names {} contenders; one is accepted", all.len()),
+            )),
         }
     }
 
@@ -168,11 +169,11 @@ impl<'a> Selection<'a> {
             return Ok(());
         }
         let message = format!(
-            "`of` names no contender, so it selects nothing; study `{}` has {}",
+            "`select` names no contender, so it selects nothing; study `{}` has {}",
             self.study.name,
             self.study.labels().join(", ")
         );
-        let error = context.settings.error_at("of", message).about("contender");
+        let error = context.settings.error_at("select", message).about("contender");
         Err(error.about(&labels_of(&self.study.name)))
     }
 
@@ -186,8 +187,8 @@ impl<'a> Selection<'a> {
     /// # Errors
     /// There is none.
     pub fn against(&self, context: &Context<'_>) -> Result<&str, SettingsError> {
-        let message = "`of` needs `against`: the contender that it is held against";
-        let missing = || context.settings.error_at("of", message).about("against");
+        let message = "`select` needs `against`: the contender that it is held against";
+        let missing = || context.settings.error_at("select", message).about("against");
         self.against.as_deref().ok_or_else(missing)
     }
 
@@ -196,7 +197,7 @@ impl<'a> Selection<'a> {
     /// # Errors
     /// There is none.
     pub fn metric(&self, context: &Context<'_>) -> Result<&'static Metric, SettingsError> {
-        let missing = || context.settings.error_at("of", "`of` needs a `metric`").about("metric");
+        let missing = || context.settings.error_at("select", "`select` needs a `metric`").about("metric");
         self.metric.ok_or_else(missing)
     }
 
@@ -353,7 +354,7 @@ fn sweep_keys(
     texts: &[String],
 ) -> Result<Vec<SweepKey>, SettingsError> {
     study.sweeps_called(groups, texts).map_err(|(place, message)| {
-        let error = context.settings.error_at(&format!("of.sweep.{place}"), message);
+        let error = context.settings.error_at(&format!("select.sweep.{place}"), message);
         error.about(&sweeps_of(&study.name))
     })
 }

@@ -13,51 +13,52 @@ use stats::{pooled, proportion, summary};
 use std::collections::BTreeMap;
 
 /// The share of queries that are solved on each instance, in per cent.
-pub fn solved_percents(of: &Selection<'_>, evidence: &Evidence<'_>) -> Vec<f64> {
-    of.instances(evidence)
+pub fn solved_percents(selection: &Selection<'_>, evidence: &Evidence<'_>) -> Vec<f64> {
+    selection
+        .instances(evidence)
         .iter()
         .filter_map(|instance| InstanceStatistic::SolvedPercent.value(instance))
         .collect()
 }
 
 /// The mean over instances of the share solved, in per cent; none below two instances.
-pub fn mean_solved(of: &Selection<'_>, evidence: &Evidence<'_>, names: &[&str]) -> Option<Estimate> {
-    pooled::mean_between(&solved_percents(of, evidence), [0.0, 100.0], plan(names))
+pub fn mean_solved(selection: &Selection<'_>, evidence: &Evidence<'_>, names: &[&str]) -> Option<Estimate> {
+    pooled::mean_between(&solved_percents(selection, evidence), [0.0, 100.0], plan(names))
 }
 
 /// The mean over instances of the points by which the share solved differs from that of `base`; none below two instances.
 pub fn mean_difference(
-    [base, of]: [&Selection<'_>; 2],
+    [base, selection]: [&Selection<'_>; 2],
     evidence: &Evidence<'_>,
     names: &[&str],
 ) -> Option<Estimate> {
-    let [base, own] = [base, of].map(|one| one.instances(evidence));
+    let [base, own] = [base, selection].map(|one| one.instances(evidence));
     pooled::mean_between(&differences_percent([&base, &own]), [-100.0, 100.0], plan(names))
 }
 
 /// What all instances of a selection give.
 pub fn of_all(
     all: OverallStatistic,
-    of: &Selection<'_>,
+    selection: &Selection<'_>,
     evidence: &Evidence<'_>,
     names: &[&str],
 ) -> Option<Estimate> {
-    all.estimate(&of.instances(evidence), plan(names))
+    all.estimate(&selection.instances(evidence), plan(names))
 }
 
 /// The mean of each of the selection's contenders over the instances that all of them solve, and how many these are; the stream of
 /// a contender's resamples belongs to the study, the contender and the metric.
 pub fn means_of_whole_instances(
-    of: &Selection<'_>,
+    selection: &Selection<'_>,
     evidence: &Evidence<'_>,
 ) -> (Vec<Option<Estimate>>, usize) {
-    let instances = of.instances(evidence);
-    let metric = of.metric.map_or("", |metric| metric.name);
+    let instances = selection.instances(evidence);
+    let metric = selection.metric.map_or("", |metric| metric.name);
     let mean = |contender: &String| {
         let own: Vec<_> = instances.iter().map(|instance| instance.by(contender)).collect();
-        OverallStatistic::Mean.estimate(&own, plan(&[&of.study.name, contender, metric]))
+        OverallStatistic::Mean.estimate(&own, plan(&[&selection.study.name, contender, metric]))
     };
-    (of.contenders.iter().map(mean).collect(), instances.len())
+    (selection.contenders.iter().map(mean).collect(), instances.len())
 }
 
 /// The point whose coordinates are the medians of those of `points`; failures may be infinite.
@@ -76,9 +77,9 @@ pub struct Savings {
 }
 
 impl Savings {
-    /// Those of `of`.
-    pub fn new(of: &Selection<'_>, evidence: &Evidence<'_>) -> Self {
-        let instances = of.instances(evidence);
+    /// Those of `selection`.
+    pub fn new(selection: &Selection<'_>, evidence: &Evidence<'_>) -> Self {
+        let instances = selection.instances(evidence);
         let saved = |case: &Case<'_>| Some((case.row.instance(), case.saving_percent()?));
         let by_instance: BTreeMap<u32, f64> = cases(&instances).filter_map(saved).collect();
         let median = summary::median(&by_instance.values().copied().collect::<Vec<_>>());
@@ -129,8 +130,8 @@ impl Spread {
 }
 
 /// By query, in the order of the records: of each contender the metric over the instances on which all of them solve the query.
-pub fn spreads_by_query(of: &Selection<'_>, evidence: &Evidence<'_>) -> Vec<(String, Vec<Spread>)> {
-    by_query(of, evidence, |own| {
+pub fn spreads_by_query(selection: &Selection<'_>, evidence: &Evidence<'_>) -> Vec<(String, Vec<Spread>)> {
+    by_query(selection, evidence, |own| {
         let instances = own.instances(evidence);
         let values =
             |label: &String| instances.iter().flat_map(|instance| instance.by(label).values()).collect();
@@ -139,9 +140,9 @@ pub fn spreads_by_query(of: &Selection<'_>, evidence: &Evidence<'_>) -> Vec<(Str
 }
 
 /// By query, and then over all queries: what the last contender saves, in per cent.
-pub fn savings_by_query(of: &Selection<'_>, evidence: &Evidence<'_>) -> Vec<(String, Spread)> {
-    let Some(last) = of.contenders.last() else { return Vec::new() };
-    let mut savings = by_query(of, evidence, |own| {
+pub fn savings_by_query(selection: &Selection<'_>, evidence: &Evidence<'_>) -> Vec<(String, Spread)> {
+    let Some(last) = selection.contenders.last() else { return Vec::new() };
+    let mut savings = by_query(selection, evidence, |own| {
         let instances = own.instances(evidence);
         let by_last = cases(&instances).filter(|case| case.is_by(last));
         Spread::new(by_last.filter_map(Case::saving_percent).collect())
@@ -152,20 +153,22 @@ pub fn savings_by_query(of: &Selection<'_>, evidence: &Evidence<'_>) -> Vec<(Str
 }
 
 fn by_query<T>(
-    of: &Selection<'_>,
+    selection: &Selection<'_>,
     evidence: &Evidence<'_>,
     take: impl Fn(&Selection<'_>) -> T,
 ) -> Vec<(String, T)> {
-    let instances = Selection { whole_instances: false, ..of.clone() }.instances(evidence);
+    let instances = Selection { whole_instances: false, ..selection.clone() }.instances(evidence);
     let mut order: Vec<&str> = Vec::new();
-    for case in of.contenders.iter().flat_map(|label| cases(&instances).filter(|case| case.is_by(label))) {
+    for case in
+        selection.contenders.iter().flat_map(|label| cases(&instances).filter(|case| case.is_by(label)))
+    {
         if !order.contains(&case.row.query()) {
             order.push(case.row.query());
         }
     }
     let of_query = |name: &&str| {
         let query = Some((*name).to_owned());
-        ((*name).to_owned(), take(&Selection { query: query.map(|query| vec![query]), ..of.clone() }))
+        ((*name).to_owned(), take(&Selection { query: query.map(|query| vec![query]), ..selection.clone() }))
     };
     order.iter().map(of_query).collect()
 }
@@ -238,12 +241,12 @@ impl Curves {
 }
 
 /// Of each case of one contender a column of its problem and the ratio of its number to the other contender's, where both are above 0.
-pub fn ratios_along(of: &Selection<'_>, evidence: &Evidence<'_>, column: &str) -> Vec<[f64; 2]> {
+pub fn ratios_along(selection: &Selection<'_>, evidence: &Evidence<'_>, column: &str) -> Vec<[f64; 2]> {
     let point = |case: &Case<'_>| {
         let (base, own) = case.pair().filter(|(base, own)| *base > 0.0 && *own > 0.0)?;
         Some([case.row.value(column)?, own / base])
     };
-    by_instance(&of.instances(evidence), point).concat()
+    by_instance(&selection.instances(evidence), point).concat()
 }
 
 /// What was found in the course of one trial: when, in seconds, and at what cost.
@@ -293,8 +296,8 @@ mod tests {
 
     #[test]
     fn a_curve_begins_where_half_of_the_queries_have_a_path_and_never_rises() {
-        let of = |at: f64| vec![vec![[at, 10.0], [at + 0.3, 8.0]]];
-        let instances: Vec<_> = [0.1, 0.2, 0.3, 9.0, 9.0].map(of).into();
+        let instance = |at: f64| vec![vec![[at, 10.0], [at + 0.3, 8.0]]];
+        let instances: Vec<_> = [0.1, 0.2, 0.3, 9.0, 9.0].map(instance).into();
         let moments = [0.15, 0.25, 0.35, 0.45, 0.65];
         let found = best_over_time(&instances, &moments, &["a test"]);
         let values: Vec<Option<f64>> = found.iter().map(|median| median.map(|m| m.value)).collect();

@@ -197,7 +197,7 @@ pub fn mean_percent<T>(
 #[serde(deny_unknown_fields)]
 struct Beside {
     /// The trials; with `against`, what is saved against it in per cent.
-    of: SelectionSpec,
+    select: SelectionSpec,
 }
 
 /// The selection whose first trial stands beside what `claim` prints.
@@ -210,10 +210,10 @@ pub fn selected<'a>(
     beside: &'a Settings,
 ) -> Result<Selection<'a>, SettingsError> {
     let context = Context { claim, settings: beside, paper, point };
-    let of = Selection::new(&context, &beside.read::<Beside>()?.of)?;
-    of.contender(&context)?;
-    of.metric(&context)?;
-    Ok(of)
+    let selection = Selection::new(&context, &beside.read::<Beside>()?.select)?;
+    selection.contender(&context)?;
+    selection.metric(&context)?;
+    Ok(selection)
 }
 
 /// The number of the first trial of `beside`, a table's own selection for the claim called `id`, or what it saves in per cent.
@@ -222,16 +222,21 @@ pub fn selected<'a>(
 /// What is not stored.
 pub fn beside(evidence: &Evidence<'_>, id: &str, beside: &Settings) -> Result<Option<f64>, String> {
     let claim = evidence.paper.claim(id).ok_or_else(|| format!("the claim `{id}`"))?;
-    let of = selected(evidence.paper, (claim, &evidence.point), beside).map_err(SettingsError::message)?;
-    let run = of.run(evidence).ok_or_else(|| format!("a run of `{}`", of.study.name))?;
+    let selection =
+        selected(evidence.paper, (claim, &evidence.point), beside).map_err(SettingsError::message)?;
+    let run = selection.run(evidence).ok_or_else(|| format!("a run of `{}`", selection.study.name))?;
     let value = |contender: &String| {
-        let row = of.groups.iter().find_map(|group| of.rows(run, group, contender).into_iter().next());
-        let row = row
-            .ok_or_else(|| format!("`{contender}` on `{}` of `{}`", of.groups.join("`, `"), of.study.name))?;
-        Ok::<_, String>(of.metric.and_then(|metric| run.value(row, metric)))
+        let row = selection
+            .groups
+            .iter()
+            .find_map(|group| selection.rows(run, group, contender).into_iter().next());
+        let row = row.ok_or_else(|| {
+            format!("`{contender}` on `{}` of `{}`", selection.groups.join("`, `"), selection.study.name)
+        })?;
+        Ok::<_, String>(selection.metric.and_then(|metric| run.value(row, metric)))
     };
-    let own = value(&of.contenders[0])?;
-    let Some(base) = &of.against else { return Ok(own) };
+    let own = value(&selection.contenders[0])?;
+    let Some(base) = &selection.against else { return Ok(own) };
     Ok(own.zip(value(base)?).map(|(own, base)| 100.0 * (base - own) / base))
 }
 

@@ -71,7 +71,7 @@ pub enum Kind {
         whole: u32,
     },
     /// A statistic of n values.
-    Of(Statistic),
+    Statistic(Statistic),
     /// A number of its own, or what rows' statistics are of.
     #[default]
     Value,
@@ -245,7 +245,7 @@ impl Meaning {
             let known: Vec<&str> = ITEMS.iter().map(|(item, _)| *item).collect();
             wrong(item, &known.join("; "))
         })?;
-        self.kind = Kind::Of(statistic);
+        self.kind = Kind::Statistic(statistic);
         let unit = item[word.len()..].trim();
         self.unit = (!unit.is_empty()).then(|| unit.to_owned());
         Ok(())

@@ -61,10 +61,10 @@ pub fn unread_spreads(source: &str, input: &Input) -> Vec<String> {
 fn unread_spread(table: &Table, at: usize) -> Option<String> {
     let cell = table.rows.iter().filter_map(|row| row.get(at)).find(|cell| cell.spread.is_some())?;
     let Column { name, meaning, .. } = &table.columns[at];
-    let has_mean = matches!(meaning.kind, Kind::Share { .. } | Kind::Of(Statistic::Mean));
+    let has_mean = matches!(meaning.kind, Kind::Share { .. } | Kind::Statistic(Statistic::Mean));
     let what = if table.statistics().is_some() {
         "rows are statistics, so that a deviation has a row of its own"
-    } else if matches!(meaning.kind, Kind::Of(_)) && !has_mean {
+    } else if matches!(meaning.kind, Kind::Statistic(_)) && !has_mean {
         "it stands beside no mean, so that no check knows it; leave it out, or give it a column of its own"
     } else if !has_mean {
         "say `mean, n=N` and `±sd` or `±se`, if it is a mean with its deviation or standard error"

@@ -193,7 +193,7 @@ pub fn groups(columns: &[Column]) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     for (at, Column { name, meaning, .. }) in columns.iter().enumerate() {
         let statistic = match meaning.kind {
-            Kind::Of(statistic) => statistic,
+            Kind::Statistic(statistic) => statistic,
             Kind::Share { .. } => Statistic::Mean,
             _ => continue,
         };

@@ -115,7 +115,7 @@ impl Table {
         let Column { name, meaning, .. } = &self.columns[column];
         let is_twin = |(at, other): (usize, &Column)| at != column && other.name == *name;
         match meaning.kind {
-            Kind::Of(statistic) if self.columns.iter().enumerate().any(is_twin) => {
+            Kind::Statistic(statistic) if self.columns.iter().enumerate().any(is_twin) => {
                 format!("{} of {name}", statistic.name())
             }
             _ => name.clone(),

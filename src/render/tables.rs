@@ -40,7 +40,7 @@ pub fn beside<'a>(
             (Some(claim), Some(settings)) => {
                 let own = tabulated::beside(evidence, claim, settings);
                 let own = own.map_err(|what| RenderError::NotStored { what })?;
-                let is_saving = settings.table()["of"].get("against").is_some();
+                let is_saving = settings.table()["select"].get("against").is_some();
                 own.map(|value| if is_saving { format!("{value:.2}") } else { number(value) })
             }
             _ => judged.and_then(ClaimVerdict::ours).map(|ours| rounded(ours, table.decimals)),

@@ -149,7 +149,7 @@ fn streamed(
             let part = &mut parts[shards[unit] - 1];
             match part.peek() {
                 Err(error) => return Some(Err(error)),
-                Ok(Some(kept)) if *kept.of.on() == keys[unit] => return part.take().map(Ok),
+                Ok(Some(kept)) if *kept.owner.on() == keys[unit] => return part.take().map(Ok),
                 Ok(_) => unit += 1,
             }
         }

@@ -207,7 +207,7 @@ pub struct PreprocessingRow {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Kept {
     /// Whose it is.
-    pub of: Owner,
+    pub owner: Owner,
     /// Its numbers.
     pub trace: Trace,
 }

@@ -257,26 +257,26 @@ impl<'r, 'a> Gathered<'r, 'a> {
         let mut batch = ran.or_else(stored).unwrap_or_default();
         let Some(reused) = self.reused.traces.get(&index) else { return Ok(batch) };
         let mut by_owner: BTreeMap<Owner, Vec<Trace>> = BTreeMap::new();
-        for Kept { of, trace } in batch.kept.drain(..) {
-            by_owner.entry(of).or_default().push(trace);
+        for Kept { owner, trace } in batch.kept.drain(..) {
+            by_owner.entry(owner).or_default().push(trace);
         }
         let owners: Vec<Owner> = if reused.is_none() {
-            self.before.owners()?.into_iter().filter(|of| *of.on() == unit.key).cloned().collect()
+            self.before.owners()?.into_iter().filter(|owner| *owner.on() == unit.key).cloned().collect()
         } else {
             let trials = self.built.trials(unit).into_iter().map(Owner::Trial);
             iter::once(Owner::from(&unit.key)).chain(trials).collect()
         };
-        let is_reused = |of: &Owner| match (of, reused) {
+        let is_reused = |owner: &Owner| match (owner, reused) {
             (Owner::Trial(key), Some(reused)) => reused.contains(&key.contender),
             _ => true,
         };
-        for of in owners {
-            let traces = match by_owner.remove(&of) {
+        for owner in owners {
+            let traces = match by_owner.remove(&owner) {
                 Some(traces) => traces,
-                None if is_reused(&of) => self.before.take(&of)?,
+                None if is_reused(&owner) => self.before.take(&owner)?,
                 None => continue,
             };
-            batch.kept.extend(traces.into_iter().map(|trace| Kept { of: of.clone(), trace }));
+            batch.kept.extend(traces.into_iter().map(|trace| Kept { owner: owner.clone(), trace }));
         }
         Ok(batch)
     }

@@ -377,7 +377,7 @@ pub fn run_one(
     let unit = built.units().find(is_it).ok_or_else(unknown)?;
     let mut batch = built.run_unit(&Unit { keeps_all: true, ..unit.clone() });
     batch.rows.retain(|row| names.trial(&row.key) == trial);
-    batch.kept.retain(|kept| names.owner(&kept.of) == trial);
+    batch.kept.retain(|kept| names.owner(&kept.owner) == trial);
     let before = if Manifest::path(folder, &study.name).exists() {
         let of_unit = |row: &Row| row.key.on == unit.key;
         let rows = reuse::stored(folder, &study.name)?.1.batch.rows.into_iter();

@@ -27,13 +27,13 @@ instances = { draws = 20, room = 1 }
 id = "fewer"
 at = "section 1"
 says = "A* expands fewer nodes than the search from two sides"
-check.lower.of = { study = "draws", problems = "drawn", metric = "expansions", contender = "A*", against = "Two-sided" }
+check.lower.select = { study = "draws", problems = "drawn", metric = "expansions", contender = "A*", against = "Two-sided" }
 
 [[claim]]
 id = "shorter"
 at = "section 1"
 says = "the search from two sides is no shorter"
-check.lower = { is = "higher", of = { study = "draws", problems = "drawn", metric = "expansions", contender = "Two-sided", against = "Lazy" } }
+check.lower = { is = "higher", select = { study = "draws", problems = "drawn", metric = "expansions", contender = "Two-sided", against = "Lazy" } }
 
 [[claim]]
 id = "witness"
@@ -45,7 +45,7 @@ check.exists = { metric = "expansions", contenders = "A*", in = [{ study = "room
 id = "calibrated"
 at = "section 3"
 printed = "4"
-check.prints_as.of = { study = "room", problems = "room", metric = "expansions", contender = "A*" }
+check.prints_as.select = { study = "room", problems = "room", metric = "expansions", contender = "A*" }
 "#;
 
 /// The choices of the paper: `hurry` touches A* alone, `idle` gives a name a meaning that no claim speaks of.
@@ -256,7 +256,7 @@ fn a_reading_that_contradicts_what_the_study_was_calibrated_to_is_not_counted() 
 #[test]
 fn a_sentence_that_repeats_a_number_which_the_study_was_fitted_to_is_fitted() {
     const CALIBRATED: &str = "id = \"calibrated\"\nat = \"section 3\"\nprinted = \"4\"\n\
-        check.prints_as.of = { study = \"room\", problems = \"room\", metric = \"expansions\", contender = \"A*\" }\n";
+        check.prints_as.select = { study = \"room\", problems = \"room\", metric = \"expansions\", contender = \"A*\" }\n";
     let again = CALIBRATED.replace("calibrated", "repeated");
     let other = CALIBRATED.replace("calibrated", "other").replace("expansions", "path_cost_cells");
     let three = format!("{CALIBRATED}[[claim]]\n{again}[[claim]]\n{}", other.replace("\"4\"", "\"5.66\""));
@@ -302,7 +302,7 @@ fn a_fitted_reading_is_fitted_again_for_each_setting_of_the_others() {
 const SECOND: (&str, &str) = (
     "[[claim]]\nid = \"calibrated\"",
     "[[claim]]\nid = \"any_weight\"\nat = \"section 3\"\nprinted = \"5.66\"\n\
-     check.prints_as.of = { study = \"room\", problems = \"room\", metric = \"path_cost_cells\", contender = \"A*\" }\n\
+     check.prints_as.select = { study = \"room\", problems = \"room\", metric = \"path_cost_cells\", contender = \"A*\" }\n\
      [[claim]]\nid = \"calibrated\"",
 );
 
@@ -331,14 +331,14 @@ fn a_changed_margin_printed_number_or_criterion_of_the_same_numbers_needs_no_tri
     // What is printed.
     toy.0.edit("toy/paper.toml", "printed = \"24\"", "printed = \"4\"");
     // A margin that the weight does not reach.
-    toy.0.edit("toy/paper.toml", "check.lower.of", "check.lower.by_percent = 99.0\ncheck.lower.of");
+    toy.0.edit("toy/paper.toml", "check.lower.select", "check.lower.by_percent = 99.0\ncheck.lower.select");
     let output = toy.0.done(&["judge", "./toy"]);
     assert!(!output.contains("default interpretation alone") && !output.contains("trials:"), "{output}");
     assert_eq!(toy.verdicts().explored.unwrap().stale, [""; 0]);
     assert_eq!([outcome("witness"), outcome("fewer")], [Outcome::Attainable, Outcome::SignOnly]);
     // Another criterion of the same numbers: the reduction, held against bounds.
-    let lower = "check.lower.by_percent = 99.0\ncheck.lower.of = ";
-    let within = "check.within.accepted = [-1e6, 1e6]\ncheck.within.statistic = \"reduction_percent\"\ncheck.within.of = ";
+    let lower = "check.lower.by_percent = 99.0\ncheck.lower.select = ";
+    let within = "check.within.accepted = [-1e6, 1e6]\ncheck.within.statistic = \"reduction_percent\"\ncheck.within.select = ";
     toy.0.edit("toy/paper.toml", lower, within);
     toy.0.done(&["judge", "./toy"]);
     assert_eq!(toy.verdicts().explored.unwrap().stale, [""; 0]);

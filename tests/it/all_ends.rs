@@ -6,10 +6,10 @@ use replan::analysis::verdict::Estimate;
 /// What `of` finds on mean in a toy of which many maps have no path.
 fn mean(more: &str) -> (Estimate, Vec<String>) {
     let text = format!(
-        "check.within = {{ statistic = \"mean\", accepted = [0.0, 1e6], of = {{ study = \"draws\", problems = \"drawn\", metric = \
+        "check.within = {{ statistic = \"mean\", accepted = [0.0, 1e6], select = {{ study = \"draws\", problems = \"drawn\", metric = \
          \"expansions\", contender = \"A*\"{more} }} }}"
     );
-    let own = "check.lower.of = { study = \"draws\", problems = \"drawn\", metric = \"expansions\", contender = \"A*\", against = \
+    let own = "check.lower.select = { study = \"draws\", problems = \"drawn\", metric = \"expansions\", contender = \"A*\", against = \
                \"Two-sided\" }";
     let toy = Toy::unexplored(&[("blocked_share = 0.2", "blocked_share = 0.45"), (own, &text)]);
     toy.0.done(&["judge", "./toy"]);

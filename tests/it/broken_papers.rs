@@ -42,21 +42,21 @@ const BROKEN: [(&str, &str, &[Mistake]); 9] = [
         &[
             (
                 "paper.toml",
-                "[claim.check.lower]\nof = { study = \"compare\"",
-                "[claim.check.lower]\nof = { study = \"comparison\"",
-                "paper.toml:83:16: there is no study `comparison`",
+                "[claim.check.lower]\nselect = { study = \"compare\"",
+                "[claim.check.lower]\nselect = { study = \"comparison\"",
+                "paper.toml:83:20: there is no study `comparison`",
             ),
             (
                 "paper.toml",
                 "contender = \"Weighted A*\"",
                 "contender = \"WA*\"",
-                "paper.toml:70:20: study `compare` has no contender `WA*`",
+                "paper.toml:70:24: study `compare` has no contender `WA*`",
             ),
             (
                 "paper.toml",
                 "metric = \"opened\"",
                 "metric = \"nodes\"",
-                "paper.toml:58:17: there is no metric `nodes`",
+                "paper.toml:58:21: there is no metric `nodes`",
             ),
         ],
     ),

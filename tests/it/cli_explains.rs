@@ -88,7 +88,7 @@ fn list_explains_one_thing_within_eighty_columns_and_meets_a_misspelled_name() {
     let bench = Bench::new();
     for (what, name, part) in [
         ("planners", "astar", "ties: \"fifo\", \"lifo\", \"larger_g\" or \"smaller_g\""),
-        ("criteria", "one_instance", "[claim.check.one_instance.of]\n"),
+        ("criteria", "one_instance", "[claim.check.one_instance.select]\n"),
         ("checks", "one_instance", "contender = \"A*\""),
         ("rules", "straight_line", "start = [2.0, 2.0]"),
         ("planners", "direct", "planner = \"direct\"\n"),

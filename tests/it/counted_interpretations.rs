@@ -277,7 +277,7 @@ const REACH: (&str, &str) = (
     "[[claim]]\nid = \"calibrated\"",
     "[[claim]]\nid = \"reach\"\nat = \"section 5\"\nsays = \"the way is short\"\n\
      check.on_every = { that = \"at_most\", bound = 100.0, \
-     of = { study = \"arm\", problems = \"arm\", contender = \"A*\", metric = \"path_length_cm\" } }\n\
+     select = { study = \"arm\", problems = \"arm\", contender = \"A*\", metric = \"path_length_cm\" } }\n\
      [[claim]]\nid = \"calibrated\"",
 );
 

@@ -223,7 +223,7 @@ fn noisy() -> Toy {
         world += &format!("w{width} = {{ problem = {{ size_cells = [{width}, 12] }} }}\n");
     }
     let claim = "[[claim]]\nid = \"near\"\nat = \"section 4\"\nsays = \"the search from two sides costs at most a tenth more\"\n\
-         check.on_every = { of = { study = \"draws\", problems = \"drawn\", metric = \"path_cost_cells\", \
+         check.on_every = { select = { study = \"draws\", problems = \"drawn\", metric = \"path_cost_cells\", \
          contender = \"Two-sided\", against = \"A*\" }, that = \"at_most_times\", bound = 1.1 }\n[[claim]]\nid = \"fewer\"";
     let edits = [
         ("[[claim]]\nid = \"fewer\"", &*format!("{world}{claim}")),

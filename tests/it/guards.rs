@@ -351,11 +351,12 @@ fn records_of_a_study_that_is_no_more_are_reported() {
 
 #[test]
 fn what_must_hold_and_does_not_is_refused() {
-    let own = "check.lower.of = { study = \"draws\", problems = \"drawn\", metric = \"expansions\", contender = \"A*\", against = \
+    let own = "check.lower.select = { study = \"draws\", problems = \"drawn\", metric = \"expansions\", contender = \"A*\", against = \
                \"Two-sided\" }";
     let judged = |accepted: &str| {
         let of = "{ study = \"draws\", problems = \"drawn\", metric = \"expansions\", contender = \"A*\" }";
-        let check = format!("check.within = {{ statistic = \"mean\", accepted = {accepted}, of = {of} }}");
+        let check =
+            format!("check.within = {{ statistic = \"mean\", accepted = {accepted}, select = {of} }}");
         Toy::unexplored(&[(own, &format!("theorem = \"nodes are counted\"\n{check}"))])
     };
     let true_one = judged("[0.0, 1e6]");

@@ -197,7 +197,7 @@ fn a_ratio_to_a_printed_zero_is_refused() {
 #[test]
 fn what_nothing_could_speak_against_is_refused() {
     let own = ("paper.toml", "against = \"8 neighbours\"", "against = \"24 neighbours\"");
-    let wanted = "paper.toml:71:87: `24 neighbours` is held against itself; another contender is accepted";
+    let wanted = "paper.toml:71:91: `24 neighbours` is held against itself; another contender is accepted";
     assert_faults("arm", &[own], &[wanted]);
     let any =
         ("paper.toml", "[claim.check.on_every]", "[claim.check.share]\nhits = \"lower\"\naccepted = [0, 1]");
@@ -215,8 +215,8 @@ fn contenders_that_are_on_both_sides_are_refused() {
     );
     let of = (
         "paper.toml",
-        "of = { study = \"lengths\", problems = \"case 1\", contender = \"24 neighbours\", against = \"8 neighbours\", metric",
-        "of = { study = \"lengths\", problems = \"case 1\", metric",
+        "select = { study = \"lengths\", problems = \"case 1\", contender = \"24 neighbours\", against = \"8 neighbours\", metric",
+        "select = { study = \"lengths\", problems = \"case 1\", metric",
     );
     let that = ("paper.toml", "that = \"lower\"\n", "");
     let wanted = "paper.toml:72:10: `24 neighbours` is held against itself; another contender is accepted";

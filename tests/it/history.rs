@@ -21,7 +21,7 @@ at = "section 2"
 says = "half as many nodes"
 printed = "0.5"
 [claim.check.within]
-of = { study = "draws", problems = "drawn", metric = "nodes", contender = "Two-sided", against = "A*" }
+select = { study = "draws", problems = "drawn", metric = "nodes", contender = "Two-sided", against = "A*" }
 statistic = "ratio"
 margin = 0.25
 
@@ -30,7 +30,7 @@ id = "again"
 at = "section 3"
 printed = "0.5"
 [claim.check.within]
-of = { study = "draws", problems = "drawn", metric = "nodes", contender = "Two-sided", against = "A*" }
+select = { study = "draws", problems = "drawn", metric = "nodes", contender = "Two-sided", against = "A*" }
 statistic = "ratio"
 margin = 0.25
 printed_ratio = ["length", "cost"]

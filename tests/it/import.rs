@@ -262,7 +262,7 @@ const STUDY: &str = "paper = \"own\"\nquestion = \"Fewer?\"\nseed = 1\n[budget]\
 const PAPER: &str = "[source]\ntitle = \"T\"\nauthors = \"N. N.\"\n[prints]\ntables = 0\n\
                      [[inventory]]\nitem = \"section 1\"\nsays = \"s\"\nclaims = [\"fewer\"]\n\
                      [[claim]]\nid = \"fewer\"\nat = \"section 1\"\nsays = \"fewer\"\n[claim.check.lower]\n\
-                     of = { study = \"results\", problems = \"maps\", contender = \"Ours\", against = \"A*\", metric = \"expansions\" }\n";
+                     select = { study = \"results\", problems = \"maps\", contender = \"Ours\", against = \"A*\", metric = \"expansions\" }\n";
 
 #[test]
 fn results_that_are_not_those_of_the_study_are_refused_and_a_study_without_them_says_what_to_do() {

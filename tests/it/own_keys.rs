@@ -27,9 +27,9 @@ fn a_misspelt_criterion_is_reported_at_its_name() {
     assert_faults("grid", &[shown], &[&format!("paper.toml:82:15: {wanted}")]);
     let inline = (
         "paper.toml",
-        "[claim.check.lower]\nof = { study = \"compare\", problems = \"maps\", contender = \"Weighted A*\", against = \"A*\", \
+        "[claim.check.lower]\nselect = { study = \"compare\", problems = \"maps\", contender = \"Weighted A*\", against = \"A*\", \
          metric = \"opened\" }",
-        "check.lowr = { of = { study = \"compare\", problems = \"maps\", contender = \"Weighted A*\", against = \"A*\", \
+        "check.lowr = { select = { study = \"compare\", problems = \"maps\", contender = \"Weighted A*\", against = \"A*\", \
          metric = \"opened\" } }",
     );
     assert_alone("grid", inline, &format!("paper.toml:82:7: {wanted}"));
@@ -42,7 +42,7 @@ fn what_follows_from_a_fault_of_a_claim_is_not_reported() {
     let number = ("paper.toml", "printed = [\"50.2\"", "printed = [50.2");
     assert_alone("grid", number, "paper.toml:65:12: `printed[0]` is 50.2; text in quotes is accepted");
     let metric = ("paper.toml", "against = \"A*\", metric = \"opened\"", "against = \"A*\", metric = 5");
-    assert_alone("grid", metric, "paper.toml:83:98: `metric` is 5; text in quotes is accepted");
+    assert_alone("grid", metric, "paper.toml:83:102: `metric` is 5; text in quotes is accepted");
 }
 
 #[test]
@@ -117,7 +117,7 @@ fn a_fault_of_the_first_claim_hides_none_of_the_second() {
         "problems = \"maps\", contender = \"Weighted A*\"",
         "problems = \"maps\", contender = \"WA\"",
     );
-    let wanted = ["paper.toml:83:58: study `compare` has no contender `WA`", "paper.toml:91:"];
+    let wanted = ["paper.toml:83:62: study `compare` has no contender `WA`", "paper.toml:91:"];
     assert_faults("grid", &[first, second], &wanted);
 }
 

@@ -46,7 +46,7 @@ at = "section 1"
 says = "two sides open fewer nodes"
 [claim.check.lower]
 is = "lower"
-[claim.check.lower.of]
+[claim.check.lower.select]
 study = "draws"
 problems = "drawn"
 metric = "nodes"

@@ -3,9 +3,11 @@
 use crate::paper::Bench;
 use replan::analysis::claims::claim_hash;
 use replan::analysis::meaning;
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::path::Path;
 use study::Inputs;
-use study::paper::Paper;
+use study::paper::{Paper, TestRole};
 
 const STUDY: &str = r#"paper = "forty"
 question = "What does a weight save?"
@@ -33,7 +35,7 @@ title = "A paper of forty numbers"
 id = "t"
 at = "Table 1"
 caption = "Means over twelve maps."
-of = { study = "maps" }
+select = { study = "maps" }
 check.within = { statistic = "mean", margin = 2.0 }
 row = [
 ROWS
@@ -41,22 +43,22 @@ ROWS
 
 [[table.column]]
 id = "length"
-of = { metric = "path_cost_cells" }
+select = { metric = "path_cost_cells" }
 unit = "cells"
 
 [[table.column]]
 id = "nodes"
-of = { metric = "opened" }
+select = { metric = "opened" }
 check.within = { margin = 20.0 }
 
 [[table.column]]
 id = "expansions"
-of = { metric = "expansions" }
+select = { metric = "expansions" }
 check.within = { margin = 20.0 }
 
 [[table.column]]
 id = "bends"
-check.within.of = { metric = "bends" }
+check.within.select = { metric = "bends" }
 "#;
 
 /// A paper with a table of forty numbers, in a folder called `forty`.
@@ -74,7 +76,7 @@ fn forty() -> Bench {
         for (id, label) in [("astar", "A*"), ("weighted", "Weighted")] {
             writeln!(
                 rows,
-                "  {{ id = \"{id}{number}\", of = {{ contender = \"{label}\", problems = \"{number}\" }}, printed = [\"23.5\", \"120\", \
+                "  {{ id = \"{id}{number}\", select = {{ contender = \"{label}\", problems = \"{number}\" }}, printed = [\"23.5\", \"120\", \
                  \"60.0\", \"6.5\"] }},"
             )
             .unwrap();
@@ -131,7 +133,7 @@ fn a_claim_that_moves_into_a_table_asks_the_same() {
             write!(
                 written,
                 "[[claim]]\nid = \"t.{id}.{column}\"\nat = \"elsewhere\"\nprinted = \"{printed}\"\n[claim.check.within]\nstatistic = \"mean\"\n\
-                 margin = {margin:?}\nof = {{ study = \"maps\", problems = \"{number}\", contender = \"{label}\", metric = \"{metric}\" }}\n"
+                 margin = {margin:?}\nselect = {{ study = \"maps\", problems = \"{number}\", contender = \"{label}\", metric = \"{metric}\" }}\n"
             )
             .unwrap();
         }
@@ -157,12 +159,12 @@ const WRONG: [(&str, &str, &str); 13] = [
     (
         "\"23.5\", \"120\", \"60.0\", \"6.5\"]",
         "\"23.5\", \"120\", \"60.0\"]",
-        "11:73: row `astar0` of table `t` has 3 cells for 4 columns; one for each is accepted, `N/A` where",
+        "11:77: row `astar0` of table `t` has 3 cells for 4 columns; one for each is accepted, `N/A` where",
     ),
     (
         "\"120\"",
         "\"few\"",
-        "11:82: claim `t.astar0.nodes`: printed is `few`; the digits of one number as the paper prints them are accepted",
+        "11:86: claim `t.astar0.nodes`: printed is `few`; the digits of one number as the paper prints them are accepted",
     ),
     (
         "check.within = { statistic = \"mean\", margin = 2.0 }\n",
@@ -173,12 +175,12 @@ const WRONG: [(&str, &str, &str); 13] = [
     (
         "\"6.5\"]",
         "\"N/A\"], cell.bends.headline = true",
-        "11:110: table `t`: row `astar0`, column `bends`: the cell is no claim, so nothing is set for it",
+        "11:114: table `t`: row `astar0`, column `bends`: the cell is no claim, so nothing is set for it",
     ),
     (
         "\"23.5\", \"120\", \"60.0\", \"6.5\"]",
         "\"23.5\", \"N/A\", \"N/A\", \"N/A\"], whole.headline = true",
-        "11:104: row `astar0` of table `t` is no claim by itself: fewer than two of its cells can be tested",
+        "11:108: row `astar0` of table `t` is no claim by itself: fewer than two of its cells can be tested",
     ),
     ("id = \"bends\"", "id = \"nodes\"", "39:6: table `t` has another column `nodes`"),
     (
@@ -189,17 +191,17 @@ const WRONG: [(&str, &str, &str); 13] = [
     (
         "metric = \"bends\"",
         "metric = \"bend\"",
-        "40:30: there is no metric `bend`, nor a choice that gives the name a meaning (did you mean `bends`?)",
+        "40:34: there is no metric `bend`, nor a choice that gives the name a meaning (did you mean `bends`?)",
     ),
     (
         "study = \"maps\"",
         "study = \"map\"",
-        "8:16: there is no study `map` (did you mean `maps`?); there are maps",
+        "8:20: there is no study `map` (did you mean `maps`?); there are maps",
     ),
     (
         "problems = \"0\" }",
         "problems = \"9\" }",
-        "11:56: study `maps` has no problem group `9`; it has 0, 1, 2, 3, 4",
+        "11:60: study `maps` has no problem group `9`; it has 0, 1, 2, 3, 4",
     ),
     ("margin = 20.0", "margn = 20.0", "31:18: unknown key `margn` (did you mean `margin`?)"),
     (
@@ -233,31 +235,31 @@ const COMPARED: &str = r#"
 id = "u"
 at = "Table 2"
 caption = "Means over twelve maps."
-of = { study = "maps", metric = "opened" }
+select = { study = "maps", metric = "opened" }
 check.mean_of = { instances = 12 }
 
 [[table.column]]
 id = "astar"
-of = { contender = "A*" }
+select = { contender = "A*" }
 
 [[table.column]]
 id = "weighted"
-of = { contender = "Weighted" }
+select = { contender = "Weighted" }
 
 [[table.column]]
 id = "more"
 difference = ["astar", "weighted"]
-of = { contender = "A*", against = "Weighted" }
+select = { contender = "A*", against = "Weighted" }
 
 [[table.row]]
 id = "one"
 printed = ["120.5", "9000"]
-of = { problems = "1" }
+select = { problems = "1" }
 
 [[table.row]]
 id = "two"
 printed = ["N/A", "60"]
-of = { problems = "2" }
+select = { problems = "2" }
 
 [[claim]]
 id = "whole"
@@ -301,7 +303,7 @@ const REPEATED: &str = r#"
 id = "again"
 at = "Table 2"
 caption = "One row of Table 1, printed again."
-of = { study = "maps", metric = "path_cost_cells", contender = "A*", problems = "0" }
+select = { study = "maps", metric = "path_cost_cells", contender = "A*", problems = "0" }
 check.within = { statistic = "mean", margin = 2.0 }
 column = [{ id = "length" }]
 row = [{ id = "one", printed = ["23.5"] }]
@@ -340,6 +342,30 @@ fn a_number_that_two_tables_print_of_the_same_trials_counts_once() {
     let report = std::fs::read_to_string(bench.at("target/replan/forty/paper_repro.md")).unwrap();
     let row = report.split("printed again").nth(1).unwrap();
     assert!(row.contains("details.md#t.astar0.length"), "the claim of the first table is shown: {report}");
+}
+
+#[test]
+fn no_printed_number_of_a_committed_paper_is_claimed_twice_of_one_selection() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut questions = 0;
+    let mut twice = Vec::new();
+    for name in crate::paper::committed() {
+        let folder = root.join("experiments").join(&name);
+        let paper = Paper::load(&folder, &Inputs { roots: vec![root.to_owned()] }).unwrap();
+        let mut seen = BTreeMap::new();
+        for claim in paper.claims.iter().filter(|claim| claim.printed.is_some()) {
+            for (role, _, settings) in claim.tests().filter(|(role, ..)| *role == TestRole::Decides) {
+                let table = settings.table();
+                let Some(selection) = table.get("select") else { continue };
+                let question = format!("{:?} {selection} {:?}", claim.printed, table.get("statistic"));
+                questions += 1;
+                let first = seen.insert(question, &claim.id).filter(|first| **first != claim.id);
+                twice.extend(first.map(|first| format!("{name}: `{first}` and `{}`, {role:?}", claim.id)));
+            }
+        }
+    }
+    assert!(questions > 300, "{questions}");
+    assert!(twice.is_empty(), "printed once, `same_as` or a withdrawn claim:\n{}", twice.join("\n"));
 }
 
 #[test]
@@ -407,7 +433,7 @@ fn swept(claim: &str) -> Bench {
 fn a_claim_asks_for_a_part_of_a_sweep() {
     let trials = |sweep: &str| {
         let bench = swept(&format!(
-            "[claim.check.share]\nhits = \"solved\"\naccepted = [0.0, 0.5]\nof = {{ study = \"maps\", problems = \"0\", contender = \"A*\", \
+            "[claim.check.share]\nhits = \"solved\"\naccepted = [0.0, 0.5]\nselect = {{ study = \"maps\", problems = \"0\", contender = \"A*\", \
              sweep = {sweep} }}\n"
         ));
         let output = bench.done(&["repro", "./forty", "--all"]);
@@ -428,7 +454,7 @@ fn a_claim_asks_for_a_part_of_a_sweep() {
         assert_eq!(trials(sweep), (12 * points).to_string(), "{sweep}");
     }
     let none = swept(
-        "[claim.check.share]\nhits = \"solved\"\naccepted = [0.0, 0.5]\nof = { study = \"maps\", problems = \"0\", contender = \"A*\", sweep = \
+        "[claim.check.share]\nhits = \"solved\"\naccepted = [0.0, 0.5]\nselect = { study = \"maps\", problems = \"0\", contender = \"A*\", sweep = \
          [\"weight=1\", \"weight>5\"] }\n",
     );
     let output = none.run(&["check", "./forty"]).err;
@@ -439,7 +465,7 @@ fn a_claim_asks_for_a_part_of_a_sweep() {
 #[test]
 fn success_along_a_part_of_a_sweep_is_computed_of_that_part() {
     let bench = swept(
-        "[claim.check.lower]\nof = { study = \"maps\", problems = \"3\", contender = \"A*\", against = \"Weighted\", sweep = \"weight<=3\" }\n",
+        "[claim.check.lower]\nselect = { study = \"maps\", problems = \"3\", contender = \"A*\", against = \"Weighted\", sweep = \"weight<=3\" }\n",
     );
     bench.done(&["repro", "./forty", "--all"]);
     let output = bench.done(&["show", "./forty", "c"]);
@@ -448,10 +474,10 @@ fn success_along_a_part_of_a_sweep_is_computed_of_that_part() {
 
 #[test]
 fn a_selection_that_selects_nothing_is_refused_with_the_names_there_are() {
-    let share = "[claim.check.share]\nhits = \"solved\"\naccepted = [0.0, 0.5]\nof = { study = \"maps\", problems = \"0\" }\n";
+    let share = "[claim.check.share]\nhits = \"solved\"\naccepted = [0.0, 0.5]\nselect = { study = \"maps\", problems = \"0\" }\n";
     let bench = swept(share);
     let wanted =
-        "paper.toml:9:6: `of` names no contender, so it selects nothing; study `maps` has A*, Weighted";
+        "paper.toml:9:10: `select` names no contender, so it selects nothing; study `maps` has A*, Weighted";
     let output = bench.run(&["check", "./forty"]).err;
     assert!(output.contains(wanted), "{output}");
     // What a task tries in the place of contenders has names too.

@@ -18,7 +18,7 @@ id = "more"
 at = "section 1"
 says = "A* solves more on maps of every share"
 [claim.check.lower]
-of = { study = "study", problems = "maps", contender = "A*", against = "JPS" }
+select = { study = "study", problems = "maps", contender = "A*", against = "JPS" }
 is = "higher"
 [[claim]]
 id = "cost"
@@ -26,7 +26,7 @@ at = "section 1"
 printed = "10.0"
 unit = "cells"
 [claim.check.within]
-of = { study = "study", problems = "maps", contender = "A*", metric = "path_cost_cells", sweep = "blocked_share=0.4" }
+select = { study = "study", problems = "maps", contender = "A*", metric = "path_cost_cells", sweep = "blocked_share=0.4" }
 statistic = "mean"
 margin = 1
 "#;

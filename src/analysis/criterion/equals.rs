@@ -25,7 +25,7 @@ pub static ENTRY: Entry = Entry {
     question: |_| Some("equal trials 1"),
     settings: Accepted::shape::<Settings>(),
     example: r#"
-of = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
+select = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
 truth = "optimal_cost_cells"
 "#,
     build: |context| Ok(Box::new(Equals::new(context)?)),
@@ -35,7 +35,7 @@ truth = "optimal_cost_cells"
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// The trials that are looked at; with `against`, on the cases that both solve.
-    of: SelectionSpec,
+    select: SelectionSpec,
     /// The metric of the same trial that is the truth; without it the metric of the contender `against` is.
     truth: Option<String>,
     /// How far they may be apart, in the metric's unit, beyond a billionth of the truth.
@@ -45,7 +45,7 @@ struct Settings {
 }
 
 struct Equals<'a> {
-    of: Selection<'a>,
+    selection: Selection<'a>,
     metric: &'static Metric,
     truth: Option<&'static Metric>,
     within: f64,
@@ -58,18 +58,18 @@ const SAME: f64 = 1e-9;
 impl<'a> Equals<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
-        let of = Selection::new(context, &settings.of)?;
-        of.some_contender(context)?;
-        let metric = of.metric(context)?;
-        let truth = settings.truth.as_ref().map(|name| context.metric(name, of.study)).transpose()?;
-        if truth.is_some() == of.against.is_some() {
+        let selection = Selection::new(context, &settings.select)?;
+        selection.some_contender(context)?;
+        let metric = selection.metric(context)?;
+        let truth = settings.truth.as_ref().map(|name| context.metric(name, selection.study)).transpose()?;
+        if truth.is_some() == selection.against.is_some() {
             return Err(context
                 .settings
                 .error("one of `truth` and `of.against` is accepted")
                 .about("truth")
                 .about("against"));
         }
-        Ok(Self { of, metric, truth, within: settings.within, plan: plan(&context.seed_names()) })
+        Ok(Self { selection, metric, truth, within: settings.within, plan: plan(&context.seed_names()) })
     }
 }
 
@@ -129,22 +129,22 @@ impl Equals<'_> {
 
     /// What the metric is held against.
     fn truth_name(&self) -> String {
-        let other = || format!("that of {}", self.of.against.as_deref().unwrap_or_default());
+        let other = || format!("that of {}", self.selection.against.as_deref().unwrap_or_default());
         self.truth.map_or_else(other, |truth| truth.label.to_lowercase())
     }
 }
 
 impl Criterion for Equals<'_> {
     fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
-        let instances = self.of.instances(evidence);
+        let instances = self.selection.instances(evidence);
         let Tally { counts, worst, sums, unknown, broken, .. } =
-            self.of.run(evidence).map(|run| self.tally(run, &instances)).unwrap_or_default();
+            self.selection.run(evidence).map(|run| self.tally(run, &instances)).unwrap_or_default();
         let refused = cases(&instances).filter(|case| case.row.status == Status::Rejected).count();
         let share = Share::new(&counts, most_cases(&instances), self.plan);
         let percent = Some(100.0 * (sums[0] / sums[1] - 1.0)).filter(|percent| percent.is_finite());
         let apart =
             Number { part: APART.to_owned(), value: percent, greatest: Some(worst), ..Number::default() };
-        let drawn = self.of.drawn(&instances);
+        let drawn = self.selection.drawn(&instances);
         let whole =
             Number { unended: unknown, above: broken, refused, drawn, ..Number::of_cases(&instances) };
         vec![Share::counted(share, &counts, whole), apart]
@@ -165,11 +165,15 @@ impl Criterion for Equals<'_> {
             format!("; they are {worst:.4} apart at most, and {percent:+.2} % on the whole")
         });
         let apart = apart.unwrap_or_default();
-        let mut because =
-            vec![format!("{}: {metric} is {truth} on {same} of {all} trials{apart}", self.of.description())];
+        let mut because = vec![format!(
+            "{}: {metric} is {truth} on {same} of {all} trials{apart}",
+            self.selection.description()
+        )];
         let refused = found.refused;
         because.extend((refused > 0).then(|| format!("{refused} of these paths the verifier refuses")));
-        because.extend(censored::outside_in_words(&self.of, found.outside).filter(|_| self.truth.is_none()));
+        because.extend(
+            censored::outside_in_words(&self.selection, found.outside).filter(|_| self.truth.is_none()),
+        );
         let ours = Share::from_number(found).map(|share| {
             let what = format!("trials on which {metric} is {truth}");
             share.estimate(&what).of_cases([same as usize, all as usize])
@@ -187,12 +191,12 @@ impl Criterion for Equals<'_> {
     }
 
     fn show(&self, evidence: &Evidence<'_>, _: &[Number], found: &mut CriterionResult) {
-        let Some(run) = self.of.run(evidence) else { return };
-        let wrong = self.tally(run, &self.of.instances(evidence)).wrong;
+        let Some(run) = self.selection.run(evidence) else { return };
+        let wrong = self.tally(run, &self.selection.instances(evidence)).wrong;
         found.trial = wrong.map(|row| run.trial(row));
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {
-        vec![&self.of]
+        vec![&self.selection]
     }
 }

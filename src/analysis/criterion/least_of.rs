@@ -36,7 +36,7 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-of = { study = "compare", problems = ["maps"], metric = "expansions" }
+select = { study = "compare", problems = ["maps"], metric = "expansions" }
 lower = "Weighted A*"
 higher = ["A*"]
 by_percent = 20
@@ -48,7 +48,7 @@ by_percent = 20
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// The trials that are looked at: study, problems and metric.
-    of: SelectionSpec,
+    select: SelectionSpec,
     /// Contenders that are claimed to be below every one of `higher`, each by itself.
     lower: crate::analysis::selection_spec::Labels,
     /// Those that they are compared with.
@@ -63,7 +63,7 @@ struct Settings {
 }
 
 struct LeastOf<'a> {
-    of: Selection<'a>,
+    selection: Selection<'a>,
     metric: &'static Metric,
     /// Who is claimed to be lower, and than whom.
     pairs: Vec<(String, String)>,
@@ -102,21 +102,21 @@ impl<'a> LeastOf<'a> {
         }
         let named: Vec<&str> = lower.iter().chain(&higher).map(String::as_str).collect();
         let mut faults = Faults::default();
-        faults.keep(context.study("", &settings.of.study, &named));
-        let of = faults.keep(Selection::new(context, &settings.of));
-        let Some(of) = of.filter(|_| faults.is_empty()) else { return Err(faults.error()) };
-        let metric = of.metric(context)?;
+        faults.keep(context.study("", &settings.select.study, &named));
+        let selection = faults.keep(Selection::new(context, &settings.select));
+        let Some(selection) = selection.filter(|_| faults.is_empty()) else { return Err(faults.error()) };
+        let metric = selection.metric(context)?;
         let with = |low: &String| higher.iter().map(|high| (low.clone(), high.clone())).collect::<Vec<_>>();
         let pairs: Vec<(String, String)> = lower.iter().flat_map(with).collect();
         let inclusion = |(low, high): &(String, String)| {
             if !settings.by_inclusion {
                 return Ok(Inclusion::Open);
             }
-            Inclusion::in_study(of.study, context.point, low, high)
+            Inclusion::in_study(selection.study, context.point, low, high)
         };
         let inclusions = pairs.iter().map(inclusion).collect::<Result<_, _>>()?;
         let plan = plan(&context.seed_names());
-        Ok(Self { of, metric, pairs, by_percent: settings.by_percent, inclusions, plan })
+        Ok(Self { selection, metric, pairs, by_percent: settings.by_percent, inclusions, plan })
     }
 
     /// Below this a ratio is what the claim says.
@@ -127,7 +127,7 @@ impl<'a> LeastOf<'a> {
     /// The metric of every trial; infinite where it failed, and `unended` where it did not come to an end.
     fn values(&self, run: &Run<'_>, problem: &str, contender: &str, unended: Option<f64>) -> Vec<f64> {
         let value = |row: &&Row| or_infinite(run, row, self.metric, unended);
-        self.of.rows(run, problem, contender).iter().filter_map(value).collect()
+        self.selection.rows(run, problem, contender).iter().filter_map(value).collect()
     }
 
     /// What was drawn independently: seeds, or the repeated times where there is one seed.
@@ -135,7 +135,7 @@ impl<'a> LeastOf<'a> {
         if !self.metric.is_clock() || values.len() > 1 {
             return values.to_vec();
         }
-        let rows = self.of.rows(run, problem, contender);
+        let rows = self.selection.rows(run, problem, contender);
         rows.iter().flat_map(|row| run.repeats(row, self.metric)).collect()
     }
 
@@ -167,7 +167,7 @@ impl<'a> LeastOf<'a> {
             Ends::Most => [f64::INFINITY, 0.0],
         };
         let mut all = Vec::new();
-        for problem in &self.of.groups {
+        for problem in &self.selection.groups {
             let sides = self.sides(run, problem, unended);
             let compared = (0..self.pairs.len()).filter_map(|index| self.compare(&sides, problem, index));
             all.extend(compared.map(|compared| Number { ends, ..compared }));
@@ -182,14 +182,14 @@ impl<'a> LeastOf<'a> {
             let mut rows = labels().flat_map(|label| run.rows(group, label)).peekable();
             rows.peek().is_none() || rows.any(|row| row.status != Status::InvalidProblem)
         };
-        let posed: Vec<&String> = self.of.groups.iter().filter(is_posed).collect();
-        if posed.is_empty() { self.of.groups.iter().collect() } else { posed }
+        let posed: Vec<&String> = self.selection.groups.iter().filter(is_posed).collect();
+        if posed.is_empty() { self.selection.groups.iter().collect() } else { posed }
     }
 
     /// What the comparisons say, if they are all those that could be posed.
     fn outcome(&self, numbers: &[Number], ends: Ends) -> Outcome {
         let all = compared(numbers, ends);
-        let posed = self.of.groups.len() - left_out(numbers).len();
+        let posed = self.selection.groups.len() - left_out(numbers).len();
         let is_complete = !all.is_empty() && all.len() == self.pairs.len() * posed;
         if is_complete { outcome(&all, self.limit()) } else { Outcome::Open }
     }
@@ -197,8 +197,9 @@ impl<'a> LeastOf<'a> {
     /// How many trials did not come to an end.
     fn unended(&self, run: &Run<'_>) -> usize {
         let labels: BTreeSet<&String> = self.pairs.iter().flat_map(|(low, high)| [low, high]).collect();
-        let cases = self.of.groups.iter().flat_map(|group| labels.iter().map(move |label| (group, *label)));
-        let rows = cases.flat_map(|(group, label)| self.of.rows(run, group, label));
+        let cases =
+            self.selection.groups.iter().flat_map(|group| labels.iter().map(move |label| (group, *label)));
+        let rows = cases.flat_map(|(group, label)| self.selection.rows(run, group, label));
         rows.filter(|row| is_unended(row)).count()
     }
 
@@ -211,7 +212,7 @@ impl<'a> LeastOf<'a> {
     /// The problem and the pair that each comparison is of, by its name.
     fn places(&self) -> BTreeMap<String, (&String, usize)> {
         let of_group = |group| (0..self.pairs.len()).map(move |index| (group, index));
-        let all = self.of.groups.iter().flat_map(of_group);
+        let all = self.selection.groups.iter().flat_map(of_group);
         all.map(|(group, index)| (self.name(group, index), (group, index))).collect()
     }
 
@@ -222,7 +223,7 @@ impl<'a> LeastOf<'a> {
         let [from, to] = [one.interval, other.interval];
         let trials = [one.values.len(), other.values.len()];
         // A contender with one seed does not draw, unless the problem itself was drawn: one trial is then one of many.
-        let fewest = if self.of.study.is_drawn(problem) { 1 } else { 2 };
+        let fewest = if self.selection.study.is_drawn(problem) { 1 } else { 2 };
         let keeps = self.inclusions[index].is_kept(&one.ended, &other.ended);
         Some(Number {
             part: self.name(problem, index),
@@ -248,7 +249,7 @@ impl<'a> LeastOf<'a> {
             String::new()
         };
         let left = left_out(numbers);
-        let all_of = self.pairs.len() * (self.of.groups.len() - left.len());
+        let all_of = self.pairs.len() * (self.selection.groups.len() - left.len());
         let left =
             (!left.is_empty()).then(|| format!("left out, for it cannot be posed: {}", left.join(", ")));
         let mut because = vec![format!("in {met} of {all_of} comparisons the median {label} is less{by}")];
@@ -335,10 +336,10 @@ fn ratio(a: f64, b: f64) -> f64 {
 impl Criterion for LeastOf<'_> {
     /// Every comparison and every problem that could not be posed, a part each.
     fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
-        let Some(run) = self.of.run(evidence) else { return vec![Number::default()] };
+        let Some(run) = self.selection.run(evidence) else { return vec![Number::default()] };
         let unended = self.unended(run);
         let posed = self.posed(run);
-        let left = self.of.groups.iter().filter(|group| !posed.contains(group));
+        let left = self.selection.groups.iter().filter(|group| !posed.contains(group));
         let left = left.map(|group| Number { part: group.clone(), ..Number::default() });
         let ends = Ends::ALL.into_iter().filter(|ends| *ends == Ends::Measured || unended > 0);
         let compared = ends.flat_map(|ends| self.compared(run, ends));
@@ -379,13 +380,13 @@ impl Criterion for LeastOf<'_> {
     fn show(&self, evidence: &Evidence<'_>, numbers: &[Number], found: &mut CriterionResult) {
         let places = self.places();
         let shown = shown(&compared(numbers, Ends::Measured)).and_then(|one| places.get(&one.part).copied());
-        let Some(((problem, index), run)) = shown.zip(self.of.run(evidence)) else { return };
-        let first = self.of.rows(run, problem, &self.pairs[index].0).into_iter().next();
+        let Some(((problem, index), run)) = shown.zip(self.selection.run(evidence)) else { return };
+        let first = self.selection.rows(run, problem, &self.pairs[index].0).into_iter().next();
         found.trial = first.map(|row| run.trial(row));
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {
-        vec![&self.of]
+        vec![&self.selection]
     }
 }
 

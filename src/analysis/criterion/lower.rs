@@ -32,7 +32,7 @@ pub static ENTRY: Entry = Entry {
     revision: |_| 3,
     question: |settings| {
         without(settings, &["is", "by_percent"]);
-        if settings.get("of").and_then(|of| of.get("metric")).is_none() {
+        if settings.get("select").and_then(|selection| selection.get("metric")).is_none() {
             return Some("difference solved along a sweep 1");
         }
         settings.insert("statistic".to_owned(), "reduction_percent".into());
@@ -40,7 +40,7 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-of = { study = "compare", problems = "maps", metric = "opened", contender = "Weighted A*", against = "A*" }
+select = { study = "compare", problems = "maps", metric = "opened", contender = "Weighted A*", against = "A*" }
 "#,
     build: |context| Ok(Box::new(Lower::new(context)?)),
 };
@@ -49,7 +49,7 @@ of = { study = "compare", problems = "maps", metric = "opened", contender = "Wei
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// The trials that are looked at; without a metric the share of solved queries, along the study's sweep.
-    of: SelectionSpec,
+    select: SelectionSpec,
     /// Whether it is claimed to be lower or higher than `against`.
     #[serde(default)]
     is: Way,
@@ -70,7 +70,7 @@ enum Way {
 }
 
 struct Lower<'a> {
-    of: Selection<'a>,
+    selection: Selection<'a>,
     way: Way,
     by_percent: f64,
     plan: Resampling,
@@ -79,19 +79,20 @@ struct Lower<'a> {
 impl<'a> Lower<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
-        let of = Selection::new(context, &settings.of)?;
-        of.contender(context)?;
-        of.against(context)?;
-        if of.metric.is_none() && of.sweep_points().iter().all(SweepKey::is_empty) {
-            let message = format!("`of` needs a `metric`: study `{}` sweeps nothing", of.study.name);
+        let selection = Selection::new(context, &settings.select)?;
+        selection.contender(context)?;
+        selection.against(context)?;
+        if selection.metric.is_none() && selection.sweep_points().iter().all(SweepKey::is_empty) {
+            let message =
+                format!("`select` needs a `metric`: study `{}` sweeps nothing", selection.study.name);
             return Err(context
                 .settings
-                .error_at("of", message)
+                .error_at("select", message)
                 .about("metric")
-                .about(&sweeps_of(&of.study.name)));
+                .about(&sweeps_of(&selection.study.name)));
         }
         let plan = plan(&context.seed_names());
-        Ok(Self { of, way: settings.is, by_percent: settings.by_percent, plan })
+        Ok(Self { selection, way: settings.is, by_percent: settings.by_percent, plan })
     }
 
     /// What the change of a contender says: a strict comparison that ties on every case is contradicted.
@@ -118,10 +119,10 @@ impl<'a> Lower<'a> {
         format!(
             "{}: {metric} {change} on the whole (95 % interval of the change {low:.2} to {high:.2}, {} over {n} instances); lower on \
              {below}, equal on {equal}, higher on {above} of {} cases{}",
-            self.of.description(),
+            self.selection.description(),
             how(all.is_agreed),
             below + equal + above,
-            if self.of.all_ends { "" } else { " that both solve" },
+            if self.selection.all_ends { "" } else { " that both solve" },
         )
     }
 
@@ -156,7 +157,7 @@ impl<'a> Lower<'a> {
     /// The curve of each instance: how many points more of its queries are solved than by the other, along the sweep. What did not
     /// end is not solved or, if so wanted, is solved on the one side alone.
     fn curves(&self, instances: &[Instance<'_>], unended: [bool; 2]) -> Vec<Vec<f64>> {
-        let points = self.of.sweep_points();
+        let points = self.selection.sweep_points();
         let is_solved = |row: &Row, unended: bool| row.is_solved() || unended && is_unended(row);
         let at = |instance: &Instance<'_>, point: &SweepKey| {
             let instance = instance.at(point);
@@ -176,14 +177,14 @@ impl<'a> Lower<'a> {
     /// By how much more is solved at each point of the sweep; a part each, as it is and as if the other alone had solved what did not end,
     /// then this one.
     fn numbers_along(&self, evidence: &Evidence<'_>) -> Vec<Number> {
-        let instances = self.of.instances(evidence);
+        let instances = self.selection.instances(evidence);
         let n = self.curves(&instances, [false; 2]).len();
         let mut numbers = vec![Number { n, ..Number::of_cases(&instances) }];
         let unended = numbers[0].unended > 0;
         for (ends, solved) in Ends::ALL.into_iter().zip([[false; 2], [true, false], [false, true]]) {
             let band = self.band(&instances, solved).filter(|_| ends == Ends::Measured || unended);
             let Some(Band { mean, band, .. }) = band else { continue };
-            let points = self.of.sweep_points().into_iter().zip(mean.into_iter().zip(band));
+            let points = self.selection.sweep_points().into_iter().zip(mean.into_iter().zip(band));
             numbers.extend(points.map(|(point, (mean, interval))| {
                 let part = name::sweep(&point);
                 Number { part, ends, value: Some(mean), interval: Some(interval), n, ..Number::default() }
@@ -217,7 +218,7 @@ impl<'a> Lower<'a> {
         let because = format!(
             "{}: the mean share of solved queries differs by {mean:.1} points (band {:.1} to {:.1}) at {}, where it is least on the claim's \
              side; the simultaneous 95 % band over {} instances is on that side at {beyond} of {} points",
-            self.of.description(),
+            self.selection.description(),
             band.low,
             band.high,
             least.part,
@@ -245,11 +246,15 @@ impl<'a> Lower<'a> {
     /// The trial that speaks least for the claim where along the sweep it is least.
     fn shown_along(&self, evidence: &Evidence<'_>, numbers: &[Number]) -> Option<String> {
         let points = parts(numbers, Ends::Measured);
-        let point =
-            self.of.sweep_points().into_iter().nth(self.least(&points)).filter(|_| !points.is_empty())?;
+        let point = self
+            .selection
+            .sweep_points()
+            .into_iter()
+            .nth(self.least(&points))
+            .filter(|_| !points.is_empty())?;
         let sign = if self.way == Way::Higher { 1.0 } else { -1.0 };
         let against = |case: &Case<'_>| case.row.key.sweep.has(&point).then(|| sign * solved_more(case));
-        selection::least(&self.of, evidence, &self.of.instances(evidence), against)
+        selection::least(&self.selection, evidence, &self.selection.instances(evidence), against)
     }
 }
 
@@ -296,33 +301,39 @@ fn outcome(way: Way, by_percent: f64, change: Interval) -> Outcome {
 
 impl Criterion for Lower<'_> {
     fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
-        match self.of.metric {
-            Some(_) => overall(&self.of, OverallStatistic::ReductionPercent, self.plan, evidence),
+        match self.selection.metric {
+            Some(_) => overall(&self.selection, OverallStatistic::ReductionPercent, self.plan, evidence),
             None => self.numbers_along(evidence),
         }
     }
 
     fn weigh(&self, numbers: &[Number]) -> CriterionResult {
-        match self.of.metric {
+        match self.selection.metric {
             Some(metric) => self.on_average(numbers, &metric.label.to_lowercase()),
             None => self.along_sweep(numbers),
         }
     }
 
     fn show(&self, evidence: &Evidence<'_>, numbers: &[Number], found: &mut CriterionResult) {
-        found.trial = if self.of.metric.is_none() {
+        found.trial = if self.selection.metric.is_none() {
             self.shown_along(evidence, numbers)
         } else {
             let nearest = |change: f64| {
                 let of_case = |case: &Case<'_>| case.saving_percent().map(|saving| -saving);
-                selection::nearest(&self.of, evidence, &self.of.instances(evidence), of_case, change)
+                selection::nearest(
+                    &self.selection,
+                    evidence,
+                    &self.selection.instances(evidence),
+                    of_case,
+                    change,
+                )
             };
             whole(numbers).value.and_then(|reduction| nearest(0.0 - reduction))
         };
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {
-        vec![&self.of]
+        vec![&self.selection]
     }
 }
 
@@ -367,15 +378,15 @@ mod tests {
 
     #[test]
     fn instances_that_all_agree_do_not_prove_that_nothing_changes() {
-        let of = |pair: (f64, f64), instances: usize| {
+        let outcome = |pair: (f64, f64), instances: usize| {
             let found = OverallStatistic::ReductionPercent
                 .of_pairs(&vec![vec![pair]; instances], plan(&["agreed"]))
                 .unwrap();
             assert!(found.is_agreed && found.interval.half_width() > 0.0, "{found:?}");
             outcome(Way::Lower, 10.0, turned(found.interval))
         };
-        assert_eq!(of((5.0, 5.0), 20), Outcome::Open, "one instance in six may differ");
-        assert_eq!(of((5.0, 5.0), 200), Outcome::Fails, "a tenth less is out of reach");
-        assert_eq!(of((5.0, 1.0), 20), Outcome::Holds);
+        assert_eq!(outcome((5.0, 5.0), 20), Outcome::Open, "one instance in six may differ");
+        assert_eq!(outcome((5.0, 5.0), 200), Outcome::Fails, "a tenth less is out of reach");
+        assert_eq!(outcome((5.0, 1.0), 20), Outcome::Holds);
     }
 }

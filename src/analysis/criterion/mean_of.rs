@@ -33,7 +33,7 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-of = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
+select = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
 instances = 500
 "#,
     build: |context| Ok(Box::new(MeanOf::new(context)?)),
@@ -43,7 +43,7 @@ instances = 500
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// The trials that are looked at; with `against`, by how much the contender's number exceeds the other's on the same problem.
-    of: SelectionSpec,
+    select: SelectionSpec,
     /// Of how many instances the printed number is the mean.
     #[schemars(range(min = 1))]
     instances: u32,
@@ -52,7 +52,7 @@ struct Settings {
 /// A printed mean with the trials that it is held against.
 pub(super) struct MeanOf<'a> {
     /// The trials.
-    pub(super) of: Selection<'a>,
+    pub(super) selection: Selection<'a>,
     /// The metric.
     pub(super) metric: &'static Metric,
     /// Of how many instances it is the mean.
@@ -67,9 +67,9 @@ pub(super) struct MeanOf<'a> {
 impl<'a> MeanOf<'a> {
     pub(super) fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
-        let of = Selection::new(context, &settings.of)?;
-        of.contender(context)?;
-        let metric = of.metric(context)?;
+        let selection = Selection::new(context, &settings.select)?;
+        selection.contender(context)?;
+        let metric = selection.metric(context)?;
         let print = context.print()?;
         let rounded = match &context.claim.difference {
             // Both of the numbers are rounded.
@@ -82,12 +82,12 @@ impl<'a> MeanOf<'a> {
         };
         let printed = print.printed.value();
         let instances = settings.instances as usize;
-        Ok(Self { of, metric, instances, printed, rounded, plan: plan(&context.seed_names()) })
+        Ok(Self { selection, metric, instances, printed, rounded, plan: plan(&context.seed_names()) })
     }
 
     /// The number of a case: the metric, or by how much it exceeds the other contender's.
     pub(super) fn number(&self, case: &Case<'_>) -> Option<f64> {
-        match self.of.against {
+        match self.selection.against {
             Some(_) => case.pair().map(|(base, own)| own - base),
             None => case.value,
         }
@@ -133,7 +133,11 @@ impl<'a> MeanOf<'a> {
         let of_mean = interval_of_mean([means.value?, means.deviation?], means.n, LEVEL);
         // Both say that the contender has more, or both that it has less.
         let is_same_sign = (of_mean.low * self.printed).min(of_mean.high * self.printed) > 0.0;
-        Some(if self.of.against.is_some() && is_same_sign { Outcome::SignOnly } else { Outcome::Fails })
+        Some(if self.selection.against.is_some() && is_same_sign {
+            Outcome::SignOnly
+        } else {
+            Outcome::Fails
+        })
     }
 
     /// How many cases without an end could turn what was found.
@@ -152,12 +156,12 @@ fn farther(one: f64, other: f64) -> f64 {
 impl Criterion for MeanOf<'_> {
     /// The mean of the instances, and what it would be if the cases without an end gave the least, then more than all others.
     fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
-        let instances = self.of.instances(evidence);
+        let instances = self.selection.instances(evidence);
         let cases = Number::of_cases(&instances);
         let Number { value, is_agreed, n, greatest, deviation, values, .. } =
             self.means(&instances, Ends::Measured, |case| self.number(case));
         let far = greatest.map_or(0.0, f64::abs) * n as f64;
-        let least = if self.of.against.is_some() { -far } else { 0.0 };
+        let least = if self.selection.against.is_some() { -far } else { 0.0 };
         let ends = [(Ends::Least, least), (Ends::Most, far)].into_iter().filter(|_| cases.unended > 0);
         let ended = ends.map(|(ends, end)| {
             let number = |case: &Case<'_>| if case.is_unended() { Some(end) } else { self.number(case) };
@@ -174,14 +178,14 @@ impl Criterion for MeanOf<'_> {
         };
         let value = all.value.unwrap_or_default();
         let metric = self.metric.label.to_lowercase();
-        let what = match &self.of.against {
+        let what = match &self.selection.against {
             Some(_) => format!("mean difference of {metric}"),
             None => format!("mean of {metric}"),
         };
         let Interval { low, high } = interval;
         let because = format!(
             "{}: {what} {value:.4} over {} instances; a mean of {} lies in [{low:.4}, {high:.4}] with 95 % probability; printed {}",
-            self.of.description(),
+            self.selection.description(),
             all.n,
             self.instances,
             self.printed
@@ -204,11 +208,12 @@ impl Criterion for MeanOf<'_> {
 
     fn show(&self, evidence: &Evidence<'_>, numbers: &[Number], found: &mut CriterionResult) {
         let Some(value) = whole(numbers).value.filter(|_| found.ours.is_some()) else { return };
-        let instances = self.of.instances(evidence);
-        found.trial = selection::nearest(&self.of, evidence, &instances, |case| self.number(case), value);
+        let instances = self.selection.instances(evidence);
+        found.trial =
+            selection::nearest(&self.selection, evidence, &instances, |case| self.number(case), value);
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {
-        vec![&self.of]
+        vec![&self.selection]
     }
 }

@@ -54,49 +54,53 @@ pub trait Criterion {
 
     /// The studies whose trials it looks at.
     fn studies(&self) -> Vec<&Study> {
-        self.selections().iter().map(|of| of.study).collect()
+        self.selections().iter().map(|selection| selection.study).collect()
     }
 
     /// Whether what it finds rests on our own clock.
     fn is_clock(&self) -> bool {
-        self.selections().iter().any(|of| of.is_clock())
+        self.selections().iter().any(|selection| selection.is_clock())
     }
 
     /// Whether trials ran under the evidence's interpretation of all that it looks at; of anything at all, if one witness would do.
     fn is_covered(&self, evidence: &Evidence<'_>) -> bool {
         let is_run = |study: &&Study| evidence.run(&study.name).is_some_and(Run::is_covered);
-        self.studies().iter().all(is_run) && self.selections().iter().all(|of| has_all(of, evidence))
+        self.studies().iter().all(is_run)
+            && self.selections().iter().all(|selection| has_all(selection, evidence))
     }
 
     /// Whether each problem group that it looks at could be posed under the evidence's interpretation: one that could not says nothing.
     fn is_posed(&self, evidence: &Evidence<'_>) -> bool {
-        self.selections().iter().all(|of| of.is_posed(evidence))
+        self.selections().iter().all(|selection| selection.is_posed(evidence))
     }
 
     /// The results that it rests on under the evidence's interpretation, whatever the interpretation is called: equal text, equal results.
     fn results(&self, evidence: &Evidence<'_>) -> String {
-        self.selections().into_iter().filter_map(|of| Some(selected(of, of.run(evidence)?))).collect()
+        self.selections()
+            .into_iter()
+            .filter_map(|selection| Some(selected(selection, selection.run(evidence)?)))
+            .collect()
     }
 }
 
 /// Whether the study that stands for the selection's has all of its groups and contenders.
-fn has_all(of: &Selection<'_>, evidence: &Evidence<'_>) -> bool {
-    of.run(evidence).is_some_and(|run| {
+fn has_all(selection: &Selection<'_>, evidence: &Evidence<'_>) -> bool {
+    selection.run(evidence).is_some_and(|run| {
         let labels: Vec<&str> = run.study.contenders.iter().map(|own| own.label.as_str()).collect();
         let has_group = |label: &String| run.study.groups.iter().any(|group| group.label == *label);
-        let mut contenders = of.contenders.iter().chain(&of.against);
-        of.groups.iter().all(has_group)
+        let mut contenders = selection.contenders.iter().chain(&selection.against);
+        selection.groups.iter().all(has_group)
             && (labels.is_empty() || contenders.all(|label| labels.contains(&label.as_str())))
     })
 }
 
 /// What `run` has of a selection, a trial a line.
-fn selected(of: &Selection<'_>, run: &Run<'_>) -> String {
+fn selected(selection: &Selection<'_>, run: &Run<'_>) -> String {
     let mut text = String::new();
-    let reader = of.metric.map(|metric| (metric.name, run.reader(metric)));
-    for group in &of.groups {
-        for contender in of.contenders.iter().chain(&of.against) {
-            for row in of.rows(run, group, contender) {
+    let reader = selection.metric.map(|metric| (metric.name, run.reader(metric)));
+    for group in &selection.groups {
+        for contender in selection.contenders.iter().chain(&selection.against) {
+            for row in selection.rows(run, group, contender) {
                 let value = reader.as_ref().and_then(|(_, read)| read(row)).map(f64::to_bits);
                 let name = reader.as_ref().map(|(name, _)| *name);
                 let key = &row.key;

@@ -28,7 +28,7 @@ pub static ENTRY: Entry = Entry {
     question: |_| Some("every case 1"),
     settings: Accepted::shape::<Settings>(),
     example: r#"
-of = { study = "compare", problems = "maps", contender = "Weighted A*", against = "A*", metric = "opened" }
+select = { study = "compare", problems = "maps", contender = "Weighted A*", against = "A*", metric = "opened" }
 that = "lower"
 "#,
     build: |context| Ok(Box::new(OnEvery::new(context)?)),
@@ -38,7 +38,7 @@ that = "lower"
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// The trials that are looked at.
-    of: SelectionSpec,
+    select: SelectionSpec,
     /// What is to hold on each.
     that: Condition,
     /// The bound of `at_most`, `above` and `at_most_times`.
@@ -63,7 +63,7 @@ enum Condition {
 }
 
 struct OnEvery<'a> {
-    of: Selection<'a>,
+    selection: Selection<'a>,
     that: Condition,
     bound: f64,
     plan: Resampling,
@@ -83,8 +83,8 @@ enum CaseOutcome {
 impl<'a> OnEvery<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
-        let of = Selection::new(context, &settings.of)?;
-        of.some_contender(context)?;
+        let selection = Selection::new(context, &settings.select)?;
+        selection.some_contender(context)?;
         let that = settings.that;
         let is_bounded = matches!(that, Condition::AtMost | Condition::Above | Condition::AtMostTimes);
         if is_bounded != settings.bound.is_some() {
@@ -93,13 +93,13 @@ impl<'a> OnEvery<'a> {
             return Err(context.settings.error_at("that", message).about("bound"));
         }
         if !matches!(that, Condition::AtMost | Condition::Above | Condition::Accepted) {
-            of.against(context)?;
+            selection.against(context)?;
         }
         if !matches!(that, Condition::Solved | Condition::Accepted) {
-            of.metric(context)?;
+            selection.metric(context)?;
         }
         let plan = plan(&context.seed_names());
-        Ok(Self { of, that, bound: settings.bound.unwrap_or_default(), plan })
+        Ok(Self { selection, that, bound: settings.bound.unwrap_or_default(), plan })
     }
 
     /// How a case speaks; `None` if the claim does not look at it.
@@ -115,7 +115,7 @@ impl<'a> OnEvery<'a> {
             Condition::AtMostTimes => case.pair().map(|(base, own)| holds(own <= self.bound * base + EQUAL)),
             Condition::Above => case.value.map(|value| holds(value > self.bound + EQUAL)),
             Condition::AtMost => {
-                let value = run.value(case.row, self.of.metric?).filter(|_| case.row.is_returned());
+                let value = run.value(case.row, self.selection.metric?).filter(|_| case.row.is_returned());
                 value.map(|value| holds(value <= self.bound + EQUAL))
             }
             Condition::Solved => {
@@ -128,7 +128,7 @@ impl<'a> OnEvery<'a> {
 
     /// What is to hold, in words.
     fn claim(&self) -> String {
-        let metric = self.of.metric.map_or_else(String::new, |metric| metric.title().to_lowercase());
+        let metric = self.selection.metric.map_or_else(String::new, |metric| metric.title().to_lowercase());
         match self.that {
             Condition::Lower => format!("{metric} is lower"),
             Condition::AtMostTimes => format!("{metric} is at most {} times the other's", self.bound),
@@ -173,8 +173,9 @@ impl<'a> OnEvery<'a> {
 
 impl Criterion for OnEvery<'_> {
     fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
-        let instances = self.of.instances(evidence);
-        let outcomes = self.of.run(evidence).map(|run| self.outcomes(run, &instances)).unwrap_or_default();
+        let instances = self.selection.instances(evidence);
+        let outcomes =
+            self.selection.run(evidence).map(|run| self.outcomes(run, &instances)).unwrap_or_default();
         let count =
             |wanted: CaseOutcome| outcomes.iter().flatten().filter(|(says, _)| *says == wanted).count();
         let hits_of = |instance: &Vec<(CaseOutcome, &Row)>| {
@@ -187,7 +188,7 @@ impl Criterion for OnEvery<'_> {
             equal: count(CaseOutcome::Equal),
             above: count(CaseOutcome::Against),
             unended: self.unknown(&instances),
-            drawn: self.of.drawn(&instances),
+            drawn: self.selection.drawn(&instances),
             ..Number::of_cases(&instances)
         };
         vec![Share::counted(Share::new(&counts, most_cases(&instances), self.plan), &counts, whole)]
@@ -207,15 +208,15 @@ impl Criterion for OnEvery<'_> {
         let equally = if equal > 0 { format!(", equal on {equal}") } else { String::new() };
         let because = format!(
             "{}: {} on {kept} of {} cases{equally}, the contrary on {broken}",
-            self.of.description(),
+            self.selection.description(),
             self.claim(),
             kept + equal + broken
         );
         // One counterexample is enough; that cases are equal is not.
         let unknown = if broken > 0 { 0 } else { all.unended };
         let left = (unknown > 0).then(|| format!("{unknown} more cases have no number to compare"));
-        let outside =
-            censored::outside_in_words(&self.of, all.outside).filter(|_| self.that != Condition::Solved);
+        let outside = censored::outside_in_words(&self.selection, all.outside)
+            .filter(|_| self.that != Condition::Solved);
         let tie = all.drawn.filter(|_| all.is_tied()).and_then(tied);
         let share =
             Share::from_number(all).map(|share| share.estimate(&format!("cases on which {}", self.claim())));
@@ -234,16 +235,16 @@ impl Criterion for OnEvery<'_> {
 
     /// A counterexample or, where there is none, a case that is equal.
     fn show(&self, evidence: &Evidence<'_>, _: &[Number], found: &mut CriterionResult) {
-        let Some(run) = self.of.run(evidence) else { return };
-        let instances = self.of.instances(evidence);
+        let Some(run) = self.selection.run(evidence) else { return };
+        let instances = self.selection.instances(evidence);
         let outcomes = self.outcomes(run, &instances);
         let first = |wanted: CaseOutcome| outcomes.iter().flatten().find(|(says, _)| *says == wanted);
         let shown = first(CaseOutcome::Against).or_else(|| first(CaseOutcome::Equal));
         found.trial = shown.map(|(_, row)| run.trial(row));
-        found.because.extend(censored::not_posed(&self.of, evidence));
+        found.because.extend(censored::not_posed(&self.selection, evidence));
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {
-        vec![&self.of]
+        vec![&self.selection]
     }
 }

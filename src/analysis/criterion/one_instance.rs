@@ -33,7 +33,7 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-of = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
+select = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
 statistic = "mean"
 "#,
     build: |context| Ok(Box::new(OneInstance::new(context)?)),
@@ -43,7 +43,7 @@ statistic = "mean"
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// The trials that are looked at; with `against`, what is saved against it in per cent.
-    of: SelectionSpec,
+    select: SelectionSpec,
     /// What is taken of each instance.
     #[serde(default)]
     statistic: InstanceStatistic,
@@ -68,7 +68,7 @@ pub struct Instances {
 }
 
 struct OneInstance<'a> {
-    of: Selection<'a>,
+    selection: Selection<'a>,
     statistic: InstanceStatistic,
     label: Option<String>,
     premises: Vec<String>,
@@ -101,27 +101,27 @@ fn is_wide(interval: Interval) -> bool {
 /// Whether a number of ours with this interval, which some interpretation gave, has no power for a claim that is judged by this criterion.
 pub fn is_powerless(claim: &Claim, [low, high]: [f64; 2]) -> bool {
     let is_saving = |settings: &settings::Settings| {
-        let of = settings.table().get("of").and_then(Value::as_table);
-        of.is_some_and(|of| of.contains_key("against"))
+        let selection = settings.table().get("select").and_then(Value::as_table);
+        selection.is_some_and(|selection| selection.contains_key("against"))
     };
     claim.check(ENTRY.name).is_some_and(is_saving) && is_wide(Interval::new(low, high))
 }
 
 impl<'a> OneInstance<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
-        let Settings { of, statistic, label, premises } = context.settings.read::<Settings>()?;
-        let of = Selection::new(context, &of)?;
-        of.contender(context)?;
+        let Settings { select, statistic, label, premises } = context.settings.read::<Settings>()?;
+        let selection = Selection::new(context, &select)?;
+        selection.contender(context)?;
         if statistic != InstanceStatistic::SolvedPercent {
-            of.metric(context)?;
+            selection.metric(context)?;
         }
         let plan = plan(&context.seed_names());
-        Ok(Self { of, statistic, label, premises, print: context.print()?, plan })
+        Ok(Self { selection, statistic, label, premises, print: context.print()?, plan })
     }
 
     /// What is taken of each instance, in words.
     fn title(&self) -> String {
-        match (self.of.metric, &self.of.against) {
+        match (self.selection.metric, &self.selection.against) {
             (Some(metric), Some(_)) => {
                 format!(
                     "{} saving in {} over an instance's queries, %",
@@ -140,7 +140,7 @@ impl<'a> OneInstance<'a> {
         if interval.contains(printed) {
             return Outcome::Holds;
         }
-        let mean = bootstrap::mean(values, self.plan).filter(|_| self.of.against.is_some());
+        let mean = bootstrap::mean(values, self.plan).filter(|_| self.selection.against.is_some());
         // Both are savings, or both are losses.
         let is_same = |Interval { low, high }: Interval| (low * printed).min(high * printed) > 0.0;
         if mean.is_some_and(|mean| is_same(mean.interval)) { Outcome::SignOnly } else { Outcome::Fails }
@@ -185,7 +185,7 @@ impl<'a> OneInstance<'a> {
         };
         let values: Vec<f64> = all.values.iter().map(twin).collect();
         Instances {
-            label: self.label.clone().unwrap_or_else(|| self.of.description()),
+            label: self.label.clone().unwrap_or_else(|| self.selection.description()),
             unsolved: all.ran - values.len(),
             values,
             acceptance: (all.hits > 0.0).then_some([all.hits as u64, all.chances as u64]),
@@ -240,9 +240,9 @@ fn place(rank: Rank, (share, interval): (f64, Interval), unsolved: &str) -> Stri
 
 impl Criterion for OneInstance<'_> {
     fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
-        let drawn = self.of.instances(evidence);
-        let tried: Vec<f64> = self.of.run(evidence).map_or_else(Vec::new, |run| {
-            let preprocessing = self.of.groups.iter().flat_map(|group| run.preprocessing(group));
+        let drawn = self.selection.instances(evidence);
+        let tried: Vec<f64> = self.selection.run(evidence).map_or_else(Vec::new, |run| {
+            let preprocessing = self.selection.groups.iter().flat_map(|group| run.preprocessing(group));
             preprocessing.filter_map(|row| Some(row.values.get("tries")?.as_f64())).collect()
         });
         let values: Vec<f64> = drawn.iter().filter_map(|instance| self.statistic.value(instance)).collect();
@@ -268,7 +268,8 @@ impl Criterion for OneInstance<'_> {
             };
         };
         let outcome = self.outcome(interval, &instances.values);
-        let is_percent = self.statistic == InstanceStatistic::SolvedPercent || self.of.against.is_some();
+        let is_percent =
+            self.statistic == InstanceStatistic::SolvedPercent || self.selection.against.is_some();
         let powerless = is_percent && is_wide(interval);
         let mut because = vec![rank_sentence(&instances, self.print.printed)];
         because.extend(powerless.then(|| {
@@ -278,7 +279,7 @@ impl Criterion for OneInstance<'_> {
         }));
         let what = format!("{}: mean, 95 % predictive interval of one more instance", self.title());
         let ours = Estimate::new(mean, interval, what, instances.values.len());
-        let ours = match self.of.metric.filter(|_| self.of.against.is_some()) {
+        let ours = match self.selection.metric.filter(|_| self.selection.against.is_some()) {
             Some(metric) => ours.measures(Quantity::LessPercent, metric.label.to_lowercase()),
             None => ours,
         };
@@ -299,18 +300,18 @@ impl Criterion for OneInstance<'_> {
         if found.ours.is_none() {
             return;
         }
-        let drawn = self.of.instances(evidence);
+        let drawn = self.selection.instances(evidence);
         let apart = |instance: &&Instance<'_>| {
             self.statistic
                 .value(instance)
                 .map_or(f64::INFINITY, |own| (own - self.print.printed.value()).abs())
         };
         let nearest = drawn.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
-        found.trial = self.of.trial(evidence, nearest.and_then(|instance| instance.cases.first()));
+        found.trial = self.selection.trial(evidence, nearest.and_then(|instance| instance.cases.first()));
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {
-        vec![&self.of]
+        vec![&self.selection]
     }
 }
 

@@ -25,7 +25,7 @@ pub static ENTRY: Entry = Entry {
     question: |_| Some("extremes 1"),
     settings: Accepted::shape::<Settings>(),
     example: r#"
-of = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
+select = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
 "#,
     build: |context| Ok(Box::new(PrintsAs::new(context)?)),
 };
@@ -34,11 +34,11 @@ of = { study = "compare", problems = "maps", contender = "A*", metric = "path_co
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// The trials that are looked at.
-    of: SelectionSpec,
+    select: SelectionSpec,
 }
 
 struct PrintsAs<'a> {
-    of: Selection<'a>,
+    selection: Selection<'a>,
     metric: &'static Metric,
     print: Print,
 }
@@ -46,30 +46,30 @@ struct PrintsAs<'a> {
 impl<'a> PrintsAs<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
-        let of = Selection::new(context, &settings.of)?;
-        of.contender(context)?;
-        let metric = of.metric(context)?;
-        Ok(Self { metric, of, print: context.print()? })
+        let selection = Selection::new(context, &settings.select)?;
+        selection.contender(context)?;
+        let metric = selection.metric(context)?;
+        Ok(Self { metric, selection, print: context.print()? })
     }
 }
 
 impl Criterion for PrintsAs<'_> {
     fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
-        let instances = self.of.instances(evidence);
+        let instances = self.selection.instances(evidence);
         let values: Vec<f64> = cases(&instances).filter_map(|case| case.value).collect();
-        let extreme = |of: fn(f64, f64) -> f64| values.iter().copied().reduce(of);
+        let extreme = |pick: fn(f64, f64) -> f64| values.iter().copied().reduce(pick);
         vec![Number {
             least: extreme(f64::min),
             greatest: extreme(f64::max),
             n: values.len(),
-            drawn: self.of.drawn(&instances),
+            drawn: self.selection.drawn(&instances),
             ..Number::of_cases(&instances)
         }]
     }
 
     fn weigh(&self, numbers: &[Number]) -> CriterionResult {
         let found = whole(numbers);
-        let who = self.of.description();
+        let who = self.selection.description();
         let metric = self.metric.label.to_lowercase();
         let Some((low, high)) = found.least.zip(found.greatest) else {
             return CriterionResult::open(format!("{who}: {metric} was not measured"));
@@ -82,7 +82,7 @@ impl Criterion for PrintsAs<'_> {
         };
         let verb = if agree == [true, true] { "prints as" } else { "does not print as" };
         let number = if low == high { format!("{low:.6}") } else { format!("{low:.6} to {high:.6}") };
-        let ours = Estimate::bare(low, format!("{metric} of {}", self.of.contenders[0]), found.n);
+        let ours = Estimate::bare(low, format!("{metric} of {}", self.selection.contenders[0]), found.n);
         CriterionResult {
             outcome: Some(outcome),
             ours: Some(ours.of_cases(found.cases())),
@@ -96,11 +96,11 @@ impl Criterion for PrintsAs<'_> {
     }
 
     fn show(&self, evidence: &Evidence<'_>, _: &[Number], found: &mut CriterionResult) {
-        let instances = self.of.instances(evidence);
-        found.trial = self.of.trial(evidence, cases(&instances).find(|case| case.value.is_some()));
+        let instances = self.selection.instances(evidence);
+        found.trial = self.selection.trial(evidence, cases(&instances).find(|case| case.value.is_some()));
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {
-        vec![&self.of]
+        vec![&self.selection]
     }
 }

@@ -16,6 +16,7 @@ use serde::Deserialize;
 use stats::rows::{Level, Place, monotone_probability};
 use std::collections::BTreeMap;
 use study::key::SweepKey;
+use study::sweeps_of;
 use toml::Value;
 
 /// The registry's entry.
@@ -31,7 +32,7 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-of = { study = "compare", problems = "maps", metric = "opened" }
+select = { study = "compare", problems = "maps", metric = "opened" }
 rows = [{ contender = "Weighted A*", against = "A*", statistics = ["mean"], claims = ["table1.weighted.saving"] }]
 refused_below = 0.05
 "#,
@@ -42,7 +43,7 @@ refused_below = 0.05
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// The trials that are looked at: study, problems and metric.
-    of: SelectionSpec,
+    select: SelectionSpec,
     /// One row, or several that come from one instance and are ranked as one.
     rows: Vec<RowSpec>,
     /// The row is refused if fewer than this share of our instances are as far from the mean row, or if its mean is as far out
@@ -67,7 +68,7 @@ struct RowSpec {
 
 /// One printed row.
 struct Row<'a> {
-    of: Selection<'a>,
+    selection: Selection<'a>,
     cells: Cells,
 }
 
@@ -89,25 +90,26 @@ impl<'a> RowOneInstance<'a> {
         let mut faults = Faults::default();
         let mut read = |(index, row): (usize, &RowSpec)| {
             let contender = Labels::One(row.contender.clone());
-            let spec = SelectionSpec { contender, against: row.against.clone(), ..settings.of.clone() };
-            let of = Selection::new(context, &spec)?;
+            let spec = SelectionSpec { contender, against: row.against.clone(), ..settings.select.clone() };
+            let selection = Selection::new(context, &spec)?;
             let (cells, count) = if row.statistics.is_empty() {
-                let points = of.sweep_points();
+                let points = selection.sweep_points();
                 let count = points.len();
                 (Cells::Sweep(points), count)
             } else {
-                of.metric(context)?;
+                selection.metric(context)?;
                 (Cells::Statistics(row.statistics.clone()), row.statistics.len())
             };
             if row.claims.len() != count {
                 let message = format!("the row has {} claims for {count} cells", row.claims.len());
                 let error = context.settings.error_at(&format!("rows.{index}.claims"), message);
-                return Err(error.about("claims").about("statistics").about("of"));
+                let error = error.about("claims").about("statistics").about("select");
+                return Err(error.about(&sweeps_of(&selection.study.name)));
             }
             for id in &row.claims {
                 printed.push(context.print_of(id)?.printed.value());
             }
-            Ok(Row { of, cells })
+            Ok(Row { selection, cells })
         };
         let rows: Vec<Row<'a>> =
             settings.rows.iter().enumerate().filter_map(|row| faults.keep(read(row))).collect();
@@ -127,7 +129,9 @@ impl Row<'_> {
     fn values<'e>(&self, instances: &[Instance<'e>], unended_solved: bool) -> BTreeMap<Unit<'e>, Vec<f64>> {
         let of_instance = |instance: &Instance<'e>| -> Option<Vec<f64>> {
             match &self.cells {
-                Cells::Statistics(statistics) => statistics.iter().map(|of| of.value(instance)).collect(),
+                Cells::Statistics(statistics) => {
+                    statistics.iter().map(|statistic| statistic.value(instance)).collect()
+                }
                 Cells::Sweep(points) => {
                     let is_hit =
                         |case: &Case<'_>| case.row.is_solved() || unended_solved && case.is_unended();
@@ -202,7 +206,7 @@ impl RowOneInstance<'_> {
         };
         let known = instances.iter().filter_map(|instance| Some((instance, apart(instance)?)));
         let nearest = known.min_by(|a, b| a.1.total_cmp(&b.1));
-        row.of.trial(evidence, nearest.and_then(|(instance, _)| instance.cases.first()))
+        row.selection.trial(evidence, nearest.and_then(|(instance, _)| instance.cases.first()))
     }
 
     /// Fewest instances with which either test can refuse any row: the least two-sided rank is 2 / (n + 1).
@@ -229,7 +233,7 @@ impl RowOneInstance<'_> {
     }
 
     fn because(&self, place: &Place, level: &Level, rank: f64, cells: &[Vec<f64>]) -> Vec<String> {
-        let who = self.rows.iter().map(|row| row.of.description()).collect::<Vec<_>>().join(" and ");
+        let who = self.rows.iter().map(|row| row.selection.description()).collect::<Vec<_>>().join(" and ");
         let below = self.refused_below;
         let mut because = vec![
             format!(
@@ -299,7 +303,8 @@ fn listed(numbers: &[Number], ends: Ends) -> Vec<Vec<f64>> {
 impl Criterion for RowOneInstance<'_> {
     /// The numbers of each cell, a part each.
     fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
-        let drawn: Vec<Vec<Instance<'_>>> = self.rows.iter().map(|row| row.of.instances(evidence)).collect();
+        let drawn: Vec<Vec<Instance<'_>>> =
+            self.rows.iter().map(|row| row.selection.instances(evidence)).collect();
         let counts: Vec<Number> = drawn.iter().map(|instances| Number::of_cases(instances)).collect();
         let ran = counts.iter().map(|row| row.ran).max().unwrap_or(0);
         let unended = counts.iter().map(|row| row.unended).sum();
@@ -349,12 +354,12 @@ impl Criterion for RowOneInstance<'_> {
             let are_shares = self.rows.iter().all(|row| matches!(row.cells, Cells::Sweep(_)));
             let cells = listed(numbers, Ends::Measured);
             found.power = Some(power(&self.printed, are_shares, &cells, self.refused_below));
-            found.trial = self.shown(evidence, &self.rows[0].of.instances(evidence));
+            found.trial = self.shown(evidence, &self.rows[0].selection.instances(evidence));
         }
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {
-        self.rows.iter().map(|row| &row.of).collect()
+        self.rows.iter().map(|row| &row.selection).collect()
     }
 }
 

@@ -35,7 +35,7 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-of = { study = "compare", problems = ["maps"], contender = "A*" }
+select = { study = "compare", problems = ["maps"], contender = "A*" }
 hits = "solved"
 accepted = [0.995, 1.0]
 "#,
@@ -46,7 +46,7 @@ accepted = [0.995, 1.0]
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// The trials that are looked at.
-    of: SelectionSpec,
+    select: SelectionSpec,
     /// What is counted.
     hits: Hits,
     /// The columns that are all above 0 where it is hit (`marked`), or the one that counts events (`events`).
@@ -112,7 +112,7 @@ impl Hits {
 }
 
 struct Counted<'a> {
-    of: Selection<'a>,
+    selection: Selection<'a>,
     settings: Settings,
     plan: Resampling,
 }
@@ -120,8 +120,8 @@ struct Counted<'a> {
 impl<'a> Counted<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
-        let of = Selection::new(context, &settings.of)?;
-        of.some_contender(context)?;
+        let selection = Selection::new(context, &settings.select)?;
+        selection.some_contender(context)?;
         let hits = settings.hits;
         for name in settings.columns.iter().chain(&settings.per) {
             if column::find(name).is_none() {
@@ -143,10 +143,10 @@ impl<'a> Counted<'a> {
             return Err(context.settings.error_at("hits", message).about("bound"));
         }
         if matches!(hits, Hits::Above | Hits::Lower | Hits::Higher | Hits::LowerThroughout) {
-            of.metric(context)?;
+            selection.metric(context)?;
         }
         if !matches!(hits, Hits::Solved | Hits::Rejected | Hits::Marked | Hits::Events | Hits::Above) {
-            of.against(context)?;
+            selection.against(context)?;
         }
         if let Some(accepted) = settings.accepted {
             context.rising("accepted", accepted, [0.0, 1.0])?;
@@ -156,7 +156,7 @@ impl<'a> Counted<'a> {
             }
         }
         let plan = plan(&context.seed_names());
-        Ok(Self { of, settings, plan })
+        Ok(Self { selection, settings, plan })
     }
 
     /// Hits and chances of one case; `None` if the claim does not look at it.
@@ -204,7 +204,7 @@ impl<'a> Counted<'a> {
     fn outside(&self, count: usize) -> Option<String> {
         let is_of_solved =
             matches!(self.settings.hits, Hits::Above | Hits::Lower | Hits::Higher | Hits::LowerThroughout);
-        outside_in_words(&self.of, count).filter(|_| is_of_solved)
+        outside_in_words(&self.selection, count).filter(|_| is_of_solved)
     }
 
     /// Hits and chances of one instance; its unknown cases left out, or all as hits or as misses.
@@ -286,7 +286,7 @@ impl<'a> Counted<'a> {
         let is_shown = |case: &&Case<'_>| {
             self.counts(case).is_some_and(|[hits, chances]| (hits < chances) == is_miss_shown)
         };
-        self.of.trial(evidence, counted().find(is_shown).or_else(|| counted().next()))
+        self.selection.trial(evidence, counted().find(is_shown).or_else(|| counted().next()))
     }
 }
 
@@ -294,7 +294,7 @@ impl Counted<'_> {
     /// What is counted, in words.
     fn description(&self) -> String {
         if let Some(bound) = self.settings.bound {
-            let metric = self.of.metric.map_or("", |metric| &metric.label).to_lowercase();
+            let metric = self.selection.metric.map_or("", |metric| &metric.label).to_lowercase();
             return format!("trials with {metric} above {bound}");
         }
         let named = self.settings.columns.join(" and ");
@@ -309,7 +309,7 @@ impl Counted<'_> {
         let accepted = self.settings.accepted.map_or_else(String::new, |[least, most]| {
             format!("; accepted {} to {} %", 100.0 * least, 100.0 * most)
         });
-        let who = self.of.description();
+        let who = self.selection.description();
         let what = self.description();
         let percent = 100.0 * share.value;
         format!("{who}: {what} {hits} of {chances}, {percent:.2} %{interval}{accepted}")
@@ -356,7 +356,7 @@ fn without_numbers(text: &str) -> String {
 
 impl Criterion for Counted<'_> {
     fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
-        let instances = self.of.instances(evidence);
+        let instances = self.selection.instances(evidence);
         let unended = cases(&instances).filter(|case| self.is_unknown(case)).count();
         let (counts, share) = self.share(&instances, None);
         let mut numbers =
@@ -374,7 +374,8 @@ impl Criterion for Counted<'_> {
         let all = whole(numbers);
         let undecided = self.settings.accepted.map(|_| Outcome::Open);
         let Some(share) = Share::from_number(all) else {
-            let because = format!("{}: nothing to count {} among", self.of.description(), self.description());
+            let because =
+                format!("{}: nothing to count {} among", self.selection.description(), self.description());
             return CriterionResult { outcome: undecided, ..CriterionResult::open(because) };
         };
         let outcome = share.interval.map_or(undecided, |interval| self.outcome(interval));
@@ -397,14 +398,14 @@ impl Criterion for Counted<'_> {
 
     fn show(&self, evidence: &Evidence<'_>, numbers: &[Number], found: &mut CriterionResult) {
         let Some(share) = whole(numbers).value else { return };
-        let instances = self.of.instances(evidence);
+        let instances = self.selection.instances(evidence);
         found.trial = self.shown(evidence, &instances, share);
         found.because.extend(self.refusals(&instances));
-        found.because.extend(not_posed(&self.of, evidence));
+        found.because.extend(not_posed(&self.selection, evidence));
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {
-        vec![&self.of]
+        vec![&self.selection]
     }
 }
 

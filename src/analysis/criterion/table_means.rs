@@ -97,11 +97,11 @@ impl<'a> TableMeans<'a> {
             for (at, id) in place.claims.iter().enumerate() {
                 let at = format!("in.{index}.claims.{at}");
                 let Some(cell) = faults.keep(cell(context, &at, id)).flatten() else { continue };
-                if cell.mean.of.study.name != study.name {
-                    let message = format!("claim `{id}` looks at study `{}`", cell.mean.of.study.name);
+                if cell.mean.selection.study.name != study.name {
+                    let message = format!("claim `{id}` looks at study `{}`", cell.mean.selection.study.name);
                     faults.add(context.settings.error_at(&at, message));
                 }
-                let key = (study.name.clone(), cell.mean.of.groups.clone(), cell.mean.instances);
+                let key = (study.name.clone(), cell.mean.selection.groups.clone(), cell.mean.instances);
                 rows.entry(key).or_default().push(cell);
             }
         }
@@ -158,7 +158,7 @@ impl<'a> TableMeans<'a> {
     /// The number of each cell, of every instance that has them all.
     fn units<'e>(row: &[Cell<'a>], evidence: &'e Evidence<'_>) -> Vec<Vec<f64>> {
         let of_cell = |cell: &Cell<'a>| -> BTreeMap<Unit<'e>, f64> {
-            let instances = cell.mean.of.instances(evidence);
+            let instances = cell.mean.selection.instances(evidence);
             let number = |instance: &Instance<'e>| {
                 let numbers = by_instance(std::slice::from_ref(instance), |case| cell.mean.number(case));
                 let first = instance.cases.first()?.row;
@@ -206,7 +206,7 @@ impl<'a> TableMeans<'a> {
         let refused: Vec<&str> =
             exact.iter().filter(|cell| !prints(**cell)).map(|cell| row[*cell].id).collect();
         let first_refused = exact.iter().copied().find(|cell| !prints(*cell)).unwrap_or_default();
-        let label = row[0].mean.of.groups.join(", ");
+        let label = row[0].mean.selection.groups.join(", ");
         let rounding: Vec<f64> = moving.iter().map(|cell| row[*cell].mean.rounded.half_width()).collect();
         let p_exact = f64::from(u8::from(refused.is_empty()));
         if moving.is_empty() && units >= FEWEST_NORMAL {
@@ -306,16 +306,16 @@ impl TableMeans<'_> {
     fn shown(&self, rows: &[RowResult<'_>], evidence: &Evidence<'_>) -> Option<String> {
         let (row, cells) = rows.iter().zip(&self.rows).min_by(|one, other| one.0.p.total_cmp(&other.0.p))?;
         let cell = &cells[row.farthest].mean;
-        let instances = cell.of.instances(evidence);
+        let instances = cell.selection.instances(evidence);
         let numbers = by_instance(&instances, |case| cell.number(case));
         let middle = mean(&numbers.concat())?;
-        selection::nearest(&cell.of, evidence, &instances, |case| cell.number(case), middle)
+        selection::nearest(&cell.selection, evidence, &instances, |case| cell.number(case), middle)
     }
 }
 
 impl Criterion for TableMeans<'_> {
     fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
-        let drawn: Vec<_> = self.selections().iter().map(|of| of.instances(evidence)).collect();
+        let drawn: Vec<_> = self.selections().iter().map(|selection| selection.instances(evidence)).collect();
         let ran = drawn.iter().map(Vec::len).min().unwrap_or(0);
         let all = Number { ran, ..Number::of_cases(&drawn.into_iter().flatten().collect::<Vec<_>>()) };
         let cells = self.rows.iter().flat_map(|row| Self::means(row, evidence));
@@ -354,6 +354,6 @@ impl Criterion for TableMeans<'_> {
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {
-        self.rows.iter().flatten().map(|cell| &cell.mean.of).collect()
+        self.rows.iter().flatten().map(|cell| &cell.mean.selection).collect()
     }
 }

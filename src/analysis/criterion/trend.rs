@@ -30,7 +30,7 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-of = { study = "compare", problems = "maps", contender = "A*", metric = "opened" }
+select = { study = "compare", problems = "maps", contender = "A*", metric = "opened" }
 over = "path_cost_cells"
 rising = true
 "#,
@@ -41,7 +41,7 @@ rising = true
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// The trials that are looked at; with `against`, what is saved against it in per cent.
-    of: SelectionSpec,
+    select: SelectionSpec,
     /// The column along which it is claimed to change.
     over: String,
     /// Whether it is claimed to grow; to fall otherwise.
@@ -49,7 +49,7 @@ struct Settings {
 }
 
 struct Trend<'a> {
-    of: Selection<'a>,
+    selection: Selection<'a>,
     metric: &'static Metric,
     over: String,
     rising: bool,
@@ -59,15 +59,15 @@ struct Trend<'a> {
 impl<'a> Trend<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
-        let of = Selection::new(context, &settings.of)?;
-        of.some_contender(context)?;
-        let metric = of.metric(context)?;
+        let selection = Selection::new(context, &settings.select)?;
+        selection.some_contender(context)?;
+        let metric = selection.metric(context)?;
         if column::find(&settings.over).is_none() {
             let message = format!("there is no column `{}` to look along", settings.over);
             return Err(context.settings.error_at("over", message));
         }
         let plan = plan(&context.seed_names());
-        Ok(Self { of, metric, over: settings.over, rising: settings.rising, plan })
+        Ok(Self { selection, metric, over: settings.over, rising: settings.rising, plan })
     }
 
     /// The slopes if each case without an end had a number below or above all that were seen together, whichever goes against a slope that
@@ -100,7 +100,7 @@ impl<'a> Trend<'a> {
         let number = summary::mean(&numbers)?;
         let sign = if self.rising == (outcome != Outcome::Fails) { -1.0 } else { 1.0 };
         let against = |case: &Case<'_>| self.point(case).map(|(x, y)| sign * (x - place) * (y - number));
-        selection::least(&self.of, evidence, instances, against)
+        selection::least(&self.selection, evidence, instances, against)
     }
 
     fn point(&self, case: &Case<'_>) -> Option<(f64, f64)> {
@@ -122,7 +122,7 @@ impl<'a> Trend<'a> {
 
 impl Criterion for Trend<'_> {
     fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
-        let instances = self.of.instances(evidence);
+        let instances = self.selection.instances(evidence);
         let points = by_instance(&instances, |case| self.point(case));
         let values = summary::medians_by_thirds(&points.concat());
         let counted = Number { measured: points.len(), values, ..Number::of_cases(&instances) };
@@ -138,7 +138,7 @@ impl Criterion for Trend<'_> {
         };
         let outcome = self.outcome(interval);
         let metric = self.metric.label.to_lowercase();
-        let (subject, unit) = match &self.of.against {
+        let (subject, unit) = match &self.selection.against {
             Some(_) => (format!("saving in {metric}"), "points"),
             None => (metric, self.metric.unit.as_str()),
         };
@@ -146,7 +146,7 @@ impl Criterion for Trend<'_> {
         let medians = all.values.iter().map(|median| format!("{median:.3}")).collect::<Vec<_>>().join(", ");
         let because = format!(
             "{}: {subject} along {} changes by {value:+.4}{unit} each (95 % interval {:+.4} to {:+.4}, {} instances); medians by thirds of {} {}",
-            self.of.description(),
+            self.selection.description(),
             self.over,
             interval.low,
             interval.high,
@@ -171,10 +171,11 @@ impl Criterion for Trend<'_> {
 
     fn show(&self, evidence: &Evidence<'_>, _: &[Number], found: &mut CriterionResult) {
         let outcome = found.outcome.filter(|_| found.ours.is_some());
-        found.trial = outcome.and_then(|outcome| self.shown(evidence, &self.of.instances(evidence), outcome));
+        found.trial =
+            outcome.and_then(|outcome| self.shown(evidence, &self.selection.instances(evidence), outcome));
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {
-        vec![&self.of]
+        vec![&self.selection]
     }
 }

@@ -29,7 +29,7 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-of = { study = "compare", problems = "maps", contender = "Weighted A*", against = "A*", metric = "opened" }
+select = { study = "compare", problems = "maps", contender = "Weighted A*", against = "A*", metric = "opened" }
 statistic = "ratio"
 accepted = [0.0, 0.5]
 "#,
@@ -40,7 +40,7 @@ accepted = [0.0, 0.5]
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// The trials that are looked at.
-    of: SelectionSpec,
+    select: SelectionSpec,
     /// What is taken of all instances.
     statistic: OverallStatistic,
     /// How far the statistic may be from the printed number, in its unit.
@@ -56,7 +56,7 @@ struct Settings {
 }
 
 struct Within<'a> {
-    of: Selection<'a>,
+    selection: Selection<'a>,
     metric: &'static Metric,
     statistic: OverallStatistic,
     accepted: Interval,
@@ -71,12 +71,12 @@ pub(super) const OVERALL: &str = "overall 1";
 /// A statistic over all instances, what it would be if cases without a number had any that they may have had and, of two contenders, how
 /// many cases go which way.
 pub(super) fn overall(
-    of: &Selection<'_>,
+    selection: &Selection<'_>,
     statistic: OverallStatistic,
     plan: Resampling,
     evidence: &Evidence<'_>,
 ) -> Vec<Number> {
-    let instances = of.instances(evidence);
+    let instances = selection.instances(evidence);
     let pairs = selection::pairs(&instances);
     let signs = paired::signs(&pairs.concat());
     let has_number = |instance: &&Instance<'_>| instance.cases.iter().any(|case| case.value.is_some());
@@ -90,15 +90,15 @@ pub(super) fn overall(
         ..Number::of_cases(&instances)
     };
     let mut numbers = vec![counted.estimated(statistic.estimate(&instances, plan))];
-    let others = [Ends::Least, Ends::Most].into_iter().zip(statistic.otherwise(of, &instances, plan));
+    let others = [Ends::Least, Ends::Most].into_iter().zip(statistic.otherwise(selection, &instances, plan));
     numbers.extend(others.map(|(ends, interval)| Number::ended(ends, interval)));
     let of_group = |group: &String| {
         let n = instances.iter().filter(|instance| instance.group == group).count();
-        let drawn = of.study.is_drawn(group).then_some(n);
+        let drawn = selection.study.is_drawn(group).then_some(n);
         Number { part: group.clone(), n, drawn, ..Number::default() }
     };
     let is_parted = statistic == OverallStatistic::RatioOfGroups;
-    numbers.extend(of.groups.iter().filter(|_| is_parted).map(of_group));
+    numbers.extend(selection.groups.iter().filter(|_| is_parted).map(of_group));
     numbers
 }
 
@@ -118,15 +118,16 @@ fn ratio(context: &Context<'_>, above: &str, below: &str) -> Result<f64, Setting
 impl<'a> Within<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
-        let of = Selection::new(context, &settings.of)?;
-        let metric = of.metric(context)?;
-        of.contender(context)?;
+        let selection = Selection::new(context, &settings.select)?;
+        let metric = selection.metric(context)?;
+        selection.contender(context)?;
         if settings.statistic.is_paired() {
-            of.against(context)?;
+            selection.against(context)?;
         }
-        if settings.statistic == OverallStatistic::RatioOfGroups && of.groups.len() != 2 {
-            let message = format!("`of` names {} problem groups; two are accepted", of.groups.len());
-            return Err(context.settings.error_at("of.problems", message));
+        if settings.statistic == OverallStatistic::RatioOfGroups && selection.groups.len() != 2 {
+            let message =
+                format!("`select` names {} problem groups; two are accepted", selection.groups.len());
+            return Err(context.settings.error_at("select.problems", message));
         }
         let printed = || match &settings.printed_ratio {
             Some([above, below]) => ratio(context, above, below),
@@ -154,7 +155,7 @@ impl<'a> Within<'a> {
             }
         };
         let plan = plan(&context.seed_names());
-        Ok(Self { of, metric, statistic: settings.statistic, accepted, printed, plan })
+        Ok(Self { selection, metric, statistic: settings.statistic, accepted, printed, plan })
     }
 
     /// What an interval says of the claim.
@@ -217,7 +218,7 @@ fn on_bounds(accepted: Interval, found: Interval) -> Interval {
 
 impl Criterion for Within<'_> {
     fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
-        overall(&self.of, self.statistic, self.plan, evidence)
+        overall(&self.selection, self.statistic, self.plan, evidence)
     }
 
     fn weigh(&self, numbers: &[Number]) -> CriterionResult {
@@ -243,7 +244,7 @@ impl Criterion for Within<'_> {
         let agreed = if all.is_agreed { " that all agree" } else { "" };
         let because = format!(
             "{}: {} of {metric} {value:.4} (95 % interval {low:.4} to {high:.4}, {} instances{agreed}); {accepted}",
-            self.of.description(),
+            self.selection.description(),
             self.statistic.name(),
             all.n,
         );
@@ -272,11 +273,12 @@ impl Criterion for Within<'_> {
             OverallStatistic::ReductionPercent => case.saving_percent(),
             _ => case.value,
         };
-        found.trial = selection::nearest(&self.of, evidence, &self.of.instances(evidence), own, value);
+        found.trial =
+            selection::nearest(&self.selection, evidence, &self.selection.instances(evidence), own, value);
     }
 
     fn selections(&self) -> Vec<&Selection<'_>> {
-        vec![&self.of]
+        vec![&self.selection]
     }
 }
 

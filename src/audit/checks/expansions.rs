@@ -34,7 +34,7 @@ struct Expansions {
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
     let is_bounded = |kind: &Kind| match kind {
         Kind::Value | Kind::Samples => true,
-        Kind::Of(statistic) => !matches!(statistic, Statistic::Sd | Statistic::Se | Statistic::Total),
+        Kind::Statistic(statistic) => !matches!(statistic, Statistic::Sd | Statistic::Se | Statistic::Total),
         _ => false,
     };
     let is_meant =

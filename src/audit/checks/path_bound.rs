@@ -43,7 +43,7 @@ struct PathBound {
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
     let is_length = |kind: &Kind| match kind {
         Kind::Value => true,
-        Kind::Of(statistic) => !matches!(statistic, Statistic::Sd | Statistic::Se | Statistic::Total),
+        Kind::Statistic(statistic) => !matches!(statistic, Statistic::Sd | Statistic::Se | Statistic::Total),
         _ => false,
     };
     // Where a diagonal move does not count √2, a length may be below the straight line; the check `lattice` looks at it.

@@ -47,7 +47,7 @@ fn of_cell(index: usize, table: &Table, row: usize, at: usize) -> Option<Formed>
         return None;
     }
     // A mean, or an extreme, of quotients is not the quotient of the means.
-    let [a, b] = meaning.ratio.as_ref().filter(|_| !matches!(meaning.kind, Kind::Of(_)))?;
+    let [a, b] = meaning.ratio.as_ref().filter(|_| !matches!(meaning.kind, Kind::Statistic(_)))?;
     let cell = |at| quoted(index, table, row, at);
     let numbers =
         [cell(at)?, cell(named_by(&table.columns, at, a)?)?, cell(named_by(&table.columns, at, b)?)?];

@@ -45,7 +45,7 @@ fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
 fn is_additive(table: &Table, row: usize, column: usize) -> bool {
     let statistic = match (table.statistics(), &table.columns[column].meaning.kind) {
         (Some(at), _) => Statistic::named(&table.rows[row][at].text),
-        (None, Kind::Of(statistic)) => Some(*statistic),
+        (None, Kind::Statistic(statistic)) => Some(*statistic),
         (None, kind) => return matches!(kind, Kind::Value | Kind::Share { .. }),
     };
     matches!(statistic, Some(Statistic::Mean | Statistic::Total))

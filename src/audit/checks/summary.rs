@@ -393,17 +393,23 @@ fn forms(table: &Table, at: usize, word: Word) -> Option<Vec<Form>> {
         return (!word.is_sum()).then(|| vec![Form::Between]);
     }
     let forms: &[Form] = match (&meaning.kind, word) {
-        (Kind::Share { whole: 0 } | Kind::Of(Statistic::Total | Statistic::Quantile(_)), Word::Mean) => {
-            &[Form::Mean]
+        (
+            Kind::Share { whole: 0 } | Kind::Statistic(Statistic::Total | Statistic::Quantile(_)),
+            Word::Mean,
+        ) => &[Form::Mean],
+        (
+            Kind::Share { whole: 0 } | Kind::Statistic(Statistic::Total) | Kind::Value,
+            Word::Sum | Word::Total,
+        )
+        | (Kind::Statistic(Statistic::Mean), Word::Sum) => &[Form::Sum],
+        (Kind::Share { whole: 0 } | Kind::Statistic(Statistic::Total), Word::Either) => {
+            &[Form::Mean, Form::Sum]
         }
-        (Kind::Share { whole: 0 } | Kind::Of(Statistic::Total) | Kind::Value, Word::Sum | Word::Total)
-        | (Kind::Of(Statistic::Mean), Word::Sum) => &[Form::Sum],
-        (Kind::Share { whole: 0 } | Kind::Of(Statistic::Total), Word::Either) => &[Form::Mean, Form::Sum],
-        (Kind::Of(Statistic::Min | Statistic::Max), Word::Mean | Word::Either) => &[Form::Between],
-        (Kind::Share { .. } | Kind::Of(Statistic::Mean) | Kind::Value, Word::Mean) => {
+        (Kind::Statistic(Statistic::Min | Statistic::Max), Word::Mean | Word::Either) => &[Form::Between],
+        (Kind::Share { .. } | Kind::Statistic(Statistic::Mean) | Kind::Value, Word::Mean) => {
             &[Form::Mean, Form::Pooled]
         }
-        (Kind::Share { .. } | Kind::Of(Statistic::Mean) | Kind::Value, _) => {
+        (Kind::Share { .. } | Kind::Statistic(Statistic::Mean) | Kind::Value, _) => {
             &[Form::Mean, Form::Sum, Form::Pooled]
         }
         _ => return None,
@@ -454,7 +460,7 @@ fn of_column(index: usize, table: &Table, row: usize, at: usize) -> Option<(Word
     });
     columns.truncate(run.count());
     let is_same = meaning.kind == last.kind
-        || table.columns[at].written.is_none() && matches!(meaning.kind, Kind::Of(_) | Kind::Value);
+        || table.columns[at].written.is_none() && matches!(meaning.kind, Kind::Statistic(_) | Kind::Value);
     if columns.len() < 2 || !is_same || meaning.unit.is_some() && meaning.unit != last.unit {
         return None;
     }

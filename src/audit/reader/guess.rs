@@ -123,7 +123,7 @@ pub fn take_n(columns: &mut [Column], rows: &[(usize, Vec<String>)]) {
 
 /// What a guessed column's statistic is of: its name without the statistic, n and units; `None` if it holds no statistic.
 fn base(column: &Column) -> Option<String> {
-    if column.written.is_some() || !matches!(column.meaning.kind, Kind::Of(_) | Kind::Share { .. }) {
+    if column.written.is_some() || !matches!(column.meaning.kind, Kind::Statistic(_) | Kind::Share { .. }) {
         return None;
     }
     let is_rest = |word: &&str| {

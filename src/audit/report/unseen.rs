@@ -92,10 +92,10 @@ fn of_column(table: &Table, at: usize) -> Option<Unseen> {
         Kind::Skip | Kind::Statistics => return None,
         _ if has_statistics => "say `n=N`, `integers` or `tick=Q`, or add rows of other statistics",
         Kind::Share { .. } => "say of how many, as `% of 250`",
-        Kind::Of(Statistic::Mean) => {
+        Kind::Statistic(Statistic::Mean) => {
             "alone a mean may be anything; say `n=N` with `integers` or `tick=Q`, or `of=NAME` here and at its deviation or ends"
         }
-        Kind::Of(_) => "say `of=NAME` here and at the other statistics of the same values",
+        Kind::Statistic(_) => "say `of=NAME` here and at the other statistics of the same values",
         Kind::Samples => "no column `rises` with it",
         Kind::Value => "say what it is, as `mean`, `% of N`, `a+b√2`, or `skip` (`--list` has all)",
     };

@@ -3,7 +3,7 @@
 //! It knows the part of JSON Schema that our types use; a test of the registries refuses a schema with any other word.
 
 use super::nearest::{did_you_mean, nearest};
-use super::renamed::renamed_key;
+use super::renamed::{renamed, renamed_key};
 use super::schema::Node;
 use crate::text::{acts, brief, fault_of_name, written};
 use std::ops::Range;
@@ -260,7 +260,9 @@ fn keys(node: Node<'_>, subject: Subject<'_>, table: &DeTable<'_>, found: &mut F
             }
             Some(_) if matches!(found, FoundFaults::Any(_)) => *found = FoundFaults::Any(true),
             Some(_) => {
-                meant.extend(nearest(name, node.properties().map(|(key, _)| key)));
+                let known = || node.properties().map(|(key, _)| key);
+                let now = renamed("keys").get(name).and_then(|now| known().find(|key| key == now));
+                meant.extend(now.or_else(|| nearest(name, known())));
                 found.push(|| Fault::new(span, unknown(node, name)));
             }
             None => {}

@@ -10,7 +10,7 @@ pub(super) const NOT_PRINTED: &str = "N/A";
 pub(super) struct Difference {
     pub(super) printed: Spanned<String>,
     pub(super) at: usize,
-    pub(super) of: [String; 2],
+    pub(super) between: [String; 2],
 }
 
 /// The columns that a table prints, each with the number of its entry and its id.
@@ -66,7 +66,7 @@ impl TableSpec {
         };
         let ((at, one, first), (_, other, second)) = cell(above).zip(cell(below))?;
         let printed = one.with(subtracted(one.get_ref(), other.get_ref())?);
-        Some(Difference { printed, at, of: [first, second] })
+        Some(Difference { printed, at, between: [first, second] })
     }
 
     /// Both columns of a difference are columns that the paper prints.

@@ -37,11 +37,11 @@ pub(super) struct TableSpec {
     pub(super) untestable: Option<String>,
     /// What was changed in how its cells are judged after a run had been seen, and why.
     pub(super) changed_after_run: Option<String>,
-    /// The trials that criteria look at: laid under their `of`.
+    /// The trials that criteria look at: laid under their `select`.
     #[serde(default)]
     #[schemars(with = "AnyTable")]
-    pub(super) of: Table,
-    /// One problem of ours whose first trial stands beside the printed number, laid over `of`; each cell shows what its claim found if
+    pub(super) select: Table,
+    /// One problem of ours whose first trial stands beside the printed number, laid over `select`; each cell shows what its claim found if
     /// absent.
     #[serde(default)]
     #[schemars(with = "AnyTable")]
@@ -102,10 +102,10 @@ pub(super) struct ColumnSpec {
     pub(super) difference: Option<[Spanned<String>; 2]>,
     /// What the paper leaves out, if its cells cannot be tested without it.
     pub(super) untestable: Option<String>,
-    /// The trials that criteria look at: laid under their `of`.
+    /// The trials that criteria look at: laid under their `select`.
     #[serde(default)]
     #[schemars(with = "AnyTable")]
-    pub(super) of: Table,
+    pub(super) select: Table,
     /// How its cells are judged: the settings of each criterion, by the criterion's name.
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, AnyTable>")]
@@ -136,10 +136,10 @@ pub(super) struct RowSpec {
     pub(super) printed: Vec<Spanned<String>>,
     /// What the paper leaves out, if its cells cannot be tested without it.
     pub(super) untestable: Option<String>,
-    /// The trials that criteria look at: laid under their `of`.
+    /// The trials that criteria look at: laid under their `select`.
     #[serde(default)]
     #[schemars(with = "AnyTable")]
-    pub(super) of: Table,
+    pub(super) select: Table,
     /// What is laid over the table's `beside`.
     #[serde(default)]
     #[schemars(with = "AnyTable")]
@@ -192,9 +192,9 @@ pub(super) struct CellSpec {
     pub(super) changed_after_run: Option<String>,
     /// The interpretations under which alone it is meant, each with the options that count: a premise that the paper states.
     pub(super) holds_when: BTreeMap<String, Vec<String>>,
-    /// The trials that criteria look at: laid under their `of`.
+    /// The trials that criteria look at: laid under their `select`.
     #[schemars(with = "AnyTable")]
-    pub(super) of: Table,
+    pub(super) select: Table,
     /// How it is judged: the settings of each criterion, by the criterion's name.
     #[schemars(with = "BTreeMap<String, AnyTable>")]
     pub(super) check: BTreeMap<String, Spanned<Table>>,

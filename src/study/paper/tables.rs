@@ -83,7 +83,7 @@ type Named = BTreeMap<String, Spanned<Table>>;
 /// What one of the tables around a cell, or the cell itself, says of how it is judged.
 struct Layer<'a> {
     steps: Vec<String>,
-    of: &'a Table,
+    select: &'a Table,
     check: &'a Named,
     rule: &'a Named,
     shows: &'a BTreeMap<String, Vec<Spanned<Table>>>,
@@ -103,7 +103,7 @@ macro_rules! layer {
     ($spec:expr, $steps:expr) => {
         Layer {
             steps: $steps.iter().map(ToString::to_string).collect(),
-            of: &$spec.of,
+            select: &$spec.select,
             check: &$spec.check,
             rule: &$spec.rule,
             shows: &$spec.shows,
@@ -176,7 +176,7 @@ pub(super) fn printed(
                     column,
                     printed: (&found.printed, found.at),
                 };
-                let claim = Claim { difference: Some(found.of), ..cell.claim(faults) };
+                let claim = Claim { difference: Some(found.between), ..cell.claim(faults) };
                 more.push(PrintedCell {
                     printed: found.printed.get_ref().clone(),
                     claim: Some(claim.id.clone()),
@@ -291,7 +291,7 @@ impl TableSpec {
         let steps = ["table".to_owned(), number.to_string(), "row".to_owned(), index.to_string()];
         let place = steps.join(".");
         let whole = [&steps[..], &["whole".to_owned()]].concat();
-        let layers = [layer!(own, whole), Layer { of: &self.of, ..layer!(NOTHING, steps[..2]) }];
+        let layers = [layer!(own, whole), Layer { select: &self.select, ..layer!(NOTHING, steps[..2]) }];
         let mut tests = tests_of(document, &layers, own.untestable.is_some());
         for (_, _, settings) in &mut tests {
             fill(settings, &[("{row}", &row.id)]);
@@ -446,15 +446,15 @@ impl Cell<'_> {
             return None;
         }
         let layers = self.layers();
-        let mut of = laid_under(&layers);
+        let mut select = laid_under(&layers);
         let mut places = Vec::new();
         let [_, of_row, _, of_table] = &layers;
         for (over, layer) in [(&table.beside, of_table), (&row.beside, of_row)] {
-            of.extend(over.clone());
+            select.extend(over.clone());
             places.insert(0, part(self.document, &[&layer.steps[..], &["beside".to_owned()]].concat(), None));
         }
         places.extend(of_parts(self.document, &layers));
-        let table = Table::from_iter([("of".to_owned(), Value::Table(of))]);
+        let table = Table::from_iter([("select".to_owned(), Value::Table(select))]);
         let mut settings = Settings::layered(self.document, self.printed.0.span(), places, table);
         fill(&mut settings, &[("{row}", &row.id), ("{column}", self.column.2)]);
         Some(settings)
@@ -467,15 +467,15 @@ fn part(document: &Arc<Document>, steps: &[String], key: Option<&'static str>) -
     Part { place: Place::of_table(document, &steps), key }
 }
 
-/// What the layers say under `of`, the nearest winning.
+/// What the layers say under `select`, the nearest winning.
 fn laid_under(layers: &[Layer<'_>]) -> Table {
-    layers.iter().rev().flat_map(|layer| layer.of.clone()).collect()
+    layers.iter().rev().flat_map(|layer| layer.select.clone()).collect()
 }
 
 /// Where the layers say it.
 fn of_parts(document: &Arc<Document>, layers: &[Layer<'_>]) -> Vec<Part> {
-    let naming = layers.iter().filter(|layer| !layer.of.is_empty());
-    naming.map(|layer| part(document, &layer.steps, Some("of"))).collect()
+    let naming = layers.iter().filter(|layer| !layer.select.is_empty());
+    naming.map(|layer| part(document, &layer.steps, Some("select"))).collect()
 }
 
 /// Rules and criteria with their settings: those of the nearest layer that names any. The other layers' settings lie under them.
@@ -529,17 +529,17 @@ fn tests_of(
     found
 }
 
-/// Lays `of` under the selection of a criterion's settings. A criterion that looks `in` several places names metric and contenders
+/// Lays `select` under the selection of a criterion's settings. A criterion that looks `in` several places names metric and contenders
 /// beside these.
-fn lay_under(settings: &mut Table, of: &Table) {
+fn lay_under(settings: &mut Table, select: &Table) {
     if settings.contains_key("in") {
         for (from, to) in [("metric", "metric"), ("contender", "contenders"), ("against", "against")] {
-            if let Some(value) = of.get(from) {
+            if let Some(value) = select.get(from) {
                 settings.entry(to).or_insert(value.clone());
             }
         }
-    } else if !of.is_empty() {
-        let mut under = Table::from_iter([("of".to_owned(), Value::Table(of.clone()))]);
+    } else if !select.is_empty() {
+        let mut under = Table::from_iter([("select".to_owned(), Value::Table(select.clone()))]);
         merge(&mut under, settings);
         *settings = under;
     }

@@ -221,7 +221,7 @@ fn instances_are_kept_by_their_numbers_too_and_no_others() {
     let house = House::new();
     let kept = |out: &str| -> BTreeSet<u32> {
         let kept = house.records(out).batch.kept.into_iter();
-        kept.filter_map(|kept| match kept.of {
+        kept.filter_map(|kept| match kept.owner {
             Owner::Trial(key) if *key.on.group == *"maps" => Some(key.on.instance),
             _ => None,
         })
@@ -241,7 +241,7 @@ fn of_a_trial_only_the_traces_that_are_named_are_kept() {
     let named = STUDY.replace("instances = 2", "instances = 2\ntraces = ['path']");
     let names = |out: &str| -> BTreeSet<String> {
         let kept = house.records(out).batch.kept.into_iter();
-        let of_trials = kept.filter(|kept| matches!(kept.of, Owner::Trial(_)));
+        let of_trials = kept.filter(|kept| matches!(kept.owner, Owner::Trial(_)));
         of_trials.map(|kept| kept.trace.name).collect()
     };
     house.run(STUDY, "runs");

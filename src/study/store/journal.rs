@@ -200,11 +200,11 @@ mod tests {
         let values = vec![f64::from(number) / 3.0, 0.1 + 0.2, f64::MIN_POSITIVE];
         let interpretation = InterpretationKey::new(vec![("corners".into(), "cut".into())]);
         let sweep = SweepKey::default();
-        let of = Owner::Instance(
+        let owner = Owner::Instance(
             InstanceKey { group: "a".into(), sweep, instance: number, interpretation }.into(),
         );
         let trace = Trace { name: "path".to_owned(), width: 1, values };
-        Batch { kept: vec![Kept { of, trace }], ..Batch::default() }
+        Batch { kept: vec![Kept { owner, trace }], ..Batch::default() }
     }
 
     fn taken(journal: &mut Journal, unit: usize) -> Option<Batch> {

@@ -36,8 +36,8 @@ impl KeptTraces {
     pub fn held(kept: Vec<Kept>) -> Self {
         let mut places: BTreeMap<Owner, Vec<(usize, usize)>> = BTreeMap::new();
         let mut all = Vec::with_capacity(kept.len());
-        for (place, Kept { of, trace }) in kept.into_iter().enumerate() {
-            places.entry(of).or_default().push((0, place));
+        for (place, Kept { owner, trace }) in kept.into_iter().enumerate() {
+            places.entry(owner).or_default().push((0, place));
             all.push(trace);
         }
         let groups = vec![OnceLock::from(all)];

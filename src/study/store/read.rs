@@ -345,16 +345,16 @@ impl Stored {
 
     /// The frame as traces.
     pub fn traces(&self, instances: &mut Instances) -> Result<Vec<Kept>, StudyError> {
-        let of = self.owners(instances)?;
+        let owners = self.owners(instances)?;
         let name = self.full_texts("name")?;
         let width = self.wholes("width")?;
         let lists = self.column("values")?.list().map_err(|_| self.wrong("values"))?.clone();
         let mut kept = Vec::new();
-        for (row, of) in of.into_iter().enumerate() {
+        for (row, owner) in owners.into_iter().enumerate() {
             let list = lists.get_as_series(row).ok_or_else(|| self.wrong("values"))?;
             let values = list.f64().map_err(|_| self.wrong("values"))?.into_no_null_iter().collect();
             let trace = Trace { name: name.at(row).as_ref().to_owned(), width: width[row] as usize, values };
-            kept.push(Kept { of, trace });
+            kept.push(Kept { owner, trace });
         }
         Ok(kept)
     }

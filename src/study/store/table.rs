@@ -57,7 +57,7 @@ pub fn traces(kept: &[Kept], keys: &KeyColumns, sweep: Option<&SweepKey>) -> Dat
         Series::new("values".into(), lists)
     };
     let columns: Vec<Option<String>> = kept.iter().map(|kept| column::of_trace(&kept.trace.name)).collect();
-    let mut frame = keys_of(kept, keys, sweep, |kept| match &kept.of {
+    let mut frame = keys_of(kept, keys, sweep, |kept| match &kept.owner {
         Owner::Instance(key) => (&**key, None),
         Owner::Trial(key) => (&*key.on, Some(key)),
     });

@@ -74,7 +74,7 @@ fn kept(count: u32) -> Vec<Kept> {
     };
     let values = |number: u32| (0..number % 9).map(|value| f64::from(value) / 3.0).collect();
     let trace = |number| Trace { name: "path".to_owned(), width: 1, values: values(number) };
-    (0..count).map(|number| Kept { of: of(number), trace: trace(number) }).collect()
+    (0..count).map(|number| Kept { owner: of(number), trace: trace(number) }).collect()
 }
 
 fn to_parquet(frame: DataFrame) -> Vec<u8> {
@@ -116,8 +116,8 @@ fn typed_keys_and_values_come_back_from_parquet_as_they_were() {
     );
     let trace = |values: Vec<f64>| Trace { name: "path".to_owned(), width: 1, values };
     let kept = vec![
-        Kept { of: Owner::Instance(on(1)), trace: trace(vec![]) },
-        Kept { of: Owner::Trial(trial(1, None)), trace: trace(vec![0.5, -0.0]) },
+        Kept { owner: Owner::Instance(on(1)), trace: trace(vec![]) },
+        Kept { owner: Owner::Trial(trial(1, None)), trace: trace(vec![0.5, -0.0]) },
     ];
     assert_eq!(stored(table::traces(&kept, &keys(), None)).traces(instances).unwrap(), kept);
     let time = |session| Timing { trial: trial(0, None), session, clock_repeat: 4, plan_wall_ns: 99 };
@@ -191,18 +191,18 @@ fn only_the_groups_that_are_wanted_are_read_and_one_at_a_time_by_who_takes_them(
     let stored = KeptTraces::stored(folder.path(), "a", &sound).unwrap();
     assert_eq!(stored.in_memory(), 0, "no group is read before one is needed");
     let (first, last) = (&all[0], &all[39]);
-    assert_eq!(stored.owned_by(&last.of).collect::<Vec<_>>(), [&last.trace]);
+    assert_eq!(stored.owned_by(&last.owner).collect::<Vec<_>>(), [&last.trace]);
     assert_eq!(stored.in_memory(), 1);
-    assert_eq!(stored.owners().unwrap(), all.iter().map(|kept| &kept.of).collect::<Vec<_>>());
+    assert_eq!(stored.owners().unwrap(), all.iter().map(|kept| &kept.owner).collect::<Vec<_>>());
     let mut stored = stored;
     for kept in &all {
-        assert_eq!(stored.take(&kept.of).unwrap(), std::slice::from_ref(&kept.trace));
+        assert_eq!(stored.take(&kept.owner).unwrap(), std::slice::from_ref(&kept.trace));
         assert_eq!(stored.in_memory(), 1);
     }
     assert!(KeptTraces::stored(folder.path(), "a", &hashes("0".repeat(64))).is_err());
     let stored = KeptTraces::stored(folder.path(), "a", &sound).unwrap();
     fs::write(&path, "no Parquet").unwrap();
-    assert_eq!((stored.owned_by(&first.of).count(), stored.damage().is_err()), (0, true));
+    assert_eq!((stored.owned_by(&first.owner).count(), stored.damage().is_err()), (0, true));
 }
 
 #[test]

@@ -16,7 +16,7 @@ pub const GROUP_VALUES: usize = 1 << 21;
 
 /// The sweep of the first trace that belongs to a trial.
 pub fn sweep_of(kept: &[Kept]) -> Option<SweepKey> {
-    kept.iter().find_map(|kept| match &kept.of {
+    kept.iter().find_map(|kept| match &kept.owner {
         Owner::Trial(key) => Some(key.sweep.clone()),
         Owner::Instance(_) => None,
     })

@@ -141,7 +141,7 @@ impl Batch {
     /// The same trials, as those of the instance called `key`.
     fn under(&self, key: &Arc<InstanceKey>) -> Self {
         let row = |row: &Row| Row { key: TrialKey { on: key.clone(), ..row.key.clone() }, ..row.clone() };
-        let kept = |kept: &Kept| Kept { of: kept.of.clone().moved_to(key.clone()), ..kept.clone() };
+        let kept = |kept: &Kept| Kept { owner: kept.owner.clone().moved_to(key.clone()), ..kept.clone() };
         Self {
             preprocessing: Vec::new(),
             rows: self.rows.iter().map(row).collect(),
@@ -149,8 +149,8 @@ impl Batch {
         }
     }
 
-    fn keep(&mut self, of: &Owner, traces: Vec<Trace>) {
-        self.kept.extend(traces.into_iter().map(|trace| Kept { of: of.clone(), trace }));
+    fn keep(&mut self, owner: &Owner, traces: Vec<Trace>) {
+        self.kept.extend(traces.into_iter().map(|trace| Kept { owner: owner.clone(), trace }));
     }
 }
 

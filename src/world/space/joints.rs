@@ -14,7 +14,7 @@ use crate::geometry::{Frame, Placed, Rounded, Vec3, intersects_placed_placed};
 use crate::kinematics::open_chain::OpenChain;
 use base::robot::{MayTouch, Robot};
 use base::solid::{Form, Solid};
-use lanes::{Doubt, Other, Spheres};
+use lanes::{Doubt, SecondSolid, Spheres};
 
 /// A path that is returned is checked four times in each step, and 64 times where the robot is nearly in contact.
 const FINER: [f64; 2] = [4.0, 64.0];
@@ -256,8 +256,8 @@ impl JointSpace {
             own.all(|doubt| {
                 let solid = self.placed(doubt.solid, &frames);
                 !match doubt.other {
-                    Other::Still(still) => is_touched(&solid, &self.stills[still]),
-                    Other::Own(other) => intersects_placed_placed(&solid, &self.placed(other, &frames)),
+                    SecondSolid::Still(still) => is_touched(&solid, &self.stills[still]),
+                    SecondSolid::Own(other) => intersects_placed_placed(&solid, &self.placed(other, &frames)),
                 }
             })
         }

@@ -43,7 +43,7 @@ pub fn pairs(all: &[(usize, End, End)]) -> Sample {
 #[test]
 fn budgets_that_are_spent_do_not_make_a_median_infinite() {
     let of = |all: &[(usize, End, End)]| {
-        let settings = "of = { OF, metric = \"path_cost_cells\" }\nlower = \"A\"\nhigher = [\"B\"]";
+        let settings = "select = { OF, metric = \"path_cost_cells\" }\nlower = \"A\"\nhigher = [\"B\"]";
         class("least_of", settings, Made::Plainly, pairs(all))
     };
     let rest = (9, At(50.0), At(100.0));
@@ -65,7 +65,7 @@ fn along_a_sweep_what_did_not_end_might_have_been_solved() {
                 sample.query("B", Some(query), Some(value), if query == 0 { At(1.0) } else { other });
             }
         }
-        let settings = "is = \"higher\"\nof = { OF, contender = \"A\", against = \"B\" }";
+        let settings = "is = \"higher\"\nselect = { OF, contender = \"A\", against = \"B\" }";
         class("lower", settings, Made::Swept, sample)
     };
     assert_eq!([of(At(1.0), NoPath), of(NoPath, At(1.0))], ["holds", "contradicted"]);
@@ -75,7 +75,7 @@ fn along_a_sweep_what_did_not_end_might_have_been_solved() {
 #[test]
 fn a_statistic_of_one_contender_hangs_on_what_did_not_end() {
     let within = |statistic: &str, accepted: &str, all: &[(usize, End)]| {
-        let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
+        let of = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
         let settings = format!("{of}\nstatistic = \"{statistic}\"\naccepted = {accepted}");
         let all: Vec<_> = all.iter().map(|(count, end)| (*count, *end, At(1.0))).collect();
         class("within", &settings, Made::Plainly, pairs(&all))
@@ -97,7 +97,7 @@ fn a_statistic_of_one_contender_hangs_on_what_did_not_end() {
 #[test]
 fn a_side_that_did_not_end_might_have_been_the_better_one() {
     let of = |criterion: &str, settings: &str, usual: (usize, End, End), other: (usize, End, End)| {
-        let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+        let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
         class(criterion, &format!("{of}\n{settings}"), Made::Plainly, pairs(&[usual, other]))
     };
     let less = (30, At(50.0), At(100.0));
@@ -122,7 +122,7 @@ fn a_ratio_of_two_groups_hangs_on_what_did_not_end() {
                 sample.trial("A", if instance < spent { Spent } else { At(value) });
             }
         }
-        let of = "of = { study = \"drawn\", problems = [\"map\", \"other\"], contender = \"A\", metric = \"path_cost_cells\" }";
+        let of = "select = { study = \"drawn\", problems = [\"map\", \"other\"], contender = \"A\", metric = \"path_cost_cells\" }";
         let settings = format!("{of}\nstatistic = \"ratio_of_groups\"\naccepted = [1.5, 2.5]");
         class("within", &settings, Made::Plainly, sample)
     };
@@ -132,7 +132,7 @@ fn a_ratio_of_two_groups_hangs_on_what_did_not_end() {
 #[test]
 fn equal_cases_and_one_that_did_not_end_are_no_counterexample() {
     let of = |all: &[(usize, End, End)]| {
-        let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+        let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
         class("on_every", &format!("{of}\nthat = \"lower\""), Made::Plainly, pairs(all))
     };
     let equal = (10, At(5.0), At(5.0));
@@ -149,7 +149,7 @@ fn equal_cases_and_one_that_did_not_end_are_no_counterexample() {
 #[test]
 fn what_is_wrong_is_wrong_however_many_others_did_not_end() {
     let of = |all: &[(usize, End, End)]| {
-        let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+        let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
         class("equals", of, Made::Plainly, pairs(all))
     };
     let same = (12, At(5.0), At(5.0));
@@ -161,7 +161,7 @@ fn what_is_wrong_is_wrong_however_many_others_did_not_end() {
 
 #[test]
 fn a_claim_about_cases_that_both_solve_hangs_on_what_did_not_end_and_says_what_is_outside_of_it() {
-    let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+    let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
     for (criterion, settings, case) in [
         ("share", "hits = \"lower\"\naccepted = [0.9, 1.0]", (40, At(4.0), At(5.0))),
         ("share", "hits = \"lower_throughout\"\naccepted = [0.9, 1.0]", (40, At(4.0), At(5.0))),
@@ -186,7 +186,7 @@ fn a_claim_about_cases_that_both_solve_hangs_on_what_did_not_end_and_says_what_i
         assert!(outcome == "open" && !because.contains("outside"), "{name}: {because}");
     }
     let above = |more: End| {
-        let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
+        let of = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
         let settings = format!("{of}\nhits = \"above\"\nbound = 3.0\naccepted = [0.9, 1.0]");
         class("share", &settings, Made::Plainly, pairs(&[(40, At(4.0), At(1.0)), (9, more, At(1.0))]))
     };
@@ -197,7 +197,7 @@ fn a_claim_about_cases_that_both_solve_hangs_on_what_did_not_end_and_says_what_i
 fn the_share_of_failures_that_another_cures_counts_failures_alone_and_hangs_on_what_did_not_end() {
     let of = |more: (usize, End, End)| {
         let settings =
-            "of = { OF, contender = \"A\", against = \"B\" }\nhits = \"cured\"\naccepted = [0.7, 0.9]";
+            "select = { OF, contender = \"A\", against = \"B\" }\nhits = \"cured\"\naccepted = [0.7, 0.9]";
         let failures = [(80, At(4.0), NoPath), (20, NoPath, Rejected)];
         class("share", settings, Made::Plainly, pairs(&[failures[0], failures[1], more]))
     };
@@ -230,7 +230,7 @@ fn one_contender_solves_more_throughout_only_where_it_does_at_every_point_of_the
             }
         }
         let settings = format!(
-            "of = {{ OF, contender = \"A\", against = \"B\" }}\nhits = \"{hits}\"\naccepted = [0.8, 1.0]"
+            "select = {{ OF, contender = \"A\", against = \"B\" }}\nhits = \"{hits}\"\naccepted = [0.8, 1.0]"
         );
         class("share", &settings, Made::Swept, sample)
     };
@@ -257,7 +257,7 @@ fn a_row_of_numbers_and_a_trend_hang_on_what_did_not_end() {
         }
         sample
     };
-    let of = "of = { OF, metric = \"path_cost_cells\" }";
+    let of = "select = { OF, metric = \"path_cost_cells\" }";
     let rows =
         "[{ contender = \"A\", statistics = [\"least\", \"greatest\"], claims = [\"low\", \"high\"] }]";
     let row = |spent| {
@@ -269,7 +269,7 @@ fn a_row_of_numbers_and_a_trend_hang_on_what_did_not_end() {
         )
     };
     assert_eq!([row(0), row(1)], ["holds", "open"]);
-    let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
+    let of = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
     let trend = |spent| {
         let settings = format!("{of}\nover = \"optimal_cost_cells\"\nrising = true");
         class("trend", &settings, Made::Plainly, drawn(spent))
@@ -291,7 +291,7 @@ fn a_trend_over_cases_that_both_solve_does_not_hang_on_one_that_a_side_cannot_so
         sample.instance();
         sample.trial("A", Spent);
         sample.trial("B", other);
-        let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+        let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
         let settings = format!("{of}\nover = \"optimal_cost_cells\"\nrising = false");
         class("trend", &settings, Made::Plainly, sample)
     };
@@ -312,7 +312,7 @@ fn rows_of_one_instance_are_joined_by_the_instance() {
         format!("{{ contender = \"{label}\", statistics = [\"mean\"], claims = [\"{claim}\"] }}")
     };
     let rows = format!("rows = [{}, {}]\nrefused_below = 0.05", row("A", "low"), row("B", "high"));
-    let settings = format!("of = {{ OF, metric = \"path_cost_cells\" }}\n{rows}");
+    let settings = format!("select = {{ OF, metric = \"path_cost_cells\" }}\n{rows}");
     let both = instances("row_one_instance", &settings, sample);
     assert_eq!(both, 40, "instances that have both: neither odd nor a multiple of 3");
 }
@@ -320,7 +320,7 @@ fn rows_of_one_instance_are_joined_by_the_instance() {
 #[test]
 fn one_instance_of_what_was_drawn_is_one_of_many() {
     let least = |instances: usize| {
-        let settings = "of = { OF, metric = \"path_cost_cells\" }\nlower = \"A\"\nhigher = [\"B\"]";
+        let settings = "select = { OF, metric = \"path_cost_cells\" }\nlower = \"A\"\nhigher = [\"B\"]";
         class("least_of", settings, Made::Plainly, pairs(&[(instances, At(5.0), At(10.0))]))
     };
     assert_eq!([least(1), least(3), least(4)], ["open", "open", "holds"]);
@@ -332,7 +332,7 @@ fn one_instance_of_what_was_drawn_is_one_of_many() {
                 sample.trial("A", At(value));
             }
         }
-        let of = "of = { study = \"drawn\", problems = [\"map\", \"other\"], contender = \"A\", metric = \"path_cost_cells\" }";
+        let of = "select = { study = \"drawn\", problems = [\"map\", \"other\"], contender = \"A\", metric = \"path_cost_cells\" }";
         class(
             "within",
             &format!("{of}\nstatistic = \"ratio_of_groups\"\naccepted = [0.1, 9.0]"),
@@ -356,7 +356,7 @@ fn what_did_not_end_might_have_had_marks() {
                 sample.with("expansions", 1.0);
             }
         }
-        let of = "of = { OF, contender = \"A\" }";
+        let of = "select = { OF, contender = \"A\" }";
         let settings = format!("{of}\nhits = {hits}\naccepted = [0.0, 0.1]");
         class("share", &settings, Made::Plainly, sample)
     };
@@ -369,7 +369,7 @@ fn what_did_not_end_might_have_had_marks() {
 #[test]
 fn what_did_not_end_is_neither_solved_nor_not() {
     let of = |all: &[(usize, End, End)]| {
-        let of = "of = { OF, contender = \"A\", against = \"B\" }";
+        let of = "select = { OF, contender = \"A\", against = \"B\" }";
         class("on_every", &format!("{of}\nthat = \"solved\""), Made::Plainly, pairs(all))
     };
     let both = (20, At(1.0), At(1.0));
@@ -388,7 +388,7 @@ fn instances_that_might_have_been_whole_are_not_forgotten() {
             sample.query("A", Some(0), None, if instance == 0 { other } else { At(1.0) });
             sample.query("A", Some(1), None, if instance == 0 { one } else { At(1.0) });
         }
-        let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\", whole_instances = true }";
+        let of = "select = { OF, contender = \"A\", metric = \"path_cost_cells\", whole_instances = true }";
         class("within", &format!("{of}\nstatistic = \"mean\"\naccepted = [0.0, 2.0]"), Made::Plainly, sample)
     };
     let of = |lost: End| pair(lost, At(1.0));
@@ -405,7 +405,7 @@ fn one_instance_of_which_a_query_did_not_end_may_give_any_number() {
             sample.query("A", Some(0), None, At(40.0 + f64::from(instance % 5)));
             sample.query("A", Some(1), None, if lost.is_at() { At(42.0) } else { lost });
         }
-        let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
+        let of = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
         class("one_instance", &format!("{of}\nstatistic = \"{statistic}\""), Made::Plainly, sample)
     };
     // What is printed, 0, lies below every instance: a greatest number that is not known is no lower.
@@ -417,13 +417,13 @@ fn one_instance_of_which_a_query_did_not_end_may_give_any_number() {
 #[test]
 fn what_prints_alike_and_pairs_that_agree_hang_on_what_did_not_end() {
     let prints = |value: f64, lost: End| {
-        let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
+        let of = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
         class("prints_as", of, Made::Plainly, pairs(&[(20, At(value), At(1.0)), (1, lost, At(1.0))]))
     };
     assert_eq!([prints(0.0, NoPath), prints(0.0, Spent)], ["holds", "open"]);
     assert_eq!([prints(9.0, NoPath), prints(9.0, Spent)], ["contradicted", "open"]);
     let ratio = |lost: End| {
-        let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+        let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
         let settings = format!("{of}\nstatistic = \"ratio\"\naccepted = [0.5, 1.5]");
         class("within", &settings, Made::Plainly, pairs(&[(40, At(5.0), At(5.0)), (40, lost, At(5.0))]))
     };
@@ -432,8 +432,8 @@ fn what_prints_alike_and_pairs_that_agree_hang_on_what_did_not_end() {
 
 #[test]
 fn what_holds_on_each_of_few_instances_of_a_problem_that_is_drawn_is_not_firm() {
-    let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
-    let prints = "of = { OF, contender = \"B\", metric = \"path_cost_cells\" }";
+    let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+    let prints = "select = { OF, contender = \"B\", metric = \"path_cost_cells\" }";
     for (criterion, settings) in [
         ("on_every", format!("{of}\nthat = \"lower\"")),
         ("equals", of.to_owned()),
@@ -457,7 +457,7 @@ fn seeds_on_a_problem_that_is_drawn_are_no_instances_of_it() {
             sample.seed("A", seed, At(f64::from(instance)));
         }
     }
-    let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
+    let of = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
     let settings = format!("{of}\nstatistic = \"mean\"\naccepted = [0.0, 12.0]");
     assert_eq!(instances("within", &settings, sample), 12);
 }
@@ -473,7 +473,7 @@ fn a_contender_with_one_seed_stands_beside_each_seed_of_the_other() {
                 sample.seed(many, seed, At(if seed == 0 { first } else { rest }));
             }
         }
-        let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+        let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
         class("on_every", &format!("{of}\nthat = \"lower\""), Made::Plainly, sample)
     };
     assert_eq!([class_of("A", "B", [1.0, 2.0, 5.0]), class_of("B", "A", [9.0, 8.0, 5.0])], ["holds"; 2]);

@@ -32,7 +32,7 @@ fn deviation() -> f64 {
 }
 
 const OF: &str =
-    "of = { study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }\n";
+    "select = { study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }\n";
 
 fn at_most(false_against: f64) -> Bounds {
     Bounds { false_against: Some(false_against), ..Bounds::default() }
@@ -126,7 +126,7 @@ fn printed_table(
     };
     let cell = |id: &str, group: &str, contender: &str| {
         format!(
-            "[[claim]]\nid = \"{id}\"\nat = \"here\"\nprinted = \"0\"\n[claim.check.mean_of]\nof = {{ study = \"drawn\", problems = \
+            "[[claim]]\nid = \"{id}\"\nat = \"here\"\nprinted = \"0\"\n[claim.check.mean_of]\nselect = {{ study = \"drawn\", problems = \
              \"{group}\", contender = \"{contender}\", metric = \"path_cost_cells\" }}\ninstances = {theirs}\n"
         )
     };

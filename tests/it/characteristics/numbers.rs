@@ -61,7 +61,7 @@ fn spent(stream: &mut Stream, pairs: &[(f64, f64)]) -> Records {
     sample.records()
 }
 
-const PAIRED: &str = "of = { study = \"drawn\", problems = \"map\", contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }\n";
+const PAIRED: &str = "select = { study = \"drawn\", problems = \"map\", contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }\n";
 
 fn claim(criterion: &str, settings: &str) -> String {
     format!(
@@ -169,7 +169,7 @@ fn at_the_end(
             World::new(sample.records(), share < 1.0)
         };
         let settings = format!(
-            "of = {{ study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }}\nstatistic = \
+            "select = {{ study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }}\nstatistic = \
              \"{statistic}\"\naccepted = [{:.6}, {:.6}]\n",
             truth * share,
             3.0 * truth
@@ -339,7 +339,7 @@ fn grows(truth: &'static str, instances: usize, slope: f64, made: Made, bounds: 
         }
         World::new(sample.records(), slope > 0.0 && !is_censored)
     };
-    let settings = "of = { study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }\nover = \
+    let settings = "select = { study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }\nover = \
                     \"optimal_cost_cells\"\nrising = true\n";
     let tail = if is_censored { "; those beyond 7 spend their budget" } else { "" };
     let about =
@@ -376,7 +376,7 @@ fn least(truth: &'static str, instances: usize, share: f64, made: Made, bounds: 
         }
         World::new(sample.records(), share < 1.0 && spent == 0)
     };
-    let settings = "of = { study = \"drawn\", problems = \"map\", metric = \"path_cost_cells\" }\nlower = \"A\"\nhigher = [\"B\"]\n";
+    let settings = "select = { study = \"drawn\", problems = \"map\", metric = \"path_cost_cells\" }\nlower = \"A\"\nhigher = [\"B\"]\n";
     let tail = if spent > 0 { "; A spends its budget on six in ten" } else { "" };
     let about = format!("A's median is {share} of B's, each of a lognormal cost; {instances} seeds{tail}");
     let claim = claim("least_of", settings);

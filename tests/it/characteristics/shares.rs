@@ -31,7 +31,7 @@ fn claim(criterion: &str, settings: &str) -> String {
     )
 }
 
-const OF_A: &str = "of = { study = \"drawn\", problems = \"map\", contender = \"A\" }\n";
+const OF_A: &str = "select = { study = \"drawn\", problems = \"map\", contender = \"A\" }\n";
 
 fn at_most(bound: f64) -> Bounds {
     Bounds { false_for: Some(bound), false_against: Some(bound), ..Bounds::default() }
@@ -138,7 +138,7 @@ fn queries(
 
 /// A cost that is normal, 100 give or take 10; printed is one more of ours, so many standard deviations off.
 fn one_instance() -> Vec<Scenario> {
-    let settings = "of = { study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }\nstatistic = \
+    let settings = "select = { study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }\nstatistic = \
                     \"mean\"\n";
     let scenario = |truth, instances: usize, shift: f64, made, bounds| {
         let is_censored = truth == "censored";
@@ -181,8 +181,7 @@ fn one_instance() -> Vec<Scenario> {
 
 /// The share of a map's ten queries that is solved, its chance even over `low..low + 0.2`; printed at a chance that is `off`.
 fn one_instance_of_shares() -> Vec<Scenario> {
-    let settings =
-        "of = { study = \"drawn\", problems = \"map\", contender = \"A\" }\nstatistic = \"solved_percent\"\n";
+    let settings = "select = { study = \"drawn\", problems = \"map\", contender = \"A\" }\nstatistic = \"solved_percent\"\n";
     let scenario = |truth, spread: f64, off: f64, bounds| {
         let world = move |stream: &mut Stream| {
             let mut sample = Sample::default();
@@ -220,7 +219,7 @@ fn one_instance_of_shares() -> Vec<Scenario> {
 fn rows() -> Vec<Scenario> {
     let cells: Vec<String> = SWEEP.iter().map(|value| format!("c{value}")).collect();
     let settings = format!(
-        "of = {{ study = \"drawn\", problems = \"map\" }}\nrows = [{{ contender = \"A\", claims = {cells:?} }}]\nrefused_below = 0.05\n"
+        "select = {{ study = \"drawn\", problems = \"map\" }}\nrows = [{{ contender = \"A\", claims = {cells:?} }}]\nrefused_below = 0.05\n"
     );
     let cell = |id: &String| {
         format!("[[claim]]\nid = \"{id}\"\nat = \"here\"\nprinted = \"0\"\nuntestable = \"a cell\"\n")
@@ -278,7 +277,7 @@ fn row(sample: &mut Sample, stream: &mut Stream, off: f64) -> Vec<u32> {
 
 /// A solves more than B all along the sweep, by `more` of all queries.
 fn curves() -> Vec<Scenario> {
-    let settings = "of = { study = \"drawn\", problems = \"map\", contender = \"A\", against = \"B\" }\nis = \"higher\"\n";
+    let settings = "select = { study = \"drawn\", problems = \"map\", contender = \"A\", against = \"B\" }\nis = \"higher\"\n";
     let scenario = |truth, instances: usize, more: f64, bounds| {
         let world = move |stream: &mut Stream| {
             let mut sample = Sample::default();

@@ -28,7 +28,7 @@ fn against_a_trend_stands_the_trial_that_does_most_against_it() {
         sample.with("optimal_cost_cells", if instance == 11 { 30.0 } else { f64::from(instance) });
     }
     let settings = format!(
-        "of = {{ {OF}, contender = \"A\", metric = \"path_cost_cells\" }}\nover = \"optimal_cost_cells\"\nrising = true"
+        "select = {{ {OF}, contender = \"A\", metric = \"path_cost_cells\" }}\nover = \"optimal_cost_cells\"\nrising = true"
     );
     let found = shown("trend", &settings, Made::Plainly, sample);
     assert_eq!(found, ("contradicted", "drawn/map/11/a".to_owned()));
@@ -45,7 +45,7 @@ fn along_a_sweep_the_other_alone_solves_the_trial_that_is_named() {
             sample.query("B", Some(query), Some(value), At(1.0));
         }
     }
-    let settings = format!("is = \"higher\"\nof = {{ {OF}, contender = \"A\", against = \"B\" }}");
+    let settings = format!("is = \"higher\"\nselect = {{ {OF}, contender = \"A\", against = \"B\" }}");
     let found = shown("lower", &settings, Made::Swept, sample);
     assert_eq!(found, ("contradicted", "drawn/map/0/3/a/weight=3".to_owned()));
 }
@@ -62,7 +62,7 @@ fn beside_a_row_that_no_instance_is_like_stands_the_instance_that_is_most_like_i
     let rows =
         "[{ contender = \"A\", statistics = [\"least\", \"greatest\"], claims = [\"low\", \"high\"] }]";
     let settings =
-        format!("of = {{ {OF}, metric = \"path_cost_cells\" }}\nrows = {rows}\nrefused_below = 0.05");
+        format!("select = {{ {OF}, metric = \"path_cost_cells\" }}\nrows = {rows}\nrefused_below = 0.05");
     let found = shown("row_one_instance", &settings, Made::Plainly, sample);
     assert_eq!(found, ("contradicted", "drawn/map/17/0/a".to_owned()));
 }

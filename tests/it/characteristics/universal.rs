@@ -39,7 +39,7 @@ const COSTLY: fn(f64) -> End = |optimal| End::At(1.1 * optimal);
 
 const EQUALS: Every = Every {
     criterion: "equals",
-    settings: "of = { study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }\ntruth = \
+    settings: "select = { study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }\ntruth = \
                \"optimal_cost_cells\"\n",
     says: "A's cost is the optimal one on every map",
     wrong: COSTLY,
@@ -47,7 +47,7 @@ const EQUALS: Every = Every {
 
 const ON_EVERY: Every = Every {
     criterion: "on_every",
-    settings: "of = { study = \"drawn\", problems = \"map\", contender = \"A\", against = \"B\", metric = \
+    settings: "select = { study = \"drawn\", problems = \"map\", contender = \"A\", against = \"B\", metric = \
                \"path_cost_cells\" }\nthat = \"at_most_times\"\nbound = 1.0\n",
     says: "A costs no more than B on every map",
     wrong: COSTLY,
@@ -55,7 +55,7 @@ const ON_EVERY: Every = Every {
 
 const SOLVED: Every = Every {
     criterion: "on_every",
-    settings: "of = { study = \"drawn\", problems = \"map\", contender = \"A\", against = \"B\" }\nthat = \"solved\"\n",
+    settings: "select = { study = \"drawn\", problems = \"map\", contender = \"A\", against = \"B\" }\nthat = \"solved\"\n",
     says: "A solves every map that B solves",
     wrong: |_| End::NoPath,
 };
@@ -156,8 +156,7 @@ fn exists() -> Vec<Scenario> {
 
 /// One cost on every map; what is printed has one decimal.
 fn prints_as() -> Vec<Scenario> {
-    let settings =
-        "of = { study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }\n";
+    let settings = "select = { study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }\n";
     let scenario = |truth, off: f64, made, bounds| {
         let is_spent = truth == "censored";
         let world = move |stream: &mut Stream| {

@@ -33,14 +33,14 @@ pub(super) struct Doubt {
     /// The robot's solid.
     pub(super) solid: usize,
     /// Another of the robot's, or an obstacle.
-    pub(super) other: Other,
+    pub(super) other: SecondSolid,
     /// In which configurations.
     pub(super) is_at: [bool; ROUGH_LANES],
 }
 
 /// What a solid of a robot may touch, by its number.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Other {
+pub(super) enum SecondSolid {
     /// An obstacle.
     Still(usize),
     /// Another solid of the robot.
@@ -283,7 +283,7 @@ impl Spheres {
                         let marks = near.select(Rough::splat(simd, 1.0), Rough::splat(simd, 0.0)).to_array();
                         doubts.push(Doubt {
                             solid: self.solids[link.first + place],
-                            other: Other::Still(*number),
+                            other: SecondSolid::Still(*number),
                             is_at: is_marked(marks),
                         });
                     }
@@ -311,7 +311,7 @@ impl Spheres {
                     let marks = near.select(Rough::splat(simd, 1.0), Rough::splat(simd, 0.0)).to_array();
                     doubts.push(Doubt {
                         solid: self.solids[*i],
-                        other: Other::Own(self.solids[*j]),
+                        other: SecondSolid::Own(self.solids[*j]),
                         is_at: is_marked(marks),
                     });
                 }
