@@ -77,7 +77,7 @@ mod tests {
             size: [6, 6],
             starts: vec![[0, 0]],
             goals: vec![[4, 1]],
-            heading: None,
+            headings: Vec::new(),
             convention: Convention::Exterior,
             turn_deg: Interval::new(44.9, 45.1),
             length: Interval::new(0.0, 8.0),
