@@ -57,7 +57,7 @@ pub struct TurnQuery {
     pub starts: Vec<Cell>,
     /// Cells it may end at.
     pub goals: Vec<Cell>,
-    /// Steps to neighbours: the headings from any of which its first segment turns; if empty, that turns from none.
+    /// Headings, as steps to neighbours, one of which the first segment turns from; none if it turns from nothing.
     pub headings: Vec<Cell>,
     /// How bends count.
     pub convention: Convention,

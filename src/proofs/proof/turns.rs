@@ -31,7 +31,7 @@ const BOTH: [(Convention, &str); 2] =
 struct Varied<'a> {
     /// Whether the start, and whether the goal, may be any neighbour of its cell.
     near: [bool; 2],
-    /// The headings from any of which the first move turns; none as printed.
+    /// Headings, one of which the first move turns from; none as printed.
     headings: &'a [Cell],
 }
 
