@@ -57,7 +57,7 @@ pub struct TurnQuery {
     pub starts: Vec<Cell>,
     /// Cells it may end at.
     pub goals: Vec<Cell>,
-    /// Headings, as steps to neighbours, one of which the first segment turns from; none if it turns from nothing.
+    /// Headings, as steps to neighbours: the first segment turns from any of these, and from nothing if there are none.
     pub headings: Vec<Cell>,
     /// How bends count.
     pub convention: Convention,

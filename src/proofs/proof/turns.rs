@@ -31,7 +31,7 @@ const BOTH: [(Convention, &str); 2] =
 struct Varied<'a> {
     /// Whether the start, and whether the goal, may be any neighbour of its cell.
     near: [bool; 2],
-    /// Headings, one of which the first move turns from; none as printed.
+    /// Headings: the first move turns from any of these; none as printed.
     headings: &'a [Cell],
 }
 
