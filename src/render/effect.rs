@@ -15,10 +15,11 @@ pub fn percentage(share: &Estimate) -> String {
     rounded(size, decimals) + &words
 }
 
-/// `size` with so many decimals; a half goes away from zero.
+/// `size` with so many decimals; a half goes away from zero, also where it is a half but for rounding, as 100 times 0.145 is.
 fn rounded(size: f64, decimals: usize) -> String {
     let unit = libm::pow(10.0, decimals as f64);
-    format!("{:.decimals$}", libm::round(size * unit) / unit)
+    let exact = libm::round(size * unit * 1e6) / 1e6;
+    format!("{:.decimals$}", libm::round(exact) / unit)
 }
 
 /// More numbers of one kind are shown as a range.
@@ -221,6 +222,8 @@ mod tests {
         for (value, interval, text) in [
             (0.0058, [0.0055, 0.0060], "0.58 %"),
             (0.505, [0.470, 0.540], "51 %"),
+            (0.145, [0.10, 0.20], "15 %"),
+            (0.105, [0.07, 0.16], "11 %"),
             (1.0, [0.9965, 1.0], "100 %"),
         ] {
             let share = Estimate { interval: Some(interval), ..Estimate::bare(value, "share", 9) };
