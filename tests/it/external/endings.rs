@@ -187,9 +187,10 @@ fn end_all(text: &str) {
 }
 
 /// Ways to hold up whoever waits, each with a process that can be counted.
+// A planner of another test is called `silent`.
 const HOLD_UP: [(&str, &str); 9] = [
     ("deaf", DEAF),
-    ("silent", ": > ready; sleep 770014"),
+    ("says-nothing", ": > ready; sleep 770014"),
     ("never-reads", "hello; : > ready; sleep 770014"),
     ("stopped", "hello; query; : > ready; kill -STOP $$; sleep 770014"),
     ("half-a-line", "hello; query; : > ready; while :; do printf x; sleep 0.01; done"),
