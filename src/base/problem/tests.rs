@@ -167,7 +167,8 @@ fn what_is_wrong_with_a_problem_is_reported_at_its_place() {
 #[test]
 fn the_page_of_files_lists_the_words_that_refuse_a_key() {
     let page = include_str!("../../../docs/FILES.md");
-    let listed = page.split_once("refuse a key of a problem file: `").unwrap().1.split_once('`').unwrap().0;
+    let listed =
+        page.split_once("one of these words or their plurals: `").unwrap().1.split_once('`').unwrap().0;
     assert_eq!(listed.split_whitespace().collect::<Vec<_>>(), reader::MEANT);
 }
 
