@@ -8,9 +8,10 @@ use super::statistic::{
     Estimate, InstanceStatistic, Interval, LEVEL, OverallStatistic, differences_percent, plan,
 };
 use stats::bands::{curves_of, distance_of_mean, sup_t_between};
-pub use stats::summary::means_along;
+use stats::summary::means_along;
 use stats::{pooled, proportion, summary};
 use std::collections::BTreeMap;
+use study::record::Row;
 
 /// The share of queries that are solved on each instance, in per cent.
 pub fn solved_percents(selection: &Selection<'_>, evidence: &Evidence<'_>) -> Vec<f64> {
@@ -44,21 +45,6 @@ pub fn of_all(
     names: &[&str],
 ) -> Option<Estimate> {
     all.estimate(&selection.instances(evidence), plan(names))
-}
-
-/// The mean of each of the selection's contenders over the instances that all of them solve, and how many these are; the stream of
-/// a contender's resamples belongs to the study, the contender and the metric.
-pub fn means_of_whole_instances(
-    selection: &Selection<'_>,
-    evidence: &Evidence<'_>,
-) -> (Vec<Option<Estimate>>, usize) {
-    let instances = selection.instances(evidence);
-    let metric = selection.metric.map_or("", |metric| metric.name);
-    let mean = |contender: &String| {
-        let own: Vec<_> = instances.iter().map(|instance| instance.by(contender)).collect();
-        OverallStatistic::Mean.estimate(&own, plan(&[&selection.study.name, contender, metric]))
-    };
-    (selection.contenders.iter().map(mean).collect(), instances.len())
 }
 
 /// The point whose coordinates are the medians of those of `points`; failures may be infinite.
@@ -240,13 +226,24 @@ impl Curves {
     }
 }
 
-/// Of each case of one contender a column of its problem and the ratio of its number to the other contender's, where both are above 0.
-pub fn ratios_along(selection: &Selection<'_>, evidence: &Evidence<'_>, column: &str) -> Vec<[f64; 2]> {
+/// Of each case of one contender where it stands and its number, or its ratio to the other contender's, where these are above 0.
+pub fn numbers_along(
+    selection: &Selection<'_>,
+    evidence: &Evidence<'_>,
+    place: impl Fn(&Row) -> Option<f64>,
+) -> Vec<[f64; 2]> {
     let point = |case: &Case<'_>| {
-        let (base, own) = case.pair().filter(|(base, own)| *base > 0.0 && *own > 0.0)?;
-        Some([case.row.value(column)?, own / base])
+        let value = case.value.filter(|value| *value > 0.0)?;
+        let ratio = || Some(value / case.base_value.filter(|base| *base > 0.0)?);
+        Some([place(case.row)?, if case.base.is_some() { ratio()? } else { value }])
     };
     by_instance(&selection.instances(evidence), point).concat()
+}
+
+/// The geometric mean of the second numbers that go with each first.
+pub fn geometric_means(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let logs: Vec<[f64; 2]> = points.iter().map(|[x, y]| [*x, libm::log(*y)]).collect();
+    means_along(&logs).into_iter().map(|[x, y]| [x, libm::exp(y)]).collect()
 }
 
 /// What was found in the course of one trial: when, in seconds, and at what cost.

@@ -2,12 +2,13 @@
 
 use super::RenderError;
 use super::chart::marks::Line;
-use super::chart::rows::Interval;
+use super::chart::rows::Whiskers;
 use super::chart::{Axis, Panel, Sheet};
 use super::prose;
 use super::style::{INK, Stroke, Width, series_color, series_marker};
 use super::vector::{Figure, Provenance};
 use crate::analysis::compare::{Cell, Change, Comparison, Measured, Outcome, Passed, SOLVED, Solved, Word};
+use crate::analysis::statistic::Interval;
 use study::store::quoted;
 
 /// A table of texts.
@@ -241,9 +242,11 @@ fn panel(
     for (row, found) in found.iter().enumerate() {
         let Some(found) = found else { continue };
         let [low, high] = found.interval.unwrap_or([found.value; 2]);
-        panel.add(Interval {
-            row: row as f64,
-            values: [low, found.value, high],
+        let row = row as f64;
+        panel.add(Whiskers {
+            at: [found.value, row],
+            ends: [Interval::new(low, high), Interval::new(row, row)],
+            is_hollow: false,
             marker: series_marker(0),
             color: series_color(0),
             label: String::new(),

@@ -18,7 +18,7 @@ mod trend;
 mod within;
 
 pub use exists::{Attained, ENTRY as EXISTS, Seen};
-pub use one_instance::{instances, is_powerless};
+pub use one_instance::{Instances, instances, is_powerless};
 
 use super::context::Context;
 use super::criterion_result::CriterionResult;

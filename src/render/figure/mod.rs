@@ -5,18 +5,12 @@
 mod arm_plane;
 mod ask;
 mod claims_by_choices;
-mod cost_over_time;
 mod grid_search;
-mod instances;
-mod intervals;
 mod motion_curves;
 mod neighbourhoods;
-mod paired_boxes;
 mod plane_search;
 mod polyhedra;
-mod rejections;
-mod sweep_curves;
-mod tradeoff;
+mod statistics;
 mod work_cell;
 
 use super::RenderError;
@@ -193,18 +187,12 @@ pub(crate) fn noun<'a>(studies: impl IntoIterator<Item = &'a Study>) -> &'static
 pub static REGISTRY: &[&Entry] = &[
     &arm_plane::ENTRY,
     &claims_by_choices::ENTRY,
-    &cost_over_time::ENTRY,
     &grid_search::ENTRY,
-    &instances::ENTRY,
-    &intervals::ENTRY,
     &motion_curves::ENTRY,
     &neighbourhoods::ENTRY,
-    &paired_boxes::ENTRY,
     &plane_search::ENTRY,
     &polyhedra::ENTRY,
-    &rejections::ENTRY,
-    &sweep_curves::ENTRY,
-    &tradeoff::ENTRY,
+    &statistics::ENTRY,
     &work_cell::ENTRY,
 ];
 
