@@ -72,9 +72,9 @@ problems = "maps"
 instances = 1
 [[figure]]
 id = "share"
-kind = "sweep_curves"
+kind = "statistics"
 caption = "Solved queries over the share of blocked cells."
-settings = { problems = "maps", sweep = "blocked_share", axis = "share of blocked cells", rows = [{ contender = "A*" }] }
+settings = { panels = [{ x = "blocked_share", y = "solved", axis = "share of blocked cells", problems = ["maps"], contenders = ["A*"] }] }
 "#;
 
 fn bench() -> Bench {

@@ -135,41 +135,46 @@ enum Statistic {
     Spreads,
     Ratios,
     Singles,
+    Failures,
     OverTime,
     Pairs,
     Distribution,
 }
 
 impl Statistic {
-    /// What stands in captions, what it is usually drawn by, and what it may be drawn by besides.
-    fn about(self) -> (&'static str, &'static [MarkKind], &'static [MarkKind]) {
+    /// What stands in captions.
+    fn caption(self) -> &'static str {
+        match self {
+            Self::Solved | Self::Difference | Self::Distance => {
+                "Means over instances with 95 % intervals; unsolved queries count; {n}."
+            }
+            Self::Reductions => "Mean reductions where both solve, with 95 % bootstrap intervals; {n}.",
+            Self::Savings | Self::Spreads => "Median, quartiles, 5–95 %, where all solve; {n}.",
+            Self::Ratios => "Instances that both solve, and geometric means; {n}.",
+            Self::Singles => "Single trials; {n}.",
+            Self::Failures => "Single trials and medians, failures infinite; {n}.",
+            Self::OverTime => {
+                "Medians over queries with 95 % bootstrap intervals over instances. No path costs infinitely much; {n}."
+            }
+            Self::Pairs => "Means over instances that have such pairs; {n}.",
+            Self::Distribution => "Outer hundredths cut; {n}.",
+        }
+    }
+
+    /// By what it is drawn where the spec does not say, and by what it may be drawn besides.
+    fn marks(self, is_named: bool) -> [&'static [MarkKind]; 2] {
         use MarkKind::{Band, Bar, Box, Dots, Line, Point};
         match self {
-            Self::Solved | Self::Difference => (
-                "Means over instances with 95 % intervals, along a sweep simultaneous; unsolved queries count; {n}.",
-                &[Line, Band],
-                &[Point, Dots],
-            ),
-            Self::Distance => ("Means over instances with 95 % intervals; {n}.", &[Line, Point, Band], &[]),
-            Self::Reductions => {
-                ("Mean reductions where both solve, with 95 % bootstrap intervals; {n}.", &[Point], &[])
-            }
-            Self::Savings | Self::Spreads => {
-                ("Median, quartiles, 5–95 %, where all solve; {n}.", &[Box], &[Dots])
-            }
-            Self::Ratios => (
-                "A dot for each instance that both solve; lines: geometric means; {n}.",
-                &[Dots, Line],
-                &[Point],
-            ),
-            Self::Singles => ("Single trials; {n}.", &[Line, Point], &[Dots]),
-            Self::OverTime => (
-                "Medians over queries with 95 % bootstrap intervals over instances. No path costs infinitely much; {n}.",
-                &[Line, Band],
-                &[],
-            ),
-            Self::Pairs => ("Means over instances that have such pairs; {n}.", &[Bar], &[]),
-            Self::Distribution => ("Outer hundredths cut; {n}.", &[Line], &[]),
+            Self::Solved if !is_named => [&[Line, Band], &[Point, Dots]],
+            Self::Solved | Self::Difference | Self::Reductions => [&[Point], &[]],
+            Self::Distance => [&[Line, Point, Band], &[]],
+            Self::Savings | Self::Spreads => [&[Box, Dots], &[]],
+            Self::Ratios => [&[Line, Dots], &[Point]],
+            Self::Singles => [&[Line, Point], &[Dots]],
+            Self::Failures => [&[Point, Dots], &[]],
+            Self::OverTime => [&[Line, Band], &[]],
+            Self::Pairs => [&[Bar], &[]],
+            Self::Distribution => [&[Line], &[]],
         }
     }
 }
@@ -183,8 +188,8 @@ enum Along {
     Reasons,
     Instances,
     Time,
-    Sweep(String),
-    Column(&'static str),
+    /// A sweep, or a column of the problem.
+    Number(String),
     Metric(&'static Metric),
 }
 
@@ -275,22 +280,17 @@ impl StatisticsPanel {
                 .sweeps_called(&problems, std::slice::from_ref(text))
                 .map_err(|(_, message)| settings.error_at("sweep", message).about(&sweeps_of(&study.name)))?;
         }
-        for name in &spec.studies {
-            let known = || paper.studies.iter().map(|study| study.name.as_str());
-            let missing =
-                || settings.error_about("", &["studies"], name, none_called("study", name, known()));
-            paper.study(name).ok_or_else(missing)?;
+        let other = |name: &String| {
+            let known = paper.studies.iter().map(|study| study.name.as_str());
+            let missing = || settings.error_about("", &["stud"], name, none_called("study", name, known));
+            paper.study(name).ok_or_else(missing)
+        };
+        spec.studies.iter().try_for_each(|name| other(name).map(|_| ()))?;
+        for level in &spec.levels {
+            ask::known(&settings, other(&level.study)?, [&level.problems], [&level.contender])?;
         }
-        for (index, level) in spec.levels.iter().enumerate() {
-            let missing = || format!("there is no study `{}`", level.study);
-            let other = paper.study(&level.study);
-            let other =
-                other.ok_or_else(|| settings.error_at(&format!("levels.{index}.study"), missing()))?;
-            ask::known(&settings, other, [&level.problems], [&level.contender])?;
-        }
-        let (_, usual, besides) = statistic.about();
-        if let Some(mark) = spec.marks.iter().find(|mark| !usual.contains(mark) && !besides.contains(mark)) {
-            let accepted = [usual, besides].concat();
+        let accepted = statistic.marks(along.is_names()).concat();
+        if let Some(mark) = spec.marks.iter().find(|mark| !accepted.contains(mark)) {
             let message = format!("`marks` has {mark:?}; accepted here: {accepted:?}").to_lowercase();
             return Err(settings.error_at("marks", message));
         }
@@ -318,7 +318,7 @@ impl StatisticsPanel {
         for (index, id) in self.spec.printed.iter().enumerate() {
             let key = format!("printed.{index}");
             let sweep = self.spec.row.as_ref().or(match &self.along {
-                Along::Sweep(name) => Some(name),
+                Along::Number(name) => Some(name),
                 _ => None,
             });
             let sweep = sweep.and_then(|name| study.sweeps.iter().find(|sweep| sweep.key == *name));
@@ -341,9 +341,7 @@ impl StatisticsPanel {
 
     /// How its numbers are drawn.
     fn has(&self, mark: MarkKind) -> bool {
-        let (_, usual, _) = self.statistic.about();
-        let usual =
-            if self.along.is_names() && usual.contains(&MarkKind::Line) { &[MarkKind::Point] } else { usual };
+        let [usual, _] = self.statistic.marks(self.along.is_names());
         if self.spec.marks.is_empty() { usual.contains(&mark) } else { self.spec.marks.contains(&mark) }
     }
 }
@@ -362,20 +360,14 @@ fn along_called(
         "reasons" => Along::Reasons,
         "instances" => Along::Instances,
         "time" => Along::Time,
-        _ if study.sweeps.iter().any(|sweep| sweep.key == word) => Along::Sweep(word.to_owned()),
-        _ => match column::find(word).filter(|_| is_ratio) {
-            Some(column) => Along::Column(column.name),
-            None => Along::Metric(metric::find(word).ok_or_else(|| {
-                let sweeps: Vec<&str> = study.sweeps.iter().map(|sweep| sweep.key.as_str()).collect();
-                let message = format!(
-                    "nothing stands along `{word}`; a metric, problems, contenders, queries, instances, time, reasons and the sweeps of study `{}` ({}) \
-                     are accepted",
-                    study.name,
-                    sweeps.join(", ")
-                );
-                settings.error_about("", &["x", "y"], word, message).about(&sweeps_of(&study.name))
-            })?),
-        },
+        _ if study.sweeps.iter().any(|sweep| sweep.key == word) => Along::Number(word.to_owned()),
+        _ if is_ratio && column::find(word).is_some() => Along::Number(word.to_owned()),
+        _ => Along::Metric(metric::find(word).ok_or_else(|| {
+            let names = ["problems", "contenders", "queries", "reasons", "instances", "time"];
+            let known = names.into_iter().chain(study.sweeps.iter().map(|sweep| sweep.key.as_str()));
+            let message = none_called("axis", word, known) + ", and all metrics";
+            settings.error_about("", &["x", "y"], word, message).about(&sweeps_of(&study.name))
+        })?),
     })
 }
 
@@ -388,9 +380,11 @@ fn statistic(
 ) -> Result<Statistic, SettingsError> {
     let is_against = spec.against.is_some();
     Ok(match (along, number, metric) {
-        (Along::Sweep(_), "solved", _) if spec.row.is_some() => Statistic::Distance,
+        (Along::Number(_), "solved", _) if spec.row.is_some() => Statistic::Distance,
         (Along::Problems, "solved", _) if is_against => Statistic::Difference,
-        (Along::Problems | Along::Contenders | Along::Sweep(_), "solved", _) if !is_against => {
+        (Along::Problems | Along::Contenders | Along::Number(_), "solved", _)
+            if !is_against && !spec.ratio =>
+        {
             Statistic::Solved
         }
         (Along::Reasons, "pairs", _) => Statistic::Pairs,
@@ -398,8 +392,9 @@ fn statistic(
         (Along::Contenders | Along::Metric(_), _, Some(_)) if is_against => Statistic::Reductions,
         (Along::Queries, _, Some(_)) if is_against => Statistic::Savings,
         (Along::Queries, _, Some(_)) => Statistic::Spreads,
-        (Along::Sweep(_) | Along::Column(_), _, Some(_)) if is_against && spec.ratio => Statistic::Ratios,
-        (Along::Sweep(_) | Along::Metric(_), _, Some(_)) if !is_against => Statistic::Singles,
+        (Along::Number(_), _, Some(_)) if is_against && spec.ratio => Statistic::Ratios,
+        (Along::Number(_), _, Some(_)) if !is_against && !spec.ratio => Statistic::Singles,
+        (Along::Metric(_), _, Some(_)) if !is_against => Statistic::Failures,
         (Along::Time, _, Some(_)) if spec.until_s.is_some() => Statistic::OverTime,
         _ => {
             return Err(settings.error_at(
@@ -426,7 +421,7 @@ fn claim<'p>(settings: &Settings, paper: &'p Paper, id: &str) -> Result<&'p Clai
 
 impl Kind for Statistics {
     fn statistic(&self) -> Option<&'static str> {
-        self.panels.first().map(|panel| panel.statistic.about().0)
+        self.panels.first().map(|panel| panel.statistic.caption())
     }
 
     fn shown(&self) -> Vec<Shown<'_>> {
@@ -447,7 +442,7 @@ impl Kind for Statistics {
         let rows = self.panels.iter().filter(|panel| panel.is_sideways && panel.along.is_names());
         let heights = rows.map(StatisticsPanel::rows_pt);
         let height =
-            heights.reduce(f64::max).unwrap_or([200.0, 170.0, 150.0, 118.0][self.columns.clamp(1, 4) - 1]);
+            heights.reduce(f64::max).unwrap_or([200.0, 190.0, 150.0, 118.0][self.columns.clamp(1, 4) - 1]);
         // Ratios are compared, on one scale.
         let of_ratios =
             self.panels.iter().zip(&all).filter(|(panel, _)| panel.statistic == Statistic::Ratios);

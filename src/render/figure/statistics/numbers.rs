@@ -41,7 +41,10 @@ pub(super) struct Point {
     /// The number of the name that it is along.
     pub(super) place: usize,
     pub(super) at: [f64; 2],
+    /// The intervals that are drawn.
     pub(super) ends: [Interval; 2],
+    /// That of the number.
+    pub(super) interval: Interval,
     pub(super) spread: Spread,
     /// How many instances it rests on.
     pub(super) n: usize,
@@ -50,15 +53,27 @@ pub(super) struct Point {
 impl Point {
     fn new(place: usize, at: [f64; 2], interval: Interval, n: usize) -> Self {
         let ends = [Interval::new(at[0], at[0]), interval];
-        Self { place, at, ends, spread: Spread::default(), n }
+        Self { place, at, ends, interval, spread: Spread::default(), n }
     }
 
-    fn bare(at: [f64; 2]) -> Self {
+    /// A number without an interval.
+    pub(super) fn bare(at: [f64; 2]) -> Self {
         Self::new(0, at, Interval::new(at[1], at[1]), 1)
     }
 
     fn of(place: usize, along: f64, found: &Estimate) -> Self {
         Self::new(place, [along, found.value], found.interval, found.units)
+    }
+
+    /// That of what is less with one contender than with another: where two differ on no instance the value alone is drawn.
+    fn of_reduction(place: usize, along: f64, found: &Estimate) -> Self {
+        let point = Self::of(place, along, found);
+        let bare = Self::bare(point.at);
+        if found.is_agreed && found.value == 0.0 {
+            Self { place, interval: point.interval, n: point.n, ..bare }
+        } else {
+            point
+        }
     }
 }
 
@@ -167,30 +182,29 @@ impl StatisticsPanel {
     fn reduction(&self, scene: &Scene<'_>, metric: &'static Metric, contender: &str) -> Option<Estimate> {
         let of = Selection { metric: Some(metric), ..self.trials(scene.run, &self.problems, contender) };
         let names = [scene.run.study.name.as_str(), contender, of.against.as_deref()?, metric.name];
-        let found = of_all(OverallStatistic::ReductionPercent, &of, scene.evidence, &names)?;
-        // Where two differ on no instance there is the value alone.
-        let is_none = found.is_agreed && found.value == 0.0;
-        let interval = if is_none { Interval::new(found.value, found.value) } else { found.interval };
-        Some(Estimate { interval, ..found })
+        of_all(OverallStatistic::ReductionPercent, &of, scene.evidence, &names)
     }
 
     fn by_name(&self, scene: &Scene<'_>) -> Vec<Series> {
-        if self.along == Along::Contenders {
-            let found = self.contenders.iter().enumerate().filter_map(|(place, contender)| {
-                let found = self.estimate(scene, &self.problems, contender)?;
-                Some(Point::of(place, place as f64, &found))
+        let is_by_group = self.along == Along::Problems;
+        let series = if is_by_group { self.contenders.clone() } else { vec![String::new()] };
+        let of = |(index, label): (usize, &String)| {
+            let names = if is_by_group { &self.problems } else { &self.contenders };
+            let points = names.iter().enumerate().filter_map(|(place, name)| {
+                let own = std::slice::from_ref(name);
+                let (groups, contender) = if is_by_group { (own, label) } else { (&self.problems[..], name) };
+                let found = self.estimate(scene, groups, contender)?;
+                let within = Self::within(place, index, series.len());
+                let is_reduction = self.statistic == Statistic::Reductions;
+                Some(if is_reduction {
+                    Point::of_reduction(place, within, &found)
+                } else {
+                    Point::of(place, within, &found)
+                })
             });
-            return vec![Series { points: found.collect(), ..Series::default() }];
-        }
-        let count = self.contenders.len();
-        let of = |(index, contender): (usize, &String)| {
-            let points = self.problems.iter().enumerate().filter_map(|(place, group)| {
-                let found = self.estimate(scene, std::slice::from_ref(group), contender)?;
-                Some(Point::of(place, Self::within(place, index, count), &found))
-            });
-            self.of_contender(scene, contender, points.collect())
+            self.of_contender(scene, label, points.collect())
         };
-        self.contenders.iter().enumerate().map(of).collect()
+        series.iter().enumerate().map(of).collect()
     }
 
     /// What stands beside one name.
@@ -246,11 +260,8 @@ impl StatisticsPanel {
 
     /// Where the number of a trial stands along the axis.
     fn place(&self, row: &Row) -> Option<f64> {
-        match &self.along {
-            Along::Sweep(name) => row.key.sweep.value(name)?.as_f64(),
-            Along::Column(name) => row.value(name),
-            _ => None,
-        }
+        let Along::Number(name) = &self.along else { return None };
+        row.key.sweep.value(name).map_or_else(|| row.value(name), SweepValue::as_f64)
     }
 
     /// Every trial's number or its ratio to another's, and the geometric mean at each place.
@@ -266,9 +277,9 @@ impl StatisticsPanel {
         let Some(metric) = self.metric else { return Series::default() };
         if self.statistic == Statistic::Reductions {
             let both = self.reduction(scene, other, contender).zip(self.reduction(scene, metric, contender));
-            let point = both.map(|(x, y)| Point {
-                ends: [x.interval, y.interval],
-                ..Point::new(0, [x.value, y.value], y.interval, x.units)
+            let point = both.map(|(x, y)| {
+                let (across, up) = (Point::of_reduction(0, 0.0, &x), Point::of_reduction(0, x.value, &y));
+                Point { ends: [across.ends[1], up.ends[1]], ..up }
             });
             return self.of_contender(scene, contender, point.into_iter().collect());
         }
@@ -317,7 +328,7 @@ impl StatisticsPanel {
         contender: &str,
         series: &mut Series,
     ) {
-        let Along::Sweep(sweep) = &self.along else { return };
+        let Along::Number(sweep) = &self.along else { return };
         let all = self.trials(run, groups, contender);
         let keys: Vec<SweepKey> = all.sweep_points();
         let values = run.study.sweeps.iter().filter(|own| own.key == *sweep);

@@ -2,6 +2,7 @@
 
 use super::numbers::{Point, Series};
 use super::{Along, CurveLine, Curves, MarkKind, Statistic, StatisticsPanel};
+use crate::analysis::metric::Metric;
 use crate::render::RenderError;
 use crate::render::canvas::{Align, Stand, Type};
 use crate::render::chart::labels::Labels;
@@ -31,79 +32,54 @@ impl StatisticsPanel {
 
     /// Everything that its axis of numbers has to hold.
     pub(super) fn values(&self, all: &[Series]) -> Vec<f64> {
-        let points = all.iter().flat_map(|series| &series.points);
-        let ends = points.flat_map(|point| [point.at[1], point.ends[1].low, point.ends[1].high]);
-        let dots = all.iter().flat_map(|series| &series.dots).map(|dot| dot[1]);
-        let printed = all.iter().flat_map(|series| &series.printed).map(|printed| printed[1]);
-        let values = ends.chain(dots).chain(printed).chain(self.rules.iter().copied());
+        let of = |series: &Series| {
+            let dots = series.dots.iter().chain(&series.printed).map(|at| at[1]);
+            // The outermost hundredths of a distribution would squeeze all the rest.
+            let points = series.points.iter().filter(|_| self.statistic != Statistic::Distribution);
+            let points = points.flat_map(|point| {
+                // Single values beyond the whiskers are only drawn where there are dots.
+                let quantiles = point.spread.quantiles.into_iter().flatten();
+                let single = point.spread.values.iter().copied().filter(|_| self.has(MarkKind::Dots));
+                [point.at[1], point.ends[1].low, point.ends[1].high]
+                    .into_iter()
+                    .chain(quantiles)
+                    .chain(single)
+                    .collect::<Vec<_>>()
+            });
+            points.chain(dots).collect::<Vec<f64>>()
+        };
+        let values = all.iter().flat_map(of).chain(self.rules.iter().copied());
         values.filter(|value| value.is_finite()).collect()
     }
 
     /// The axis of the number.
-    fn number_axis(&self, scene: &Scene<'_>, all: &[Series], ratios: &[f64]) -> Result<Axis, RenderError> {
+    fn number_axis(&self, all: &[Series], ratios: &[f64]) -> Result<Axis, RenderError> {
         let values = self.values(all);
-        let (least, most) = (
-            |all: &[f64]| all.iter().copied().fold(f64::INFINITY, f64::min),
-            |all: &[f64]| all.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-        );
         let against = self.spec.against.as_deref().unwrap_or_default();
-        let metric = || self.metric.map_or_else(String::new, |metric| metric.title());
-        match self.statistic {
-            Statistic::Solved => Axis::linear("groups solved (%)", -3.0, 103.0),
-            Statistic::Difference => {
-                Axis::linear(format!("difference from “{against}” (points)"), -103.0, 103.0)
-            }
-            Statistic::Distance => {
-                Axis::linear("distance from the printed row (points)", 0.0, most(&values).max(1.0) * 1.05)
-            }
+        let title = self.metric.map_or_else(String::new, Metric::title);
+        let log = |title: String, values: &[f64]| {
+            let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+            Axis::log(title, low / 1.5, values.iter().copied().fold(0.0, f64::max) * 1.5)
+        };
+        let (title, least): (String, &[f64]) = match self.statistic {
+            Statistic::Solved => ("groups solved (%)".to_owned(), &[0.0, 100.0]),
+            Statistic::Difference => (format!("difference from “{against}” (points)"), &[-100.0, 100.0]),
+            Statistic::Distance => ("distance from the printed row (points)".to_owned(), &[0.0]),
             Statistic::Reductions => {
-                let title = self.metric.map_or_else(String::new, |metric| less_than(metric, against));
-                Ok(Axis::over(title, values.into_iter().chain([0.0])))
+                (self.metric.map_or_else(String::new, |metric| less_than(metric, against)), &[0.0])
             }
-            Statistic::Savings => {
-                let single =
-                    all.iter().flat_map(|series| &series.points).flat_map(|point| &point.spread.values);
-                let low = single.copied().fold(0.0, f64::min);
-                Axis::linear("saving (%)", low - 5.0, 103.0)
-            }
-            Statistic::Spreads => {
-                // Single values beyond the whiskers are only drawn where there are dots.
-                let points = all.iter().flat_map(|series| &series.points);
-                let top = points.flat_map(|point| match point.spread.quantiles {
-                    Some(quantiles) if !self.has(MarkKind::Dots) => vec![quantiles[4]],
-                    _ => point.spread.values.clone(),
-                });
-                let top = top.fold(0.0, f64::max);
-                Axis::linear(metric(), 0.0, if top > 0.0 { top * 1.04 } else { 1.0 })
-            }
+            Statistic::Savings => ("saving (%)".to_owned(), &[0.0, 100.0]),
+            Statistic::Spreads => (title, &[0.0]),
             Statistic::Ratios => {
                 let metric = self.metric.map_or_else(String::new, |metric| metric.label.to_lowercase());
-                let label = format!("{metric} as a ratio to {against}'s");
-                Axis::log(label, least(ratios).min(1.0) / 1.5, most(ratios).max(1.0) * 1.5)
+                return log(format!("{metric}, ratio"), &[ratios, &[1.0]].concat());
             }
-            Statistic::Singles if matches!(self.along, Along::Sweep(_)) => {
-                Axis::log(metric(), least(&values) / 1.5, most(&values) * 1.5)
-            }
-            Statistic::Singles | Statistic::OverTime => Ok(Axis::over(metric(), values)),
-            Statistic::Pairs => Axis::linear("share of pairs (%)", 0.0, 100.0),
-            Statistic::Distribution => Ok(Axis::over(self.spec.axis.clone(), self.bulk(all))),
-        }
-        .map_err(|error| self.named(scene, error))
-    }
-
-    /// An error about an axis, of numbers that are not there as such.
-    fn named(&self, scene: &Scene<'_>, error: RenderError) -> RenderError {
-        let what = format!("numbers of `{}` in study `{}`", self.spec.y, scene.run.study.name);
-        if matches!(self.statistic, Statistic::Ratios | Statistic::Singles) {
-            RenderError::NotStored { what }
-        } else {
-            error
-        }
-    }
-
-    /// What a distribution's axis holds: the outermost hundredth on either side would squeeze all the rest.
-    fn bulk(&self, all: &[Series]) -> Vec<f64> {
-        all.iter().flat_map(|series| series.dots.iter().chain(&series.printed)).map(|at| at[1]).collect()
+            Statistic::Singles => return log(title, &values),
+            Statistic::Failures | Statistic::OverTime => (title, &[]),
+            Statistic::Pairs => ("share of pairs (%)".to_owned(), &[0.0, 100.0]),
+            Statistic::Distribution => (self.spec.axis.clone(), &[]),
+        };
+        Ok(Axis::over(title, values.iter().chain(least).copied()))
     }
 
     /// The axis of what the number is along.
@@ -118,12 +94,8 @@ impl StatisticsPanel {
         Ok(match &self.along {
             Along::Instances => Axis::linear(format!("share of {}", noun([scene.run.study])), 0.0, 1.0)?,
             Along::Time => Axis::linear("time (s)", 0.0, self.spec.until_s.unwrap_or(1.0))?,
-            Along::Sweep(name) => {
-                let words = if self.spec.axis.is_empty() { name } else { &self.spec.axis };
-                Axis::over(words.clone(), places())
-            }
-            Along::Column(name) => {
-                let about = study::column::find(name).map_or(*name, |column| column.about);
+            Along::Number(name) => {
+                let about = study::column::find(name).map_or(name.as_str(), |column| column.about);
                 Axis::over(if self.spec.axis.is_empty() { about } else { &self.spec.axis }, places())
             }
             Along::Metric(other) if self.statistic == Statistic::Reductions => {
@@ -165,21 +137,9 @@ impl StatisticsPanel {
         parts.join(", ")
     }
 
-    /// What stands below the figure over time: what an open interval looks like, and who has no curve.
+    /// What stands below it.
     pub(super) fn note(&self, all: &[Series]) -> String {
-        if self.statistic != Statistic::OverTime {
-            return String::new();
-        }
-        let without = all.iter().filter(|series| series.points.is_empty());
-        let without: Vec<&str> = without.map(|series| series.label.as_str()).collect();
-        let open = "An interval that has no upper end goes to the top.";
-        let until_s = self.spec.until_s.unwrap_or_default();
-        match without.as_slice() {
-            [] => open.to_owned(),
-            _ => {
-                format!("{open} No path for half of the queries within {until_s} s: {}.", without.join(", "))
-            }
-        }
+        self.spec.until_s.map_or_else(String::new, |until_s| note_over_time(until_s, all))
     }
 
     /// The panel with everything on it; `ratios` are those of the whole figure, which its panels share a scale for.
@@ -190,7 +150,7 @@ impl StatisticsPanel {
         ratios: &[f64],
         is_first: bool,
     ) -> Result<Panel, RenderError> {
-        let number = self.number_axis(scene, all, ratios)?;
+        let number = self.number_axis(all, ratios)?;
         let along = self.along_axis(scene, all, is_first)?;
         let ends = [along.ends(), number.ends()];
         let [x, y] = self.turned([along, number]);
@@ -229,7 +189,9 @@ impl StatisticsPanel {
         let against = self.spec.against.as_deref().unwrap_or_default();
         match self.statistic {
             Statistic::Ratios => {
-                panel.add(self.line_at(1.0, along, Stroke::solid(GREY, 0.8)).labelled(against));
+                panel.add(
+                    self.line_at(1.0, along, Stroke::solid(GREY, 0.8)).labelled(format!("as with {against}")),
+                );
             }
             Statistic::Reductions | Statistic::Difference if self.along.is_names() => {
                 panel.add(self.line_at(0.0, along, Stroke::solid(INK, 0.6)));
@@ -273,18 +235,14 @@ impl StatisticsPanel {
             };
             let edges = series.points.iter().map(edge).collect();
             panel.add(Band { edges, fill: Fill::sheer(color, 0.2), label: String::new() });
-            if !series.printed.is_empty() && !series.one_more.is_empty() {
-                let label = format!(
-                    "{}: one more {}, 95 %",
-                    series.label,
-                    noun([scene.run.study]).trim_end_matches('s')
-                );
-                panel.add(Band { edges: series.one_more.clone(), fill: Fill::sheer(color, 0.1), label });
-            }
         }
         let marker = series_marker(series.looks + series.looks / SERIES.len());
         if self.has(MarkKind::Line) && !points.is_empty() {
-            let line = Line::through(points.clone(), series_stroke(series.looks)).labelled(&label);
+            let own = series_stroke(series.looks);
+            // A mean over curves of single instances stands out.
+            let stroke =
+                Stroke { width_pt: if series.curves.is_empty() { own.width_pt } else { 1.8 }, ..own };
+            let line = Line::through(points.clone(), stroke).labelled(&label);
             panel.add(if self.has(MarkKind::Point) { line.marked(marker) } else { line });
             if let (Statistic::Distribution, Some(point)) = (self.statistic, series.points.first()) {
                 panel.add(how_many([ends[0], 1.0], index, point.n));
@@ -292,7 +250,7 @@ impl StatisticsPanel {
         } else if self.has(MarkKind::Point) {
             for (place, (at, point)) in points.iter().zip(&series.points).enumerate() {
                 let label = if place == 0 { label.clone() } else { String::new() };
-                let is_hollow = self.statistic == Statistic::Singles;
+                let is_hollow = self.statistic == Statistic::Failures;
                 panel.add(Whiskers {
                     at: *at,
                     ends: self.turned(point.ends),
@@ -302,6 +260,11 @@ impl StatisticsPanel {
                     label,
                 });
             }
+        }
+        if self.has(MarkKind::Band) && !series.printed.is_empty() && !series.one_more.is_empty() {
+            let label =
+                format!("{}: one more {}, 95 %", series.label, noun([scene.run.study]).trim_end_matches('s'));
+            panel.add(Band { edges: series.one_more.clone(), fill: Fill::sheer(color, 0.1), label });
         }
         if self.has(MarkKind::Box) {
             for (place, point) in series.points.iter().enumerate() {
@@ -394,6 +357,17 @@ impl StatisticsPanel {
     }
 }
 
+/// What stands below a figure over time: what an open interval looks like, and who has no curve.
+fn note_over_time(until_s: f64, all: &[Series]) -> String {
+    let without = all.iter().filter(|series| series.points.is_empty());
+    let without: Vec<&str> = without.map(|series| series.label.as_str()).collect();
+    let open = "An interval that has no upper end goes to the top.";
+    match without.as_slice() {
+        [] => open.to_owned(),
+        _ => format!("{open} No path for half of the queries within {until_s} s: {}.", without.join(", ")),
+    }
+}
+
 /// The colour of a series: colours come round after seven, darker.
 fn color(looks: usize) -> crate::render::style::Rgb {
     series_color(looks).mixed(BLACK, if looks < SERIES.len() { 0.0 } else { 0.4 })
@@ -418,4 +392,18 @@ fn how_many(corner: [f64; 2], index: usize, instances: usize) -> Note {
     let set = Type { color: series_color(index), rim: true, ..set };
     let down_pt = (index as f64 + 1.0) * 1.25 * TextSize::TICK.pt();
     Note { at: corner, shift_pt: [3.0, down_pt], text: format!("n = {instances}"), set }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_finds_no_path_for_half_of_the_queries_is_named_below_the_figure() {
+        let series = |label: &str, points| Series { label: label.to_owned(), points, ..Series::default() };
+        let all = [series("BIT*", vec![Point::bare([0.1, 10.0])]), series("RRT*", Vec::new())];
+        let note = note_over_time(0.5, &all);
+        assert!(note.ends_with("No path for half of the queries within 0.5 s: RRT*."), "{note}");
+        assert!(!note_over_time(0.5, &all[..1]).contains("No path"), "everyone has a curve");
+    }
 }

@@ -41,7 +41,7 @@ fn columns<'a>(panel: &StatisticsPanel, series: &'a Series) -> Vec<Numbers<'a>> 
         ],
         _ => {
             let cell = |point: &Point| {
-                format!("{:.1} [{:.1}, {:.1}]", point.at[1], point.ends[1].low, point.ends[1].high)
+                format!("{:.1} [{:.1}, {:.1}]", point.at[1], point.interval.low, point.interval.high)
             };
             vec![Numbers { printed: panel.rules.first().copied(), ..column(&panel.spec.title, cell) }]
         }
