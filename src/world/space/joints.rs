@@ -13,15 +13,17 @@ use crate::geometry::lanes::{ROUGH_LANES, RoughRow, dispatch, level};
 use crate::geometry::{Frame, Placed, Rounded, Vec3, intersects_placed_placed};
 use crate::kinematics::open_chain::OpenChain;
 use base::robot::{MayTouch, Robot};
-use base::solid::{Form, Solid};
+use base::solid::Solid;
 use lanes::{Doubt, SecondSolid, Spheres};
 
-/// A path that is returned is checked four times in each step, and 64 times where the robot is nearly in contact.
-const FINER: [f64; 2] = [4.0, 64.0];
+/// How many configurations of a path that is returned are checked in each step. Those of a robot of spheres leave room for all between.
+const FINER: f64 = 4.0;
 
-/// How near is nearly, metres. Between two configurations at which a ball of radius r is free, and its centre s farther, it reaches no deeper
-/// than s²/8r into what is convex: at a quarter of a degree 0.05 mm and more for a ball at the end of an arm.
-const NEARLY_M: f64 = 0.0005;
+/// How many configurations in each step are checked with room for all between, one after the other.
+const WITH_ROOM: [f64; 3] = [1.0, 4.0, 16.0];
+
+/// How many are checked where that room is lacking.
+const FINEST: f64 = 64.0;
 
 /// A robot among obstacles.
 #[derive(Debug, Clone)]
@@ -36,8 +38,6 @@ pub struct JointSpace {
     step_rad: f64,
     /// The robot in lanes, if it is made of spheres.
     spheres: Option<Spheres>,
-    /// The same robot of spheres that are larger by [`NEARLY_M`].
-    larger: Option<Box<JointSpace>>,
 }
 
 /// Buffers that are reused from motion to motion.
@@ -97,33 +97,9 @@ impl JointSpace {
         let count = robot.solids.len();
         let pairs = (0..count).flat_map(|b| (0..b).map(move |a| [a, b]));
         let self_pairs: Vec<_> = pairs.filter(|pair| contact.is_checked(&robot, *pair)).collect();
-        let mut space = Self::of_pairs(robot, obstacles, self_pairs, step_rad, clearance_m);
-        if space.spheres.is_some() {
-            let mut robot = space.robot.clone();
-            for (_, solid) in &mut robot.solids {
-                if let Form::Sphere(radius) = &mut solid.form {
-                    *radius += NEARLY_M;
-                }
-            }
-            let obstacles = space.obstacles.clone();
-            let pairs = space.self_pairs.clone();
-            let larger = Self::of_pairs(robot, obstacles, pairs, step_rad, clearance_m);
-            space.larger = Some(Box::new(larger));
-        }
-        space
-    }
-
-    fn of_pairs(
-        robot: Robot,
-        obstacles: Vec<Solid>,
-        self_pairs: Vec<[usize; 2]>,
-        step_rad: f64,
-        clearance_m: f64,
-    ) -> Self {
         let chain = OpenChain::new(&robot);
         Self {
             spheres: Spheres::new(&robot, &chain, (&obstacles, clearance_m), &self_pairs),
-            larger: None,
             chain,
             parts: robot.solids.iter().map(|(link, solid)| (*link, rounded(solid, 0.0))).collect(),
             stills: obstacles.iter().map(|solid| rounded(solid, clearance_m)).collect(),
@@ -211,10 +187,15 @@ impl JointSpace {
     ///
     /// # Source
     /// Thomason, Kingston & Kavraki, *Motions in Microseconds via Vectorized Sampling-Based Planning*, ICRA 2024, section IV ("rakes").
-    pub fn goes(
+    pub fn goes(&self, ends: [&[f64]; 2], finer: f64, memory: &mut MotionMemory, checked: &mut u64) -> bool {
+        self.rakes(ends, (finer, false), memory, checked)
+    }
+
+    /// The same; `with_room`, only if nothing touches between the configurations either. Without lanes nothing is known of that.
+    fn rakes(
         &self,
         [from, to]: [&[f64]; 2],
-        finer: f64,
+        (finer, with_room): (f64, bool),
         memory: &mut MotionMemory,
         checked: &mut u64,
     ) -> bool {
@@ -226,15 +207,26 @@ impl JointSpace {
         changes.extend(self.chain.change(from, to));
         let changes: &[f64] = changes;
         let change = changes.iter().map(|change| change.abs()).fold(0.0, f64::max);
-        let blocks = (finer * change / self.step_rad / ROUGH_LANES as f64).ceil().max(1.0) as u32;
+        let blocks = (finer * change / self.step_rad / ROUGH_LANES as f64).ceil().max(1.0);
         let at =
             |share: f64| -> Vec<f64> { from.iter().zip(changes).map(|(a, by)| a + by * share).collect() };
         let ends = || from.iter().zip(changes).flat_map(|(a, by)| [*a, a + by]);
         let in_lanes = self.spheres.as_ref().filter(|_| Spheres::takes(ends()));
-        (0..blocks).all(|block| {
+        // The start is free, but need not have room.
+        let steps = blocks * ROUGH_LANES as f64 - 1.0;
+        match in_lanes {
+            Some(spheres) if with_room => spheres.make_room(changes, steps, lanes),
+            Some(spheres) => spheres.make_no_room(lanes),
+            None if with_room => return false,
+            None => {}
+        }
+        (0..blocks as u32).all(|block| {
             *checked += ROUGH_LANES as u64;
-            let back = f64::from(block) / f64::from(blocks);
-            let share = |lane: usize| (lane as f64 + 1.0 - back) / ROUGH_LANES as f64;
+            let block = f64::from(block);
+            let share = |lane: usize| match lane as f64 {
+                lane if with_room => (lane * blocks + block) / steps,
+                lane => (lane + 1.0 - block / blocks) / ROUGH_LANES as f64,
+            };
             let Some(spheres) = in_lanes else {
                 return (0..ROUGH_LANES).all(|lane| self.is_clear(&at(share(lane))));
             };
@@ -242,9 +234,9 @@ impl JointSpace {
             for (row, (a, by)) in rows.iter_mut().zip(from.iter().zip(changes)) {
                 *row = std::array::from_fn(|lane| (a + by * share(lane)) as f32);
             }
-            !dispatch!(level(), simd => spheres.touches(simd, rows, lanes))
-                && (lanes.doubts.is_empty()
-                    || (0..ROUGH_LANES).all(|lane| self.settles(lane, &lanes.doubts, || at(share(lane)))))
+            let touches = dispatch!(level(), simd => spheres.touches(simd, rows, lanes));
+            let settled = |lane: usize| self.settles(lane, &lanes.doubts, || at(share(lane)));
+            !touches && (lanes.doubts.is_empty() || !with_room && (0..ROUGH_LANES).all(settled))
         })
     }
 
@@ -263,15 +255,14 @@ impl JointSpace {
         }
     }
 
-    /// Whether a motion of a path that is returned is free. It is checked four times in each step. Where a robot made of spheres is nearly
-    /// in contact, it is checked 64 times. Counts as [`goes`](Self::goes) does.
+    /// Whether a motion of a path that is returned is free. It is checked four times in each step; of a robot of spheres so finely that
+    /// there is room for all between, or 64 times in each step. Counts as [`goes`](Self::goes) does.
     pub fn holds(&self, ends: [&[f64]; 2], memory: &mut MotionMemory, checked: &mut u64) -> bool {
-        match &self.larger {
-            None => self.goes(ends, FINER[0], memory, checked),
-            Some(larger) => {
-                larger.goes(ends, FINER[0], memory, checked) || self.goes(ends, FINER[1], memory, checked)
-            }
+        if self.spheres.is_none() {
+            return self.goes(ends, FINER, memory, checked);
         }
+        WITH_ROOM.iter().any(|finer| self.rakes(ends, (*finer, true), memory, checked))
+            || self.goes(ends, FINEST, memory, checked)
     }
 
     fn placed<'a>(&'a self, part: usize, frames: &'a [Frame]) -> Placed<'a> {

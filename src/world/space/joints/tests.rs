@@ -148,6 +148,7 @@ fn few_configurations_are_left_to_the_scalar_code() {
     let space = JointSpace::new(of_spheres(), vec![ball(0.9, 0.4)], &SelfContact::Apart, 0.1);
     let spheres = space.spheres.as_ref().unwrap();
     let mut lanes = lanes::Memory::default();
+    spheres.make_no_room(&mut lanes);
     let mut stream = base::seed::stream(29);
     let mut doubts = 0;
     for _ in 0..500 {
@@ -184,6 +185,34 @@ fn a_motion_that_slips_past_something_thin_is_refused_by_a_finer_look() {
     assert!((10..35).contains(&slipped), "one-sided sample: {slipped} of 40 slipped");
 }
 
+#[test]
+fn what_has_room_for_all_between_is_free_at_each_of_many_configurations() {
+    let mut stream = base::seed::stream(31);
+    let mut near = |middle: f64, by: f64| rand::RngExt::random_range(&mut stream, middle - by..middle + by);
+    let mut thin = |k: u32| {
+        let pose = Pose { origin_m: [near(0.8, 0.4), near(0.0, 0.3), near(0.5, 0.3)], ..Pose::IDENTITY };
+        Solid { name: format!("thin {k}"), pose, form: Form::Sphere(0.001) }
+    };
+    let thin = (0..300).map(&mut thin).collect();
+    let mut robot = of_spheres();
+    robot.solids.iter_mut().for_each(|(_, solid)| solid.form = Form::Sphere(0.01));
+    let mut space = JointSpace::new(robot, thin, &SelfContact::Apart, 0.2);
+    let mut memory = MotionMemory::default();
+    let (mut free, mut slipped) = (0, 0);
+    for case in 0..4000 {
+        let most = near(0.3, 0.3);
+        let from = [0.0, 0.9, 0.0, 0.0, 0.0, 0.0, 0.2].map(|at| near(at, 0.2));
+        let to = from.map(|at| near(at, most));
+        space.self_pairs.truncate(if case % 2 == 0 { 0 } else { 1000 });
+        let is_free = space.goes([&from, &to], 64.0, &mut memory, &mut 0);
+        let has_room = space.rakes([&from, &to], (1.0, true), &mut memory, &mut 0);
+        assert!(is_free || !has_room, "case {case}: {from:?} {to:?}");
+        free += u32::from(has_room);
+        slipped += u32::from(!is_free && space.goes([&from, &to], 1.0, &mut memory, &mut 0));
+    }
+    assert!(free > 60 && slipped > 20, "one-sided sample: {free} have room, {slipped} slip past something");
+}
+
 /// A ball may graze another between two configurations at which both are apart; a path's motions are looked at as finely as that takes.
 #[test]
 fn a_graze_between_two_looks_is_refused_where_a_path_is_returned() {
@@ -205,7 +234,7 @@ fn a_graze_between_two_looks_is_refused_where_a_path_is_returned() {
         let mut to = from;
         to[1] += 1.4;
         let grazing = of(top_m - 1e-5);
-        slipped += u32::from(grazing.goes([&from, &to], FINER[0], &mut memory, &mut 0));
+        slipped += u32::from(grazing.goes([&from, &to], FINER, &mut memory, &mut 0));
         refused += u32::from(!grazing.holds([&from, &to], &mut memory, &mut 0));
         let apart = of(top_m + 1e-5);
         assert!(apart.holds([&from, &to], &mut memory, &mut 0), "case {case}: nothing touches");
