@@ -19,11 +19,8 @@ use lanes::{Doubt, SecondSolid, Spheres};
 /// How many configurations of a path that is returned are checked in each step. Those of a robot of spheres leave room for all between.
 const FINER: f64 = 4.0;
 
-/// How many configurations in each step are checked with room for all between, one after the other.
-const WITH_ROOM: [f64; 3] = [1.0, 4.0, 16.0];
-
-/// How many are checked where that room is lacking.
-const FINEST: f64 = 64.0;
+/// How often a step is halved at most where room is lacking.
+const HALVINGS: u32 = 6;
 
 /// A robot among obstacles.
 #[derive(Debug, Clone)]
@@ -67,6 +64,14 @@ impl SelfContact {
             Self::Apart => apart > 1,
             Self::Except(may_touch) => apart > 0 && !may_touch.allows(&robot.owners[a], &robot.owners[b]),
         }
+    }
+}
+
+/// Writes the joints at the share of a motion that each lane has.
+fn fill(rows: &mut Vec<RoughRow>, from: &[f64], changes: &[f64], share: impl Fn(usize) -> f64) {
+    rows.resize(from.len(), [0.0; ROUGH_LANES]);
+    for (row, (a, by)) in rows.iter_mut().zip(from.iter().zip(changes)) {
+        *row = std::array::from_fn(|lane| (a + by * share(lane)) as f32);
     }
 }
 
@@ -187,57 +192,48 @@ impl JointSpace {
     ///
     /// # Source
     /// Thomason, Kingston & Kavraki, *Motions in Microseconds via Vectorized Sampling-Based Planning*, ICRA 2024, section IV ("rakes").
-    pub fn goes(&self, ends: [&[f64]; 2], finer: f64, memory: &mut MotionMemory, checked: &mut u64) -> bool {
-        self.rakes(ends, (finer, false), memory, checked)
-    }
-
-    /// The same; `with_room`, only if nothing touches between the configurations either. Without lanes nothing is known of that.
-    fn rakes(
+    pub fn goes(
         &self,
         [from, to]: [&[f64]; 2],
-        (finer, with_room): (f64, bool),
+        finer: f64,
         memory: &mut MotionMemory,
         checked: &mut u64,
     ) -> bool {
         if self.chain.outside(to).is_some() {
             return false;
         }
-        let MotionMemory { changes, rows, lanes } = memory;
+        let MotionMemory { changes, rows, lanes, .. } = memory;
         changes.clear();
         changes.extend(self.chain.change(from, to));
         let changes: &[f64] = changes;
-        let change = changes.iter().map(|change| change.abs()).fold(0.0, f64::max);
-        let blocks = (finer * change / self.step_rad / ROUGH_LANES as f64).ceil().max(1.0);
+        let blocks = self.blocks(changes, finer);
         let at =
             |share: f64| -> Vec<f64> { from.iter().zip(changes).map(|(a, by)| a + by * share).collect() };
-        let ends = || from.iter().zip(changes).flat_map(|(a, by)| [*a, a + by]);
-        let in_lanes = self.spheres.as_ref().filter(|_| Spheres::takes(ends()));
-        // The start is free, but need not have room.
-        let steps = blocks * ROUGH_LANES as f64 - 1.0;
-        match in_lanes {
-            Some(spheres) if with_room => spheres.make_room(changes, steps, lanes),
-            Some(spheres) => spheres.make_no_room(lanes),
-            None if with_room => return false,
-            None => {}
-        }
-        (0..blocks as u32).all(|block| {
+        let in_lanes = self.in_lanes(from, changes);
+        (0..blocks).all(|block| {
             *checked += ROUGH_LANES as u64;
-            let block = f64::from(block);
-            let share = |lane: usize| match lane as f64 {
-                lane if with_room => (lane * blocks + block) / steps,
-                lane => (lane + 1.0 - block / blocks) / ROUGH_LANES as f64,
-            };
+            let back = f64::from(block) / f64::from(blocks);
+            let share = |lane: usize| (lane as f64 + 1.0 - back) / ROUGH_LANES as f64;
             let Some(spheres) = in_lanes else {
                 return (0..ROUGH_LANES).all(|lane| self.is_clear(&at(share(lane))));
             };
-            rows.resize(from.len(), [0.0; ROUGH_LANES]);
-            for (row, (a, by)) in rows.iter_mut().zip(from.iter().zip(changes)) {
-                *row = std::array::from_fn(|lane| (a + by * share(lane)) as f32);
-            }
-            let touches = dispatch!(level(), simd => spheres.touches(simd, rows, lanes));
-            let settled = |lane: usize| self.settles(lane, &lanes.doubts, || at(share(lane)));
-            !touches && (lanes.doubts.is_empty() || !with_room && (0..ROUGH_LANES).all(settled))
+            fill(rows, from, changes, share);
+            !dispatch!(level(), simd => spheres.touches(simd, rows, false, lanes))
+                && (lanes.doubts.is_empty()
+                    || (0..ROUGH_LANES).all(|lane| self.settles(lane, &lanes.doubts, || at(share(lane)))))
         })
+    }
+
+    /// How many times eight configurations of a motion are checked at least.
+    fn blocks(&self, changes: &[f64], finer: f64) -> u32 {
+        let change = changes.iter().map(|change| change.abs()).fold(0.0, f64::max);
+        (finer * change / self.step_rad / ROUGH_LANES as f64).ceil().max(1.0) as u32
+    }
+
+    /// The robot in lanes, if they take a motion.
+    fn in_lanes(&self, from: &[f64], changes: &[f64]) -> Option<&Spheres> {
+        let ends = || from.iter().zip(changes).flat_map(|(a, by)| [*a, a + by]);
+        self.spheres.as_ref().filter(|_| Spheres::takes(ends()))
     }
 
     /// Whether nothing touches that is in doubt in one of eight configurations, which `at` gives.
@@ -255,14 +251,47 @@ impl JointSpace {
         }
     }
 
-    /// Whether a motion of a path that is returned is free. It is checked four times in each step; of a robot of spheres so finely that
-    /// there is room for all between, or 64 times in each step. Counts as [`goes`](Self::goes) does.
+    /// Whether a motion of a path that is returned is free. It is checked four times in each step. Of a robot of spheres, each configuration in
+    /// a step must leave room for what lies between it and the next; around those that do not, steps are halved, up to six times. Counts
+    /// as [`goes`](Self::goes) does.
     pub fn holds(&self, ends: [&[f64]; 2], memory: &mut MotionMemory, checked: &mut u64) -> bool {
-        if self.spheres.is_none() {
+        let [from, to] = ends;
+        let changes: Vec<f64> = self.chain.change(from, to).collect();
+        let Some(spheres) = self.in_lanes(from, &changes).filter(|_| self.chain.outside(to).is_none()) else {
             return self.goes(ends, FINER, memory, checked);
+        };
+        let MotionMemory { rows, lanes, .. } = memory;
+        let blocks = self.blocks(&changes, 1.0);
+        let mut steps = blocks * ROUGH_LANES as u32 - 1;
+        let lanes_of = |block| (0..ROUGH_LANES as u32).map(move |lane| lane * blocks + block);
+        let mut places: Vec<u32> = (0..blocks).flat_map(lanes_of).collect();
+        for _ in 0..=HALVINGS {
+            spheres.make_room(&changes, f64::from(steps), lanes);
+            let mut narrow = Vec::new();
+            for eight in places.chunks(ROUGH_LANES) {
+                *checked += ROUGH_LANES as u64;
+                let place = |lane: usize| eight[lane.min(eight.len() - 1)];
+                let share = |lane: usize| f64::from(place(lane)) / f64::from(steps);
+                fill(rows, from, &changes, share);
+                dispatch!(level(), simd => spheres.touches(simd, rows, true, lanes));
+                if lanes.doubts.is_empty() {
+                    continue;
+                }
+                let lacks_room = |lane: &usize| lanes.doubts.iter().any(|doubt| doubt.is_at[*lane]);
+                narrow.extend((0..ROUGH_LANES).filter(lacks_room).map(place));
+                let touches = dispatch!(level(), simd => spheres.touches(simd, rows, false, lanes));
+                let at = |lane| from.iter().zip(&changes).map(|(a, by)| a + by * share(lane)).collect();
+                if touches || !(0..ROUGH_LANES).all(|lane| self.settles(lane, &lanes.doubts, || at(lane))) {
+                    return false;
+                }
+            }
+            places =
+                narrow.into_iter().flat_map(|k| 2 * k.saturating_sub(1)..=2 * (k + 1).min(steps)).collect();
+            places.sort_unstable();
+            places.dedup();
+            steps *= 2;
         }
-        WITH_ROOM.iter().any(|finer| self.rakes(ends, (*finer, true), memory, checked))
-            || self.goes(ends, FINEST, memory, checked)
+        true
     }
 
     fn placed<'a>(&'a self, part: usize, frames: &'a [Frame]) -> Placed<'a> {

@@ -135,7 +135,7 @@ pub(super) struct Memory {
     balls: Vec<[RoughRow; 3]>,
     spheres: Vec<[RoughRow; 3]>,
     is_placed: Vec<bool>,
-    /// By how much the spheres of each link are larger than they are; see [`Spheres::make_room`].
+    /// How much room the spheres of each link need for what lies between two configurations, metres.
     rooms: Vec<f32>,
     /// What the last block left to the scalar code.
     pub(super) doubts: Vec<Doubt>,
@@ -268,14 +268,8 @@ impl Spheres {
         values.all(|value| value.abs() <= MOST)
     }
 
-    /// Takes all spheres as they are.
-    pub(super) fn make_no_room(&self, memory: &mut Memory) {
-        memory.rooms.clear();
-        memory.rooms.resize(self.links.len(), 0.0);
-    }
-
-    /// Makes spheres so much larger that between two configurations, from one of which to the other joints make one of so many `steps` of
-    /// `changes`, no sphere touches anything if no larger one does at either.
+    /// Notes how much larger spheres must be for nothing to touch between two configurations if no larger sphere touches at either. From one to
+    /// the other joints make one of so many `steps` of `changes`.
     ///
     /// The centre of a sphere of radius r goes at most s from one to the other, and strays from the chord by a/8, where a bounds its
     /// second derivative. A point that is r + m from both ends of a chord s is r from all of it if m is at least s²/8r. For two spheres of the
@@ -294,16 +288,22 @@ impl Spheres {
     }
 
     /// Whether one of eight configurations at least, whose joints are in `values`, is in contact. If none is, those that may be are
-    /// left in the memory's doubts. Spheres are as large as the memory's rooms say.
+    /// left in the memory's doubts. `with_room`, no contact is sure: those that lack the noted room are in doubt.
     #[inline(always)]
-    pub(super) fn touches<S: Simd>(&self, simd: S, values: &[RoughRow], memory: &mut Memory) -> bool {
+    pub(super) fn touches<S: Simd>(
+        &self,
+        simd: S,
+        values: &[RoughRow],
+        with_room: bool,
+        memory: &mut Memory,
+    ) -> bool {
         self.place(simd, values, memory);
         memory.doubts.clear();
         for (index, link) in self.links.iter().enumerate().rev().filter(|(_, link)| link.moved_by > 0) {
             let centre = point(simd, &memory.balls[index]);
             for number in &link.near {
                 let still = &self.stills[*number];
-                let room = memory.rooms[index];
+                let room = if with_room { memory.rooms[index] } else { 0.0 };
                 let ball = link.ball.radius + room + still.clearance;
                 let apart = centre - Point::splat_rough(simd, still.origin);
                 let far = square(link.ball.radius + room + still.reach + still.band);
@@ -320,7 +320,7 @@ impl Spheres {
                     let radius = sphere.radius + room + still.clearance;
                     let near = least.simd_lt(square(radius + still.band));
                     if near.any_true() {
-                        if most.simd_lt(square((radius - still.band).max(0.0))).any_true() {
+                        if !with_room && most.simd_lt(square((radius - still.band).max(0.0))).any_true() {
                             return true;
                         }
                         let marks = near.select(Rough::splat(simd, 1.0), Rough::splat(simd, 0.0)).to_array();
@@ -336,7 +336,7 @@ impl Spheres {
         for pair in &self.pairs {
             let [a, b] = pair.links;
             let apart = point(simd, &memory.balls[a]) - point(simd, &memory.balls[b]);
-            let room = memory.rooms[a] + memory.rooms[b];
+            let room = if with_room { memory.rooms[a] + memory.rooms[b] } else { 0.0 };
             let balls = self.links[a].ball.radius + self.links[b].ball.radius + room + BAND;
             if !apart.dot(apart).simd_lt(square(balls)).any_true() {
                 continue;
@@ -349,7 +349,7 @@ impl Spheres {
                 let (gap, reach) = (apart.dot(apart), reach + room);
                 let near = gap.simd_lt(square(reach + BAND));
                 if near.any_true() {
-                    if gap.simd_lt(square(reach - BAND)).any_true() {
+                    if !with_room && gap.simd_lt(square(reach - BAND)).any_true() {
                         return true;
                     }
                     let marks = near.select(Rough::splat(simd, 1.0), Rough::splat(simd, 0.0)).to_array();

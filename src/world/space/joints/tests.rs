@@ -148,14 +148,13 @@ fn few_configurations_are_left_to_the_scalar_code() {
     let space = JointSpace::new(of_spheres(), vec![ball(0.9, 0.4)], &SelfContact::Apart, 0.1);
     let spheres = space.spheres.as_ref().unwrap();
     let mut lanes = lanes::Memory::default();
-    spheres.make_no_room(&mut lanes);
     let mut stream = base::seed::stream(29);
     let mut doubts = 0;
     for _ in 0..500 {
         let rows: Vec<RoughRow> = (0..7)
             .map(|_| std::array::from_fn(|_| rand::RngExt::random_range(&mut stream, -0.4_f32..0.4)))
             .collect();
-        if !dispatch!(level(), simd => spheres.touches(simd, &rows, &mut lanes)) {
+        if !dispatch!(level(), simd => spheres.touches(simd, &rows, false, &mut lanes)) {
             doubts += lanes.doubts.iter().flat_map(|doubt| doubt.is_at).filter(|is_in| *is_in).count();
         }
     }
@@ -205,9 +204,9 @@ fn what_has_room_for_all_between_is_free_at_each_of_many_configurations() {
         let to = from.map(|at| near(at, most));
         space.self_pairs.truncate(if case % 2 == 0 { 0 } else { 1000 });
         let is_free = space.goes([&from, &to], 64.0, &mut memory, &mut 0);
-        let has_room = space.rakes([&from, &to], (1.0, true), &mut memory, &mut 0);
-        assert!(is_free || !has_room, "case {case}: {from:?} {to:?}");
-        free += u32::from(has_room);
+        let holds = space.holds([&from, &to], &mut memory, &mut 0);
+        assert!(is_free || !holds, "case {case}: {from:?} {to:?}");
+        free += u32::from(holds);
         slipped += u32::from(!is_free && space.goes([&from, &to], 1.0, &mut memory, &mut 0));
     }
     assert!(free > 60 && slipped > 20, "one-sided sample: {free} have room, {slipped} slip past something");
