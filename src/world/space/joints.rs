@@ -16,10 +16,7 @@ use base::robot::{MayTouch, Robot};
 use base::solid::Solid;
 use lanes::{Doubt, SecondSolid, Spheres};
 
-/// How many configurations of a path that is returned are checked in each step. Those of a robot of spheres leave room for all between.
-const FINER: f64 = 4.0;
-
-/// How often a step is halved at most where room is lacking.
+/// How often a step is halved at most where a path that is returned is checked.
 const HALVINGS: u32 = 6;
 
 /// A robot among obstacles.
@@ -251,14 +248,14 @@ impl JointSpace {
         }
     }
 
-    /// Whether a motion of a path that is returned is free. It is checked four times in each step. Of a robot of spheres, each configuration in
+    /// Whether a motion of a path that is returned is free. It is checked 64 times in each step. Of a robot of spheres, each configuration after
     /// a step must leave room for what lies between it and the next; around those that do not, steps are halved, up to six times. Counts
     /// as [`goes`](Self::goes) does.
     pub fn holds(&self, ends: [&[f64]; 2], memory: &mut MotionMemory, checked: &mut u64) -> bool {
         let [from, to] = ends;
         let changes: Vec<f64> = self.chain.change(from, to).collect();
         let Some(spheres) = self.in_lanes(from, &changes).filter(|_| self.chain.outside(to).is_none()) else {
-            return self.goes(ends, FINER, memory, checked);
+            return self.goes(ends, f64::from(1 << HALVINGS), memory, checked);
         };
         let MotionMemory { rows, lanes, .. } = memory;
         let blocks = self.blocks(&changes, 1.0);

@@ -233,7 +233,7 @@ fn a_graze_between_two_looks_is_refused_where_a_path_is_returned() {
         let mut to = from;
         to[1] += 1.4;
         let grazing = of(top_m - 1e-5);
-        slipped += u32::from(grazing.goes([&from, &to], FINER, &mut memory, &mut 0));
+        slipped += u32::from(grazing.goes([&from, &to], 4.0, &mut memory, &mut 0));
         refused += u32::from(!grazing.holds([&from, &to], &mut memory, &mut 0));
         let apart = of(top_m + 1e-5);
         assert!(apart.holds([&from, &to], &mut memory, &mut 0), "case {case}: nothing touches");
