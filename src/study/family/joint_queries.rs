@@ -32,7 +32,7 @@ pub static ENTRY: Entry = Entry {
     name: "joint_queries",
     about: "a robot of any number of axes (URDF) among solids (robometrics or MotionBenchMaker), on roadmaps in joint space",
     instances: "roadmaps",
-    revision: 2,
+    revision: 3,
     is_drawn: true,
     preprocessing: nested_roadmap::ENTRY.name,
     columns: JOINT_COLUMNS,
