@@ -85,7 +85,7 @@ impl Counted {
 }
 
 impl VotingChoices {
-    /// Those of `paper`.
+    /// The voting choices of `paper`.
     pub fn new(paper: &Paper) -> Self {
         let calibration = paper.studies.iter().flat_map(|study| study.fitted_to.iter().cloned()).collect();
         Self { choices: paper.choices.clone(), calibration, now: Now::new(paper) }
