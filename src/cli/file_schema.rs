@@ -1,7 +1,7 @@
 //! The JSON Schema of every kind of TOML file, made from the same types that read the files.
 //!
-//! In those of papers and studies the settings of whatever a table names are that entry's own, so that an editor completes
-//! them and `replan check` finds what is wrong in all tables of all files at once, whatever else is wrong with them.
+//! In papers and studies, the settings of an entry are described by that entry. So an editor completes them, and
+//! `replan check` finds every fault in all tables of all files at once.
 
 use super::catalogue::{self, Item};
 use base::settings::generator;

@@ -86,7 +86,7 @@ fn compare(paper: &Paper, point: Interpretation, places: &Places) -> Result<(), 
     Err(Failure::stale(message))
 }
 
-/// Refuses verdicts by which something does not hold that must hold whatever was drawn.
+/// Refuses verdicts in which a claim fails that must hold whatever was drawn.
 pub fn must_hold(verdicts: &Verdicts) -> Result<(), Failure> {
     let violated = verdicts.violated();
     if violated.is_empty() {

@@ -182,7 +182,7 @@ impl Row {
         self.key.query.as_deref().unwrap_or_default()
     }
 
-    /// What it has in common with the trials of other contenders that it is compared with: instance, query, sweep and repeat.
+    /// The part of its key that it shares with other contenders' trials: instance, query, sweep and repeat.
     pub fn case(&self) -> (&Arc<InstanceKey>, &Option<Text>, &SweepKey, u32) {
         (&self.key.on, &self.key.query, &self.key.sweep, self.key.repeat)
     }

@@ -1,4 +1,4 @@
-//! What changes from one side to the other, metric by metric, with its intervals.
+//! Changes from one side to the other, metric by metric, with their intervals.
 
 use super::pair::{Pair, Unit};
 use super::run::Times;

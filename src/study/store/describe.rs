@@ -1,4 +1,4 @@
-//! What each column of a file of records means: name, unit, meaning, as the file itself carries it.
+//! The meaning of each column of a file of records: name, unit and description, as the file itself carries them.
 
 use crate::clock;
 use crate::column;
@@ -39,7 +39,7 @@ const KEYS: [(&str, Option<&str>, &str); 16] = [
     ("columns", None, "names of the numbers of a point, separated by commas; null where they are not named"),
     ("values", None, "numbers of the trace, point after point"),
     ("session", None, "session in which the clock was read, from 1; sessions are never pooled"),
-    ("clock_repeat", None, "which choice of the clock in its session, from 0"),
+    ("clock_repeat", None, "which reading of the clock in its session, from 0"),
     (clock::COLUMN, Some("ns"), clock::ABOUT),
 ];
 
