@@ -51,7 +51,7 @@ pub fn ended<'e>(instances: &[Instance<'e>], given: impl Fn(&Instance<'e>) -> f6
     instances.iter().map(of_instance).collect()
 }
 
-/// Cases that have no number although they might, because the verifier refuses a path.
+/// How many cases have no number because the verifier refuses a path.
 pub fn refused(instances: &[Instance<'_>]) -> usize {
     let is_refused = |row: &Row| row.status == Status::Rejected;
     let refused =
@@ -59,7 +59,7 @@ pub fn refused(instances: &[Instance<'_>]) -> usize {
     cases(instances).filter(refused).count()
 }
 
-/// How many cases are outside of a claim about what everyone who is compared solves.
+/// How many cases are outside a claim about cases that all compared contenders solve.
 pub fn outside(instances: &[Instance<'_>]) -> usize {
     cases(instances).filter(|case| !case.is_solved() && !case.might_be_solved()).count()
 }
@@ -87,7 +87,7 @@ pub fn not_posed(selection: &Selection<'_>, evidence: &Evidence<'_>) -> Option<S
         .then(|| format!("no problem could be posed in {} of {}: {reason}", left.len(), problems.len()))
 }
 
-/// The share of the paths that come back, of all that is selected, which the verifier refuses.
+/// The share of returned paths, of everything selected, that the verifier refuses.
 pub fn refused_share(selections: &[&Selection<'_>], evidence: &Evidence<'_>) -> f64 {
     let [mut refused, mut returned] = [0_usize; 2];
     for selection in selections {

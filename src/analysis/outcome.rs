@@ -138,8 +138,8 @@ pub enum Sessions {
     OfAnother,
 }
 
-/// Sessions of a clock that it takes to say anything: a machine's load differs from one to the next by more than the
-/// interpretations within one show.
+/// Sessions of a clock that are needed to say anything: a machine's load differs between sessions by more than the times
+/// within one show.
 pub const SESSIONS: usize = 3;
 
 /// The outcome of one finding; `None` where the claim is not meant, whatever is found there.

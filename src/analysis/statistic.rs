@@ -317,9 +317,9 @@ pub struct Share {
 }
 
 impl Share {
-    /// That of `counts`, the hits and chances of each instance, which could have had `most` chances or as many as were seen; none
-    /// without chances. The interval is the same everywhere ([`pooled::share`]), in closed form where there is one: where every
-    /// instance can have but one chance, and where all agree. Differences of shares are not looked at here.
+    /// The share of `counts`, the hits and chances of each instance; none without chances. An instance can have `most` chances, or
+    /// as many as were seen. The interval is the same everywhere ([`pooled::share`]). It has a closed form where every instance can
+    /// have one chance alone, and where all agree. Differences of shares are not looked at here.
     pub fn new(counts: &[[f64; 2]], most: f64, plan: Resampling) -> Option<Self> {
         let counts: Vec<[f64; 2]> = counts.iter().copied().filter(|count| count[1] > 0.0).collect();
         let [hits, chances] = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);

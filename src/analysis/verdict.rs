@@ -125,7 +125,7 @@ pub enum Effect {
     Turns,
 }
 
-/// The greatest effect of an axis's options.
+/// The greatest effect of a choice's options.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EffectOfOption {

@@ -40,7 +40,7 @@ pub struct AllowLarge {
 }
 
 impl AllowLarge {
-    /// Refuses the first of `studies` that asks for more than people mean without a word.
+    /// Refuses the first of `studies` that is unusually large.
     ///
     /// # Errors
     /// What it asks for, at its file.

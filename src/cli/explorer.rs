@@ -212,8 +212,8 @@ impl<'p> Explorer<'p> {
         Ok(built.units().map(|unit| built.trials(&unit).len() as u64).sum())
     }
 
-    /// Runs and judges `points`; what runs where interpretations are compatible, under those; and once more with more instances where an
-    /// outcome is near a flip.
+    /// Runs and judges `points` in rounds. Studies that need compatible interpretations run under those alone. Where an
+    /// outcome is near a flip, it runs once more with more instances.
     pub fn explore(
         &self,
         points: &[Interpretation],

@@ -14,7 +14,7 @@ pub fn schema(kind: &str) -> Value {
     made(kind, true)
 }
 
-/// The same, but that it accepts names of entries that do not exist: who looks them up says more of them.
+/// The same, but it accepts unknown names of entries: the code that looks them up has better messages.
 pub fn schema_of_any_names(kind: &str) -> Value {
     made(kind, false)
 }

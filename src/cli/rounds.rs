@@ -82,7 +82,7 @@ impl From<StudyError> for Halt {
     }
 }
 
-/// What was found; none, and a word about it, if the shards of another round have to run first.
+/// The result, or none with a message if the shards of another round have to run first.
 pub fn unless_planned<T>(found: Result<T, Halt>) -> Result<Option<T>, Failure> {
     match found {
         Ok(found) => Ok(Some(found)),

@@ -135,7 +135,7 @@ fn begin_of_row(name: &str) -> String {
     format!("| [`{name}`](#{}) |", anchor(name))
 }
 
-/// What links call `name`.
+/// The anchor of `name` in links.
 pub fn anchor(name: &str) -> String {
     name.chars().map(|c| if c.is_alphanumeric() || "._-".contains(c) { c } else { '-' }).collect()
 }

@@ -219,7 +219,7 @@ pub struct Timing {
     pub trial: TrialKey,
     /// The session in which the clock was read, from 1; times of different sessions are never pooled.
     pub session: u32,
-    /// Which interpretation of the clock in its session, from 0.
+    /// Which reading of the clock in its session, from 0.
     pub clock_repeat: u32,
     /// Planning time.
     pub plan_wall_ns: u64,

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use study::Choice;
 use study::paper::Paper;
 
-/// The interpretations of a paper.
+/// The choices of a paper, with the options that vote.
 pub struct VotingChoices {
     /// Each choice.
     pub choices: Vec<Choice>,
