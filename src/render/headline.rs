@@ -117,7 +117,9 @@ pub fn ours(judged: &ClaimVerdict, paper: &Paper, verdicts: &Verdicts) -> Option
         let printed =
             judged.printed.as_ref().map_or_else(String::new, |printed| format!("printed {printed}, ours "));
         let number = match ours.quantity {
-            Quantity::Rank => format!("{} of our {noun} lie as far out as the printed numbers", percentage(ours)),
+            Quantity::Rank => {
+                format!("{} of our {noun} lie as far out as the printed numbers", percentage(ours))
+            }
             Quantity::Probability if ours.value < LEAST_P => format!("p below {LEAST_P}"),
             Quantity::Probability => format!("p = {}", number(ours.value)),
             _ => effect(ours).unwrap_or_else(|| short(ours) + &unit),
