@@ -1,7 +1,7 @@
 //! How many cells A* can close and open, on any map at all, when the length of its path is known.
 //!
-//! Premises: an 8-connected unit grid with moves of cost 1 and √2; the Euclidean heuristic `h`, which is consistent for
-//! these costs; A* as published, with f = g + h, which stops when the goal is chosen; an optimal path of cost C*.
+//! Premises: an 8-connected unit grid with moves of cost 1 and √2, and an optimal path of cost C*. A* runs as published,
+//! with f = g + h, and stops when the goal is chosen. Its heuristic `h` is Euclidean, which is consistent for these costs.
 //!
 //! Argument. With a consistent heuristic, A* chooses cells in non-decreasing f and with final g (Hart, Nilsson &
 //! Raphael 1968, lemma 2 and its corollary). The goal is chosen with f = C*, so every closed cell n has g(n) + h(n) ≤

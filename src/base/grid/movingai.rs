@@ -116,9 +116,9 @@ pub fn read_movingai_map(path: &Path) -> Result<Grid2, GridError> {
 ///
 /// # Errors
 /// [`GridError::Text`] on an unknown version, a wrong number of fields, a field that does not parse, a map size
-/// that is not the grid's, or a cell outside it. It is refused too if the map contradicts a length: -1 where a path cuts
-/// no corner, one where no path leads though all may be cut, one below the straight line, or above 0 where the goal is
-/// the start.
+/// that is not the grid's, or a cell outside it. A length that the map contradicts is refused too: -1 where a path
+/// cuts no corner, or one where no path leads though all may be cut. A length may not be below the straight line, nor
+/// above 0 where the goal is the start.
 pub fn parse_scenarios(text: &str, grid: &Grid2) -> Result<Vec<Scenario>, GridError> {
     let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()).peekable();
     let mut with_size = false;

@@ -19,8 +19,8 @@ use lanes::{Doubt, SecondSolid, Spheres};
 /// A path that is returned is checked four times in each step, and 64 times where the robot is nearly in contact.
 const FINER: [f64; 2] = [4.0, 64.0];
 
-/// How near is nearly, metres. Between two configurations at which a ball of radius r is free, and its centre s farther, it reaches no deeper
-/// than s²/8r into what is convex: at a quarter of a degree 0.05 mm and more for a ball at the end of an arm.
+/// How near is nearly, metres. Say a ball of radius r is free at two configurations, and its centre moves by s between them. Then it
+/// reaches no deeper than s²/8r into a convex solid: at a quarter of a degree 0.05 mm and more for a ball at the end of an arm.
 const NEARLY_M: f64 = 0.0005;
 
 /// A robot among obstacles.
