@@ -326,6 +326,21 @@ impl ClaimVerdict {
         }
     }
 
+    /// The printed number with its unit.
+    pub fn printed_text(&self) -> Option<String> {
+        let unit = self.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
+        self.printed.as_ref().map(|printed| format!("{printed}{unit}"))
+    }
+
+    /// What the paper says: its own words in quotation marks, or what they amount to, and its number.
+    pub fn statement(&self) -> String {
+        let quoted = self.quote.as_ref().map(|quote| format!("“{quote}”"));
+        match (self.printed_text(), quoted.or_else(|| self.says.clone())) {
+            (Some(printed), Some(says)) => format!("{says} (printed {printed})"),
+            (printed, says) => printed.or(says).unwrap_or_else(|| "–".to_owned()),
+        }
+    }
+
     /// What its verdict rests on.
     pub fn rests_on(&self) -> Option<String> {
         (!self.beside.is_empty()).then(|| self.beside.join("; "))

@@ -210,10 +210,6 @@ impl Body<'_> {
     /// A claim's line, and below it the evidence that opens.
     fn claim(&self, judged: &ClaimVerdict) -> String {
         let id = escaped(&judged.claim);
-        let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
-        let printed = judged.printed.as_ref().map(|printed| format!("{printed}{unit}"));
-        let quote = judged.quote.as_ref().map(|quote| format!("“{quote}”"));
-        let says = printed.or(quote).or_else(|| judged.says.clone()).unwrap_or_default();
         let own = judged.ours().map(|ours| format!("{} ({}; n = {})", short(ours), ours.what, ours.n));
         let ours = own.or_else(|| ours(judged, self.evidence.paper, self.verdicts));
         let ours = ours.unwrap_or_else(|| "–".to_owned());
@@ -235,7 +231,7 @@ impl Body<'_> {
             escaped(&hangs_on(judged).join(" ")),
             id.replace('.', ".<wbr>").replace('_', "_<wbr>"),
             escaped(&judged.at),
-            escaped(&says),
+            escaped(&judged.statement()),
             escaped(&ours),
             badge(judged.verdict.name(), &judged.verdict_text()),
             escaped(&interpretations),

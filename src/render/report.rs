@@ -193,14 +193,3 @@ fn item(depth: usize, text: &str) -> String {
     let indent = 2 * depth;
     wrapped(&format!("{}- ", " ".repeat(indent)), text, indent + 2, COLUMNS) + "\n"
 }
-
-/// What the paper says: its number, and its own words in quotation marks or what its words amount to.
-fn paper_statement(judged: &ClaimVerdict) -> String {
-    let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
-    let printed = judged.printed.as_ref().map(|printed| format!("{printed}{unit}"));
-    let quoted = judged.quote.as_ref().map(|quote| format!("“{quote}”"));
-    match (printed, quoted.or_else(|| judged.says.clone())) {
-        (Some(printed), Some(says)) => format!("{says} (printed {printed})"),
-        (printed, says) => printed.or(says).unwrap_or_else(|| "–".to_owned()),
-    }
-}

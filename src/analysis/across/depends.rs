@@ -180,12 +180,12 @@ fn shares(split: &Split<'_>) -> String {
     const MANY: usize = 5;
     let mut listed: Vec<_> = split.iter().filter(|(_, counts)| counts.iter().sum::<usize>() > 0).collect();
     let mut counted = Vec::new();
-    let sides = [(1, "all"), (0, "none")].map(|(lacking, word)| {
+    let mut sides = [(1, "all"), (0, "none")].map(|(lacking, word)| {
         let count = listed.iter().filter(|(_, counts)| counts[lacking] == 0).count();
         (count, lacking, word)
     });
-    let larger_first = if sides[0].0 >= sides[1].0 { [0, 1] } else { [1, 0] };
-    for (count, lacking, word) in larger_first.map(|side| sides[side]) {
+    sides.sort_by_key(|(count, ..)| std::cmp::Reverse(*count));
+    for (count, lacking, word) in sides {
         if count >= MANY && count < listed.len() {
             listed.retain(|(_, counts)| counts[lacking] > 0);
             counted.push(format!("{word} with each of {count} more"));
