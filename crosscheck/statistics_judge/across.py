@@ -321,7 +321,7 @@ class Across:
         on = None
         match line:
             case "met" if every > 1:
-                return [f"met under {holds} of {every}{self.met(claim, counted)}"], None
+                return [f"met under {holds} of {every}{self.met(claim, counted, results)}"], None
             case "proved" | "lacking" | "all" | "met":
                 is_same = counted.looked > 1 and not results.unvaried
                 what = "same" if len(set(results.outcomes)) < 2 else "same direction"
@@ -346,10 +346,11 @@ class Across:
                 more = [rule]
         return [one for one in (counts, *more) if one], on
 
-    def met(self, claim: str, counted: Counted) -> str:
+    def met(self, claim: str, counted: Counted, results: Results) -> str:
         """The first interpretation that meets a claim, if it is not the default."""
         first = next(one for one in counted.results if SPEAKS[one.vote] == 1)
-        departs = ", ".join(self.departs(claim, first))
+        # A witness needs all options that its contender ran under.
+        departs = ", ".join(self.departs(claim, first, lists_all=results.chosen == "existence"))
         return f", {departs} among them" if departs else ""
 
     def sides(self, claim: str, counted: Counted, sides: list[int]) -> Sides:
@@ -397,7 +398,7 @@ class Across:
             words = f"{best[0]} matters most: {best[1]}"
         return "a combination", words or "no option separates them"
 
-    def departs(self, claim: str, result: Result) -> list[str]:
+    def departs(self, claim: str, result: Result, *, lists_all: bool = False) -> list[str]:
         """The options of a result's first interpretation that are not the defaults.
 
         Those of choices that can move the claim; all of them if none of these differs.
@@ -405,7 +406,7 @@ class Across:
         assert self.first is not None
         options = sorted(self.first["interpretations"][result.interpretations[0]].items())
         moving = {choice.id for choice in self.choices if self.moves(claim, choice)}
-        listed = [one for one in options if one[0] in moving] or options
+        listed = [one for one in options if lists_all or one[0] in moving] or options
         return [f"{choice} = {option}" for choice, option in listed]
 
     def alone(self, claim: str, choice: Choice, option: str) -> dict[str, Any] | None:

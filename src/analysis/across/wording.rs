@@ -108,14 +108,16 @@ impl View<'_> {
     }
 
     /// The options of a result's first interpretation that differ from the defaults: those of choices that can move the claim, or
-    /// all if none of these differs.
+    /// all if none of these differs. A witness needs all options that its contender ran under.
     fn departures(&self, group: &Group) -> Vec<String> {
         let Some(first) = self.first else { return Vec::new() };
         let sides = self.sides(first, |_| None);
         let moving: Vec<&String> = sides.moving().map(|choice| &choice.id).collect();
         let all = &first.interpretations[group.interpretation];
         let is_moving = |(id, _): &(&String, &String)| moving.contains(id);
-        let is_listed = |one: &(&String, &String)| is_moving(one) || !all.iter().any(|one| is_moving(&one));
+        let lists_all =
+            self.results.chosen == Some(Chosen::Existence) || !all.iter().any(|one| is_moving(&one));
+        let is_listed = |one: &(&String, &String)| lists_all || is_moving(one);
         all.iter().filter(is_listed).map(|(id, option)| format!("{id} = {option}")).collect()
     }
 
