@@ -18,6 +18,7 @@ class Rule:
     side: int
     hits: int
     covered: int
+    is_exact: bool
 
     def wording(self) -> str:
         """The options in words."""
@@ -48,7 +49,7 @@ class Sides:
             if found:
                 side, options = min(found, key=lambda one: self.interpretations(one[1]))
                 covered = sum(self.has_some(places, options) for places in self.results)
-                return Rule(options, side, len(self.on(side)), covered)
+                return Rule(options, side, len(self.on(side)), covered, is_exact)
         return None
 
     def is_meant(self, side: int, options: tuple[tuple[str, str], ...], *, is_exact: bool) -> bool:

@@ -247,7 +247,9 @@ def test_a_planted_rule_is_named_with_one_option_or_with_two() -> None:
 
 def test_a_combination_names_the_axis_that_separates_best() -> None:
     found = wording_of(ALL, [BAD if (both[0] == "b") == (both[1] == "b") else GOOD for both in ALL])
-    expected = "4/0/5 for/open/against; order separates best: contradicted under a 2 of 3, b 1 of 3, c 2 of 3"
+    expected = (
+        "4/0/5 for/open/against; order matters most: 2 of 3 against with a, 2 of 3 with c, 1 of 3 with b"
+    )
     assert found == (expected, "a combination")
 
 

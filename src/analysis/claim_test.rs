@@ -1,4 +1,5 @@
-//! The tests of a claim under an interpretation: its criteria and rules, built; their numbers, and what these say.
+//! The tests of a claim under an interpretation: its criteria and rules, built; their numbers, and the outcome of
+//! these.
 
 use super::censored::refused_share;
 use super::context::Context;
@@ -89,8 +90,8 @@ impl<'a> ClaimTest<'a> {
         stripped(self.entry, self.context.settings).map_or("", |(statistic, _)| statistic)
     }
 
-    /// The name of its numbers: a hash of all that they depend on but for the trials, and of nothing that they are only held against. None of a
-    /// rule.
+    /// The name of its numbers: a hash of everything that they depend on but for the trials. Margins and printed values
+    /// are not part of it. None of a rule.
     pub fn question(&self) -> Option<String> {
         let Context { paper, claim, settings, .. } = self.context;
         let (statistic, own) = stripped(self.entry, settings)?;
@@ -131,7 +132,7 @@ impl<'a> ClaimTest<'a> {
         }
     }
 
-    /// What `numbers` say of the claim; `evidence` adds the trial that shows it.
+    /// The outcome of the claim by `numbers`; `evidence` adds the trial that shows it.
     pub fn weighed(
         &self,
         numbers: &Numbers,

@@ -197,12 +197,12 @@ const HEAD: &str = "explored";
 const HASH: usize = 64;
 
 impl Estimates {
-    /// Where those of the paper whose runs are in `folder` lie.
+    /// The file of estimates of the paper whose runs are in `folder`.
     pub fn path(folder: &Path) -> PathBuf {
         folder.join("estimates.parquet")
     }
 
-    /// Those of `paper` if nothing was explored.
+    /// The estimates of `paper` if nothing was explored.
     pub fn none(paper: &Paper) -> Self {
         Self { paper: paper.id.clone(), ..Self::default() }
     }

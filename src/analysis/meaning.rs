@@ -36,7 +36,7 @@ pub fn meanings(paper: &Paper) -> BTreeMap<String, Vec<String>> {
     paper.claims.iter().map(|claim| (claim.id.clone(), meaning(paper, claim))).collect()
 }
 
-/// What `claim` means: the hash, and behind it the studies whose trials the claim and its parts ask.
+/// The meaning of `claim`: its hash, and the studies whose trials the claim and its parts use.
 pub fn meaning(paper: &Paper, claim: &Claim) -> Vec<String> {
     let parts = claim.parts.ids().iter().filter_map(|id| paper.claim(id));
     let studies: BTreeSet<&str> = parts.chain([claim]).flat_map(Claim::studies).collect();

@@ -7,7 +7,8 @@ use super::meaning::Kind;
 use super::table::Table;
 use std::collections::BTreeSet;
 
-/// The `[[table]]` of `table`, which is number `number` of its text, and the row of the inventory that names its claims.
+/// The `[[table]]` of `table`, the table with this `number` in its text, and the row of the inventory that names its
+/// claims.
 pub fn toml(table: &Table, number: usize) -> String {
     let title = if table.name.is_empty() { format!("Table {number}") } else { table.name.clone() };
     let id = format!("table{number}");

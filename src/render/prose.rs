@@ -5,7 +5,7 @@ use crate::analysis::verdict::{ClaimVerdict, Estimate, Verdicts};
 use base::text::shown;
 use study::paper::{OVER_INTERPRETATIONS, filled};
 
-/// Paragraphs and lists are broken into lines of so many characters.
+/// Paragraphs and lists are broken into lines of this many characters.
 pub const COLUMNS: usize = 120;
 
 /// `text` with every `{claim}` replaced by our number beside that claim, and every `{claim:form}` by the text that the form names; a
@@ -110,8 +110,8 @@ pub fn plain(first: &str, text: &str, indent: usize, columns: usize) -> String {
     broken(first, text, [indent, columns], |_| false)
 }
 
-/// `rows` as lines: each column is as wide as its widest cell of at most so many characters. What
-/// follows a wider cell stands on a line of its own.
+/// `rows` as lines: each column is as wide as its widest cell of at most `most` characters. After a wider cell the rest
+/// of its row stands on a line of its own.
 pub fn columns<const N: usize>(rows: &[[String; N]], most: [usize; N]) -> Vec<String> {
     let width = |at: usize| {
         rows.iter().map(|row| row[at].chars().count()).filter(|&wide| wide <= most[at]).max().unwrap_or(0)

@@ -171,8 +171,8 @@ fn a_planted_rule_of_two_options_is_named_where_neither_alone_is_exact() {
 }
 
 #[test]
-fn an_option_that_all_contradicting_results_share_is_named_with_how_many_others_have_it() {
-    // The three that contradict share corners; with a third choice no pair of options is exact.
+fn a_combination_decides_where_results_on_both_sides_have_the_option_that_one_side_shares() {
+    // The two that contradict share corners; with a third choice no pair of options is exact.
     let found: [(&[&str], Outcome); 7] = [
         (&["a", "a", "a"], Holds),
         (&["b", "a", "a"], Holds),
@@ -184,7 +184,7 @@ fn an_option_that_all_contradicting_results_share_is_named_with_how_many_others_
     ];
     let planted = Planted::new(&[("corners", "a"), ("ties", "a"), ("side", "a")], &found);
     let expected = "5/0/2 for/open/against; contradicted only if corners = b (2 of 4)";
-    assert_eq!(planted.wording(), (expected.to_owned(), Some("corners".to_owned())));
+    assert_eq!(planted.wording(), (expected.to_owned(), Some("a combination".to_owned())));
 }
 
 #[test]
@@ -193,7 +193,7 @@ fn where_the_sides_share_no_option_a_combination_decides_and_the_best_axis_is_na
     let (words, on) = either.wording();
     assert_eq!(on.as_deref(), Some("a combination"), "{words}");
     assert!(
-        words.contains("corners separates best: contradicted under a 2 of 3, b 1 of 3, c 2 of 3"),
+        words.contains("corners matters most: 2 of 3 against with a, 2 of 3 with c, 1 of 3 with b"),
         "{words}"
     );
 }

@@ -1,4 +1,4 @@
-//! What a claim looks at, and which choices touch that: by the spec alone, so that a choice nobody explored is known too.
+//! The scope of a claim, and the choices that touch it: from the spec alone, so that an unexplored choice is known too.
 
 use super::super::criterion::EXISTS;
 use super::super::evidence::default_point;
@@ -48,7 +48,7 @@ impl<'p> Touched<'p> {
         })
     }
 
-    /// Whether no seed decides anything of it: neither what is posed nor what a contender does.
+    /// Whether no seed decides anything of it: neither its problems nor a contender's trials.
     pub fn draws_nothing(&self, paper: &Paper) -> bool {
         self.studies.iter().all(|study| {
             let groups = self.named(&study.groups, |group| &group.label);
@@ -60,14 +60,16 @@ impl<'p> Touched<'p> {
         })
     }
 
-    /// Whether some option of `choice` that votes, other than its default, does otherwise to what the claim looks at.
+    /// Whether some voting option of `choice`, other than its default, changes the trials or numbers that the claim
+    /// looks at.
     pub fn is_touched_by(&self, choice: &Choice) -> bool {
         others(choice).any(|option| self.is_meant_otherwise(choice, option))
             || self.studies.iter().any(|study| self.changes(choice, study))
     }
 
-    /// Whether `choice` would change trials of a study that neither has it nor draws it, nor has what is explored in its place. A witness is judged
-    /// under the interpretations that its contender ran under, whatever its study has.
+    /// Whether `choice` would change trials of a study that neither has it nor draws it, and no study explored in its
+    /// place has it. A witness is judged under the interpretations that its contender ran under, whatever its study
+    /// has.
     pub fn is_without(&self, paper: &Paper, choice: &Choice) -> bool {
         let has = |study: &Study| {
             study.choices.iter().any(|own| own.id == choice.id) || study.draws.contains(&choice.id)

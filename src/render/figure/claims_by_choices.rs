@@ -1,4 +1,4 @@
-//! What each choice of a paper does to each of its claims when it alone departs from its default.
+//! The effect of each choice on each claim when it alone departs from its default.
 
 use super::{Entry, Kind, Scene};
 use crate::analysis::verdict::{Across, ClaimVerdict, Effect, Fit, SettingFit};

@@ -1,4 +1,5 @@
-//! What interpretations do, as details show it: which vote and on what ground, which claims each moves.
+//! The effect of interpretations, as the details show it: which interpretations vote, with their source, and which
+//! claims each moves.
 
 use super::chapter::Page;
 use super::{item, links, paragraph};

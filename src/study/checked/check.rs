@@ -1,4 +1,4 @@
-//! What is checked of a study whose names were looked up: everything is built once, under every single option.
+//! Checks of a study whose names were looked up: everything is built once, under every single option.
 
 use super::super::contender::Swept;
 use super::super::error::StudyError;

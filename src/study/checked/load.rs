@@ -99,7 +99,7 @@ impl Study {
 }
 
 impl Shared {
-    /// The groups and contenders in `document` that those of studies may be like; what is wrong with one goes to `faults`.
+    /// The groups and contenders in `document` that those of studies may be `like`; faults go to `faults`.
     pub fn models(
         problems: Vec<ProblemsSpec>,
         contenders: &[ContenderSpec],

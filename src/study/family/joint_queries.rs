@@ -291,6 +291,11 @@ impl Family for Posed {
         WorldKind::Roadmap
     }
 
+    /// A roadmap of one sample is none: its planner draws its own, and seeds differ alone.
+    fn instances(&self) -> Option<&'static str> {
+        (self.read.samples == 1).then_some("seeds")
+    }
+
     fn prepare(&self, seed: u64) -> Result<Preprocessing, Invalid> {
         if !self.is_valid {
             return Err(Invalid("the problem set calls this problem invalid".to_owned()));

@@ -8,7 +8,7 @@ use crate::{Study, StudyError};
 use base::hash::sha256;
 use std::collections::BTreeMap;
 
-/// What something depends on, by label: a hash, and the numbers of the interpretations under which it is that.
+/// The dependencies of a thing, by label: a hash, and the numbers of the interpretations that share it.
 pub type Hashes = BTreeMap<String, BTreeMap<String, Vec<usize>>>;
 
 /// What each problem group of `study`, at each point of the sweeps over it, depends on under `points`.

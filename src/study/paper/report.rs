@@ -1,4 +1,5 @@
-//! What a paper's chapter of the report shows: its findings, with places for our numbers, and which figures, tables and claims.
+//! The contents of a paper's chapter of the report: findings, with places for our numbers, and the figures, tables and
+//! claims shown.
 
 use super::{Paper, names_of};
 use base::settings::{Faults, Spanned, did_you_mean};
@@ -6,8 +7,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeSet;
 
-/// The chapter of a paper. Its texts may hold `{claim}`, which our number beside that claim replaces, and `{claim:form}` with
-/// one of `FORMS`.
+/// The chapter of a paper. Its texts may hold `{claim}`, which our number beside that claim replaces, and
+/// `{claim:form}` with one of `FORMS`.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ReportSpec {
@@ -28,10 +29,10 @@ pub struct ReportSpec {
 /// How many figures a chapter shows at most.
 pub const FIGURES: usize = 6;
 
-/// The forms in which a place can ask for what was found: with one decimal, as a percentage with the digits of its interval, in words
-/// with a direction (of a claim with parts those of its parts), so what is shown and decides nothing, the ends of the interval, the
-/// number of instances, the verdict and what interpretations make of it. The last one is the least and the greatest percentage over the
-/// interpretations that count.
+/// The forms in which a text can show our number beside a claim: with one decimal, as a percentage with the digits of
+/// its interval, or in words with a direction. Of a claim with parts the words are those of its parts. Other forms give
+/// a shown number that decides nothing, the ends of the interval, the number of instances, the verdict, or the words
+/// beside it. The last one is the least and the greatest percentage over the interpretations that count.
 pub const FORMS: [&str; 10] = [
     "tenths",
     "percent",

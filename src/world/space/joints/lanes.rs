@@ -1,12 +1,13 @@
 //! Robots made of spheres, eight configurations at once.
 //!
-//! Places and distances run in f32. A comparison inside the error band of an obstacle, and one with a solid that lanes only bound (a
-//! cylinder's prism, a hull), leaves its configurations in doubt, and the scalar code decides those two solids there. So a verdict
-//! from here is the scalar code's. Spheres of one link are first compared by a ball around them all, and obstacles by balls around
-//! them; obstacles out of a link's reach are left out. Links go from the last to the first, since what is far out meets most.
+//! Places and distances run in f32. Two kinds of comparison leave configurations in doubt: those inside an obstacle's
+//! error band, and those with a solid that lanes only bound (a cylinder's prism, a hull). The scalar code decides these
+//! solids there, so a verdict from here is the scalar code's. Spheres of one link are first compared by a ball around
+//! them all, and obstacles by balls around them; obstacles out of a link's reach are left out. Links go from the last
+//! to the first, since the far ones meet most.
 //!
-//! A closure over lanes, or `map` over them, would be compiled for every machine's instructions and call each operation of theirs: so there
-//! is none here.
+//! A closure over lanes, or `map` over them, would be compiled for every machine's instructions and call each operation
+//! of theirs, so none is used here.
 #![expect(
     clippy::inline_always,
     reason = "lanes are compiled for the instructions of the function they end up in"
