@@ -1,4 +1,4 @@
-//! Path simplification as a stage: shortcuts, fewer vertices, corners cut, by the straight motions of the robot.
+//! Path simplification as a stage: shortcuts, corners cut, by the straight motions of the robot.
 //!
 //! # Source
 //! The stages and defaults of VAMP (Thomason, Kingston & Kavraki, ICRA 2024); see [`simplify`].
@@ -6,8 +6,7 @@
 use super::roadmap::roadmap;
 use super::sampled::claimed;
 use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
-use crate::sampling::{BSpline, Draw, DrawSetting, Motions, Operation, Reduce, simplify};
-use base::seed;
+use crate::sampling::{BSpline, Motions, Operation, simplify};
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -16,7 +15,7 @@ use world::space::WorldKind;
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "simplify_path",
-    about: "shortens a path by shortcuts, by leaving out vertices and by cutting corners, in rounds",
+    about: "shortens a path by shortcuts and by cutting corners, in rounds",
     revision: 2,
     needs: WorldKind::Roadmap,
     columns: &["simplification_motions", "simplification_states"],
@@ -28,16 +27,11 @@ bspline = { rounds = 1, least_change = 0.1, share = 0.5 }
 "#,
     build: Build::Stage(|settings| {
         let read: SimplifyPath = settings.read()?;
-        for (key, operation, is_given) in [
-            ("bspline", Operation::Bspline, read.bspline.is_some()),
-            ("reduce", Operation::Reduce, read.reduce.is_some()),
-        ] {
-            if read.operations.contains(&operation) != is_given {
-                let found = if is_given { "given, and not among" } else { "not given, but among" };
-                return Err(
-                    settings.error(format!("{key} is {found} the operations; both or neither is accepted"))
-                );
-            }
+        let is_given = read.bspline.is_some();
+        if read.operations.contains(&Operation::Bspline) != is_given {
+            let found = if is_given { "given, and not among" } else { "not given, but among" };
+            let message = format!("bspline is {found} the operations; both or neither is accepted");
+            return Err(settings.error(message));
         }
         Ok(Box::new(read))
     }),
@@ -54,8 +48,6 @@ struct SimplifyPath {
     operations: Vec<Operation>,
     /// How corners are cut.
     bspline: Option<BSpline>,
-    /// How vertices are left out.
-    reduce: Option<Reduce>,
 }
 
 impl Stage for SimplifyPath {
@@ -64,16 +56,14 @@ impl Stage for SimplifyPath {
             return plan;
         }
         let local = roadmap(request.world).local();
-        let mut draw = Draw::new(DrawSetting::Seeded, seed::derive(request.seed, &["simplify_path"]));
         let bspline = self.bspline.unwrap_or(BSpline { rounds: 0, least_change: 0.0, share: 0.0 });
-        let reduce = self.reduce.unwrap_or(Reduce { tries: 0, empty_tries: 0, range_share: 0.0 });
         let mut tried = 0;
         let mut checked = 0;
         // A shortened path may touch something between two checks. It is then shortened again with finer checks of every motion. If that
         // fails too, or rounding in the plane makes the path longer, it stays as it was.
         for mut motions in [Motions::new(local), Motions::finely(local)] {
             let rounds = (self.rounds, &self.operations[..]);
-            let short = simplify(&mut motions, &mut draw, plan.path.clone(), rounds, (&bspline, &reduce));
+            let short = simplify(&mut motions, plan.path.clone(), rounds, &bspline);
             let is_free = motions.refused_leg(&short).is_none();
             tried += motions.motions();
             checked += motions.checked();

@@ -15,5 +15,5 @@ mod tree;
 pub use draw::{Draw, DrawSetting};
 pub use index::Index;
 pub use motions::Motions;
-pub use simplify::{BSpline, Operation, Reduce, simplify};
+pub use simplify::{BSpline, Operation, simplify};
 pub use tree::Tree;

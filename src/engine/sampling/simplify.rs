@@ -1,11 +1,11 @@
-//! Shorter paths from paths: shortcuts, fewer vertices, corners cut as by a B-spline.
+//! Shorter paths from paths: shortcuts, corners cut as by a B-spline.
 //!
 //! # Source
 //! Thomason, Kingston & Kavraki, *Motions in Microseconds via Vectorized Sampling-Based Planning*, ICRA 2024, and the planner's own
 //! `simplify.hh` (VAMP 0.6.4); after Geraerts & Overmars, *Int. J. Robotics Research* 26(8), 845 (2007), and OMPL's
 //! `PathSimplifier`.
 
-use super::{Draw, Motions};
+use super::Motions;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -15,8 +15,6 @@ use serde::Deserialize;
 pub enum Operation {
     /// From the start on, each point is joined with the last one that a motion reaches.
     Shortcut,
-    /// Points between two that are drawn are left out if a motion joins the two.
-    Reduce,
     /// Points are put in the middle of every leg, and corners between them are cut.
     Bspline,
 }
@@ -35,26 +33,12 @@ pub struct BSpline {
     pub share: f64,
 }
 
-/// How vertices are left out.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Reduce {
-    /// Tries at least.
-    pub tries: u32,
-    /// Tries without success after which it stops.
-    pub empty_tries: u32,
-    /// How many points apart the two that are drawn may be, as a share of all.
-    #[schemars(range(min = 0, max = 1))]
-    pub range_share: f64,
-}
-
 /// The path, shortened in at most `rounds` rounds of `operations`; a motion from end to end ends it at once.
 pub fn simplify(
     motions: &mut Motions<'_>,
-    draw: &mut Draw,
     mut path: Vec<Vec<f64>>,
     (rounds, operations): (u32, &[Operation]),
-    (bspline, reduce): (&BSpline, &Reduce),
+    bspline: &BSpline,
 ) -> Vec<Vec<f64>> {
     if path.len() < 3 {
         return path;
@@ -69,7 +53,6 @@ pub fn simplify(
             changed |= path.len() > 2
                 && match operation {
                     Operation::Shortcut => shortcut(motions, &mut path),
-                    Operation::Reduce => leave_out(motions, draw, &mut path, reduce),
                     Operation::Bspline => cut_corners(motions, &mut path, bspline),
                 };
         }
@@ -90,33 +73,6 @@ fn shortcut(motions: &mut Motions<'_>, path: &mut Vec<Vec<f64>>) -> bool {
             changed = true;
         }
         from += 1;
-    }
-    changed
-}
-
-fn leave_out(motions: &mut Motions<'_>, draw: &mut Draw, path: &mut Vec<Vec<f64>>, rule: &Reduce) -> bool {
-    let mut changed = false;
-    let (mut tries, mut empty) = (0, 0);
-    while tries < rule.tries || empty < rule.empty_tries {
-        tries += 1;
-        empty += 1;
-        let last = path.len() - 1;
-        let range = 1 + (0.5 + path.len() as f64 * rule.range_share).floor() as usize;
-        let one = draw.whole(0, last);
-        let mut other = draw.whole(one.saturating_sub(range), last.min(one + range));
-        if one.abs_diff(other) < 2 {
-            other = match one {
-                _ if one + 1 < last => one + 2,
-                2.. => one - 2,
-                _ => continue,
-            };
-        }
-        let (from, to) = (one.min(other), one.max(other));
-        if motions.goes(&path[from], &path[to]) {
-            path.drain(from + 1..to);
-            empty = 0;
-            changed = true;
-        }
     }
     changed
 }
