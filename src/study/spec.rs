@@ -142,7 +142,7 @@ pub struct SweepSpec {
     /// The setting that it fills.
     pub key: Spanned<String>,
     /// The planner or stage whose setting it is; `problems` stands in its place if it is a setting of problems.
-    pub of: Option<Spanned<String>>,
+    pub stage: Option<Spanned<String>>,
     /// The problem groups whose setting it is, by label; `*` at the end of one stands for any ending.
     pub problems: Option<Spanned<Vec<String>>>,
     /// The values, in the paper's order.

@@ -1,4 +1,4 @@
-use super::super::outcome::Outcome::{self, Fails, Holds, Open};
+use super::super::outcome::Outcome::{self, Fails, Holds, Open, SignOnly};
 use super::super::verdict_rule::{Results, Verdict};
 use super::combine::{confirmed, flips};
 use super::count::{Counted, Group, VotingChoices};
@@ -142,6 +142,13 @@ impl Planted {
         let found = view.wording(line);
         (found.beside.join("; "), found.depends_on)
     }
+}
+
+#[test]
+fn results_of_two_sizes_are_called_the_same_in_direction_alone() {
+    let with = |rest: Outcome| product(|corners, _| if corners == "b" { rest } else { Holds }).wording().0;
+    assert_eq!(with(Holds), "same under all 9");
+    assert_eq!(with(SignOnly), "same direction under all 9");
 }
 
 /// Two choices whose outcomes `of` says for every combination of their three options.

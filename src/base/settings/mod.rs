@@ -24,7 +24,7 @@ pub use document::Document;
 pub use error::{Faults, SettingsError};
 pub use nearest::{did_you_mean, none_called};
 pub use place::Place;
-pub use renamed::renamed;
+pub use renamed::{first_word, in_first_words, renamed};
 pub use spanned::{AnyTable, AnyValue, Spanned};
 pub use table::{Part, Settings};
 
