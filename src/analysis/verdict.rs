@@ -331,6 +331,12 @@ impl ClaimVerdict {
         (!self.beside.is_empty()).then(|| self.beside.join("; "))
     }
 
+    /// Which printed values would have been refused, in words.
+    pub fn power(&self) -> Option<&str> {
+        let mut because = self.findings.iter().flat_map(|finding| &finding.because);
+        because.find_map(|line| line.strip_prefix("power: "))
+    }
+
     /// What would settle it, where it is open.
     pub fn settles(&self) -> Option<&str> {
         let across = self.across.as_ref().and_then(|across| across.settles.as_deref());

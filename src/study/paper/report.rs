@@ -30,9 +30,9 @@ pub const FIGURES: usize = 6;
 
 /// The forms in which a place can ask for what was found: with one decimal, as a percentage with the digits of its interval, in words
 /// with a direction (of a claim with parts those of its parts), so what is shown and decides nothing, the ends of the interval, the
-/// number of instances, the verdict and what interpretations make of it. The last one is the least and the greatest percentage over the
+/// number of instances, the verdict, what interpretations make of it, and which printed values would have been refused. The last one is the least and the greatest percentage over the
 /// interpretations that count.
-pub const FORMS: [&str; 10] = [
+pub const FORMS: [&str; 11] = [
     "tenths",
     "percent",
     "effect",
@@ -42,6 +42,7 @@ pub const FORMS: [&str; 10] = [
     "n",
     "verdict",
     "interpretations",
+    "power",
     OVER_INTERPRETATIONS,
 ];
 
