@@ -26,6 +26,7 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
             "shown" => judged.and_then(|judged| beside(judged.shown().map(|ours| (ours, None)).collect())),
             "percent" => ours.map(percentage),
             OVER_INTERPRETATIONS => judged.and_then(|judged| judged.across.as_ref()?.range).map(percents),
+            "interval" => ours.and_then(|ours| ours.interval).map(|[low, high]| format!("[{low:.1}, {high:.1}]")),
             "power" => judged.and_then(ClaimVerdict::power).map(str::to_owned),
             "low" => ours.and_then(|ours| ours.interval).map(|[low, _]| number(low)),
             "high" => ours.and_then(|ours| ours.interval).map(|[_, high]| number(high)),

@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 pub static ENTRY: Entry = Entry {
     name: "claims_by_choices",
     about: "which choice moves which claim: the greatest effect of an axis's voting options, one at a time",
-    statistic: "Options that vote, one at a time; a cell shows the greatest effect. Claims that none moves are absent; {interpretations}.",
+    statistic: "Options that vote, one at a time; a cell shows the greatest effect. Claims whose outcome none changes are absent; {interpretations}.",
     settings: Accepted::shape::<ClaimsByChoices>(),
     example: r#"
 fitted = "threshold"
@@ -110,10 +110,11 @@ fn keys<T: Ord>(looks: &[(T, &str, Rgb)], shown: &BTreeSet<T>) -> Vec<Key> {
 }
 
 impl ClaimsByChoices {
-    /// The sentences and rows that interpretations can touch, from above.
+    /// The sentences and rows whose outcome some option changes, from above.
     fn rows<'s>(scene: &'s Scene<'_>) -> Vec<(&'s ClaimVerdict, &'s Across)> {
         let moved = |judged: &'s ClaimVerdict| {
-            let across = judged.across.as_ref().filter(|across| !across.effects.is_empty())?;
+            let is_moved = |across: &&Across| across.effects.values().any(|of| of.effect > Effect::Number);
+            let across = judged.across.as_ref().filter(is_moved)?;
             Some((judged, across))
         };
         scene.verdicts.claims.iter().filter(|judged| judged.part_of.is_none()).filter_map(moved).collect()

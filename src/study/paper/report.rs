@@ -29,14 +29,15 @@ pub struct ReportSpec {
 pub const FIGURES: usize = 6;
 
 /// The forms in which a place can ask for what was found: with one decimal, as a percentage with the digits of its interval, in words
-/// with a direction (of a claim with parts those of its parts), so what is shown and decides nothing, the ends of the interval, the
+/// with a direction (of a claim with parts those of its parts), so what is shown and decides nothing, the interval with one decimal, its ends, the
 /// number of instances, the verdict, what interpretations make of it, and which printed values would have been refused. The last one is the least and the greatest percentage over the
 /// interpretations that count.
-pub const FORMS: [&str; 11] = [
+pub const FORMS: [&str; 12] = [
     "tenths",
     "percent",
     "effect",
     "shown",
+    "interval",
     "low",
     "high",
     "n",
