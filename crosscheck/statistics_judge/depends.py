@@ -52,11 +52,10 @@ class Sides:
         return None
 
     def is_meant(self, side: int, options: tuple[tuple[str, str], ...], *, is_exact: bool) -> bool:
-        """Whether no result on the other side, or not every one and at most as many as on this side, has these options."""
+        """Whether no result on the other side, or at most half of them, has these options."""
         others = self.on(-side)
         having = sum(self.has_some(places, options) for places in others)
-        is_telling = having < len(others) and having <= len(self.on(side))
-        return having == 0 if is_exact else is_telling
+        return having == 0 if is_exact else 2 * having <= len(others)
 
     def shared(self, side: int) -> list[tuple[str, str]]:
         """The options that every interpretation on a side takes."""

@@ -1,7 +1,7 @@
 //! On which options a claim depends: those that all results on one side share.
 //!
 //! A rule is one option, or two. It is exact if no result on the other side has it, and then the smallest comes first: one option,
-//! then two. Without an exact rule one option that all results on a side share is named, if at most as many on the other side have it.
+//! then two. Without an exact rule one option that all results on a side share is named, if at most half of those on the other side have it.
 //! Of as many options the rule under which the fewest interpretations stand comes first. Where there is none, a combination of
 //! options decides, and the choice that separates best is named with its counts.
 
@@ -73,8 +73,7 @@ impl<'a> Sides<'a> {
             let is_meant = |(side, rule): &&(bool, Vec<Taken<'a>>)| {
                 let others = self.on(!side);
                 let having = others.iter().filter(|group| self.has_some(group, rule)).count();
-                let is_telling = having < others.len() && having <= self.on(*side).len();
-                if is_exact { having == 0 } else { is_telling }
+                if is_exact { having == 0 } else { 2 * having <= others.len() }
             };
             rules.iter().filter(is_meant).min_by_key(|(_, rule)| self.interpretations(rule)).cloned()
         };
