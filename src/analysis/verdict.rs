@@ -166,9 +166,6 @@ pub struct Across {
     /// Interpretations that are set apart: the verifier refuses their paths, which the paper calls free.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub refused: Vec<String>,
-    /// The least and the greatest of our numbers over them, where the paper's chapter asks.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub range: Option<[f64; 2]>,
     /// The results of a joint test, the likeliest first, each with its interpretations.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tested: Vec<String>,

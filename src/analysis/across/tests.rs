@@ -247,8 +247,7 @@ fn a_size_that_is_missed_is_named_also_where_a_choice_was_not_varied() {
     let counted = Counted { groups: planted.groups.clone(), looked: 1, ..Counted::default() };
     let [default, second] = [outcomes[0].polarity(); 2];
     let (chosen, states_size, is_unvaried) = (None, true, true);
-    let results =
-        Results { outcomes: &outcomes, default, second, chosen, states_size, is_unvaried };
+    let results = Results { outcomes: &outcomes, default, second, chosen, states_size, is_unvaried };
     let line = results.verdict().1;
     let first = Some(&planted.first);
     let view = View { choices: &planted.choices, first, id: "fewer", counted: &counted, results: &results };

@@ -64,7 +64,8 @@ impl View<'_> {
                 let what = if alike { "same" } else { "same direction" };
                 let same = is_same.then(|| format!("{what} under all {}", self.counted.looked));
                 // Where a choice was not varied, the verdict's own word does not say so.
-                let is_sign = self.results.is_unvaried && matches!(line, Line::All) && self.results.is_sign_alone();
+                let is_sign =
+                    self.results.is_unvaried && matches!(line, Line::All) && self.results.is_sign_alone();
                 same.into_iter().chain(is_sign.then(|| SIGN_ALONE.to_owned())).collect()
             }
             Line::NoExample if !is_witness => vec![format!("met under none of {all}")],

@@ -243,10 +243,9 @@ impl<'a> Counted<'a> {
     /// The most chances that an instance could have had: of events the most that were seen, as they have no bound.
     fn most(&self, instances: &[Instance<'_>]) -> f64 {
         match self.settings.hits {
-            Hits::LowerThroughout
-            | Hits::SolvedMore
-            | Hits::SolvedMoreThroughout
-            | Hits::SolvedAtLeast => 1.0,
+            Hits::LowerThroughout | Hits::SolvedMore | Hits::SolvedMoreThroughout | Hits::SolvedAtLeast => {
+                1.0
+            }
             Hits::Events => 0.0,
             _ => most_cases(instances),
         }

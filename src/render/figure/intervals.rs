@@ -198,7 +198,9 @@ impl Intervals {
             let index = if self.is_by_group() { ask::series(scene, contender, place) } else { 0 };
             let bar = match what.metric {
                 Some(_) => ask::bar(estimate),
-                None if self.read.certain.contains(*contender) => Interval::new(estimate.value, estimate.value),
+                None if self.read.certain.contains(*contender) => {
+                    Interval::new(estimate.value, estimate.value)
+                }
                 None => estimate.interval,
             };
             panel.add(Bar {

@@ -28,11 +28,11 @@ pub struct ReportSpec {
 /// How many figures a chapter shows at most.
 pub const FIGURES: usize = 6;
 
-/// The forms in which a place can ask for what was found: with one decimal, as a percentage with the digits of its interval, in words
-/// with a direction (of a claim with parts those of its parts), so what is shown and decides nothing, the interval with one decimal, its ends, the
-/// number of instances, the verdict, what interpretations make of it, and which printed values would have been refused. The last one is the least and the greatest percentage over the
-/// interpretations that count.
-pub const FORMS: [&str; 12] = [
+/// The forms in which a place can ask for what was found: with one decimal, as a percentage with the digits of its interval, in
+/// words with a direction (of a claim with parts those of its parts), so what is shown and decides nothing, the interval with one
+/// decimal, its ends, the number of instances, the verdict, what interpretations make of it, and which printed values would have
+/// been refused.
+pub const FORMS: [&str; 11] = [
     "tenths",
     "percent",
     "effect",
@@ -44,11 +44,7 @@ pub const FORMS: [&str; 12] = [
     "verdict",
     "interpretations",
     "power",
-    OVER_INTERPRETATIONS,
 ];
-
-/// The form that asks what a number is over interpretations.
-pub const OVER_INTERPRETATIONS: &str = "percents";
 
 /// `text` with every `{claim}` or `{claim:form}` replaced by `with` of claim and form.
 pub fn filled(text: &str, mut with: impl FnMut(&str, &str) -> String) -> String {
@@ -64,12 +60,6 @@ pub fn filled(text: &str, mut with: impl FnMut(&str, &str) -> String) -> String 
 }
 
 impl Paper {
-    /// Whether a finding asks what the number beside the claim called `id` is over interpretations.
-    pub fn asks_over_interpretations(&self, id: &str) -> bool {
-        let wanted = format!("{{{id}:{OVER_INTERPRETATIONS}}}");
-        self.report.findings.iter().any(|text| text.contains(&wanted))
-    }
-
     /// Every claim, form, figure and table that the chapter names exists.
     pub(super) fn check_report(
         &self,

@@ -252,8 +252,7 @@ fn an_instance_solves_at_least_a_share_of_its_queries_unless_that_hangs_on_what_
                 sample.query("A", Some(query), None, if query == 0 { last } else { At(1.0) });
             }
         }
-        let settings =
-            "select = { OF, contender = \"A\" }\nhits = \"solved_at_least\"\nbound = 0.9\naccepted = [0.8, 1.0]";
+        let settings = "select = { OF, contender = \"A\" }\nhits = \"solved_at_least\"\nbound = 0.9\naccepted = [0.8, 1.0]";
         class("share", settings, Made::Plainly, sample)
     };
     assert_eq!([of(At(1.0)), of(NoPath), of(Spent)], ["holds", "contradicted", "open"]);
