@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 pub static ENTRY: Entry = Entry {
     name: "claims_by_choices",
     about: "which choice moves which claim: the greatest effect of an axis's voting options, one at a time",
-    statistic: "Options that vote, one at a time; a cell shows the greatest effect. Claims whose outcome none changes are absent; {interpretations}.",
+    statistic: "Voting options, one at a time; a cell shows the greatest effect. Claims whose outcome none changes are absent; {interpretations}.",
     settings: Accepted::shape::<ClaimsByChoices>(),
     example: r#"
 fitted = "threshold"
