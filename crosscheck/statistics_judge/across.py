@@ -325,7 +325,9 @@ class Across:
             case "proved" | "lacking" | "all" | "met":
                 is_same = counted.looked > 1 and not results.unvaried
                 what = "same" if len(set(results.outcomes)) < 2 else "same direction"
-                return ([f"{what} under all {counted.looked}"] if is_same else []), None
+                same = [f"{what} under all {counted.looked}"] if is_same else []
+                is_sign = results.unvaried and line == "all" and results.sign_alone()
+                return [*same, *(["the sign alone"] if is_sign else [])], None
             case "no example" if results.chosen != "existence":
                 return [f"met under none of {every}"], None
             case "no example":

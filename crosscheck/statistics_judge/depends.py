@@ -53,10 +53,10 @@ class Sides:
         return None
 
     def is_meant(self, side: int, options: tuple[tuple[str, str], ...], *, is_exact: bool) -> bool:
-        """Whether no result on the other side, or not every one, has these options."""
+        """Whether no result on the other side, or at most half of them, has these options."""
         others = self.on(-side)
         having = sum(self.has_some(places, options) for places in others)
-        return having == 0 if is_exact else having < len(others)
+        return having == 0 if is_exact else 2 * having <= len(others)
 
     def shared(self, side: int) -> list[tuple[str, str]]:
         """The options that every interpretation on a side takes."""

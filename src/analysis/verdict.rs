@@ -166,9 +166,6 @@ pub struct Across {
     /// Interpretations that are set apart: the verifier refuses their paths, which the paper calls free.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub refused: Vec<String>,
-    /// The least and the greatest of our numbers over them, where the paper's chapter asks.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub range: Option<[f64; 2]>,
     /// The results of a joint test, the likeliest first, each with its interpretations.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tested: Vec<String>,
@@ -344,6 +341,12 @@ impl ClaimVerdict {
     /// What its verdict rests on.
     pub fn rests_on(&self) -> Option<String> {
         (!self.beside.is_empty()).then(|| self.beside.join("; "))
+    }
+
+    /// Which printed values would have been refused, in words.
+    pub fn power(&self) -> Option<&str> {
+        let mut because = self.findings.iter().flat_map(|finding| &finding.because);
+        because.find_map(|line| line.strip_prefix("power: "))
     }
 
     /// What would settle it, where it is open.

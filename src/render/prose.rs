@@ -3,7 +3,7 @@
 use super::effect::{effect, percentage, side_by_side};
 use crate::analysis::verdict::{ClaimVerdict, Estimate, Verdicts};
 use base::text::shown;
-use study::paper::{OVER_INTERPRETATIONS, filled};
+use study::paper::filled;
 
 /// Paragraphs and lists are broken into lines of this many characters.
 pub const COLUMNS: usize = 120;
@@ -25,7 +25,10 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
                 .or_else(|| beside(verdicts.parts_ours(judged?))),
             "shown" => judged.and_then(|judged| beside(judged.shown().map(|ours| (ours, None)).collect())),
             "percent" => ours.map(percentage),
-            OVER_INTERPRETATIONS => judged.and_then(|judged| judged.across.as_ref()?.range).map(percents),
+            "interval" => {
+                ours.and_then(|ours| ours.interval).map(|[low, high]| format!("[{low:.1}, {high:.1}]"))
+            }
+            "power" => judged.and_then(ClaimVerdict::power).map(str::to_owned),
             "low" => ours.and_then(|ours| ours.interval).map(|[low, _]| number(low)),
             "high" => ours.and_then(|ours| ours.interval).map(|[_, high]| number(high)),
             _ => ours.map(|ours| number(ours.value)),
@@ -39,16 +42,6 @@ pub fn capital(name: &str) -> String {
     let mut letters = name.chars();
     let first = letters.next().map(|letter| letter.to_ascii_uppercase());
     first.into_iter().chain(letters).collect()
-}
-
-/// Two shares as percentages, those below one per cent with a decimal.
-fn percents(ends: [f64; 2]) -> String {
-    let percent = |share: f64| {
-        let percent = 100.0 * share;
-        if percent > 0.0 && percent < 1.0 { format!("{percent:.1}") } else { format!("{percent:.0}") }
-    };
-    let [least, greatest] = ends.map(percent);
-    format!("{least} to {greatest} %")
 }
 
 /// A number with four decimals at most; what these would show as zero stands as a power of ten.
@@ -180,12 +173,6 @@ mod tests {
         ] {
             assert_eq!(markdown(text), safe);
         }
-    }
-
-    #[test]
-    fn shares_over_interpretations_keep_a_digit_that_says_something() {
-        assert_eq!(percents([0.0, 0.436]), "0 to 44 %");
-        assert_eq!(percents([0.0051, 0.0149]), "0.5 to 1 %");
     }
 
     #[test]

@@ -20,7 +20,7 @@ use self::claim::{ClaimSpec, claim};
 pub use self::rules::names_of;
 pub use inventory::{InventoryRow, NumbersRow};
 pub use reply::{Reply, is_day};
-pub use report::{FIGURES, OVER_INTERPRETATIONS, ReportSpec, filled};
+pub use report::{FIGURES, ReportSpec, filled};
 
 use self::reply::ReplySpec;
 use self::results::ResultsSpec;

@@ -2,8 +2,8 @@
 //!
 //! A rule is one option, or two. It is exact if no result on the other side has it, and then the smallest comes first: one option,
 //! then two. Of as many options the rule under which the fewest interpretations stand comes first. Without an exact rule a
-//! combination of options decides. The choice that separates best is named with its counts, or else an option that all results
-//! on a side share and some on the other lack.
+//! combination of options decides. An option is named that all results on a side share and at most half of those on the other
+//! side have, or else the choice that separates best, with its counts.
 
 use super::count::{Group, VotingChoices};
 use super::glance::Sight;
@@ -75,7 +75,7 @@ impl<'a> Sides<'a> {
             let is_meant = |(side, rule): &&(bool, Vec<Taken<'a>>)| {
                 let others = self.on(!side);
                 let having = others.iter().filter(|group| self.has_some(group, rule)).count();
-                if is_exact { having == 0 } else { having < others.len() }
+                if is_exact { having == 0 } else { 2 * having <= others.len() }
             };
             rules.iter().filter(is_meant).min_by_key(|(_, rule)| self.interpretations(rule)).cloned()
         };

@@ -215,7 +215,6 @@ impl OfClaim<'_> {
             let options = first.interpretations[*place].iter().map(|(id, option)| format!("{id} = {option}"));
             options.collect::<Vec<_>>().join(", ")
         };
-        let is_asked = self.paper.asks_over_interpretations(&judged.claim);
         let mut across = Across {
             settles: None,
             counted: votes.len(),
@@ -228,7 +227,6 @@ impl OfClaim<'_> {
             incompatible: counted.incompatible,
             none_compatible: counted.none_compatible,
             refused: counted.refused.iter().map(named).collect(),
-            range: is_asked.then(|| range(first, judged, counted)).flatten(),
             effects: effects::effects(self.choices, first, &judged.claim, judged.outcome),
             tested: tested::tested(first, self.claim),
             probes: effects::probes(self.choices, first, &judged.claim, judged.outcome),
@@ -281,18 +279,6 @@ fn refused(choices: &VotingChoices, first: &Exploration) -> Vec<String> {
     let options =
         choices.choices.iter().flat_map(|choice| choice.options.keys().map(move |option| (choice, option)));
     options.filter_map(of_option).collect()
-}
-
-/// The least and the greatest of our numbers beside a claim over the interpretations that count; the default run's stands for its own.
-fn range(first: &Exploration, judged: &ClaimVerdict, counted: &Counted) -> Option<[f64; 2]> {
-    let own = judged.ours().map(|ours| ours.value);
-    let number = |group: &Group| match group.interpretation {
-        0 => own,
-        place => first.result(&judged.claim, place)?.value,
-    };
-    let numbers: Vec<f64> = counted.groups.iter().filter_map(number).collect();
-    let end = |of: fn(f64, f64) -> f64| numbers.iter().copied().reduce(of);
-    Some([end(f64::min)?, end(f64::max)?])
 }
 
 /// What each result of a claim counts as: an outcome that speaks against most of them is open unless the second seed says so too,

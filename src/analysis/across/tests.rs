@@ -232,6 +232,36 @@ fn a_result_stands_under_all_of_its_readings_and_not_under_the_first_alone() {
 }
 
 #[test]
+fn an_option_under_which_most_results_are_on_the_other_side_is_no_reason() {
+    // Both that contradict have the default side, and so have most that hold.
+    let found: [(&[&str], Outcome); 7] = [
+        (&["a", "a", "a"], Holds),
+        (&["b", "a", "a"], Fails),
+        (&["a", "b", "a"], Fails),
+        (&["b", "b", "a"], Holds),
+        (&["c", "a", "a"], Holds),
+        (&["a", "a", "b"], Holds),
+        (&["c", "c", "a"], Holds),
+    ];
+    let planted = Planted::new(&[("corners", "a"), ("ties", "a"), ("side", "a")], &found);
+    assert_eq!(planted.wording().1.as_deref(), Some("a combination"));
+}
+
+#[test]
+fn a_size_that_is_missed_is_named_also_where_a_choice_was_not_varied() {
+    let planted = Planted::new(&[("corners", "a")], &[(&["a"], Outcome::SignOnly)]);
+    let outcomes = [Outcome::SignOnly];
+    let counted = Counted { groups: planted.groups.clone(), looked: 1, ..Counted::default() };
+    let [default, second] = [outcomes[0].polarity(); 2];
+    let (chosen, states_size, is_unvaried) = (None, true, true);
+    let results = Results { outcomes: &outcomes, default, second, chosen, states_size, is_unvaried };
+    let line = results.verdict().1;
+    let first = Some(&planted.first);
+    let view = View { choices: &planted.choices, first, id: "fewer", counted: &counted, results: &results };
+    assert_eq!(view.wording(line).beside, ["the sign alone"]);
+}
+
+#[test]
 fn exceptions_are_named_by_what_they_share_or_one_by_one() {
     let open = product(|corners, ties| if corners == "c" && ties != "a" { Open } else { Holds });
     assert_eq!(open.wording().0, "7/2/0 for/open/against; all 2 exceptions have corners = c");

@@ -4,7 +4,7 @@ use super::super::criterion::EXISTS;
 use super::super::evidence::default_point;
 use std::collections::BTreeSet;
 use study::paper::{Claim, Paper, TestRole};
-use study::{Choice, Contender, Study};
+use study::{Choice, Contender, Group, Study};
 use toml::Value;
 
 /// What the criteria of a claim, or of its parts, name.
@@ -51,7 +51,7 @@ impl<'p> Touched<'p> {
     /// Whether no seed decides anything of it: neither its problems nor a contender's trials.
     pub fn draws_nothing(&self, paper: &Paper) -> bool {
         self.studies.iter().all(|study| {
-            let groups = self.named(&study.groups, |group| &group.label);
+            let groups = self.groups(study);
             let contenders = self.contenders(study);
             // A study without contenders draws whatever its task draws.
             !contenders.is_empty()
@@ -109,23 +109,28 @@ impl<'p> Touched<'p> {
         }
         let mut contenders = self.contenders(study);
         contenders.retain(|contender| !contender.departs.contains_key(&choice.id));
-        choice.moves(option, &self.named(&study.groups, |group| &group.label), &contenders)
+        choice.moves(option, &self.groups(study), &contenders)
     }
 
     fn contenders(&self, study: &'p Study) -> Vec<&'p Contender> {
-        self.named(&study.contenders, |contender| &contender.label)
+        named(&study.contenders, |contender| self.words.contains(contender.label.as_str()))
     }
 
-    /// Those of `all` whose label is named, or begins as a label that ends in `*`; all of them if none is.
-    fn named<T>(&self, all: &'p [T], label: fn(&T) -> &String) -> Vec<&'p T> {
-        let is_named = |one: &&T| {
-            let begins =
-                |word: &&str| word.strip_suffix('*').is_some_and(|begin| label(one).starts_with(begin));
-            self.words.contains(label(one).as_str()) || self.words.iter().any(begins)
+    /// The problem groups of a study; a label that ends in `*` stands for all that begin so.
+    fn groups(&self, study: &'p Study) -> Vec<&'p Group> {
+        let begins = |word: &&str, group: &Group| {
+            word.strip_suffix('*').is_some_and(|begin| group.label.starts_with(begin))
         };
-        let found: Vec<&T> = all.iter().filter(is_named).collect();
-        if found.is_empty() { all.iter().collect() } else { found }
+        named(&study.groups, |group| {
+            self.words.contains(group.label.as_str()) || self.words.iter().any(|word| begins(word, group))
+        })
     }
+}
+
+/// Those of `all` that are named; all of them if none is.
+fn named<T>(all: &[T], is_named: impl Fn(&T) -> bool) -> Vec<&T> {
+    let found: Vec<&T> = all.iter().filter(|one| is_named(one)).collect();
+    if found.is_empty() { all.iter().collect() } else { found }
 }
 
 /// The options of `choice` that vote, but for its default.

@@ -16,6 +16,9 @@ const OPTIONS: usize = 2;
 /// The words beside every verdict on trials that no run of ours made, which caps it at supported and not supported.
 pub const ELSEWHERE: &str = "on trials recorded elsewhere, not reproduced here";
 
+/// Of what holds by its sign and misses the printed size.
+const SIGN_ALONE: &str = "the sign alone";
+
 /// The choices that touch a claim and were not varied, in words.
 pub fn not_varied(choices: &[String]) -> Option<String> {
     let listed = choices.iter().take(LISTED).cloned().collect::<Vec<_>>().join(", ");
@@ -59,7 +62,11 @@ impl View<'_> {
                 let is_same = self.counted.looked > 1 && !self.results.is_unvaried;
                 let alike = self.results.outcomes.windows(2).all(|pair| pair[0] == pair[1]);
                 let what = if alike { "same" } else { "same direction" };
-                is_same.then(|| format!("{what} under all {}", self.counted.looked)).into_iter().collect()
+                let same = is_same.then(|| format!("{what} under all {}", self.counted.looked));
+                // Where a choice was not varied, the verdict's own word does not say so.
+                let is_sign =
+                    self.results.is_unvaried && matches!(line, Line::All) && self.results.is_sign_alone();
+                same.into_iter().chain(is_sign.then(|| SIGN_ALONE.to_owned())).collect()
             }
             Line::NoExample if !is_witness => vec![format!("met under none of {all}")],
             Line::NoExample if all > 1 => vec![format!("no example found under {all}")],
@@ -72,7 +79,7 @@ impl View<'_> {
             Line::Nine | Line::More => {
                 let speaks = if holds > fails { Polarity::For } else { Polarity::Against };
                 let is_sign = speaks == Polarity::For && self.results.is_sign_alone();
-                let sign = is_sign.then(|| "the sign alone".to_owned());
+                let sign = is_sign.then(|| SIGN_ALONE.to_owned());
                 self.with_counts([sign, self.exceptions(speaks)])
             }
             Line::Both => {

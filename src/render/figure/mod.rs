@@ -4,7 +4,7 @@
 
 mod arm_plane;
 mod ask;
-mod claims_by_choices;
+pub mod claims_by_choices;
 mod cost_over_time;
 mod grid_search;
 mod instances;

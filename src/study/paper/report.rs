@@ -31,23 +31,21 @@ pub const FIGURES: usize = 6;
 
 /// The forms in which a text can show our number beside a claim: with one decimal, as a percentage with the digits of
 /// its interval, or in words with a direction. Of a claim with parts the words are those of its parts. Other forms give
-/// a shown number that decides nothing, the ends of the interval, the number of instances, the verdict, or the words
-/// beside it. The last one is the least and the greatest percentage over the interpretations that count.
-pub const FORMS: [&str; 10] = [
+/// a shown number that decides nothing, the interval or one of its ends, the number of instances, the verdict, the words
+/// beside it, or the printed values that would have been refused.
+pub const FORMS: [&str; 11] = [
     "tenths",
     "percent",
     "effect",
     "shown",
+    "interval",
     "low",
     "high",
     "n",
     "verdict",
     "interpretations",
-    OVER_INTERPRETATIONS,
+    "power",
 ];
-
-/// The form that asks what a number is over interpretations.
-pub const OVER_INTERPRETATIONS: &str = "percents";
 
 /// `text` with every `{claim}` or `{claim:form}` replaced by `with` of claim and form.
 pub fn filled(text: &str, mut with: impl FnMut(&str, &str) -> String) -> String {
@@ -63,12 +61,6 @@ pub fn filled(text: &str, mut with: impl FnMut(&str, &str) -> String) -> String 
 }
 
 impl Paper {
-    /// Whether a finding asks what the number beside the claim called `id` is over interpretations.
-    pub fn asks_over_interpretations(&self, id: &str) -> bool {
-        let wanted = format!("{{{id}:{OVER_INTERPRETATIONS}}}");
-        self.report.findings.iter().any(|text| text.contains(&wanted))
-    }
-
     /// Every claim, form, figure and table that the chapter names exists.
     pub(super) fn check_report(
         &self,

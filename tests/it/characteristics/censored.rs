@@ -250,6 +250,22 @@ fn one_contender_solves_more_throughout_only_where_it_does_at_every_point_of_the
 }
 
 #[test]
+fn an_instance_solves_at_least_a_share_of_its_queries_unless_that_hangs_on_what_did_not_end() {
+    let of = |last: End| {
+        let mut sample = Sample::default();
+        for _ in 0..40 {
+            sample.instance();
+            for query in 0..5 {
+                sample.query("A", Some(query), None, if query == 0 { last } else { At(1.0) });
+            }
+        }
+        let settings = "select = { OF, contender = \"A\" }\nhits = \"solved_at_least\"\nbound = 0.9\naccepted = [0.8, 1.0]";
+        class("share", settings, Made::Plainly, sample)
+    };
+    assert_eq!([of(At(1.0)), of(NoPath), of(Spent)], ["holds", "contradicted", "open"]);
+}
+
+#[test]
 fn a_row_of_numbers_and_a_trend_hang_on_what_did_not_end() {
     let drawn = |spent: usize| {
         let mut sample = Sample::default();
