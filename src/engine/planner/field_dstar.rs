@@ -13,7 +13,7 @@ use world::space::WorldKind;
 pub static ENTRY: Entry = Entry {
     name: "field_dstar",
     about: "Field D*: costs are interpolated along edges of cells, over which its path leads anywhere; searched once",
-    revision: 2,
+    revision: 1,
     needs: WorldKind::CornerLattice,
     columns: COLUMNS_DISTINCT,
     settings: Accepted::shape::<FieldSettings>(),
@@ -30,10 +30,10 @@ extraction = "looks_ahead"
 struct FieldSettings {
     /// The order among equal f.
     ties: TiesSetting,
-    /// Between which corners costs are interpolated.
-    interpolates: Interpolates,
-    /// How a step of the path is chosen.
-    extraction: Extraction,
+    /// Between which corners costs are interpolated; `opened` if absent.
+    interpolates: Option<Interpolates>,
+    /// How a step of the path is chosen; `looks_ahead` if absent.
+    extraction: Option<Extraction>,
 }
 
 #[derive(Deserialize, JsonSchema)]
@@ -57,8 +57,8 @@ enum Extraction {
 fn build(settings: &Settings) -> Result<Box<dyn Planner>, SettingsError> {
     let FieldSettings { ties, interpolates, extraction } = settings.read()?;
     let rules = FieldRules {
-        only_expanded: matches!(interpolates, Interpolates::Expanded),
-        looks_ahead: matches!(extraction, Extraction::LooksAhead),
+        only_expanded: matches!(interpolates, Some(Interpolates::Expanded)),
+        looks_ahead: !matches!(extraction, Some(Extraction::Interpolated)),
     };
     Ok(corners::planner(move || Interpolated::new(BucketHeap::new(ties.into()), rules)))
 }
