@@ -3,7 +3,7 @@
 
 use super::censored::refused_share;
 use super::context::Context;
-use super::criterion::{self, Criterion, Entry};
+use super::criterion::{self, Criterion, Entry, table_means};
 use super::criterion_result::CriterionResult;
 use super::evidence::{Evidence, Run};
 use super::number::{Number, Numbers};
@@ -223,7 +223,8 @@ fn finding(criterion: &str, found: CriterionResult, caps: Caps, not_run: &[Strin
     }
 }
 
-/// Whether something in `studies` was chosen to meet `claim`: it, the row that has it as a cell, or a claim that repeats its number.
+/// Whether something in `studies` was chosen to meet `claim`: it, the row or the table that has it as a cell, a claim that repeats its
+/// number, or both cells that it is the difference of.
 fn is_fitted(paper: &Paper, claim: &Claim, studies: &[&Study]) -> bool {
     let fitted = studies.iter().flat_map(|study| &study.fitted_to).filter_map(|id| paper.claim(id));
     let mut met = fitted.flat_map(|fitted| {
@@ -232,9 +233,13 @@ fn is_fitted(paper: &Paper, claim: &Claim, studies: &[&Study]) -> bool {
             _ => &[],
         };
         let is_own = |id: &&String| paper.whole_of(id).is_some_and(|whole| whole.id == fitted.id);
-        std::iter::once(fitted).chain(cells.iter().filter(is_own).filter_map(|id| paper.claim(id)))
+        let joint = table_means::cells(fitted);
+        let own = cells.iter().filter(is_own).chain(&joint).filter_map(|id| paper.claim(id));
+        std::iter::once(fitted).chain(own).collect::<Vec<_>>()
     });
+    let is_cell = |id: &String| paper.claim(id).is_some_and(|cell| is_fitted(paper, cell, studies));
     met.any(|met| met.tests_alike(claim))
+        || claim.difference.as_ref().is_some_and(|cells| cells.iter().all(is_cell))
 }
 
 /// Where alone a claim is meant, an interpretation each.
