@@ -10,10 +10,10 @@ tries = 300
 size_cells = [12, 12]
 start = [1, 2]
 goal = [10, 5]
-[[of]]
+[[families]]
 family = 'random_cells'
 settings = { blocked_share = 0.3 }
-[[of]]
+[[families]]
 family = 'random_bars'
 settings = { count = 12, length_cells = [2, 5] }
 [given]
