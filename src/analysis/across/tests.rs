@@ -1,5 +1,5 @@
 use super::super::outcome::Outcome::{self, Fails, Holds, Open, SignOnly};
-use super::super::verdict_rule::{Results, Verdict};
+use super::super::verdict_rule::{Chosen, Results, Verdict};
 use super::combine::{confirmed, flips};
 use super::count::{Counted, Group, VotingChoices};
 use super::glance::{Glance, Sight};
@@ -122,11 +122,15 @@ impl Planted {
 
     /// What stands beside the verdict, and on what it depends.
     fn wording(&self) -> (String, Option<String>) {
+        self.wording_where(None)
+    }
+
+    /// The same of a claim whose inputs were chosen so.
+    fn wording_where(&self, chosen: Option<Chosen>) -> (String, Option<String>) {
         let outcomes: Vec<Outcome> = self.groups.iter().map(|group| group.outcome).collect();
         let looked = self.groups.iter().map(|group| group.interpretations.len()).sum();
         let counted = Counted { groups: self.groups.clone(), looked, ..Counted::default() };
         let default = outcomes[0].polarity();
-        let chosen = None;
         let states_size = false;
         let is_unvaried = false;
         let results =
@@ -214,6 +218,19 @@ fn nothing_depends_on_an_axis_that_moves_nothing_alone() {
     }
     idle.groups.retain(|group| [0, 4].contains(&group.interpretation));
     assert_eq!(idle.wording().1.as_deref(), Some("ties"));
+}
+
+#[test]
+fn an_example_lists_no_option_that_cannot_move_the_claim_unless_it_is_a_witness() {
+    let mut idle = product(|corners, _| if corners == "b" { Holds } else { Fails });
+    // Other ties give the same result alone.
+    for place in [1, 2] {
+        idle.first.claims.get_mut("fewer").unwrap().results[place].results = "0".to_owned();
+    }
+    idle.groups.retain(|group| [0, 5].contains(&group.interpretation));
+    let met = |chosen| idle.wording_where(Some(chosen)).0;
+    assert_eq!(met(Chosen::Searched), "met under 1 of 2, corners = b among them");
+    assert_eq!(met(Chosen::Existence), "met under 1 of 2, corners = b, ties = c among them");
 }
 
 #[test]
