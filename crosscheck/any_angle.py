@@ -3,8 +3,8 @@
 Writes tests/it/crosscheck/any_angle.json: 80 small maps from a written seed, with how many vertices each search expands
 and how long its path is, or null where there is none. AP Theta* follows Daniel et al. (JAIR 39, 2010, section 6) with
 angles in radians; Field D* finds the best point of an edge by ternary search. Equal f go to the smaller or larger g,
-then to the vertex that was opened first; neighbours are opened for x from +1 down, for y from +1 down. Run from the root
-of the repository:
+then to the vertex that was opened first; neighbours are opened for x from +1 down, for y from +1 down.
+Run from the root of the repository:
 
     python crosscheck/any_angle.py
 """
@@ -177,7 +177,7 @@ class Field(Search):
 
     def ways(self, at: Point) -> list[tuple[Point, float]]:
         """Corners and best points of edges of the free cells about `at`, with the cost that is left from each."""
-        found = []
+        found: list[tuple[Point, float]] = []
         for x, y in self.free:
             if not (x <= at[0] <= x + 1 and y <= at[1] <= y + 1):
                 continue

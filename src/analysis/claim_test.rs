@@ -223,8 +223,8 @@ fn finding(criterion: &str, found: CriterionResult, caps: Caps, not_run: &[Strin
     }
 }
 
-/// Whether something in `studies` was chosen to meet `claim`: it, the row or the table that has it as a cell, a claim that repeats its
-/// number, or both cells that it is the difference of.
+/// Whether something in `studies` was chosen to meet `claim`: it, the row or joint test that has it as a cell, a claim that repeats its
+/// number, or both cells of its difference.
 fn is_fitted(paper: &Paper, claim: &Claim, studies: &[&Study]) -> bool {
     let fitted = studies.iter().flat_map(|study| &study.fitted_to).filter_map(|id| paper.claim(id));
     let mut met = fitted.flat_map(|fitted| {
