@@ -13,7 +13,7 @@ mod one_instance;
 mod prints_as;
 mod row_one_instance;
 mod share;
-mod table_means;
+pub mod table_means;
 mod trend;
 mod within;
 

@@ -66,6 +66,8 @@ struct PanelSpec {
     problems: Vec<String>,
     /// The contenders, by their labels; all if absent.
     contenders: Vec<String>,
+    /// Those among them that do the same whatever was drawn: they have no interval.
+    certain: Vec<String>,
     /// The queries, by their names; all if absent.
     queries: Vec<String>,
     /// The points of the sweeps, as in a selection: `samples=800`; all if absent.
@@ -270,7 +272,8 @@ impl StatisticsPanel {
         let of_groups = statistic == Statistic::Difference;
         let (group, contender) =
             if of_groups { (spec.against.as_ref(), None) } else { (None, spec.against.as_ref()) };
-        ask::known(&settings, study, problems.iter().chain(group), spec.contenders.iter().chain(contender))?;
+        let labels = spec.contenders.iter().chain(&spec.certain).chain(contender);
+        ask::known(&settings, study, problems.iter().chain(group), labels)?;
         for query in &spec.queries {
             let first = problems.first().map_or("", String::as_str);
             ask::query(&settings, study, first, query, (&["queries"], query))?;

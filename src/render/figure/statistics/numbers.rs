@@ -195,9 +195,10 @@ impl StatisticsPanel {
                 let (groups, contender) = if is_by_group { (own, label) } else { (&self.problems[..], name) };
                 let found = self.estimate(scene, groups, contender)?;
                 let within = Self::within(place, index, series.len());
-                let is_reduction = self.statistic == Statistic::Reductions;
-                Some(if is_reduction {
+                Some(if self.statistic == Statistic::Reductions {
                     Point::of_reduction(place, within, &found)
+                } else if self.spec.certain.contains(contender) {
+                    Point { place, ..Point::bare([within, found.value]) }
                 } else {
                     Point::of(place, within, &found)
                 })
