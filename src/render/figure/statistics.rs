@@ -247,7 +247,9 @@ impl Statistics {
                 order.push(label.clone());
             }
         }
-        made.iter_mut().for_each(|panel| panel.order.clone_from(&order));
+        for panel in &mut made {
+            panel.order.clone_from(&order);
+        }
         let instances = study.groups.iter().map(|group| group.instances).max().unwrap_or(0);
         Ok(Self { columns: columns.unwrap_or(panels.len()), panels: made, instances })
     }

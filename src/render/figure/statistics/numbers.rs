@@ -244,9 +244,8 @@ impl StatisticsPanel {
         let found = self.numbers_by_query(scene, &self.contenders);
         let count = found.first().map_or(0, |(_, spreads)| spreads.len());
         // What is saved is by the last contender.
-        let shown = self.contenders.iter().skip(self.contenders.len().saturating_sub(count)).enumerate();
-        let mut all: Vec<Series> =
-            shown.map(|(_, label)| self.of_contender(scene, label, Vec::new())).collect();
+        let shown = self.contenders.iter().skip(self.contenders.len().saturating_sub(count));
+        let mut all: Vec<Series> = shown.map(|label| self.of_contender(scene, label, Vec::new())).collect();
         for (place, (_, spreads)) in found.into_iter().enumerate() {
             for (index, (series, spread)) in all.iter_mut().zip(spreads).enumerate() {
                 let (Some(median), n) = (spread.median(), spread.values.len()) else { continue };
@@ -379,7 +378,7 @@ impl StatisticsPanel {
     }
 
     /// The mean share of another study's contender.
-    pub(super) fn level(&self, scene: &Scene<'_>, level: &super::Level) -> Result<f64, RenderError> {
+    pub(super) fn level(scene: &Scene<'_>, level: &super::Level) -> Result<f64, RenderError> {
         let missing =
             || RenderError::NotStored { what: format!("`{}` of `{}`", level.contender, level.study) };
         let run = scene.evidence.run(&level.study).ok_or_else(missing)?;

@@ -157,13 +157,13 @@ impl StatisticsPanel {
         let mut panel = Panel::new(self.title(all), x, y);
         self.add_equal(&mut panel, ends);
         for series in all.iter().rev().filter(|_| self.has(MarkKind::Dots)) {
-            self.add_dots(scene, &mut panel, series);
+            Self::add_dots(scene, &mut panel, series);
         }
         for (index, series) in all.iter().enumerate() {
             self.add_series(scene, &mut panel, series, index, (all.len(), ends[1]));
         }
         for level in &self.spec.levels {
-            let mean = self.level(scene, level)?;
+            let mean = Self::level(scene, level)?;
             let line = self.line_at(mean, ends[0], Stroke::solid(GREY, 1.0).dashed(Dash::Dashed));
             panel.add(line.labelled(format!("{}: {mean:.0} %", level.label)));
         }
@@ -201,7 +201,7 @@ impl StatisticsPanel {
     }
 
     /// Single values, pale and behind everything: the first series on top.
-    fn add_dots(&self, scene: &Scene<'_>, panel: &mut Panel, series: &Series) {
+    fn add_dots(scene: &Scene<'_>, panel: &mut Panel, series: &Series) {
         let color = color(series.looks).mixed(WHITE, 0.55);
         let thin = Stroke::solid(color, 0.35);
         for (instance, curve) in series.curves.iter().take(DRAWN).enumerate() {
@@ -350,7 +350,7 @@ impl StatisticsPanel {
         Some(Curves {
             title: caption.to_owned(),
             axis: if self.along == Along::Time { "time (s)".to_owned() } else { self.spec.axis.clone() },
-            value: self.metric.map_or_else(|| "solved (%)".to_owned(), |metric| metric.title()),
+            value: self.metric.map_or_else(|| "solved (%)".to_owned(), Metric::title),
             lines: all.iter().enumerate().map(line).chain(rows).collect(),
             at,
         })

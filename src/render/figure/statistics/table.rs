@@ -2,6 +2,7 @@
 
 use super::numbers::{Point, Series};
 use super::{Along, Statistic, StatisticsPanel};
+use crate::analysis::metric::Metric;
 use crate::analysis::shown::Spread;
 use crate::analysis::statistic::{INTERVALS, OverallStatistic};
 use crate::render::RenderError;
@@ -82,7 +83,7 @@ pub(super) fn table(
         table.row(row(name, &cell));
     }
     let against = last.spec.against.as_deref().unwrap_or_default();
-    let metric = last.metric.map_or_else(String::new, |metric| metric.title());
+    let metric = last.metric.map_or_else(String::new, Metric::title);
     table.note(if is_by_query {
         format!("{metric}: medians over instances; savings against {against}, instance by instance.")
     } else {
