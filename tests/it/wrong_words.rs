@@ -262,7 +262,7 @@ pub const WRONG: &[Wrong] = &[
         "room",
         "kind = \"grid_search\"\ncaption = \"A search in a room.\"\nshows = [{ problems = \"room\", instances = 1 }]\nsettings = { problems = [\"room\"], contenders = [\"A*\"] }",
         "kind = \"statistics\"\ncaption = \"What is saved.\"\nsettings = { panels = [{ y = \"contenders\", x = \"solved\", marks = [\"box\"] }] }",
-        "mini/room.toml:27:66: panel 1: `marks` has box; accepted here: [point]",
+        "mini/room.toml:27:66: panel 1: `marks` has box; accepted are point",
     ),
     wrong("paper", "id = \"nodes\"", "id = \"cost\"", "another claim or cell is called `cost` already"),
     wrong(

@@ -51,7 +51,7 @@ impl CornerSearch for Interpolated<BucketHeap> {
     }
 }
 
-/// The planner that searches by what `fresh` makes, one for each thread.
+/// The planner whose searches `fresh` makes, one for each thread.
 pub(super) fn planner<S: CornerSearch>(fresh: impl Fn() -> S + Send + Sync + 'static) -> Box<dyn Planner> {
     Box::new(BetweenCorners { fresh, pool: Pool::default() })
 }

@@ -55,8 +55,8 @@ struct Read {
 struct PanelSpec {
     /// What stands above it.
     title: String,
-    /// What stands along the horizontal axis: a sweep, a column of the problem, another metric, `time`, `problems`, `contenders`, `queries`,
-    /// `reasons` (what became of pairs of samples), or the number if `y` is `problems`, `contenders` or `instances` (their share).
+    /// What stands along the horizontal axis: a sweep, a column of the problem, another metric, or `time`. Names are `problems`, `contenders`,
+    /// `queries`, or `reasons` (what became of pairs of samples). It is the number if `y` is `problems`, `contenders` or `instances`.
     x: String,
     /// What stands along the vertical axis.
     y: String,
@@ -112,6 +112,19 @@ enum MarkKind {
     Dots,
 }
 
+impl MarkKind {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Line => "line",
+            Self::Band => "band",
+            Self::Point => "point",
+            Self::Box => "box",
+            Self::Bar => "bar",
+            Self::Dots => "dots",
+        }
+    }
+}
+
 /// A share of solved queries as a line across the panel.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -148,7 +161,7 @@ impl Statistic {
     fn caption(self) -> &'static str {
         match self {
             Self::Solved | Self::Difference | Self::Distance => {
-                "Means over instances with 95 % intervals; unsolved queries count; {n}."
+                "Means, 95 % intervals; unsolved queries count; {n}."
             }
             Self::Reductions => "Mean reductions where both solve, with 95 % bootstrap intervals; {n}.",
             Self::Savings | Self::Spreads => "Median, quartiles, 5–95 %, where all solve; {n}.",
@@ -163,7 +176,7 @@ impl Statistic {
         }
     }
 
-    /// By what it is drawn where the spec does not say, and by what it may be drawn besides.
+    /// The marks that it has where the spec names none, and those that it may have besides.
     fn marks(self, is_named: bool) -> [&'static [MarkKind]; 2] {
         use MarkKind::{Band, Bar, Box, Dots, Line, Point};
         match self {
@@ -296,7 +309,8 @@ impl StatisticsPanel {
         }
         let accepted = statistic.marks(along.is_names()).concat();
         if let Some(mark) = spec.marks.iter().find(|mark| !accepted.contains(mark)) {
-            let message = format!("`marks` has {mark:?}; accepted here: {accepted:?}").to_lowercase();
+            let accepted: Vec<&str> = accepted.iter().map(|mark| mark.name()).collect();
+            let message = format!("`marks` has {}; accepted are {}", mark.name(), accepted.join(", "));
             return Err(settings.error_at("marks", message));
         }
         let order = Vec::new();

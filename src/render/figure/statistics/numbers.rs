@@ -61,13 +61,13 @@ impl Point {
         Self::new(0, at, Interval::new(at[1], at[1]), 1)
     }
 
-    fn of(place: usize, along: f64, found: &Estimate) -> Self {
+    fn estimated(place: usize, along: f64, found: &Estimate) -> Self {
         Self::new(place, [along, found.value], found.interval, found.units)
     }
 
     /// That of what is less with one contender than with another: where two differ on no instance the value alone is drawn.
     fn of_reduction(place: usize, along: f64, found: &Estimate) -> Self {
-        let point = Self::of(place, along, found);
+        let point = Self::estimated(place, along, found);
         let bare = Self::bare(point.at);
         if found.is_agreed && found.value == 0.0 {
             Self { place, interval: point.interval, n: point.n, ..bare }
@@ -200,7 +200,7 @@ impl StatisticsPanel {
                 } else if self.spec.certain.contains(contender) {
                     Point { place, ..Point::bare([within, found.value]) }
                 } else {
-                    Point::of(place, within, &found)
+                    Point::estimated(place, within, &found)
                 })
             });
             self.of_contender(scene, label, points.collect())
@@ -350,7 +350,7 @@ impl StatisticsPanel {
                 let name = format!("{sweep}={value}");
                 let found = Curves::solved(&cells, scene.evidence)
                     .distance(&printed, &["row", &run.study.name, &name])?;
-                Some(Point::of(0, value.as_f64()?, &found))
+                Some(Point::estimated(0, value.as_f64()?, &found))
             };
             series.points = values.filter_map(distance).collect();
             return;
@@ -412,7 +412,8 @@ impl StatisticsPanel {
         let moments = self.moments();
         let names = [scene.run.study.name.as_str(), "cost over time", contender];
         let medians = best_over_time(&instances, &moments, &names);
-        let points = moments.iter().zip(medians).filter_map(|(at, found)| Some(Point::of(0, *at, &found?)));
+        let points =
+            moments.iter().zip(medians).filter_map(|(at, found)| Some(Point::estimated(0, *at, &found?)));
         self.of_contender(scene, contender, points.collect())
     }
 
