@@ -1,6 +1,6 @@
-//! What figures show of instances: computed here, so that a figure only instances it.
+//! Statistics of instances that figures show, so that a figure only draws them.
 //!
-//! `names` of an estimate are what its stream of resamples belongs to.
+//! `names` of an estimate decide its stream of resamples.
 
 use super::evidence::Evidence;
 use super::selection::{Case, Selection, by_instance, cases};
@@ -26,7 +26,8 @@ pub fn mean_solved(selection: &Selection<'_>, evidence: &Evidence<'_>, names: &[
     pooled::mean_between(&solved_percents(selection, evidence), [0.0, 100.0], plan(names))
 }
 
-/// The mean over instances of the points by which the share solved differs from that of `base`; none below two instances.
+/// The mean over instances of the difference between the share solved and that of `base`, in percentage points; none
+/// below two instances.
 pub fn mean_difference(
     [base, selection]: [&Selection<'_>; 2],
     evidence: &Evidence<'_>,
@@ -46,8 +47,8 @@ pub fn of_all(
     all.estimate(&selection.instances(evidence), plan(names))
 }
 
-/// The mean of each of the selection's contenders over the instances that all of them solve, and how many these are; the stream of
-/// a contender's resamples belongs to the study, the contender and the metric.
+/// The mean of each contender of the selection over the instances that all of them solve, and how many these are. The
+/// stream of a contender's resamples belongs to the study, the contender and the metric.
 pub fn means_of_whole_instances(
     selection: &Selection<'_>,
     evidence: &Evidence<'_>,
@@ -77,7 +78,7 @@ pub struct Savings {
 }
 
 impl Savings {
-    /// Those of `selection`.
+    /// The savings of `selection`.
     pub fn new(selection: &Selection<'_>, evidence: &Evidence<'_>) -> Self {
         let instances = selection.instances(evidence);
         let saved = |case: &Case<'_>| Some((case.row.instance(), case.saving_percent()?));
@@ -92,7 +93,7 @@ impl Savings {
         both.map_or(f64::INFINITY, |(median, saving)| (saving - median).abs())
     }
 
-    /// An instance's saving and where it stands among all; none of an instance that has no saving.
+    /// An instance's saving and its rank among all; none if the instance has no saving.
     pub fn rank(&self, instance: u32) -> Option<(f64, proportion::Rank)> {
         let own = *self.by_instance.get(&instance)?;
         Some((own, proportion::Rank::new(own, &self.by_instance.values().copied().collect::<Vec<_>>())))
@@ -111,7 +112,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// That of `values`.
+    /// The distribution of `values`.
     pub fn new(values: Vec<f64>) -> Self {
         let quantiles = (!values.is_empty()).then(|| summary::box_of(&values));
         Self { mean: summary::mean(&values), quantiles, values }
@@ -182,7 +183,7 @@ pub struct Distribution {
 }
 
 impl Distribution {
-    /// That of `values`.
+    /// The summary of `values`.
     pub fn new(values: &[f64]) -> Self {
         let bulk = [0.01, 0.99].iter().filter_map(|share| summary::quantile_type7(values, *share));
         Self { steps: summary::cumulative(values), bulk: bulk.collect() }
@@ -249,7 +250,7 @@ pub fn ratios_along(selection: &Selection<'_>, evidence: &Evidence<'_>, column: 
     by_instance(&selection.instances(evidence), point).concat()
 }
 
-/// What was found in the course of one trial: when, in seconds, and at what cost.
+/// The costs found in the course of one trial: when, in seconds, and at what cost.
 pub type CostHistory = Vec<[f64; 2]>;
 
 /// The least cost of what was found at `passed_s` or before; infinite if nothing was.

@@ -1,4 +1,4 @@
-//! What the planners share that plan between corners of cells alone.
+//! The steps that planners between corners of cells share.
 
 use super::lattice::Posed;
 use super::one_side::{Found, OneSided};

@@ -1,4 +1,4 @@
-//! What several kinds of figure ask of a study and of its stored run.
+//! Questions that several kinds of figure put to a study and its stored run.
 
 use super::Scene;
 use crate::analysis::evidence::Run;
@@ -208,8 +208,9 @@ pub(super) fn trial_at<'s>(
     rows.find(|row| at.is_none_or(|sweep| row.key.sweep == *sweep)).ok_or_else(missing)
 }
 
-/// The instance, among those on which every contender has a trial with the trace `name` for the query called `of_query`, on which
-/// the last contender's saving of the first one's way is nearest to the median over all instances. The first if nothing is saved.
+/// The instance whose saving is nearest to the median over all instances; the first if nothing is saved. The saving is
+/// the last contender's of the first one's way. Every contender has a trial with the trace `name` for the query called
+/// `of_query` there.
 ///
 /// # Errors
 /// [`RenderError::NotStored`] if there is none.

@@ -1,4 +1,4 @@
-//! What planners have found by each moment: the median cost of the best path so far, over all queries of all instances.
+//! The progress of planners over time: the median cost of the best path so far, over all queries of all instances.
 
 use super::{CurveLine, Curves, Entry, Kind, Scene, Shown, ask};
 use crate::analysis::metric::Metric;

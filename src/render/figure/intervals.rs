@@ -7,7 +7,7 @@ use crate::analysis::shown::{mean_difference, mean_solved, of_all};
 use crate::analysis::statistic::{Estimate, INTERVALS, OverallStatistic};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
-use crate::render::chart::rows::Interval;
+use crate::render::chart::rows::Interval as Bar;
 use crate::render::chart::rules::Rules;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::effect::less_than;
@@ -16,6 +16,7 @@ use crate::render::style::{INK, Stroke, VERMILLION, Width, series_color, series_
 use base::settings::{Accepted, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use stats::interval::Interval;
 use study::Study;
 use study::key::SweepKey;
 use study::paper::Paper;
@@ -43,6 +44,9 @@ struct Read {
     /// The contenders; all of the study if absent.
     #[serde(default)]
     contenders: Vec<String>,
+    /// Those among them that do the same whatever was drawn: they have no interval.
+    #[serde(default)]
+    certain: Vec<String>,
     /// The point of the sweeps that is shown, as `setting=value,…`; empty without sweeps.
     #[serde(default)]
     sweep: String,
@@ -98,7 +102,7 @@ impl Intervals {
                 ask::all_printed(settings, paper, &format!("panels.{index}.printed"), &panel.printed)?;
             panels.push(What { metric, printed });
         }
-        ask::known(settings, study, &read.problems, &read.contenders)?;
+        ask::known(settings, study, &read.problems, read.contenders.iter().chain(&read.certain))?;
         let sweep = ask::sweep(settings, study, &read.sweep)?;
         let all = study.contenders.iter().map(|contender| contender.label.clone());
         let contenders = if read.contenders.is_empty() { all.collect() } else { read.contenders.clone() };
@@ -192,8 +196,14 @@ impl Intervals {
             let Some(estimate) = estimate else { continue };
             let place = self.contenders.iter().position(|label| label == *contender).unwrap_or(0);
             let index = if self.is_by_group() { ask::series(scene, contender, place) } else { 0 };
-            let bar = if what.metric.is_some() { ask::bar(estimate) } else { estimate.interval };
-            panel.add(Interval {
+            let bar = match what.metric {
+                Some(_) => ask::bar(estimate),
+                None if self.read.certain.contains(*contender) => {
+                    Interval::new(estimate.value, estimate.value)
+                }
+                None => estimate.interval,
+            };
+            panel.add(Bar {
                 row: *at,
                 values: [bar.low, estimate.value, bar.high],
                 marker: series_marker(index),

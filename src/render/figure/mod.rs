@@ -4,7 +4,7 @@
 
 mod arm_plane;
 mod ask;
-mod claims_by_choices;
+pub mod claims_by_choices;
 mod cost_over_time;
 mod grid_search;
 mod instances;
@@ -162,7 +162,8 @@ pub struct Entry {
     pub build: fn(&Settings, &Study, &Paper) -> Result<Box<dyn Kind>, SettingsError>,
 }
 
-/// What stands below a figure: its caption, and what its kind shows of how many instances and trials, or interpretations.
+/// The text below a figure: its caption, with the number of instances and trials, or of interpretations, that its kind
+/// shows.
 pub fn caption(spec: &FigureSpec, run: &Run<'_>, paper: &Paper, verdicts: &Verdicts) -> String {
     let Some(entry) = find(spec.kind.get_ref()) else { return spec.caption.clone() };
     let own = build(spec, run.study, paper).ok().and_then(|kind| kind.statistic());

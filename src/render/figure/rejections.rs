@@ -1,4 +1,4 @@
-//! What became of the pairs that roadmaps tried: shares by reason, mean over instances.
+//! The fate of the pairs that roadmaps tried: shares by reason, mean over instances.
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::tabulated::mean_percent;

@@ -1,6 +1,7 @@
-//! What random maps of all kinds share.
+//! The settings that random maps of all kinds share.
 //!
-//! A start or goal that is written is freed after everything else was drawn. One that is drawn lies on a cell that is free.
+//! A start or goal that is written is freed after everything else was drawn. One that is drawn lies on a cell that is
+//! free.
 
 use super::ends::{Ends, PlaneEnd};
 use super::{Entry, Family, Query};

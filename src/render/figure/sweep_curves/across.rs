@@ -1,4 +1,4 @@
-//! Which value of a sweep gives the printed shares, for several studies: what the printed numbers identify, and what not.
+//! The value of a sweep that gives the printed shares, for several studies: how far the printed numbers identify it.
 
 use super::super::{Kind, Scene, ask};
 use crate::analysis::evidence::Run;
