@@ -321,11 +321,13 @@ class Across:
         on = None
         match line:
             case "met" if every > 1:
-                return [f"met under {holds} of {every}{self.met(counted)}"], None
+                return [f"met under {holds} of {every}{self.met(claim, counted, results)}"], None
             case "proved" | "lacking" | "all" | "met":
                 is_same = counted.looked > 1 and not results.unvaried
                 what = "same" if len(set(results.outcomes)) < 2 else "same direction"
-                return ([f"{what} under all {counted.looked}"] if is_same else []), None
+                same = [f"{what} under all {counted.looked}"] if is_same else []
+                is_sign = results.unvaried and line == "all" and results.sign_alone()
+                return [*same, *(["the sign alone"] if is_sign else [])], None
             case "no example" if results.chosen != "existence":
                 return [f"met under none of {every}"], None
             case "no example":
@@ -346,10 +348,12 @@ class Across:
                 more = [rule]
         return [one for one in (counts, *more) if one], on
 
-    def met(self, counted: Counted) -> str:
+    def met(self, claim: str, counted: Counted, results: Results) -> str:
         """The first interpretation that meets a claim, if it is not the default."""
         first = next(one for one in counted.results if SPEAKS[one.vote] == 1)
-        return f", {self.name(first)} among them" if self.departs(first) else ""
+        # A witness needs all options that its contender ran under.
+        departs = ", ".join(self.departs(claim, first, lists_all=results.chosen == "existence"))
+        return f", {departs} among them" if departs else ""
 
     def sides(self, claim: str, counted: Counted, sides: list[int]) -> Sides:
         """The results that count, on these sides."""
@@ -375,11 +379,9 @@ class Across:
         if rule:
             start = "the exception has" if len(apart) == 1 else f"all {len(apart)} exceptions have"
             return f"{start} {rule.wording()}"
-        assert self.first is not None
-        short = [
-            one for one in apart if len(self.first["interpretations"][one.interpretations[0]]) <= OPTIONS
-        ]
-        names = [self.name(one) if self.departs(one) else "the defaults" for one in short[:LISTED]]
+        departs = [self.departs(claim, one) for one in apart]
+        short = [one for one in departs if len(one) <= OPTIONS]
+        names = [", ".join(one) or "the defaults" for one in short[:LISTED]]
         names += [f"{len(apart) - len(names)} more"] if len(apart) > len(names) else []
         return f"exceptions: {' · '.join(names)}"
 
@@ -387,28 +389,27 @@ class Across:
         """On what it depends which way results speak, and in which words."""
         sides = self.sides(claim, counted, [-SPEAKS[one.vote] for one in counted.results])
         rule = sides.rule(1, -1)
+        words = None
         if rule:
             verb = "contradicted" if rule.side == 1 else "holds"
-            choices = " and ".join(choice for choice, _ in rule.options)
-            return choices, f"{verb} only if {rule.wording()} ({rule.hits} of {rule.covered})"
+            words = f"{verb} only if {rule.wording()} ({rule.hits} of {rule.covered})"
+            if rule.is_exact:
+                return " and ".join(choice for choice, _ in rule.options), words
         best = sides.separating()
-        if best is None:
-            return "a combination", "no option separates them"
-        return "a combination", f"{best[0]} separates best: contradicted under {best[1]}"
+        if best is not None:
+            words = f"{best[0]} matters most: {best[1]}"
+        return "a combination", words or "no option separates them"
 
-    def departs(self, result: Result) -> bool:
-        """Whether the first interpretation of a result is another than the default."""
-        assert self.first is not None
-        return bool(self.first["interpretations"][result.interpretations[0]])
+    def departs(self, claim: str, result: Result, *, lists_all: bool = False) -> list[str]:
+        """The options of a result's first interpretation that are not the defaults.
 
-    def name(self, result: Result) -> str:
-        """The first interpretation of a result by what differs from the defaults."""
+        Those of choices that can move the claim; all of them if none of these differs.
+        """
         assert self.first is not None
-        interpretation = self.first["interpretations"][result.interpretations[0]]
-        return (
-            ", ".join(f"{choice} = {option}" for choice, option in sorted(interpretation.items()))
-            or "the default"
-        )
+        options = sorted(self.first["interpretations"][result.interpretations[0]].items())
+        moving = {choice.id for choice in self.choices if self.moves(claim, choice)}
+        listed = [one for one in options if lists_all or one[0] in moving] or options
+        return [f"{choice} = {option}" for choice, option in listed]
 
     def alone(self, claim: str, choice: Choice, option: str) -> dict[str, Any] | None:
         """What was found under an option, all else at its default."""

@@ -18,6 +18,7 @@ class Rule:
     side: int
     hits: int
     covered: int
+    is_exact: bool
 
     def wording(self) -> str:
         """The options in words."""
@@ -48,14 +49,14 @@ class Sides:
             if found:
                 side, options = min(found, key=lambda one: self.interpretations(one[1]))
                 covered = sum(self.has_some(places, options) for places in self.results)
-                return Rule(options, side, len(self.on(side)), covered)
+                return Rule(options, side, len(self.on(side)), covered, is_exact)
         return None
 
     def is_meant(self, side: int, options: tuple[tuple[str, str], ...], *, is_exact: bool) -> bool:
-        """Whether no result on the other side, or not every one, has these options."""
+        """Whether no result on the other side, or at most half of them, has these options."""
         others = self.on(-side)
         having = sum(self.has_some(places, options) for places in others)
-        return having == 0 if is_exact else having < len(others)
+        return having == 0 if is_exact else 2 * having <= len(others)
 
     def shared(self, side: int) -> list[tuple[str, str]]:
         """The options that every interpretation on a side takes."""

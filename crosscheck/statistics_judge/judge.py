@@ -89,14 +89,25 @@ def of_claim(paper: Paper, claim: dict[str, Any]) -> Claim:
     return Claim(claim["id"], findings, names, "untestable" in claim, parts, is_meant(paper, claim))
 
 
-def fitted_with(paper: Paper, claim: dict[str, Any]) -> list[str]:
-    """The claim, those that ask the same of the same number, and the table rows that any is a cell of."""
-    alike = [
+def is_fitted(paper: Paper, claim: dict[str, Any], fitted_to: set[str]) -> bool:
+    """Whether a study is fitted to the claim's number, to its row or table, or to both cells of a difference."""
+    if "difference" in claim and all(
+        is_fitted(paper, paper.claim(cell), fitted_to) for cell in claim["difference"]
+    ):
+        return True
+    alike = {
         other["id"]
         for other in paper.claims
         if all(claim.get(key) == other.get(key) for key in ("printed", "check", "shows"))
+    }
+    places = [
+        (one["id"], place["claims"])
+        for one in paper.claims
+        for place in one.get("check", {}).get("table_means", {}).get("in", [])
     ]
-    return alike + [row["id"] for row in paper.claims if set(alike) & set(row.get("cells", []))]
+    wholes = [(row["id"], row.get("cells", [])) for row in paper.claims] + places
+    alike |= {whole for whole, cells in wholes if alike & set(cells)}
+    return bool(alike & fitted_to)
 
 
 def of_criterion(
@@ -125,10 +136,8 @@ def of_criterion(
         and classes.of_finding(
             outcome,
             searched=any(study.spec.get("searched", False) for study in studies),
-            fitted=any(
-                one in study.spec.get("fitted_to", [])
-                for study in studies
-                for one in fitted_with(paper, claim)
+            fitted=is_fitted(
+                paper, claim, {one for study in studies for one in study.spec.get("fitted_to", [])}
             ),
             existential=found.existential,
             powerless=found.powerless,

@@ -204,7 +204,11 @@ def fisher(probabilities: list[float]) -> float:
 
 
 def interpretations(asked: Asked) -> int:
-    """How many interpretations the paper may mean that trials of the studies tell apart."""
+    """How many interpretations the paper may mean that the studies tell apart; 1 if other claims chose among them."""
+    studies = asked.paper.studies.values()
+    calibration = {name for study in studies for name in study.spec.get("fitted_to", [])}
+    if calibration and asked.claim["id"] not in calibration:
+        return 1
     touched = {
         choice for place in asked.settings["in"] for choice in asked.paper.studies[place["study"]].inherited
     }

@@ -114,7 +114,7 @@ class Study:
     @property
     def sweeps(self) -> list[dict[str, Any]]:
         """Its sweeps, those over problems first."""
-        return sorted(self.spec.get("sweep", []), key=lambda sweep: "of" in sweep)
+        return sorted(self.spec.get("sweep", []), key=lambda sweep: "stage" in sweep)
 
     def sweeps_called(self, groups: list[str], written: str | list[str] | None) -> list[str]:
         """The points of its sweeps on problem groups that meet one of the conditions; all without any."""

@@ -140,7 +140,8 @@ def share_within(asked: Asked) -> Found:
     """A share lies within bounds."""
     cases, settings = asked.cases(), asked.settings
     hits, chances = by_unit(asked, cases)
-    few = {"lower_throughout": 1.0, "solved_more": 1.0, "solved_more_throughout": 1.0, "events": 0.0}
+    of_instances = ("lower_throughout", "solved_more", "solved_more_throughout", "solved_at_least")
+    few = {**dict.fromkeys(of_instances, 1.0), "events": 0.0}
     most = few.get(settings["hits"], most_cases(cases))
     estimate = with_cases(share(hits, chances, most, asked.seed), cases.solved_of_all())
     if "accepted" not in settings:
@@ -192,8 +193,9 @@ def by_unit(asked: Asked, cases: Cases, given: bool | None = None) -> tuple[Real
         lost = unknown(asked, cases)
         hits, chances = np.where(lost, float(given), hits), np.where(lost, 1.0, chances)
     hits, chances = sums_by_unit(cases.unit, cases.units, hits, chances)
-    if kind == "lower_throughout":
-        return ((hits == chances) & (chances > 0)).astype(float), (chances > 0).astype(float)
+    if kind in ("lower_throughout", "solved_at_least"):
+        least = asked.settings["bound"] * chances - EQUAL if kind == "solved_at_least" else chances
+        return ((hits >= least) & (chances > 0)).astype(float), (chances > 0).astype(float)
     return hits, chances
 
 
@@ -222,7 +224,7 @@ def hits_of(asked: Asked, cases: Cases) -> tuple[Reals, Reals]:
         known = ~np.isnan(events) & ~np.isnan(chances)
         return np.where(known, events, 0), np.where(known, chances, 0)
     always = np.ones(len(status), dtype=bool)
-    if kind == "solved":
+    if kind in ("solved", "solved_at_least"):
         hit, known = status == "solved", always
     elif kind == "rejected":
         hit, known = status == "rejected", np.isin(status, ["solved", "rejected"])

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from statistics_judge.across import Across, Choice, Counted, Result, choices, differences, flips
+from statistics_judge.depends import Sides
 from statistics_judge.medians import departs
 from statistics_judge.records import Paper, Study
 from statistics_judge.shared_out import shares
@@ -247,8 +248,18 @@ def test_a_planted_rule_is_named_with_one_option_or_with_two() -> None:
 
 def test_a_combination_names_the_axis_that_separates_best() -> None:
     found = wording_of(ALL, [BAD if (both[0] == "b") == (both[1] == "b") else GOOD for both in ALL])
-    expected = "4/0/5 for/open/against; order separates best: contradicted under a 2 of 3, b 1 of 3, c 2 of 3"
+    expected = (
+        "4/0/5 for/open/against; order matters most: 2 of 3 against with a, 2 of 3 with c, 1 of 3 with b"
+    )
     assert found == (expected, "a combination")
+
+
+def test_an_option_under_which_most_results_are_on_the_other_side_is_no_reason() -> None:
+    choices = {"order": "abacbac", "side": "aababac"}
+    takes = {choice: options.__getitem__ for choice, options in choices.items()}
+    takes["idle"] = "aaaaaba".__getitem__
+    sides = Sides(takes, [[place] for place in range(7)], [-1, 1, 1, -1, -1, -1, -1])
+    assert sides.rule(1, -1) is None
 
 
 def test_exceptions_are_named_by_what_they_share_or_one_by_one() -> None:

@@ -79,6 +79,16 @@ def test_one_solves_more_of_an_instance_unless_what_the_other_left_unended_is_so
         assert (list(hits), list(chances)) == (expected, [1, 1, 1])
 
 
+def test_an_instance_solves_at_least_so_much_of_its_cases() -> None:
+    ends: Ends = [(1.0, NONE), (NONE, NONE), (SPENT, NONE), (1.0, NONE), (1.0, NONE)]
+    of = asked(ends, {"hits": "solved_at_least", "bound": 0.75})
+    cases = of.cases()
+    cases.unit, cases.units = np.array([0, 0, 1, 1, 1]), 2
+    for given, expected in [(None, [0, 0]), (True, [0, 1]), (False, [0, 0])]:
+        hits, chances = shares.by_unit(of, cases, given)
+        assert (list(hits), list(chances)) == (expected, [1, 1])
+
+
 def test_one_solves_more_throughout_only_if_it_does_at_every_point() -> None:
     of = asked(
         [(1.0, NONE), (1.0, NONE), (1.0, NONE), (1.0, 1.0), (1.0, SPENT)], {"hits": "solved_more_throughout"}

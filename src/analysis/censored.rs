@@ -1,5 +1,7 @@
-//! Cases without a number: what the instances would be if they had given the least or the most that can be against what was found,
-//! how many have paths that the verifier refuses, and how many are outside of a claim about what is solved.
+//! Cases without a number.
+//!
+//! The instances are filled in with the least or the greatest values that could speak against the finding. Two more
+//! counts are reported: cases whose paths the verifier refuses, and cases outside a claim about solved ones.
 
 use super::evidence::Evidence;
 use super::metric::Better;
@@ -7,10 +9,10 @@ use super::selection::{Case, Instance, Selection, by_instance, cases, censored};
 use std::collections::BTreeSet;
 use study::record::{Row, Status};
 
-/// The pairs of every instance with its censored cases filled in by a difference that outweighs all that were seen: against the
-/// contender where it alone failed, for it where the other did (no number is below 0), and where that is not known once one
-/// way and once the other. It is not known of a side that did not come to an end: with more budget it might have been the
-/// better one. What is found every time does not hang on them. Nothing where nothing is censored.
+/// The pairs of every instance, with censored cases filled in by a difference that outweighs every observed one.
+///
+/// Where the contender alone failed, the difference is against it; where the other alone failed, it is for it. No
+/// number is below 0. Where the failing side is unknown, both ways are tried.
 pub fn filled(selection: &Selection<'_>, instances: &[Instance<'_>]) -> Vec<Vec<Vec<(f64, f64)>>> {
     let seen = || cases(instances).filter_map(Case::pair);
     let count = seen().count();
@@ -49,7 +51,7 @@ pub fn ended<'e>(instances: &[Instance<'e>], given: impl Fn(&Instance<'e>) -> f6
     instances.iter().map(of_instance).collect()
 }
 
-/// Cases that have no number although they might, because the verifier refuses a path.
+/// How many cases have no number because the verifier refuses a path.
 pub fn refused(instances: &[Instance<'_>]) -> usize {
     let is_refused = |row: &Row| row.status == Status::Rejected;
     let refused =
@@ -57,12 +59,12 @@ pub fn refused(instances: &[Instance<'_>]) -> usize {
     cases(instances).filter(refused).count()
 }
 
-/// How many cases are outside of a claim about what everyone who is compared solves.
+/// How many cases are outside a claim about cases that all compared contenders solve.
 pub fn outside(instances: &[Instance<'_>]) -> usize {
     cases(instances).filter(|case| !case.is_solved() && !case.might_be_solved()).count()
 }
 
-/// That so many cases are outside of a claim about `selection`, in words; `None` if none is.
+/// The sentence that `count` cases are outside a claim about `selection`; `None` if none is.
 pub fn outside_in_words(selection: &Selection<'_>, count: usize) -> Option<String> {
     let both = if selection.against.is_some() { "solved by both" } else { "solved" };
     (count > 0).then(|| format!("{count} more cases are outside of the claim: not {both}"))
@@ -85,7 +87,7 @@ pub fn not_posed(selection: &Selection<'_>, evidence: &Evidence<'_>) -> Option<S
         .then(|| format!("no problem could be posed in {} of {}: {reason}", left.len(), problems.len()))
 }
 
-/// The share of the paths that come back, of all that is selected, which the verifier refuses.
+/// The share of returned paths, of everything selected, that the verifier refuses.
 pub fn refused_share(selections: &[&Selection<'_>], evidence: &Evidence<'_>) -> f64 {
     let [mut refused, mut returned] = [0_usize; 2];
     for selection in selections {

@@ -1,11 +1,11 @@
-//! The tests of a claim under an interpretation: its criteria and rules, built; their numbers, and what these say.
+//! The tests of a claim under an interpretation: its criteria and rules, built; their numbers, and the outcome of
+//! these.
 
 use super::censored::refused_share;
 use super::context::Context;
-use super::criterion::{self, Criterion, Entry};
+use super::criterion::{self, Criterion, Entry, table_means};
 use super::criterion_result::CriterionResult;
 use super::evidence::{Evidence, Run};
-use super::meaning::in_first_words;
 use super::number::{Number, Numbers};
 use super::outcome::{self, Caps, Outcome, Sessions};
 use super::polylines::Polylines;
@@ -13,7 +13,7 @@ use super::rule;
 use super::settle::settles;
 use super::verdict::{CriterionFinding, Estimate};
 use base::hash::sha256;
-use base::settings::{Settings, SettingsError, none_called};
+use base::settings::{Settings, SettingsError, in_first_words, none_called};
 use std::collections::BTreeSet;
 use study::paper::{Claim, Paper, Parts, TestRole};
 use study::{Interpretation, Study};
@@ -89,8 +89,8 @@ impl<'a> ClaimTest<'a> {
         stripped(self.entry, self.context.settings).map_or("", |(statistic, _)| statistic)
     }
 
-    /// The name of its numbers: a hash of all that they depend on but for the trials, and of nothing that they are only held against. None of a
-    /// rule.
+    /// The name of its numbers: a hash of everything that they depend on but for the trials. Margins and printed values
+    /// are not part of it. None of a rule.
     pub fn question(&self) -> Option<String> {
         let Context { paper, claim, settings, .. } = self.context;
         let (statistic, own) = stripped(self.entry, settings)?;
@@ -114,46 +114,53 @@ impl<'a> ClaimTest<'a> {
 
     /// Its numbers under the evidence's interpretation; with a hash of what they rest on only if `is_hashed`.
     pub fn numbers(&self, evidence: &Evidence<'_>, is_hashed: bool) -> Numbers {
-        let of = &*self.criterion;
-        let stored =
-            || of.studies().iter().filter_map(|study| evidence.run(&study.name)).map(Run::sessions).min();
-        let sessions = if of.is_clock() { stored().unwrap_or(0) } else { 0 };
-        let others = (2..=sessions).map(|session| of.numbers(&evidence.in_session(session as u32)));
-        let hash = || sha256(of.results(evidence).as_bytes())[..16].to_owned();
+        let criterion = &*self.criterion;
+        let stored = || {
+            criterion.studies().iter().filter_map(|study| evidence.run(&study.name)).map(Run::sessions).min()
+        };
+        let sessions = if criterion.is_clock() { stored().unwrap_or(0) } else { 0 };
+        let others = (2..=sessions).map(|session| criterion.numbers(&evidence.in_session(session as u32)));
+        let hash = || sha256(criterion.results(evidence).as_bytes())[..16].to_owned();
         Numbers {
-            by_session: std::iter::once(of.numbers(evidence)).chain(others).collect(),
+            by_session: std::iter::once(criterion.numbers(evidence)).chain(others).collect(),
             sessions,
-            is_covered: of.is_covered(evidence),
-            is_posed: of.is_posed(evidence),
-            refused: refused_share(&of.selections(), evidence),
-            left_out: of.selections().iter().map(|of| of.unended_left_out(evidence)).sum(),
-            trials: if is_hashed && !of.studies().is_empty() { hash() } else { String::new() },
+            is_covered: criterion.is_covered(evidence),
+            is_posed: criterion.is_posed(evidence),
+            refused: refused_share(&criterion.selections(), evidence),
+            left_out: criterion
+                .selections()
+                .iter()
+                .map(|selection| selection.unended_left_out(evidence))
+                .sum(),
+            trials: if is_hashed && !criterion.studies().is_empty() { hash() } else { String::new() },
         }
     }
 
-    /// What `numbers` say of the claim; `evidence` adds the trial that shows it.
+    /// The outcome of the claim by `numbers`; `evidence` adds the trial that shows it.
     pub fn weighed(
         &self,
         numbers: &Numbers,
         polylines: &Polylines,
         evidence: Option<&Evidence<'_>>,
     ) -> CappedFinding {
-        let of = &*self.criterion;
+        let criterion = &*self.criterion;
         let Context { paper, claim, point, .. } = self.context;
-        let weigh = |one: &[Number]| of.proof(polylines, evidence.is_some()).unwrap_or_else(|| of.weigh(one));
+        let weigh = |one: &[Number]| {
+            criterion.proof(polylines, evidence.is_some()).unwrap_or_else(|| criterion.weigh(one))
+        };
         let first = &numbers.by_session[0];
         let mut found = weigh(first);
         if let Some(evidence) = evidence {
-            of.show(evidence, first, &mut found);
+            criterion.show(evidence, first, &mut found);
         }
         found.censored += numbers.left_out;
-        let clock = of.is_clock().then(|| {
+        let clock = criterion.is_clock().then(|| {
             let each = numbers.by_session.iter().take(numbers.sessions).map(|one| weigh(one));
             let (agreement, because) = sessions(&each.collect::<Vec<_>>());
             found.because.extend(because);
             if paper.source.ours { agreement } else { Sessions::OfAnother }
         });
-        let studies = of.studies();
+        let studies = criterion.studies();
         let not_run = paper.not_run(claim, &studies);
         let caps = Caps {
             searched: studies.iter().any(|study| study.searched),
@@ -216,7 +223,8 @@ fn finding(criterion: &str, found: CriterionResult, caps: Caps, not_run: &[Strin
     }
 }
 
-/// Whether something in `studies` was chosen to meet `claim`: it, the row that has it as a cell, or a claim that repeats its number.
+/// Whether something in `studies` was chosen to meet `claim`: it, the row or joint test that has it as a cell, a claim that repeats its
+/// number, or both cells of its difference.
 fn is_fitted(paper: &Paper, claim: &Claim, studies: &[&Study]) -> bool {
     let fitted = studies.iter().flat_map(|study| &study.fitted_to).filter_map(|id| paper.claim(id));
     let mut met = fitted.flat_map(|fitted| {
@@ -225,9 +233,13 @@ fn is_fitted(paper: &Paper, claim: &Claim, studies: &[&Study]) -> bool {
             _ => &[],
         };
         let is_own = |id: &&String| paper.whole_of(id).is_some_and(|whole| whole.id == fitted.id);
-        std::iter::once(fitted).chain(cells.iter().filter(is_own).filter_map(|id| paper.claim(id)))
+        let joint = table_means::cells(fitted);
+        let own = cells.iter().filter(is_own).chain(&joint).filter_map(|id| paper.claim(id));
+        std::iter::once(fitted).chain(own).collect::<Vec<_>>()
     });
+    let is_cell = |id: &String| paper.claim(id).is_some_and(|cell| is_fitted(paper, cell, studies));
     met.any(|met| met.tests_alike(claim))
+        || claim.difference.as_ref().is_some_and(|cells| cells.iter().all(is_cell))
 }
 
 /// Where alone a claim is meant, an interpretation each.

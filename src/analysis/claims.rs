@@ -4,7 +4,7 @@ use super::claim_test::{CappedFinding, ClaimTest, claim_tests, premises};
 use super::context;
 use super::criterion;
 use super::evidence::{Evidence, default_point};
-use super::meaning::{self, in_first_words};
+use super::meaning;
 use super::metric;
 use super::outcome::{self, Caps, Outcome};
 use super::rule;
@@ -14,7 +14,7 @@ use super::together::together;
 use super::verdict::{ClaimVerdict, CriterionFinding, Verdicts};
 use super::verdict_rule::{Chosen, Verdict};
 use base::hash::sha256;
-use base::settings::{Faults, Settings, SettingsError, none_called};
+use base::settings::{Faults, Settings, SettingsError, in_first_words, none_called};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use study::paper::{Claim, Paper, Parts, PrintedTable, TestRole, names_of};
@@ -80,7 +80,7 @@ fn question(claim: &Claim) -> String {
     )
 }
 
-/// The hash of what one claim says and how it is judged, with its parts and the claims that its criteria name.
+/// The hash of one claim's words and test, with its parts and the claims that its criteria name.
 pub fn claim_hash(paper: &Paper, claim: &Claim) -> String {
     let own = question(claim);
     // The text writes every name between quotes.
@@ -105,8 +105,8 @@ fn revisions(claim: &Claim) -> String {
     revised.map(|(name, revision)| format!("{name} {revision}\n")).collect::<Vec<_>>().concat()
 }
 
-/// Judges every claim under the evidence's interpretation alone: its outcome there. What verdict that amounts to says
-/// [`across`](super::across).
+/// Judges every claim under the evidence's interpretation alone. [`across`](super::across) turns these outcomes into a
+/// verdict.
 ///
 /// # Errors
 /// Those of [`validate`].
@@ -230,7 +230,8 @@ fn set_what_settles(claim: &Claim, judged: &mut ClaimVerdict) {
 /// How the outcomes of a claim's parts make its own.
 pub type OfParts = fn(&[Outcome]) -> Outcome;
 
-/// What the way is called in which a claim takes its outcome from its parts, that way, and their ids; `None` if it does not.
+/// How a claim takes its outcome from its parts: the name of that way, the way, and the parts' ids. `None` if it does
+/// not.
 pub fn of_parts(claim: &Claim) -> Option<(&'static str, OfParts, &[String])> {
     Some(match &claim.parts {
         Parts::None => return None,

@@ -1,8 +1,9 @@
 //! Two stored runs, or two contenders of one, beside each other.
 //!
-//! What both sides ran is paired by its typed key; what only one has stands apart. A [`Change`] goes from the first side to
-//! the second. Its intervals resample what was drawn independently (`pair`); trials that one side alone solved have no
-//! change of a mean, and count as an infinite loss of that side in medians, wins and the probability of improvement.
+//! Trials of both sides are paired by their typed key; the others stand apart. A [`Change`] goes from the first side to
+//! the second. Its intervals resample what was drawn independently (`pair`). Trials that one side alone solved have no
+//! change of a mean. They count as an infinite loss of the other side in medians, wins and the probability of
+//! improvement.
 
 mod cells;
 mod change;
@@ -296,8 +297,8 @@ fn notes(seen: &[BTreeMap<&str, Seen<'_>>; 2], lines: &[Line<'_>]) -> Vec<String
         if !first.times.is_empty() && !second.times.is_empty() {
             let cpu = |of: &Manifest| of.made_by.cpu.clone().unwrap_or_else(|| "unknown".to_owned());
             notes.push(format!(
-                "{study}: clocks were read in two sessions (on {} and on {}): what a session does to all of its interpretations \
-                 is in no interval",
+                "{study}: clocks were read in two sessions (on {} and on {}), and no interval knows by how much sessions \
+                 differ",
                 cpu(one),
                 cpu(other)
             ));

@@ -1,4 +1,4 @@
-//! What a criterion or a rule is built from, and the names that it looks up there.
+//! The context from which a criterion or rule is built, and the names that it looks up there.
 
 use super::metric::{self, Metric};
 use super::selection_spec::Labels;
@@ -74,7 +74,7 @@ impl<'a> Context<'a> {
         document.error_at_key(&steps.next().unwrap_or_default(), message)
     }
 
-    /// That of another claim.
+    /// The printed number of the claim `id`.
     ///
     /// # Errors
     /// There is no such claim, or it prints no number.
@@ -94,7 +94,8 @@ impl<'a> Context<'a> {
         })
     }
 
-    /// The study called `name`, which must have the contenders named; `within` is the part of the settings that names them.
+    /// The study called `name`, which must have the contenders named; `within` is the part of the settings that names
+    /// them.
     ///
     /// # Errors
     /// There is no such study, or it lacks a contender.

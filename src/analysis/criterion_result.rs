@@ -1,4 +1,4 @@
-//! What a criterion or a rule finds, before how its trials came about counts.
+//! The finding of a criterion or rule, before the origin of its trials counts.
 
 use super::outcome::Outcome;
 use super::verdict::Estimate;

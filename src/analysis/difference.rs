@@ -5,7 +5,7 @@ use super::verdict::{ClaimVerdict, CriterionFinding, Verdicts};
 use serde::Serialize;
 use serde_json::Value;
 
-/// What is not in `stored` as it is in `now`, one sentence each, every claim named; empty if they are equal.
+/// The differences of `now` from `stored`, one sentence each, every claim named; empty if they are equal.
 pub fn differences(stored: &Verdicts, now: &Verdicts) -> Vec<String> {
     let mut found = heads(stored, now);
     for judged in &now.claims {

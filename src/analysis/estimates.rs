@@ -106,18 +106,20 @@ impl About {
         let selections = own.selections();
         let first = selections.first();
         let joined = |all: Option<&Vec<String>>| all.map_or_else(String::new, |all| all.join(", "));
-        let points = first.and_then(|of| of.sweep.as_ref()).map(|all| all.iter().map(name::sweep).collect());
-        let metric = first.and_then(|of| of.metric);
+        let points = first
+            .and_then(|selection| selection.sweep.as_ref())
+            .map(|all| all.iter().map(name::sweep).collect());
+        let metric = first.and_then(|selection| selection.metric);
         Self {
             claim: claim.id.clone(),
             statistic: test.statistic().to_owned(),
             study: studies.into_iter().collect::<Vec<_>>().join(", "),
-            groups: joined(first.map(|of| &of.groups)),
-            contender: joined(first.map(|of| &of.contenders)),
-            against: first.and_then(|of| of.against.clone()).unwrap_or_default(),
+            groups: joined(first.map(|selection| &selection.groups)),
+            contender: joined(first.map(|selection| &selection.contenders)),
+            against: first.and_then(|selection| selection.against.clone()).unwrap_or_default(),
             metric: metric.map_or_else(String::new, |metric| metric.name.to_owned()),
             unit: metric.map_or_else(String::new, |metric| metric.unit.clone()),
-            query: joined(first.and_then(|of| of.query.as_ref())),
+            query: joined(first.and_then(|selection| selection.query.as_ref())),
             sweep: joined(points.as_ref()),
         }
     }
@@ -197,12 +199,12 @@ const HEAD: &str = "explored";
 const HASH: usize = 64;
 
 impl Estimates {
-    /// Where those of the paper whose runs are in `folder` lie.
+    /// The file of estimates of the paper whose runs are in `folder`.
     pub fn path(folder: &Path) -> PathBuf {
         folder.join("estimates.parquet")
     }
 
-    /// Those of `paper` if nothing was explored.
+    /// The estimates of `paper` if nothing was explored.
     pub fn none(paper: &Paper) -> Self {
         Self { paper: paper.id.clone(), ..Self::default() }
     }
@@ -387,29 +389,29 @@ fn rows(estimates: &Estimates) -> Vec<Row> {
 fn frame(estimates: &Estimates) -> DataFrame {
     let mut rows = rows(estimates);
     let mut columns: Vec<Column> = Vec::new();
-    for (name, of) in TEXTS {
-        let cells: Vec<&str> = rows.iter_mut().map(|row| &**of(row)).collect();
+    for (name, field) in TEXTS {
+        let cells: Vec<&str> = rows.iter_mut().map(|row| &**field(row)).collect();
         columns.push(Series::new(name.into(), cells).into());
     }
-    for (name, of) in COUNTS {
-        let cells: Vec<u64> = rows.iter_mut().map(|row| *of(row) as u64).collect();
+    for (name, field) in COUNTS {
+        let cells: Vec<u64> = rows.iter_mut().map(|row| *field(row) as u64).collect();
         columns.push(Series::new(name.into(), cells).into());
     }
-    for (name, of) in NUMBERS {
-        let cells: Vec<f64> = rows.iter_mut().map(|row| *of(row)).collect();
+    for (name, field) in NUMBERS {
+        let cells: Vec<f64> = rows.iter_mut().map(|row| *field(row)).collect();
         columns.push(Series::new(name.into(), cells).into());
     }
-    for (name, of) in MEASURES {
-        let cells: Vec<Option<f64>> = rows.iter_mut().map(|row| *of(row)).collect();
+    for (name, field) in MEASURES {
+        let cells: Vec<Option<f64>> = rows.iter_mut().map(|row| *field(row)).collect();
         columns.push(Series::new(name.into(), cells).into());
     }
-    for (name, of) in FACTS {
-        let cells: Vec<bool> = rows.iter_mut().map(|row| *of(row)).collect();
+    for (name, field) in FACTS {
+        let cells: Vec<bool> = rows.iter_mut().map(|row| *field(row)).collect();
         columns.push(Series::new(name.into(), cells).into());
     }
     let ends: Vec<&str> = rows.iter().map(|row| row.number.ends.name()).collect();
     let drawn: Vec<Option<u64>> = rows.iter().map(|row| row.number.drawn.map(|drawn| drawn as u64)).collect();
-    let [low, high] = [|of: Interval| of.low, |of: Interval| of.high]
+    let [low, high] = [|ends: Interval| ends.low, |ends: Interval| ends.high]
         .map(|end| rows.iter().map(|row| row.number.interval.map(end)).collect::<Vec<Option<f64>>>());
     let places = |row: &Row| row.answer.places.iter().map(|place| *place as u64).collect::<Vec<u64>>();
     columns.extend([
@@ -430,24 +432,24 @@ fn lists(name: &'static str, cells: impl Iterator<Item = Series>) -> Column {
 /// The answers of both seeds that a frame has.
 fn answers(frame: &DataFrame) -> PolarsResult<[Vec<Answer>; 2]> {
     let mut rows = vec![Row::default(); frame.height()];
-    for (name, of) in TEXTS {
+    for (name, field) in TEXTS {
         let cells = frame.column(name)?.str()?.iter();
-        rows.iter_mut().zip(cells).for_each(|(row, cell)| cell.unwrap_or_default().clone_into(of(row)));
+        rows.iter_mut().zip(cells).for_each(|(row, cell)| cell.unwrap_or_default().clone_into(field(row)));
     }
-    for (name, of) in COUNTS {
+    for (name, field) in COUNTS {
         let cells = frame.column(name)?.u64()?.iter();
-        rows.iter_mut().zip(cells).for_each(|(row, cell)| *of(row) = cell.unwrap_or_default() as usize);
+        rows.iter_mut().zip(cells).for_each(|(row, cell)| *field(row) = cell.unwrap_or_default() as usize);
     }
-    for (name, of) in NUMBERS {
+    for (name, field) in NUMBERS {
         let cells = frame.column(name)?.f64()?.iter();
-        rows.iter_mut().zip(cells).for_each(|(row, cell)| *of(row) = cell.unwrap_or_default());
+        rows.iter_mut().zip(cells).for_each(|(row, cell)| *field(row) = cell.unwrap_or_default());
     }
-    for (name, of) in MEASURES {
-        rows.iter_mut().zip(frame.column(name)?.f64()?.iter()).for_each(|(row, cell)| *of(row) = cell);
+    for (name, field) in MEASURES {
+        rows.iter_mut().zip(frame.column(name)?.f64()?.iter()).for_each(|(row, cell)| *field(row) = cell);
     }
-    for (name, of) in FACTS {
+    for (name, field) in FACTS {
         let cells = frame.column(name)?.bool()?.iter();
-        rows.iter_mut().zip(cells).for_each(|(row, cell)| *of(row) = cell.unwrap_or_default());
+        rows.iter_mut().zip(cells).for_each(|(row, cell)| *field(row) = cell.unwrap_or_default());
     }
     for (row, cell) in rows.iter_mut().zip(frame.column("ends")?.str()?.iter()) {
         row.number.ends = Ends::ALL.into_iter().find(|ends| Some(ends.name()) == cell).unwrap_or_default();

@@ -78,8 +78,8 @@ impl<'a> Evidence<'a> {
         Ok(Self { paper, point, runs, polylines: Arc::default() })
     }
 
-    /// Runs of the studies of `paper` that were not read from a folder, to be judged under the interpretation `point`: what the
-    /// records of each study depend on, and the records, by the study's name. Studies that are not named have no run.
+    /// Runs of the studies of `paper` that were not read from a folder, to be judged under the interpretation `point`.
+    /// Each study's name leads to its manifest and its records. Studies that are not named have no run.
     pub fn held(
         paper: &'a Paper,
         point: Interpretation,

@@ -182,7 +182,7 @@ impl History {
         Ok(Self { text, ..history })
     }
 
-    /// By id what each claim means after the last entry: the hash, and behind it the studies that it asks.
+    /// By id, the meaning of each claim after the last entry: its hash, and the studies whose trials it uses.
     pub fn meanings(&self) -> BTreeMap<String, Vec<String>> {
         self.claims.iter().map(|(id, known)| (id.clone(), known.stated.0.clone())).collect()
     }
@@ -192,7 +192,7 @@ impl History {
         self.form
     }
 
-    /// The history in `folder`, with an entry for what `paper` asks and its runs there store, if either is new. Whoever calls it
+    /// The history in `folder`, with a new entry if the claims of `paper` or its stored runs have changed. The caller
     /// holds the folder's lock.
     ///
     /// # Errors
@@ -201,8 +201,8 @@ impl History {
         Self::read(folder)?.noting(&Now::new(paper, folder), folder, command)
     }
 
-    /// Begins the history in `folder` with what the claims meant when shards of a run were planned, unless it has begun: then its
-    /// last entry tells what has changed since.
+    /// Begins the history in `folder` with the claims' meanings when shards of a run were planned, unless it has begun.
+    /// Its last entry then shows what has changed since.
     ///
     /// # Errors
     /// As [`note`](Self::note).

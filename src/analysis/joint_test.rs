@@ -26,7 +26,7 @@ pub struct Products {
 }
 
 impl Products {
-    /// Those of `instances`, the so many cells of each in one order.
+    /// The products of `instances`, each with `cells` cells in one order.
     ///
     /// # Panics
     /// If an instance lacks a cell.
@@ -50,8 +50,8 @@ pub struct JointTest {
 }
 
 impl JointTest {
-    /// That of our own means against means of `printed_of` instances that are rounded by up to `rounding` in each cell. None if there are
-    /// not more instances than cells by [`FEWEST_NORMAL`].
+    /// The test of our means against means of `printed_of` instances that are rounded by up to `rounding` in each cell.
+    /// None unless instances outnumber cells by [`FEWEST_NORMAL`].
     pub fn new(ours: Products, printed_of: usize, rounding: &[f64]) -> Option<Self> {
         let Products { means, products, units } = ours;
         let cells = rounding.len();
@@ -71,7 +71,7 @@ impl JointTest {
         apart.dot(&self.root.solve(&apart))
     }
 
-    /// The probability of a T² as large as this one: that of an F with k and M − k degrees of freedom.
+    /// The probability of a T² as large as this one: the upper tail of an F with k and M − k degrees of freedom.
     ///
     /// # Source
     /// Hotelling, "The generalization of Student's ratio", Annals of Mathematical Statistics 2 (1931) 360–378.

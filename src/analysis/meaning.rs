@@ -2,12 +2,12 @@
 //!
 //! The hash is of values: the printed number, and what each criterion and rule that decides selects, computes and accepts.
 //! Wording, order, ids of claims, and keys that say what holds without them change no hash. A claim that is named stands there by
-//! the number that it prints or, where it must be met as well, by its meaning. A word of specs that is renamed keeps its hash by a line of `RENAMED`; any other change of the text that is
-//! hashed needs a new [`FORM`], which histories of claims record as such.
+//! the number that it prints or, where it must be met as well, by its meaning. A word of specs that is renamed keeps its hash ([`in_first_words`]);
+//! any other change of the text that is hashed needs a new [`FORM`], which histories of claims record as such.
 
 use super::{criterion, rule};
 use base::hash::sha256;
-use base::settings::Settings;
+use base::settings::{Settings, first_word, in_first_words};
 use std::collections::{BTreeMap, BTreeSet};
 use study::paper::{Claim, Paper, Parts, TestRole};
 use toml::{Table, Value};
@@ -17,9 +17,6 @@ pub const FORM: u32 = 1;
 
 /// How many digits of a hash are kept.
 pub const DIGITS: usize = 16;
-
-/// Keys and names of specs that form 1 has by another word.
-const RENAMED: [(&str, &str); 1] = [("select", "of")];
 
 /// The keys under which criteria and rules name claims for the numbers that they print.
 const CLAIM_KEYS: [&str; 9] =
@@ -36,7 +33,7 @@ pub fn meanings(paper: &Paper) -> BTreeMap<String, Vec<String>> {
     paper.claims.iter().map(|claim| (claim.id.clone(), meaning(paper, claim))).collect()
 }
 
-/// What `claim` means: the hash, and behind it the studies whose trials the claim and its parts ask.
+/// The meaning of `claim`: its hash, and the studies whose trials the claim and its parts use.
 pub fn meaning(paper: &Paper, claim: &Claim) -> Vec<String> {
     let parts = claim.parts.ids().iter().filter_map(|id| paper.claim(id));
     let studies: BTreeSet<&str> = parts.chain([claim]).flat_map(Claim::studies).collect();
@@ -89,7 +86,11 @@ fn text(paper: &Paper, claim: &Claim, given: &dyn Fn(&Claim) -> String) -> Strin
             usual.iter().flat_map(Settings::filled).any(|(own, usual)| own == key && is_same(usual, value))
         };
         table.retain(|key, value| !is_usual(key, value));
-        tests.push(format!("{} {}\n", word(name), canonical_table(paper, &in_first_words(&table), given)));
+        tests.push(format!(
+            "{} {}\n",
+            first_word(name),
+            canonical_table(paper, &in_first_words(&table), given)
+        ));
     }
     tests.sort();
     text.extend(tests);
@@ -102,23 +103,6 @@ fn is_same(one: &Value, other: &Value) -> bool {
 
 fn number(value: &Value) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|value| value as f64))
-}
-
-/// `name` as this form has it.
-fn word(name: &str) -> &str {
-    RENAMED.iter().find(|(now, _)| *now == name).map_or(name, |(_, first)| first)
-}
-
-/// `table`, and the tables in it, with the keys that form 1 has. Hashes of settings are of this.
-pub fn in_first_words(table: &Table) -> Table {
-    fn inside(value: &Value) -> Value {
-        match value {
-            Value::Table(table) => Value::Table(in_first_words(table)),
-            Value::Array(values) => Value::Array(values.iter().map(inside).collect()),
-            other => other.clone(),
-        }
-    }
-    table.iter().map(|(key, value)| (word(key).to_owned(), inside(value))).collect()
 }
 
 fn canonical_table(paper: &Paper, table: &Table, given: &dyn Fn(&Claim) -> String) -> String {
@@ -143,21 +127,8 @@ fn canonical(paper: &Paper, key: &str, value: &Value, given: &dyn Fn(&Claim) -> 
         Value::String(text) => match paper.claim(text) {
             Some(claim) if key == GIVEN => given(claim),
             Some(claim) if CLAIM_KEYS.contains(&key) => number_of(claim),
-            _ => format!("{:?}", word(text)),
+            _ => format!("{:?}", first_word(text)),
         },
         other => number(other).map_or_else(|| other.to_string(), |value| value.to_string()),
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::in_first_words;
-
-    #[test]
-    fn hashes_have_the_key_that_selections_first_had() {
-        let table = |text: &str| toml::from_str(text).unwrap();
-        let now = "select = { study = 's' }\nrows = [{ select = { metric = 'm' } }]\nthat = 'select'";
-        let first = "of = { study = 's' }\nrows = [{ of = { metric = 'm' } }]\nthat = 'select'";
-        assert_eq!(in_first_words(&table(now)), table(first));
-    }
 }

@@ -1,14 +1,16 @@
-//! Numbers of stored trials under one interpretation: all that a criterion weighs, and all that is stored of what was explored.
+//! Numbers of stored trials under one interpretation: everything that a criterion weighs, and everything stored of an
+//! exploration.
 //!
-//! A criterion takes its numbers of the trials once. Whatever it then holds them against (a margin, what the paper prints) needs no trial.
-//! The first number of each list is the whole; others are its parts, or what it would be if cases without an end had ended.
+//! A criterion takes its numbers from the trials once. It then compares them with a margin or a printed number, which
+//! needs no trial. The first number of each list is the whole. The others are its parts, or its value if cases without
+//! an end had ended.
 
 use super::censored::{outside, refused};
 use super::selection::{Instance, censored, solved, unended};
 use stats::bootstrap::Estimate;
 use stats::interval::Interval;
 
-/// What cases without an end, or without a number that they may have had, are taken to have given.
+/// The values taken for cases without an end, or without a number that they may have had.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Ends {
     /// Nothing.
@@ -144,7 +146,7 @@ pub fn parts(numbers: &[Number], ends: Ends) -> Vec<&Number> {
     numbers.iter().filter(|number| number.ends == ends && !number.part.is_empty()).collect()
 }
 
-/// The whole as it was measured.
+/// The whole, as it was measured.
 ///
 /// # Panics
 /// If there is none: a criterion's numbers begin with it.

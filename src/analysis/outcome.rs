@@ -1,7 +1,8 @@
-//! What one criterion or rule finds under one interpretation: the outcome, lowered by how its trials came about, and combined.
+//! The outcome of one criterion or rule under one interpretation, lowered by the origin of its trials, and outcomes
+//! combined.
 //!
-//! An outcome speaks for a claim (+), against it (−), or leaves it open (0). Outcomes of one claim combine as a proof, then
-//! −, then 0, then the weakest +. What lowers an outcome lowers those that speak for a claim only, or opens any measured one;
+//! An outcome speaks for a claim (+), against it (−), or leaves it open (0). Outcomes of one claim combine as a proof,
+//! then −, then 0, then the weakest +. A cap lowers only outcomes that speak for a claim, or opens any measured one;
 //! nothing raises one. Over all interpretations a claim has a [verdict](super::verdict_rule).
 
 use serde::{Deserialize, Serialize};
@@ -137,8 +138,8 @@ pub enum Sessions {
     OfAnother,
 }
 
-/// Sessions of a clock that it takes to say anything: a machine's load differs from one to the next by more than the
-/// interpretations within one show.
+/// Sessions of a clock that are needed to say anything: a machine's load differs between sessions by more than the times
+/// within one show.
 pub const SESSIONS: usize = 3;
 
 /// The outcome of one finding; `None` where the claim is not meant, whatever is found there.
@@ -166,7 +167,7 @@ pub fn of_finding(found: Outcome, caps: Caps) -> Option<Outcome> {
     Some(if is_open { Outcome::Open } else { measured })
 }
 
-/// The outcome of a claim from those of its findings, and whether the paper leaves out what it would take.
+/// The outcome of a claim from those of its findings, and whether the paper leaves out what a test needs.
 pub fn combined(findings: impl IntoIterator<Item = Outcome>, lacking: bool) -> Outcome {
     let lacking = lacking.then_some(Outcome::Lacking);
     findings.into_iter().chain(lacking).max().unwrap_or(Outcome::Open)
@@ -186,8 +187,8 @@ pub fn any_of(parts: &[Outcome]) -> Outcome {
     extreme(parts, greatest, |among| among.min())
 }
 
-/// The outcome of a sentence that means one of its parts and does not say which: that of all of them where they speak one
-/// way, open where they do not.
+/// The outcome of a sentence that means one of its parts and does not say which. If all parts speak one way it is
+/// theirs, otherwise it is open.
 pub fn one_meant(parts: &[Outcome]) -> Outcome {
     let all = all_of(parts);
     let any = any_of(parts);

@@ -1,7 +1,7 @@
-//! Shortest polylines: searched for once however often they are needed, and kept from one command to the next.
+//! Shortest polylines: each is searched for once and kept from one command to the next.
 //!
-//! What is kept is named by the question and by the text of the code that answers it, so that nothing stale is ever
-//! found; losing it costs time alone.
+//! The name of a kept answer is a hash of the question and of the code that answers it, so that no stale answer is ever
+//! found. Losing it costs time alone.
 
 use base::hash::sha256;
 use proofs::turns::{Polyline, TurnQuery, shortest_polyline};
@@ -46,7 +46,7 @@ impl Polylines {
         answer.get_or_init(|| shortest_polyline(query)).clone()
     }
 
-    /// Writes what was found where it was to be kept. What cannot be written is searched for again another time.
+    /// Writes the answers found. What cannot be written is searched for again another time.
     pub fn keep(&self) {
         let found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(file) = self.file.as_ref().filter(|_| !found.is_empty()) else { return };

@@ -1,4 +1,5 @@
-//! Which trials a criterion, a figure or a table looks at: resolved once, then taken from the runs under any interpretation.
+//! The trials that a criterion, a figure or a table looks at: resolved once, then taken from the runs under any
+//! interpretation.
 
 use super::context::Context;
 use super::evidence::{Evidence, Run, paired};
@@ -47,7 +48,7 @@ pub struct Case<'e> {
     pub base_value: Option<f64>,
 }
 
-/// What was drawn independently (a map, a roadmap, a seed of a contender that draws), with all its queries.
+/// An independent draw (a map, a roadmap, a seed of a contender that draws), with all its queries.
 pub struct Instance<'e> {
     /// The problem group.
     pub group: &'e str,
@@ -71,8 +72,8 @@ impl Case<'_> {
         self.pair().filter(|(base, _)| *base > 0.0).map(|(base, own)| 100.0 * (1.0 - own / base))
     }
 
-    /// Whether some side has no number although it might have one: not because there is no path for either, nor because the
-    /// clock, which is read for some trials only, was not read where both are solved.
+    /// Whether some side lacks a number that it might have had. Two reasons do not count: no path exists for either
+    /// side, or the clock, which is read for some trials only, was not read where both are solved.
     pub fn is_censored(&self) -> bool {
         let no_path = |row: &Row| row.status == Status::NoPath;
         match self.base {

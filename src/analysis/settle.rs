@@ -1,4 +1,4 @@
-//! What would settle a claim that is inconclusive: more instances where they would, and otherwise what stands in their way.
+//! What would settle an inconclusive claim: more instances where they help, and otherwise the obstacle.
 
 use super::criterion_result::{CriterionResult, Narrows};
 use super::outcome::{Caps, Outcome, Polarity, SESSIONS, Sessions};
@@ -11,14 +11,14 @@ use study::paper::Parts;
 /// On what a claim depends where no option and no two tell its sides apart.
 pub const COMBINATION: &str = "a combination";
 
-/// What a sentence depends on whose parts speak both ways.
+/// A sentence depends on this if its parts speak both ways.
 pub const MEANT: &str = "what is meant";
 
 /// A hundred times as many instances tell apart what differs by a tenth of what can be seen now; a larger number is an estimate of
 /// noise.
 const MANY: f64 = 100.0;
 
-/// What would settle what was found, in a sentence.
+/// A sentence: what would settle this finding.
 pub fn settles(found: &CriterionResult, caps: Caps) -> String {
     match caps.clock {
         Some(Sessions::TooFew) => {
@@ -60,7 +60,8 @@ pub fn settles(found: &CriterionResult, caps: Caps) -> String {
         .unwrap_or_else(|| "the paper's own inputs: what is measured here stands neither way".to_owned())
 }
 
-/// What would settle a claim that nothing decides, with where alone it is meant and whether arithmetic found it possible.
+/// What would settle a claim that nothing decides. `premises` say where alone it is meant, and `is_possible` whether
+/// arithmetic found it possible.
 pub fn nothing_decides(premises: &[String], is_possible: bool) -> String {
     if !premises.is_empty() {
         format!("an interpretation under which it is meant: {}", premises.join(", and "))
@@ -120,7 +121,7 @@ pub fn across_settles(across: &Across, judged: &ClaimVerdict, line: Line) -> Opt
     Some(format!("{}, or the paper's own interpretation if it is none of these", ways.join(", ")))
 }
 
-/// What would settle a sentence that means one of its parts; `None` if that is settled.
+/// What would settle a sentence that means one of its parts; `None` if it is settled.
 pub fn meanings_settle(verdict: Verdict, depends_on: Option<&str>) -> Option<String> {
     match verdict {
         Verdict::Depends => Some(depends_settles(depends_on)),

@@ -1,6 +1,6 @@
-//! What figures show of instances: computed here, so that a figure only instances it.
+//! Statistics of instances that figures show, so that a figure only draws them.
 //!
-//! `names` of an estimate are what its stream of resamples belongs to.
+//! `names` of an estimate decide its stream of resamples.
 
 use super::evidence::Evidence;
 use super::selection::{Case, Selection, by_instance, cases};
@@ -8,9 +8,10 @@ use super::statistic::{
     Estimate, InstanceStatistic, Interval, LEVEL, OverallStatistic, differences_percent, plan,
 };
 use stats::bands::{curves_of, distance_of_mean, sup_t_between};
-pub use stats::summary::means_along;
+use stats::summary::means_along;
 use stats::{pooled, proportion, summary};
 use std::collections::BTreeMap;
+use study::record::Row;
 
 /// The share of queries that are solved on each instance, in per cent.
 pub fn solved_percents(selection: &Selection<'_>, evidence: &Evidence<'_>) -> Vec<f64> {
@@ -26,7 +27,8 @@ pub fn mean_solved(selection: &Selection<'_>, evidence: &Evidence<'_>, names: &[
     pooled::mean_between(&solved_percents(selection, evidence), [0.0, 100.0], plan(names))
 }
 
-/// The mean over instances of the points by which the share solved differs from that of `base`; none below two instances.
+/// The mean over instances of the difference between the share solved and that of `base`, in percentage points; none
+/// below two instances.
 pub fn mean_difference(
     [base, selection]: [&Selection<'_>; 2],
     evidence: &Evidence<'_>,
@@ -46,21 +48,6 @@ pub fn of_all(
     all.estimate(&selection.instances(evidence), plan(names))
 }
 
-/// The mean of each of the selection's contenders over the instances that all of them solve, and how many these are; the stream of
-/// a contender's resamples belongs to the study, the contender and the metric.
-pub fn means_of_whole_instances(
-    selection: &Selection<'_>,
-    evidence: &Evidence<'_>,
-) -> (Vec<Option<Estimate>>, usize) {
-    let instances = selection.instances(evidence);
-    let metric = selection.metric.map_or("", |metric| metric.name);
-    let mean = |contender: &String| {
-        let own: Vec<_> = instances.iter().map(|instance| instance.by(contender)).collect();
-        OverallStatistic::Mean.estimate(&own, plan(&[&selection.study.name, contender, metric]))
-    };
-    (selection.contenders.iter().map(mean).collect(), instances.len())
-}
-
 /// The point whose coordinates are the medians of those of `points`; failures may be infinite.
 pub fn median_point(points: &[[f64; 2]]) -> Option<[f64; 2]> {
     let median = |axis: usize| summary::median(&points.iter().map(|point| point[axis]).collect::<Vec<_>>());
@@ -77,7 +64,7 @@ pub struct Savings {
 }
 
 impl Savings {
-    /// Those of `selection`.
+    /// The savings of `selection`.
     pub fn new(selection: &Selection<'_>, evidence: &Evidence<'_>) -> Self {
         let instances = selection.instances(evidence);
         let saved = |case: &Case<'_>| Some((case.row.instance(), case.saving_percent()?));
@@ -92,7 +79,7 @@ impl Savings {
         both.map_or(f64::INFINITY, |(median, saving)| (saving - median).abs())
     }
 
-    /// An instance's saving and where it stands among all; none of an instance that has no saving.
+    /// An instance's saving and its rank among all; none if the instance has no saving.
     pub fn rank(&self, instance: u32) -> Option<(f64, proportion::Rank)> {
         let own = *self.by_instance.get(&instance)?;
         Some((own, proportion::Rank::new(own, &self.by_instance.values().copied().collect::<Vec<_>>())))
@@ -111,7 +98,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// That of `values`.
+    /// The distribution of `values`.
     pub fn new(values: Vec<f64>) -> Self {
         let quantiles = (!values.is_empty()).then(|| summary::box_of(&values));
         Self { mean: summary::mean(&values), quantiles, values }
@@ -182,7 +169,7 @@ pub struct Distribution {
 }
 
 impl Distribution {
-    /// That of `values`.
+    /// The summary of `values`.
     pub fn new(values: &[f64]) -> Self {
         let bulk = [0.01, 0.99].iter().filter_map(|share| summary::quantile_type7(values, *share));
         Self { steps: summary::cumulative(values), bulk: bulk.collect() }
@@ -240,16 +227,27 @@ impl Curves {
     }
 }
 
-/// Of each case of one contender a column of its problem and the ratio of its number to the other contender's, where both are above 0.
-pub fn ratios_along(selection: &Selection<'_>, evidence: &Evidence<'_>, column: &str) -> Vec<[f64; 2]> {
+/// Of each case of one contender where it stands and its number, or its ratio to the other contender's, where these are above 0.
+pub fn numbers_along(
+    selection: &Selection<'_>,
+    evidence: &Evidence<'_>,
+    place: impl Fn(&Row) -> Option<f64>,
+) -> Vec<[f64; 2]> {
     let point = |case: &Case<'_>| {
-        let (base, own) = case.pair().filter(|(base, own)| *base > 0.0 && *own > 0.0)?;
-        Some([case.row.value(column)?, own / base])
+        let value = case.value.filter(|value| *value > 0.0)?;
+        let ratio = || Some(value / case.base_value.filter(|base| *base > 0.0)?);
+        Some([place(case.row)?, if case.base.is_some() { ratio()? } else { value }])
     };
     by_instance(&selection.instances(evidence), point).concat()
 }
 
-/// What was found in the course of one trial: when, in seconds, and at what cost.
+/// The geometric mean of the second numbers that go with each first.
+pub fn geometric_means(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let logs: Vec<[f64; 2]> = points.iter().map(|[x, y]| [*x, libm::log(*y)]).collect();
+    means_along(&logs).into_iter().map(|[x, y]| [x, libm::exp(y)]).collect()
+}
+
+/// The costs found in the course of one trial: when, in seconds, and at what cost.
 pub type CostHistory = Vec<[f64; 2]>;
 
 /// The least cost of what was found at `passed_s` or before; infinite if nothing was.

@@ -25,8 +25,9 @@ use study::record::{Row, Status};
 /// Level of every interval.
 pub const LEVEL: f64 = 0.95;
 
-/// Fewest instances with which a bootstrap interval decides anything: one end of the percentile interval of a mean of normal instances
-/// then lies on the wrong side of the truth with a probability of 4.8 %, in place of 2.5 %; of 5 instances it is 7.7 %.
+/// Fewest instances with which a bootstrap interval decides anything. One end of the percentile interval of a mean of
+/// normal instances then lies on the wrong side of the truth with a probability of 4.8 %, not 2.5 %. With 5 instances
+/// it is 7.7 %.
 pub const FEWEST_INSTANCES: usize = 10;
 
 /// How the interval of an estimate was made, as sentences and captions say it.
@@ -37,7 +38,7 @@ pub fn how(is_agreed: bool) -> &'static str {
 /// What the interval of instances that all agree is.
 const AGREED: &str = "all instances agree: what allows for others";
 
-/// What intervals are, where some may be of instances that all agree.
+/// The words for intervals where all instances may agree.
 pub const INTERVALS: &str = "bootstrap, or where all instances agree what allows for others";
 
 /// How the interval narrows with more instances.
@@ -50,12 +51,12 @@ pub fn needs(instances: usize) -> Option<usize> {
     (instances < FEWEST_INSTANCES).then_some(FEWEST_INSTANCES)
 }
 
-/// The instances that it takes before what holds on each of those that were `drawn` is firm, where there are fewer.
+/// The number of instances needed before a property that held on all `drawn` ones is firm, if fewer were drawn.
 pub fn too_few(drawn: Option<usize>) -> Option<usize> {
     drawn.and_then(needs)
 }
 
-/// What so many instances that all tie say: how many more might not.
+/// The meaning of `instances` ties: how many more instances might not tie.
 pub fn tied(instances: usize) -> Option<String> {
     let bound = clopper_pearson(0, instances, LEVEL)?;
     Some(format!("every case ties: at most {:.1} % of instances could differ (95 %)", 100.0 * bound.high))
@@ -209,8 +210,8 @@ impl OverallStatistic {
         }
     }
 
-    /// The intervals that it has when cases without a number had any that they may have had: in `pairs`, or else without an end and
-    /// given the least and the greatest; none if all have one.
+    /// The intervals that it would have if cases without a number had one that they may have had, the least or the greatest;
+    /// empty if all cases have numbers.
     pub fn otherwise(
         self,
         selection: &Selection<'_>,
@@ -246,7 +247,8 @@ impl OverallStatistic {
             .to_vec()
     }
 
-    /// That of pairs by instance, the other contender's number first; instances that all have the same ratio leave an interval with width.
+    /// The statistic of pairs by instance, the other contender's number first. Instances that all have the same ratio
+    /// leave an interval with width.
     pub fn of_pairs(self, pairs: &[Vec<(f64, f64)>], plan: Resampling) -> Option<Estimate> {
         let sums = |pairs: &Vec<(f64, f64)>| {
             pairs.iter().fold([0.0, 0.0], |[own, base], pair| [own + pair.1, base + pair.0])
@@ -315,9 +317,9 @@ pub struct Share {
 }
 
 impl Share {
-    /// That of `counts`, the hits and chances of each instance, which could have had `most` chances or as many as were seen; none
-    /// without chances. The interval is the same everywhere ([`pooled::share`]), in closed form where there is one: where every
-    /// instance can have but one chance, and where all agree. Differences of shares are not looked at here.
+    /// The share of `counts`, the hits and chances of each instance; none without chances. An instance can have `most` chances, or
+    /// as many as were seen. The interval is the same everywhere ([`pooled::share`]). It has a closed form where every instance can
+    /// have one chance alone, and where all agree. Differences of shares are not looked at here.
     pub fn new(counts: &[[f64; 2]], most: f64, plan: Resampling) -> Option<Self> {
         let counts: Vec<[f64; 2]> = counts.iter().copied().filter(|count| count[1] > 0.0).collect();
         let [hits, chances] = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);

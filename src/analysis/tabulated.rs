@@ -1,4 +1,4 @@
-//! What tables show of the records: statistics over the trials of a row, and what one trial saves of another's.
+//! Statistics of the records that tables show: over the trials of a row, and savings of one trial against another.
 
 use super::context::Context;
 use super::evidence::{Evidence, Run};
@@ -200,7 +200,7 @@ struct Beside {
     select: SelectionSpec,
 }
 
-/// The selection whose first trial stands beside what `claim` prints.
+/// The selection whose first trial stands beside the printed number of `claim`.
 ///
 /// # Errors
 /// Those of [`Selection::new`]; it names no metric, or not one contender.

@@ -1,4 +1,4 @@
-//! Verdicts: what was found about each claim.
+//! Verdicts: the finding about each claim.
 
 use super::outcome::{Outcome, Polarity};
 use super::verdict_rule::{Chosen, Verdict};
@@ -125,7 +125,7 @@ pub enum Effect {
     Turns,
 }
 
-/// The greatest effect of an axis's options.
+/// The greatest effect of a choice's options.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EffectOfOption {
@@ -166,9 +166,6 @@ pub struct Across {
     /// Interpretations that are set apart: the verifier refuses their paths, which the paper calls free.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub refused: Vec<String>,
-    /// The least and the greatest of our numbers over them, where the paper's chapter asks.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub range: Option<[f64; 2]>,
     /// The results of a joint test, the likeliest first, each with its interpretations.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tested: Vec<String>,
@@ -208,7 +205,7 @@ pub struct Explored {
     pub fits: Vec<SettingFit>,
 }
 
-/// A setting of the choices that are not fitted, with what the studies were fitted to under each option of the one that is.
+/// A setting of the choices that are not fitted, with the fit of the studies under each option of the fitted one.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SettingFit {
@@ -318,11 +315,26 @@ impl ClaimVerdict {
         }
     }
 
-    /// What tables say of it: the same, with what it depends on.
+    /// The verdict in tables: the word, with what it depends on.
     pub fn verdict_text(&self) -> String {
         match &self.depends_on {
             Some(on) if self.verdict == Verdict::Depends => format!("{} on {on}", self.word()),
             _ => self.word().to_owned(),
+        }
+    }
+
+    /// The printed number with its unit.
+    pub fn printed_text(&self) -> Option<String> {
+        let unit = self.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
+        self.printed.as_ref().map(|printed| format!("{printed}{unit}"))
+    }
+
+    /// What the paper says: its own words in quotation marks, or what they amount to, and its number.
+    pub fn statement(&self) -> String {
+        let quoted = self.quote.as_ref().map(|quote| format!("“{quote}”"));
+        match (self.printed_text(), quoted.or_else(|| self.says.clone())) {
+            (Some(printed), Some(says)) => format!("{says} (printed {printed})"),
+            (printed, says) => printed.or(says).unwrap_or_else(|| "–".to_owned()),
         }
     }
 
@@ -331,13 +343,19 @@ impl ClaimVerdict {
         (!self.beside.is_empty()).then(|| self.beside.join("; "))
     }
 
+    /// Which printed values would have been refused, in words.
+    pub fn power(&self) -> Option<&str> {
+        let mut because = self.findings.iter().flat_map(|finding| &finding.because);
+        because.find_map(|line| line.strip_prefix("power: "))
+    }
+
     /// What would settle it, where it is open.
     pub fn settles(&self) -> Option<&str> {
         let across = self.across.as_ref().and_then(|across| across.settles.as_deref());
         across.or_else(|| self.findings.iter().find_map(|finding| finding.settles.as_deref()))
     }
 
-    /// What its verdict rests on, with its outcome on the second seed where that was run.
+    /// The words beside its verdict, with its outcome on the second seed where that was run.
     pub fn beside_with_seed(&self) -> Option<String> {
         let second = self.second.map(|second| {
             if self.is_seedless {

@@ -1,5 +1,4 @@
-//! The file that keeps verdicts: TOML, and a seal as its last line, so that one that was edited by hand is noticed by whoever
-//! shows it.
+//! The file that keeps verdicts: TOML, and a seal as its last line, so that an edit by hand is noticed.
 
 use super::compare::stored_studies;
 use super::verdict::Verdicts;
@@ -35,7 +34,7 @@ impl Verdicts {
         Err(StudyError::Touched(format!("{}: {what}", path.display())))
     }
 
-    /// Reads the verdicts in `folder`, whoever wrote them: to say in what they differ from those that are judged now.
+    /// Reads the verdicts in `folder`, also edited ones, to compare them with those judged now.
     ///
     /// # Errors
     /// [`StudyError::Stored`] if there are none, [`StudyError::Touched`] if they cannot be understood.

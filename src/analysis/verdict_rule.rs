@@ -302,8 +302,8 @@ impl Results<'_> {
     }
 }
 
-/// The verdict of a sentence that means one of its parts and does not say which: it depends on what is meant where one
-/// meaning is for it and one against it; otherwise the weakest meaning's.
+/// The verdict of a sentence that means one of its parts and does not say which. It depends on the meaning if one part
+/// is for it and one against. Otherwise it is the weakest part's verdict.
 pub fn of_meanings(meanings: &[Verdict]) -> Verdict {
     let has = |columns: &[Column]| meanings.iter().any(|meaning| columns.contains(&meaning.column()));
     if has(&[Column::For, Column::Chosen]) && has(&[Column::Against]) {

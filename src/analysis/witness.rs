@@ -1,10 +1,10 @@
 //! Searches for maps on which a set of claims holds together.
 //!
-//! The maps of a paper may be lost. A search starts from a map drawn from its own seed and changes a few cells at a time, as
-//! simulated annealing does: a change is kept if the numbers come nearer to what is printed, and with a chance that falls
-//! if they do not. What holds on a map that was found so is attainable, never reproduced; where no search finds one,
-//! nothing is proved. Searches are numbered, each depends on the seed and its number alone, and of those that find a map
-//! the first counts, whatever the number of threads.
+//! The maps of a paper may be lost. A search starts from a map drawn from its own seed and changes a few cells at a
+//! time, as simulated annealing does. A change is kept if the numbers come nearer to the printed ones, and otherwise
+//! with a chance that falls. A claim that holds on a map so found is attainable, never reproduced; a search that finds
+//! none proves nothing. Searches are numbered, and each depends on the seed and its number alone. Of those that find a
+//! map the first counts, whatever the number of threads.
 
 mod walk;
 
@@ -163,7 +163,7 @@ impl<'a> WitnessSearch<'a> {
         Ok(None)
     }
 
-    /// What every claim that looks at this map gives there, those of the call first.
+    /// The outcome on this map of every claim that looks at it, those of the call first.
     ///
     /// # Errors
     /// As [`search_all`](Self::search_all).

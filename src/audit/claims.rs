@@ -1,13 +1,14 @@
 //! A printed table as the `[[table]]` of a `paper.toml`: numbers as strings, rows and columns with ids.
 //!
-//! Nothing is bound to trials: `untestable` says so, and each number is a claim all the same. Whoever runs the paper puts `of` and
+//! Nothing is bound to trials: `untestable` says so, and each number is a claim all the same. Whoever runs the paper puts `select` and
 //! `check` in its place.
 
 use super::meaning::Kind;
 use super::table::Table;
 use std::collections::BTreeSet;
 
-/// The `[[table]]` of `table`, which is number `number` of its text, and the row of the inventory that names its claims.
+/// The `[[table]]` of `table`, the table with this `number` in its text, and the row of the inventory that names its
+/// claims.
 pub fn toml(table: &Table, number: usize) -> String {
     let title = if table.name.is_empty() { format!("Table {number}") } else { table.name.clone() };
     let id = format!("table{number}");
@@ -16,7 +17,7 @@ pub fn toml(table: &Table, number: usize) -> String {
     let mut text = format!(
         "[[inventory]]\nitem = \"Table {number}\"\nsays = {}\nclaims = [\"{id}.*\"]\nfigures = [\"{id}\"]\n\n\
          [[table]]\nid = \"{id}\"\nat = \"Table {number}\"\ncaption = {}\n\
-         # Put the trials (`of`) and a criterion (`check`) in the place of this line: docs/YOUR_OWN_PAPER.md\n\
+         # Put the trials (`select`) and a criterion (`check`) in the place of this line: docs/YOUR_OWN_PAPER.md\n\
          untestable = \"no study of ours runs this table yet\"\n",
         string(&title),
         string(&format!("{}: printed and ours.", title.trim_end_matches('.')))

@@ -55,8 +55,8 @@ pub fn macros(text: &str) -> Macros {
     found
 }
 
-/// Everything in `text` that the author should look at, given the file of macros and, if it is known, what that file would be
-/// if it were made now.
+/// Everything in `text` that the author should look at. `given` is the file of macros; `current` is that file as it
+/// would be made today, if that is known.
 pub fn coverage(text: &str, given: &str, current: Option<&str>) -> Vec<Remark> {
     let given = macros(given);
     let truth = current.map(macros);

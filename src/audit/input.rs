@@ -1,4 +1,4 @@
-//! What an audit is made of: tables, samples, named cells, and relations between them.
+//! The input of an audit: tables, samples, named cells, and relations between them.
 
 use super::meaning::Meaning;
 use super::sample::{self, Sample};

@@ -1,6 +1,6 @@
-//! What a column is: the annotation in brackets after its name, such as `success [% of 250]`.
+//! The meaning of a column: the annotation in brackets after its name, such as `success [% of 250]`.
 //!
-//! An annotation is a list of items with commas between them. Which items there are is [`ITEMS`]; nothing else is accepted.
+//! An annotation is a list of items with commas between them. [`ITEMS`] has every item; nothing else is accepted.
 
 pub mod contradiction;
 

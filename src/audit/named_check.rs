@@ -1,4 +1,4 @@
-//! What a relation asks: the check that it names, and the test that this check makes of it.
+//! The check that a relation names, and the test that this check makes of it.
 
 use super::checks::{Entry, FromRelation, REGISTRY, Test, find};
 use super::input::{Input, Relation};

@@ -52,7 +52,7 @@ fn witness_line(witness: &Witness) -> String {
     format!("data ({how} of them, {taken} of {budget} steps): {}", witness.vectors.join(" | "))
 }
 
-/// Numbers behind `±` or in brackets that no check looks at, with what to write so that one does.
+/// Numbers behind `±` or in brackets that no check looks at, with the annotation under which one would.
 pub fn unread_spreads(source: &str, input: &Input) -> Vec<String> {
     let columns = input.tables.iter().flat_map(|table| (0..table.columns.len()).map(move |at| (table, at)));
     columns.filter_map(|(table, at)| Some(format!("{source}:{}", unread_spread(table, at)?))).collect()

@@ -1,4 +1,4 @@
-//! What the keys of a relation say, and the numbers that they name.
+//! The keys of a relation, and the numbers that they name.
 
 use super::input::{Input, Relation};
 use super::meaning::{contradiction, natural};

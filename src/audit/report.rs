@@ -1,5 +1,5 @@
-//! Runs every check on an input and says of each application what was found, under which readings of the digits, with
-//! which power, what would mend it, and whether the table's ranking hangs on it.
+//! Runs every check on an input. Each application is reported with its finding, the readings of the digits, its power,
+//! the change that would mend it, and whether the table's ranking depends on it.
 
 mod doubt;
 mod effort;

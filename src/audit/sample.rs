@@ -187,8 +187,8 @@ impl Group {
     }
 }
 
-/// The columns whose numbers belong together in a row: those of one `of=` or of one name, up to the column in which a statistic
-/// stands a second time, which is of other values.
+/// The columns whose numbers belong together in a row: those with one `of=` or one name. A group ends before the column
+/// that repeats a statistic, since that one belongs to other values.
 pub fn groups(columns: &[Column]) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     for (at, Column { name, meaning, .. }) in columns.iter().enumerate() {

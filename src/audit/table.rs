@@ -95,7 +95,7 @@ impl Table {
         Some(Print { printed: value, digits: self.columns[column].meaning.digits })
     }
 
-    /// What a row is called: its first cell that is no number, with the statistic that it holds, or its number.
+    /// The name of a row: its first cell that is no number, with the statistic that it holds, or its number.
     pub fn row_name(&self, row: usize) -> String {
         let cells = self.rows.get(row).map_or(&[][..], Vec::as_slice);
         let text = cells.iter().position(|cell| cell.value.is_none() && !cell.text.is_empty());

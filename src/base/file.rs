@@ -1,6 +1,6 @@
 //! Files that others wrote, read whole.
 //!
-//! What a spec or a command line names may be anything: a device never ends, and a pipe may never begin. So only regular files
+//! A spec or a command line may name anything: a device never ends, and a pipe may never begin. So only regular files
 //! are read, and none larger than [`MOST_BYTES`].
 
 use crate::text;

@@ -1,7 +1,7 @@
-//! What every part of replan may read: seeds, hashes, settings as they were written, grids, robots and
-//! planning problems from files of others.
+//! The data that every part of replan may read: seeds, hashes, settings as written, grids, and robots and planning
+//! problems from files of others.
 //!
-//! The modules below are floors, lowest first; blank lines part the floors. A module names only modules on lower
+//! The modules below are floors, lowest first; blank lines separate the floors. A module names only modules on lower
 //! floors. Nothing here plans and nothing here judges, so that the verifier can stand on it alone.
 
 pub mod hash;

@@ -146,8 +146,8 @@ impl ProblemFile {
     /// the order of the robot's joints; without a robot nothing is checked of them.
     ///
     /// # Errors
-    /// The first fault at its place: no such set or problem, another robot or other joints, a value that is missing or of the wrong kind, a
-    /// quaternion whose length is not 1, lengths that are not metres.
+    /// The first fault at its place: no such set or problem, another robot or other joints, a value that is missing or of the wrong
+    /// kind. A quaternion whose length is not 1, or lengths that are not metres, are faults too.
     pub fn problem(
         &self,
         set: Option<&str>,

@@ -1,7 +1,7 @@
 //! Text of others: how its bytes become text, and how messages show it.
 //!
-//! Readers see no byte-order mark, and every line ends in a line feed. Messages show a character that cannot be seen by its name, and
-//! of long text no more than helps.
+//! Readers see no byte-order mark, and every line ends in a line feed. Messages show invisible characters by their
+//! names, and cut long text.
 
 use std::borrow::Cow;
 use std::fmt::Debug;
@@ -99,7 +99,7 @@ pub fn shown(text: &str) -> Cow<'_, str> {
     text.chars().map(|c| if acts(c) { name(c) } else { c.to_string() }).collect()
 }
 
-/// What is wrong with a name that people give: no more than [`MOST_OF_NAME`] characters on one line are accepted.
+/// The fault of a name that people give, if any: at most [`MOST_OF_NAME`] characters on one line are accepted.
 pub fn fault_of_name(name: &str) -> Option<String> {
     let count = name.chars().count();
     if count > MOST_OF_NAME {
@@ -110,7 +110,7 @@ pub fn fault_of_name(name: &str) -> Option<String> {
         .then(|| "holds a control character or the end of a line; text on one line is accepted".to_owned())
 }
 
-/// What a message says, which may hold names of others: visible, and its beginning if it is long.
+/// A message that may hold names of others: made visible, and cut if it is long.
 pub fn bounded(message: &str) -> Cow<'_, str> {
     beginning(message, MOST_OF_MESSAGE)
 }

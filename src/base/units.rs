@@ -54,7 +54,7 @@ fn below(least_mm: f64, key: &str, length_mm: f64) -> Option<String> {
     })
 }
 
-/// The message about an angle in settings under the key `key` that seems to be in radians: it is a multiple of 5° in radians to three
+/// The message about an angle under `key` that seems to be in radians. It is a multiple of 5° in radians to three
 /// digits or more, of 1° to four, a right angle or half of one to two, or below `least_deg`.
 pub fn setting_in_radians(key: &str, angle_deg: f64, least_deg: f64) -> Option<String> {
     let is_less = (f64::MIN_POSITIVE..least_deg).contains(&angle_deg);
@@ -90,8 +90,8 @@ fn is_small(angle: f64) -> bool {
 
 /// The first of `angles_deg` that seems to be in radians, by its number, with the message about the key `key`.
 ///
-/// It is a multiple of a quarter of a turn in radians to three digits or more, rounded or cut; or one of an eighth to two, and no angle is
-/// beyond a turn in radians.
+/// It is a multiple of a quarter of a turn in radians to three digits or more, rounded or cut, or of an eighth to two
+/// digits. In the second case no angle is beyond a turn in radians.
 pub fn seems_in_radians(key: &str, angles_deg: &[f64]) -> Option<(usize, String)> {
     let is_eighth = |angle: &f64| {
         let eighths = (angle / FRAC_PI_4).round();

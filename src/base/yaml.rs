@@ -88,86 +88,86 @@ impl Yaml<'_> {
     }
 
     /// The value under `key`, which must be there.
-    pub fn get<'n>(self, of: &'n Node, key: &str) -> Result<&'n Node, SettingsError> {
-        self.find(of, key)?.ok_or_else(|| {
-            let known = of.keys().collect::<Vec<_>>().join("`, `");
-            self.0.fault(&of.at, format!("there is no `{key}`; found are `{known}`"))
+    pub fn get<'n>(self, node: &'n Node, key: &str) -> Result<&'n Node, SettingsError> {
+        self.find(node, key)?.ok_or_else(|| {
+            let known = node.keys().collect::<Vec<_>>().join("`, `");
+            self.0.fault(&node.at, format!("there is no `{key}`; found are `{known}`"))
         })
     }
 
     /// The value under `key`, if there is one.
-    pub fn find<'n>(self, of: &'n Node, key: &str) -> Result<Option<&'n Node>, SettingsError> {
-        Ok(self.table(of)?.iter().find(|(name, _)| name == key).map(|(_, value)| value))
+    pub fn find<'n>(self, node: &'n Node, key: &str) -> Result<Option<&'n Node>, SettingsError> {
+        Ok(self.table(node)?.iter().find(|(name, _)| name == key).map(|(_, value)| value))
     }
 
     /// Refuses every key of a table but these.
-    pub fn only(self, of: &Node, known: &[&str]) -> Result<(), SettingsError> {
-        match self.table(of)?.iter().find(|(key, _)| !known.contains(&key.as_str())) {
+    pub fn only(self, node: &Node, known: &[&str]) -> Result<(), SettingsError> {
+        match self.table(node)?.iter().find(|(key, _)| !known.contains(&key.as_str())) {
             None => Ok(()),
             Some((key, node)) => Err(self.0.fault(&node.at, unknown(key, known))),
         }
     }
 
     /// The entries of a table.
-    pub fn table(self, of: &Node) -> Result<&[(String, Node)], SettingsError> {
-        match &of.data {
+    pub fn table(self, node: &Node) -> Result<&[(String, Node)], SettingsError> {
+        match &node.data {
             Data::Table(entries) => Ok(entries),
-            _ => Err(self.0.fault(&of.at, format!("found {}; a table is accepted", of.what()))),
+            _ => Err(self.0.fault(&node.at, format!("found {}; a table is accepted", node.what()))),
         }
     }
 
     /// The elements of a list.
-    pub fn list(self, of: &Node) -> Result<&[Node], SettingsError> {
-        match &of.data {
+    pub fn list(self, node: &Node) -> Result<&[Node], SettingsError> {
+        match &node.data {
             Data::List(elements) => Ok(elements),
-            _ => Err(self.0.fault(&of.at, format!("found {}; a list is accepted", of.what()))),
+            _ => Err(self.0.fault(&node.at, format!("found {}; a list is accepted", node.what()))),
         }
     }
 
     /// A word.
-    pub fn word(self, of: &Node) -> Result<&str, SettingsError> {
-        match &of.data {
+    pub fn word(self, node: &Node) -> Result<&str, SettingsError> {
+        match &node.data {
             Data::Word(word) => Ok(word),
-            _ => Err(self.0.fault(&of.at, format!("found {}; a word is accepted", of.what()))),
+            _ => Err(self.0.fault(&node.at, format!("found {}; a word is accepted", node.what()))),
         }
     }
 
     /// Yes or no, in the words of YAML 1.1 or as 1 and 0, in quotes or without.
-    pub fn truth(self, of: &Node, key: &str) -> Result<bool, SettingsError> {
-        match self.word(of)?.to_lowercase().as_str() {
+    pub fn truth(self, node: &Node, key: &str) -> Result<bool, SettingsError> {
+        match self.word(node)?.to_lowercase().as_str() {
             "true" | "yes" | "on" | "y" | "1" => Ok(true),
             "false" | "no" | "off" | "n" | "0" => Ok(false),
             _ => Err(self.0.fault(
-                &of.at,
-                format!("{key} is {}; true or false, yes or no, 1 or 0 is accepted", of.what()),
+                &node.at,
+                format!("{key} is {}; true or false, yes or no, 1 or 0 is accepted", node.what()),
             )),
         }
     }
 
     /// A finite number.
-    pub fn number(self, of: &Node, key: &str) -> Result<f64, SettingsError> {
-        let number: Option<f64> = match &of.data {
+    pub fn number(self, node: &Node, key: &str) -> Result<f64, SettingsError> {
+        let number: Option<f64> = match &node.data {
             Data::Word(word) => word.parse().ok(),
             _ => None,
         };
         // As written: of `1e400` an infinity is read.
         let accepted = if number.is_some() { "a finite number" } else { "a number" };
-        let wrong = || self.0.fault(&of.at, format!("{key} is {}; {accepted} is accepted", of.what()));
+        let wrong = || self.0.fault(&node.at, format!("{key} is {}; {accepted} is accepted", node.what()));
         number.filter(|number| number.is_finite()).ok_or_else(wrong)
     }
 
     /// Any number of finite numbers.
-    pub fn numbers(self, of: &Node, key: &str) -> Result<Vec<f64>, SettingsError> {
-        self.list(of)?.iter().map(|element| self.number(element, key)).collect()
+    pub fn numbers(self, node: &Node, key: &str) -> Result<Vec<f64>, SettingsError> {
+        self.list(node)?.iter().map(|element| self.number(element, key)).collect()
     }
 
     /// `N` finite numbers.
-    pub fn exactly<const N: usize>(self, of: &Node, key: &str) -> Result<[f64; N], SettingsError> {
-        let numbers = self.numbers(of, key)?;
+    pub fn exactly<const N: usize>(self, node: &Node, key: &str) -> Result<[f64; N], SettingsError> {
+        let numbers = self.numbers(node, key)?;
         let found = numbers.len();
         numbers
             .try_into()
-            .map_err(|_| self.0.fault(&of.at, format!("{key} has {found} numbers; {N} are accepted")))
+            .map_err(|_| self.0.fault(&node.at, format!("{key} has {found} numbers; {N} are accepted")))
     }
 }
 

@@ -19,12 +19,14 @@ use study::Interpretation;
 use study::lock::Lock;
 use study::paper::Paper;
 
-/// Runs a paper's studies once more on the second seed that each spec writes down, and with it every interpretation that turns a
-/// claim, with more instances: an outcome that turns counts only if it turns twice.
+/// Runs a paper's studies once more on the second seed that each spec writes down. Every interpretation that turns a
+/// claim runs too, with more instances: an outcome that turns counts only if it turns twice.
 ///
-/// The interpretations are taken in order while the paper's budget of trials lasts; one that is left out stays unconfirmed.
+/// The interpretations are taken in order while the paper's budget of trials lasts; one that is left out stays
+/// unconfirmed.
 ///
-/// No clock is read. What was run stays below target/replan/confirm/, so that a command that was stopped goes on from there.
+/// No clock is read. What was run stays below target/replan/confirm/, so that a command that was stopped goes on from
+/// there.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Confirm {

@@ -1,8 +1,8 @@
-//! What needs a word of people's: work beyond what anybody means by accident, and programs that papers from elsewhere start.
+//! Consent for unusually large work, and for programs that papers from elsewhere start.
 //!
-//! A paper of the repository that replan was built from is trusted. Any other paper that names planners from outside needs
-//! `--trust`, which is remembered in the user's folder of states: by the paper's folder and a hash of what the paper says of
-//! each and of the files that it names. So a program that changes needs `--trust` again.
+//! A paper of the repository that replan was built from is trusted. Any other paper that names planners from outside
+//! needs `--trust`. The user's folder of states remembers it by the paper's folder and a hash: of what the paper says
+//! of each planner, and of the files that it names. So a program that changes needs `--trust` again.
 
 use super::Failure;
 use super::places::Places;
@@ -40,7 +40,7 @@ pub struct AllowLarge {
 }
 
 impl AllowLarge {
-    /// Refuses the first of `studies` that asks for more than people mean without a word.
+    /// Refuses the first of `studies` that is unusually large.
     ///
     /// # Errors
     /// What it asks for, at its file.

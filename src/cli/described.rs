@@ -1,4 +1,4 @@
-//! What `replan list` says of one paper and of one study, within 80 columns.
+//! The description of one paper or study that `replan list` prints, within 80 columns.
 
 use super::explain::wrapped;
 use super::explorer::Explorer;

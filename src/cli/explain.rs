@@ -1,4 +1,5 @@
-//! What `replan list` says of one thing: its meaning, each of its keys, and an example, within 80 columns.
+//! The description of one entry that `replan list` prints: its meaning, each of its keys, and an example, within 80
+//! columns.
 
 use super::catalogue::Item;
 use super::places::home;

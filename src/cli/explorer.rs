@@ -1,4 +1,4 @@
-//! How a paper's interpretations are explored: what runs in each round, and what is judged after it.
+//! How a paper's interpretations are explored: the trials of each round, and the claims judged after it.
 
 use super::judge;
 use super::places::Places;
@@ -81,8 +81,8 @@ impl<'p> Explorer<'p> {
         Self { paper, places, threads, folder, second_seed: false, rounds: None }
     }
 
-    /// The points that the budget has room for, and how many trials they take, which is printed: all that must be, and drawn ones
-    /// in order.
+    /// The points that the budget has room for, and how many trials they take: all mandatory ones, and drawn ones in
+    /// order. Both are printed.
     pub fn affordable(&self, budget: &ExploreSpec) -> Result<(Vec<Interpretation>, u64), Failure> {
         let paper = self.paper;
         doing(&format!("{}: counting the trials of its interpretations", paper.id));
@@ -165,7 +165,7 @@ impl<'p> Explorer<'p> {
         }
     }
 
-    /// What runs in `round` under `points`, to be cut into shards of the paper that the command line called `named`.
+    /// The work of `round` under `points`, to be cut into shards; `named` is the paper as the command line called it.
     pub fn sharded(&self, named: &str, round: Round, points: &[Interpretation]) -> Sharded {
         let run = |ran: Ran<'_>| {
             let points = ran.study.as_trials_see(points);
@@ -212,8 +212,8 @@ impl<'p> Explorer<'p> {
         Ok(built.units().map(|unit| built.trials(&unit).len() as u64).sum())
     }
 
-    /// Runs and judges `points`; what runs where interpretations are compatible, under those; and once more with more instances where an
-    /// outcome is near a flip.
+    /// Runs and judges `points` in rounds. Studies that need compatible interpretations run under those alone. Where an
+    /// outcome is near a flip, it runs once more with more instances.
     pub fn explore(
         &self,
         points: &[Interpretation],
@@ -290,7 +290,8 @@ impl<'p> Explorer<'p> {
         Ok(found)
     }
 
-    /// What every claim measures under each of `points` in the trials of `round`, and which claims hold jointly there.
+    /// The measurements of every claim under each of `points` in the trials of `round`, and which claims hold jointly
+    /// there.
     pub fn look(
         &self,
         points: &[Interpretation],
@@ -389,7 +390,7 @@ pub fn most_instances(study: &Study) -> u32 {
     study.explore.as_ref().map_or(0, |explore| explore.more_instances.unwrap_or(explore.instances))
 }
 
-/// Of `points` at these places, in order, those for which `budget` has room beside what is `spent`, which grows by them.
+/// Those of `points` at these places, in order, for which `budget` has room beside `spent`, which grows by them.
 pub fn within(
     budget: u64,
     spent: &mut u64,

@@ -89,8 +89,8 @@ impl Export {
         self.to.unwrap_or(Format::Csv)
     }
 
-    /// Writes what `stage` makes of the stored run: it takes the folder to write into, the folder of the run and the run, and says
-    /// what it staged.
+    /// Writes the files that `stage` makes of the stored run. `stage` gets the folder to write into, the folder of the
+    /// run, and the run; it returns the names of its files.
     ///
     /// # Errors
     /// No run is stored there, one of its files is damaged, those of `stage`, and those of the file system.

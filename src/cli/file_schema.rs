@@ -1,7 +1,7 @@
 //! The JSON Schema of every kind of TOML file, made from the same types that read the files.
 //!
-//! In those of papers and studies the settings of whatever a table names are that entry's own, so that an editor completes
-//! them and `replan check` finds what is wrong in all tables of all files at once, whatever else is wrong with them.
+//! In papers and studies, the settings of an entry are described by that entry. So an editor completes them, and
+//! `replan check` finds every fault in all tables of all files at once.
 
 use super::catalogue::{self, Item};
 use base::settings::generator;
@@ -14,7 +14,7 @@ pub fn schema(kind: &str) -> Value {
     made(kind, true)
 }
 
-/// The same, but that it accepts names of entries that do not exist: who looks them up says more of them.
+/// The same, but it accepts unknown names of entries: the code that looks them up has better messages.
 pub fn schema_of_any_names(kind: &str) -> Value {
     made(kind, false)
 }

@@ -1,4 +1,4 @@
-//! What `repro` ends with: the finding, and the headline claims with their verdicts.
+//! The end of `repro`: the finding, and the headline claims with their verdicts.
 
 use super::Which;
 use super::verdicts::{COLUMNS, Lines, coloured, tallied};

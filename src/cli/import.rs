@@ -1,4 +1,4 @@
-//! `replan import`: results that others recorded, as records.
+//! `replan import`: turns results that others recorded into records.
 
 use super::load::load;
 use super::places::Places;

@@ -86,7 +86,7 @@ fn compare(paper: &Paper, point: Interpretation, places: &Places) -> Result<(), 
     Err(Failure::stale(message))
 }
 
-/// Refuses verdicts by which something does not hold that must hold whatever was drawn.
+/// Refuses verdicts in which a claim fails that must hold whatever was drawn.
 pub fn must_hold(verdicts: &Verdicts) -> Result<(), Failure> {
     let violated = verdicts.violated();
     if violated.is_empty() {
@@ -158,8 +158,8 @@ pub fn judge(paper: &Paper, point: Interpretation, places: &Places) -> Result<Ve
     Ok(verdicts)
 }
 
-/// As [`judge`], but where nothing has changed that the verdicts rest on: then those that it wrote. Whoever calls it has just held
-/// the records to their manifests.
+/// As [`judge`], or the stored verdicts if nothing that they rest on has changed. The caller has just compared the
+/// records with their manifests.
 pub fn judge_changes(
     paper: &Paper,
     point: &Interpretation,

@@ -1,4 +1,4 @@
-//! `replan list`: what there is.
+//! `replan list`: everything that specs can name.
 
 use super::catalogue::{self, Item};
 use super::explain::{explained, wrapped};

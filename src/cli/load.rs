@@ -1,4 +1,4 @@
-//! Loading a paper as the flags ask for it.
+//! Loads a paper as the flags ask for it.
 
 use super::file_schema::schema_of_any_names;
 use super::places::Places;

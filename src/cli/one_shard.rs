@@ -1,4 +1,4 @@
-//! What `explore` and `confirm` take on the command line, and one shard of the round that is at work.
+//! The arguments of `explore` and `confirm`, and one shard of the current round.
 
 use super::consent::Consent;
 use super::explorer::Explorer;

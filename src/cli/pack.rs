@@ -1,8 +1,8 @@
-//! `replan pack`: what a reviewer opens, as one folder that needs no network.
+//! `replan pack`: a run for a reviewer, as one folder that needs no network.
 //!
-//! A pack is an RO-Crate: specs, input files, records, verdicts, tables and figures, the HTML page, and how to run it again. It is laid
-//! out as a project, so every command of replan works inside it. `SHA256SUMS` has the hash of each file, which `sha256sum --check` and
-//! `replan check PACK` verify.
+//! A pack is an RO-Crate: specs, input files, records, verdicts, tables and figures, the HTML page, and how to run it
+//! again. It is laid out as a project, so every command of replan works inside it. `SHA256SUMS` has the hash of each
+//! file, which `sha256sum --check` and `replan check PACK` verify.
 
 use super::places::Places;
 use super::progress::{doing, stop_flag};
@@ -252,7 +252,7 @@ fn makers(runs: &Path) -> Result<String, Failure> {
     Ok(makers.into_iter().collect::<Vec<_>>().join("; "))
 }
 
-/// The version by which these verdicts can be cited: it changes with any of them.
+/// The version by which these verdicts can be cited; it changes whenever one of them does.
 pub fn seal(verdicts: &Verdicts) -> String {
     sha256(verdicts.text().as_bytes())[..16].to_owned()
 }

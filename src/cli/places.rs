@@ -47,7 +47,7 @@ pub struct Places {
 }
 
 impl Places {
-    /// The places of the paper that `which` names; `variant` is what sets a run apart from a full default one.
+    /// The places of the paper that `which` names. `variant` distinguishes a run from a full default one.
     ///
     /// # Errors
     /// If there is no such paper; the message lists those that exist. If `--out` names a committed place for a run that is not a
@@ -86,7 +86,7 @@ impl Places {
 }
 
 impl Places {
-    /// The file by which runs agree on who changes the report.
+    /// The lock file by which runs take turns to change the report.
     pub fn report_lock(&self) -> PathBuf {
         self.runs.parent().unwrap_or(Path::new("")).join(".lock")
     }
@@ -121,7 +121,8 @@ impl Places {
     }
 }
 
-/// The folder of records that `given` means: itself, that of the one paper below it, or that of a paper.
+/// The folder of records that `given` means: itself, the folder of the one paper below it, or the folder of the paper
+/// so named.
 ///
 /// # Errors
 /// If there is none, or there are several.

@@ -1,8 +1,8 @@
 //! Progress, and Ctrl-C.
 //!
-//! Progress goes to standard error, so that standard output holds results alone. Whatever may take longer than a second begins
-//! with a line that ends in an ellipsis, on a terminal or not; what is done in units has a bar on a terminal, and elsewhere says
-//! how far it is, at most once in [`PRINTED_EVERY_S`].
+//! Progress goes to standard error, so that standard output holds results alone. Work that may take longer than a
+//! second begins with a line that ends in an ellipsis, on a terminal or not. Work done in units has a bar on a
+//! terminal. Elsewhere a line says how far it is, at most once in [`PRINTED_EVERY_S`].
 
 use super::{Failure, counted};
 use base::text::shown;
@@ -44,7 +44,7 @@ fn end_at_once() -> ! {
     std::process::exit(130);
 }
 
-/// Says what is about to be done, as it may take longer than a second.
+/// Announces work that may take longer than a second.
 pub fn doing(what: &str) {
     note(&format!("{} …", shown(what)));
 }

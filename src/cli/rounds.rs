@@ -1,8 +1,8 @@
-//! The rounds of an exploration or a confirmation, where they are cut into shards.
+//! The rounds of an exploration or a confirmation that is cut into shards.
 //!
-//! What runs in a round hangs on what was judged after the one before it. Shards run trials and decide nothing: whoever merges
-//! a round judges it, as one machine would, and plans the next one. So the budget is spent alike, and the findings are equal to
-//! the byte.
+//! Each round depends on the judgement of the one before it. Shards run trials and decide nothing: `merge` judges a
+//! round, as one machine would, and plans the next one. So the budget is spent alike, and the findings are equal to the
+//! byte.
 
 use super::Failure;
 use super::sharded::Sharded;
@@ -28,10 +28,10 @@ pub enum Round {
 }
 
 impl Round {
-    /// Every round, those of a command in the order in which they run.
+    /// Every round, in the order in which a command runs them.
     pub const ALL: [Self; 5] = [Self::First, Self::Compatible, Self::Again, Self::Default, Self::Turned];
 
-    /// Its name, which is that of the folder of its records.
+    /// Its name, which is also the name of the folder of its records.
     pub fn name(self) -> &'static str {
         match self {
             Self::First => "round-1",
@@ -82,7 +82,7 @@ impl From<StudyError> for Halt {
     }
 }
 
-/// What was found; none, and a word about it, if the shards of another round have to run first.
+/// The result, or none with a message if the shards of another round have to run first.
 pub fn unless_planned<T>(found: Result<T, Halt>) -> Result<Option<T>, Failure> {
     match found {
         Ok(found) => Ok(Some(found)),
@@ -115,8 +115,8 @@ impl Rounds {
         parts.join("merged")
     }
 
-    /// Puts the parts of `round` together below `to`, which `sharded` under so many interpretations is cut into; a round that has no
-    /// plan is planned.
+    /// Puts the parts of `round` together below `to`; `sharded` under `interpretations` interpretations is cut into
+    /// them. A round without a plan is planned.
     pub fn put_together(
         &self,
         sharded: &Sharded,
@@ -141,7 +141,8 @@ impl Rounds {
     }
 }
 
-/// The folder of the parts that are at work within `parts`: itself for a run, that of the last planned round otherwise.
+/// The folder of the parts that are at work within `parts`: itself for a run, the folder of the last planned round
+/// otherwise.
 pub fn at_work(parts: &Path) -> PathBuf {
     let rounds = Round::ALL.iter().rev().map(|round| parts.join(round.name()));
     let is_planned = |folder: &PathBuf| Plan::path(folder).exists();

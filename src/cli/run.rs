@@ -85,7 +85,7 @@ pub fn check_is_run(parts: &Path) -> Result<(), Failure> {
     )))
 }
 
-/// Runs what is stale of every study of `paper`; and what `again` names.
+/// Runs the stale parts of every study of `paper`, and the studies or parts that `again` names.
 pub fn run_studies(
     paper: &Paper,
     places: &Places,

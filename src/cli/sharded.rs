@@ -1,4 +1,4 @@
-//! What is cut into shards: the studies of a run, or of one round of an exploration, as they would run whole.
+//! Work that is cut into shards: the studies of a run, or of one round of an exploration.
 
 use super::consent::Consent;
 use super::load::load;
@@ -75,7 +75,7 @@ impl Sharded {
         Self { places: places.clone(), how, runs, claims, named: named.to_owned(), round: Some(round) }
     }
 
-    /// The options of a plan that cuts it into so many shards.
+    /// The options of a plan that cuts it into `shards` shards.
     pub fn wanted(&self, shards: usize) -> Wanted {
         let How { quick, seed, with, .. } = self.how.clone();
         let paper = self.named.clone();

@@ -100,13 +100,11 @@ fn line(judged: &ClaimVerdict) -> String {
 /// Everything that is known of a claim.
 fn shown(judged: &ClaimVerdict) -> String {
     let mut text = wrapped("", &format!("{}: {}", judged.claim, judged.verdict_text()), 2, COLUMNS) + "\n";
-    let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
-    let printed = judged.printed.as_ref().map(|printed| format!("{printed}{unit}"));
     for (what, about) in [
         ("at", Some(judged.at.clone())),
         ("says", judged.says.clone()),
         ("quote", judged.quote.as_ref().map(|quote| format!("“{quote}”"))),
-        ("printed", printed),
+        ("printed", judged.printed_text()),
         ("interpretations", judged.rests_on()),
         ("under the defaults", Some(judged.outcome.name().to_owned())),
         ("second seed", judged.second.map(|outcome| outcome.name().to_owned())),

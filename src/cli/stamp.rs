@@ -1,8 +1,9 @@
-//! What a step of `repro` made, so that it is not made again where nothing has changed.
+//! The outputs of a step of `repro`, remembered so that they are not made again where nothing has changed.
 //!
-//! A stamp names all that files are made from – the program, the specs, the records by their manifests, and what else the step
-//! reads – and each file that was made, by its hash. It is believed only while all of them are as they were, and only by `repro`,
-//! which has just held the records to their manifests: `judge` and `render` always work, and so does every `--check`.
+//! A stamp names everything that the files are made from: the program, the specs, the records by their manifests, and
+//! the step's other inputs. It also has the hash of each file that was made. A stamp is believed only while all of
+//! these are unchanged, and only by `repro`, which has just compared the records with their manifests. `judge`,
+//! `render` and every `--check` always work.
 
 use super::Failure;
 use super::places::Places;
@@ -50,7 +51,7 @@ impl Stamp {
         Ok(Self { path, made_from: sha256(hashes.concat().as_bytes()) })
     }
 
-    /// Whether the step has worked from the same, and every file that it made is as it was.
+    /// Whether the step has worked from the same inputs, and every file that it made is unchanged.
     pub fn is_current(&self) -> bool {
         let text = fs::read(&self.path).unwrap_or_default();
         let Ok(stored) = serde_json::from_slice::<Stored>(&text) else { return false };

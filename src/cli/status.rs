@@ -1,4 +1,4 @@
-//! `replan status`: how far a run is that was cut into shards.
+//! `replan status`: the progress of a run that was cut into shards.
 
 use super::Failure;
 use super::rounds::at_work;

@@ -1,4 +1,4 @@
-//! What a run did, for the terminal.
+//! The summary of a run on the terminal.
 
 use super::counted;
 use study::session::{Report, UnexpectedStatus};

@@ -7,7 +7,7 @@ use crate::render::prose::{columns, wrapped};
 use crate::render::tables::short;
 use std::io::IsTerminal as _;
 
-/// What is printed fits terminals of so many columns.
+/// Output fits terminals of this many columns.
 pub const COLUMNS: usize = 100;
 
 /// Prints every claim's verdict, and how many there are of each; `which` is the paper as it was named.

@@ -1,7 +1,7 @@
-//! What plans: the search kernel and the planners over it.
+//! The planners, and the search kernel below them.
 //!
-//! The modules below are floors, lowest first; blank lines part the floors. A module names only modules on lower
-//! floors. This package is optimised in every build: it is what trials spend their time in.
+//! The modules below are floors, lowest first; blank lines separate the floors. A module names only modules on lower
+//! floors. This package is optimised in every build: trials spend their time in it.
 
 pub use world::{geometry, kinematics, space};
 

@@ -1,8 +1,9 @@
-//! Records as OMPL's benchmarks have them: experiments, planners, and runs with typed properties.
+//! Records in the form of OMPL's benchmarks: experiments, planners, and runs with typed properties.
 //!
-//! An experiment is a query of a problem group at one point of the sweeps over it, under one interpretation. A contender at one
-//! point of the other sweeps is a planner, and each of its trials is a run. Times are in seconds, from the first session; a run
-//! without a clock has none. Every other property keeps the name of its column, which ends in the unit.
+//! An experiment is a query of a problem group at one point of the sweeps over it, under one interpretation. A
+//! contender at one point of the other sweeps is a planner, and each of its trials is a run. Times are in seconds, from
+//! the first session; a run without a clock has none. Every other property keeps the name of its column, which ends in
+//! the unit.
 
 use base::text::one_line;
 use replan::analysis::compare::StoredRun;

@@ -13,8 +13,8 @@ pub struct FileNames {
 }
 
 impl FileNames {
-    /// The file called `label`, with `ending`. A hash stands in for what a long label loses, and tells apart labels that are spelled
-    /// alike.
+    /// The name of the file for `label`, with `ending`. A hash replaces the end of a long label, and distinguishes
+    /// labels that are spelled alike.
     pub fn next(&mut self, label: &str, ending: &str) -> String {
         let mut stem = study::slug(label);
         if stem.len() > MOST || !self.taken.insert(stem.clone()) {

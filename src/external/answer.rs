@@ -296,7 +296,7 @@ impl<'a> Space<'a> {
         Ok(arm.inverse(&target, &home).iter().map(|(_, q)| q.to_vec()).collect())
     }
 
-    /// The cost of `path` in the world's unit; none where a path's length is not that of a polyline.
+    /// The cost of `path` in the world's unit; none where a path's length is not the length of a polyline.
     pub fn cost(&self, path: &[Vec<f64>]) -> Option<f64> {
         match self.world {
             World::Roadmap(roadmap) if !roadmap.local().is_straight() => None,

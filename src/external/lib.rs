@@ -1,9 +1,9 @@
 //! Planners from outside: programs in any language that speak lines of JSON on standard input and output.
 //!
-//! [`message`] is the protocol and [`world`] the worlds as data, both documented in `docs/PLANNER_PROTOCOL.md`. [`describe`] makes
-//! data of the engine's worlds, [`Space`] answers questions about them, [`Process`] is a running program under limits, and
-//! [`solve`] is one conversation: a query, questions, a result. Nothing here knows studies or records; the clock is the
-//! caller's.
+//! [`message`] is the protocol and [`world`] has the worlds as data; `docs/PLANNER_PROTOCOL.md` documents both.
+//! [`describe`] turns the engine's worlds into data, and [`Space`] answers questions about them. [`Process`] is a
+//! running program under limits. [`solve`] is one conversation: a query, questions, a result. Nothing here knows
+//! studies or records; the clock is the caller's.
 
 mod answer;
 mod clear;

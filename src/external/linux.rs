@@ -1,8 +1,10 @@
-//! What Linux alone offers against processes that outlive their planner: `/proc`, the adoption of orphans, a guard, control groups,
-//! and a launcher with a death signal. Elsewhere `not_linux.rs` stands in its place: docs/SECURITY.md says what that leaves.
+//! Linux's means against processes that outlive their planner: `/proc`, the adoption of orphans, a guard, control
+//! groups, and a launcher with a death signal. `not_linux.rs` replaces this file elsewhere; docs/SECURITY.md lists what
+//! is then missing.
 //!
-//! The launcher is replan itself, started under another name. It has Linux kill it as soon as replan ends, joins the planner's control
-//! group, limits its memory, and becomes the planner. A control group holds whatever its members start, and all in it die at once.
+//! The launcher is replan itself, started under another name. Linux kills it as soon as replan ends. It joins the
+//! planner's control group, limits its memory, and becomes the planner. A control group holds whatever its members
+//! start, and all in it die at once.
 
 use rustix::process::{
     Pid, Resource, Rlimit, Signal, getpid, getppid, prlimit, set_child_subreaper,

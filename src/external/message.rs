@@ -218,7 +218,8 @@ fn counter<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> 
     Option::deserialize(from).map(|number: Option<f64>| number.or(Some(f64::NAN)))
 }
 
-/// What a planner counted, each perhaps: a column each. Another name, or a number that is none of its column, refuses the result.
+/// The counters of a planner, each optional: one column each. An unknown name, or a number outside its column's range,
+/// refuses the result.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Counters {

@@ -245,7 +245,7 @@ impl Drop for Process {
     }
 }
 
-/// The message in a line that a planner wrote; a byte-order mark before it is none of it.
+/// The message in a line that a planner wrote, without a byte-order mark before it.
 ///
 /// # Errors
 /// A sentence: what is wrong and where.

@@ -78,7 +78,7 @@ impl Talk {
         }
     }
 
-    /// Why its time ran out, as far as it can be seen from outside.
+    /// The reason why its time ran out, as far as it shows from outside.
     pub fn hint(&self) -> &'static str {
         if self.was_silent { SILENT } else { "" }
     }

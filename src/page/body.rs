@@ -1,5 +1,4 @@
-//! What of a page is read as text: findings, claims with their evidence, the paper's tables beside ours, and places for what
-//! is drawn.
+//! The text of a page: findings, claims with their evidence, the paper's tables beside ours, and places for drawings.
 
 use super::html::{escaped, prose as inline};
 use super::{interpretations, replies};
@@ -11,7 +10,7 @@ use crate::analysis::verdict::{ClaimVerdict, CriterionFinding, Effect, Verdicts}
 use crate::analysis::verdict_rule::Verdict;
 use crate::render::RenderError;
 use crate::render::figure::caption;
-use crate::render::headline::{Headline, evidence, headlines};
+use crate::render::headline::{Headline, evidence, headlines, ours};
 use crate::render::prose::prose;
 use crate::render::tables::{Beside, beside, short};
 use study::paper::PrintedTable;
@@ -155,7 +154,7 @@ impl Body<'_> {
         if lines.is_empty() {
             return lines;
         }
-        let evidence = evidence(self.verdicts);
+        let evidence = evidence(self.evidence.paper, self.verdicts);
         format!("<ul class=\"headlines\">\n{lines}</ul>\n<p>{}</p>\n", self.prose_html(&evidence))
     }
 
@@ -211,14 +210,9 @@ impl Body<'_> {
     /// A claim's line, and below it the evidence that opens.
     fn claim(&self, judged: &ClaimVerdict) -> String {
         let id = escaped(&judged.claim);
-        let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
-        let printed = judged.printed.as_ref().map(|printed| format!("{printed}{unit}"));
-        let quote = judged.quote.as_ref().map(|quote| format!("“{quote}”"));
-        let says = printed.or(quote).or_else(|| judged.says.clone()).unwrap_or_default();
-        let ours = judged.ours().map_or_else(
-            || "–".to_owned(),
-            |ours| format!("{} ({}; n = {})", short(ours), ours.what, ours.n),
-        );
+        let own = judged.ours().map(|ours| format!("{} ({}; n = {})", short(ours), ours.what, ours.n));
+        let ours = own.or_else(|| ours(judged, self.evidence.paper, self.verdicts));
+        let ours = ours.unwrap_or_else(|| "–".to_owned());
         let interpretations = judged.rests_on().unwrap_or_default();
         let second = judged.second.map_or_else(String::new, |outcome| {
             format!("<div class=\"second\">second seed: {}</div>", badge(outcome.name(), outcome.name()))
@@ -237,7 +231,7 @@ impl Body<'_> {
             escaped(&hangs_on(judged).join(" ")),
             id.replace('.', ".<wbr>").replace('_', "_<wbr>"),
             escaped(&judged.at),
-            escaped(&says),
+            escaped(&judged.statement()),
             escaped(&ours),
             badge(judged.verdict.name(), &judged.verdict_text()),
             escaped(&interpretations),

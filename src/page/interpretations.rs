@@ -1,4 +1,4 @@
-//! What the paper leaves open, and each way to fill it in; a script lets readers choose one.
+//! The choices that the paper leaves open, with their options; a script lets readers choose an interpretation.
 
 use super::html::escaped;
 use crate::analysis::across::by_interpretation::{ExploredChoice, ExploredOption, explored_choices};

@@ -1,9 +1,9 @@
-//! A paper's report as one HTML page that needs nothing else: claims, the paper's tables beside ours, figures, and replays of
-//! stored trials.
+//! A paper's report as one HTML page that needs nothing else: claims, the paper's tables beside ours, figures, and
+//! replays of stored trials.
 //!
-//! What can be read stands in the page as HTML, so that it reads and prints without a script. What a script draws (figures,
-//! replays) is packed, and unpacked when it is looked at. Nothing here is computed that analysis or a stored trial does not say:
-//! frames of an arm are where its family places it.
+//! Text stands in the page as HTML, so that it reads and prints without a script. Figures and replays are packed, and a
+//! script unpacks them when they come into view. Nothing is computed here: numbers are those of the analysis and of
+//! stored trials, and frames of an arm are placed by its family.
 
 mod body;
 mod curves;
@@ -61,9 +61,9 @@ pub struct Page {
     pub rest: Option<Vec<u8>>,
 }
 
-/// The page of the paper of `evidence` with what is `stored` of its interpretations and `figures` as they were drawn, SVG by the
-/// name of each. `rest` is the name of the file for what does not fit, and `has_index` says whether the index of all papers lies
-/// beside the page.
+/// The page of the paper of `evidence`. `stored` has the outcomes under its interpretations, `figures` has the SVG of
+/// each figure by its name. `rest` is the name of the file for replays that do not fit. `has_index` says whether the
+/// index of all papers lies beside the page.
 ///
 /// # Errors
 /// [`PageError`].
@@ -138,7 +138,7 @@ pub struct IndexLine {
     pub counts: Option<Counts>,
 }
 
-/// The page that leads to those of `papers`.
+/// The index page, with a link to each of `papers`.
 pub fn index(papers: &[IndexLine]) -> String {
     let row = |IndexLine { id, title, finding, state, counts }: &IndexLine| {
         let state = Some(escaped(state)).filter(|state| !state.is_empty());

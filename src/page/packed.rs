@@ -1,4 +1,4 @@
-//! What a script unpacks: gzip in base64, as long as the page stays within its limit; what is left over goes into a zip.
+//! Data that a script unpacks: gzip in base64, as long as the page stays within its limit. The rest goes into a zip.
 
 use super::PageError;
 use super::html::escaped;

@@ -1,4 +1,4 @@
-//! What authors and others reply, beside the verdicts, and how a verdict is cited.
+//! Replies of authors and others, beside the verdicts, and how to cite a verdict.
 
 use super::html::escaped;
 use crate::analysis::citation::{citation, version_in};

@@ -1,7 +1,7 @@
-//! What the straight line between two points forbids.
+//! Printed lengths and savings against the straight line between two points.
 //!
-//! Premises of every bound here: the path starts and ends at the given points, its printed length is its
-//! Euclidean length in the same unit, and a saving is relative to the printed baseline. No map is assumed.
+//! Premises of every bound here: the path starts and ends at the given points, its printed length is its Euclidean
+//! length in the same unit, and a saving is relative to the printed baseline. No map is assumed.
 
 use super::exact::{Exact, Print, add, mul, sub, whole};
 use stats::interval::Interval;

@@ -1,4 +1,4 @@
-//! Whether printed times are ticks of a coarse clock, and how easily random digits would look so.
+//! Whether printed times are ticks of a coarse clock, and how often random digits would look like ticks.
 
 use super::exact::{Exact, Print};
 use super::printed::{Digits, Printed};

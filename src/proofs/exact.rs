@@ -247,7 +247,7 @@ impl Span {
         Self { low: -self.high, low_closed: self.high_closed, high: -self.low, high_closed: self.low_closed }
     }
 
-    /// The squares of the members that are not negative; none of it if there are no such members.
+    /// The squares of the members that are not negative; an empty span if there are none.
     pub fn squared(&self) -> Option<Self> {
         let cut = self.not_negative();
         Some(Self { low: mul(cut.low, cut.low)?, high: mul(cut.high, cut.high)?, ..cut })

@@ -1,4 +1,4 @@
-//! What two printed cells allow a third number to be: a quotient, a speed-up, a percentage reduction.
+//! The range of a third number that follows from two printed cells: a quotient, a speed-up, a percentage reduction.
 
 use super::exact::{Span, whole};
 

@@ -1,16 +1,16 @@
 //! How many cells A* can close and open, on any map at all, when the length of its path is known.
 //!
-//! Premises: 8-connected unit grid, moves of cost 1 and √2, Euclidean heuristic `h` (consistent for these
-//! costs), A* as published with f = g + h that stops when the goal is chosen, and an optimal path of cost C*.
+//! Premises: an 8-connected unit grid with moves of cost 1 and √2, and an optimal path of cost C*. A* runs as published,
+//! with f = g + h, and stops when the goal is chosen. Its heuristic `h` is Euclidean, which is consistent for these costs.
 //!
-//! Argument. With a consistent heuristic, A* chooses cells in non-decreasing f and with final g
-//! (Hart, Nilsson & Raphael 1968, lemma 2 and its corollary). The goal is chosen with f = C*, so every closed
-//! cell n has g(n) + h(n) ≤ C*. Obstacles only lengthen ways, so g(n) is at least the octile distance from
-//! the start. Hence the closed cells, the goal among them, lie in K = {n : octile(start, n) + h(n) ≤ C*}, and
-//! |K| bounds their number on every map and for every order of ties. A cell is opened only as the start or as
-//! a neighbour of a closed cell, so opened ones (open or closed) lie in K ∪ N(K); a program that expands the
-//! goal before it stops is covered too. The argument covers every corner rule, since these only remove moves.
-//! Ties at C* within a billionth of a cell count as inside, so floats can only raise the bounds.
+//! Argument. With a consistent heuristic, A* chooses cells in non-decreasing f and with final g (Hart, Nilsson &
+//! Raphael 1968, lemma 2 and its corollary). The goal is chosen with f = C*, so every closed cell n has g(n) + h(n) ≤
+//! C*. Obstacles only lengthen paths, so g(n) is at least the octile distance from the start. Hence the closed cells,
+//! the goal among them, lie in K = {n : octile(start, n) + h(n) ≤ C*}, and |K| bounds their number on every map and for
+//! every order of ties. A cell is opened only as the start or as a neighbour of a closed cell, so opened cells (open or
+//! closed) lie in K ∪ N(K). This covers a program that expands the goal before it stops. The argument covers every
+//! corner rule, since these only remove moves. Ties at C* within a billionth of a cell count as inside, so floats can
+//! only raise the bounds.
 
 use super::{lattice, neighbourhood};
 use crate::turns::{Cell, distance};

@@ -1,12 +1,13 @@
-//! What printed numbers can mean, and what no input could have given: the arithmetic and geometry of claims and of the audit.
+//! The values that printed numbers can stand for, and numbers that no input could have given: the arithmetic and
+//! geometry of claims and of the audit.
 //!
-//! [`printed`] keeps a number as its digits, [`exact`] computes with the values behind them in integers and fractions.
-//! [`reach`], [`form`], [`clock`], [`lattice`], [`bounds`], [`fvalues`] and [`mod@turns`] are the mathematics, [`formula`] that
-//! of one paper each; [`proof`] asks it of one number at a time and answers in words.
+//! [`printed`] keeps a number as its digits. [`exact`] computes with the values behind them, in integers and fractions.
+//! [`reach`], [`form`], [`clock`], [`lattice`], [`bounds`], [`fvalues`] and [`mod@turns`] hold the mathematics.
+//! [`formula`] has formulas of one paper each. [`proof`] applies them to one number at a time and answers in words.
 //!
-//! Nothing here reads a record. Every bound states its premises and takes the printed digits' slack in the paper's favour, so
-//! that "impossible" is a proof under those premises. Decisions about lattice lengths are made in integers; angles come from
-//! `libm`. Cells are `[x, y]` and stand for their centres, one unit apart.
+//! Nothing here reads a record. Every bound states its premises and takes the printed digits' slack in the paper's
+//! favour, so that "impossible" is a proof under those premises. Decisions about lattice lengths are made in integers;
+//! angles come from `libm`. Cells are `[x, y]` and stand for their centres, one unit apart.
 
 pub mod bounds;
 pub mod clock;
@@ -30,7 +31,7 @@ pub fn neighbourhood(cell: Cell, size: [i32; 2]) -> Vec<Cell> {
         .collect()
 }
 
-/// The pairs of a start and a goal in which one of the two is moved to one of its neighbours, never onto the other.
+/// Pairs of a start and a goal, one of them moved to a neighbour, never onto the other.
 pub fn with_an_end_moved([start, goal]: [Cell; 2], size: [i32; 2]) -> Vec<[Cell; 2]> {
     let starts = neighbourhood(start, size).into_iter().map(|near| [near, goal]);
     let goals = neighbourhood(goal, size).into_iter().map(|near| [start, near]);

@@ -105,7 +105,7 @@ impl Printed {
         Some(Self { units, decimals, significant: Some(significant) })
     }
 
-    /// The number as it is typed, without zeros that only [`with_zeros_left_out`](Self::with_zeros_left_out) says.
+    /// The number as it was typed, without the zeros that [`with_zeros_left_out`](Self::with_zeros_left_out) adds.
     #[must_use]
     pub fn as_typed(mut self) -> Self {
         while self.significant.is_some() && self.decimals > 0 && self.units % 10 == 0 {
@@ -125,8 +125,8 @@ impl Printed {
         self.significant
     }
 
-    /// Another number of the same decimals, by its digits without their point, as it would be printed here; none if it has more
-    /// digits than can be.
+    /// Another number with as many decimals, as it would be printed here; `units` are its digits without their point.
+    /// None if it has too many digits.
     pub fn with_units(self, units: i64) -> Option<Self> {
         let other = (units.unsigned_abs() < LIMIT).then_some(Self { units, ..self })?;
         match self.significant {

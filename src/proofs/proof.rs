@@ -1,8 +1,8 @@
-//! Proofs about a few printed numbers, in words: what the claims of a paper ask of this package.
+//! Proofs about a few printed numbers, in words: the questions that the claims of a paper put to this package.
 //!
-//! A function is given all that its answer rests on and says whether what is printed can be at all, how that was computed
-//! and what was taken for granted. Where a proof refuses a number, it also says whether it rests on the printed ends: they
-//! are moved, one at a time, to the neighbours of their cells.
+//! Each function receives everything that its answer rests on. It says whether the printed numbers are possible, how
+//! that was computed, and under which premises. Where it refuses a number, it also says whether the printed ends
+//! matter: each end is moved, one at a time, to the neighbours of its cell.
 
 mod counts;
 mod lengths;

@@ -1,19 +1,24 @@
 //! Which sums of squares whole numbers of a given count, sum and range have, exactly.
 //!
-//! Let `x` be `n` whole numbers with sum `S` and sum of squares `Q`. `Q` has the parity of `S` and is at least what values
-//! as even as possible give. What more is needed:
+//! Let `x` be `n` whole numbers with sum `S` and sum of squares `Q`. `Q` has the parity of `S` and is at least what
+//! values as even as possible give. What more is needed:
 //!
-//! *Without ends.* n = 2: `2Q − S²` is a square. n = 4, S odd: nothing, since `4Q − S² ≡ 3 (mod 8)` is a sum of three odd
-//! squares (Gauss, *Disquisitiones* 293). n = 4, S even: `Q − (S/2)²` is a sum of three squares, which is all but
-//! `4^k (8m + 7)` (Legendre); `A = (s + t − u − v) / 2` and its like turn the one representation into the other. n = 5:
-//! nothing. A value `a` that makes `S − a` odd leaves four with an odd sum; it does if `5(a − S/5)² ≤ 4(5Q − S²)/5`, a
-//! span of length 2 or more unless `5Q − S² < 6.25`; the least `5Q − S²` for a sum is 0, 4 or 6 and the next one larger by
-//! 10. n > 5: nothing. A value of the most even vector leaves n − 1 with a sum of squares that is not below their least.
+//! - Without ends, n = 2: `2Q − S²` is a square.
+//! - Without ends, n = 4, S odd: nothing, since `4Q − S² ≡ 3 (mod 8)` is a sum of three odd squares (Gauss,
+//!   *Disquisitiones* 293).
+//! - Without ends, n = 4, S even: `Q − (S/2)²` is a sum of three squares, which is all but `4^k (8m + 7)` (Legendre).
+//!   One representation turns into the other by `A = (s + t − u − v) / 2` and its like.
+//! - Without ends, n = 5: nothing. A value `a` that makes `S − a` odd leaves four with an odd sum. It does if `5(a −
+//!   S/5)² ≤ 4(5Q − S²)/5`, a span of length 2 or more unless `5Q − S² < 6.25`. The least `5Q − S²` for a sum is 0, 4
+//!   or 6 and the next one larger by 10.
+//! - Without ends, n > 5: nothing. A value of the most even vector leaves n − 1 with a sum of squares that is not below
+//!   their least.
 //!
-//! *With ends.* No value is further from the mean than the root of `(n − 1)(Q/n − S²/n²)`; ends beyond that do not matter.
-//! With values from 0 to w (after a shift): two equal values inside the range can move apart by one each, which raises Q
-//! by 2. Values without such a pair have `wS − Q = Σ x(w − x) ≤ 1(w − 1) + … + (w − 1)1 = w(w² − 1)/6`. So every Q of the
-//! right parity is met from the least on, until `wS − Q` is no more than that. What is left is searched, value by value.
+//! *With ends.* No value is further from the mean than the root of `(n − 1)(Q/n − S²/n²)`; ends beyond that do not
+//! matter. With values from 0 to w (after a shift): two equal values inside the range can move apart by one each, which
+//! raises Q by 2. Values without such a pair have `wS − Q = Σ x(w − x) ≤ 1(w − 1) + … + (w − 1)1 = w(w² − 1)/6`. So
+//! every Q of the right parity is met from the least on, until `wS − Q` is no more than that. What is left is searched,
+//! value by value.
 
 use std::collections::BTreeSet;
 

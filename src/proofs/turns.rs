@@ -1,17 +1,16 @@
 //! The shortest polyline through cell centres that turns by a given sum of angles.
 //!
-//! Premises of the bound: the path is a polyline whose corners and ends are cell centres of the grid, its
-//! length is Euclidean in cells, and its turn sum follows the stated convention. Obstacles are left out, so
-//! the polylines of every map are among those searched and the bound holds on every map.
+//! Premises of the bound: the path is a polyline whose corners and ends are cell centres of the grid, its length is
+//! Euclidean in cells, and its turn sum follows the stated convention. Obstacles are left out, so the polylines of
+//! every map are among those searched and the bound holds on every map.
 //!
-//! Polylines are put together from two halves, one from a start and one from a goal, each with at most half
-//! of the greatest turn, that meet in the bend between them. A half is found best-first over labels (cell,
-//! direction of arrival, turn so far); two labels alike in all three differ only in length, so the shorter one
-//! serves, unless a least length is requested too: then labels of different length are kept. The estimate is
-//! the least length on which the missing turn, or more, can still be had. Cells outside the ellipse
-//! `|start cell| + |cell goal| ≤ longest` cannot serve. Turns and lengths are distinguished to 1e-7, and both
-//! windows are widened by 1e-5 on either side in return: widening can only admit more polylines, so what is
-//! not found does not exist.
+//! A polyline is put together from two halves, one from a start and one from a goal, that meet in the bend between
+//! them. Each has at most half of the greatest turn. A half is found best-first over labels: cell, direction of
+//! arrival, turn so far. Two labels alike in all three differ only in length, and the shorter one serves. If a least
+//! length is requested too, labels of different length are kept. The estimate is the least length on which the missing
+//! turn, or more, can still be had. Cells outside the ellipse `|start cell| + |cell goal| ≤ longest` cannot serve.
+//! Turns and lengths are distinguished to 1e-7. Both windows are widened by 1e-5 on either side, which can only admit
+//! more polylines: what is not found does not exist.
 
 use serde::{Deserialize, Serialize};
 use stats::interval::Interval;

@@ -285,7 +285,7 @@ impl Canvas {
         self.refused.get_or_insert(error);
     }
 
-    /// Instances one line of text.
+    /// Draws one line of text.
     pub fn text(&mut self, at: [f64; 2], text: &str, set: &Type) {
         if let Some(found) = font::missing(text, set.weight) {
             self.refuse(RenderError::MissingGlyph { found, text: text.to_owned() });

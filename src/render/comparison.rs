@@ -2,12 +2,13 @@
 
 use super::RenderError;
 use super::chart::marks::Line;
-use super::chart::rows::Interval;
+use super::chart::rows::Whiskers;
 use super::chart::{Axis, Panel, Sheet};
 use super::prose;
 use super::style::{INK, Stroke, Width, series_color, series_marker};
 use super::vector::{Figure, Provenance};
 use crate::analysis::compare::{Cell, Change, Comparison, Measured, Outcome, Passed, SOLVED, Solved, Word};
+use crate::analysis::statistic::Interval;
 use study::store::quoted;
 
 /// A table of texts.
@@ -34,18 +35,18 @@ const WORDS: [&str; 3] = [
 ];
 
 /// The comparison as text of at most so many columns, a block a contender.
-pub fn text(of: &Comparison, columns: usize) -> String {
+pub fn text(comparison: &Comparison, columns: usize) -> String {
     let paragraph = |text: &str| prose::plain("", text, 2, columns) + "\n";
-    let mut parts = vec![paragraph(&format!("From {} to {}", of.sides[0], of.sides[1]))];
-    parts.push(of.notes.iter().map(|note| paragraph(note)).collect());
-    parts.extend(of.solved.iter().map(|solved| block(of, solved, columns)));
-    let only = of.only.iter().map(|only| {
-        let side = &of.sides[only.side];
+    let mut parts = vec![paragraph(&format!("From {} to {}", comparison.sides[0], comparison.sides[1]))];
+    parts.push(comparison.notes.iter().map(|note| paragraph(note)).collect());
+    parts.extend(comparison.solved.iter().map(|solved| block(comparison, solved, columns)));
+    let only = comparison.only.iter().map(|only| {
+        let side = &comparison.sides[only.side];
         paragraph(&format!("only in {side}: {}: {}, {} trials", only.study, only.what, only.trials))
     });
     parts.push(only.collect());
-    parts.push(of.gates.iter().map(|gate| paragraph(&gate_line(gate))).collect());
-    if !of.changes.is_empty() {
+    parts.push(comparison.gates.iter().map(|gate| paragraph(&gate_line(gate))).collect());
+    if !comparison.changes.is_empty() {
         parts.push(WORDS.iter().map(|word| paragraph(word)).collect());
     }
     parts.retain(|part| !part.is_empty());
@@ -53,7 +54,7 @@ pub fn text(of: &Comparison, columns: usize) -> String {
 }
 
 /// What has changed of one contender: how many problems are solved, a line a metric that differs, and those that are equal.
-fn block(of: &Comparison, solved: &Solved, columns: usize) -> String {
+fn block(comparison: &Comparison, solved: &Solved, columns: usize) -> String {
     let mut text = prose::plain("", &format!("{}: {}", solved.study, solved.contender), 2, columns) + "\n";
     let lost = solved.lost.as_ref().map_or_else(String::new, |lost| format!(", as {lost}"));
     let counts = format!(
@@ -63,7 +64,7 @@ fn block(of: &Comparison, solved: &Solved, columns: usize) -> String {
     text += &(prose::plain("  ", &counts, 4, columns) + "\n");
     let own = |change: &&Change| change.study == solved.study && change.contender == solved.contender;
     let (equal, other): (Vec<&Change>, Vec<&Change>) =
-        of.changes.iter().filter(own).partition(|change| change.word == Word::Equal);
+        comparison.changes.iter().filter(own).partition(|change| change.word == Word::Equal);
     if !other.is_empty() {
         let head =
             ["metric", "before", "after", "change", "better/equal/worse", "verdict"].map(str::to_owned);
@@ -92,24 +93,27 @@ fn cells(change: &Change) -> [String; 6] {
 }
 
 /// A change and its interval with the digits that the interval leaves certain.
-fn to_interval(of: Measured) -> String {
-    let ends = of.interval.filter(|[low, high]| low.is_finite() && high.is_finite() && low < high);
-    let Some([low, high]) = ends else { return with_interval(of) };
+fn to_interval(number: Measured) -> String {
+    let ends = number.interval.filter(|[low, high]| low.is_finite() && high.is_finite() && low < high);
+    let Some([low, high]) = ends else { return with_interval(number) };
     let decimals = (1.0 - libm::log10((high - low) / 2.0).floor()).clamp(0.0, 6.0) as usize;
-    format!("{:+.decimals$} [{low:.decimals$}, {high:.decimals$}]", of.value)
+    format!("{:+.decimals$} [{low:.decimals$}, {high:.decimals$}]", number.value)
 }
 
 /// The comparison as Markdown.
-pub fn markdown(of: &Comparison) -> String {
+pub fn markdown(comparison: &Comparison) -> String {
     let lines = |lines: &mut dyn Iterator<Item = String>| {
         lines.fold(String::new(), |text, line| format!("{text}- {line}\n"))
     };
-    let mut parts = vec![format!("From {} to {}\n", of.sides[0], of.sides[1])];
-    parts.push(lines(&mut of.notes.iter().cloned()));
+    let mut parts = vec![format!("From {} to {}\n", comparison.sides[0], comparison.sides[1])];
+    parts.push(lines(&mut comparison.notes.iter().cloned()));
     parts.extend(
-        [solved(of), changes(of), only(of)].iter().filter(|table| !table.rows.is_empty()).map(tabled),
+        [solved(comparison), changes(comparison), only(comparison)]
+            .iter()
+            .filter(|table| !table.rows.is_empty())
+            .map(tabled),
     );
-    parts.push(lines(&mut of.gates.iter().map(gate_line)));
+    parts.push(lines(&mut comparison.gates.iter().map(gate_line)));
     parts.push(lines(&mut WORDS.map(str::to_owned).into_iter()));
     parts.retain(|part| !part.is_empty());
     parts.join("\n")
@@ -125,7 +129,7 @@ fn tabled(table: &Table) -> String {
 }
 
 /// The changes as comma-separated values under a head; what is not known is empty.
-pub fn csv(of: &Comparison) -> String {
+pub fn csv(comparison: &Comparison) -> String {
     let line = |change: &Change| {
         let texts = [&change.study, &change.contender, &change.metric, &change.unit, &change.better];
         let [first, second] = change.one_sided;
@@ -142,7 +146,7 @@ pub fn csv(of: &Comparison) -> String {
         let rest = counts.into_iter().chain(numbers).chain(signs).chain([change.word.name().to_owned()]);
         texts.map(|text| quoted(text)).into_iter().chain(rest).collect::<Vec<_>>().join(",") + "\n"
     };
-    CHANGES.to_owned() + &of.changes.iter().map(line).collect::<String>()
+    CHANGES.to_owned() + &comparison.changes.iter().map(line).collect::<String>()
 }
 
 /// Statistics of trials as comma-separated values under a line of heads.
@@ -165,16 +169,17 @@ pub fn cells_csv(cells: &[Cell]) -> String {
 }
 
 /// A number and the ends of its interval, each as [`plain`] has it.
-fn measured(of: Option<Measured>) -> [String; 3] {
-    let ends = of.and_then(|of| of.interval);
-    [of.map(|of| of.value), ends.map(|ends| ends[0]), ends.map(|ends| ends[1])].map(plain)
+fn measured(number: Option<Measured>) -> [String; 3] {
+    let ends = number.and_then(|number| number.interval);
+    [number.map(|number| number.value), ends.map(|ends| ends[0]), ends.map(|ends| ends[1])].map(plain)
 }
 
 /// What a gate says, in a line.
-pub fn gate_line(of: &Passed) -> String {
-    let unit = if of.gate.ends_with('%') { " %" } else { "" };
-    let change = of.change.map_or_else(String::new, |change| format!("; {}{unit}", with_interval(change)));
-    let outcome = match (of.outcome, of.more_instances, &of.why) {
+pub fn gate_line(passed: &Passed) -> String {
+    let unit = if passed.gate.ends_with('%') { " %" } else { "" };
+    let change =
+        passed.change.map_or_else(String::new, |change| format!("; {}{unit}", with_interval(change)));
+    let outcome = match (passed.outcome, passed.more_instances, &passed.why) {
         (Outcome::Worse, ..) => "worse".to_owned(),
         (Outcome::NotWorse, ..) => "not worse".to_owned(),
         (Outcome::CannotTell, Some(more), _) => format!("cannot tell: about {more} more instances"),
@@ -182,23 +187,25 @@ pub fn gate_line(of: &Passed) -> String {
             format!("cannot tell: {}", why.as_deref().unwrap_or("at the margin"))
         }
     };
-    format!("gate {}: {}: {}: {outcome}{change}", of.gate, of.study, of.contender)
+    format!("gate {}: {}: {}: {outcome}{change}", passed.gate, passed.study, passed.contender)
 }
 
 /// The changes of the means in per cent, and how probable an improvement is, each with its interval, study by study.
 ///
 /// # Errors
 /// [`RenderError::NotStored`] if nothing was paired; those of drawing.
-pub fn figure(of: &Comparison, from: &Provenance) -> Result<Figure, RenderError> {
-    let mut studies: Vec<&str> = of.changes.iter().map(|change| change.study.as_str()).collect();
+pub fn figure(comparison: &Comparison, from: &Provenance) -> Result<Figure, RenderError> {
+    let mut studies: Vec<&str> = comparison.changes.iter().map(|change| change.study.as_str()).collect();
     studies.dedup();
     if studies.is_empty() {
         return Err(RenderError::NotStored { what: "a pair of trials with one key".to_owned() });
     }
-    let most = studies.iter().map(|study| of.changes.iter().filter(|c| c.study == **study).count()).max();
+    let most =
+        studies.iter().map(|study| comparison.changes.iter().filter(|c| c.study == **study).count()).max();
     let mut sheet = Sheet::new(Width::Double, 2, (most.unwrap_or(1) as f64 * 13.0).max(60.0)).level();
     for study in studies {
-        let changes: Vec<&Change> = of.changes.iter().filter(|change| change.study == study).collect();
+        let changes: Vec<&Change> =
+            comparison.changes.iter().filter(|change| change.study == study).collect();
         let names = changes.iter().map(|change| format!("{}: {}", change.contender, change.metric));
         let percent = |change: &Change| match change.metric.as_str() {
             SOLVED => change.mean_change,
@@ -217,7 +224,8 @@ pub fn figure(of: &Comparison, from: &Provenance) -> Result<Figure, RenderError>
             50.0,
         ));
     }
-    let note = format!("From {} to {}; 95 % intervals over instances.", of.sides[0], of.sides[1]);
+    let note =
+        format!("From {} to {}; 95 % intervals over instances.", comparison.sides[0], comparison.sides[1]);
     sheet.noted(note).draw(from)
 }
 
@@ -241,9 +249,11 @@ fn panel(
     for (row, found) in found.iter().enumerate() {
         let Some(found) = found else { continue };
         let [low, high] = found.interval.unwrap_or([found.value; 2]);
-        panel.add(Interval {
-            row: row as f64,
-            values: [low, found.value, high],
+        let row = row as f64;
+        panel.add(Whiskers {
+            at: [found.value, row],
+            ends: [Interval::new(low, high), Interval::new(row, row)],
+            is_hollow: false,
             marker: series_marker(0),
             color: series_color(0),
             label: String::new(),
@@ -252,7 +262,7 @@ fn panel(
     panel
 }
 
-fn solved(of: &Comparison) -> Table {
+fn solved(comparison: &Comparison) -> Table {
     let row = |solved: &Solved| {
         let counts =
             [solved.both, solved.first_only, solved.second_only, solved.neither].map(|n| n.to_string());
@@ -270,11 +280,11 @@ fn solved(of: &Comparison) -> Table {
             "by neither",
             "first one lost",
         ],
-        rows: of.solved.iter().map(row).collect(),
+        rows: comparison.solved.iter().map(row).collect(),
     }
 }
 
-fn changes(of: &Comparison) -> Table {
+fn changes(comparison: &Comparison) -> Table {
     let shown = |measured: Option<Measured>| measured.map_or_else(|| "–".to_owned(), with_interval);
     let row = |change: &Change| {
         let [first, second] =
@@ -311,25 +321,30 @@ fn changes(of: &Comparison) -> Table {
             "better / equal / worse",
             "verdict",
         ],
-        rows: of.changes.iter().map(row).collect(),
+        rows: comparison.changes.iter().map(row).collect(),
     }
 }
 
-fn only(of: &Comparison) -> Table {
+fn only(comparison: &Comparison) -> Table {
     let row = |only: &crate::analysis::compare::Only| {
-        vec![of.sides[only.side].clone(), only.study.clone(), only.what.clone(), only.trials.to_string()]
+        vec![
+            comparison.sides[only.side].clone(),
+            only.study.clone(),
+            only.what.clone(),
+            only.trials.to_string(),
+        ]
     };
     Table {
         title: "What one side alone has".to_owned(),
         head: vec!["side", "study", "what", "trials"],
-        rows: of.only.iter().map(row).collect(),
+        rows: comparison.only.iter().map(row).collect(),
     }
 }
 
-fn with_interval(of: Measured) -> String {
+fn with_interval(number: Measured) -> String {
     let interval =
-        of.interval.map_or_else(String::new, |[low, high]| format!(" [{}, {}]", short(low), short(high)));
-    short(of.value) + &interval
+        number.interval.map_or_else(String::new, |[low, high]| format!(" [{}, {}]", short(low), short(high)));
+    short(number.value) + &interval
 }
 
 /// A number with four digits that count; whole numbers whole.

@@ -1,4 +1,5 @@
-//! What stands on everything drawn or written of records that are not the study's own: quick runs, other interpretations, stale ones.
+//! Marks on figures and text from records that are not the study's own: quick runs, other interpretations, stale
+//! records.
 
 use crate::analysis::claims::records;
 use crate::analysis::evidence::{Evidence, Run, default_point};
@@ -43,7 +44,7 @@ fn untouched(paper: &Paper, verdicts: &Verdicts) -> Option<String> {
     })
 }
 
-/// What a chapter begins with: [`marks`], and what is stale in the stored run and its verdicts.
+/// The first lines of a chapter: [`marks`], and what is stale in the stored run and its verdicts.
 pub fn state(evidence: &Evidence<'_>, verdicts: &Verdicts) -> Vec<String> {
     let paper = evidence.paper;
     let mut lines = marks(paper, verdicts);

@@ -16,6 +16,9 @@ const CLAIMS: usize = 8;
 /// A smaller p-value says no more.
 const LEAST_P: f64 = 0.0001;
 
+/// What verdicts mean where no paper makes the claims.
+const OURS: &str = "No paper makes these claims: “reproduced” means that a claim of ours holds, “not reproduced” that it does not. ";
+
 /// A headline claim.
 pub struct Headline<'a> {
     /// The claim.
@@ -60,9 +63,13 @@ impl Headline<'_> {
         words.map_or_else(|| verdict.clone(), |words| format!("{verdict}, {words}"))
     }
 
-    /// The counts over interpretations, or how many meanings have which verdict.
+    /// The counts over interpretations, with the options on which it depends; or how many meanings have which verdict.
     pub fn beside(&self, verdicts: &Verdicts) -> Option<String> {
-        if self.has_meanings { meanings(self.judged, verdicts) } else { self.judged.beside.first().cloned() }
+        if self.has_meanings {
+            return meanings(self.judged, verdicts);
+        }
+        let shown = if self.judged.verdict == Verdict::Depends { 2 } else { 1 };
+        self.judged.beside.iter().take(shown).cloned().reduce(|one, two| format!("{one}; {two}"))
     }
 
     /// The same, with what it depends on, its exceptions, and what would settle it if it is inconclusive.
@@ -87,14 +94,15 @@ fn meanings(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     }
     let of_each: Vec<String> = counts.iter().map(|(verdict, count)| format!("{count} {verdict}")).collect();
     let all: usize = counts.iter().map(|(_, count)| count).sum();
-    (counts.len() > 1).then(|| format!("its {all} meanings: {}", of_each.join(", ")))
+    (counts.len() > 1).then(|| format!("it can mean {all} things: {}", of_each.join(", ")))
 }
 
 /// How much was explored, and the command that does it again. A headline names the choices that were not varied for it.
-pub fn evidence(verdicts: &Verdicts) -> String {
+pub fn evidence(paper: &Paper, verdicts: &Verdicts) -> String {
     let again = format!("`replan repro {}` computes it again.", verdicts.paper);
     let Some(explored) = &verdicts.explored else {
-        return format!("Judged under the defaults alone. {again}");
+        let ours = if paper.source.ours { OURS } else { "" };
+        return format!("{ours}Judged under the defaults alone. {again}");
     };
     let seed = if explored.second_seed { "and a second seed" } else { "but no second seed" };
     let explored = explored.interpretations;
@@ -102,14 +110,16 @@ pub fn evidence(verdicts: &Verdicts) -> String {
 }
 
 /// Our number beside a claim, or those of its parts, with how many instances they rest on.
-fn ours(judged: &ClaimVerdict, paper: &Paper, verdicts: &Verdicts) -> Option<String> {
+pub fn ours(judged: &ClaimVerdict, paper: &Paper, verdicts: &Verdicts) -> Option<String> {
     let noun = noun(paper.studies_of(&judged.claim));
     if let Some(ours) = judged.ours() {
         let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
         let printed =
             judged.printed.as_ref().map_or_else(String::new, |printed| format!("printed {printed}, ours "));
         let number = match ours.quantity {
-            Quantity::Rank => format!("{} of our {noun} are at least as unusual", percentage(ours)),
+            Quantity::Rank => {
+                format!("{} of our {noun} lie as far out as the printed numbers", percentage(ours))
+            }
             Quantity::Probability if ours.value < LEAST_P => format!("p below {LEAST_P}"),
             Quantity::Probability => format!("p = {}", number(ours.value)),
             _ => effect(ours).unwrap_or_else(|| short(ours) + &unit),

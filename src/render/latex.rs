@@ -130,9 +130,9 @@ impl Numbers {
         Ok(())
     }
 
-    /// The file, macros in order of their names, under a comment that says how it was `made`.
+    /// The file: macros in the order of their names, under a comment that says how it was `made`.
     ///
-    /// Names start with that of `prefix` so that they meet no command of LaTeX.
+    /// Names start with that of `prefix`, so that none is a command of LaTeX.
     ///
     /// # Errors
     /// [`RenderError::EmptyMacro`] if the prefix gives no name.

@@ -1,8 +1,8 @@
-//! Figures and LaTeX: what a reader sees. Nothing here computes a result.
+//! Figures and LaTeX for readers. Nothing here computes a result.
 //!
-//! A figure is drawn on a [`canvas`] in points (1/72 inch, y down), with text turned into outlines of an
-//! embedded font, and leaves as SVG and PNG ([`vector`]). [`chart`] builds sheets of panels from marks,
-//! [`scene3`] draws solids, [`style`] holds colours, strokes and sizes, [`latex`] writes tables and macros.
+//! A figure is drawn on a [`canvas`] in points (1/72 inch, y down), with text turned into outlines of an embedded font.
+//! It leaves as SVG and PNG ([`vector`]). [`chart`] builds sheets of panels from marks, [`scene3`] draws solids,
+//! [`style`] holds colours, strokes and sizes, and [`latex`] writes tables and macros.
 
 pub mod agreement;
 pub mod canvas;

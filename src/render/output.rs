@@ -18,7 +18,7 @@ use study::StudyError;
 use study::spec::FigureSpec;
 use study::store::write_whole;
 
-/// A file as it should be.
+/// A file as it should be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Output {
     /// Its name in the paper's folder of plots.

@@ -3,9 +3,9 @@
 use super::effect::{effect, percentage, side_by_side};
 use crate::analysis::verdict::{ClaimVerdict, Estimate, Verdicts};
 use base::text::shown;
-use study::paper::{OVER_INTERPRETATIONS, filled};
+use study::paper::filled;
 
-/// Paragraphs and lists are broken into lines of so many characters.
+/// Paragraphs and lists are broken into lines of this many characters.
 pub const COLUMNS: usize = 120;
 
 /// `text` with every `{claim}` replaced by our number beside that claim, and every `{claim:form}` by the text that the form names; a
@@ -25,7 +25,10 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
                 .or_else(|| beside(verdicts.parts_ours(judged?))),
             "shown" => judged.and_then(|judged| beside(judged.shown().map(|ours| (ours, None)).collect())),
             "percent" => ours.map(percentage),
-            OVER_INTERPRETATIONS => judged.and_then(|judged| judged.across.as_ref()?.range).map(percents),
+            "interval" => {
+                ours.and_then(|ours| ours.interval).map(|[low, high]| format!("[{low:.1}, {high:.1}]"))
+            }
+            "power" => judged.and_then(ClaimVerdict::power).map(str::to_owned),
             "low" => ours.and_then(|ours| ours.interval).map(|[low, _]| number(low)),
             "high" => ours.and_then(|ours| ours.interval).map(|[_, high]| number(high)),
             _ => ours.map(|ours| number(ours.value)),
@@ -39,16 +42,6 @@ pub fn capital(name: &str) -> String {
     let mut letters = name.chars();
     let first = letters.next().map(|letter| letter.to_ascii_uppercase());
     first.into_iter().chain(letters).collect()
-}
-
-/// Two shares as percentages, those below one per cent with a decimal.
-fn percents(ends: [f64; 2]) -> String {
-    let percent = |share: f64| {
-        let percent = 100.0 * share;
-        if percent > 0.0 && percent < 1.0 { format!("{percent:.1}") } else { format!("{percent:.0}") }
-    };
-    let [least, greatest] = ends.map(percent);
-    format!("{least} to {greatest} %")
 }
 
 /// A number with four decimals at most; what these would show as zero stands as a power of ten.
@@ -110,8 +103,8 @@ pub fn plain(first: &str, text: &str, indent: usize, columns: usize) -> String {
     broken(first, text, [indent, columns], |_| false)
 }
 
-/// `rows` as lines: each column is as wide as its widest cell of at most so many characters. What
-/// follows a wider cell stands on a line of its own.
+/// `rows` as lines: each column is as wide as its widest cell of at most `most` characters. After a wider cell the rest
+/// of its row stands on a line of its own.
 pub fn columns<const N: usize>(rows: &[[String; N]], most: [usize; N]) -> Vec<String> {
     let width = |at: usize| {
         rows.iter().map(|row| row[at].chars().count()).filter(|&wide| wide <= most[at]).max().unwrap_or(0)
@@ -180,12 +173,6 @@ mod tests {
         ] {
             assert_eq!(markdown(text), safe);
         }
-    }
-
-    #[test]
-    fn shares_over_interpretations_keep_a_digit_that_says_something() {
-        assert_eq!(percents([0.0, 0.436]), "0 to 44 %");
-        assert_eq!(percents([0.0051, 0.0149]), "0.5 to 1 %");
     }
 
     #[test]

@@ -75,8 +75,8 @@ fn touched(path: &Path, what: &str) -> StudyError {
     StudyError::Touched(format!("{}: {what}; {aside}", path.display()))
 }
 
-/// `report`, read from `path`, with the chapter of the paper `name` and its line of the overview in their places; everything
-/// else stays as it is.
+/// `report`, read from `path`, with the chapter of the paper `name` and its entry of the overview in their places.
+/// Everything else stays as it is.
 ///
 /// # Errors
 /// [`StudyError::Touched`] with the line if the markers of its chapters do not pair up.
@@ -89,8 +89,8 @@ pub fn with_chapter(path: &Path, report: &str, name: &str, chapter: &Chapter) ->
     put().map_err(|error: chapters::MarkerError| touched(path, &error.to_string()))
 }
 
-/// Puts a paper's chapter into the report at `path`, which no other run changes meanwhile: `lock` is the file by which runs
-/// agree on that.
+/// Puts a paper's chapter into the report at `path`. The file `lock` keeps other runs from changing the report
+/// meanwhile.
 ///
 /// # Errors
 /// As [`read`] and [`with_chapter`]; the report is as it was then.
@@ -135,7 +135,7 @@ fn begin_of_row(name: &str) -> String {
     format!("| [`{name}`](#{}) |", anchor(name))
 }
 
-/// What links call `name`.
+/// The anchor of `name` in links.
 pub fn anchor(name: &str) -> String {
     name.chars().map(|c| if c.is_alphanumeric() || "._-".contains(c) { c } else { '-' }).collect()
 }
@@ -192,12 +192,4 @@ fn with_caption(table: &PrintedTable, markdown: &str) -> String {
 fn item(depth: usize, text: &str) -> String {
     let indent = 2 * depth;
     wrapped(&format!("{}- ", " ".repeat(indent)), text, indent + 2, COLUMNS) + "\n"
-}
-
-/// What the paper says: its number, its own words in quotation marks, or what its words amount to.
-fn paper_statement(judged: &ClaimVerdict) -> String {
-    let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
-    let printed = judged.printed.as_ref().map(|printed| format!("{printed}{unit}"));
-    let quoted = judged.quote.as_ref().map(|quote| format!("“{quote}”"));
-    printed.or(quoted).or_else(|| judged.says.clone()).unwrap_or_else(|| "–".to_owned())
 }

@@ -10,7 +10,8 @@ use crate::analysis::verdict::{ClaimVerdict, Estimate, Verdicts};
 use crate::analysis::verdict_rule::Verdict;
 use study::paper::{Claim, Paper, PrintedRow, PrintedTable};
 
-/// What a row of one of the paper's tables shows: in each column what it printed, ours, and the claim with its verdict.
+/// A row of one of the paper's tables beside ours: in each column the printed number, ours, and the claim with its
+/// verdict.
 pub struct Beside<'a> {
     /// What the paper printed, a cell a column.
     pub printed: Vec<String>,

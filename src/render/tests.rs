@@ -5,7 +5,7 @@
 use super::canvas::{Align, Stand, Type};
 use super::chart::legend::cell_key;
 use super::chart::marks::{Band, Cells, Line, Note, Points, Shape};
-use super::chart::rows::{Bars, BoxStrip, Interval};
+use super::chart::rows::{Bars, BoxStrip, Whiskers};
 use super::chart::rules::Rules;
 use super::chart::{Axis, Panel, Sheet, Trim};
 use super::scene3::{Camera, Paint, ScaleBar, Scene, SceneMark, Vec3, box_corners};
@@ -15,6 +15,7 @@ use super::style::{
 };
 use super::vector::Provenance;
 use crate::analysis::shown::Distribution;
+use crate::analysis::statistic::Interval;
 use base::seed;
 use rand::RngExt as _;
 
@@ -197,12 +198,13 @@ fn interval_rows_of_interpretations() {
         Panel::new("", Axis::linear("ratio of opened cells, improved / A*", 0.2, 1.4).unwrap(), rows);
     for (index, _) in options.iter().enumerate() {
         let at = 0.5 + 0.06 * index as f64;
-        let values = [at - 0.1, at, if index == 6 { f64::INFINITY } else { at + 0.12 }];
+        let values = Interval::new(at - 0.1, if index == 6 { f64::INFINITY } else { at + 0.12 });
         let color = if index % 3 == 0 { VERMILLION } else { BLUE };
         let label = if color == BLUE { "contradicts the claim" } else { "carries the claim" };
-        panel.add(Interval {
-            row: index as f64,
-            values,
+        panel.add(Whiskers {
+            at: [at, index as f64],
+            ends: [values, Interval::new(index as f64, index as f64)],
+            is_hollow: false,
             marker: series_marker(index % 3),
             color,
             label: label.into(),

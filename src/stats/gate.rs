@@ -21,10 +21,11 @@ pub enum Decision {
     },
 }
 
-/// What the interval of `found`, a change for the worse where it is above 0, says of `margin`.
+/// The verdict of a gate: whether the interval of `found` shows that it is worse by more than `margin`. Above 0 is
+/// worse.
 ///
-/// Each of the two words is false with at most the probability of the interval's tail on that side; it is greatest where the
-/// true change is the margin itself.
+/// Either of the two firm answers is wrong with at most the probability of the interval's tail on that side. That
+/// probability is greatest where the true change is the margin itself.
 pub fn decide(found: &Estimate, margin: f64) -> Decision {
     let value = found.value;
     let interval = found.interval;

@@ -38,7 +38,7 @@ pub fn predicted_mean(values: &[f64], printed_of: usize, plan: Resampling) -> Op
     Some(Estimate { value, interval, is_agreed, units, undefined: 0 })
 }
 
-/// [`predicted_mean`] of a mean and a standard deviation of so many `units` that are taken to be normal.
+/// [`predicted_mean`] from a mean and a standard deviation of `units` instances that are taken to be normal.
 pub fn predicted_normal(
     [value, deviation]: [f64; 2],
     units: usize,

@@ -1,4 +1,4 @@
-//! Two measurements of the same units: what one contender changes of another.
+//! Two measurements of the same units: the change from one contender to another.
 
 /// Values that differ by no more are equal: sums of the same steps in another order differ in their last digits.
 pub const EQUAL: f64 = 1e-9;

@@ -1,4 +1,4 @@
-//! What a printed row of several cells says as a whole.
+//! Whether a printed row of several cells, as a whole, could be one of ours.
 
 use super::proportion::Rank;
 use super::summary;
@@ -6,9 +6,9 @@ use super::summary::{mean, standard_deviation};
 
 /// The probability that a row with one independent instance per cell never falls from a cell to the next.
 ///
-/// Each cell's distribution is that of its `instances`, one list per cell in the order of the row. The probability
-/// is computed exactly by running through the values in rising order, not simulated. A row without cells
-/// never falls; none if a cell has no instances.
+/// `instances` has one list per cell, in the order of the row; a cell draws from its list. The probability is computed
+/// exactly, by running through the values in rising order. A row without cells never falls; none if a cell has no
+/// instances.
 ///
 /// # Panics
 /// If an instance is NaN.

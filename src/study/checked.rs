@@ -124,7 +124,8 @@ pub fn sweeps_of(name: &str) -> String {
     format!("sweeps of {name}")
 }
 
-/// The remark beside whatever shows `labels`, the contenders that a study marks as recorded; `None` if there are none.
+/// The remark beside anything that shows `labels`: the contenders among them that a study marks as recorded. `None` if
+/// there are none.
 pub fn recorded_mark<'a>(labels: impl Iterator<Item = &'a str>) -> Option<String> {
     let labels: Vec<&str> = labels.collect();
     (!labels.is_empty())
@@ -278,7 +279,7 @@ impl Study {
         Ok(meant.map(|place| points[place].key.clone()).collect())
     }
 
-    /// Labels in the contender column of its trials: its contenders', or those of what its task tries instead.
+    /// Labels in the contender column of its trials: its contenders, or the alternatives that its task tries instead.
     pub fn labels(&self) -> Vec<String> {
         if self.contenders.is_empty() {
             return (self.task.build)(&self.task_settings).map_or_else(|_| Vec::new(), |task| task.labels());
@@ -344,13 +345,13 @@ impl Study {
         self.contenders.iter().filter(|contender| contender.is_recorded()).map(|one| one.label.as_str())
     }
 
-    /// Those of them that depend on a clock and on a program that can run here.
+    /// Its contenders that depend on a clock and on a program that can run here.
     pub fn clock_bound(&self) -> impl Iterator<Item = &str> {
         let is_bound = |contender: &&Contender| contender.is_recorded() && !contender.is_elsewhere();
         self.contenders.iter().filter(is_bound).map(|one| one.label.as_str())
     }
 
-    /// Those of them whose trials were recorded elsewhere and imported.
+    /// Its contenders whose trials were recorded elsewhere and imported.
     pub fn elsewhere(&self) -> impl Iterator<Item = &str> {
         self.contenders.iter().filter(|contender| contender.is_elsewhere()).map(|one| one.label.as_str())
     }

@@ -76,8 +76,8 @@ impl Choice {
         self.options.get(name).is_some_and(|option| option.cannot_run.is_none())
     }
 
-    /// Whether the option called `name` is a way in which the paper may be meant, and not a probe: it cites the paper or a
-    /// practice, or is a number within sourced bounds. Of a choice none of whose options is cited, the default alone is.
+    /// Whether the paper may mean the option called `name`, so that it is no probe: it cites the paper or a practice,
+    /// or is a number within sourced bounds. If no option of a choice is cited, the default alone counts.
     pub fn is_meant(&self, name: &str) -> bool {
         let is_cited = |option: &OptionSpec| {
             let is_within =
@@ -125,7 +125,7 @@ impl OptionSpec {
         !self.problem.is_empty() || !self.stage.is_empty() || !self.contender.is_empty()
     }
 
-    /// Whether it sets what claims mean, whatever ran.
+    /// Whether it changes the meaning of claims, whatever ran.
     pub fn sets_claims(&self) -> bool {
         !self.metric.is_empty() || self.digits.is_some()
     }
@@ -148,7 +148,7 @@ pub struct Change {
 }
 
 impl Change {
-    /// What the problem group called `label`, which stands at `place`, lays over planners and stages, by their names.
+    /// The settings of planners and stages, by their names, that the problem group `label` at `place` lays over them.
     pub fn by_problems(label: &str, stage: BTreeMap<String, Table>, place: Place) -> Self {
         let option = Arc::new(OptionSpec { stage, ..OptionSpec::default() });
         Self { by: format!("problems `{label}`"), option, place: Some(place) }
@@ -214,7 +214,7 @@ impl Interpretation {
         Ok(interpretation)
     }
 
-    /// The same options of those choices alone: the interpretation of a study that inherits no others.
+    /// The same options, of those choices alone: the interpretation of a study that inherits no others.
     ///
     /// # Panics
     /// If one of `choices` lacks the option that is taken of it.
@@ -249,7 +249,7 @@ impl Interpretation {
             .expect("a study inherits the choices of its paper as they are")
     }
 
-    /// Whether each option stands with those of other choices that it names; of choices that are not here it asks nothing.
+    /// Whether each option stands with the options of other choices that it names; absent choices are ignored.
     pub fn is_allowed(&self) -> bool {
         let stands = |(id, options): (&String, &Vec<String>)| {
             self.options.get(id).is_none_or(|option| options.contains(option))
@@ -257,7 +257,8 @@ impl Interpretation {
         self.changes.iter().all(|change| change.option.only_with.iter().all(stands))
     }
 
-    /// What names this interpretation in the records of a study with these choices: the option of each that touches trials.
+    /// The name of this interpretation in the records of a study with these choices: the option of each choice that
+    /// touches trials.
     pub fn key(&self, choices: &[Choice]) -> InterpretationKey {
         let moving = choices.iter().filter(|choice| choice.touches_trials);
         let option =
@@ -265,7 +266,7 @@ impl Interpretation {
         InterpretationKey::new(moving.map(|choice| (choice.id.as_str().into(), option(choice))).collect())
     }
 
-    /// What the options let claims mean, whatever ran: the metrics of names and how printed digits end.
+    /// The meanings that the options give claims, whatever ran: the metrics of names and how printed digits end.
     pub fn meaning(&self) -> String {
         let options = self.changes.iter().map(|change| &change.option).filter(|option| option.sets_claims());
         options

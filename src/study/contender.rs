@@ -135,7 +135,7 @@ pub struct Sweep {
     /// The setting.
     pub key: String,
     /// Whose setting it is.
-    pub of: Swept,
+    pub whose: Swept,
     /// Its number among the study's sweeps as they are written, from 0.
     pub number: usize,
     /// Its values, in the paper's order.
@@ -150,7 +150,7 @@ pub struct Sweep {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Swept {
     /// That of a planner or stage.
-    Entry(String),
+    Stage(String),
     /// That of problem groups, by label; `*` at the end stands for any ending.
     Problems(Vec<String>),
 }
@@ -158,8 +158,8 @@ pub enum Swept {
 impl Sweep {
     /// The planner or stage whose setting it is.
     pub fn entry(&self) -> Option<&str> {
-        match &self.of {
-            Swept::Entry(name) => Some(name),
+        match &self.whose {
+            Swept::Stage(name) => Some(name),
             Swept::Problems(_) => None,
         }
     }
@@ -170,7 +170,7 @@ impl Sweep {
             Some(beginning) => label.starts_with(beginning),
             None => pattern == label,
         };
-        matches!(&self.of, Swept::Problems(patterns) if patterns.iter().any(is_meant))
+        matches!(&self.whose, Swept::Problems(patterns) if patterns.iter().any(is_meant))
     }
 
     /// Its values as records have them: all of one kind, words where kinds are mixed; `None` for a value that is neither a

@@ -1,4 +1,4 @@
-//! What a spec leaves out and what holds there, for the manifest: nobody has to look a default up to know what was run.
+//! The defaults of everything that a spec leaves out, for the manifest: nobody has to look one up to know what was run.
 
 use super::checked::Study;
 use base::settings::Settings;

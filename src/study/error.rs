@@ -1,9 +1,9 @@
-//! What can go wrong between a spec and its records.
+//! The errors between a spec and its records.
 
 use base::settings::SettingsError;
 use std::path::PathBuf;
 
-/// What helps where a stored file is not the one that was written.
+/// The advice where a stored file is not the one that was written.
 pub const REMEDY: &str = "put back the file that was written, or `run` with --replace-damaged, which sets it aside and keeps what is sound";
 
 /// An error of the study floor.

@@ -7,6 +7,7 @@ use super::group::Group;
 use super::spec::OptionSpec;
 use base::hash::sha256;
 use base::seed::{self, Stream};
+use base::settings::in_first_words;
 use rand::RngExt as _;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -101,7 +102,7 @@ pub fn stamp(study: &Study) -> String {
     };
     let group = |group: &Group| {
         let family = group.family;
-        let settings = group.settings.table();
+        let settings = in_first_words(group.settings.table());
         format!(
             "{} {:?} {} {} {settings:?}",
             group.label, group.shared_instances, family.name, family.revision
@@ -139,12 +140,12 @@ pub fn stamp(study: &Study) -> String {
 }
 
 /// A sweep as stamps always had it: where it stands is no part of it.
-fn swept(Sweep { key, of, values, .. }: &Sweep) -> String {
-    let of = match of {
-        Swept::Entry(name) => format!("of: {name:?}"),
+fn swept(Sweep { key, whose, values, .. }: &Sweep) -> String {
+    let whose = match whose {
+        Swept::Stage(name) => format!("of: {name:?}"),
         Swept::Problems(labels) => format!("problems: {labels:?}"),
     };
-    format!("Sweep {{ key: {key:?}, {of}, values: {values:?} }}")
+    format!("Sweep {{ key: {key:?}, {whose}, values: {values:?} }}")
 }
 
 #[cfg(test)]

@@ -66,7 +66,7 @@ pub static KINDS: &[FileKind] = &[
 
 /// The kind of a paper's studies.
 pub const STUDY: &str = "study";
-/// What a file is called that is of no kind of ours.
+/// The name of a file that is of no kind of ours.
 pub const FOREIGN: &str = "file of something else";
 
 /// Files of a paper's folder that are no studies: the paper itself, and the questions to an independent judge.
@@ -88,7 +88,7 @@ pub fn beside(folder: &Path) -> Result<Vec<PathBuf>, StudyError> {
     Ok(files)
 }
 
-/// What a file of the kind called `name` may hold, but for what the entries that it names know.
+/// The schema of the kind of file called `name`, without the settings of the entries that it names.
 pub fn schema(name: &str) -> Value {
     let kind = KINDS.iter().find(|kind| kind.name == name);
     kind.map_or(Value::Bool(true), |kind| (*kind.accepted.schema()).clone())
@@ -123,7 +123,7 @@ pub fn kind_of(document: &Document, paper: &Document) -> &'static str {
     }
 }
 
-/// What is wrong with a file of `kind`, other than a study, which it says.
+/// The faults of a file of `kind`, other than a study.
 ///
 /// # Errors
 /// Every fault, with what the file was taken for.

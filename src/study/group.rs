@@ -72,7 +72,7 @@ impl Group {
         (self.family.build)(&self.settings_under(at, point), inputs)
     }
 
-    /// Builds its family from `settings`, to find faults. Those of a file that they name are reported elsewhere.
+    /// Builds its family from `settings`, to find faults. Faults of a file that they name are reported elsewhere.
     ///
     /// # Errors
     /// Those of the settings.

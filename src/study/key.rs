@@ -1,4 +1,4 @@
-//! What names a record: typed columns, never a text that is taken apart again.
+//! The name of a record: typed columns, never a text that is parsed again.
 //!
 //! Labels are shared, not copied: a study has millions of keys and few labels.
 
@@ -138,7 +138,7 @@ impl SweepKey {
         self.0.is_empty()
     }
 
-    /// Its values, and after them those of `other`.
+    /// Its values, followed by those of `other`.
     #[must_use]
     pub fn and(&self, other: &Self) -> Self {
         match (self.is_empty(), other.is_empty()) {
@@ -148,7 +148,7 @@ impl SweepKey {
         }
     }
 
-    /// What it has after the values of `first`, with which it begins.
+    /// Its values behind those of `first`, with which it begins.
     #[must_use]
     pub fn after(&self, first: &Self) -> Self {
         if first.is_empty() { self.clone() } else { Self(self.0[first.0.len()..].into()) }
@@ -159,7 +159,7 @@ impl SweepKey {
         &self.0
     }
 
-    /// Whether it is the same point; that of most trials is shared, and found out at once.
+    /// Whether it is the same point. Most trials share one, which is found out at once.
     pub fn is_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0) || self == other
     }
@@ -238,7 +238,7 @@ pub struct KeyColumns {
     pub choices: Vec<Text>,
 }
 
-/// Whose a trace is. Trials come after the object that they ran on.
+/// The owner of a trace. Trials come after the object that they ran on.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Owner {
     /// A preprocessed object.

@@ -1,8 +1,8 @@
-//! Studies: from a spec to what happened.
+//! Studies: from a spec to records.
 //!
-//! [`Paper::load`](paper::Paper::load) turns a spec into checked types; [`run`](session::run) turns these into records that
-//! [`store`] keeps; [`manifest`] says what the records depend on. Families pose problems, preprocessed objects are
-//! what many trials share, tasks say what is done with both. Nothing here judges a claim or draws a figure.
+//! [`Paper::load`](paper::Paper::load) turns a spec into checked types; [`run`](session::run) turns these into records
+//! that [`store`] keeps; [`manifest`] says what the records depend on. Families pose problems, preprocessed objects are
+//! shared by many trials, and tasks decide what is done with both. Nothing here judges a claim or draws a figure.
 //!
 //! The modules below stand in the order in which they may know each other, lowest first; no circle is allowed.
 

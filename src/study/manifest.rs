@@ -1,4 +1,4 @@
-//! What a study's records depend on, so that a stored trial is reused only if nothing of it has changed.
+//! Everything that a study's records depend on, so that a stored trial is reused only if none of it has changed.
 
 mod hashes;
 mod held;
@@ -151,7 +151,7 @@ impl Manifest {
         sha256(format!("{:?}", self.files).as_bytes())
     }
 
-    /// Makes it that of a portion of the run, which reads no clock; the units of the portion.
+    /// Turns it into the manifest of a portion of the run, which reads no clock, and gives the units of the portion.
     pub fn cut_to<'p>(&mut self, portion: &'p Portion) -> &'p BTreeSet<usize> {
         self.shard = Some(portion.shard.clone());
         self.sessions.clear();

@@ -1,7 +1,7 @@
-//! Puts the parts of a run together: the same records, to the byte, as one machine would have written.
+//! Merges the parts of a run into the same records, to the byte, as one machine would have written.
 //!
-//! Nothing is put together unless every part is there, whole, of one plan and of one program. A part is refused by the name of
-//! its folder, with what it should be.
+//! Nothing is merged unless every part is there, whole, of one plan and of one program. A part is refused by the name
+//! of its folder, with the plan or program that it should have.
 
 use super::key::{InstanceKey, SweepKey};
 use super::manifest::Manifest;

@@ -1,4 +1,4 @@
-//! Names that people see, made from typed keys here and nowhere else, and never taken apart again.
+//! Names that people see, made from typed keys here and nowhere else, and never parsed again.
 
 pub use base::slug::slug;
 
@@ -45,7 +45,7 @@ impl Names {
         self.problem(key, None) + &self.interpretation_part(&key.interpretation)
     }
 
-    /// `group[/sweep][/instance][/query]`: what is to be solved, whatever the interpretation.
+    /// `group[/sweep][/instance][/query]`: the problem, whatever the interpretation.
     pub fn problem(&self, key: &InstanceKey, query: Option<&str>) -> String {
         let group = self.groups.get(&*key.group);
         let label = group.map_or_else(|| slug(&key.group), |group| group.slug.clone());

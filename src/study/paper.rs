@@ -20,7 +20,7 @@ use self::claim::{ClaimSpec, claim};
 pub use self::rules::names_of;
 pub use inventory::{InventoryRow, NumbersRow};
 pub use reply::{Reply, is_day};
-pub use report::{FIGURES, OVER_INTERPRETATIONS, ReportSpec, filled};
+pub use report::{FIGURES, ReportSpec, filled};
 
 use self::reply::ReplySpec;
 use self::results::ResultsSpec;
@@ -259,8 +259,8 @@ impl Paper {
         }
     }
 
-    /// The paper in `folder` as far as it can be read, if at all; everything that is wrong goes to `faults`. `schema` gives
-    /// what a kind of file may hold.
+    /// The paper in `folder` as far as it can be read, if at all; every fault goes to `faults`. `schema` gives the
+    /// schema of a kind of file.
     ///
     /// # Errors
     /// A missing folder or file.
@@ -312,7 +312,7 @@ impl Paper {
         Self::assemble(folder, &document, (spec, shared.choices), (studies, others), faults).map(Some)
     }
 
-    /// The paper in `folder` whose paper.toml is `document`, with studies that were loaded.
+    /// The paper in `folder` whose paper.toml is `document`, with loaded `studies`.
     ///
     /// # Errors
     /// As [`load`](Self::load), but for those of the studies.
@@ -403,8 +403,8 @@ impl Paper {
         named.chain(parts).collect()
     }
 
-    /// The options under which the paper may mean `claim`, which looks at `studies`, and that cannot be run, in words:
-    /// `corners = lost: why`.
+    /// The options under which the paper may mean `claim`, which looks at `studies`, and that cannot be run: `corners =
+    /// lost: why`.
     pub fn not_run(&self, claim: &Claim, studies: &[&Study]) -> Vec<String> {
         let inherited = |choice: &&Choice| {
             studies.iter().any(|study| study.choices.iter().any(|own| own.id == choice.id))

@@ -42,7 +42,7 @@ pub struct Plan {
     pub studies: Vec<PlannedStudy>,
 }
 
-/// A round of an exploration or a confirmation: what runs in one hangs on what was judged after the one before it.
+/// A round of an exploration or a confirmation: its trials depend on the judgement after the round before.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlannedRound {
@@ -318,7 +318,7 @@ impl Differences {
     }
 }
 
-/// What differs between two programs whose records must not be mixed: what it is, and that of each.
+/// The difference between two programs whose records must not be mixed: its name, and its value in each.
 pub fn unlike<'m>(one: &'m MadeBy, other: &'m MadeBy) -> impl Iterator<Item = [String; 3]> + use<'m> {
     let shown = |text: Option<&String>| text.map_or_else(|| "unknown".to_owned(), |text| brief(text));
     let pairs = [

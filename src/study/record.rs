@@ -182,7 +182,7 @@ impl Row {
         self.key.query.as_deref().unwrap_or_default()
     }
 
-    /// What it has in common with the trials of other contenders that it is compared with: instance, query, sweep and repeat.
+    /// The part of its key that it shares with other contenders' trials: instance, query, sweep and repeat.
     pub fn case(&self) -> (&Arc<InstanceKey>, &Option<Text>, &SweepKey, u32) {
         (&self.key.on, &self.key.query, &self.key.sweep, self.key.repeat)
     }
@@ -219,7 +219,7 @@ pub struct Timing {
     pub trial: TrialKey,
     /// The session in which the clock was read, from 1; times of different sessions are never pooled.
     pub session: u32,
-    /// Which interpretation of the clock in its session, from 0.
+    /// Which reading of the clock in its session, from 0.
     pub clock_repeat: u32,
     /// Planning time.
     pub plan_wall_ns: u64,

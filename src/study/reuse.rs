@@ -42,7 +42,8 @@ pub struct Damage {
 }
 
 impl Before {
-    /// What `folder` has of the study that `manifest` is about. What is damaged is set aside if `replaces_damaged`.
+    /// The records in `folder` of the study that `manifest` describes. Damaged files are set aside if
+    /// `replaces_damaged`.
     ///
     /// # Errors
     /// [`StudyError::Touched`] for a damaged file otherwise.
@@ -103,7 +104,7 @@ pub fn stored(folder: &Path, study: &str) -> Result<(Manifest, Records), StudyEr
     Ok((manifest, records))
 }
 
-/// Which stored trials may stand where nothing that they depend on has changed.
+/// Stored trials that may stand, since nothing that they depend on has changed.
 #[derive(Debug, Clone, Copy)]
 pub struct Keeps {
     /// Those that can be repeated.
@@ -130,7 +131,7 @@ pub struct Reusable<'s> {
 }
 
 impl<'s> Reusable<'s> {
-    /// What of the run that `manifest` describes stands in `records`, which `before` describes.
+    /// The trials in `records`, described by `before`, that stand for the run that `manifest` describes.
     pub fn new(
         built: &BuiltStudy<'_>,
         manifest: &Manifest,
@@ -206,7 +207,7 @@ fn by_instance(batch: &Batch) -> BTreeMap<&InstanceKey, StoredUnit<'_>> {
     instances
 }
 
-/// The records of a run on their way to its files: those of trials that ran are in the journal, the others of the run before.
+/// The records of a run on their way to its files: new ones in the journal, the others from the run before.
 pub struct Gathered<'r, 'a> {
     built: &'r BuiltStudy<'a>,
     journal: Journal,
@@ -215,7 +216,7 @@ pub struct Gathered<'r, 'a> {
 }
 
 impl<'r, 'a> Gathered<'r, 'a> {
-    /// Those of a run that takes over `reused` of the run before, whose traces are `before`.
+    /// The records of a run that takes over `reused` of the run before, whose traces are `before`.
     pub fn new(
         built: &'r BuiltStudy<'a>,
         journal: Journal,
@@ -247,7 +248,7 @@ impl<'r, 'a> Gathered<'r, 'a> {
         Ok(shape)
     }
 
-    /// Those of one unit, which has this number.
+    /// The records of the unit numbered `index`.
     ///
     /// # Errors
     /// Those of the journal and of the file of the run before.
@@ -298,7 +299,7 @@ pub struct Moved<'r> {
 }
 
 impl<'r> Moved<'r> {
-    /// Those of the run that `manifest` describes since the one before.
+    /// The moved trials of the run that `manifest` describes, since the one before.
     pub fn new(manifest: &'r Manifest, before: &'r Manifest, old: &'r [Row]) -> Self {
         Self { manifest, before, old: old.iter().map(|row| (&row.key, row)).collect() }
     }

@@ -50,7 +50,7 @@ impl Progress for Unwatched {
     fn end(&self) {}
 }
 
-/// The number of the session in which a run reads the clock: its times replace all older ones. Later sessions are read
+/// The number of the session in which a run reads the clock. Its times replace all older ones; later sessions are kept
 /// beside it.
 pub const SESSION: u32 = 1;
 
@@ -261,7 +261,7 @@ impl<'a> BuiltStudy<'a> {
         Err(StudyError::LacksFiles { study, group, lacks })
     }
 
-    /// That every program and every archive is there whose trials are to run: those of the units in `todo` that are not in `parts`.
+    /// Checks that every program and archive is there for the units in `todo` that are not in `parts`.
     ///
     /// # Errors
     /// [`StudyError::Lacks`] or [`StudyError::LacksFiles`] for the first that is not.

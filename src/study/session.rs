@@ -42,7 +42,7 @@ pub struct Options<'a> {
     pub inputs: &'a Inputs,
     /// The command line, for the manifest.
     pub command: String,
-    /// The units to run, of a run that is cut into shards; all if absent. A shard reads no clock: interpretations on several machines,
+    /// The units to run, of a run that is cut into shards; all if absent. A shard reads no clock: times on several machines,
     /// or beside other shards, are of no session.
     pub portion: Option<&'a Portion>,
     /// Cut down by `--quick`.
@@ -188,7 +188,7 @@ impl<'r> Tally<'r> {
     }
 }
 
-/// Runs what is stale of `study`; where nothing is, the stored run stays as it is.
+/// Runs the stale parts of `study`; if nothing is stale, the stored run stays as it is.
 ///
 /// # Errors
 /// [`StudyError::Interrupted`] if it was stopped, and those of the file system. Records that existed before stay as they
@@ -356,7 +356,7 @@ pub(super) fn write(
     staged.put()
 }
 
-/// The trial called `trial` run alone, without touching any file, and the same row as it is stored.
+/// Runs the trial called `trial` alone, without touching any file, and gives its row beside the stored one.
 ///
 /// # Errors
 /// [`StudyError::UnknownTrial`].

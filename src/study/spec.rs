@@ -142,7 +142,7 @@ pub struct SweepSpec {
     /// The setting that it fills.
     pub key: Spanned<String>,
     /// The planner or stage whose setting it is; `problems` stands in its place if it is a setting of problems.
-    pub of: Option<Spanned<String>>,
+    pub stage: Option<Spanned<String>>,
     /// The problem groups whose setting it is, by label; `*` at the end of one stands for any ending.
     pub problems: Option<Spanned<Vec<String>>>,
     /// The values, in the paper's order.
@@ -195,8 +195,8 @@ pub const ROBOT_WITH: &str = "robot_with";
 /// The setting of a problem that is laid over its scene file.
 pub const SCENE_WITH: &str = "scene_with";
 
-/// What one option of a choice sets, and who might mean it. An option that cites neither the paper nor a practice, nor is a
-/// number within sourced bounds, is a probe: what it does is printed and never counted.
+/// The settings of one option of a choice, and its source. An option that cites neither the paper nor a practice, nor
+/// is a number within sourced bounds, is a probe: its effect is printed and never counted.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OptionSpec {
@@ -295,7 +295,7 @@ pub struct ExploreSpec {
 #[serde(transparent)]
 pub struct Count(#[schemars(range(min = 1, max = 1_000_000))] pub u32);
 
-/// What is run of one study under every interpretation that its paper explores.
+/// The part of one study that runs under every interpretation explored.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExploredStudy {
     /// Instances kept of each problem group.
@@ -404,7 +404,7 @@ impl Default for QuickSpec {
     }
 }
 
-/// A figure: its kind and what that kind wants to know.
+/// A figure: its kind and the settings of that kind.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FigureSpec {

@@ -7,6 +7,7 @@
 use base::robot::{Joint, Kind, Robot};
 use base::solid::{Form, Pose as Place, Solid};
 use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector3, Vector4};
+use parry3d::bounding_volume::{BoundingSphere, BoundingVolume as _};
 use parry3d::math::{Matrix, Pose, Rotation, Vector};
 use parry3d::query;
 use parry3d::shape::{Ball, ConvexPolyhedron, Cuboid, Cylinder, SharedShape};
@@ -24,10 +25,43 @@ const LIMIT: f64 = 1e-9;
 /// A robot among obstacles.
 pub struct Case {
     robot: Robot,
-    parts: Vec<(Matrix4<f64>, SharedShape)>,
-    stills: Vec<(Pose, SharedShape)>,
+    parts: Vec<(Matrix4<f64>, Shape)>,
+    stills: Vec<Placed>,
     pairs: Vec<[usize; 2]>,
     step_rad: f64,
+}
+
+/// A shape and a ball about it.
+struct Shape {
+    shape: SharedShape,
+    ball: BoundingSphere,
+}
+
+/// A shape where it is, and the ball about it there.
+struct Placed {
+    at: Pose,
+    shape: SharedShape,
+    ball: BoundingSphere,
+}
+
+impl Shape {
+    fn new(shape: SharedShape) -> Self {
+        Self { ball: shape.compute_local_bounding_sphere(), shape }
+    }
+
+    fn placed(&self, at: Pose) -> Placed {
+        Placed { at, shape: self.shape.clone(), ball: self.ball.transform_by(&at) }
+    }
+}
+
+impl Placed {
+    /// Whether two shapes touch. Those whose balls are apart do not.
+    fn touches(&self, other: &Self) -> bool {
+        self.ball.intersects(&other.ball)
+            && query::intersection_test(&self.at, &*self.shape, &other.at, &*other.shape)
+                .expect("parry knows these shapes")
+                .intersecting
+    }
 }
 
 impl std::fmt::Debug for Case {
@@ -61,10 +95,10 @@ impl Case {
         let parts = robot
             .solids
             .iter()
-            .map(|(_, solid)| Ok((matrix(&solid.pose) * about(&solid.form), shape(solid)?)));
-        let stills = obstacles
-            .iter()
-            .map(|solid| Ok((pose(&(matrix(&solid.pose) * about(&solid.form))), shape(solid)?)));
+            .map(|(_, solid)| Ok((matrix(&solid.pose) * about(&solid.form), Shape::new(shape(solid)?))));
+        let stills = obstacles.iter().map(|solid| {
+            Ok(Shape::new(shape(solid)?).placed(pose(&(matrix(&solid.pose) * about(&solid.form)))))
+        });
         Ok(Self {
             robot: robot.clone(),
             parts: parts.collect::<Result<_, String>>()?,
@@ -170,19 +204,15 @@ impl Case {
         }
         let frames = self.frames(q);
         let links = self.robot.solids.iter().map(|(link, _)| *link);
-        let placed: Vec<Pose> =
-            links.clone().zip(&self.parts).map(|(link, (at, _))| pose(&(frames[link] * at))).collect();
+        let place =
+            |(link, (at, shape)): (usize, &(Matrix4<f64>, Shape))| shape.placed(pose(&(frames[link] * at)));
+        let placed: Vec<Placed> = links.clone().zip(&self.parts).map(place).collect();
         for (part, _) in links.enumerate().filter(|(_, link)| *link > 0) {
-            let touches =
-                |(at, still): &(Pose, SharedShape)| touch(&placed[part], &self.parts[part].1, at, still);
-            if let Some(hit) = self.stills.iter().position(touches) {
+            if let Some(hit) = self.stills.iter().position(|still| placed[part].touches(still)) {
                 return Some(format!("part {} touches obstacle {}", part + 1, hit + 1));
             }
         }
-        let pair = self
-            .pairs
-            .iter()
-            .find(|[a, b]| touch(&placed[*a], &self.parts[*a].1, &placed[*b], &self.parts[*b].1))?;
+        let pair = self.pairs.iter().find(|[a, b]| placed[*a].touches(&placed[*b]))?;
         Some(format!("part {} touches part {}", pair[0] + 1, pair[1] + 1))
     }
 }
@@ -190,10 +220,6 @@ impl Case {
 /// The configuration at `share` of the way from one to another.
 fn between(from: &[f64], to: &[f64], share: f64) -> Vec<f64> {
     from.iter().zip(to).map(|(a, b)| a * (1.0 - share) + b * share).collect()
-}
-
-fn touch(a: &Pose, one: &SharedShape, b: &Pose, other: &SharedShape) -> bool {
-    query::intersection_test(a, &**one, b, &**other).expect("parry knows these shapes").intersecting
 }
 
 fn matrix(place: &Place) -> Matrix4<f64> {

@@ -1,6 +1,7 @@
-//! The verifier: judges what planners return, with code that no planner calls.
+//! The verifier: judges the paths that planners return, with code that no planner calls.
 //!
-//! It recomputes costs, checks every step of a path, and refuses what is too good as surely as what collides.
+//! It recomputes costs, checks every step of a path, and refuses paths that are too good as surely as paths that
+//! collide.
 
 pub mod arm;
 pub mod cell;

@@ -420,20 +420,3 @@ fn a_budget_without_room_and_votes_without_sources_are_refused_where_they_stand(
     let output = toy.0.run(&["check", "./toy"]);
     assert!(output.err.contains("the default `three` needs `paper` or `practice`"), "{}", output.err);
 }
-
-#[test]
-fn a_finding_that_asks_alone_gets_the_least_and_the_greatest_number_over_readings() {
-    let explored = "[explore]\nsample = 20";
-    let report = "[report]\nfindings = [\"{fewer:percents}\"]\n\n[explore]\nsample = 20";
-    let hurried = "[choice.option.none]\nstage.astar = { weight = 0 }";
-    let voting = "[choice.option.none]\npaper = \"section 1\"\nstage.astar = { weight = 0 }";
-    let toy = Toy::new(&[(explored, report), (hurried, voting)]);
-    let own = &toy.first().claims["fewer"];
-    let numbers: Vec<f64> = own.results.iter().skip(1).filter_map(|result| result.value).collect();
-    let default = toy.claim("fewer").ours().unwrap().value;
-    let end = |of: fn(f64, f64) -> f64| numbers.iter().copied().fold(default, of);
-    assert_eq!(own.results.len(), 2);
-    assert_eq!(toy.claim("fewer").across.unwrap().range, Some([end(f64::min), end(f64::max)]));
-    assert!(end(f64::max) > end(f64::min) + 1.0, "{numbers:?} {default}");
-    assert_eq!(toy.claim("shorter").across.unwrap().range, None);
-}

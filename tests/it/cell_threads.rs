@@ -51,7 +51,7 @@ planner = "roadmap_astar"
 settings = { samples = 120, neighbour_mm = 500, cost = "hops", goal_shot = "never", path = "parents" }
 [[sweep]]
 key = "samples"
-of = "roadmap_astar"
+stage = "roadmap_astar"
 values = [60, 120]
 "#;
 

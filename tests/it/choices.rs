@@ -197,7 +197,7 @@ fn an_option_that_cannot_be_run_leaves_open_what_it_touches_and_is_shown() {
 }
 
 /// The file, what is replaced in it, and what `check` then says of one place.
-const REFUSED: [(&str, &str, &str, &str); 18] = [
+const REFUSED: [(&str, &str, &str, &str); 19] = [
     (
         "paper",
         "{ weight = 0 }",
@@ -281,6 +281,7 @@ const REFUSED: [(&str, &str, &str, &str); 18] = [
         "[[choice]]\nid = \"hurry\"\n[budget]",
         "`choice` is no key here: choices are written in paper.toml",
     ),
+    ("paper", "select =", "of =", "`of` is no key here: the `of` of a criterion or table is `select`"),
 ];
 
 #[test]

@@ -81,7 +81,7 @@ fn a_fault_is_reported_once_whatever_choices_and_sweeps_lie_over_it() {
     let bench = Bench::new();
     bench.edit("mini/draws.toml", "weight = 1,", "weight = -1,");
     bench.edit("mini/draws.toml", "size_cells = [12, 12]", "size_cells = [0, 12]");
-    let sweep = "\n[[sweep]]\nkey = \"ties\"\nof = \"astar\"\nvalues = [\"fifo\", \"lifo\"]\n";
+    let sweep = "\n[[sweep]]\nkey = \"ties\"\nstage = \"astar\"\nvalues = [\"fifo\", \"lifo\"]\n";
     bench.edit("mini/draws.toml", CONTENDERS_END, &format!("{CONTENDERS_END}{sweep}"));
     let output = bench.run(&["check", "./mini"]);
     assert_faults(
@@ -160,8 +160,9 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
         bench.write(&name, &whole);
     }
     let many: Vec<String> = (0..101).map(|value| value.to_string()).collect();
-    let sweep =
-        |key: &str| format!("[[sweep]]\nkey = \"{key}\"\nof = \"astar\"\nvalues = [{}]\n\n", many.join(", "));
+    let sweep = |key: &str| {
+        format!("[[sweep]]\nkey = \"{key}\"\nstage = \"astar\"\nvalues = [{}]\n\n", many.join(", "))
+    };
     let both = format!("{CONTENDERS_END}\n{}{}", sweep("weight"), sweep("other"));
     bench.edit("mini/draws.toml", CONTENDERS_END, &both);
     let output = bench.run(&["check", "./mini"]);

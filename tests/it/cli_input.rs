@@ -305,7 +305,7 @@ fn a_contender_that_asks_for_more_of_a_roadmap_than_there_is_is_refused_before_a
     let whole = fs::read(bench.at("mini/plane.toml")).unwrap();
     assert!(bench.done(&["check", "./mini"]).starts_with("mini: 3 studies"));
     let sweep = |values: &str| {
-        format!("[[sweep]]\nkey = \"samples\"\nof = \"roadmap_astar\"\nvalues = [{values}]\n[budget]")
+        format!("[[sweep]]\nkey = \"samples\"\nstage = \"roadmap_astar\"\nvalues = [{values}]\n[budget]")
     };
     for (from, to, expected) in [
         (

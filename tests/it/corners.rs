@@ -7,6 +7,9 @@ use engine::planner::{self, Build, Ending, Plan, Planner, Request, Stage};
 use engine::space::{LatticeWorld, World, WorldKind};
 use verify::lattice::{Answer, CornerCase};
 
+/// The settings of Field D* beside its ties.
+const FIELD: &str = "interpolates = 'opened'\nextraction = 'looks_ahead'";
+
 fn settings(text: &str) -> Settings {
     Settings::composed("a test", toml::from_str(text).unwrap())
 }
@@ -82,7 +85,7 @@ fn no_path_is_shorter_than_the_visibility_graphs_nor_theta_stars_longer_than_the
         planner("visibility_astar", &format!("{ties}\nvertices = 'convex'")),
         planner("theta_star", &format!("{sight}\n{ties}")),
         planner("ap_theta_star", ties),
-        planner("field_dstar", ties),
+        planner("field_dstar", &format!("{ties}\n{FIELD}")),
         planner("astar", ties),
     ];
     let stages = [smoothing("start"), smoothing("goal")];
@@ -113,7 +116,7 @@ fn every_closed_vertex_is_traced_with_a_parent_that_sees_it() {
         planner("lazy_theta_star", sight),
         planner("ap_theta_star", "ties = 'smaller_g'"),
         planner("visibility_astar", "ties = 'larger_g'\nvertices = 'all'"),
-        planner("field_dstar", "ties = 'larger_g'"),
+        planner("field_dstar", &format!("ties = 'larger_g'\n{FIELD}")),
         planner("astar", "ties = 'larger_g'"),
     ];
     let mut far = [0; 6];
@@ -173,7 +176,7 @@ fn a_mirrored_exchanged_or_swapped_query_has_a_path_as_short_or_nearly() {
         ("theta_star", sight, 0.05, [0.95, 0.95, 0.8]),
         ("lazy_theta_star", sight, 0.05, [0.95, 0.95, 0.8]),
         ("ap_theta_star", "ties = 'smaller_g'", 0.05, [0.95, 0.95, 0.8]),
-        ("field_dstar", "ties = 'larger_g'", 0.05, [0.95, 0.95, 0.8]),
+        ("field_dstar", &format!("ties = 'larger_g'\n{FIELD}"), 0.05, [0.95, 0.95, 0.8]),
         ("astar", "ties = 'larger_g'", 0.0, [1.0; 3]),
     ];
     for (name, text, most, shares) in all {
@@ -205,18 +208,26 @@ fn a_line_of_sight_by_cells_is_refused_between_corners() {
     assert_eq!(invalid.0, "between corners of cells, line_of_sight = \"exact_interior\" is accepted");
 }
 
+/// The cases that a script of crosscheck/ writes.
+fn written(file: &str) -> Vec<serde_json::Value> {
+    let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/crosscheck").join(file);
+    serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap()
+}
+
+/// The cells of the map of such a case.
+fn cells_of(case: &serde_json::Value) -> Grid2 {
+    let rows: Vec<&str> = case["map"].as_array().unwrap().iter().map(|row| row.as_str().unwrap()).collect();
+    parse_text_map(&format!("{}\n", rows.join("\n"))).unwrap()
+}
+
 #[test]
 fn planner_and_verifier_find_the_lengths_of_visibility_graphs_in_python() {
-    // crosscheck/visibility_graphs.py writes it.
-    let file =
-        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/crosscheck/visibility_graphs.json");
-    let cases: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap();
+    // crosscheck/visibility_graphs.py writes them.
+    let cases = written("visibility_graphs.json");
     let exact = planner("visibility_astar", "ties = 'larger_g'\nvertices = 'convex'");
     let [mut found, mut walled] = [0, 0];
-    for (number, case) in cases.as_array().unwrap().iter().enumerate() {
-        let rows: Vec<&str> =
-            case["map"].as_array().unwrap().iter().map(|row| row.as_str().unwrap()).collect();
-        let cells = parse_text_map(&format!("{}\n", rows.join("\n"))).unwrap();
+    for (number, case) in cases.iter().enumerate() {
+        let cells = cells_of(case);
         let (start, goal) = ([0.0; 2], [f64::from(cells.width()), f64::from(cells.height())]);
         let least = CornerCase::new(&cells, [&start, &goal]).least().map(|least| least.shortest);
         let world = World::Lattice(LatticeWorld::of_corners(cells));
@@ -234,4 +245,38 @@ fn planner_and_verifier_find_the_lengths_of_visibility_graphs_in_python() {
         *(if truth.is_some() { &mut found } else { &mut walled }) += 1;
     }
     assert!(found > 100 && walled > 10, "{found} found, {walled} walled off");
+}
+
+#[test]
+fn ap_theta_star_and_field_dstar_expand_and_find_what_plain_programs_in_python_do() {
+    // crosscheck/any_angle.py writes them.
+    let cases = written("any_angle.json");
+    let mut all = vec![("ap_theta_star".to_owned(), planner("ap_theta_star", "ties = 'smaller_g'"))];
+    for interpolates in ["opened", "expanded"] {
+        for extraction in ["looks_ahead", "interpolated"] {
+            let text =
+                format!("ties = 'larger_g'\ninterpolates = '{interpolates}'\nextraction = '{extraction}'");
+            let name = format!("field_dstar {interpolates} {extraction}");
+            all.push((name, planner("field_dstar", &text)));
+        }
+    }
+    for (name, planner) in &all {
+        let [mut found, mut walled] = [0, 0];
+        for (number, case) in cases.iter().enumerate() {
+            let world = World::Lattice(LatticeWorld::of_corners(cells_of(case)));
+            let goal = [0, 1].map(|axis: usize| case["goal"][axis].as_f64().unwrap());
+            let plan = planner.plan(&posed(&world, [&[0.0; 2], &goal])).unwrap();
+            let Some(truth) = case["found"][name.as_str()].as_array() else {
+                assert_eq!(plan.ending, Ending::NoPath, "{name}, map {number}");
+                walled += 1;
+                continue;
+            };
+            let expansions = plan.counts["expansions"].as_f64();
+            assert_eq!(Some(expansions), truth[0].as_f64(), "{name}, map {number}");
+            let (cost, length) = (plan.cost.unwrap(), truth[1].as_f64().unwrap());
+            assert!((cost - length).abs() < 1e-6, "{name}, map {number}: {cost} and {length}");
+            found += 1;
+        }
+        assert!(found > 40 && walled > 2, "{name}: {found} found, {walled} walled off");
+    }
 }

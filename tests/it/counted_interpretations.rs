@@ -64,6 +64,25 @@ fn a_reading_that_touches_a_claim_and_was_not_varied_caps_it_at_supported() {
     assert_eq!(Toy::new(&[CITED, FITTED]).class_and_across("calibrated"), pair("fitted", "met under 1 of 2"));
 }
 
+/// The weight touches the second of them alone.
+const STARRED: &str = r#"
+[[contender]]
+label = "B*"
+planner = "bidirectional"
+settings = { weight = "one", meeting = "generated_any", side = "alternate", ties = "fifo" }
+[[contender]]
+label = "B* with weight"
+planner = "astar"
+settings = { weight = 3, ties = "fifo" }
+"#;
+
+#[test]
+fn a_contender_whose_label_ends_in_a_star_stands_for_itself_alone() {
+    let of = ["A*", "B*"].map(|label| format!("metric = \"expansions\", contender = \"{label}\" }}"));
+    let toy = choices_of_one_study(STARRED, &[(&of[0], &of[1])]);
+    assert_eq!(toy.claim("calibrated").not_varied, ["reach"]);
+}
+
 const DEPARTS: &str = r#"
 [[contender]]
 label = "A* without weight"

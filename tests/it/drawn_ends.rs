@@ -171,7 +171,7 @@ fn ends_that_cannot_be_drawn_are_refused_at_their_key_or_make_an_invalid_instanc
         (
             "conditioned",
             "shared = { size_cells = [30, 30], start = 'drawn', goal = [26, 28] }",
-            "`of` has families that draw a start or goal; written ones are accepted",
+            "`families` has families that draw a start or goal; written ones are accepted",
         ),
     ] {
         let refused =

@@ -226,8 +226,9 @@ fn comments(text: &str) -> Vec<(usize, String)> {
             goes_on = false;
             continue;
         };
+        let words = words.strip_prefix(' ').unwrap_or(words);
         match found.last_mut().filter(|_| goes_on) {
-            Some((_, text)) => *text += words,
+            Some((_, text)) => *text += &format!("\n{words}"),
             None => found.push((number, words.to_owned())),
         }
         goes_on = true;
@@ -236,7 +237,7 @@ fn comments(text: &str) -> Vec<(usize, String)> {
 }
 
 #[test]
-fn comments_keep_to_the_fields_words() {
+fn comments_keep_to_the_fields_words_and_to_short_sentences() {
     let mut open = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("src")];
     let mut found = Vec::new();
     let mut count = 0;
@@ -249,6 +250,13 @@ fn comments_keep_to_the_fields_words() {
             for (line, text) in comments {
                 let spaced = spaced(&read_aloud(&text));
                 found.extend(dropped(&spaced).map(|phrase| format!("{}:{line}: “{phrase}”", path.display())));
+                // Sources are cited in one sentence, whatever their length.
+                let (prose, _) = text.split_once("# Source").unwrap_or((&text, ""));
+                let long = of_page(prose).into_iter().filter(|sentence| sentence.count() > LONGEST);
+                let place = |sentence: Sentence| {
+                    format!("{}:{line}: {} words: {}", path.display(), sentence.count(), sentence.text())
+                };
+                found.extend(long.map(place));
             }
         }
     }

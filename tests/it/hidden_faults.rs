@@ -132,7 +132,7 @@ const FIGURE: &str = "# A figure, drawn";
 
 /// A sweep in the template of grids.
 fn swept(key: &str, values: &str) -> String {
-    format!("[[sweep]]\nkey = \"{key}\"\nof = \"astar\"\nvalues = {values}\n\n{FIGURE}")
+    format!("[[sweep]]\nkey = \"{key}\"\nstage = \"astar\"\nvalues = {values}\n\n{FIGURE}")
 }
 
 /// The template of grids with that sweep, both contenders of one weight.

@@ -419,7 +419,7 @@ fn swept(claim: &str) -> Bench {
     bench.edit(
         "forty/maps.toml",
         "[[contender]]\nlabel = \"Weighted\"",
-        "[[sweep]]\nkey = \"weight\"\nof = \"astar\"\nvalues = [1, 2, 3, 5]\n\n[[contender]]\nlabel = \"Weighted\"",
+        "[[sweep]]\nkey = \"weight\"\nstage = \"astar\"\nvalues = [1, 2, 3, 5]\n\n[[contender]]\nlabel = \"Weighted\"",
     );
     bench.edit("forty/maps.toml", "weight = 2, ties = \"fifo\"", "weight = 1, ties = \"lifo\"");
     bench.write(

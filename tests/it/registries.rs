@@ -130,7 +130,7 @@ fn used_criteria() -> BTreeMap<String, usize> {
 #[test]
 fn criteria_and_kinds_of_figure_stay_few() {
     assert!(criterion::REGISTRY.len() <= 13, "{} criteria", criterion::REGISTRY.len());
-    assert!(figure::REGISTRY.len() <= 16, "{} kinds of figure", figure::REGISTRY.len());
+    assert!(figure::REGISTRY.len() <= 9, "{} kinds of figure", figure::REGISTRY.len());
 }
 
 #[test]

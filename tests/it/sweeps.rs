@@ -72,9 +72,9 @@ problems = "maps"
 instances = 1
 [[figure]]
 id = "share"
-kind = "sweep_curves"
+kind = "statistics"
 caption = "Solved queries over the share of blocked cells."
-settings = { problems = "maps", sweep = "blocked_share", axis = "share of blocked cells", rows = [{ contender = "A*" }] }
+settings = { panels = [{ x = "blocked_share", y = "solved", axis = "share of blocked cells", problems = ["maps"], contenders = ["A*"] }] }
 "#;
 
 fn bench() -> Bench {
@@ -217,13 +217,18 @@ fn a_sweep_that_cannot_be_is_refused_at_its_key() {
         ),
         (
             "problems = [\"maps\"]",
-            "of = \"astar\"\nproblems = [\"maps\"]",
-            "mini/study.toml:22:7: sweep `blocked_share` has both `of` and `problems`",
+            "stage = \"astar\"\nproblems = [\"maps\"]",
+            "mini/study.toml:22:7: sweep `blocked_share` has both `stage` and `problems`",
+        ),
+        (
+            "problems = [\"maps\"]",
+            "of = \"astar\"",
+            "mini/study.toml:23:1: `of` is no key here: the `of` of a criterion or table is `select`, that of a sweep is `stage`",
         ),
         (
             "problems = [\"maps\"]\n",
             "",
-            "mini/study.toml:22:7: sweep `blocked_share` has neither `of` nor `problems`; `of`, a planner or stage, or \
+            "mini/study.toml:22:7: sweep `blocked_share` has neither `stage` nor `problems`; `stage`, a planner or stage, or \
              `problems`, labels of groups, is accepted",
         ),
         (
@@ -317,7 +322,7 @@ fn what_a_group_lays_over_no_contender_or_under_a_sweep_is_refused_at_its_key() 
         ("stage.astar = { weigth = 9 }", "", "unknown key `weigth` (did you mean `weight`?)"),
         (
             "stage.astar = { weight = 9 }",
-            "[[sweep]]\nkey = \"weight\"\nof = \"astar\"\nvalues = [1, 2]\n",
+            "[[sweep]]\nkey = \"weight\"\nstage = \"astar\"\nvalues = [1, 2]\n",
             "sweep `weight` would hide this `weight` of problems `plain`; one of both is accepted",
         ),
     ] {

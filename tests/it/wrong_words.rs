@@ -248,10 +248,21 @@ pub const WRONG: &[Wrong] = &[
     ),
     wrong(
         "room",
+        "kind = \"grid_search\"",
+        "kind = \"tradeoff\"",
+        "is of kind `tradeoff`, which does not exist (it is `statistics` now)",
+    ),
+    wrong(
+        "room",
         "kind = \"grid_search\"\ncaption = \"A search in a room.\"\nshows = [{ problems = \"room\", instances = 1 }]\nsettings = { problems = [\"room\"], contenders = [\"A*\"] }",
-        "kind = \"sweep_curves\"\ncaption = \"What is saved.\"\nsettings = { rows = [{ contender = \"A*\" }], ratios = { problems = [\"room\"], metric = \"nodes\", \
-         contenders = [\"A*\"], against = \"A*\", over = \"obstacles\" } }",
-        "mini/room.toml:27:21: `ratios` takes no `rows` beside it",
+        "kind = \"statistics\"\ncaption = \"What is saved.\"\nsettings = { panels = [{ x = \"contenders\", y = \"opened\" }] }",
+        "mini/room.toml:27:48: panel 1: no statistic is along these axes",
+    ),
+    wrong(
+        "room",
+        "kind = \"grid_search\"\ncaption = \"A search in a room.\"\nshows = [{ problems = \"room\", instances = 1 }]\nsettings = { problems = [\"room\"], contenders = [\"A*\"] }",
+        "kind = \"statistics\"\ncaption = \"What is saved.\"\nsettings = { panels = [{ y = \"contenders\", x = \"solved\", marks = [\"box\"] }] }",
+        "mini/room.toml:27:66: panel 1: `marks` has box; accepted are point",
     ),
     wrong("paper", "id = \"nodes\"", "id = \"cost\"", "another claim or cell is called `cost` already"),
     wrong(

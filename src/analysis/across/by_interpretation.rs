@@ -1,4 +1,5 @@
-//! Every claim under every interpretation that was explored, and what each option does alone: for readers who look for themselves.
+//! Every claim under every interpretation that was explored, and the effect of each option alone: for readers who look
+//! for themselves.
 
 use super::super::outcome::Outcome;
 use super::super::verdict::{ClaimVerdict, Effect, Verdicts};

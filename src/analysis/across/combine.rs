@@ -1,4 +1,4 @@
-//! Which results of a claim count: one that speaks against most others needs a second seed that says so too.
+//! Which results of a claim count: one that speaks against most others needs a second seed that confirms it.
 
 use super::super::outcome::{Outcome, Polarity};
 use super::count::Group;
@@ -15,8 +15,8 @@ pub fn flips(groups: &[Group]) -> Vec<&Group> {
     of(if most_hold { Polarity::Against } else { Polarity::For }).collect()
 }
 
-/// What each result counts as: one that speaks against what most say counts only if a second seed says so too, and is open
-/// if it does not.
+/// The outcome that each result counts as. One that speaks against most others counts only if a second seed confirms
+/// it, and is open otherwise.
 pub fn confirmed(groups: &[Group], second: impl Fn(&Group) -> Option<Outcome>) -> Vec<Outcome> {
     let flips = flips(groups);
     let counts_as = |group: &Group| {

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use study::Choice;
 use study::paper::Paper;
 
-/// The interpretations of a paper.
+/// The choices of a paper, with the options that vote.
 pub struct VotingChoices {
     /// Each choice.
     pub choices: Vec<Choice>,
@@ -85,7 +85,7 @@ impl Counted {
 }
 
 impl VotingChoices {
-    /// Those of `paper`.
+    /// The voting choices of `paper`.
     pub fn new(paper: &Paper) -> Self {
         let calibration = paper.studies.iter().flat_map(|study| study.fitted_to.iter().cloned()).collect();
         Self { choices: paper.choices.clone(), calibration, now: Now::new(paper) }

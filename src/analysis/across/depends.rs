@@ -1,9 +1,9 @@
 //! On which options a claim depends: those that all results on one side share.
 //!
 //! A rule is one option, or two. It is exact if no result on the other side has it, and then the smallest comes first: one option,
-//! then two. Without an exact rule one option that all results on a side share is named, if some result on the other side lacks it.
-//! Of as many options the rule under which the fewest interpretations stand comes first. Where there is none, a combination of
-//! options decides, and the choice that separates best is named with its counts.
+//! then two. Of as many options the rule under which the fewest interpretations stand comes first. Without an exact rule a
+//! combination of options decides. An option is named that all results on a side share and at most half of those on the other
+//! side have, or else the choice that separates best, with its counts.
 
 use super::count::{Group, VotingChoices};
 use super::glance::Sight;
@@ -22,6 +22,8 @@ pub struct Rule {
     pub hits: usize,
     /// Under how many results some interpretation has these options.
     pub covered: usize,
+    /// Whether no result on the other side has them.
+    pub is_exact: bool,
 }
 
 impl Rule {
@@ -55,7 +57,7 @@ pub struct Sides<'a> {
 type Taken<'a> = (&'a Choice, &'a str);
 
 impl<'a> Sides<'a> {
-    /// The rule that the results on the first side, or on either one, obey; `None` if they share no option.
+    /// The rule that the results on the first side, or on either one, follow; `None` if they share no option.
     pub fn rule(&self, either: bool) -> Option<Rule> {
         let sides = if either { &[true, false][..] } else { &[true] };
         let shared: Vec<(bool, Vec<Taken<'_>>)> =
@@ -73,21 +75,23 @@ impl<'a> Sides<'a> {
             let is_meant = |(side, rule): &&(bool, Vec<Taken<'a>>)| {
                 let others = self.on(!side);
                 let having = others.iter().filter(|group| self.has_some(group, rule)).count();
-                if is_exact { having == 0 } else { having < others.len() }
+                if is_exact { having == 0 } else { 2 * having <= others.len() }
             };
             rules.iter().filter(is_meant).min_by_key(|(_, rule)| self.interpretations(rule)).cloned()
         };
-        let found = best(&singles, true).or_else(|| best(&pairs, true)).or_else(|| best(&singles, false));
-        found.map(|(is_first_side, rule)| Rule {
+        let exact = best(&singles, true).or_else(|| best(&pairs, true));
+        let is_exact = exact.is_some();
+        exact.or_else(|| best(&singles, false)).map(|(is_first_side, rule)| Rule {
             options: rule.iter().map(|(choice, option)| (choice.id.clone(), (*option).to_owned())).collect(),
             is_first_side,
             hits: self.on(is_first_side).len(),
             covered: self.groups.iter().filter(|group| self.has_some(group, &rule)).count(),
+            is_exact,
         })
     }
 
-    /// The choice whose options separate the sides best, with how many of the results of each are on the first side; many options that have
-    /// all of theirs there are counted.
+    /// The choice whose options separate the sides best, with how many results of each option are on the first side. Many options with
+    /// all of theirs on one side are counted.
     pub fn separating(&self) -> Option<(String, String)> {
         let right = |split: &Split<'_>| split.values().map(|[one, other]| one.max(other)).sum::<usize>();
         let most = self.on(true).len().max(self.on(false).len());
@@ -135,7 +139,7 @@ impl<'a> Sides<'a> {
 
     /// The choices with a voting option that by itself gives other results than the defaults, or was not looked at: nothing depends
     /// on a choice that moves nothing.
-    fn moving(&self) -> impl Iterator<Item = &'a Choice> {
+    pub fn moving(&self) -> impl Iterator<Item = &'a Choice> {
         self.choices.choices.iter().filter(|choice| self.moves(choice))
     }
 
@@ -170,26 +174,32 @@ impl<'a> Sides<'a> {
 /// How often one side, and the other, comes out under an option of a choice.
 type Split<'a> = BTreeMap<&'a str, [usize; 2]>;
 
-/// Under how many of its results each option is on the first side. Of five options or more with all of their results on one side the
-/// number stands, while others are left to list.
+/// How many results of each option are against, the largest share first. Five options or more with all of their results on one side
+/// are counted, while others are left to list.
 fn shares(split: &Split<'_>) -> String {
     const MANY: usize = 5;
     let mut listed: Vec<_> = split.iter().filter(|(_, counts)| counts.iter().sum::<usize>() > 0).collect();
     let mut counted = Vec::new();
-    let sides = [(1, "all"), (0, "none")].map(|(lacking, word)| {
+    let mut sides = [(1, "all"), (0, "none")].map(|(lacking, word)| {
         let count = listed.iter().filter(|(_, counts)| counts[lacking] == 0).count();
         (count, lacking, word)
     });
-    let larger_first = if sides[0].0 >= sides[1].0 { [0, 1] } else { [1, 0] };
-    for (count, lacking, word) in larger_first.map(|side| sides[side]) {
+    sides.sort_by_key(|(count, ..)| std::cmp::Reverse(*count));
+    for (count, lacking, word) in sides {
         if count >= MANY && count < listed.len() {
             listed.retain(|(_, counts)| counts[lacking] > 0);
-            counted.push(format!("{word} under each of {count} more"));
+            counted.push(format!("{word} with each of {count} more"));
         }
     }
-    let each = listed.iter().map(|(option, [own, others])| format!("{option} {own} of {}", own + others));
-    let each = each.collect::<Vec<String>>().join(", ");
-    if counted.is_empty() { each } else { format!("{each}; {}", counted.join(", ")) }
+    let larger_share = |(_, one): &(&&str, &[usize; 2]), (_, two): &(&&str, &[usize; 2])| {
+        (two[0] * (one[0] + one[1])).cmp(&(one[0] * (two[0] + two[1])))
+    };
+    listed.sort_by(larger_share);
+    let mut against = "against ";
+    let each = listed.iter().map(|(option, [own, others])| {
+        format!("{own} of {} {}with {option}", own + others, std::mem::take(&mut against))
+    });
+    each.chain(counted).collect::<Vec<String>>().join(", ")
 }
 
 #[cfg(test)]
@@ -209,12 +219,13 @@ mod tests {
                 &parts.iter().flat_map(|part| part.iter().map(|(name, counts)| (*name, *counts))).collect(),
             )
         };
-        assert_eq!(join(&[&parted, &with("a", [1, 0]), &with("c", [0, 0])]), "a 1 of 1, b 2 of 3");
-        assert_eq!(join(&[&parted, &all]), "b 2 of 3; all under each of 5 more");
-        let both = "b 2 of 3; none under each of 6 more, all under each of 5 more";
+        let one_lacks_results = join(&[&parted, &with("a", [1, 0]), &with("c", [0, 0])]);
+        assert_eq!(one_lacks_results, "1 of 1 against with a, 2 of 3 with b");
+        assert_eq!(join(&[&parted, &all]), "2 of 3 against with b, all with each of 5 more");
+        let both = "2 of 3 against with b, none with each of 6 more, all with each of 5 more";
         assert_eq!(join(&[&parted, &all, &none]), both);
-        let alone = "d 1 of 1, e 1 of 1, f 1 of 1, g 1 of 1, h 1 of 1";
+        let alone = "1 of 1 against with d, 1 of 1 with e, 1 of 1 with f, 1 of 1 with g, 1 of 1 with h";
         assert_eq!(join(&[&all]), alone);
-        assert_eq!(join(&[&all, &none]), format!("{alone}; none under each of 6 more"));
+        assert_eq!(join(&[&all, &none]), format!("{alone}, none with each of 6 more"));
     }
 }

@@ -1,4 +1,4 @@
-//! What each choice does to a claim when it alone departs from its default.
+//! The effect of each choice on a claim when it alone departs from its default.
 
 use super::super::outcome::{Outcome, Polarity};
 use super::super::verdict::{Effect, EffectOfOption};
@@ -24,7 +24,7 @@ pub fn effects(
     all
 }
 
-/// What probes do, each in a few words; those that change no outcome are left out.
+/// The effect of each probe, in a few words; probes that change no outcome are left out.
 pub fn probes(choices: &VotingChoices, first: &Exploration, id: &str, default: Outcome) -> Vec<String> {
     let all = each(choices, first, id, default, false).into_iter();
     let moving = all.filter(|(_, _, effect)| effect.0 > Effect::Number);

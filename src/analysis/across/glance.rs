@@ -1,4 +1,4 @@
-//! What stored numbers say of every claim under each interpretation.
+//! The outcome of every claim under each interpretation, from stored numbers.
 
 use super::super::claim_test::{CappedFinding, ClaimTest, claim_tests};
 use super::super::claims;

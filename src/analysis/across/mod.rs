@@ -1,10 +1,12 @@
-//! The verdict of a claim over all interpretations: whether it survives what the paper leaves open, or on what it depends.
+//! The verdict of a claim over all interpretations: whether it survives the choices that the paper leaves open, or on
+//! which it depends.
 //!
-//! Under each interpretation that was explored every claim was judged by itself ([`glance`]); what came out is stored ([`stored`]).
-//! Interpretations that vote and are compatible with what the study was calibrated to are counted, equal results once ([`count`]);
-//! those of a minority need a second seed ([`combine`](mod@combine)). The [table of verdicts](super::verdict_rule) says what
-//! they amount to, [`wording`] what stands beside it, [`depends`] on which options it depends, [`touched`] which choices were
-//! not varied, and [`effects`] what each interpretation moves.
+//! Every claim was judged by itself under each interpretation explored ([`glance`]), and the results are stored
+//! ([`stored`]). Interpretations that vote and are compatible with the studies' calibration are counted, equal results
+//! once ([`count`]). Those of a minority need a second seed ([`combine`](mod@combine)). The [table of
+//! verdicts](super::verdict_rule) turns the counts into a verdict. The words beside it are [`wording`]'s. The options
+//! on which it depends are found by [`depends`], choices that were not varied by [`touched`], and the change by each
+//! option by [`effects`].
 
 pub mod by_interpretation;
 pub mod combine;
@@ -43,7 +45,8 @@ pub struct Stored {
 }
 
 impl Stored {
-    /// What is stored beside the runs in `folder`, as the paper judges it now; polylines that rules search for are remembered.
+    /// The stored exploration beside the runs in `folder`, as the paper judges it now. Polylines that rules search for
+    /// are remembered.
     ///
     /// # Errors
     /// [`StudyError::Touched`] if it cannot be understood.
@@ -212,7 +215,6 @@ impl OfClaim<'_> {
             let options = first.interpretations[*place].iter().map(|(id, option)| format!("{id} = {option}"));
             options.collect::<Vec<_>>().join(", ")
         };
-        let is_asked = self.paper.asks_over_interpretations(&judged.claim);
         let mut across = Across {
             settles: None,
             counted: votes.len(),
@@ -225,7 +227,6 @@ impl OfClaim<'_> {
             incompatible: counted.incompatible,
             none_compatible: counted.none_compatible,
             refused: counted.refused.iter().map(named).collect(),
-            range: is_asked.then(|| range(first, judged, counted)).flatten(),
             effects: effects::effects(self.choices, first, &judged.claim, judged.outcome),
             tested: tested::tested(first, self.claim),
             probes: effects::probes(self.choices, first, &judged.claim, judged.outcome),
@@ -280,18 +281,6 @@ fn refused(choices: &VotingChoices, first: &Exploration) -> Vec<String> {
     options.filter_map(of_option).collect()
 }
 
-/// The least and the greatest of our numbers beside a claim over the interpretations that count; the default run's stands for its own.
-fn range(first: &Exploration, judged: &ClaimVerdict, counted: &Counted) -> Option<[f64; 2]> {
-    let own = judged.ours().map(|ours| ours.value);
-    let number = |group: &Group| match group.interpretation {
-        0 => own,
-        place => first.result(&judged.claim, place)?.value,
-    };
-    let numbers: Vec<f64> = counted.groups.iter().filter_map(number).collect();
-    let end = |of: fn(f64, f64) -> f64| numbers.iter().copied().reduce(of);
-    Some([end(f64::min)?, end(f64::max)?])
-}
-
 /// What each result of a claim counts as: an outcome that speaks against most of them is open unless the second seed says so too,
 /// where a seed moves anything.
 fn counted_as(
@@ -321,8 +310,8 @@ pub fn to_confirm(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> BT
     turned(paper, verdicts, first, |groups| combine::flips(groups).into_iter().collect())
 }
 
-/// The interpretations, by their places in `first`, under which more instances may say more: those that leave a claim open while others
-/// do not, those that turn one, and those that vote and have too few instances for one.
+/// The interpretations, by their places in `first`, under which more instances may help. They leave a claim open while
+/// others do not, or turn one, or vote and have too few instances for one.
 pub fn near_a_flip(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> BTreeSet<usize> {
     let near = turned(paper, verdicts, first, |groups| {
         let speaks = groups.iter().any(|group| group.outcome.polarity() != Polarity::Open);
@@ -336,8 +325,8 @@ pub fn near_a_flip(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> B
     near.into_iter().chain(few.filter(|place| choices.votes(&first.interpretations[*place]))).collect()
 }
 
-/// The interpretations, by their places in `first`, that vote and are compatible with what the studies were fitted to; all that vote
-/// if none is, and the defaults.
+/// The interpretations, by their places in `first`, that vote and are compatible with the studies' calibration, and the
+/// defaults. All that vote if none is compatible.
 pub fn compatible(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> BTreeSet<usize> {
     VotingChoices::new(paper).fitting(first, &default_outcomes(verdicts)).into_iter().chain([0]).collect()
 }

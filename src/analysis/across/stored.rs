@@ -1,5 +1,6 @@
-//! What exploring a paper's choices found of every claim: its results, and the interpretations that give each. They are weighed anew from the
-//! stored numbers whenever they are needed.
+//! Stored explorations: the results of every claim, and the interpretations that give each.
+//!
+//! Results are weighed anew from the stored numbers whenever they are needed.
 
 use super::super::claims::claim_hash;
 use super::super::criterion::EXISTS;
@@ -55,7 +56,7 @@ fn claims(first: &[Glances], more: &BTreeMap<usize, Glances>) -> BTreeMap<String
     first.first().into_iter().flat_map(BTreeMap::keys).map(of_claim).collect()
 }
 
-/// A hash of what the claims mean that are met exactly, alone or together.
+/// A hash of the meanings of claims that are met exactly, alone or together.
 pub fn met_exactly(paper: &Paper) -> String {
     let claims = paper.claims.iter().filter(|claim| claim.check(EXISTS.name).is_some());
     sha256(claims.map(|claim| claim_hash(paper, claim)).collect::<String>().as_bytes())[..16].to_owned()
@@ -87,7 +88,7 @@ fn shown(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-/// What an interpretation is, by the options that differ from the defaults.
+/// An interpretation, by the options that differ from the defaults.
 pub fn differing(paper: &Paper, point: &Interpretation) -> BTreeMap<String, String> {
     let interpretations = &paper.choices;
     let is_default = |id: &String, option: &String| {
@@ -157,8 +158,8 @@ impl Exploration {
     }
 }
 
-/// What a paper is now, by hashes: all that tells whether what was stored of it is of it as it is. It is made once and queried
-/// for every claim.
+/// The present state of a paper, by hashes, which shows whether stored findings are still its own. It is made once and
+/// queried for every claim.
 #[derive(Debug, Default)]
 pub struct Now {
     /// The claims in their order.
@@ -170,7 +171,7 @@ pub struct Now {
 }
 
 impl Now {
-    /// That of `paper`.
+    /// The present state of `paper`.
     pub fn new(paper: &Paper) -> Self {
         let stands = |study: &Study| {
             let other = study.explore.as_ref()?.stands_for.clone()?;

@@ -1,4 +1,4 @@
-//! What a joint test finds under each interpretation: which of them the printed numbers fit, and which they refuse.
+//! Joint tests by interpretation: which interpretations the printed numbers fit, and which they refuse.
 
 use super::stored::{Exploration, ExploredResult};
 use study::paper::Claim;

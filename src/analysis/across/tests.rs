@@ -1,5 +1,5 @@
-use super::super::outcome::Outcome::{self, Fails, Holds, Open};
-use super::super::verdict_rule::{Results, Verdict};
+use super::super::outcome::Outcome::{self, Fails, Holds, Open, SignOnly};
+use super::super::verdict_rule::{Chosen, Results, Verdict};
 use super::combine::{confirmed, flips};
 use super::count::{Counted, Group, VotingChoices};
 use super::glance::{Glance, Sight};
@@ -122,11 +122,15 @@ impl Planted {
 
     /// What stands beside the verdict, and on what it depends.
     fn wording(&self) -> (String, Option<String>) {
+        self.wording_where(None)
+    }
+
+    /// The same of a claim whose inputs were chosen so.
+    fn wording_where(&self, chosen: Option<Chosen>) -> (String, Option<String>) {
         let outcomes: Vec<Outcome> = self.groups.iter().map(|group| group.outcome).collect();
         let looked = self.groups.iter().map(|group| group.interpretations.len()).sum();
         let counted = Counted { groups: self.groups.clone(), looked, ..Counted::default() };
         let default = outcomes[0].polarity();
-        let chosen = None;
         let states_size = false;
         let is_unvaried = false;
         let results =
@@ -142,6 +146,13 @@ impl Planted {
         let found = view.wording(line);
         (found.beside.join("; "), found.depends_on)
     }
+}
+
+#[test]
+fn results_of_two_sizes_are_called_the_same_in_direction_alone() {
+    let with = |rest: Outcome| product(|corners, _| if corners == "b" { rest } else { Holds }).wording().0;
+    assert_eq!(with(Holds), "same under all 9");
+    assert_eq!(with(SignOnly), "same direction under all 9");
 }
 
 /// Two choices whose outcomes `of` says for every combination of their three options.
@@ -171,8 +182,8 @@ fn a_planted_rule_of_two_options_is_named_where_neither_alone_is_exact() {
 }
 
 #[test]
-fn an_option_that_all_contradicting_results_share_is_named_with_how_many_others_have_it() {
-    // The three that contradict share corners; with a third choice no pair of options is exact.
+fn a_combination_decides_where_results_on_both_sides_have_the_option_that_one_side_shares() {
+    // The two that contradict share corners; with a third choice no pair of options is exact.
     let found: [(&[&str], Outcome); 7] = [
         (&["a", "a", "a"], Holds),
         (&["b", "a", "a"], Holds),
@@ -184,7 +195,7 @@ fn an_option_that_all_contradicting_results_share_is_named_with_how_many_others_
     ];
     let planted = Planted::new(&[("corners", "a"), ("ties", "a"), ("side", "a")], &found);
     let expected = "5/0/2 for/open/against; contradicted only if corners = b (2 of 4)";
-    assert_eq!(planted.wording(), (expected.to_owned(), Some("corners".to_owned())));
+    assert_eq!(planted.wording(), (expected.to_owned(), Some("a combination".to_owned())));
 }
 
 #[test]
@@ -193,7 +204,7 @@ fn where_the_sides_share_no_option_a_combination_decides_and_the_best_axis_is_na
     let (words, on) = either.wording();
     assert_eq!(on.as_deref(), Some("a combination"), "{words}");
     assert!(
-        words.contains("corners separates best: contradicted under a 2 of 3, b 1 of 3, c 2 of 3"),
+        words.contains("corners matters most: 2 of 3 against with a, 2 of 3 with c, 1 of 3 with b"),
         "{words}"
     );
 }
@@ -210,6 +221,19 @@ fn nothing_depends_on_an_axis_that_moves_nothing_alone() {
 }
 
 #[test]
+fn an_example_lists_no_option_that_cannot_move_the_claim_unless_it_is_a_witness() {
+    let mut idle = product(|corners, _| if corners == "b" { Holds } else { Fails });
+    // Other ties give the same result alone.
+    for place in [1, 2] {
+        idle.first.claims.get_mut("fewer").unwrap().results[place].results = "0".to_owned();
+    }
+    idle.groups.retain(|group| [0, 5].contains(&group.interpretation));
+    let met = |chosen| idle.wording_where(Some(chosen)).0;
+    assert_eq!(met(Chosen::Searched), "met under 1 of 2, corners = b among them");
+    assert_eq!(met(Chosen::Existence), "met under 1 of 2, corners = b, ties = c among them");
+}
+
+#[test]
 fn a_result_stands_under_all_of_its_readings_and_not_under_the_first_alone() {
     let mut planted = product(|corners, ties| if corners == "a" && ties == "a" { Fails } else { Holds });
     let group = |interpretations: Vec<usize>, outcome| Group {
@@ -222,6 +246,36 @@ fn a_result_stands_under_all_of_its_readings_and_not_under_the_first_alone() {
     assert_eq!(planted.wording().1.as_deref(), Some("corners and ties"));
     planted.groups = vec![group(vec![0], Fails), group(vec![3], Holds)];
     assert_eq!(planted.wording().1.as_deref(), Some("corners"));
+}
+
+#[test]
+fn an_option_under_which_most_results_are_on_the_other_side_is_no_reason() {
+    // Both that contradict have the default side, and so have most that hold.
+    let found: [(&[&str], Outcome); 7] = [
+        (&["a", "a", "a"], Holds),
+        (&["b", "a", "a"], Fails),
+        (&["a", "b", "a"], Fails),
+        (&["b", "b", "a"], Holds),
+        (&["c", "a", "a"], Holds),
+        (&["a", "a", "b"], Holds),
+        (&["c", "c", "a"], Holds),
+    ];
+    let planted = Planted::new(&[("corners", "a"), ("ties", "a"), ("side", "a")], &found);
+    assert_eq!(planted.wording().1.as_deref(), Some("a combination"));
+}
+
+#[test]
+fn a_size_that_is_missed_is_named_also_where_a_choice_was_not_varied() {
+    let planted = Planted::new(&[("corners", "a")], &[(&["a"], Outcome::SignOnly)]);
+    let outcomes = [Outcome::SignOnly];
+    let counted = Counted { groups: planted.groups.clone(), looked: 1, ..Counted::default() };
+    let [default, second] = [outcomes[0].polarity(); 2];
+    let (chosen, states_size, is_unvaried) = (None, true, true);
+    let results = Results { outcomes: &outcomes, default, second, chosen, states_size, is_unvaried };
+    let line = results.verdict().1;
+    let first = Some(&planted.first);
+    let view = View { choices: &planted.choices, first, id: "fewer", counted: &counted, results: &results };
+    assert_eq!(view.wording(line).beside, ["the sign alone"]);
 }
 
 #[test]

@@ -1,10 +1,10 @@
-//! What a claim looks at, and which choices touch that: by the spec alone, so that a choice nobody explored is known too.
+//! The scope of a claim, and the choices that touch it: from the spec alone, so that an unexplored choice is known too.
 
 use super::super::criterion::EXISTS;
 use super::super::evidence::default_point;
 use std::collections::BTreeSet;
 use study::paper::{Claim, Paper, TestRole};
-use study::{Choice, Contender, Study};
+use study::{Choice, Contender, Group, Study};
 use toml::Value;
 
 /// What the criteria of a claim, or of its parts, name.
@@ -48,10 +48,10 @@ impl<'p> Touched<'p> {
         })
     }
 
-    /// Whether no seed decides anything of it: neither what is posed nor what a contender does.
+    /// Whether no seed decides anything of it: neither its problems nor a contender's trials.
     pub fn draws_nothing(&self, paper: &Paper) -> bool {
         self.studies.iter().all(|study| {
-            let groups = self.named(&study.groups, |group| &group.label);
+            let groups = self.groups(study);
             let contenders = self.contenders(study);
             // A study without contenders draws whatever its task draws.
             !contenders.is_empty()
@@ -60,14 +60,16 @@ impl<'p> Touched<'p> {
         })
     }
 
-    /// Whether some option of `choice` that votes, other than its default, does otherwise to what the claim looks at.
+    /// Whether some voting option of `choice`, other than its default, changes the trials or numbers that the claim
+    /// looks at.
     pub fn is_touched_by(&self, choice: &Choice) -> bool {
         others(choice).any(|option| self.is_meant_otherwise(choice, option))
             || self.studies.iter().any(|study| self.changes(choice, study))
     }
 
-    /// Whether `choice` would change trials of a study that neither has it nor draws it, nor has what is explored in its place. A witness is judged
-    /// under the interpretations that its contender ran under, whatever its study has.
+    /// Whether `choice` would change trials of a study that neither has it nor draws it, and no study explored in its
+    /// place has it. A witness is judged under the interpretations that its contender ran under, whatever its study
+    /// has.
     pub fn is_without(&self, paper: &Paper, choice: &Choice) -> bool {
         let has = |study: &Study| {
             study.choices.iter().any(|own| own.id == choice.id) || study.draws.contains(&choice.id)
@@ -107,23 +109,28 @@ impl<'p> Touched<'p> {
         }
         let mut contenders = self.contenders(study);
         contenders.retain(|contender| !contender.departs.contains_key(&choice.id));
-        choice.moves(option, &self.named(&study.groups, |group| &group.label), &contenders)
+        choice.moves(option, &self.groups(study), &contenders)
     }
 
     fn contenders(&self, study: &'p Study) -> Vec<&'p Contender> {
-        self.named(&study.contenders, |contender| &contender.label)
+        named(&study.contenders, |contender| self.words.contains(contender.label.as_str()))
     }
 
-    /// Those of `all` whose label is named, or begins as a label that ends in `*`; all of them if none is.
-    fn named<T>(&self, all: &'p [T], label: fn(&T) -> &String) -> Vec<&'p T> {
-        let is_named = |one: &&T| {
-            let begins =
-                |word: &&str| word.strip_suffix('*').is_some_and(|begin| label(one).starts_with(begin));
-            self.words.contains(label(one).as_str()) || self.words.iter().any(begins)
+    /// The problem groups of a study; a label that ends in `*` stands for all that begin so.
+    fn groups(&self, study: &'p Study) -> Vec<&'p Group> {
+        let begins = |word: &&str, group: &Group| {
+            word.strip_suffix('*').is_some_and(|begin| group.label.starts_with(begin))
         };
-        let found: Vec<&T> = all.iter().filter(is_named).collect();
-        if found.is_empty() { all.iter().collect() } else { found }
+        named(&study.groups, |group| {
+            self.words.contains(group.label.as_str()) || self.words.iter().any(|word| begins(word, group))
+        })
     }
+}
+
+/// Those of `all` that are named; all of them if none is.
+fn named<T>(all: &[T], is_named: impl Fn(&T) -> bool) -> Vec<&T> {
+    let found: Vec<&T> = all.iter().filter(|one| is_named(one)).collect();
+    if found.is_empty() { all.iter().collect() } else { found }
 }
 
 /// The options of `choice` that vote, but for its default.

@@ -1,10 +1,10 @@
-//! What stands beside a verdict: over how many interpretations it is the same, its exceptions, or on what it depends.
+//! The words beside a verdict: over how many interpretations it is the same, its exceptions, or on what it depends.
 
 use super::super::outcome::{Outcome, Polarity};
 use super::super::settle::COMBINATION;
 use super::super::verdict_rule::{Chosen, Line, Results};
 use super::count::{Counted, Group, VotingChoices};
-use super::depends::Sides;
+use super::depends::{Rule, Sides};
 use super::stored::Exploration;
 
 /// How many exceptions, or choices that were not varied, are listed one by one.
@@ -13,8 +13,11 @@ const LISTED: usize = 3;
 /// An exception with more options than these is counted and not listed.
 const OPTIONS: usize = 2;
 
-/// What stands beside every verdict on trials that no run of ours made, which caps it at supported and not supported.
+/// The words beside every verdict on trials that no run of ours made, which caps it at supported and not supported.
 pub const ELSEWHERE: &str = "on trials recorded elsewhere, not reproduced here";
+
+/// Of what holds by its sign and misses the printed size.
+const SIGN_ALONE: &str = "the sign alone";
 
 /// The choices that touch a claim and were not varied, in words.
 pub fn not_varied(choices: &[String]) -> Option<String> {
@@ -59,7 +62,11 @@ impl View<'_> {
                 let is_same = self.counted.looked > 1 && !self.results.is_unvaried;
                 let alike = self.results.outcomes.windows(2).all(|pair| pair[0] == pair[1]);
                 let what = if alike { "same" } else { "same direction" };
-                is_same.then(|| format!("{what} under all {}", self.counted.looked)).into_iter().collect()
+                let same = is_same.then(|| format!("{what} under all {}", self.counted.looked));
+                // Where a choice was not varied, the verdict's own word does not say so.
+                let is_sign =
+                    self.results.is_unvaried && matches!(line, Line::All) && self.results.is_sign_alone();
+                same.into_iter().chain(is_sign.then(|| SIGN_ALONE.to_owned())).collect()
             }
             Line::NoExample if !is_witness => vec![format!("met under none of {all}")],
             Line::NoExample if all > 1 => vec![format!("no example found under {all}")],
@@ -72,7 +79,7 @@ impl View<'_> {
             Line::Nine | Line::More => {
                 let speaks = if holds > fails { Polarity::For } else { Polarity::Against };
                 let is_sign = speaks == Polarity::For && self.results.is_sign_alone();
-                let sign = is_sign.then(|| "the sign alone".to_owned());
+                let sign = is_sign.then(|| SIGN_ALONE.to_owned());
                 self.with_counts([sign, self.exceptions(speaks)])
             }
             Line::Both => {
@@ -101,11 +108,24 @@ impl View<'_> {
         named.map_or_else(String::new, |name| format!(", {name} among them"))
     }
 
-    /// A result, named after what its first interpretation has that the defaults have not; `None` of the defaults.
+    /// A result, named after the options of its first interpretation that differ from the defaults; `None` of the defaults.
     fn named(&self, group: &Group) -> Option<String> {
-        let departs = self.first?.interpretations[group.interpretation].iter();
-        let departures: Vec<String> = departs.map(|(id, option)| format!("{id} = {option}")).collect();
+        let departures = self.departures(group);
         (!departures.is_empty()).then(|| departures.join(", "))
+    }
+
+    /// The options of a result's first interpretation that differ from the defaults: those of choices that can move the claim, or
+    /// all if none of these differs. A witness needs all options that its contender ran under.
+    fn departures(&self, group: &Group) -> Vec<String> {
+        let Some(first) = self.first else { return Vec::new() };
+        let sides = self.sides(first, |_| None);
+        let moving: Vec<&String> = sides.moving().map(|choice| &choice.id).collect();
+        let all = &first.interpretations[group.interpretation];
+        let is_moving = |(id, _): &(&String, &String)| moving.contains(id);
+        let lists_all =
+            self.results.chosen == Some(Chosen::Existence) || !all.iter().any(|one| is_moving(&one));
+        let is_listed = |one: &(&String, &String)| lists_all || is_moving(one);
+        all.iter().filter(is_listed).map(|(id, option)| format!("{id} = {option}")).collect()
     }
 
     /// The sides of the results as `of` parts them.
@@ -132,10 +152,8 @@ impl View<'_> {
         if let Some(rule) = sides.rule(false) {
             return Some(format!("{all} {}", rule.in_words()));
         }
-        let departs =
-            |group: &&&Group| self.first.map_or(0, |first| first.interpretations[group.interpretation].len());
         let name = |group: &&Group| self.named(group).unwrap_or_else(|| "the defaults".to_owned());
-        let short = apart.iter().filter(|group| departs(group) <= OPTIONS);
+        let short = apart.iter().filter(|group| self.departures(group).len() <= OPTIONS);
         let mut names: Vec<String> = short.take(LISTED).map(name).collect();
         let more = apart.len() - names.len();
         names.extend((more > 0).then(|| format!("{more} more")));
@@ -150,16 +168,17 @@ impl View<'_> {
             Polarity::Open => None,
             Polarity::For => Some(false),
         });
-        if let Some(rule) = sides.rule(true) {
+        let rule = sides.rule(true);
+        let words = |rule: &Rule| {
             let verb = if rule.is_first_side { "contradicted" } else { "holds" };
-            let words = format!("{verb} only if {} ({} of {})", rule.in_words(), rule.hits, rule.covered);
-            return (rule.choices(), words);
+            format!("{verb} only if {} ({} of {})", rule.in_words(), rule.hits, rule.covered)
+        };
+        if let Some(rule) = rule.as_ref().filter(|rule| rule.is_exact) {
+            return (rule.choices(), words(rule));
         }
-        let words = sides.separating().map_or_else(
-            || "no option separates them".to_owned(),
-            |(choice, shares)| format!("{choice} separates best: contradicted under {shares}"),
-        );
-        (COMBINATION.to_owned(), words)
+        let separates = sides.separating().map(|(choice, shares)| format!("{choice} matters most: {shares}"));
+        let words = separates.or_else(|| rule.as_ref().map(words));
+        (COMBINATION.to_owned(), words.unwrap_or_else(|| "no option separates them".to_owned()))
     }
 }
 

@@ -1,4 +1,5 @@
-//! What trials come to, cell by cell: one contender on one problem group at one point of the sweeps under one interpretation.
+//! Results of trials, cell by cell: one contender on one problem group at one point of the sweeps under one
+//! interpretation.
 
 use super::change::Measured;
 use super::pair::Unit;

@@ -1,4 +1,4 @@
-//! What changes from one side to the other, metric by metric, with its intervals.
+//! Changes from one side to the other, metric by metric, with their intervals.
 
 use super::pair::{Pair, Unit};
 use super::run::Times;
@@ -185,8 +185,8 @@ impl<'r> Sample<'r> {
         self.by_unit.values().map(of_unit).filter(|pairs| !pairs.is_empty()).collect()
     }
 
-    /// What the mean changes by, in the unit, and in per cent of the first side's. Instances that all agree leave no width, which
-    /// they do for a claim: a run that repeats another has not changed, whatever instances that neither has might do.
+    /// The change of the mean, in the unit and in per cent of the first side's. Instances that all agree leave no width, unlike for
+    /// a claim: a run that repeats another has not changed, whatever other instances might do.
     pub fn mean_changes(&self, plan: Resampling) -> [Option<Estimate>; 2] {
         let units = self.finite();
         let sums = |of: fn(&(f64, f64)) -> [f64; 2]| -> Vec<[f64; 2]> {

@@ -1,4 +1,4 @@
-//! Gates: what must not become worse by more than a margin, and what the intervals say of it.
+//! Gates: metrics that must not become worse by more than a margin, and the decision of their intervals.
 
 use super::change::{Measured, SOLVED, Sample, joint_plan};
 use crate::analysis::metric::{self, Better};
@@ -148,7 +148,7 @@ fn verdict(
 ) -> (Outcome, Option<usize>, Option<String>) {
     let cannot = |more, why: String| (Outcome::CannotTell, more, Some(why));
     if sample.is_time && of_two_runs {
-        let why = "each run has one session of the clock, and what a session does to all of its interpretations is in no interval";
+        let why = "each run has one session of the clock, and no interval knows by how much sessions differ";
         return cannot(None, why.to_owned());
     }
     if let Some(fewest) = needs(sample.instances()) {

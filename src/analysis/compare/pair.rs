@@ -33,7 +33,7 @@ pub struct Instances<'r> {
     numbered: BTreeSet<&'r str>,
 }
 
-/// What is paired, and what is not.
+/// The paired trials, and the unpaired ones.
 pub struct Paired<'r> {
     /// The pairs, in the order of the second side's records.
     pub pairs: Vec<Pair<'r>>,
@@ -42,7 +42,7 @@ pub struct Paired<'r> {
 }
 
 impl<'r> Instances<'r> {
-    /// Those of a study's records.
+    /// The independent draws of a study's records.
     pub fn new(batch: &'r Batch) -> Self {
         let seeds = batch.preprocessing.iter().map(|row| (&*row.key, row.seed)).collect();
         let numbered =

@@ -68,18 +68,17 @@ pub fn stored_studies(folder: &Path) -> Vec<String> {
 }
 
 impl<'r> Seen<'r> {
-    /// Those of a stored study.
+    /// The numbers of a stored study.
     pub fn new((manifest, records): &'r (Manifest, Records)) -> Self {
         let mut rows: BTreeMap<&str, Vec<&Row>> = BTreeMap::new();
         for row in &records.batch.rows {
             rows.entry(&row.key.contender).or_default().push(row);
         }
-        let mut interpretations: BTreeMap<&TrialKey, Vec<f64>> = BTreeMap::new();
+        let mut times: BTreeMap<&TrialKey, Vec<f64>> = BTreeMap::new();
         for time in records.times.iter().filter(|time| time.session == 1) {
-            interpretations.entry(&time.trial).or_default().push(time.plan_wall_ns as f64);
+            times.entry(&time.trial).or_default().push(time.plan_wall_ns as f64);
         }
-        let times =
-            interpretations.into_iter().filter_map(|(key, times)| Some((key, summary::median(&times)?)));
+        let times = times.into_iter().filter_map(|(key, times)| Some((key, summary::median(&times)?)));
         let times = times.collect();
         let instances = Instances::new(&records.batch);
         Self { manifest, rows, instances, times, names: names(manifest, &records.batch.rows) }

@@ -13,12 +13,12 @@ mod one_instance;
 mod prints_as;
 mod row_one_instance;
 mod share;
-mod table_means;
+pub mod table_means;
 mod trend;
 mod within;
 
 pub use exists::{Attained, ENTRY as EXISTS, Seen};
-pub use one_instance::{instances, is_powerless};
+pub use one_instance::{Instances, instances, is_powerless};
 
 use super::context::Context;
 use super::criterion_result::CriterionResult;

@@ -54,7 +54,8 @@ struct Settings {
     columns: Vec<String>,
     /// The column that counts the chances for `events`.
     per: Option<String>,
-    /// The number that the metric is above (`above`).
+    /// The number that the metric is above (`above`), or the share of its cases, from 0 to 1, that an instance solves at least
+    /// (`solved_at_least`).
     bound: Option<f64>,
     /// The least and the greatest share under which the claim holds; without, it is shown and decides nothing.
     accepted: Option<[f64; 2]>,
@@ -85,6 +86,8 @@ enum Hits {
     SolvedMoreThroughout,
     /// Cases that the other contender leaves unsolved and this one solves.
     Cured,
+    /// Instances with at least the share `bound` of their cases solved.
+    SolvedAtLeast,
 }
 
 /// Whether a claim with these settings is about what is solved by everyone who is compared.
@@ -107,6 +110,7 @@ impl Hits {
             Self::SolvedMore => "instances of which it solves more",
             Self::SolvedMoreThroughout => "instances of which it solves more at every point of the sweep",
             Self::Cured => "cases that it solves of those that the other fails",
+            Self::SolvedAtLeast => "instances of which it solves at least",
         }
     }
 }
@@ -138,14 +142,16 @@ impl<'a> Counted<'a> {
             let message = "`marked` and `events` take `columns`, and `events` takes `per`; nothing else does";
             return Err(context.settings.error_at("hits", message).about("columns").about("per"));
         }
-        if (hits == Hits::Above) != settings.bound.is_some() {
-            let message = "`above` takes a `bound`; nothing else does";
+        if matches!(hits, Hits::Above | Hits::SolvedAtLeast) != settings.bound.is_some() {
+            let message = "`above` and `solved_at_least` take a `bound`; nothing else does";
             return Err(context.settings.error_at("hits", message).about("bound"));
         }
         if matches!(hits, Hits::Above | Hits::Lower | Hits::Higher | Hits::LowerThroughout) {
             selection.metric(context)?;
         }
-        if !matches!(hits, Hits::Solved | Hits::Rejected | Hits::Marked | Hits::Events | Hits::Above) {
+        let is_alone =
+            needs_columns || settings.bound.is_some() || matches!(hits, Hits::Solved | Hits::Rejected);
+        if !is_alone {
             selection.against(context)?;
         }
         if let Some(accepted) = settings.accepted {
@@ -165,7 +171,7 @@ impl<'a> Counted<'a> {
         let hit = |is: bool| Some([f64::from(u8::from(is)), 1.0]);
         let gap = || case.pair().map(|(base, own)| own - base);
         match self.settings.hits {
-            Hits::Solved => hit(row.is_solved()),
+            Hits::Solved | Hits::SolvedAtLeast => hit(row.is_solved()),
             Hits::Rejected => hit(!row.is_solved()).filter(|_| row.is_returned()),
             Hits::Marked => {
                 let marks: Option<Vec<f64>> =
@@ -194,9 +200,11 @@ impl<'a> Counted<'a> {
             // What the other solves is none of its failures.
             Hits::Cured => case.is_unended() && !case.base.is_some_and(Row::is_solved),
             Hits::Above | Hits::Lower | Hits::Higher | Hits::LowerThroughout => case.might_be_solved(),
-            Hits::Solved | Hits::Rejected | Hits::SolvedMore | Hits::SolvedMoreThroughout => {
-                case.is_unended()
-            }
+            Hits::Solved
+            | Hits::Rejected
+            | Hits::SolvedMore
+            | Hits::SolvedMoreThroughout
+            | Hits::SolvedAtLeast => case.is_unended(),
         }
     }
 
@@ -224,16 +232,20 @@ impl<'a> Counted<'a> {
         };
         let counts = instance.cases.iter().filter_map(of_case);
         let [hits, chances] = counts.fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
-        if self.settings.hits == Hits::LowerThroughout && chances > 0.0 {
-            return [f64::from(u8::from(hits == chances)), 1.0];
-        }
-        [hits, chances]
+        let least = match self.settings.hits {
+            Hits::LowerThroughout => chances,
+            Hits::SolvedAtLeast => self.settings.bound.unwrap_or(1.0) * chances - EQUAL,
+            _ => return [hits, chances],
+        };
+        if chances > 0.0 { [f64::from(u8::from(hits >= least)), 1.0] } else { [hits, chances] }
     }
 
     /// The most chances that an instance could have had: of events the most that were seen, as they have no bound.
     fn most(&self, instances: &[Instance<'_>]) -> f64 {
         match self.settings.hits {
-            Hits::LowerThroughout | Hits::SolvedMore | Hits::SolvedMoreThroughout => 1.0,
+            Hits::LowerThroughout | Hits::SolvedMore | Hits::SolvedMoreThroughout | Hits::SolvedAtLeast => {
+                1.0
+            }
             Hits::Events => 0.0,
             _ => most_cases(instances),
         }
@@ -294,6 +306,9 @@ impl Counted<'_> {
     /// What is counted, in words.
     fn description(&self) -> String {
         if let Some(bound) = self.settings.bound {
+            if self.settings.hits == Hits::SolvedAtLeast {
+                return format!("{} {} % of its cases", self.settings.hits.label(), 100.0 * bound);
+            }
             let metric = self.selection.metric.map_or("", |metric| &metric.label).to_lowercase();
             return format!("trials with {metric} above {bound}");
         }

@@ -2,7 +2,8 @@
 //!
 //! The cells of a row share their instances, so they are judged jointly; rows draw instances of their own, so their probabilities
 //! are taken together. A cell that is the same on all of our instances is exact and must print as the paper's. The paper means
-//! one interpretation and does not say which, so the size of the test is shared out among all that it may mean.
+//! one interpretation and does not say which, so the size of the test is shared out among all that it may mean. Where a study is
+//! calibrated to one table, that table bears this alone, and others are judged as they are.
 
 use super::mean_of::{self, MeanOf};
 use super::{Criterion, Entry, without};
@@ -23,6 +24,7 @@ use stats::beta::combined;
 use stats::means::FEWEST_NORMAL;
 use std::collections::BTreeMap;
 use study::Study;
+use study::paper::Claim;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -48,7 +50,8 @@ struct Settings {
     /// differences of two cells are left out.
     #[serde(rename = "in")]
     places: Vec<PlaceSpec>,
-    /// The table is refused where its probability, times the interpretations that the paper may mean, is below this.
+    /// The table is refused where its probability is below this. It is multiplied by the interpretations that the paper may mean,
+    /// unless studies are `fitted_to` other claims, which then say which interpretations are judged.
     #[schemars(range(max = 1.0), extend("exclusiveMinimum" = 0))]
     refused_below: f64,
 }
@@ -74,8 +77,12 @@ struct TableMeans<'a> {
     interpretations: usize,
 }
 
-/// How many interpretations the paper may mean that trials of `studies` tell apart.
-fn interpretations(studies: &BTreeMap<&str, &Study>) -> usize {
+/// How many interpretations the paper may mean that trials of `studies` tell apart: 1 if other claims chose among them.
+fn interpretations(context: &Context<'_>, studies: &BTreeMap<&str, &Study>) -> usize {
+    let mut calibration = context.paper.studies.iter().flat_map(|study| &study.fitted_to).peekable();
+    if calibration.peek().is_some() && calibration.all(|id| *id != context.claim.id) {
+        return 1;
+    }
     let mut options: BTreeMap<&str, usize> = BTreeMap::new();
     for choice in studies.values().flat_map(|study| &study.choices).filter(|choice| choice.touches_trials) {
         options.insert(&choice.id, choice.options.keys().filter(|name| choice.votes(name)).count().max(1));
@@ -110,13 +117,19 @@ impl<'a> TableMeans<'a> {
             let message = "no claim that `mean_of` judges is named; at least one is needed";
             return Err(context.settings.error_at("in", message).about("in").about("claims"));
         }
-        let interpretations = interpretations(&studies);
+        let interpretations = interpretations(context, &studies);
         Ok(Self {
             rows: rows.into_values().collect(),
             refused_below: settings.refused_below,
             interpretations,
         })
     }
+}
+
+/// The claims whose printed means `claim` judges jointly; none if it is judged otherwise.
+pub fn cells(claim: &Claim) -> Vec<String> {
+    let settings = claim.check(ENTRY.name).and_then(|settings| settings.read::<Settings>().ok());
+    settings.into_iter().flat_map(|settings| settings.places).flat_map(|place| place.claims).collect()
 }
 
 /// The cell that the claim `id` is, `None` if it is not testable or a difference of two others.
@@ -291,12 +304,12 @@ impl<'a> TableMeans<'a> {
                 row.loudest.join(", ")
             )
         };
-        let whole = format!(
-            "all rows together (Fisher): p = {p:.2e}; times {} interpretations {:.2e}, refused below {}",
-            self.interpretations,
-            self.judged(p),
-            self.refused_below
-        );
+        let times = match self.interpretations {
+            1 => String::new(),
+            many => format!("; times {many} interpretations {:.2e}", self.judged(p)),
+        };
+        let whole =
+            format!("all rows together (Fisher): p = {p:.2e}{times}, refused below {}", self.refused_below);
         std::iter::once(whole).chain(rows.iter().map(of_row)).collect()
     }
 }

@@ -1,4 +1,4 @@
-//! What several checks say or do alike.
+//! Premises and words that several checks share.
 
 use super::{Test, Window};
 use crate::input::Input;
@@ -132,8 +132,8 @@ pub fn up_to_twice(print: Print) -> Option<Window> {
     Some(Window { ends: [whole(0), twice.max(least)], why })
 }
 
-/// From 0 to the greatest deviation that values between `ends` have, whatever their mean (Popoviciu 1935): the root of
-/// `factor` times the square of half the range. `factor` is n / (n − 1) for a sample's deviation, 1 for a population's.
+/// From 0 to the greatest deviation of values between `ends`, whatever their mean (Popoviciu 1935). That is the root of
+/// `factor` times the square of half the range, with n / (n − 1) for a sample's deviation and 1 for a population's.
 pub fn spreads(print: Print, ends: [Exact; 2], factor: Exact) -> Option<Window> {
     let half = sub(ends[1], ends[0])? / whole(2);
     let ends = [whole(0), root_above(mul(mul(half, half)?, factor)?, print.printed.scale())?];

@@ -1,4 +1,4 @@
-//! Whether what is printed bold is the best of its column.
+//! Whether the bold numbers are the best of their columns.
 
 use super::{Entry, Test};
 use crate::input::Input;

@@ -1,4 +1,4 @@
-//! Whether a mean of whole numbers, or a share of trials, can be what is printed, given how many there were.
+//! Whether a mean of whole numbers, or a share of trials, can be the printed one, given how many there were.
 
 use super::arguments::{count, digits, each_of_sample, gap, multiple, shown};
 use super::keys::{GRAIN, LEAST, MOST, N};

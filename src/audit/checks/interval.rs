@@ -1,4 +1,4 @@
-//! Whether a printed interval is one of the usual ones for k of n.
+//! Whether a printed interval is one of the usual intervals for k of n.
 
 use super::arguments::digits;
 use super::{Entry, FromRelation, Proof, Test, none};

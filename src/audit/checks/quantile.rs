@@ -1,4 +1,4 @@
-//! Whether a quantile of values on a grain can be what is printed.
+//! Whether values on a grain can have the printed quantile.
 
 use super::arguments::{count, digits, gap, shown};
 use super::{Entry, Proof, Test};

@@ -1,4 +1,4 @@
-//! Whether a column's quantiles can be those of the quotient that its label names.
+//! Whether a column's quantiles can belong to the quotient that its label names.
 
 use super::arguments::{count, digits, shown};
 use super::{Entry, FromRelation, Proof, Test};

@@ -1,5 +1,5 @@
-//! Items of annotations that cannot hold together: such an annotation is refused, since whatever it were held against
-//! would come out as impossible.
+//! Items of annotations that contradict each other. Such an annotation is refused, since every number would be
+//! impossible under it.
 
 use super::{Kind, Meaning};
 use proofs::exact::{Exact, whole};

@@ -1,4 +1,4 @@
-//! What stands in a cell: a number, a number with its spread, or nothing.
+//! The content of a cell: a number, a number with its spread, or nothing.
 
 use proofs::printed::Printed;
 

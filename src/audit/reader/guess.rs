@@ -1,4 +1,4 @@
-//! What a column without annotation probably is.
+//! The probable meaning of a column without annotation.
 
 use super::cells::{Number, is_unit, number, plain};
 use crate::meaning::{Better, Kind, Meaning, natural};

@@ -322,7 +322,7 @@ pub fn stub_line(table: &Table) -> String {
     cells.iter().map(quoted).collect::<Vec<_>>().join(&table.mark.to_string())
 }
 
-/// A header line with an annotation for every column, to be corrected: what was written, or what was guessed.
+/// A header line with an annotation for every column, as written or as guessed, for the author to correct.
 pub fn stub(table: &Table) -> Vec<String> {
     let header =
         |Column { name, annotation, .. }: &Column| format!("{name} [{annotation}]").trim_start().to_owned();

@@ -1,4 +1,4 @@
-//! What an audit may spend, counted in cases and not in seconds: the same table gives the same report on every machine.
+//! The limits of an audit, counted in cases and not in seconds: the same table gives the same report on every machine.
 
 use crate::checks::Test;
 use proofs::exact::Print;

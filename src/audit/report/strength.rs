@@ -1,4 +1,4 @@
-//! How much of what could be printed a test refuses: its power.
+//! The power of a test: how much of what could be printed it refuses.
 
 use super::effort::Effort;
 use crate::checks::{Test, Window};

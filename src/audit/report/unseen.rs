@@ -1,4 +1,4 @@
-//! What no check looked at, so that silence is no pass.
+//! The numbers that no check looked at, so that silence is no pass.
 
 use crate::checks::Test;
 use crate::input::Input;

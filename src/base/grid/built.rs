@@ -44,8 +44,8 @@ pub fn rooms(
     Ok(grid)
 }
 
-/// A map of blocks between crossing streets `street_cells` wide; sides of blocks are uniform in `block_cells` = [least,
-/// most], the same along a street, and each block draws back from each of its streets by up to `setback_cells`.
+/// A map of blocks between crossing streets `street_cells` wide. Sides of blocks are uniform in `block_cells` = [least,
+/// most], the same along a street. Each block draws back from each of its streets by up to `setback_cells`.
 ///
 /// # Errors
 /// [`GridError::Size`] as for [`Grid2::new`].

@@ -17,37 +17,27 @@ pub const STEPS_26: [[i32; 3]; 26] = {
     steps
 };
 
-/// A dense lattice of nodes in space, some of them blocked.
+/// The numbers of a lattice's nodes in space.
 ///
 /// Nodes are numbered row by row with a blocked border around them. A step from a node inside needs no
 /// check of bounds: the number of a neighbour is the number of the node plus the step's [`offset`](Self::offset).
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Grid3 {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Nodes3 {
     size: [u32; 3],
-    free: Vec<bool>,
-    free_count: u64,
 }
 
-impl Grid3 {
-    /// A lattice of `size` nodes along x, y and z, all free.
+impl Nodes3 {
+    /// Those of `size` nodes along x, y and z.
     ///
     /// # Errors
     /// [`GridError::Space`] unless every side lies in 1..=[`MAX_SIDE_NODES`] and all nodes are at most [`MAX_CELLS`].
     pub fn new(size: [u32; 3]) -> Result<Self, GridError> {
-        let nodes = || size.iter().map(|side| u64::from(*side)).product::<u64>();
         let is_side = |side: &u32| (1..=MAX_SIDE_NODES).contains(side);
-        if !size.iter().all(is_side) || nodes() > u64::from(MAX_CELLS) {
+        let nodes = Self { size };
+        if !size.iter().all(is_side) || nodes.inside() > u64::from(MAX_CELLS) {
             return Err(GridError::Space { size });
         }
-        let [x, y, z] = size.map(|side| side as usize + 2);
-        let mut grid = Self { size, free: vec![false; x * y * z], free_count: nodes() };
-        for k in 0..size[2] {
-            for j in 0..size[1] {
-                let row = grid.number([0, j, k]) as usize;
-                grid.free[row..row + size[0] as usize].fill(true);
-            }
-        }
-        Ok(grid)
+        Ok(nodes)
     }
 
     /// How many nodes there are along x, y and z.
@@ -55,9 +45,13 @@ impl Grid3 {
         self.size
     }
 
+    fn inside(&self) -> u64 {
+        self.size.iter().map(|side| u64::from(*side)).product()
+    }
+
     /// A number above every node's.
     pub fn node_count(&self) -> usize {
-        self.free.len()
+        self.size.iter().map(|side| *side as usize + 2).product()
     }
 
     fn number(&self, [x, y, z]: [u32; 3]) -> u32 {
@@ -82,6 +76,37 @@ impl Grid3 {
         let row = self.size[0] as i32 + 2;
         let layer = self.size[1] as i32 + 2;
         (dz * layer + dy) * row + dx
+    }
+}
+
+/// A dense lattice of nodes in space, some of them blocked.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Grid3 {
+    nodes: Nodes3,
+    free: Vec<bool>,
+    free_count: u64,
+}
+
+impl std::ops::Deref for Grid3 {
+    type Target = Nodes3;
+
+    fn deref(&self) -> &Nodes3 {
+        &self.nodes
+    }
+}
+
+impl Grid3 {
+    /// A lattice of these nodes, all free.
+    pub fn new(nodes: Nodes3) -> Self {
+        let mut grid = Self { nodes, free: vec![false; nodes.node_count()], free_count: nodes.inside() };
+        let size = nodes.size;
+        for k in 0..size[2] {
+            for j in 0..size[1] {
+                let row = nodes.number([0, j, k]) as usize;
+                grid.free[row..row + size[0] as usize].fill(true);
+            }
+        }
+        grid
     }
 
     /// Whether `node` can be stood on; nodes of the border cannot.
@@ -115,7 +140,7 @@ mod tests {
 
     #[test]
     fn numbers_and_coordinates_go_round() {
-        let grid = Grid3::new([4, 3, 5]).unwrap();
+        let grid = Grid3::new(Nodes3::new([4, 3, 5]).unwrap());
         assert_eq!(grid.free_count(), 60);
         let mut inside = 0;
         for (x, y, z) in (0..4).flat_map(|x| (0..3).flat_map(move |y| (0..5).map(move |z| (x, y, z)))) {
@@ -134,7 +159,7 @@ mod tests {
 
     #[test]
     fn a_node_that_is_blocked_twice_is_missing_once() {
-        let mut grid = Grid3::new([3, 2, 2]).unwrap();
+        let mut grid = Grid3::new(Nodes3::new([3, 2, 2]).unwrap());
         for at in [[0, 0, 0], [2, 1, 1], [0, 0, 0]] {
             grid.block(grid.node(at).unwrap());
         }
@@ -154,11 +179,11 @@ mod tests {
 
     #[test]
     fn a_lattice_without_nodes_or_with_too_many_is_refused() {
-        let error = Grid3::new([3, 0, 2]).unwrap_err();
+        let error = Nodes3::new([3, 0, 2]).unwrap_err();
         assert_eq!(
             error.to_string(),
             "a lattice of 3 × 0 × 2 nodes; each side may have 1 to 1023 nodes, and all may have 16777216"
         );
-        assert!(Grid3::new([1024, 1, 1]).is_err());
+        assert!(Nodes3::new([1024, 1, 1]).is_err());
     }
 }

@@ -30,7 +30,7 @@ pub use built::{maze, rooms, streets};
 pub use columns::{Bits, Columns, MAX_REACH_CELLS};
 pub use components::{Components, components};
 pub use corners::{Vertices, corner_moves, corner_vertices, corners_see};
-pub use cubic::{Grid3, STEPS_26};
+pub use cubic::{Grid3, Nodes3, STEPS_26};
 pub use error::GridError;
 pub use moves::{CornerRule, DIRECTIONS, Moves};
 pub use movingai::{Scenario, parse_movingai_map, parse_scenarios, read_movingai_map, read_scenarios};

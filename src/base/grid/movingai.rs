@@ -1,8 +1,8 @@
 //! `MovingAI` grid maps (`.map`, type octile) and scenarios (`.scen`, versions 0, 1 and 1.0).
 //!
-//! The files count y downwards from the top row; cells here have y up, and [`Scenario`] is already turned. Letters:
-//! `.` and `G` are ground and `S` is swamp, all passable; `@`, `O` (out of bounds) and `T` (trees) are blocked. `W`
-//! is water: it may be crossed by anything that starts in it but not entered from ground, so for a walker on ground it is
+//! The files count y downwards from the top row; cells here have y up, and [`Scenario`] is already turned. `.` and `G`
+//! are ground and `S` is swamp, all passable. `@`, `O` (out of bounds) and `T` (trees) are blocked. `W` is water:
+//! whoever starts in it may cross it, but none may enter it from ground. For a walker on ground it is therefore
 //! blocked, and a scenario that starts in water starts in a blocked cell.
 //!
 //! Source: N. Sturtevant, *Benchmarks for Grid-Based Pathfinding*, IEEE T-CIAIG 4(2), 2012, and the format page of
@@ -116,8 +116,9 @@ pub fn read_movingai_map(path: &Path) -> Result<Grid2, GridError> {
 ///
 /// # Errors
 /// [`GridError::Text`] on an unknown version, a wrong number of fields, a field that does not parse, a map size
-/// that is not the grid's, or a cell outside it; a length that the map contradicts: -1 where a path cuts no corner, one where no
-/// path leads though all may be cut, one below the straight line, or above 0 where the goal is the start.
+/// that is not the grid's, or a cell outside it. A length that the map contradicts is refused too: -1 where a path
+/// cuts no corner, or one where no path leads though all may be cut. A length may not be below the straight line, nor
+/// above 0 where the goal is the start.
 pub fn parse_scenarios(text: &str, grid: &Grid2) -> Result<Vec<Scenario>, GridError> {
     let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()).peekable();
     let mut with_size = false;

@@ -101,8 +101,8 @@ pub fn rectangles(
     Ok(grid)
 }
 
-/// A map with `count` bars one cell thick, lying or standing with equal chance, of a length uniform in
-/// `length_cells` = [least, most] and a lower left end uniform in the grid; they may cross and are cut at the rim.
+/// A map with `count` bars one cell thick, lying or standing with equal chance. Lengths are uniform in `length_cells` =
+/// [least, most], and lower left ends in the grid. Bars may cross and are cut at the rim.
 ///
 /// # Errors
 /// [`GridError::Size`] as for [`Grid2::new`].

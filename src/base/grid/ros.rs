@@ -2,7 +2,7 @@
 //!
 //! With `p` the darkness of a pixel from 0 to 1 (its brightness with `negate`), a cell is blocked where `p > occupied_thresh`, free
 //! where `p < free_thresh`, unknown in between; what is unknown is blocked. The brightness is the mean of the colour channels, and of
-//! the opacity if the image has one: so `map_server` and nav2 up to Humble do in the mode `trinary`, the only one that is read. Cells are
+//! the opacity if the image has one. `map_server` and nav2 up to Humble do so in the mode `trinary`, the only one that is read. Cells are
 //! counted from the lower left pixel. A map that is turned, by a yaw in its `origin`, is refused.
 //!
 //! Every key but `mode` must be there: `map_server` and nav2 load no map without one, and have no default for it.

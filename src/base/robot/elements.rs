@@ -139,9 +139,9 @@ impl Keys<'_> {
 }
 
 /// The name of an element in another, with its prefix where it is of another namespace.
-fn name_in(of: Node<'_, '_>, child: Node<'_, '_>) -> String {
+fn name_in(element: Node<'_, '_>, child: Node<'_, '_>) -> String {
     let name = child.tag_name().name();
-    if is_alike(of, child) {
+    if is_alike(element, child) {
         return name.to_owned();
     }
     let space = child.tag_name().namespace().unwrap_or_default();
@@ -149,17 +149,17 @@ fn name_in(of: Node<'_, '_>, child: Node<'_, '_>) -> String {
 }
 
 /// Whether both are of one namespace.
-fn is_alike(of: Node<'_, '_>, child: Node<'_, '_>) -> bool {
-    of.tag_name().namespace() == child.tag_name().namespace()
+fn is_alike(element: Node<'_, '_>, child: Node<'_, '_>) -> bool {
+    element.tag_name().namespace() == child.tag_name().namespace()
 }
 
 /// Whether a key that is read means nothing here: how a fixed joint would move, limits of one that turns without end.
-fn means_nothing(of: Node<'_, '_>, key: &str) -> bool {
+fn means_nothing(element: Node<'_, '_>, key: &str) -> bool {
     let is =
         |joint: Option<Node<'_, '_>>, kind| joint.is_some_and(|node| node.attribute("type") == Some(kind));
-    match of.tag_name().name() {
-        "joint" => matches!(key, "axis" | "limit" | "mimic") && is(Some(of), "fixed"),
-        "limit" => matches!(key, "@lower" | "@upper") && is(of.parent(), "continuous"),
+    match element.tag_name().name() {
+        "joint" => matches!(key, "axis" | "limit" | "mimic") && is(Some(element), "fixed"),
+        "limit" => matches!(key, "@lower" | "@upper") && is(element.parent(), "continuous"),
         _ => false,
     }
 }
@@ -171,30 +171,30 @@ impl Elements<'_> {
 
     pub(super) fn element<'n, 'input>(
         self,
-        of: Node<'n, 'input>,
+        element: Node<'n, 'input>,
         name: &'static str,
     ) -> Result<Node<'n, 'input>, SettingsError> {
-        child(of, name).ok_or_else(|| {
-            let what = of.tag_name().name();
-            let whose = of.attribute("name").unwrap_or_default();
-            self.fault(&of.range(), format!("{what} `{whose}` has no `{name}`; one is accepted"))
+        child(element, name).ok_or_else(|| {
+            let what = element.tag_name().name();
+            let whose = element.attribute("name").unwrap_or_default();
+            self.fault(&element.range(), format!("{what} `{whose}` has no `{name}`; one is accepted"))
         })
     }
 
-    pub(super) fn text<'n>(self, of: Node<'n, '_>, key: &'static str) -> Result<&'n str, SettingsError> {
-        of.attribute(key).ok_or_else(|| {
-            let what = of.tag_name().name();
-            self.fault(&of.range(), format!("the element `{what}` has no `{key}`; one is accepted"))
+    pub(super) fn text<'n>(self, element: Node<'n, '_>, key: &'static str) -> Result<&'n str, SettingsError> {
+        element.attribute(key).ok_or_else(|| {
+            let what = element.tag_name().name();
+            self.fault(&element.range(), format!("the element `{what}` has no `{key}`; one is accepted"))
         })
     }
 
     /// `N` finite numbers in an attribute, if it is there.
     pub(super) fn numbers<const N: usize>(
         self,
-        of: Node<'_, '_>,
+        element: Node<'_, '_>,
         key: &'static str,
     ) -> Result<Option<[f64; N]>, SettingsError> {
-        let Some(text) = of.attribute(key) else { return Ok(None) };
+        let Some(text) = element.attribute(key) else { return Ok(None) };
         let numbers: Option<Vec<f64>> = text.split_whitespace().map(|word| word.parse().ok()).collect();
         let numbers = numbers.and_then(|numbers| <[f64; N]>::try_from(numbers).ok());
         // As written: of `1e400` an infinity is read.
@@ -203,40 +203,40 @@ impl Elements<'_> {
             let many =
                 if N == 1 { format!("a {finite}number is") } else { format!("{N} {finite}numbers are") };
             let text = brief(text);
-            self.fault(&place(of, key), format!("{key} is `{text}`; {many} accepted"))
+            self.fault(&place(element, key), format!("{key} is `{text}`; {many} accepted"))
         };
         numbers.filter(|numbers| numbers.iter().all(|n| n.is_finite())).ok_or_else(wrong).map(Some)
     }
 
     /// A finite number in an attribute.
-    pub(super) fn number(self, of: Node<'_, '_>, key: &'static str) -> Result<f64, SettingsError> {
-        self.text(of, key)?;
-        self.number_or(of, key, 0.0)
+    pub(super) fn number(self, element: Node<'_, '_>, key: &'static str) -> Result<f64, SettingsError> {
+        self.text(element, key)?;
+        self.number_or(element, key, 0.0)
     }
 
     /// A finite number in an attribute, or what the format says where it is not there.
     pub(super) fn number_or(
         self,
-        of: Node<'_, '_>,
+        element: Node<'_, '_>,
         key: &'static str,
         default: f64,
     ) -> Result<f64, SettingsError> {
-        Ok(self.numbers::<1>(of, key)?.map_or(default, |[number]| number))
+        Ok(self.numbers::<1>(element, key)?.map_or(default, |[number]| number))
     }
 }
 
 pub(super) fn elements<'a, 'input>(
-    of: Node<'a, 'input>,
+    element: Node<'a, 'input>,
     name: &'static str,
 ) -> impl Iterator<Item = Node<'a, 'input>> {
-    of.children().filter(move |node| node.tag_name().name() == name && is_alike(of, *node))
+    element.children().filter(move |node| node.tag_name().name() == name && is_alike(element, *node))
 }
 
-pub(super) fn child<'a, 'input>(of: Node<'a, 'input>, name: &'static str) -> Option<Node<'a, 'input>> {
-    elements(of, name).next()
+pub(super) fn child<'a, 'input>(element: Node<'a, 'input>, name: &'static str) -> Option<Node<'a, 'input>> {
+    elements(element, name).next()
 }
 
 /// Where an attribute stands; its element if there is none.
-pub(super) fn place(of: Node<'_, '_>, key: &str) -> Range<usize> {
-    of.attribute_node(key).map_or(of.range(), |attribute| attribute.range())
+pub(super) fn place(element: Node<'_, '_>, key: &str) -> Range<usize> {
+    element.attribute_node(key).map_or(element.range(), |attribute| attribute.range())
 }

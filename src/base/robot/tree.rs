@@ -77,8 +77,8 @@ impl<'a, 'input> Tree<'a, 'input> {
         }
     }
 
-    /// The joints at or beyond `link`, without passing one that moves, each with its frame in that of `link`; and the links on
-    /// the way, `link` first, each with its frame and how many joints lead to it.
+    /// The joints at or beyond `link`, without passing one that moves, each with its frame in that of `link`. Beside
+    /// them the links on the way, `link` first, each with its frame and how many joints lead to it.
     #[expect(clippy::type_complexity, reason = "two lists of one walk")]
     pub(super) fn welded(
         &self,

@@ -1,4 +1,4 @@
-//! The schema of a type: what its TOML may be, from the type itself.
+//! The schema of a type: what its TOML may hold, made from the type itself.
 
 use super::schema::Node;
 use schemars::generate::SchemaSettings;

@@ -1,4 +1,4 @@
-//! What a table may hold, key by key, for people: from the same schema that files are held against.
+//! The keys of a table for people, made from the schema that files are checked against.
 
 use super::schema::Node;
 use serde_json::Value;

@@ -1,4 +1,4 @@
-//! A TOML file in memory: its text, what it says, and where each value stands.
+//! A TOML file in memory: its text, its values, and the place of each value.
 
 use super::reader::{self, Refused};
 use super::validate::{Fault, faults};
@@ -145,14 +145,14 @@ impl Document {
     }
 
     /// An error at the value that `path` leads to, by keys and by the numbers of elements from 0: `inventory.0.item`.
-    /// As far as the document does not have it, the place is that of the innermost value it has.
+    /// If the document ends before that, the place is that of the innermost value on the way.
     pub fn error_at(&self, path: &str, message: impl Into<String>) -> SettingsError {
         let span = self.parsed().map_or(0..0, |value| span_of(value, path));
         self.error(span, message)
     }
 
-    /// An error at the key that `steps` lead to, by keys and by the numbers of elements from 0. As far as the document does not
-    /// have it, as [`error_at`](Self::error_at).
+    /// An error at the key that `steps` lead to, by keys and by the numbers of elements from 0. If the document ends
+    /// before that, as [`error_at`](Self::error_at).
     pub fn error_at_key(&self, steps: &[&str], message: impl Into<String>) -> SettingsError {
         let span = self.parsed().map_or(0..0, |value| key_span_of(value, steps));
         self.error(span, message)

@@ -1,4 +1,4 @@
-//! What is wrong with a document: one fault, or all of a file at once.
+//! Faults of a document: one, or all of a file at once.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -185,7 +185,7 @@ pub struct Faults {
 }
 
 impl Faults {
-    /// Adds what is wrong. What is wrong under several interpretations is reported once, with what they have in common.
+    /// Adds a fault. One that occurs under several interpretations is reported once, with what they have in common.
     pub fn add(&mut self, error: SettingsError) {
         for fault in error.each() {
             match self.found.iter_mut().find(|known| fault.repeats(known)) {

@@ -1,10 +1,9 @@
-//! TOML as it was written: documents that can say where in them a value stands, and what may stand there.
+//! TOML as it was written: documents that know where each value stands, and the schema of what may stand there.
 //!
-//! Settings travel from a spec to the entry that understands them as the table they were written as; only that
-//! entry's file knows the fields. Its type says what is accepted: the derived JSON Schema is what files are held
-//! against ([`Document::read`]), what `replan list` prints ([`describe`]) and what editors are given. All faults of a table
-//! are found at once, each with the file, line and column of its own key or value, also after the table was handed
-//! through several floors.
+//! Settings travel from a spec to their entry as the table that was written; only that entry's file knows the fields.
+//! Its type says what is accepted. Files are checked against the derived JSON Schema ([`Document::read`]), `replan
+//! list` prints it ([`describe`]), and editors receive it. All faults of a table are found at once, each with the file,
+//! line and column of its own key or value, also after the table was handed through several floors.
 
 mod accepted;
 pub mod describe;
@@ -25,7 +24,7 @@ pub use document::Document;
 pub use error::{Faults, SettingsError};
 pub use nearest::{did_you_mean, none_called};
 pub use place::Place;
-pub use renamed::renamed;
+pub use renamed::{first_word, in_first_words, renamed};
 pub use spanned::{AnyTable, AnyValue, Spanned};
 pub use table::{Part, Settings};
 

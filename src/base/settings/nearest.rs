@@ -1,4 +1,4 @@
-//! What somebody may have meant who wrote a name that does not exist.
+//! The known name that somebody may have meant who wrote an unknown one.
 
 /// A longer name is not compared: it takes the product of the lengths.
 const LONGEST: usize = 64;
@@ -7,8 +7,9 @@ use super::renamed::renamed;
 
 /// ` (did you mean X?)` with the known name nearest to `written`, or nothing if none is near.
 ///
-/// A name longer than 64 characters is near to none. Near is at most a third of the letters added, left out, changed or swapped with their neighbour, whatever their case; a
-/// name that begins with what was written, or ends in it after a `/`, is near.
+/// A name longer than 64 characters is near to none. Near is at most a third of the letters added, left out, changed or
+/// swapped with their neighbour, whatever their case. A name is near as well if it begins with `written`, or ends in it
+/// after a `/`.
 ///
 /// ` (it is X now)` if it was renamed to a known name.
 pub fn did_you_mean<'a>(written: &str, known: impl IntoIterator<Item = &'a str>) -> String {

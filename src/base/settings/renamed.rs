@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
+use toml::{Table, Value};
 
 const LIST: &str = include_str!("../../../data/renamed.toml");
 
@@ -19,6 +20,26 @@ pub(super) fn renamed_key(key: &str) -> Option<String> {
     let now = renamed("keys").get(key)?;
     let advice = if now.contains(' ') { now.clone() } else { format!("it is `{now}` now") };
     Some(format!("`{key}` is no key here: {advice}"))
+}
+
+/// Keys and names of specs, each with the word that it had when what hashes it was first stored.
+const FIRST_WORDS: [(&str, &str); 2] = [("families", "of"), ("select", "of")];
+
+/// The word that hashes have for `name`.
+pub fn first_word(name: &str) -> &str {
+    FIRST_WORDS.iter().find(|(now, _)| *now == name).map_or(name, |(_, first)| first)
+}
+
+/// `table`, and the tables in it, with the keys that hashes have.
+pub fn in_first_words(table: &Table) -> Table {
+    fn inside(value: &Value) -> Value {
+        match value {
+            Value::Table(table) => Value::Table(in_first_words(table)),
+            Value::Array(values) => Value::Array(values.iter().map(inside).collect()),
+            other => other.clone(),
+        }
+    }
+    table.iter().map(|(key, value)| (first_word(key).to_owned(), inside(value))).collect()
 }
 
 #[cfg(test)]
@@ -41,5 +62,17 @@ mod tests {
         assert_eq!(renamed_key("replicates").as_deref(), Some(expected));
         assert!(renamed_key("ledger").unwrap().ends_with("`inventory` now"));
         assert_eq!(renamed_key("instances"), None);
+    }
+
+    #[test]
+    fn hashes_have_the_keys_that_were_written_first() {
+        let table = |text: &str| toml::from_str(text).unwrap();
+        let now = "select = { study = 's' }\nrows = [{ select = { metric = 'm' } }]\nthat = 'select'";
+        let first = "of = { study = 's' }\nrows = [{ of = { metric = 'm' } }]\nthat = 'select'";
+        assert_eq!(in_first_words(&table(now)), table(first));
+        assert_eq!(
+            in_first_words(&table("families = [1]\nstage = 'astar'")),
+            table("of = [1]\nstage = 'astar'")
+        );
     }
 }

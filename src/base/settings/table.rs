@@ -118,8 +118,8 @@ impl Settings {
         &self.table
     }
 
-    /// Settings that `whose` puts together from parts of `whole`, which lie there under `keys`: what is wrong is reported at the first of
-    /// them that has it.
+    /// Settings that `whose` puts together from the parts of `whole` under `keys`. A fault is reported at the first
+    /// part that has it.
     pub fn of_parts(whole: &Self, keys: &[&str], whose: impl Into<String>, table: Table) -> Self {
         let keys = keys.iter().map(|key| (*key).to_owned()).collect();
         let origin = Origin::Parts { whole: Box::new(whole.clone()), keys, whose: whose.into() };

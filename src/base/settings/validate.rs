@@ -261,7 +261,9 @@ fn keys(node: Node<'_>, subject: Subject<'_>, table: &DeTable<'_>, found: &mut F
             Some(_) if matches!(found, FoundFaults::Any(_)) => *found = FoundFaults::Any(true),
             Some(_) => {
                 let known = || node.properties().map(|(key, _)| key);
-                let now = renamed("keys").get(name).and_then(|now| known().find(|key| key == now));
+                let now = renamed("keys")
+                    .get(name)
+                    .and_then(|now| known().find(|key| key == now || now.contains(&format!("`{key}`"))));
                 meant.extend(now.or_else(|| nearest(name, known())));
                 found.push(|| Fault::new(span, unknown(node, name)));
             }

@@ -1,7 +1,7 @@
 //! `replan crosscheck --statistics`: estimates, intervals, outcomes and verdicts before a judge in Python.
 //!
-//! The judge knows what metrics mean, where papers lie and what the numbers of explorations amount to, whose trials are not kept;
-//! nothing else of what is computed here.
+//! The judge receives the meanings of metrics, the folders of papers, and the numbers of explorations, whose trials are
+//! not kept. It receives nothing else that is computed here.
 
 use super::super::judge::polylines;
 use super::super::load::load;

@@ -1,4 +1,4 @@
-//! Who answers for us: the engine's kinematics, distances and the checks that planners use, by name of pair, frame and joint.
+//! Our answers: the engine's kinematics, distances and the checks that planners use, by name of pair, frame and joint.
 
 use base::robot::MayTouch;
 use base::settings::{Document, SettingsError};
@@ -31,7 +31,7 @@ pub enum SceneFormat {
     Polyhedra,
 }
 
-/// What the check that planners use finds.
+/// The result of the check that planners use.
 #[derive(Debug, Clone, Copy)]
 pub struct Standable {
     /// Whether the robot can be there.

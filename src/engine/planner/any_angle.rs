@@ -1,4 +1,4 @@
-//! What the any-angle planners share: their settings, their memory, their plans.
+//! Settings, memory and plans that the any-angle planners share.
 
 use super::lattice::{Posed, SightSetting, TiesSetting, check_sight, sees};
 use super::one_side::{Found, OneSided};

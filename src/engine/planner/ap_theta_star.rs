@@ -3,11 +3,13 @@
 //! # Source
 //! Daniel, Nash, Koenig & Felner, *Theta\*: Any-Angle Path Planning on Grids*, JAIR 39 (2010), section 6.
 
-use super::corners::{self, TiesAlone};
-use super::lattice::COLUMNS_DISTINCT;
-use super::{Build, Entry};
+use super::corners;
+use super::lattice::{COLUMNS_DISTINCT, TiesSetting};
+use super::{Build, Entry, Planner};
 use crate::search::{AngleRanges, BucketHeap};
-use base::settings::Accepted;
+use base::settings::{Accepted, Settings, SettingsError};
+use schemars::JsonSchema;
+use serde::Deserialize;
 use world::space::WorldKind;
 
 /// The registry's entry.
@@ -21,5 +23,17 @@ pub static ENTRY: Entry = Entry {
     example: r#"
 ties = "smaller_g"
 "#,
-    build: Build::Planner(corners::built::<AngleRanges<BucketHeap>>),
+    build: Build::Planner(build),
 };
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct TiesAlone {
+    /// The order among equal f.
+    ties: TiesSetting,
+}
+
+fn build(settings: &Settings) -> Result<Box<dyn Planner>, SettingsError> {
+    let TiesAlone { ties } = settings.read()?;
+    Ok(corners::planner(move || AngleRanges::new(BucketHeap::new(ties.into()))))
+}

@@ -1,9 +1,9 @@
 //! A cubic B-spline through a tip path as a stage.
 //!
-//! A B-spline leaves its control points behind wherever the path bends, so on the few nodes of a straightened path it cuts into
-//! the obstacles that the path goes round. With a control point at every step it still cuts corners, by up to a fifth of a step.
-//! `guarded` raises the multiplicity of the control points where it touches, up to three, at which the curve follows the path
-//! itself.
+//! A B-spline leaves its control points behind wherever the path bends. On the few nodes of a straightened path it
+//! therefore cuts into the obstacles that the path goes round. With a control point at every step it still cuts
+//! corners, by up to a fifth of a step. With `guarded`, control points near a contact are repeated up to three times,
+//! at which the curve follows the path itself.
 
 use super::polyhedra::{densified, points, polyhedra, replace, trace};
 use super::{Build, Ending, Entry, Plan, Request, Stage, Value};

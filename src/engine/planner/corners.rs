@@ -1,13 +1,10 @@
-//! What the planners share that plan between corners of cells alone.
+//! The steps that planners between corners of cells share.
 
-use super::lattice::{Posed, TiesSetting};
+use super::lattice::Posed;
 use super::one_side::{Found, OneSided};
 use super::pool::Pool;
 use super::{Invalid, Plan, Planner, Request};
 use crate::search::{AngleRanges, BucketHeap, Cornered, Interpolated, Observer};
-use base::settings::{Settings, SettingsError};
-use schemars::JsonSchema;
-use serde::Deserialize;
 use world::space::LatticeWorld;
 
 /// The corners of the cells of `world`; a checked study gives these planners no other lattice.
@@ -16,19 +13,8 @@ pub(super) fn cornered(world: &LatticeWorld) -> Cornered<'_> {
     Cornered { cells, grid: world.grid(), moves: world.moves() }
 }
 
-/// The settings of a planner that has a choice of ties alone.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct TiesAlone {
-    /// The order among equal f.
-    ties: TiesSetting,
-}
-
 /// A search between corners of cells.
 pub(super) trait CornerSearch: Send + 'static {
-    /// With an empty memory.
-    fn new(frontier: BucketHeap) -> Self;
-
     /// What it finds between `ends`.
     fn solve(
         &mut self,
@@ -40,10 +26,6 @@ pub(super) trait CornerSearch: Send + 'static {
 }
 
 impl CornerSearch for AngleRanges<BucketHeap> {
-    fn new(frontier: BucketHeap) -> Self {
-        Self::new(frontier)
-    }
-
     fn solve(
         &mut self,
         on: &Cornered<'_>,
@@ -56,10 +38,6 @@ impl CornerSearch for AngleRanges<BucketHeap> {
 }
 
 impl CornerSearch for Interpolated<BucketHeap> {
-    fn new(frontier: BucketHeap) -> Self {
-        Self::new(frontier)
-    }
-
     fn solve(
         &mut self,
         on: &Cornered<'_>,
@@ -73,32 +51,28 @@ impl CornerSearch for Interpolated<BucketHeap> {
     }
 }
 
-/// The planner that searches by `S`.
-///
-/// # Errors
-/// Settings other than [`TiesAlone`].
-pub(super) fn built<S: CornerSearch>(settings: &Settings) -> Result<Box<dyn Planner>, SettingsError> {
-    let TiesAlone { ties } = settings.read()?;
-    Ok(Box::new(BetweenCorners::<S> { ties, pool: Pool::default() }))
+/// The planner whose searches `fresh` makes, one for each thread.
+pub(super) fn planner<S: CornerSearch>(fresh: impl Fn() -> S + Send + Sync + 'static) -> Box<dyn Planner> {
+    Box::new(BetweenCorners { fresh, pool: Pool::default() })
 }
 
-struct BetweenCorners<S> {
-    ties: TiesSetting,
+struct BetweenCorners<S, F> {
+    fresh: F,
     pool: Pool<S>,
 }
 
-impl<S: CornerSearch> OneSided for BetweenCorners<S> {
+impl<S: CornerSearch, F: Fn() -> S + Send + Sync> OneSided for BetweenCorners<S, F> {
     type Cost = f64;
 
     fn search<O: Observer>(&self, posed: &Posed<'_>, expansions: u64, observer: &mut O) -> Found<f64> {
-        let mut search = self.pool.any(|| S::new(BucketHeap::new(self.ties.into())));
+        let mut search = self.pool.any(&self.fresh);
         let found = search.solve(&cornered(posed.world), [posed.start, posed.goal], expansions, observer);
         self.pool.keep(search);
         found
     }
 }
 
-impl<S: CornerSearch> Planner for BetweenCorners<S> {
+impl<S: CornerSearch, F: Fn() -> S + Send + Sync> Planner for BetweenCorners<S, F> {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         Ok(self.planned(request, &Posed::new(request)?))
     }

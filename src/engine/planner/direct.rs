@@ -1,4 +1,4 @@
-//! One local path from start to goal and nothing else: what a roadmap has to beat.
+//! One local path from start to goal and nothing else: the baseline that a roadmap has to beat.
 
 use super::roadmap::{Posed, solved, unsolved};
 use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request};

@@ -1,4 +1,4 @@
-//! What a planner is given, what it gives back, and what it says of itself.
+//! The interface of planners: their input, their output, and how an entry describes itself.
 
 use base::grid::CornerRule;
 use base::settings::{Accepted, Settings, SettingsError};

@@ -1,10 +1,12 @@
 //! Field D\* between corners of cells, as one search from start to goal.
 
-use super::corners::{self, TiesAlone};
-use super::lattice::COLUMNS_DISTINCT;
-use super::{Build, Entry};
-use crate::search::{BucketHeap, Interpolated};
-use base::settings::Accepted;
+use super::corners;
+use super::lattice::{COLUMNS_DISTINCT, TiesSetting};
+use super::{Build, Entry, Planner};
+use crate::search::{BucketHeap, FieldRules, Interpolated};
+use base::settings::{Accepted, Settings, SettingsError};
+use schemars::JsonSchema;
+use serde::Deserialize;
 use world::space::WorldKind;
 
 /// The registry's entry.
@@ -14,9 +16,49 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::CornerLattice,
     columns: COLUMNS_DISTINCT,
-    settings: Accepted::shape::<TiesAlone>(),
+    settings: Accepted::shape::<FieldSettings>(),
     example: r#"
 ties = "larger_g"
+interpolates = "opened"
+extraction = "looks_ahead"
 "#,
-    build: Build::Planner(corners::built::<Interpolated<BucketHeap>>),
+    build: Build::Planner(build),
 };
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct FieldSettings {
+    /// The order among equal f.
+    ties: TiesSetting,
+    /// Between which corners costs are interpolated; `opened` if absent.
+    interpolates: Option<Interpolates>,
+    /// How a step of the path is chosen; `looks_ahead` if absent.
+    extraction: Option<Extraction>,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum Interpolates {
+    /// All that have a cost by then.
+    Opened,
+    /// Those that were expanded; their costs change no more.
+    Expanded,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum Extraction {
+    /// By the best step that follows it.
+    LooksAhead,
+    /// By the interpolated cost where it ends.
+    Interpolated,
+}
+
+fn build(settings: &Settings) -> Result<Box<dyn Planner>, SettingsError> {
+    let FieldSettings { ties, interpolates, extraction } = settings.read()?;
+    let rules = FieldRules {
+        only_expanded: matches!(interpolates, Some(Interpolates::Expanded)),
+        looks_ahead: !matches!(extraction, Some(Extraction::Interpolated)),
+    };
+    Ok(corners::planner(move || Interpolated::new(BucketHeap::new(ties.into()), rules)))
+}

@@ -1,4 +1,4 @@
-//! What the planners by jump points share: their settings, their memory, their plans.
+//! Settings, memory and plans that the planners by jump points share.
 
 use super::lattice::{self, Posed};
 use super::pool::Pool;

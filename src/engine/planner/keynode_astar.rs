@@ -1,10 +1,10 @@
-//! The improved A* of Tang et al.: straight at the goal, and over an edge of whatever stands in the way.
+//! The improved A* of Tang et al.: straight at the goal, and over an edge of each obstacle in the way.
 //!
-//! As printed it is a walk (`literal`): it steps towards the goal. Where the next step is in an obstacle it takes the key node of
-//! least cost on the faces in front of it. A key node lies on an edge, where no face of that obstacle is in front any more, so
-//! the printed walk stops at its first one more often than not. A walk that stands where it stood before and goes where it went then
-//! goes round in circles: it has no path. `greedy` adds the guards without which it stops; `open_list` keeps the key nodes on an
-//! open list, which is what makes it an A*.
+//! As printed it is a walk (`literal`): it steps towards the goal. Where the next step is in an obstacle it takes the
+//! key node of least cost on the faces in front of it. A key node lies on an edge, where no face of that obstacle is in
+//! front any more, so the printed walk often stops at its first one. A walk that returns to an earlier place and takes
+//! the same step again goes round in circles: it has no path. `greedy` adds guards against that. `open_list` keeps the
+//! key nodes on an open list, which makes the search an A*.
 //!
 //! # Source
 //! Tang, Zhou & Xu, *Obstacle avoidance path planning of 6-DOF robotic arm based on improved A\* algorithm and

@@ -1,4 +1,4 @@
-//! What the planners on a lattice share: their ends, their settings' words, their plans.
+//! Ends, settings and plans that the planners on a lattice share.
 
 use super::{Counts, Ending, Invalid, Plan, Request, Trace, Value};
 use crate::search::{Closing, Closings, Cost, Counters, Outcome, Ties, Update};

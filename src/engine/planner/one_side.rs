@@ -1,4 +1,5 @@
-//! What planners share that search a lattice from its start alone: who watches, and what comes of it.
+//! The steps that planners share that search a lattice from its start alone: the observer, and the plan made of the
+//! outcome.
 
 use super::lattice::{self, Posed};
 use super::{Plan, Planner, Request, Value};

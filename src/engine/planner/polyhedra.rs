@@ -1,4 +1,4 @@
-//! What the planners among polyhedra share: their ends, their plans, walking in steps.
+//! Ends, plans and steps that the planners among polyhedra share.
 
 use super::{Counts, Ending, Invalid, Plan, Request, Trace};
 use crate::shorten::path_length;

@@ -1,4 +1,4 @@
-//! What the planners on a roadmap share: their ends, their plans, and how a part of a roadmap is searched.
+//! Ends and plans that the planners on a roadmap share, and how part of a roadmap is searched.
 
 use super::{Counts, Ending, Invalid, Plan, Request};
 use crate::search::Graph;

@@ -1,4 +1,4 @@
-//! What the roadmap took on which a plan was made: counts, and nothing done to the plan.
+//! The cost of building the roadmap of a plan, as counts; the plan itself stays as it is.
 
 use super::roadmap::roadmap;
 use super::{Build, Entry, Plan, Request, Stage, Value};

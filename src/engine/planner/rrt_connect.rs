@@ -192,8 +192,8 @@ impl RrtConnect {
     }
 }
 
-/// The path from start to goal over a node of each tree, which are at one place; and of each leg the tree that it is of, and its node there
-/// that is farther from the root.
+/// The path from start to goal over a node of each tree, which are at one place. Each leg comes with its tree, and with
+/// its node there that is farther from the root.
 fn joined(sides: &[Side; 2], own: usize, [last, target]: [u32; 2]) -> (Vec<Vec<f64>>, Vec<(usize, u32)>) {
     let there = sides[own].tree.way(last);
     let mut back = sides[1 - own].tree.way(target);

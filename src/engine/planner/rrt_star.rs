@@ -1,8 +1,8 @@
 //! RRT*, on samples from everywhere or from where a shorter path can be.
 //!
-//! It goes on until its budget is spent. Informed samples come from the ellipsoid of what is on no longer way from start to goal than the
-//! best path so far; a joint that turns without end is taken the shorter way round there, so paths the other way round are then found
-//! no more.
+//! It goes on until its budget is spent. Informed samples come from the ellipsoid of points that could lie on a shorter
+//! path than the best so far. A joint that turns without end takes the shorter way round there, so paths the other way
+//! round are missed.
 //!
 //! # Source
 //! Karaman & Frazzoli, *Int. J. Robotics Research* 30(7), 846 (2011), algorithm 6 with k-nearest neighbours; Gammell, Srinivasa &

@@ -1,4 +1,4 @@
-//! What planners that sample share: their ends, their counts, and the length that they claim.
+//! Ends, counts and claimed lengths that planners share that sample.
 
 use super::roadmap::roadmap;
 use super::{Counts, Ending, Invalid, Plan, Planner, Request, Trace, Value};

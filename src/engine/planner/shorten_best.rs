@@ -1,4 +1,4 @@
-//! The best that can be made of a roadmap's path by leaving out nodes: a yardstick for straightening.
+//! The shortest path that leaves out nodes of a roadmap's path: a yardstick for straightening.
 
 use super::roadmap::{roadmap, solved};
 use super::{Build, Ending, Entry, Plan, Request, Stage, Value};

@@ -1,4 +1,4 @@
-//! What the planners share that move an arm's tip over its lattice: their ends, their settings' words, their plans.
+//! Ends, settings and plans that the planners share that move an arm's tip over its lattice.
 
 use super::{Counts, Ending, Invalid, Plan, Request, Trace, Value};
 use crate::search::{

@@ -60,7 +60,7 @@ struct Waiting {
 }
 
 impl Index {
-    /// An index without points; `turn_on` says which coordinates are angles that whole turns part from themselves.
+    /// An index without points; `turn_on` says which coordinates are angles of joints that turn without end.
     pub fn new(turn_on: &[bool]) -> Self {
         Self {
             turn_on: turn_on.to_vec(),

@@ -49,7 +49,7 @@ impl<'a> Motions<'a> {
         self.local.settled(config)
     }
 
-    /// Which coordinates are angles that whole turns part from themselves.
+    /// Which coordinates are angles of joints that turn without end.
     pub fn turn_on(&self) -> &[bool] {
         &self.turn_on
     }
@@ -87,7 +87,7 @@ impl<'a> Motions<'a> {
         self.settled(from.iter().zip(self.change(from, to)).map(|(a, by)| a + by * share).collect())
     }
 
-    /// `to`, or what is `range` on the way to it if that is farther.
+    /// `to`, or the point at distance `range` on the way to it if `to` is farther.
     pub fn toward(&self, from: &[f64], to: &[f64], range: f64) -> Vec<f64> {
         let distance = self.distance(from, to);
         if distance < range { to.to_vec() } else { self.between(from, to, range / distance) }
@@ -104,8 +104,8 @@ impl<'a> Motions<'a> {
         self.local.goes([from, to], self.is_fine, &mut self.scratch)
     }
 
-    /// The first leg of a path that a finer look refuses. What stands between two configurations that are checked may be missed; so a path
-    /// is looked at again before it is returned.
+    /// The first leg of a path that a finer check refuses. A contact between two checked configurations may be missed,
+    /// so every path is checked again before it is returned.
     pub fn refused_leg(&mut self, path: &[Vec<f64>]) -> Option<usize> {
         path.windows(2).position(|leg| !self.local.goes([&leg[0], &leg[1]], true, &mut self.scratch))
     }

@@ -121,8 +121,8 @@ fn leave_out(motions: &mut Motions<'_>, draw: &mut Draw, path: &mut Vec<Vec<f64>
     changed
 }
 
-/// The middle of a leg, or its first end where the motions over the middle are others than the leg's and not free: middles are rounded
-/// in the plane, and a tool that goes straight does not pass the middle of the joints' change.
+/// The middle of a leg, or its first end where the motions over the middle differ from the leg's and are not free.
+/// Middles are rounded in the plane, and a tool that goes straight does not pass the middle of the joints' change.
 fn halfway(motions: &mut Motions<'_>, [from, to]: [&Vec<f64>; 2]) -> Vec<f64> {
     let middle = motions.between(from, to, 0.5);
     let is_free = motions.pass_middles() || motions.goes(from, &middle) && motions.goes(&middle, to);

@@ -60,7 +60,7 @@ impl Tree {
         self.way(node).into_iter().map(|node| self.config(node).to_vec()).collect()
     }
 
-    /// Cuts off a node, whose parent was never changed, with all that were reached over it: they are near nothing any more.
+    /// Cuts off a node whose parent was never changed, with all nodes below it: they are near nothing any more.
     pub fn cut(&mut self, node: u32) {
         self.configs.hide(node);
         for later in node + 1..self.count() as u32 {

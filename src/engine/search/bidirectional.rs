@@ -29,8 +29,8 @@ pub enum Meeting {
     OptimalStop,
 }
 
-/// What is done once the sides have met while a node is expanded. A node that both closed ends the search at once, and the
-/// optimal stop asks for the least f of both sides.
+/// How the search ends once the sides have met while a node is expanded. A node that both sides closed ends it at once.
+/// The optimal stop compares the least f of both sides.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum End {
     /// The expansion in hand is finished; of the nodes that met in it, the one with the smallest sum of the two g is kept,

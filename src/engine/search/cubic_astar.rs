@@ -1,11 +1,11 @@
 //! A* over a cubic lattice with 26 neighbours, specialised for speed.
 //!
-//! It is [`Search`](super::Search) over a graph whose successors are some of the 26 neighbours in the order of [`STEPS_26`], with
-//! [`sum`](super::sum), [`Heap`](super::Heap) in the order [`Ties::Fifo`] or [`Ties::Lifo`],
-//! [`Stop::GoalPopped`](super::Stop::GoalPopped), and open nodes that are lowered but closed ones that stay closed. It returns
-//! the same paths, the same costs to the last bit and the same counters; a test holds the two equal. What makes it fast: the
-//! costs of the ways to a row of neighbours are compared at once, and only ways that improve a node are dealt with one by one.
-//! Open nodes lie in buckets of f.
+//! It is [`Search`](super::Search) over a graph whose successors are some of the 26 neighbours in the order of
+//! [`STEPS_26`], with [`sum`](super::sum) and [`Stop::GoalPopped`](super::Stop::GoalPopped). Its frontier is a
+//! [`Heap`](super::Heap) in the order [`Ties::Fifo`] or [`Ties::Lifo`]. Open nodes are lowered, and closed ones stay
+//! closed. It returns the same paths, the same costs to the last bit and the same counters; a test holds the two equal.
+//! What makes it fast: the costs of the ways to a row of neighbours are compared at once, and only ways that improve a
+//! node are dealt with one by one. Open nodes lie in buckets of f.
 //!
 //! [`STEPS_26`]: base::grid::STEPS_26
 #![expect(

@@ -1,9 +1,9 @@
 //! Field D\* between corners of cells, searched once: costs are interpolated along edges, over which paths may lead anywhere.
 //!
 //! A vertex expanded offers each neighbour ways over the two edges of that neighbour's surroundings that it ends. The cost of a
-//! point on an edge is interpolated between its ends as far as they are known. Blocked cells are not crossed; costs are lengths.
-//! The path is extracted from the goal to the start. From where it is, it goes to that point on the edges of a free cell about it
-//! from which the rest seems shortest, looked at one step ahead. The cost must fall on the way.
+//! point on an edge is interpolated between its ends as far as they are known ([`FieldRules`]). Blocked cells are not crossed; costs
+//! are lengths. The path is extracted from the goal to the start. From where it is, it goes to that point on the edges of a free cell
+//! about it from which the rest seems shortest, looked at one step ahead unless the rules leave that out. The cost must fall on the way.
 //!
 //! # Source
 //! Ferguson & Stentz, *Using Interpolation to Improve Path Planning: The Field D\* Algorithm*, JFR 23 (2006); as a search from start to goal:
@@ -13,7 +13,7 @@ use super::angle_ranges::Cornered;
 use super::estimate::{Combined, euclidean_to, sum};
 use super::frontier::Frontier;
 use super::graph::{GridGraph, Lengths};
-use super::observe::Observer;
+use super::observe::{Observer, Place};
 use super::side::{Side, SideInputs, Update};
 use super::{Outcome, Report, Route};
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
@@ -33,16 +33,26 @@ pub struct Field {
     pub path: Vec<Point>,
 }
 
+/// What Field D\* leaves to whoever writes it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FieldRules {
+    /// Costs are interpolated between expanded corners alone; otherwise between all that were opened.
+    pub only_expanded: bool,
+    /// A step of the extracted path is rated by the steps that follow it; otherwise by the interpolated cost where it ends.
+    pub looks_ahead: bool,
+}
+
 /// A search whose memory serves one query after another.
 #[derive(Clone, Debug)]
 pub struct Interpolated<Q> {
     side: Side<f64, Q>,
+    rules: FieldRules,
 }
 
 impl<Q: Frontier> Interpolated<Q> {
     /// A search that takes open nodes in the order of `frontier`.
-    pub fn new(frontier: Q) -> Self {
-        Self { side: Side::new(frontier) }
+    pub fn new(frontier: Q, rules: FieldRules) -> Self {
+        Self { side: Side::new(frontier), rules }
     }
 
     /// A path from the first to the second of `ends`; the search ends when the goal is taken from OPEN.
@@ -57,9 +67,11 @@ impl<Q: Frontier> Interpolated<Q> {
         let mut graph = Lengths(GridGraph::new(on.moves));
         let update = Update::default();
         let mut terms = SideInputs { graph: &mut graph, estimate: &estimate, observer, update };
+        let only_expanded = self.rules.only_expanded;
         let mut outcome = self.side.run(ends, max_expansions, &mut terms, |side, node, terms| {
-            let choose =
-                |side: &Side<f64, Q>, to: u32, cost: f64| (node, reached(side, on, [node, to], cost));
+            let choose = |side: &Side<f64, Q>, to: u32, cost: f64| {
+                (node, reached(side, on, [node, to], cost, only_expanded))
+            };
             side.expand_by(node, terms, choose, |_, _| true);
         });
         let mut path = Vec::new();
@@ -84,7 +96,8 @@ impl<Q: Frontier> Interpolated<Q> {
                 if is_corner(to) { self.cost(on, to) } else { further.fold(f64::INFINITY, f64::min) }
             };
             let falls = ways.iter().filter(|(_, left)| *left < cost - SAME);
-            let rated = falls.map(|(to, left)| (apart(at, *to) + ahead(*to), *to, *left));
+            let rest = |to: Point, left: f64| if self.rules.looks_ahead { ahead(to) } else { left };
+            let rated = falls.map(|(to, left)| (apart(at, *to) + rest(*to, *left), *to, *left));
             let best = rated.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, to, left)| (to, left));
             // Between two corners of one cost, nothing falls: either is a way on.
             let corners = ways.iter().filter(|(to, _)| is_corner(*to)).copied();
@@ -149,12 +162,20 @@ fn best_on_edge(at: Point, [one, other]: [Point; 2], [cost, other_cost]: [f64; 2
 
 /// The cost at which `to` is reached from the expanded `node`, `cost` away, or over a point on an edge between it and the corners next to
 /// it about `to`.
-fn reached<Q: Frontier>(side: &Side<f64, Q>, on: &Cornered<'_>, [node, to]: [u32; 2], cost: f64) -> f64 {
+fn reached<Q: Frontier>(
+    side: &Side<f64, Q>,
+    on: &Cornered<'_>,
+    [node, to]: [u32; 2],
+    cost: f64,
+    only_expanded: bool,
+) -> f64 {
     let g = side.g(node).expect("an expanded node was opened");
     let [x, y] = on.grid.xy(to);
     let [node_x, node_y] = on.grid.xy(node);
     let [dx, dy] = [node_x - x, node_y - y];
-    let known = |dx: i32, dy: i32| on.grid.cell(x + dx, y + dy).and_then(|corner| side.g(corner));
+    let counts = |corner: &u32| !only_expanded || side.place(*corner) == Place::Closed;
+    let known =
+        |dx: i32, dy: i32| on.grid.cell(x + dx, y + dy).filter(counts).and_then(|corner| side.g(corner));
     // The free cell about `to` in these directions, if it is one.
     let is_free = |dx: i32, dy: i32| on.cells.is_free_xy(x - i32::from(dx < 0), y - i32::from(dy < 0));
     let over = |straight: [i32; 2], diagonal: [i32; 2]| {

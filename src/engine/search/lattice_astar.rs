@@ -1,12 +1,12 @@
 //! A* over a lattice with a neighbourhood of any size, specialised for speed.
 //!
-//! It is [`Search`](super::Search) over [`LatticeGraph`](super::LatticeGraph) (or any graph whose steps are some of a
-//! neighbourhood's, in its order) with [`sum`](super::sum), [`Heap`](super::Heap) in the order [`Ties::Fifo`] or [`Ties::Lifo`],
-//! [`Stop::GoalPopped`](super::Stop::GoalPopped), closed nodes that stay closed, and [`ListScans`] watching. It returns the same
-//! paths, the same costs to the last bit and the same counters; a test holds the two equal. What makes it fast: free and closed
-//! cells are bits, and a column of neighbours is looked up and counted at once. The costs of the ways to a column are compared in
-//! one sweep, and only ways that improve a cell are dealt with one by one. Open nodes lie in buckets of f, each of them once.
-//! Only those of the bucket in hand are put in order.
+//! It is [`Search`](super::Search) over [`LatticeGraph`](super::LatticeGraph), or any graph whose steps are some of a
+//! neighbourhood's, in its order. It has [`sum`](super::sum), [`Stop::GoalPopped`](super::Stop::GoalPopped), and a
+//! [`Heap`](super::Heap) in the order [`Ties::Fifo`] or [`Ties::Lifo`]. Closed nodes stay closed, and [`ListScans`]
+//! watches. It returns the same paths, the same costs to the last bit and the same counters; a test holds the two
+//! equal. What makes it fast: free and closed cells are bits, and a column of neighbours is looked up and counted at
+//! once. The costs of the ways to a column are compared in one sweep, and only ways that improve a cell are dealt with
+//! one by one. Open nodes lie in buckets of f, each of them once. Only those of the bucket in hand are put in order.
 #![expect(
     clippy::inline_always,
     reason = "the search is compiled for the instructions of the function it ends up in"

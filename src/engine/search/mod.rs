@@ -65,7 +65,7 @@ pub use cubic_astar::{CubicAstar, CubicQuery};
 pub use estimate::{Combined, Estimate, ScaledOctile, euclidean_to, falling, octile_to, sum, weighted};
 pub use frontier::{Best, Frontier, Heap, Offer, Ties};
 pub use graph::{Graph, GridGraph, LatticeGraph};
-pub use interpolated::{Field, Interpolated};
+pub use interpolated::{Field, FieldRules, Interpolated};
 pub use jump::JumpSearch;
 pub use lattice_astar::{LatticeAstar, LatticeQuery};
 pub use neighbourhood::{ColumnGraph, Successors};

@@ -75,8 +75,8 @@ impl<C: Cost, Q: Frontier> Search<C, Q> {
 
     /// Searches from `start` until a node for which `is_goal` holds is reached under `rules`.
     ///
-    /// A goal that is never met (`|_| false`) makes this an exact single-source search over everything reachable,
-    /// read off with [`g`](Self::g) afterwards; its outcome is [`Outcome::NoPath`]. `before` is called once for each
+    /// A goal that is never met (`|_| false`) makes this an exact single-source search over everything reachable. Its
+    /// outcome is [`Outcome::NoPath`], and [`g`](Self::g) gives the costs afterwards. `before` is called once for each
     /// expansion that the budget allows.
     pub fn run<G, E, O>(
         &mut self,

@@ -19,8 +19,8 @@ pub fn bends<P: AsRef<[f64]>>(points: &[P]) -> Vec<usize> {
 
 /// The nodes of a path of `count` inflection points that are kept, as indices in path order.
 ///
-/// From the goal backwards: a node that `can_join` its grandfather loses its father and tries the next
-/// grandfather; at the first one that it cannot join, its father is the next node to try from. `can_join(i, j)` is
+/// It works from the goal backwards. A node that `can_join` its grandfather loses its father and tries the next
+/// grandfather. At the first one that it cannot join, its father is the next node to try from. `can_join(i, j)` is
 /// called with `i > j`.
 ///
 /// # Source

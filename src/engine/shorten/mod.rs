@@ -1,7 +1,7 @@
-//! What tidies a path, and what measures it.
+//! Stages that tidy a path, and measures of one.
 //!
-//! A path is a list of points of any one dimension, handed over as slices; what may be joined by a straight line
-//! is the caller's to say. Nothing here knows of obstacles.
+//! A path is a list of points of any one dimension, handed over as slices. The caller decides which points a straight
+//! line may join: nothing here knows of obstacles.
 
 mod inflection;
 mod measure;

@@ -11,8 +11,9 @@ pub enum Resume {
 
 /// The nodes of a path of `count` nodes that are kept, as indices in path order.
 ///
-/// From a node on, the following ones are joined to it one after another until one cannot be; the last that could
-/// be is kept. `can_join(i, j)` is called with `i < j`, for rising j, and never for neighbours on the path.
+/// From a node on, the following ones are joined to it one after another until one cannot be. The last that could be is
+/// kept, and is the next to join from. `can_join(i, j)` is called with `i < j`, for rising j, and never for neighbours
+/// on the path.
 ///
 /// # Source
 /// Tang, Zhou & Xu, *Obstacle avoidance path planning of 6-DOF robotic arm based on improved A\* algorithm and

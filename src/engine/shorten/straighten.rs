@@ -12,8 +12,8 @@ pub enum LastNode {
 
 /// The nodes of a path of `count` nodes that are kept, as indices in path order.
 ///
-/// From the start on, the furthest node that `can_join` the current one becomes the current one; if none can, the
-/// next node does. `can_join(i, j)` is called with `i < j`, for falling j, and never for neighbours on the path.
+/// From the start on, the furthest node that `can_join` the current one becomes the current one. If none can, the next
+/// node does. `can_join(i, j)` is called with `i < j`, for falling j, and never for neighbours on the path.
 ///
 /// # Source
 /// Fu et al., *An improved A\* algorithm for the industrial robot path planning with high success rate and short

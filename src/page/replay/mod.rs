@@ -1,4 +1,4 @@
-//! Replays: what was stored of trials on one problem, side by side and in step.
+//! Replays: stored trials on one problem, side by side and in step.
 
 mod any_angle;
 mod arm;

@@ -7,8 +7,9 @@ use crate::form::Form;
 use crate::fvalues::{CountBound, astar_count_bound};
 use crate::lattice::Octile;
 
-/// Whether a printed count is at most what A* with the Euclidean heuristic can close and open on any map on which its path has
-/// the moves of `optimum`. `applies` picks the bound that the number is under, if it is under either.
+/// Whether a printed count is at most the number of cells that A* with the Euclidean heuristic can close and open, on
+/// any map on which its path has the moves of `optimum`. `applies` picks the bound of closed or of opened cells, if the
+/// number has one.
 pub fn count_bound(
     print: Print,
     ends: Ends,
@@ -38,7 +39,7 @@ pub fn count_bound(
     }
 }
 
-/// Whether a printed number is at most a limit, which the source sets as it `says`.
+/// Whether a printed number is at most `limit`; `says` names the source of that limit.
 pub fn at_most(print: Print, limit: f64, says: &str) -> Proof {
     let least = print.interval().low;
     let is_possible = least <= limit;

@@ -62,8 +62,8 @@ pub fn straight_line(
     Proof { is_possible: !is_short, because, premises: premises.map(str::to_owned).to_vec() }
 }
 
-/// Whether a printed length is that of any 8-connected path, between the ends if they are known; with the `size` of the grid
-/// the ends' neighbours are tried as well.
+/// Whether a printed length is the length of an 8-connected path, between the ends if they are known. With the `size`
+/// of the grid the ends' neighbours are tried as well.
 pub fn lattice_length(print: Print, ends: Option<[Cell; 2]>, size: Option<[i32; 2]>) -> Proof {
     let lengths = |digits| lengths_printing(print.printed, digits, Step::ONE, ends.map(displacement));
     let read = [("rounded", Digits::Rounded), ("truncated", Digits::Truncated)].map(|(how, digits)| {

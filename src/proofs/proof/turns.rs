@@ -216,6 +216,38 @@ mod tests {
     use super::*;
     use crate::printed::Digits;
     use crate::turns::shortest_polyline;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn the_headings_that_would_allow_a_pair_are_those_that_allow_it_alone() {
+        let print = |text: &str| Print { printed: text.parse().unwrap(), digits: Digits::Rounded };
+        let mut counts = BTreeSet::new();
+        for (goal, turn, length) in
+            [([5, 5], "45.00", "7.07"), ([5, 3], "30.96", "5.83"), ([5, 3], "30.00", "5.0")]
+        {
+            let search = Search {
+                ends: Ends { size: [8, 8], start: [0, 0], goal },
+                turn: print(turn),
+                meant: Convention::Exterior,
+                longest: 9.0,
+                is_explained: true,
+                shortest: &shortest_polyline,
+            };
+            let length = print(length);
+            let (is_impossible, because) = both_impossible(&search, length, Convention::Exterior, "exterior");
+            let alone = eight_headings().into_iter().filter(|heading| {
+                let varied = Varied { headings: &[*heading], ..AS_PRINTED };
+                search.find(search.meant, search.turn.interval(), length.interval(), varied).is_some()
+            });
+            let alone: Vec<String> = alone.map(|heading| format!("{heading:?}")).collect();
+            if is_impossible {
+                counts.insert(alone.len().min(2));
+                let words = if alone.is_empty() { "no polyline".to_owned() } else { alone.join(" or ") };
+                assert!(because[2].contains(&words), "{turn} {}: {because:?}, not {words}", length.printed);
+            }
+        }
+        assert_eq!(counts, BTreeSet::from([0, 1, 2]), "an answer never came out");
+    }
 
     #[test]
     fn what_is_refused_does_not_depend_on_whether_it_is_explained() {

@@ -1,8 +1,8 @@
-//! On how little length a missing turn can still be had.
+//! The least length on which a missing turn can still be had.
 //!
-//! Computed backwards from the goals, shortest way first, over (cell, direction of arrival). A way is kept if it
-//! turns more than every shorter one; turn beyond what the query misses counts as that. Asking only for enough
-//! turn, and not for the exact one, leaves few ways and makes the answer a lower bound.
+//! Computed backwards from the goals, shortest way first, over (cell, direction of arrival). A way is kept if it turns
+//! more than every shorter one; turn beyond the missing one does not count. Asking for enough turn, and not for the
+//! exact one, leaves few ways and makes the answer a lower bound.
 
 use std::{cmp::Reverse, collections::BinaryHeap};
 

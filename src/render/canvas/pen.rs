@@ -18,7 +18,7 @@ use std::convert::Infallible;
 /// Backend units in a point.
 pub const UNITS_PER_PT: f64 = 100.0;
 
-/// `length_pt` in backend units; what no whole number can hold goes to the nearest that can.
+/// `length_pt` in backend units, rounded; lengths beyond the range of whole numbers go to its ends.
 pub fn units(length_pt: f64) -> i32 {
     (length_pt * UNITS_PER_PT).round() as i32
 }

@@ -1,46 +1,61 @@
-//! Marks that summarise many values: intervals in rows, boxes with strips of values, bars.
+//! Marks that summarise many values: points with intervals, boxes with strips of values, bars.
 
 use super::legend::{Key, Swatch};
 use super::{Mark, View};
+use crate::analysis::statistic::Interval;
 use crate::render::canvas::Canvas;
 use crate::render::canvas::pen::units;
 use crate::render::style::{Dash, Fill, INK, Marker, Rgb, Stroke, WHITE};
 use plotters::element::{Circle, PathElement, Rectangle};
 use plotters::style::ShapeStyle;
 
-/// A dot with a whisker, lying in a row of a horizontal chart.
+/// A point with its intervals.
 #[derive(Clone, Debug)]
-pub struct Interval {
-    /// Position across the rows, data units.
-    pub row: f64,
-    /// Lower end, value and upper end; an end that is not finite is drawn as running off the frame.
-    pub values: [f64; 3],
-    /// Shape of the dot.
+pub struct Whiskers {
+    /// The point, in data units.
+    pub at: [f64; 2],
+    /// The interval along either axis: none is drawn without width; an end that is not finite runs off the frame.
+    pub ends: [Interval; 2],
+    /// Shape of the point.
     pub marker: Marker,
-    /// Ink of dot and whisker.
+    /// Whether it is an outline, so that those that lie on each other all show.
+    pub is_hollow: bool,
+    /// Ink.
     pub color: Rgb,
     /// Entry in the legend; none if empty.
     pub label: String,
 }
 
-impl Mark for Interval {
+impl Mark for Whiskers {
     fn draw(&self, canvas: &mut Canvas, view: &View) {
-        let [low, _, high] = self.values;
-        let left = view.frame.x - 1.0;
-        let y = view.at([0.0, self.row])[1];
-        let end =
-            |value: f64, open: f64| if value.is_finite() { view.at([value, self.row])[0] } else { open };
-        let (from, to) = (end(low, left), end(high, view.frame.right() + 1.0));
+        let frame = view.frame;
+        let beyond = [[frame.x - 1.0, frame.right() + 1.0], [frame.bottom() + 1.0, frame.y - 1.0]];
         let stroke = Stroke::solid(self.color, 1.0);
-        canvas.polyline(&[[from, y], [to, y]], &stroke);
-        for x in [from, to] {
-            canvas.polyline(&[[x, y - 2.0], [x, y + 2.0]], &stroke);
+        for (axis, Interval { low, high }) in
+            self.ends.into_iter().enumerate().filter(|(_, ends)| ends.low < ends.high)
+        {
+            let end = |value: f64, open: f64| {
+                let mut at = self.at;
+                at[axis] = if value.is_finite() { value } else { at[axis] };
+                let mut at = view.at(at);
+                at[axis] = if value.is_finite() { at[axis] } else { open };
+                at
+            };
+            let ends = [end(low, beyond[axis][0]), end(high, beyond[axis][1])];
+            canvas.polyline(&ends, &stroke);
+            for at in ends {
+                let cap =
+                    [-2.0, 2.0].map(|by| if axis == 0 { [at[0], at[1] + by] } else { [at[0] + by, at[1]] });
+                canvas.polyline(&cap, &stroke);
+            }
         }
     }
 
     fn draw_over(&self, canvas: &mut Canvas, view: &View) {
-        let at = view.at([self.values[1], self.row]);
-        if view.frame.contains(at) {
+        let at = view.at(self.at);
+        if view.frame.contains(at) && self.is_hollow {
+            canvas.outlined(at, self.marker, 3.0, self.color);
+        } else if view.frame.contains(at) {
             canvas.marker(at, self.marker, 2.5, self.color);
         }
     }

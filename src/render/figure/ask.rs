@@ -1,11 +1,10 @@
-//! What several kinds of figure ask of a study and of its stored run.
+//! Questions that several kinds of figure put to a study and its stored run.
 
 use super::Scene;
 use crate::analysis::evidence::Run;
 use crate::analysis::metric::{self, Metric};
 use crate::analysis::selection::Selection;
 use crate::analysis::shown::Savings;
-use crate::analysis::statistic::{Estimate, Interval};
 use crate::render::RenderError;
 use crate::render::chart::Panel;
 use crate::render::chart::marks::Points;
@@ -79,11 +78,6 @@ pub(super) fn trials<'s>(run: &Run<'s>, problems: &str, contender: &str) -> Sele
     Selection::all(run.study, &[problems.to_owned()], &[contender.to_owned()])
 }
 
-/// The same at one point of the sweeps.
-pub(super) fn trials_at<'s>(run: &Run<'s>, problems: &str, contender: &str, at: &SweepKey) -> Selection<'s> {
-    Selection { sweep: Some(vec![at.clone()]), ..trials(run, problems, contender) }
-}
-
 /// A value of a trial as titles show it.
 pub(super) fn number(row: &Row, column: &str, decimals: usize) -> String {
     row.value(column).map_or_else(|| "–".to_owned(), |value| format!("{value:.decimals$}"))
@@ -101,12 +95,6 @@ pub(super) fn add_ends(panel: &mut Panel, points: &[[f64; 2]], radius_pt: f64, l
         let at = at.into_iter().copied().collect();
         panel.add(Points::unlabelled(at, marker, radius_pt, color).labelled(label));
     }
-}
-
-/// The bar of a difference between two contenders: its interval, or the value alone where they differ on no instance.
-pub(super) fn bar(difference: &Estimate) -> Interval {
-    let Estimate { value, interval, is_agreed, .. } = *difference;
-    if is_agreed && value == 0.0 { Interval::new(value, value) } else { interval }
 }
 
 /// The point of the sweeps that people write as `text`.
@@ -208,8 +196,9 @@ pub(super) fn trial_at<'s>(
     rows.find(|row| at.is_none_or(|sweep| row.key.sweep == *sweep)).ok_or_else(missing)
 }
 
-/// The instance, among those on which every contender has a trial with the trace `name` for the query called `of_query`, on which
-/// the last contender's saving of the first one's way is nearest to the median over all instances. The first if nothing is saved.
+/// The instance whose saving is nearest to the median over all instances; the first if nothing is saved. The saving is
+/// the last contender's of the first one's way. Every contender has a trial with the trace `name` for the query called
+/// `of_query` there.
 ///
 /// # Errors
 /// [`RenderError::NotStored`] if there is none.

@@ -1,4 +1,4 @@
-//! What each choice of a paper does to each of its claims when it alone departs from its default.
+//! The effect of each choice on each claim when it alone departs from its default.
 
 use super::{Entry, Kind, Scene};
 use crate::analysis::verdict::{Across, ClaimVerdict, Effect, Fit, SettingFit};
@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 pub static ENTRY: Entry = Entry {
     name: "claims_by_choices",
     about: "which choice moves which claim: the greatest effect of an axis's voting options, one at a time",
-    statistic: "Options that vote, one at a time; a cell shows the greatest effect. Claims that none moves are absent; {interpretations}.",
+    statistic: "Voting options, one at a time; a cell shows the greatest effect. Claims whose outcome none changes are absent; {interpretations}.",
     settings: Accepted::shape::<ClaimsByChoices>(),
     example: r#"
 fitted = "threshold"
@@ -65,8 +65,7 @@ fn settings(scene: &Scene<'_>, words: &str) -> Result<Sheet, RenderError> {
         return Ok(Sheet::new(Width::Double, 1, ROW_PT).titled("No interpretation was explored."));
     };
     let options: Vec<&str> = fitted.options.keys().map(String::as_str).collect();
-    let (names, note) = named(rows);
-    let names = Axis::names("", names.into_iter().rev());
+    let names = Axis::names("", named(rows).into_iter().rev());
     let across = Axis::names(words, options.iter().copied());
     let mut panel = Panel::new("", across, names).trimmed(Trim::Frame);
     let color = |row: &SettingFit, option: &str| {
@@ -82,21 +81,20 @@ fn settings(scene: &Scene<'_>, words: &str) -> Result<Sheet, RenderError> {
         lines: Some(Stroke::solid(GREY.mixed(WHITE, 0.6), 0.4)),
         keys: keys(&FITS, &rows.iter().flat_map(|row| row.fits.values().copied()).collect()),
     });
-    Sheet::new(Width::Double, 1, (rows.len() + 3) as f64 * ROW_PT).noted(note).with([Ok(panel)])
+    Sheet::new(Width::Double, 1, (rows.len() + 3) as f64 * ROW_PT).with([Ok(panel)])
 }
 
-/// The rows' names, from above, and in a note those that are too long to stand beside a row: there they are numbers.
-fn named(rows: &[SettingFit]) -> (Vec<String>, String) {
-    let mut long = Vec::new();
+/// The rows' names, from above; those that are too long to stand beside a row are numbers, which the details explain.
+pub fn named(rows: &[SettingFit]) -> Vec<String> {
+    let mut long = 0;
     let name = |row: &SettingFit| {
         if row.setting.chars().count() <= NAME {
             return row.setting.clone();
         }
-        long.push(format!("{}: {}", long.len() + 1, row.setting));
-        format!("setting {}", long.len())
+        long += 1;
+        format!("setting {long}")
     };
-    let names = rows.iter().map(name).collect();
-    (names, if long.is_empty() { String::new() } else { format!("Settings {}.", long.join("; ")) })
+    rows.iter().map(name).collect()
 }
 
 fn color(across: &Across, axis: &str) -> Option<Rgb> {
@@ -112,10 +110,11 @@ fn keys<T: Ord>(looks: &[(T, &str, Rgb)], shown: &BTreeSet<T>) -> Vec<Key> {
 }
 
 impl ClaimsByChoices {
-    /// The sentences and rows that interpretations can touch, from above.
+    /// The sentences and rows whose outcome some option changes, from above.
     fn rows<'s>(scene: &'s Scene<'_>) -> Vec<(&'s ClaimVerdict, &'s Across)> {
         let moved = |judged: &'s ClaimVerdict| {
-            let across = judged.across.as_ref().filter(|across| !across.effects.is_empty())?;
+            let is_moved = |across: &&Across| across.effects.values().any(|of| of.effect > Effect::Number);
+            let across = judged.across.as_ref().filter(is_moved)?;
             Some((judged, across))
         };
         scene.verdicts.claims.iter().filter(|judged| judged.part_of.is_none()).filter_map(moved).collect()
@@ -177,13 +176,10 @@ mod tests {
     }
 
     #[test]
-    fn no_name_of_a_setting_is_cut() {
+    fn a_setting_with_a_long_name_is_a_number() {
         let long = |last: &str| format!("edge_end = whole_turns, ground_obstacle = 200_mm, {last}");
         let rows = ["the defaults".to_owned(), long("jump = 5_deg"), "tool = 110_mm".to_owned(), long("rho")]
             .map(|setting| SettingFit { setting, fits: BTreeMap::new() });
-        let (names, note) = named(&rows);
-        assert_eq!(names, ["the defaults", "setting 1", "tool = 110_mm", "setting 2"]);
-        assert_eq!(note, format!("Settings 1: {}; 2: {}.", long("jump = 5_deg"), long("rho")));
-        assert_eq!(named(&rows[..1]).1, "");
+        assert_eq!(named(&rows), ["the defaults", "setting 1", "tool = 110_mm", "setting 2"]);
     }
 }

@@ -60,9 +60,6 @@ struct GridSearch {
     /// Shows, in place of opened cells, how the path was tidied: bends before and after, refused lines of sight.
     #[serde(default)]
     tidying: bool,
-    /// Shows of each map only the part that some contender opened, in place of all of it.
-    #[serde(default)]
-    part: bool,
 }
 
 struct Ready {
@@ -99,13 +96,11 @@ impl Kind for Ready {
         for problem in &read.problems {
             let map = |contender: &String| Map::new(scene, ask::trial(scene, problem, 0, None, contender)?);
             let maps = read.contenders.iter().map(map).collect::<Result<Vec<_>, _>>()?;
-            // One part for all contenders, so that their panels show the same.
-            let part: Vec<[f64; 2]> = maps.iter().filter(|_| read.part).flat_map(Map::opened).collect();
             for (place, map) in maps.iter().enumerate() {
                 let printed = self.printed.get(place).map(String::as_str);
                 match (&read.moments[..], read.tidying) {
                     ([], true) => panels.push(map.tidied(problem)),
-                    ([], false) => panels.push(map.searched(&part, printed)),
+                    ([], false) => panels.push(map.searched(printed)),
                     (moments, _) => panels.extend(moments.iter().map(|share| map.moment(*share))),
                 }
             }
@@ -163,8 +158,8 @@ impl<'a> Map<'a> {
         self.placed(sides.concat())
     }
 
-    /// All that was opened and the paths, on the part of the map about `part`, or on all of it; the title with what is printed.
-    fn searched(&self, part: &[[f64; 2]], printed: Option<&str>) -> Result<Panel, RenderError> {
+    /// All that was opened and the paths; the title with what is printed.
+    fn searched(&self, printed: Option<&str>) -> Result<Panel, RenderError> {
         let number = |column: &str, decimals| ask::number(self.row, column, decimals);
         // Four digits behind the point: 14.6569 was printed as 14.65, and 14.66 would look like another number.
         let title = format!(
@@ -176,10 +171,7 @@ impl<'a> Map<'a> {
             number("opened", 0)
         );
         let [width, height] = self.cells().map(|side| side as f64);
-        let mut panel = match part {
-            [] => window(title, [[0.0, width], [0.0, height]])?,
-            part => self.panel_about(title, part)?,
-        };
+        let mut panel = window(title, [[0.0, width], [0.0, height]])?;
         let (start, goal) = (self.listed("opened_start_side"), self.listed("opened_goal_side"));
         self.paint_sides(
             &mut panel,

@@ -4,19 +4,13 @@
 
 mod arm_plane;
 mod ask;
-mod claims_by_choices;
-mod cost_over_time;
+pub mod claims_by_choices;
 mod grid_search;
-mod instances;
-mod intervals;
 mod motion_curves;
 mod neighbourhoods;
-mod paired_boxes;
 mod plane_search;
 mod polyhedra;
-mod rejections;
-mod sweep_curves;
-mod tradeoff;
+mod statistics;
 mod work_cell;
 
 use super::RenderError;
@@ -162,7 +156,8 @@ pub struct Entry {
     pub build: fn(&Settings, &Study, &Paper) -> Result<Box<dyn Kind>, SettingsError>,
 }
 
-/// What stands below a figure: its caption, and what its kind shows of how many instances and trials, or interpretations.
+/// The text below a figure: its caption, with the number of instances and trials, or of interpretations, that its kind
+/// shows.
 pub fn caption(spec: &FigureSpec, run: &Run<'_>, paper: &Paper, verdicts: &Verdicts) -> String {
     let Some(entry) = find(spec.kind.get_ref()) else { return spec.caption.clone() };
     let own = build(spec, run.study, paper).ok().and_then(|kind| kind.statistic());
@@ -193,18 +188,12 @@ pub(crate) fn noun<'a>(studies: impl IntoIterator<Item = &'a Study>) -> &'static
 pub static REGISTRY: &[&Entry] = &[
     &arm_plane::ENTRY,
     &claims_by_choices::ENTRY,
-    &cost_over_time::ENTRY,
     &grid_search::ENTRY,
-    &instances::ENTRY,
-    &intervals::ENTRY,
     &motion_curves::ENTRY,
     &neighbourhoods::ENTRY,
-    &paired_boxes::ENTRY,
     &plane_search::ENTRY,
     &polyhedra::ENTRY,
-    &rejections::ENTRY,
-    &sweep_curves::ENTRY,
-    &tradeoff::ENTRY,
+    &statistics::ENTRY,
     &work_cell::ENTRY,
 ];
 

@@ -119,7 +119,7 @@ impl Page<'_> {
             let verdict = capital(&headline.verdict(self.verdicts));
             text += &item(0, &format!("{}. **{}**", markdown(&(headline.says + &ours)), markdown(&verdict)));
         }
-        text + "\n" + &paragraph(&evidence(self.verdicts))
+        text + "\n" + &paragraph(&evidence(paper, self.verdicts))
     }
 
     /// The headline claims, a line each: where the paper says it, ours, and the verdict.
@@ -133,7 +133,7 @@ impl Page<'_> {
             let ours = ours.map_or_else(|| "–".to_owned(), |ours| markdown(&ours));
             *text += &format!("| {says} | {} | {ours} | {} |\n", markdown(&judged.at), markdown(&verdict));
         }
-        *text += &format!("\n{}", paragraph(&evidence(self.verdicts)));
+        *text += &format!("\n{}", paragraph(&evidence(self.evidence.paper, self.verdicts)));
     }
 
     /// The paper's tables that hold claims, and those of our results that the chapter shows.

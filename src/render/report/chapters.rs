@@ -33,8 +33,8 @@ enum Line<'a> {
     Text,
 }
 
-/// `report` with the chapter called `name` in the place of its former one; a new one stands before the first with a later
-/// name, else behind the last. `opening` is what an empty report begins with.
+/// `report` with the chapter called `name` in the place of its former one. A new chapter stands before the first with a
+/// later name, or behind the last. `opening` is the text with which an empty report begins.
 ///
 /// # Errors
 /// [`MarkerError`] if the markers in `report` do not pair up.

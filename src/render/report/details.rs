@@ -3,10 +3,7 @@
 
 use super::chapter::Page;
 use super::interpretations::across_lines;
-use super::{
-    SECTIONS, anchor, is_in_chapter, item, link, linked, links, paper_statement, paragraph, place,
-    with_caption,
-};
+use super::{SECTIONS, anchor, is_in_chapter, item, link, linked, links, paragraph, place, with_caption};
 use crate::analysis::citation::version_in;
 use crate::analysis::verdict::{ClaimVerdict, CriterionFinding, Together, Verdicts};
 use crate::render::prose::{COLUMNS, markdown, wrapped};
@@ -258,7 +255,7 @@ fn evidence<'a>(
     let interpretations =
         judged.beside_with_seed().map_or_else(String::new, |words| format!(", {}", markdown(&words)));
     let mut about = format!("**`{}`: {}{interpretations}**. ", judged.claim, judged.verdict_text());
-    about += &markdown(&format!("{}: {}", judged.at, paper_statement(judged)));
+    about += &markdown(&format!("{}: {}", judged.at, judged.statement()));
     if let Some(whole) = &judged.part_of {
         about += &format!(". A part of {}", links(&[whole]));
     }

@@ -1,8 +1,10 @@
-//! What interpretations do, as details show it: which vote and on what ground, which claims each moves.
+//! The effect of interpretations, as the details show it: which interpretations vote, with their source, and which
+//! claims each moves.
 
 use super::chapter::Page;
 use super::{item, links, paragraph};
-use crate::analysis::verdict::{ClaimVerdict, Effect};
+use crate::analysis::verdict::{ClaimVerdict, Effect, Fit, SettingFit};
+use crate::render::figure::claims_by_choices::named;
 use crate::render::prose::markdown;
 use study::Choice;
 use study::spec::OptionSpec;
@@ -26,6 +28,10 @@ impl Page<'_> {
             *text += &item(0, &about);
             text.extend(votes(choice).iter().map(|line| item(1, &markdown(line))));
             text.extend(self.moves(&choice.id).iter().map(|line| item(1, line)));
+        }
+        let fits = self.verdicts.explored.as_ref().map_or(&[][..], |explored| &explored.fits);
+        if let Some(fitted) = choices.iter().find(|choice| choice.fitted).filter(|_| !fits.is_empty()) {
+            *text += &settings(fits, fitted);
         }
     }
 
@@ -74,6 +80,20 @@ impl Page<'_> {
         };
         kinds.into_iter().filter_map(effects).collect()
     }
+}
+
+/// A table of the settings of all other choices: what each is, and under which options of the `fitted` choice it agrees with what the
+/// studies were calibrated to.
+fn settings(fits: &[SettingFit], fitted: &Choice) -> String {
+    let mut text = format!("\n| setting | options | counts with {} = |\n|---|---|---|\n", fitted.id);
+    for (row, name) in fits.iter().zip(named(fits)) {
+        let options = if name == row.setting { "" } else { &row.setting };
+        let best = fitted.options.keys().filter(|option| row.fits.get(*option) == Some(&Fit::Best));
+        let best: Vec<&str> = best.map(String::as_str).collect();
+        let best = if best.is_empty() { "none".to_owned() } else { best.join(", ") };
+        text += &format!("| {} | {} | {best} |\n", markdown(&name), markdown(options));
+    }
+    text
 }
 
 /// Which options vote and on what ground, and which are probes.

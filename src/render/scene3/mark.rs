@@ -156,8 +156,8 @@ fn area(points: &[[f64; 2]]) -> f64 {
     points.iter().zip(next).map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum::<f64>().abs() / 2.0
 }
 
-/// Items from back to front in batches: a face joins an earlier one of its colour if nothing drawn since meets it; line pieces that
-/// follow each other are one line, so that dashes run on.
+/// Items from back to front in batches. A face joins an earlier one of its colour if nothing drawn since meets it. Line
+/// pieces that follow each other are one line, so that dashes run on.
 fn batches(lens: &Lens, items: &[Item]) -> Vec<Batch> {
     let follows = |a: &Item, b: &Item| {
         let alike = matches!((a.look, b.look), (Look::Line(one), Look::Line(two)) if one == two);

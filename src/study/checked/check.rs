@@ -1,4 +1,4 @@
-//! What is checked of a study whose names were looked up: everything is built once, under every single option.
+//! Checks of a study whose names were looked up: everything is built once, under every single option.
 
 use super::super::contender::Swept;
 use super::super::error::StudyError;
@@ -212,19 +212,21 @@ impl Study {
                 faults.unread(sweeps_of(&self.name));
                 break;
             }
-            match &sweep.of {
-                Swept::Entry(of) if !used.contains(of.as_str()) => {
-                    let hint = did_you_mean(of, used.iter().copied());
+            match &sweep.whose {
+                Swept::Stage(stage) if !used.contains(stage.as_str()) => {
+                    let hint = did_you_mean(stage, used.iter().copied());
                     let message = format!(
-                        "sweep `{}` is over `{of}`, which no contender uses{hint}; they use {}",
+                        "sweep `{}` is over `{stage}`, which no contender uses{hint}; they use {}",
                         sweep.key,
                         Vec::from_iter(used.clone()).join(", ")
                     );
                     faults.add(
-                        self.document.error_at(&format!("sweep.{}.of", sweep.number), message).about(of),
+                        self.document
+                            .error_at(&format!("sweep.{}.stage", sweep.number), message)
+                            .about(stage),
                     );
                 }
-                Swept::Entry(_) => {}
+                Swept::Stage(_) => {}
                 Swept::Problems(patterns) => {
                     if !self.names_groups(&sweep, patterns, faults) {
                         faults.unread(sweeps_of(&self.name));
@@ -302,7 +304,7 @@ impl Study {
     fn names_groups(&self, sweep: &Sweep, patterns: &[String], faults: &mut Faults) -> bool {
         let mut all = !patterns.is_empty();
         for (place, pattern) in patterns.iter().enumerate() {
-            let alone = Sweep { of: Swept::Problems(vec![pattern.clone()]), ..sweep.clone() };
+            let alone = Sweep { whose: Swept::Problems(vec![pattern.clone()]), ..sweep.clone() };
             if !self.groups.iter().any(|group| alone.is_over(&group.label)) {
                 let known = self.groups.iter().map(|group| group.label.as_str());
                 let message = none_called("problem group", pattern, known);

@@ -99,7 +99,7 @@ impl Study {
 }
 
 impl Shared {
-    /// The groups and contenders in `document` that those of studies may be like; what is wrong with one goes to `faults`.
+    /// The groups and contenders in `document` that those of studies may be `like`; faults go to `faults`.
     pub fn models(
         problems: Vec<ProblemsSpec>,
         contenders: &[ContenderSpec],
@@ -273,28 +273,28 @@ fn optional(
 fn sweeps(specs: Vec<SweepSpec>, document: &Arc<Document>, faults: &mut Faults) -> Vec<Sweep> {
     let mut sweep = |(number, spec): (usize, SweepSpec)| {
         let place = Place::of_table(document, &["sweep", &number.to_string()]);
-        let found = match (&spec.of, &spec.problems) {
-            (Some(_), Some(_)) => Some("both `of` and `problems`"),
-            (None, None) => Some("neither `of` nor `problems`"),
+        let found = match (&spec.stage, &spec.problems) {
+            (Some(_), Some(_)) => Some("both `stage` and `problems`"),
+            (None, None) => Some("neither `stage` nor `problems`"),
             (None, Some(problems)) if problems.get_ref().is_empty() => Some("no label among its `problems`"),
             _ => None,
         };
         if let Some(found) = found {
             let message = format!(
-                "sweep `{}` has {found}; `of`, a planner or stage, or `problems`, labels of groups, is accepted",
+                "sweep `{}` has {found}; `stage`, a planner or stage, or `problems`, labels of groups, is accepted",
                 spec.key.get_ref()
             );
             faults.add(document.error(spec.key.span(), message));
         }
-        let of = match spec.of.filter(|_| found.is_none()) {
-            Some(of) => Swept::Entry(of.into_inner()),
+        let whose = match spec.stage.filter(|_| found.is_none()) {
+            Some(stage) => Swept::Stage(stage.into_inner()),
             None => Swept::Problems(
                 spec.problems.filter(|_| found.is_none()).map(Spanned::into_inner).unwrap_or_default(),
             ),
         };
         Sweep {
             key: spec.key.into_inner(),
-            of,
+            whose,
             number,
             values: spec.values.into_inner(),
             nested: spec.nested,

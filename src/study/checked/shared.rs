@@ -1,4 +1,4 @@
-//! What paper.toml says for all studies of its paper, and what of its choices a study inherits.
+//! The shared parts of paper.toml: what it says for all studies of its paper, and the choices that a study inherits.
 
 use super::super::choice::Choice;
 use super::super::name::slug;
@@ -85,7 +85,7 @@ fn check_entries(choice: &Choice, faults: &mut Faults) {
     }
 }
 
-/// What of an option touches what a study runs.
+/// The settings of an option that touch a study.
 #[derive(Debug, PartialEq)]
 pub struct Sets<'o> {
     /// Settings of problems.
@@ -132,7 +132,7 @@ impl Choice {
 }
 
 impl Study {
-    /// What `option` sets of what the study runs.
+    /// The settings of `option` that touch what the study runs.
     pub fn what_sets<'o>(&self, option: &'o OptionSpec) -> Sets<'o> {
         let (groups, contenders): (Vec<_>, Vec<_>) =
             (self.groups.iter().collect(), self.contenders.iter().collect());

@@ -1,4 +1,4 @@
-//! Sizes that nobody can mean: each number is in its range, but their product would never end or never fit.
+//! Sizes beyond the limits: each number is in its range, but their product would never end or never fit.
 
 use super::super::family::Family;
 use super::super::spec::TrialsSpec;

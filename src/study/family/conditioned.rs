@@ -42,7 +42,7 @@ tries = 100000
 found = "data/draws/zhang_conditioned.txt"
 given = { path_cost_cells = [14.65, 14.66] }
 shared = { size_cells = [30, 30], start = [22, 15], goal = [26, 28] }
-of = [
+families = [
     { family = "random_cells", settings = { blocked_share = 0.1 } },
     { family = "random_cells", settings = { blocked_share = 0.2 } },
     { family = "random_cells", settings = { blocked_share = 0.3 } },
@@ -60,13 +60,13 @@ of = [
         let families = read.families(settings, inputs)?;
         let planner = read.planner(settings)?;
         if families.iter().any(|family| family.draws_ends()) {
-            let message = "`of` has families that draw a start or goal; written ones are accepted";
-            return Err(settings.error_at("of", message).into());
+            let message = "`families` has families that draw a start or goal; written ones are accepted";
+            return Err(settings.error_at("families", message).into());
         }
         let queries = families[0].queries().to_vec();
         if queries.len() != 1 || families.iter().any(|family| family.queries() != queries) {
             return Err(settings
-                .error_at("of", "`of` has families with different queries, or more than one")
+                .error_at("families", "`families` has families with different queries, or more than one")
                 .into());
         }
         let mut files: Vec<PathBuf> = families.iter().flat_map(|family| family.inputs().to_vec()).collect();
@@ -95,7 +95,7 @@ of = [
 #[serde(deny_unknown_fields)]
 struct Conditioned {
     /// The families that are drawn from.
-    of: Vec<ConditionedFamily>,
+    families: Vec<ConditionedFamily>,
     /// Settings that all of them share.
     #[schemars(with = "AnyTable")]
     shared: Table,
@@ -140,7 +140,7 @@ impl Conditioned {
     /// What decides which try is accepted; a list holds for an equal one alone.
     fn fingerprint(&self) -> String {
         let Self {
-            of,
+            families,
             shared,
             corner_rule,
             planner,
@@ -151,13 +151,13 @@ impl Conditioned {
             found: _,
         } = self;
         let revisions: Vec<Option<u32>> =
-            of.iter().map(|of| super::find(&of.family).map(|entry| entry.revision)).collect();
+            families.iter().map(|one| super::find(&one.family).map(|entry| entry.revision)).collect();
         let revision = planner::find(planner).map(|entry| sealed_as(entry.name, entry.revision));
         // As lists were sealed from the first on.
         let family = |one: &ConditionedFamily| {
             format!("Of {{ family: {:?}, settings: {:?} }}", one.family, one.settings)
         };
-        let families = of.iter().map(family).collect::<Vec<_>>().join(", ");
+        let families = families.iter().map(family).collect::<Vec<_>>().join(", ");
         let text = format!(
             "{} [{families}] {shared} {corner_rule} {planner} {planner_settings} {given:?} {expansions} {revisions:?} {revision:?}",
             ENTRY.revision
@@ -178,8 +178,8 @@ impl Conditioned {
                 faults.add(settings.error_at(&format!("given.{name}"), message));
             }
         }
-        if self.of.is_empty() {
-            faults.add(settings.error_at("of", "of is empty; at least one family is accepted"));
+        if self.families.is_empty() {
+            faults.add(settings.error_at("families", "families is empty; at least one family is accepted"));
         }
         if self.tries == 0 {
             faults.add(settings.error_at("tries", "tries is 0; at least 1 is accepted"));
@@ -188,30 +188,30 @@ impl Conditioned {
     }
 
     fn families(&self, settings: &Settings, inputs: &Inputs) -> Result<Vec<Box<dyn Family>>, StudyError> {
-        let build = |(index, of): (usize, &ConditionedFamily)| {
-            let entry = super::find(&of.family).ok_or_else(|| {
+        let build = |(index, one): (usize, &ConditionedFamily)| {
+            let entry = super::find(&one.family).ok_or_else(|| {
                 let known: Vec<&str> = super::REGISTRY.iter().map(|entry| entry.name).collect();
                 let message =
-                    format!("there is no problem family `{}`; there are {}", of.family, known.join(", "));
-                settings.error_at(&format!("of.{index}.family"), message)
+                    format!("there is no problem family `{}`; there are {}", one.family, known.join(", "));
+                settings.error_at(&format!("families.{index}.family"), message)
             })?;
             let mut table = self.shared.clone();
-            table.extend(of.settings.clone());
+            table.extend(one.settings.clone());
             table.insert("corner_rule".to_owned(), Toml::String(self.corner_rule.clone()));
-            let whose = format!("`of` {}", of.family);
-            let own = format!("of.{index}.settings");
+            let whose = format!("`families` {}", one.family);
+            let own = format!("families.{index}.settings");
             let family =
                 (entry.build)(&Settings::of_parts(settings, &[&own, "shared", ""], whose, table), inputs)?;
             if family.world() == WorldKind::Lattice {
                 Ok(family)
             } else {
                 Err({
-                    let message = format!("family `{}` poses no problems on a lattice", of.family);
-                    settings.error_at(&format!("of.{index}.family"), message).into()
+                    let message = format!("family `{}` poses no problems on a lattice", one.family);
+                    settings.error_at(&format!("families.{index}.family"), message).into()
                 })
             }
         };
-        self.of.iter().enumerate().map(build).collect()
+        self.families.iter().enumerate().map(build).collect()
     }
 
     fn planner(&self, settings: &Settings) -> Result<Box<dyn Planner>, SettingsError> {

@@ -1,4 +1,4 @@
-//! What a problem family poses, and what it says of itself.
+//! The interface of problem families, and how an entry describes itself.
 
 use crate::StudyError;
 use crate::inputs::Inputs;

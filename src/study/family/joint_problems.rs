@@ -29,7 +29,7 @@ pub static ENTRY: Entry = Entry {
     name: "joint_problems",
     about: "a set of problems (MotionBenchMaker's archive, or a problem file) for a robot (URDF), one an instance, for planners that sample",
     instances: "problems",
-    revision: 1,
+    revision: 2,
     is_drawn: true,
     preprocessing: nested_roadmap::ENTRY.name,
     columns: COLUMNS,

@@ -32,7 +32,7 @@ pub static ENTRY: Entry = Entry {
     name: "joint_queries",
     about: "a robot of any number of axes (URDF) among solids (robometrics or MotionBenchMaker), on roadmaps in joint space",
     instances: "roadmaps",
-    revision: 2,
+    revision: 3,
     is_drawn: true,
     preprocessing: nested_roadmap::ENTRY.name,
     columns: JOINT_COLUMNS,
@@ -289,6 +289,11 @@ impl Posed {
 impl Family for Posed {
     fn world(&self) -> WorldKind {
         WorldKind::Roadmap
+    }
+
+    /// A roadmap of one sample is none: its planner draws its own, and seeds differ alone.
+    fn instances(&self) -> Option<&'static str> {
+        (self.read.samples == 1).then_some("seeds")
     }
 
     fn prepare(&self, seed: u64) -> Result<Preprocessing, Invalid> {

@@ -350,7 +350,7 @@ impl Family for Posed {
     }
 
     fn cells(&self) -> u64 {
-        self.world.grid().node_count() as u64
+        self.world.node_count() as u64
     }
 
     fn stance(&self, q_rad: &[f64]) -> Option<ArmPlacement> {

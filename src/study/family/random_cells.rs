@@ -240,6 +240,19 @@ mod tests {
     }
 
     #[test]
+    fn a_start_outside_and_a_goal_beyond_the_last_corner_are_refused_and_the_edge_is_accepted() {
+        let at_corners = |more: &str| build(&format!("blocked_share = 0.1\nvertices = 'corners'\n{more}"));
+        let error = at_corners("start = [31, 0]").err().unwrap_or_default();
+        assert!(error.contains("start is [31, 0], outside the map; corners are 0..31 by 0..21"), "{error}");
+        let error = at_corners("start = { x = 31 }").err().unwrap_or_default();
+        let message =
+            "x of start is from 31 to 31; the least and the greatest, both from 0 to 30, are accepted";
+        assert!(error.contains(message), "{error}");
+        let edge = at_corners("start = { x = 30, y = [1, 20] }").unwrap();
+        assert_eq!(edge.queries_for(7).remove(0).start[0], 30.0);
+    }
+
+    #[test]
     fn a_goal_inside_the_border_lies_in_no_row_of_it() {
         let rows = |more: &str| {
             let at_corners = "blocked_share = 0.2\nborder_cells = 4\nvertices = 'corners'";

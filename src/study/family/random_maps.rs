@@ -1,6 +1,7 @@
-//! What random maps of all kinds share.
+//! The settings that random maps of all kinds share.
 //!
-//! A start or goal that is written is freed after everything else was drawn. One that is drawn lies on a cell that is free.
+//! A start or goal that is written is freed after everything else was drawn. One that is drawn lies on a cell that is
+//! free.
 
 use super::ends::{Ends, PlaneEnd};
 use super::{Entry, Family, Query};
@@ -108,7 +109,8 @@ macro_rules! settings {
             /// When a diagonal move past blocked cells is allowed.
             corner_rule: $crate::preprocessing::lattice::CornerSetting,
             /// Where the vertices are that paths lead over; `centres` of cells if absent. At `corners`, a start or goal [x, y] is the
-            /// lower left corner of that cell, which is freed if it is written.
+            /// lower left corner of that cell, which is freed if it is written. The last column and row of corners are the right and upper
+            /// edge: a map of 100 cells has corners 0 to 100.
             vertices: Option<base::grid::Vertices>,
             $($own)*
         }

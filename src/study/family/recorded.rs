@@ -1,4 +1,4 @@
-//! Problems that others posed: of each only the name is known, and trials on it are imported.
+//! Problems that others posed: only the name of each is known, and trials on it are imported.
 
 use super::{Entry, Family, Query};
 use crate::StudyError;

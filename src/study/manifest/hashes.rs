@@ -6,9 +6,10 @@ use crate::name;
 use crate::runner::BuiltStudy;
 use crate::{Study, StudyError};
 use base::hash::sha256;
+use base::settings::in_first_words;
 use std::collections::BTreeMap;
 
-/// What something depends on, by label: a hash, and the numbers of the interpretations under which it is that.
+/// The dependencies of a thing, by label: a hash, and the numbers of the interpretations that share it.
 pub type Hashes = BTreeMap<String, BTreeMap<String, Vec<usize>>>;
 
 /// What each problem group of `study`, at each point of the sweeps over it, depends on under `points`.
@@ -35,7 +36,7 @@ pub(super) fn problem_hashes(
                 group.family.name,
                 group.family.revision,
                 study.budget,
-                (settings.table(), study.task_settings.table()),
+                (in_first_words(settings.table()), study.task_settings.table()),
                 kept.iter().map(|trials| trials.instances).max(),
                 built.inputs_of(interpretation, place)?,
             );

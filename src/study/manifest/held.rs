@@ -1,4 +1,4 @@
-//! What a stored manifest says that the study and its inputs do not bear out: for `replan judge --check`.
+//! Statements of a stored manifest that the study and its inputs do not bear out: for `replan judge --check`.
 
 use super::Manifest;
 use crate::choice::Interpretation;

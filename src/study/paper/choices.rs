@@ -1,4 +1,4 @@
-//! What must hold of a paper's choices and of how far they are explored, once all of its studies are known.
+//! Rules for a paper's choices and their exploration, checked once all of its studies are known.
 
 use super::{Claim, Paper};
 use crate::spec::{BoundsSpec, Count, OptionSpec};

@@ -1,4 +1,4 @@
-//! What a paper says: claims, what they ask, and the claims that they are made of.
+//! The claims of a paper: its sentences and cells, their tests, and their parts.
 
 use super::{Digits, Interpretation};
 use base::settings::{AnyTable, Document, Faults, Part, Place, Settings, SettingsError, Spanned};
@@ -284,7 +284,7 @@ fn studies_in(table: &Table) -> Vec<&str> {
     found
 }
 
-/// What the number that the claim `id` prints is called where it may be unread.
+/// The words for the number that the claim `id` prints, where it may be unread.
 pub fn printed_by(id: &str) -> String {
     format!("printed by {id}")
 }
@@ -333,7 +333,7 @@ fn tests(
     rules.chain(checks).chain(shown).collect()
 }
 
-/// The ids that `name` stands for: those of `cells` that begin so if it ends in `.*`, and otherwise itself.
+/// The ids that `name` stands for: those of `cells` that begin with it if it ends in `.*`, otherwise itself.
 pub fn cells_named<'a>(name: &'a str, cells: &'a [String]) -> Vec<&'a str> {
     match name.strip_suffix('*').filter(|begin| begin.ends_with('.')) {
         Some(begin) => cells.iter().map(String::as_str).filter(|cell| cell.starts_with(begin)).collect(),

@@ -1,5 +1,7 @@
-//! The inventory: everything that a paper prints, and what answers it. It is complete by rule, both ways: each numbered figure,
-//! table and equation has a row, each printed number is listed where it is printed, and each claim's number is among them.
+//! The inventory: everything that a paper prints, and the claims and figures that answer it.
+//!
+//! It is complete by rule, both ways. Each numbered figure, table and equation has a row. Each printed number is listed
+//! where it is printed, and each claim's number is among them.
 
 use super::{Claim, Paper, PrintedCell, PrintedTable, cells_named, printed_by};
 use base::settings::{Faults, Spanned};

@@ -1,4 +1,5 @@
-//! What a paper's chapter of the report shows: its findings, with places for our numbers, and which figures, tables and claims.
+//! The contents of a paper's chapter of the report: findings, with places for our numbers, and the figures, tables and
+//! claims shown.
 
 use super::{Paper, names_of};
 use base::settings::{Faults, Spanned, did_you_mean};
@@ -6,8 +7,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeSet;
 
-/// The chapter of a paper. Its texts may hold `{claim}`, which our number beside that claim replaces, and `{claim:form}` with
-/// one of `FORMS`.
+/// The chapter of a paper. Its texts may hold `{claim}`, which our number beside that claim replaces, and
+/// `{claim:form}` with one of `FORMS`.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ReportSpec {
@@ -28,25 +29,23 @@ pub struct ReportSpec {
 /// How many figures a chapter shows at most.
 pub const FIGURES: usize = 6;
 
-/// The forms in which a place can ask for what was found: with one decimal, as a percentage with the digits of its interval, in words
-/// with a direction (of a claim with parts those of its parts), so what is shown and decides nothing, the ends of the interval, the
-/// number of instances, the verdict and what interpretations make of it. The last one is the least and the greatest percentage over the
-/// interpretations that count.
-pub const FORMS: [&str; 10] = [
+/// The forms in which a text can show our number beside a claim: with one decimal, as a percentage with the digits of
+/// its interval, or in words with a direction. Of a claim with parts the words are those of its parts. Other forms give
+/// a shown number that decides nothing, the interval or one of its ends, the number of instances, the verdict, the words
+/// beside it, or the printed values that would have been refused.
+pub const FORMS: [&str; 11] = [
     "tenths",
     "percent",
     "effect",
     "shown",
+    "interval",
     "low",
     "high",
     "n",
     "verdict",
     "interpretations",
-    OVER_INTERPRETATIONS,
+    "power",
 ];
-
-/// The form that asks what a number is over interpretations.
-pub const OVER_INTERPRETATIONS: &str = "percents";
 
 /// `text` with every `{claim}` or `{claim:form}` replaced by `with` of claim and form.
 pub fn filled(text: &str, mut with: impl FnMut(&str, &str) -> String) -> String {
@@ -62,12 +61,6 @@ pub fn filled(text: &str, mut with: impl FnMut(&str, &str) -> String) -> String 
 }
 
 impl Paper {
-    /// Whether a finding asks what the number beside the claim called `id` is over interpretations.
-    pub fn asks_over_interpretations(&self, id: &str) -> bool {
-        let wanted = format!("{{{id}:{OVER_INTERPRETATIONS}}}");
-        self.report.findings.iter().any(|text| text.contains(&wanted))
-    }
-
     /// Every claim, form, figure and table that the chapter names exists.
     pub(super) fn check_report(
         &self,

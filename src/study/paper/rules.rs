@@ -1,4 +1,4 @@
-//! What must hold in a paper as a whole: names that exist, tables that fit, an inventory without gaps.
+//! Rules for a paper as a whole: names that exist, tables that fit, an inventory without gaps.
 
 use super::columns::columns;
 use super::table_spec::TableSpec;
@@ -116,7 +116,7 @@ impl Paper {
     }
 }
 
-/// What the names of all that is a `what` are called where one of them may be unread.
+/// The words for the names of all things called `what`, where one of them may be unread.
 pub fn names_of(what: &str) -> String {
     format!("names of every {what}")
 }

@@ -1,4 +1,4 @@
-//! Claims that a paper no longer has, each with the reason: the report gives it beside the changes of claims.
+//! Claims that a paper no longer has, each with the reason, which the report shows beside the changes of claims.
 
 use super::Paper;
 use base::settings::{Faults, Spanned};

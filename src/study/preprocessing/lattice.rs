@@ -1,4 +1,4 @@
-//! A map turned into a lattice of moves, with what it is like.
+//! A map turned into a lattice of moves, with measures of the map.
 
 use super::{Entry, Preprocessing};
 use base::grid::{CornerRule, Grid2, Vertices, components};

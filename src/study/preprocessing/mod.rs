@@ -1,4 +1,4 @@
-//! Preprocessed objects: what is costly to build and shared by many trials; one a file, all in [`REGISTRY`].
+//! Preprocessed objects, which are costly to build and shared by many trials; one a file, all in [`REGISTRY`].
 
 pub mod lattice;
 pub mod nested_roadmap;

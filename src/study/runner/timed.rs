@@ -39,7 +39,7 @@ impl BuiltStudy<'_> {
             .collect();
         let passes = PASSES.min(timing.repeats);
         progress.begin(&format!("{}: clock", self.study.name), sample.len() * passes as usize);
-        let mut interpretations = Vec::new();
+        let mut timings = Vec::new();
         for pass in 0..passes {
             for (unit, preprocessing) in &sample {
                 if stop.load(Ordering::Relaxed) {
@@ -49,16 +49,15 @@ impl BuiltStudy<'_> {
                 }
                 let repeats: Vec<u32> = (pass..timing.repeats).step_by(passes as usize).collect();
                 let of_unit = self.time_unit(unit, preprocessing, timing, &repeats);
-                interpretations
-                    .extend(of_unit.into_iter().map(|interpretation| Timing { session, ..interpretation }));
+                timings.extend(of_unit.into_iter().map(|own| Timing { session, ..own }));
                 progress.step();
             }
         }
         progress.end();
-        Ok(interpretations)
+        Ok(timings)
     }
 
-    /// The interpretations of one unit's trials at these repeats.
+    /// The timings of one unit's trials at these repeats.
     fn time_unit(
         &self,
         unit: &Unit<'_>,
@@ -66,7 +65,7 @@ impl BuiltStudy<'_> {
         timing: TimingSpec,
         repeats: &[u32],
     ) -> Vec<Timing> {
-        let mut interpretations = Vec::new();
+        let mut timings = Vec::new();
         for query in &unit.queries() {
             let seeds = |entrant: &Entrant<'_>| entrant.contender.repeats.min(timing.seeds.unwrap_or(1));
             // What is recorded has clocks of its own.
@@ -84,7 +83,7 @@ impl BuiltStudy<'_> {
             let warmed: Vec<_> = runs.filter(|run| run.0.pipeline.plan(&request(run)).is_ok()).collect();
             let mut read = |run: &(&Entrant<'_>, u32), repeat: u32| {
                 let request = request(run);
-                interpretations.push(Timing {
+                timings.push(Timing {
                     trial: unit.trial(query, run.0, run.1),
                     session: SESSION,
                     clock_repeat: repeat,
@@ -97,7 +96,7 @@ impl BuiltStudy<'_> {
                 }
             }
         }
-        interpretations
+        timings
     }
 }
 

@@ -1,4 +1,4 @@
-//! What each column of a file of records means: name, unit, meaning, as the file itself carries it.
+//! The meaning of each column of a file of records: name, unit and description, as the file itself carries them.
 
 use crate::clock;
 use crate::column;

@@ -51,7 +51,7 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// Those of `study`.
+    /// The columns of `study`.
     pub fn new(study: &Study) -> Self {
         Self { keys: study.key_columns(), values: study.columns().into_iter().collect() }
     }
@@ -86,8 +86,8 @@ impl<'a> Traces<'a> {
     }
 }
 
-/// Stages every part of `records` for `folder`, with `traces` in place of those that they hold, and gives the hash of each
-/// file by its part.
+/// Stages every part of `records` for `folder`, with `traces` in place of its own, and gives the hash of each file by
+/// its part.
 ///
 /// # Errors
 /// [`StudyError::Io`]; no file has changed then. Those of `traces`.
@@ -118,7 +118,7 @@ pub fn read_records(
     read_parts(folder, study, hashes, true)
 }
 
-/// As [`read_records`], without traces: whoever looks at numbers alone holds none of them in memory.
+/// As [`read_records`], without traces, so that numbers alone take little memory.
 ///
 /// # Errors
 /// As [`read_records`].
@@ -171,7 +171,7 @@ fn read_parts(
 /// The parts of a study's records.
 const PARTS: [&str; 4] = ["trials", "preprocessing", "traces", "times"];
 
-/// What is sound of `study`'s records in `folder`, without traces, and the parts that are not.
+/// The sound parts of `study`'s records in `folder`, without traces, and the damaged parts.
 pub fn salvaged(
     folder: &Path,
     study: &str,
@@ -226,8 +226,9 @@ pub fn set_records_aside(folder: &Path, study: &str) -> Result<Vec<PathBuf>, Stu
     set_parts_aside(folder, study, &PARTS)
 }
 
-/// Puts in their places the files of `study` that a run had written whole beside them when it was killed: records and manifest are
-/// then of one run again. `files` gives the hashes in a whole manifest, which is put at `manifest`. Only for who holds the folder's lock.
+/// Finishes a run that was killed while it renamed its files. Files of `study` that stand whole beside their places are
+/// put there, so that records and manifest are of one run again. `files` gives the hashes in a whole manifest, which is
+/// put at `manifest`. The caller holds the folder's lock.
 pub fn finish_put(
     folder: &Path,
     study: &str,
@@ -438,7 +439,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
     staged.put()
 }
 
-/// Writes `bytes` to `path` unless there is a file already, which stays as it is: of several who write, one is first.
+/// Writes `bytes` to `path` unless a file is there already, which stays. Of several writers, one is first.
 ///
 /// # Errors
 /// [`StudyError::Io`] with the path and what was being done.

@@ -32,7 +32,7 @@ struct TraceIndex {
 }
 
 impl KeptTraces {
-    /// Those of a run that is in memory.
+    /// The traces of a run that is in memory.
     pub fn held(kept: Vec<Kept>) -> Self {
         let mut places: BTreeMap<Owner, Vec<(usize, usize)>> = BTreeMap::new();
         let mut all = Vec::with_capacity(kept.len());
@@ -44,7 +44,7 @@ impl KeptTraces {
         Self { found: OnceLock::from(TraceIndex { places, groups }), ..Self::default() }
     }
 
-    /// Those of `study` in `folder`, whose file must have its hash among `hashes`; none of them is read yet.
+    /// The traces of `study` in `folder`, whose file must have its hash among `hashes`; none of them is read yet.
     ///
     /// # Errors
     /// [`StudyError::Touched`].
@@ -54,8 +54,8 @@ impl KeptTraces {
         Ok(Self { path: Some(path), ..Self::default() })
     }
 
-    /// The traces of `owner`, in the order in which they were kept; none where the file cannot be read, which
-    /// [`damage`](Self::damage) tells.
+    /// The traces of `owner`, in the order in which they were kept; none where the file cannot be read
+    /// ([`damage`](Self::damage)).
     pub fn owned_by<'s>(&'s self, owner: &Owner) -> impl Iterator<Item = &'s Trace> + use<'s> {
         let found = self.found();
         let places = found.places.get(owner).map_or(&[][..], Vec::as_slice);

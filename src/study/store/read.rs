@@ -99,8 +99,8 @@ pub fn touched(path: &Path, what: &str) -> StudyError {
 /// The message about a file that polars cannot read.
 pub const UNREADABLE: &str = "is no Parquet file that can be read";
 
-/// What `read` gives; `None` if it panics. polars trusts the lengths in a file and panics at some wrong ones. The caller
-/// reports that as an error, so the panic prints nothing on the terminal.
+/// The result of `read`; `None` if it panics. polars trusts the lengths in a file and panics at some wrong ones. The
+/// caller reports that as an error, so the panic prints nothing on the terminal.
 pub fn unpanicked<T>(read: impl FnOnce() -> T + UnwindSafe) -> Option<T> {
     static READING: AtomicUsize = AtomicUsize::new(0);
     static QUIET: Once = Once::new();

@@ -94,7 +94,7 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// That of traces with this `sweep`, beside objects whose columns are not noted yet.
+    /// The writer of traces with this `sweep`, beside objects whose columns are not noted yet.
     pub fn new(sweep: Option<SweepKey>) -> Self {
         Self { sweep, group_values: GROUP_VALUES, ..Self::default() }
     }

@@ -1,8 +1,8 @@
-//! Judges paths of a six-axis arm in its cell: whether the motion that a path stands for can be executed.
+//! Judges paths of a six-axis arm in its cell: whether the robot can execute the motion that a path stands for.
 //!
-//! Everything is worked out again by other means than planners use, all at a quarter of the planner's step: forward kinematics by
-//! products of 4 × 4 matrices, joints by Newton's method from the arm's true configuration, orientations by
-//! quaternions, contacts by parry3d. Lengths are metres and angles radians.
+//! Everything is worked out again by other means than planners use, at a quarter of the planner's step. Forward
+//! kinematics are products of 4 × 4 matrices. Joints follow by Newton's method from the arm's true configuration.
+//! Orientations are quaternions, and parry3d finds contacts. Lengths are metres and angles radians.
 
 mod chain;
 mod contact;

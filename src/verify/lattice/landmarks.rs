@@ -1,7 +1,7 @@
-//! What the verifier knows of a map with many queries: every cell's moves, and its distances from a few landmarks.
+//! The verifier's tables of a map with many queries: every cell's moves, and its distances from a few landmarks.
 //!
-//! By the triangle inequality, two cells are at least as far from each other as their distances from any landmark differ. The
-//! search for an optimum then looks where the optimum is, and finds the same.
+//! By the triangle inequality, two cells are at least as far from each other as their distances from any landmark
+//! differ. The search for an optimum then looks where the optimum is, and finds the same.
 //!
 //! # Source
 //! Goldberg and Harrelson, *Computing the Shortest Path: A\* Search Meets Graph Theory*, SODA 2005.

@@ -91,8 +91,9 @@ enum View {
 
 /// Where a taut path that came from `before` may go on from `corner`; anywhere from its start.
 ///
-/// Seen with the blocked cell at the upper right, it comes along the cell's left edge or from further right, and turns no further than
-/// straight up; or it comes along the lower edge or from further up, and turns no further than to the right.
+/// Seen with the blocked cell at the upper right, it comes in one of two ways. Along the cell's left edge or from
+/// further right, it turns no further than straight up. Along the lower edge or from further up, it turns no further
+/// than to the right.
 fn views(cells: &Grid2, before: [i32; 2], corner: [i32; 2]) -> Vec<View> {
     let [dx, dy] = [0, 1].map(|axis: usize| corner[axis] - before[axis]);
     if [dx, dy] == [0, 0] {

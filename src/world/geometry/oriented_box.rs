@@ -1,9 +1,9 @@
 //! Boxes in any orientation.
 //!
-//! In the box's own frame the squared distance to the box along a segment is a convex, piecewise quadratic
-//! function of the share, with at most six breaks: where the segment crosses the six face planes. Its
-//! derivative is piecewise linear and rises, so the minimum is found by bracketing its root between breaks
-//! and is exact: no iteration to a tolerance, and no case for faces, edges and corners.
+//! In the box's own frame the squared distance to the box along a segment is a convex, piecewise quadratic function of
+//! the share. It has at most six breaks, where the segment crosses the six face planes. Its derivative is piecewise
+//! linear and rises, so the minimum is found exactly, by bracketing the derivative's root between breaks. No iteration
+//! to a tolerance is needed, and no case for faces, edges and corners.
 
 use super::{
     Aabb, Capsule, Frame, Nearest, Segment, Vec3,

@@ -104,8 +104,9 @@ impl Arm {
         self.solver.folds_rad(q)[0]
     }
 
-    /// Every configuration within limits that puts the tool at `target`, as far as the [solver](Self::solver) is complete: of
-    /// those that differ by whole turns, each joint takes the one nearest to its reference, the lower one if two are.
+    /// Every configuration within limits that puts the tool at `target`, as far as the [solver](Self::solver) is
+    /// complete. Of configurations that differ by whole turns, each joint takes the angle nearest to its reference, the
+    /// lower one of two.
     ///
     /// Where `target` leaves a joint free (see the solver), it keeps its reference.
     pub fn inverse(&self, target: &Frame, reference: &Joints) -> Solutions {

@@ -101,7 +101,7 @@ impl Planar2r {
         Ok(Branches { negative: [to_target + opening, -q2], positive: [to_target - opening, q2] })
     }
 
-    /// The one of two branches that `rule` names.
+    /// The branch that `rule` names.
     pub fn pick(&self, branches: &Branches, rule: ElbowRule) -> [f64; 2] {
         let is_higher = || self.elbow(branches.positive).y > self.elbow(branches.negative).y;
         match rule {

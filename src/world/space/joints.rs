@@ -13,15 +13,11 @@ use crate::geometry::lanes::{ROUGH_LANES, RoughRow, dispatch, level};
 use crate::geometry::{Frame, Placed, Rounded, Vec3, intersects_placed_placed};
 use crate::kinematics::open_chain::OpenChain;
 use base::robot::{MayTouch, Robot};
-use base::solid::{Form, Solid};
+use base::solid::Solid;
 use lanes::{Doubt, SecondSolid, Spheres};
 
-/// A path that is returned is checked four times in each step, and 64 times where the robot is nearly in contact.
-const FINER: [f64; 2] = [4.0, 64.0];
-
-/// How near is nearly, metres. Between two configurations at which a ball of radius r is free, and its centre s farther, it reaches no deeper
-/// than s²/8r into what is convex: at a quarter of a degree 0.05 mm and more for a ball at the end of an arm.
-const NEARLY_M: f64 = 0.0005;
+/// How often a step is halved at most where a path that is returned is checked.
+const HALVINGS: u32 = 6;
 
 /// A robot among obstacles.
 #[derive(Debug, Clone)]
@@ -36,8 +32,6 @@ pub struct JointSpace {
     step_rad: f64,
     /// The robot in lanes, if it is made of spheres.
     spheres: Option<Spheres>,
-    /// The same robot of spheres that are larger by [`NEARLY_M`].
-    larger: Option<Box<JointSpace>>,
 }
 
 /// Buffers that are reused from motion to motion.
@@ -70,6 +64,14 @@ impl SelfContact {
     }
 }
 
+/// Writes the joints at the share of a motion that each lane has.
+fn fill(rows: &mut Vec<RoughRow>, from: &[f64], changes: &[f64], share: impl Fn(usize) -> f64) {
+    rows.resize(from.len(), [0.0; ROUGH_LANES]);
+    for (row, (a, by)) in rows.iter_mut().zip(from.iter().zip(changes)) {
+        *row = std::array::from_fn(|lane| (a + by * share(lane)) as f32);
+    }
+}
+
 fn is_touched(part: &Placed<'_>, still: &Rounded) -> bool {
     intersects_placed_placed(part, &Placed { solid: still, frame: &Frame::IDENTITY })
 }
@@ -97,33 +99,9 @@ impl JointSpace {
         let count = robot.solids.len();
         let pairs = (0..count).flat_map(|b| (0..b).map(move |a| [a, b]));
         let self_pairs: Vec<_> = pairs.filter(|pair| contact.is_checked(&robot, *pair)).collect();
-        let mut space = Self::of_pairs(robot, obstacles, self_pairs, step_rad, clearance_m);
-        if space.spheres.is_some() {
-            let mut robot = space.robot.clone();
-            for (_, solid) in &mut robot.solids {
-                if let Form::Sphere(radius) = &mut solid.form {
-                    *radius += NEARLY_M;
-                }
-            }
-            let obstacles = space.obstacles.clone();
-            let pairs = space.self_pairs.clone();
-            let larger = Self::of_pairs(robot, obstacles, pairs, step_rad, clearance_m);
-            space.larger = Some(Box::new(larger));
-        }
-        space
-    }
-
-    fn of_pairs(
-        robot: Robot,
-        obstacles: Vec<Solid>,
-        self_pairs: Vec<[usize; 2]>,
-        step_rad: f64,
-        clearance_m: f64,
-    ) -> Self {
         let chain = OpenChain::new(&robot);
         Self {
             spheres: Spheres::new(&robot, &chain, (&obstacles, clearance_m), &self_pairs),
-            larger: None,
             chain,
             parts: robot.solids.iter().map(|(link, solid)| (*link, rounded(solid, 0.0))).collect(),
             stills: obstacles.iter().map(|solid| rounded(solid, clearance_m)).collect(),
@@ -221,16 +199,14 @@ impl JointSpace {
         if self.chain.outside(to).is_some() {
             return false;
         }
-        let MotionMemory { changes, rows, lanes } = memory;
+        let MotionMemory { changes, rows, lanes, .. } = memory;
         changes.clear();
         changes.extend(self.chain.change(from, to));
         let changes: &[f64] = changes;
-        let change = changes.iter().map(|change| change.abs()).fold(0.0, f64::max);
-        let blocks = (finer * change / self.step_rad / ROUGH_LANES as f64).ceil().max(1.0) as u32;
+        let blocks = self.blocks(changes, finer);
         let at =
             |share: f64| -> Vec<f64> { from.iter().zip(changes).map(|(a, by)| a + by * share).collect() };
-        let ends = || from.iter().zip(changes).flat_map(|(a, by)| [*a, a + by]);
-        let in_lanes = self.spheres.as_ref().filter(|_| Spheres::takes(ends()));
+        let in_lanes = self.in_lanes(from, changes);
         (0..blocks).all(|block| {
             *checked += ROUGH_LANES as u64;
             let back = f64::from(block) / f64::from(blocks);
@@ -238,14 +214,23 @@ impl JointSpace {
             let Some(spheres) = in_lanes else {
                 return (0..ROUGH_LANES).all(|lane| self.is_clear(&at(share(lane))));
             };
-            rows.resize(from.len(), [0.0; ROUGH_LANES]);
-            for (row, (a, by)) in rows.iter_mut().zip(from.iter().zip(changes)) {
-                *row = std::array::from_fn(|lane| (a + by * share(lane)) as f32);
-            }
-            !dispatch!(level(), simd => spheres.touches(simd, rows, lanes))
+            fill(rows, from, changes, share);
+            !dispatch!(level(), simd => spheres.touches(simd, rows, false, lanes))
                 && (lanes.doubts.is_empty()
                     || (0..ROUGH_LANES).all(|lane| self.settles(lane, &lanes.doubts, || at(share(lane)))))
         })
+    }
+
+    /// How many times eight configurations of a motion are checked at least.
+    fn blocks(&self, changes: &[f64], finer: f64) -> u32 {
+        let change = changes.iter().map(|change| change.abs()).fold(0.0, f64::max);
+        (finer * change / self.step_rad / ROUGH_LANES as f64).ceil().max(1.0) as u32
+    }
+
+    /// The robot in lanes, if they take a motion.
+    fn in_lanes(&self, from: &[f64], changes: &[f64]) -> Option<&Spheres> {
+        let ends = || from.iter().zip(changes).flat_map(|(a, by)| [*a, a + by]);
+        self.spheres.as_ref().filter(|_| Spheres::takes(ends()))
     }
 
     /// Whether nothing touches that is in doubt in one of eight configurations, which `at` gives.
@@ -263,15 +248,47 @@ impl JointSpace {
         }
     }
 
-    /// Whether a motion of a path that is returned is free. It is checked four times in each step. Where a robot made of spheres is nearly
-    /// in contact, it is checked 64 times. Counts as [`goes`](Self::goes) does.
+    /// Whether a motion of a path that is returned is free. It is checked 64 times in each step. Of a robot of spheres, each configuration after
+    /// a step must leave room for what lies between it and the next; around those that do not, steps are halved, up to six times. Counts
+    /// as [`goes`](Self::goes) does.
     pub fn holds(&self, ends: [&[f64]; 2], memory: &mut MotionMemory, checked: &mut u64) -> bool {
-        match &self.larger {
-            None => self.goes(ends, FINER[0], memory, checked),
-            Some(larger) => {
-                larger.goes(ends, FINER[0], memory, checked) || self.goes(ends, FINER[1], memory, checked)
+        let [from, to] = ends;
+        let changes: Vec<f64> = self.chain.change(from, to).collect();
+        let Some(spheres) = self.in_lanes(from, &changes).filter(|_| self.chain.outside(to).is_none()) else {
+            return self.goes(ends, f64::from(1 << HALVINGS), memory, checked);
+        };
+        let MotionMemory { rows, lanes, .. } = memory;
+        let blocks = self.blocks(&changes, 1.0);
+        let mut steps = blocks * ROUGH_LANES as u32 - 1;
+        let lanes_of = |block| (0..ROUGH_LANES as u32).map(move |lane| lane * blocks + block);
+        let mut places: Vec<u32> = (0..blocks).flat_map(lanes_of).collect();
+        for _ in 0..=HALVINGS {
+            spheres.make_room(&changes, f64::from(steps), lanes);
+            let mut narrow = Vec::new();
+            for eight in places.chunks(ROUGH_LANES) {
+                *checked += ROUGH_LANES as u64;
+                let place = |lane: usize| eight[lane.min(eight.len() - 1)];
+                let share = |lane: usize| f64::from(place(lane)) / f64::from(steps);
+                fill(rows, from, &changes, share);
+                dispatch!(level(), simd => spheres.touches(simd, rows, true, lanes));
+                if lanes.doubts.is_empty() {
+                    continue;
+                }
+                let lacks_room = |lane: &usize| lanes.doubts.iter().any(|doubt| doubt.is_at[*lane]);
+                narrow.extend((0..ROUGH_LANES).filter(lacks_room).map(place));
+                let touches = dispatch!(level(), simd => spheres.touches(simd, rows, false, lanes));
+                let at = |lane| from.iter().zip(&changes).map(|(a, by)| a + by * share(lane)).collect();
+                if touches || !(0..ROUGH_LANES).all(|lane| self.settles(lane, &lanes.doubts, || at(lane))) {
+                    return false;
+                }
             }
+            places =
+                narrow.into_iter().flat_map(|k| 2 * k.saturating_sub(1)..=2 * (k + 1).min(steps)).collect();
+            places.sort_unstable();
+            places.dedup();
+            steps *= 2;
         }
+        true
     }
 
     fn placed<'a>(&'a self, part: usize, frames: &'a [Frame]) -> Placed<'a> {

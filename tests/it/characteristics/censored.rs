@@ -16,8 +16,8 @@ fn instances(criterion: &str, settings: &str, records: Sample) -> usize {
 
 /// What is found of a claim by `criterion` after `records`.
 pub fn judged(criterion: &str, settings: &str, made: Made, records: Sample) -> ClaimVerdict {
-    let of = "study = \"drawn\", problems = [\"map\"]";
-    let settings = settings.replace("OF", of);
+    let selection = "study = \"drawn\", problems = [\"map\"]";
+    let settings = settings.replace("OF", selection);
     let cells = ["low", "high"]
         .map(|id| format!("[[claim]]\nid = \"{id}\"\nat = \"here\"\nprinted = \"7\"\nuntestable = \"it\"\n"));
     let claim = format!(
@@ -42,21 +42,21 @@ pub fn pairs(all: &[(usize, End, End)]) -> Sample {
 
 #[test]
 fn budgets_that_are_spent_do_not_make_a_median_infinite() {
-    let of = |all: &[(usize, End, End)]| {
+    let class_after = |all: &[(usize, End, End)]| {
         let settings = "select = { OF, metric = \"path_cost_cells\" }\nlower = \"A\"\nhigher = [\"B\"]";
         class("least_of", settings, Made::Plainly, pairs(all))
     };
     let rest = (9, At(50.0), At(100.0));
-    assert_eq!(of(&[(30, NoPath, At(100.0)), rest]), "contradicted");
-    assert_eq!(of(&[(30, Spent, At(100.0)), rest]), "open");
-    assert_eq!(of(&[(30, At(50.0), Spent), rest]), "open", "nor does it count for a claim");
-    assert_eq!(of(&[(2, Spent, At(100.0)), rest, rest]), "holds", "whatever they would have given");
-    assert_eq!(of(&[(2, Spent, At(50.0)), (20, At(100.0), At(50.0))]), "contradicted");
+    assert_eq!(class_after(&[(30, NoPath, At(100.0)), rest]), "contradicted");
+    assert_eq!(class_after(&[(30, Spent, At(100.0)), rest]), "open");
+    assert_eq!(class_after(&[(30, At(50.0), Spent), rest]), "open", "nor does it count for a claim");
+    assert_eq!(class_after(&[(2, Spent, At(100.0)), rest, rest]), "holds", "whatever they would have given");
+    assert_eq!(class_after(&[(2, Spent, At(50.0)), (20, At(100.0), At(50.0))]), "contradicted");
 }
 
 #[test]
 fn along_a_sweep_what_did_not_end_might_have_been_solved() {
-    let of = |own: End, other: End| {
+    let class_after = |own: End, other: End| {
         let mut sample = Sample::default();
         for _ in 0..12 {
             sample.instance();
@@ -68,15 +68,15 @@ fn along_a_sweep_what_did_not_end_might_have_been_solved() {
         let settings = "is = \"higher\"\nselect = { OF, contender = \"A\", against = \"B\" }";
         class("lower", settings, Made::Swept, sample)
     };
-    assert_eq!([of(At(1.0), NoPath), of(NoPath, At(1.0))], ["holds", "contradicted"]);
-    assert_eq!([of(At(1.0), Spent), of(Spent, At(1.0))], ["open"; 2]);
+    assert_eq!([class_after(At(1.0), NoPath), class_after(NoPath, At(1.0))], ["holds", "contradicted"]);
+    assert_eq!([class_after(At(1.0), Spent), class_after(Spent, At(1.0))], ["open"; 2]);
 }
 
 #[test]
 fn a_statistic_of_one_contender_hangs_on_what_did_not_end() {
     let within = |statistic: &str, accepted: &str, all: &[(usize, End)]| {
-        let of = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
-        let settings = format!("{of}\nstatistic = \"{statistic}\"\naccepted = {accepted}");
+        let selection = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
+        let settings = format!("{selection}\nstatistic = \"{statistic}\"\naccepted = {accepted}");
         let all: Vec<_> = all.iter().map(|(count, end)| (*count, *end, At(1.0))).collect();
         class("within", &settings, Made::Plainly, pairs(&all))
     };
@@ -96,18 +96,20 @@ fn a_statistic_of_one_contender_hangs_on_what_did_not_end() {
 
 #[test]
 fn a_side_that_did_not_end_might_have_been_the_better_one() {
-    let of = |criterion: &str, settings: &str, usual: (usize, End, End), other: (usize, End, End)| {
-        let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
-        class(criterion, &format!("{of}\n{settings}"), Made::Plainly, pairs(&[usual, other]))
-    };
+    let class_after =
+        |criterion: &str, settings: &str, usual: (usize, End, End), other: (usize, End, End)| {
+            let selection =
+                "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+            class(criterion, &format!("{selection}\n{settings}"), Made::Plainly, pairs(&[usual, other]))
+        };
     let less = (30, At(50.0), At(100.0));
     let more = (30, At(100.0), At(50.0));
     for (end, class) in [(NoPath, "holds"), (Spent, "open")] {
         let own = (40, end, At(50.0));
         let other = (3, At(50.0), end);
-        assert_eq!(of("lower", "is = \"lower\"", less, other), class, "the other one: {end:?}");
-        assert_eq!(of("lower", "is = \"higher\"", more, own), class, "its own: {end:?}");
-        let ratio = of("within", "statistic = \"ratio\"\naccepted = [0.0, 0.7]", less, other);
+        assert_eq!(class_after("lower", "is = \"lower\"", less, other), class, "the other one: {end:?}");
+        assert_eq!(class_after("lower", "is = \"higher\"", more, own), class, "its own: {end:?}");
+        let ratio = class_after("within", "statistic = \"ratio\"\naccepted = [0.0, 0.7]", less, other);
         assert_eq!(ratio, class, "{end:?}");
     }
 }
@@ -122,8 +124,8 @@ fn a_ratio_of_two_groups_hangs_on_what_did_not_end() {
                 sample.trial("A", if instance < spent { Spent } else { At(value) });
             }
         }
-        let of = "select = { study = \"drawn\", problems = [\"map\", \"other\"], contender = \"A\", metric = \"path_cost_cells\" }";
-        let settings = format!("{of}\nstatistic = \"ratio_of_groups\"\naccepted = [1.5, 2.5]");
+        let selection = "select = { study = \"drawn\", problems = [\"map\", \"other\"], contender = \"A\", metric = \"path_cost_cells\" }";
+        let settings = format!("{selection}\nstatistic = \"ratio_of_groups\"\naccepted = [1.5, 2.5]");
         class("within", &settings, Made::Plainly, sample)
     };
     assert_eq!([ratio(0), ratio(2), ratio(20)], ["holds", "holds", "open"]);
@@ -131,16 +133,16 @@ fn a_ratio_of_two_groups_hangs_on_what_did_not_end() {
 
 #[test]
 fn equal_cases_and_one_that_did_not_end_are_no_counterexample() {
-    let of = |all: &[(usize, End, End)]| {
-        let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
-        class("on_every", &format!("{of}\nthat = \"lower\""), Made::Plainly, pairs(all))
+    let class_after = |all: &[(usize, End, End)]| {
+        let selection = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+        class("on_every", &format!("{selection}\nthat = \"lower\""), Made::Plainly, pairs(all))
     };
     let equal = (10, At(5.0), At(5.0));
     let cut = (1, Spent, At(5.0));
     let broken = (1, At(6.0), At(5.0));
-    assert_eq!([of(&[equal]), of(&[equal, broken, cut])], ["contradicted"; 2]);
+    assert_eq!([class_after(&[equal]), class_after(&[equal, broken, cut])], ["contradicted"; 2]);
     assert_eq!(
-        [of(&[equal, cut]), of(&[(9, At(5.0), At(5.0))])],
+        [class_after(&[equal, cut]), class_after(&[(9, At(5.0), At(5.0))])],
         ["open"; 2],
         "so few equal cases may be chance"
     );
@@ -148,20 +150,20 @@ fn equal_cases_and_one_that_did_not_end_are_no_counterexample() {
 
 #[test]
 fn what_is_wrong_is_wrong_however_many_others_did_not_end() {
-    let of = |all: &[(usize, End, End)]| {
-        let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
-        class("equals", of, Made::Plainly, pairs(all))
+    let class_after = |all: &[(usize, End, End)]| {
+        let selection = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+        class("equals", selection, Made::Plainly, pairs(all))
     };
     let same = (12, At(5.0), At(5.0));
     let cut = (2, Spent, At(5.0));
     let wrong = (1, At(6.0), At(5.0));
-    assert_eq!([of(&[same]), of(&[same, cut])], ["holds", "open"]);
-    assert_eq!([of(&[same, wrong]), of(&[same, wrong, cut])], ["contradicted"; 2]);
+    assert_eq!([class_after(&[same]), class_after(&[same, cut])], ["holds", "open"]);
+    assert_eq!([class_after(&[same, wrong]), class_after(&[same, wrong, cut])], ["contradicted"; 2]);
 }
 
 #[test]
 fn a_claim_about_cases_that_both_solve_hangs_on_what_did_not_end_and_says_what_is_outside_of_it() {
-    let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+    let selection = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
     for (criterion, settings, case) in [
         ("share", "hits = \"lower\"\naccepted = [0.9, 1.0]", (40, At(4.0), At(5.0))),
         ("share", "hits = \"lower_throughout\"\naccepted = [0.9, 1.0]", (40, At(4.0), At(5.0))),
@@ -170,7 +172,8 @@ fn a_claim_about_cases_that_both_solve_hangs_on_what_did_not_end_and_says_what_i
         ("equals", "", (40, At(5.0), At(5.0))),
     ] {
         let found = |more: (usize, End, End)| {
-            let one = judged(criterion, &format!("{of}\n{settings}"), Made::Plainly, pairs(&[case, more]));
+            let one =
+                judged(criterion, &format!("{selection}\n{settings}"), Made::Plainly, pairs(&[case, more]));
             (one.outcome.name(), one.findings[0].because.join("; "))
         };
         let name = format!("{criterion}: {settings}");
@@ -186,8 +189,8 @@ fn a_claim_about_cases_that_both_solve_hangs_on_what_did_not_end_and_says_what_i
         assert!(outcome == "open" && !because.contains("outside"), "{name}: {because}");
     }
     let above = |more: End| {
-        let of = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
-        let settings = format!("{of}\nhits = \"above\"\nbound = 3.0\naccepted = [0.9, 1.0]");
+        let selection = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
+        let settings = format!("{selection}\nhits = \"above\"\nbound = 3.0\naccepted = [0.9, 1.0]");
         class("share", &settings, Made::Plainly, pairs(&[(40, At(4.0), At(1.0)), (9, more, At(1.0))]))
     };
     assert_eq!([above(NoPath), above(Rejected), above(Spent)], ["holds", "holds", "open"]);
@@ -195,24 +198,28 @@ fn a_claim_about_cases_that_both_solve_hangs_on_what_did_not_end_and_says_what_i
 
 #[test]
 fn the_share_of_failures_that_another_cures_counts_failures_alone_and_hangs_on_what_did_not_end() {
-    let of = |more: (usize, End, End)| {
+    let class_after = |more: (usize, End, End)| {
         let settings =
             "select = { OF, contender = \"A\", against = \"B\" }\nhits = \"cured\"\naccepted = [0.7, 0.9]";
         let failures = [(80, At(4.0), NoPath), (20, NoPath, Rejected)];
         class("share", settings, Made::Plainly, pairs(&[failures[0], failures[1], more]))
     };
     for solved in [(90, At(4.0), At(5.0)), (90, NoPath, At(5.0)), (90, Spent, At(5.0))] {
-        assert_eq!(of(solved), "holds", "{solved:?}: what the other solves is none of its failures");
+        assert_eq!(class_after(solved), "holds", "{solved:?}: what the other solves is none of its failures");
     }
     assert_eq!(
-        [of((90, NoPath, NoPath)), of((90, Spent, NoPath)), of((90, At(4.0), Spent))],
+        [
+            class_after((90, NoPath, NoPath)),
+            class_after((90, Spent, NoPath)),
+            class_after((90, At(4.0), Spent))
+        ],
         ["contradicted", "open", "open"]
     );
 }
 
 #[test]
 fn one_contender_solves_more_throughout_only_where_it_does_at_every_point_of_the_sweep() {
-    let of = |hits: &str, last: End| {
+    let class_after = |hits: &str, last: End| {
         let mut sample = Sample::default();
         for _ in 0..40 {
             sample.instance();
@@ -234,12 +241,28 @@ fn one_contender_solves_more_throughout_only_where_it_does_at_every_point_of_the
         );
         class("share", &settings, Made::Swept, sample)
     };
-    let throughout = |last: End| of("solved_more_throughout", last);
+    let throughout = |last: End| class_after("solved_more_throughout", last);
     assert_eq!(
         [throughout(At(1.0)), throughout(NoPath), throughout(Spent)],
         ["holds", "contradicted", "open"]
     );
-    assert_eq!(of("solved_more", NoPath), "holds", "over all points together it does");
+    assert_eq!(class_after("solved_more", NoPath), "holds", "over all points together it does");
+}
+
+#[test]
+fn an_instance_solves_at_least_a_share_of_its_queries_unless_that_hangs_on_what_did_not_end() {
+    let of = |last: End| {
+        let mut sample = Sample::default();
+        for _ in 0..40 {
+            sample.instance();
+            for query in 0..5 {
+                sample.query("A", Some(query), None, if query == 0 { last } else { At(1.0) });
+            }
+        }
+        let settings = "select = { OF, contender = \"A\" }\nhits = \"solved_at_least\"\nbound = 0.9\naccepted = [0.8, 1.0]";
+        class("share", settings, Made::Plainly, sample)
+    };
+    assert_eq!([of(At(1.0)), of(NoPath), of(Spent)], ["holds", "contradicted", "open"]);
 }
 
 #[test]
@@ -257,21 +280,21 @@ fn a_row_of_numbers_and_a_trend_hang_on_what_did_not_end() {
         }
         sample
     };
-    let of = "select = { OF, metric = \"path_cost_cells\" }";
+    let selection = "select = { OF, metric = \"path_cost_cells\" }";
     let rows =
         "[{ contender = \"A\", statistics = [\"least\", \"greatest\"], claims = [\"low\", \"high\"] }]";
     let row = |spent| {
         class(
             "row_one_instance",
-            &format!("{of}\nrows = {rows}\nrefused_below = 0.05"),
+            &format!("{selection}\nrows = {rows}\nrefused_below = 0.05"),
             Made::Plainly,
             drawn(spent),
         )
     };
     assert_eq!([row(0), row(1)], ["holds", "open"]);
-    let of = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
+    let selection = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
     let trend = |spent| {
-        let settings = format!("{of}\nover = \"optimal_cost_cells\"\nrising = true");
+        let settings = format!("{selection}\nover = \"optimal_cost_cells\"\nrising = true");
         class("trend", &settings, Made::Plainly, drawn(spent))
     };
     assert_eq!([trend(0), trend(1)], ["holds", "open"], "nor is it known where along it");
@@ -291,8 +314,8 @@ fn a_trend_over_cases_that_both_solve_does_not_hang_on_one_that_a_side_cannot_so
         sample.instance();
         sample.trial("A", Spent);
         sample.trial("B", other);
-        let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
-        let settings = format!("{of}\nover = \"optimal_cost_cells\"\nrising = false");
+        let selection = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+        let settings = format!("{selection}\nover = \"optimal_cost_cells\"\nrising = false");
         class("trend", &settings, Made::Plainly, sample)
     };
     assert_eq!([trend(NoPath), trend(Rejected), trend(At(20.0))], ["holds", "holds", "open"]);
@@ -332,10 +355,10 @@ fn one_instance_of_what_was_drawn_is_one_of_many() {
                 sample.trial("A", At(value));
             }
         }
-        let of = "select = { study = \"drawn\", problems = [\"map\", \"other\"], contender = \"A\", metric = \"path_cost_cells\" }";
+        let selection = "select = { study = \"drawn\", problems = [\"map\", \"other\"], contender = \"A\", metric = \"path_cost_cells\" }";
         class(
             "within",
-            &format!("{of}\nstatistic = \"ratio_of_groups\"\naccepted = [0.1, 9.0]"),
+            &format!("{selection}\nstatistic = \"ratio_of_groups\"\naccepted = [0.1, 9.0]"),
             Made::Plainly,
             sample,
         )
@@ -356,8 +379,8 @@ fn what_did_not_end_might_have_had_marks() {
                 sample.with("expansions", 1.0);
             }
         }
-        let of = "select = { OF, contender = \"A\" }";
-        let settings = format!("{of}\nhits = {hits}\naccepted = [0.0, 0.1]");
+        let selection = "select = { OF, contender = \"A\" }";
+        let settings = format!("{selection}\nhits = {hits}\naccepted = [0.0, 0.1]");
         class("share", &settings, Made::Plainly, sample)
     };
     let marked = "\"marked\"\ncolumns = [\"optimal_cost_cells\"]";
@@ -368,15 +391,15 @@ fn what_did_not_end_might_have_had_marks() {
 
 #[test]
 fn what_did_not_end_is_neither_solved_nor_not() {
-    let of = |all: &[(usize, End, End)]| {
-        let of = "select = { OF, contender = \"A\", against = \"B\" }";
-        class("on_every", &format!("{of}\nthat = \"solved\""), Made::Plainly, pairs(all))
+    let class_after = |all: &[(usize, End, End)]| {
+        let selection = "select = { OF, contender = \"A\", against = \"B\" }";
+        class("on_every", &format!("{selection}\nthat = \"solved\""), Made::Plainly, pairs(all))
     };
     let both = (20, At(1.0), At(1.0));
-    assert_eq!([of(&[both]), of(&[both, (1, NoPath, At(1.0))])], ["holds", "contradicted"]);
-    assert_eq!(of(&[both, (5, Spent, At(1.0))]), "open", "it might have been solved");
-    assert_eq!(of(&[both, (5, NoPath, Spent)]), "open", "the other might have solved it");
-    assert_eq!(of(&[both, (5, At(1.0), Spent)]), "holds", "whatever the other would have done");
+    assert_eq!([class_after(&[both]), class_after(&[both, (1, NoPath, At(1.0))])], ["holds", "contradicted"]);
+    assert_eq!(class_after(&[both, (5, Spent, At(1.0))]), "open", "it might have been solved");
+    assert_eq!(class_after(&[both, (5, NoPath, Spent)]), "open", "the other might have solved it");
+    assert_eq!(class_after(&[both, (5, At(1.0), Spent)]), "holds", "whatever the other would have done");
 }
 
 #[test]
@@ -388,43 +411,53 @@ fn instances_that_might_have_been_whole_are_not_forgotten() {
             sample.query("A", Some(0), None, if instance == 0 { other } else { At(1.0) });
             sample.query("A", Some(1), None, if instance == 0 { one } else { At(1.0) });
         }
-        let of = "select = { OF, contender = \"A\", metric = \"path_cost_cells\", whole_instances = true }";
-        class("within", &format!("{of}\nstatistic = \"mean\"\naccepted = [0.0, 2.0]"), Made::Plainly, sample)
+        let selection =
+            "select = { OF, contender = \"A\", metric = \"path_cost_cells\", whole_instances = true }";
+        class(
+            "within",
+            &format!("{selection}\nstatistic = \"mean\"\naccepted = [0.0, 2.0]"),
+            Made::Plainly,
+            sample,
+        )
     };
-    let of = |lost: End| pair(lost, At(1.0));
-    assert_eq!([of(At(1.0)), of(NoPath), of(Spent)], ["holds", "holds", "open"]);
+    let class_after = |lost: End| pair(lost, At(1.0));
+    assert_eq!([class_after(At(1.0)), class_after(NoPath), class_after(Spent)], ["holds", "holds", "open"]);
     assert_eq!(pair(Spent, NoPath), "holds", "it could not have been whole");
 }
 
 #[test]
 fn one_instance_of_which_a_query_did_not_end_may_give_any_number() {
-    let of = |statistic: &str, lost: End| {
+    let class_after = |statistic: &str, lost: End| {
         let mut sample = Sample::default();
         for instance in 0..100 {
             sample.instance();
             sample.query("A", Some(0), None, At(40.0 + f64::from(instance % 5)));
             sample.query("A", Some(1), None, if lost.is_at() { At(42.0) } else { lost });
         }
-        let of = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
-        class("one_instance", &format!("{of}\nstatistic = \"{statistic}\""), Made::Plainly, sample)
+        let selection = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
+        class("one_instance", &format!("{selection}\nstatistic = \"{statistic}\""), Made::Plainly, sample)
     };
     // What is printed, 0, lies below every instance: a greatest number that is not known is no lower.
     for (statistic, cut) in [("mean", "open"), ("least", "open"), ("greatest", "contradicted")] {
-        assert_eq!([of(statistic, At(1.0)), of(statistic, Spent)], ["contradicted", cut], "{statistic}");
+        assert_eq!(
+            [class_after(statistic, At(1.0)), class_after(statistic, Spent)],
+            ["contradicted", cut],
+            "{statistic}"
+        );
     }
 }
 
 #[test]
 fn what_prints_alike_and_pairs_that_agree_hang_on_what_did_not_end() {
     let prints = |value: f64, lost: End| {
-        let of = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
-        class("prints_as", of, Made::Plainly, pairs(&[(20, At(value), At(1.0)), (1, lost, At(1.0))]))
+        let selection = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
+        class("prints_as", selection, Made::Plainly, pairs(&[(20, At(value), At(1.0)), (1, lost, At(1.0))]))
     };
     assert_eq!([prints(0.0, NoPath), prints(0.0, Spent)], ["holds", "open"]);
     assert_eq!([prints(9.0, NoPath), prints(9.0, Spent)], ["contradicted", "open"]);
     let ratio = |lost: End| {
-        let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
-        let settings = format!("{of}\nstatistic = \"ratio\"\naccepted = [0.5, 1.5]");
+        let selection = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+        let settings = format!("{selection}\nstatistic = \"ratio\"\naccepted = [0.5, 1.5]");
         class("within", &settings, Made::Plainly, pairs(&[(40, At(5.0), At(5.0)), (40, lost, At(5.0))]))
     };
     assert_eq!([ratio(At(5.0)), ratio(Spent)], ["holds", "open"], "those that agree bound no others");
@@ -432,11 +465,11 @@ fn what_prints_alike_and_pairs_that_agree_hang_on_what_did_not_end() {
 
 #[test]
 fn what_holds_on_each_of_few_instances_of_a_problem_that_is_drawn_is_not_firm() {
-    let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+    let selection = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
     let prints = "select = { OF, contender = \"B\", metric = \"path_cost_cells\" }";
     for (criterion, settings) in [
-        ("on_every", format!("{of}\nthat = \"lower\"")),
-        ("equals", of.to_owned()),
+        ("on_every", format!("{selection}\nthat = \"lower\"")),
+        ("equals", selection.to_owned()),
         ("prints_as", prints.to_owned()),
     ] {
         let own = if criterion == "equals" { 0.0 } else { -1.0 };
@@ -457,8 +490,8 @@ fn seeds_on_a_problem_that_is_drawn_are_no_instances_of_it() {
             sample.seed("A", seed, At(f64::from(instance)));
         }
     }
-    let of = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
-    let settings = format!("{of}\nstatistic = \"mean\"\naccepted = [0.0, 12.0]");
+    let selection = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
+    let settings = format!("{selection}\nstatistic = \"mean\"\naccepted = [0.0, 12.0]");
     assert_eq!(instances("within", &settings, sample), 12);
 }
 
@@ -473,8 +506,8 @@ fn a_contender_with_one_seed_stands_beside_each_seed_of_the_other() {
                 sample.seed(many, seed, At(if seed == 0 { first } else { rest }));
             }
         }
-        let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
-        class("on_every", &format!("{of}\nthat = \"lower\""), Made::Plainly, sample)
+        let selection = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+        class("on_every", &format!("{selection}\nthat = \"lower\""), Made::Plainly, sample)
     };
     assert_eq!([class_of("A", "B", [1.0, 2.0, 5.0]), class_of("B", "A", [9.0, 8.0, 5.0])], ["holds"; 2]);
     // What the first seed alone would say is not what all say.

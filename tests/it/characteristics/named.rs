@@ -6,9 +6,9 @@ use super::synthetic::{Made, Sample, Synthetic};
 
 #[test]
 fn a_strict_comparison_that_ties_on_every_case_is_contradicted_with_a_bound() {
-    let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+    let selection = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
     let found = |settings: &str, all: &[(usize, End, End)]| {
-        let one = judged("lower", &format!("{of}\n{settings}"), Made::Plainly, pairs(all));
+        let one = judged("lower", &format!("{selection}\n{settings}"), Made::Plainly, pairs(all));
         (one.outcome.name(), one.findings[0].because.join("; "))
     };
     for settings in ["", "is = \"higher\""] {
@@ -25,10 +25,10 @@ fn a_strict_comparison_that_ties_on_every_case_is_contradicted_with_a_bound() {
 
 #[test]
 fn what_ties_on_every_case_is_contradicted_where_enough_cases_are_drawn() {
-    let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+    let selection = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
     let found = |cases: usize| {
         let all = pairs(&[(cases, At(5.0), At(5.0))]);
-        let one = judged("on_every", &format!("{of}\nthat = \"lower\""), Made::Plainly, all);
+        let one = judged("on_every", &format!("{selection}\nthat = \"lower\""), Made::Plainly, all);
         (one.outcome.name(), one.findings[0].because.join("; "))
     };
     let (outcome, because) = found(40);
@@ -42,9 +42,9 @@ fn what_ties_on_every_case_is_contradicted_where_enough_cases_are_drawn() {
 
 #[test]
 fn what_ties_on_some_cases_and_is_never_the_contrary_is_open_and_names_the_ties() {
-    let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+    let selection = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
     let all = [(30, At(4.0), At(5.0)), (7, At(5.0), At(5.0))];
-    let one = judged("on_every", &format!("{of}\nthat = \"lower\""), Made::Plainly, pairs(&all));
+    let one = judged("on_every", &format!("{selection}\nthat = \"lower\""), Made::Plainly, pairs(&all));
     assert_eq!(one.outcome.name(), "open");
     let settles = one.findings[0].settles.as_deref().unwrap();
     assert_eq!(settles, "no more instances: 7 tie, and the claim is strict");
@@ -52,21 +52,21 @@ fn what_ties_on_some_cases_and_is_never_the_contrary_is_open_and_names_the_ties(
 
 #[test]
 fn paths_that_the_verifier_refuses_are_named_where_they_keep_a_claim_open() {
-    let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+    let selection = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
     let all = [(30, At(4.9), At(5.0)), (3, At(5.2), At(5.0)), (20, Rejected, At(5.0))];
-    let one = judged("lower", of, Made::Plainly, pairs(&all));
+    let one = judged("lower", selection, Made::Plainly, pairs(&all));
     let settles = one.findings[0].settles.as_deref().unwrap();
     assert!(one.outcome.name() == "open" && settles.contains("it refuses 20"), "{settles}");
 }
 
 #[test]
 fn one_path_that_the_verifier_refuses_contradicts_that_it_accepts_every_path() {
-    let of = |more: (usize, End, End)| {
+    let class_after = |more: (usize, End, End)| {
         let settings = "select = { OF, contender = \"A\" }\nthat = \"accepted\"";
         let all = [(30, At(4.0), At(5.0)), (10, NoPath, At(5.0)), more];
         judged("on_every", settings, Made::Plainly, pairs(&all)).outcome.name()
     };
-    let ends = [At(6.0), NoPath, Spent, Rejected].map(|end| of((1, end, At(5.0))));
+    let ends = [At(6.0), NoPath, Spent, Rejected].map(|end| class_after((1, end, At(5.0))));
     assert_eq!(ends, ["holds", "holds", "open", "contradicted"]);
 }
 
@@ -79,10 +79,10 @@ fn a_saving_whose_interval_covers_most_per_cents_is_no_match() {
             sample.trial("A", At(10.0 + spread * f64::from(instance % 8)));
             sample.trial("B", At(100.0));
         }
-        let of = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+        let selection = "select = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
         let claim = format!(
             "[[claim]]\nid = \"asked\"\nat = \"here\"\nprinted = \"50\"\n[claim.check.one_instance]\n{}",
-            of.replace("OF", "study = \"drawn\", problems = [\"map\"]")
+            selection.replace("OF", "study = \"drawn\", problems = [\"map\"]")
         );
         Synthetic::new(&claim, Made::Plainly).judgement(sample.records(), &[])
     };
@@ -96,10 +96,10 @@ fn a_saving_whose_interval_covers_most_per_cents_is_no_match() {
 
 #[test]
 fn a_match_says_which_printed_values_would_have_been_refused() {
-    let of = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
+    let selection = "select = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
     let all = [(30, At(-1.0), At(1.0)), (30, At(1.0), At(1.0))];
     let within = |margin: &str| {
-        let settings = format!("{of}\nstatistic = \"mean\"\nmargin = {margin}");
+        let settings = format!("{selection}\nstatistic = \"mean\"\nmargin = {margin}");
         judged("within", &settings, Made::Plainly, pairs(&all)).findings[0].because.clone()
     };
     let says_power = |because: &[String]| because.iter().any(|message| message.starts_with("power: "));
@@ -116,8 +116,8 @@ fn a_match_says_which_printed_values_would_have_been_refused() {
 
 #[test]
 fn our_clock_says_nothing_of_the_authors_times_and_decides_questions_of_our_own() {
-    let of = "select = { study = \"drawn\", problems = \"map\", contender = \"A\", against = \"B\", metric = \"plan_time_ms\" }";
-    let claim = format!("[[claim]]\nid = \"asked\"\nat = \"here\"\n[claim.check.lower]\n{of}\n");
+    let selection = "select = { study = \"drawn\", problems = \"map\", contender = \"A\", against = \"B\", metric = \"plan_time_ms\" }";
+    let claim = format!("[[claim]]\nid = \"asked\"\nat = \"here\"\n[claim.check.lower]\n{selection}\n");
     let records = || {
         let mut sample = Sample::default();
         for _ in 0..40 {
@@ -148,9 +148,9 @@ fn a_problem_that_cannot_be_posed_is_left_out_of_what_holds_on_each_and_is_named
                 sample.trial("B", ends[1]);
             }
         }
-        let of =
+        let selection =
             "select = { study = \"drawn\", problems = [\"map\", \"other\"], metric = \"path_cost_cells\" }";
-        let settings = format!("{of}\nlower = \"{lower}\"\nhigher = [\"{higher}\"]");
+        let settings = format!("{selection}\nlower = \"{lower}\"\nhigher = [\"{higher}\"]");
         let one = judged("least_of", &settings, Made::Plainly, sample);
         (one.outcome.name(), one.findings[0].because.join("; "))
     };

@@ -114,7 +114,7 @@ fn study(made: Made) -> String {
         contender("B")
     );
     if is_swept {
-        text += &format!("[[sweep]]\nkey = \"weight\"\nof = \"astar\"\nvalues = {SWEEP:?}\n");
+        text += &format!("[[sweep]]\nkey = \"weight\"\nstage = \"astar\"\nvalues = {SWEEP:?}\n");
     }
     if made == Made::Timed {
         text += "[timing]\nproblems = 1_000\nrepeats = 1\n";

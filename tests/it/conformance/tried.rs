@@ -50,7 +50,13 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
     ),
     ("delete_inflections", &["line_of_sight = 'exact_interior'", "line_of_sight = 'closed_cells'"]),
     ("direct", &[""]),
-    ("field_dstar", &["ties = 'larger_g'"]),
+    (
+        "field_dstar",
+        &[
+            "ties = 'larger_g'\ninterpolates = 'opened'\nextraction = 'looks_ahead'",
+            "ties = 'smaller_g'\ninterpolates = 'expanded'\nextraction = 'interpolated'",
+        ],
+    ),
     ("joint_astar", &["delta_deg = 12.0\nneighbours = 12"]),
     (
         "joint_bspline",

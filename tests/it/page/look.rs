@@ -121,7 +121,7 @@ fn the_first_screen_holds_headline_and_counts_and_a_narrow_one_folds_the_rest() 
 fn links_lead_to_what_they_name_just_below_the_menu() {
     for [width, height] in [[1280, 800], [390, 844]] {
         let Some(browser) = Browser::open([width, height]) else { return };
-        for name in ["zhang", "fu2018"] {
+        for name in ["zhang", "fu2018", "theta"] {
             let file = page(name);
             let links = links_of(&browser, &file);
             assert!(links.len() > 8, "{links:?}");

@@ -1,4 +1,4 @@
-//! Where the arm is and how much room its rods have there, so that a short way on need not be looked at.
+//! The arm's configuration and the room of its rods there, so that a short further way need not be checked.
 
 use world::geometry::{Capsule, Convex, Frame};
 use world::kinematics::{AXES, Joints};

@@ -1,4 +1,4 @@
-//! What the paper leaves open about posture adjustment, as settings.
+//! The choices that the paper leaves open about posture adjustment, as settings.
 
 use base::settings::{Faults, Settings, SettingsError};
 use schemars::JsonSchema;

@@ -1,7 +1,7 @@
 //! A* over a cubic lattice: the specialisation is the general form.
 
 use super::*;
-use base::grid::{Grid3, STEPS_26};
+use base::grid::{Grid3, Nodes3, STEPS_26};
 
 /// The free nodes with their 26 neighbours; near some nodes, moves are refused by chance.
 struct Neighbours<'a> {
@@ -39,7 +39,7 @@ impl Graph for Neighbours<'_> {
 fn lattice(seed: u64) -> (Grid3, [u32; 2]) {
     let mut stream = seed::stream(seed);
     let size: [u32; 3] = std::array::from_fn(|_| stream.random_range(1..14));
-    let mut grid = Grid3::new(size).unwrap();
+    let mut grid = Grid3::new(Nodes3::new(size).unwrap());
     let inside: Vec<u32> = (0..grid.node_count() as u32).filter(|node| grid.is_free(*node)).collect();
     let ends = [0; 2].map(|_| inside[stream.random_range(0..inside.len())]);
     for node in inside.into_iter().filter(|node| !ends.contains(node)) {

@@ -1,4 +1,4 @@
-//! What pictures and tables of a cell need: obstacles and the robot at the queries' ends, millimetres.
+//! The data of pictures and tables of a cell: obstacles and the robot at the queries' ends, millimetres.
 
 use super::{ArmPlacement, Query};
 use engine::geometry::{Solid, Vec3};

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Tries by seed in `file`, of those found under `fingerprint`.
+/// Tries by seed in `file`, found under `fingerprint`.
 ///
 /// # Errors
 /// A message with the file, the line and what is accepted there.

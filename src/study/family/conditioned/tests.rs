@@ -10,10 +10,10 @@ tries = 300
 size_cells = [12, 12]
 start = [1, 2]
 goal = [10, 5]
-[[of]]
+[[families]]
 family = 'random_cells'
 settings = { blocked_share = 0.3 }
-[[of]]
+[[families]]
 family = 'random_bars'
 settings = { count = 12, length_cells = [2, 5] }
 [given]
@@ -82,7 +82,7 @@ fn wrong_settings_are_refused_with_what_is_accepted() {
     };
     assert!(with("'random_bars'", "'bars'").contains("there is no problem family `bars`"));
     assert!(with("'astar'", "'delete_inflections'").contains("there is no planner `delete_inflections`"));
-    assert!(with("blocked_share = 0.3", "share = 1").contains("`of` random_cells"));
+    assert!(with("blocked_share = 0.3", "share = 1").contains("`families` random_cells"));
     assert!(with("start = [1, 2]", "start = [12, 2]").contains("start is [12, 2], outside the map"));
 }
 

@@ -1,4 +1,5 @@
-//! What pictures of a robot among solids need, millimetres, in the form of cells: boxes by their corners, all else by capsules.
+//! The data of pictures of a robot among solids, millimetres, in the form of cells: boxes by their corners, all else by
+//! capsules.
 
 use super::{ArmPlacement, Query};
 use base::robot::{Joint, Kind};

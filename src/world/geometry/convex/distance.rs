@@ -51,8 +51,8 @@ pub fn nearest_segment_convex(segment: &Segment, convex: &Convex) -> Nearest {
     nearest_by_edge(segment, convex, None).0
 }
 
-/// [`nearest_segment_convex`], with the edge on which the nearest point lies, none if it is in a face or inside; sooner found if
-/// `likely` is that edge, and the same whatever it is.
+/// [`nearest_segment_convex`], with the edge on which the nearest point lies; none if it lies in a face or inside. The
+/// answer is found sooner if `likely` is that edge, and is the same for any.
 pub fn nearest_by_edge(
     segment: &Segment,
     convex: &Convex,

@@ -1,9 +1,9 @@
 //! Convex polyhedra: planes, faces, edges and vertices, checked when built.
 //!
-//! A polyhedron grown by a radius ("true offset") is not another polyhedron: it has round edges, and none is built here.
-//! Rods with a thickness compare the exact distance with their radius, and [`intersects_segment_convex`] does it. A point
-//! that keeps a margin does not: its world, and its verifier, move the planes out by the margin, which keeps corners sharp
-//! (a path over an obstacle needs edges to go over) and forbids more than the margin there.
+//! A polyhedron grown by a radius ("true offset") is not another polyhedron: it has round edges, and none is built
+//! here. Rods with a thickness compare the exact distance with their radius, which [`intersects_segment_convex`] does.
+//! A point that keeps a margin is treated otherwise: its world and its verifier move the planes out by the margin. That
+//! keeps corners sharp, since a path over an obstacle needs edges to go over, and forbids more than the margin there.
 
 mod distance;
 mod hull;

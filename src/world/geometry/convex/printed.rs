@@ -78,8 +78,8 @@ fn placed(share: f64, [below, above]: [Vec3; 2], within: Vec3) -> Vec3 {
     }
 }
 
-/// The nearest points of a segment and a polyhedron by the edges and diagonals of its faces, or where the segment
-/// pierces a face, as Tang et al. (2023) compute them: all diagonals; the text lists fewer.
+/// The nearest points of a segment and a polyhedron as Tang et al. (2023) compute them: by the edges and diagonals of its
+/// faces, or where the segment pierces a face. All diagonals count; the text lists fewer.
 pub fn nearest_segment_convex_printed(segment: &Segment, convex: &Convex) -> Nearest {
     nearest_by_lines(segment, convex, |_, _, _| true)
 }

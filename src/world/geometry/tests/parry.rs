@@ -1,7 +1,7 @@
 //! Our distances against parry3d's, where parry3d is exact.
 //!
-//! It is not between capsules: its iterative solver is off by up to a hundredth of a millimetre a metre on
-//! two of a hundred pairs of this sample, so those are held against the ternary search alone.
+//! It is not exact between capsules: its iterative solver is off by up to a hundredth of a millimetre a metre on two of a
+//! hundred pairs of this sample. Those are held against the ternary search alone.
 
 use super::sample;
 use crate::geometry::{

@@ -26,9 +26,9 @@ pub fn segment_segment(p: &Segment, q: &Segment) -> f64 {
     })
 }
 
-/// The distance between a segment and the solid behind `planes`, as a quadratic program: for the share at
-/// each bound or free, and for every set of at most three active planes, solve for the pair and keep the
-/// best feasible one. Knows nothing of faces, edges and vertices.
+/// The distance between a segment and the solid behind `planes`, as a quadratic program. It solves for the pair with the
+/// share at each bound or free, and with every set of at most three active planes, and keeps the best feasible pair. It
+/// knows nothing of faces, edges and vertices.
 pub fn segment_polyhedron(segment: &Segment, planes: &[(Vec3, f64)]) -> f64 {
     let n = planes.len();
     let mut best = f64::INFINITY;

@@ -110,7 +110,7 @@ impl Turns {
         self
     }
 
-    /// Whether joint angles are those of the rows but for their offsets.
+    /// Whether joint angles equal those of the original rows, apart from offsets.
     pub fn keep_directions(&self) -> bool {
         self.signs == [1.0; AXES]
     }

@@ -1,12 +1,13 @@
 //! Arms with three parallel axes (2, 3 and 4) and a wrist whose axes do not meet: up to eight configurations.
 //!
-//! The chain must have `alpha = (±90°, 0 or 180°, 0 or 180°, ±90°, ±90°, any)`, `a1 = a4 = a5 = 0` and `a2`, `a3` other than 0,
-//! as the UR series and the AUBO i series have; `d2`, `d3` and `d4` together are the shoulder's offset. The shoulder angle
-//! follows from the flange's position, then the fifth and sixth from its orientation, then a two-link arm is left.
+//! The chain must have `alpha = (±90°, 0 or 180°, 0 or 180°, ±90°, ±90°, any)`, `a1 = a4 = a5 = 0` and `a2`, `a3` other
+//! than 0, as the UR series and the AUBO i series have; `d2`, `d3` and `d4` together are the shoulder's offset. The
+//! shoulder angle follows from the flange's position, then the fifth and sixth from its orientation, then a two-link
+//! arm is left.
 //!
-//! What a pose leaves free: where axes 4 and 6 are parallel (the fifth sine below 1e-10), joint 6 keeps its
-//! reference, also if the pose is out of reach that way and within it another way. A flange nearer to axis 1 than
-//! the shoulder's offset has no configuration. Joints 1 and 2: see `reach`.
+//! Free joints: where axes 4 and 6 are parallel (the fifth sine below 1e-10), joint 6 keeps its reference. It does so
+//! even if the pose is out of reach that way and within it another way. A flange nearer to axis 1 than the shoulder's
+//! offset has no configuration. Joints 1 and 2: see `reach`.
 //!
 //! # Source
 //! Derived from the rows as `form` rewrites them, to `alpha = (90°, 180°, 180°, -90°, 90°)`. With angles counted from upright,

@@ -1,9 +1,9 @@
-//! What both closed forms share: the turn of joint 1, and the triangle of the two links.
+//! The steps that both closed forms share: the turn of joint 1, and the triangle of the two links.
 //!
-//! What a pose leaves free keeps its reference. That is joint 1 where the wrist is on axis 1 and the arm has no shoulder offset,
-//! and joint 2 where links of equal length are folded onto each other and the wrist is on axis 2. At full stretch, fully folded,
-//! and at the shoulder offset's distance from axis 1, two branches coincide and both are given. Where the last two of these meet,
-//! rounding decides whether the pose is within reach.
+//! A joint that a pose leaves free keeps its reference. Joint 1 is free where the wrist is on axis 1 and the arm has no
+//! shoulder offset. Joint 2 is free where links of equal length are folded onto each other and the wrist is on axis 2.
+//! At full stretch, fully folded, and at the shoulder offset's distance from axis 1, two branches coincide and both are
+//! given. Where the last two of these meet, rounding decides whether the pose is within reach.
 
 use crate::geometry::Vec3;
 

@@ -79,9 +79,9 @@ impl Robot {
     /// The robot that `text` describes; `path` is where it came from, for messages.
     ///
     /// # Errors
-    /// [`KinematicsError::File`] with the line, what was found and what is accepted, for anything that is
-    /// not TOML, not known, missing, not a finite number of the right sign, or contradictory, and for rows
-    /// that the requested solver does not allow.
+    /// [`KinematicsError::File`] with the line, what was found and what is accepted. Refused are text that is not TOML,
+    /// unknown and missing keys, numbers that are not finite or of the wrong sign, and contradictions. Rows that the
+    /// requested solver does not allow are refused too.
     pub fn parse(text: &str, path: &Path) -> Result<Self, KinematicsError> {
         file::parse(text, path)
     }

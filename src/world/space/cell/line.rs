@@ -1,18 +1,18 @@
 //! Local paths: what joins two configurations without a search.
 //!
-//! The tool goes on a straight line, its orientation about one axis (slerp), both at even steps; the joints follow by inverse
-//! kinematics. At each step the configuration of the smallest change is taken; it is sought on the branch in hand, and on all
-//! only where another could be nearer. A path is refused for a change of branch, a pose out of reach or limits, a jump of a
-//! joint, a joint too fast under the tool's time law, an end in another configuration than the one requested, or a contact. Jumps
-//! are judged at the steps; limits and reach too and, where a joint is near a limit or the elbow all but stretched or folded, at
-//! every quarter of a step.
+//! The tool goes on a straight line, its orientation about one axis (slerp), both at even steps; the joints follow by
+//! inverse kinematics. At each step the configuration of the smallest change is taken; it is sought on the branch in
+//! hand, and on all only where another could be nearer. A path is refused for any of these: a change of branch, a pose
+//! out of reach or limits, a jump of a joint, or a joint too fast under the tool's time law. A contact refuses it too,
+//! and an end in another configuration than the one requested. Jumps are judged at the steps; limits and reach too and,
+//! where a joint is near a limit or the elbow all but stretched or folded, at every quarter of a step.
 //!
-//! **What can slip through.** Every checked configuration is checked with each part thickened by 0.51 of the longest way that an
-//! end of its axis goes to the next checked ones. A contact between two that are clear is then possible only where an axis end
-//! travels 2 % further than its chord. Where a thickened part is near an obstacle the step is halved, three times at most. What
-//! then slips is thinner than the way of a part in an eighth of a step (2.5 mm of the tool at 20 mm). Reach, checked at quarters
-//! where the elbow is all but stretched, may be left between two of those, as far as a quarter of a step bulges. That is a
-//! sixteenth of what a step does, some thousandths of a millimetre.
+//! **What can slip through.** Every checked configuration is checked with each part thickened by 0.51 of the longest
+//! way that an end of its axis goes to the next checked ones. A contact between two that are clear is then possible
+//! only where an axis end travels 2 % further than its chord. Where a thickened part is near an obstacle the step is
+//! halved, three times at most. What then slips is thinner than the way of a part in an eighth of a step (2.5 mm of the
+//! tool at 20 mm). Reach, checked at quarters where the elbow is all but stretched, may be left between two of those,
+//! as far as a quarter of a step bulges. That is a sixteenth of what a step does, some thousandths of a millimetre.
 //!
 //! # Source
 //! Fu et al., *Robotics and Autonomous Systems* 106 (2018), section 3.1.

@@ -1,6 +1,6 @@
-//! What a local path must keep to, why one is refused, and the planner that holds both.
+//! The limits of a local path, the reasons for refusing one, and the planner that holds both.
 //!
-//! How a path is followed and checked stands in `line` (one configuration at a time) and in `lanes` (eight at once).
+//! `line` follows and checks a path one configuration at a time, `lanes` eight at once.
 
 use super::Cell;
 use super::time_law::SpeedRule;

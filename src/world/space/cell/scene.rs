@@ -263,8 +263,8 @@ impl Scene {
     /// The scene that `document` describes.
     ///
     /// # Errors
-    /// All of them at once: the line and column of an unknown key, a number that is not finite, a size that is not above 0, a shape that
-    /// encloses nothing, a name that stands twice, or obstacles that all lie within 10 mm, as in a file in metres.
+    /// All of them at once, with line and column: an unknown key, a number that is not finite, a size that is not above 0, a
+    /// shape that encloses nothing, a name that stands twice. Obstacles that all lie within 10 mm are refused too, as in a file in metres.
     pub fn parse(document: &Document) -> Result<Self, SettingsError> {
         let file: SceneFile = document.read()?;
         let mut faults = Faults::default();

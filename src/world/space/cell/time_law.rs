@@ -1,4 +1,4 @@
-//! When a tool that goes from rest to rest is where.
+//! Positions over time of a tool that goes from rest to rest.
 
 /// A tool's time law: rest to rest with one acceleration and one greatest speed.
 #[derive(Debug, Clone, Copy, PartialEq)]

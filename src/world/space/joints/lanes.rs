@@ -1,12 +1,13 @@
 //! Robots made of spheres, eight configurations at once.
 //!
-//! Places and distances run in f32. A comparison inside the error band of an obstacle, and one with a solid that lanes only bound (a
-//! cylinder's prism, a hull), leaves its configurations in doubt, and the scalar code decides those two solids there. So a verdict
-//! from here is the scalar code's. Spheres of one link are first compared by a ball around them all, and obstacles by balls around
-//! them; obstacles out of a link's reach are left out. Links go from the last to the first, since what is far out meets most.
+//! Places and distances run in f32. Two kinds of comparison leave configurations in doubt: those inside an obstacle's
+//! error band, and those with a solid that lanes only bound (a cylinder's prism, a hull). The scalar code decides these
+//! solids there, so a verdict from here is the scalar code's. Spheres of one link are first compared by a ball around
+//! them all, and obstacles by balls around them; obstacles out of a link's reach are left out. Links go from the last
+//! to the first, since the far ones meet most.
 //!
-//! A closure over lanes, or `map` over them, would be compiled for every machine's instructions and call each operation of theirs: so there
-//! is none here.
+//! A closure over lanes, or `map` over them, would be compiled for every machine's instructions and call each operation
+//! of theirs, so none is used here.
 #![expect(
     clippy::inline_always,
     reason = "lanes are compiled for the instructions of the function they end up in"
@@ -24,6 +25,8 @@ use nalgebra::Matrix3;
 
 /// The largest absolute joint value that is taken to f32, radians or metres.
 const MOST: f64 = 7.0;
+/// What rounding may take from a bound.
+const ROUNDED: f64 = 1.001;
 /// How far f32 may put a sphere of a robot off, metres.
 const PLACED_M: f64 = 2e-5;
 
@@ -60,6 +63,10 @@ struct LaneJoint {
 struct Link {
     /// The joint that moves it, from 1; 0 is the base.
     moved_by: usize,
+    /// How far its spheres can be from the pivots of the joints that move it, base first, metres; 1 for a joint that slides.
+    arms: Vec<f64>,
+    /// The radius of its smallest sphere, metres.
+    least_m: f64,
     ball: Ball,
     spheres: Vec<Ball>,
     /// The number of its first sphere among all.
@@ -129,6 +136,8 @@ pub(super) struct Memory {
     balls: Vec<[RoughRow; 3]>,
     spheres: Vec<[RoughRow; 3]>,
     is_placed: Vec<bool>,
+    /// How much room the spheres of each link need for what lies between two configurations, metres.
+    rooms: Vec<f32>,
     /// What the last block left to the scalar code.
     pub(super) doubts: Vec<Doubt>,
 }
@@ -148,14 +157,17 @@ fn from_z(axis: &Vec3) -> Matrix3<f64> {
     Matrix3::from_columns(&[y.cross(axis), y, *axis])
 }
 
-/// How far the frame of joint `index`, from 1, can be from the first joint's place, metres.
-fn reach(chain: &OpenChain, index: usize) -> f64 {
+/// How far the frame of joint `index`, from 1, can be from the place of joint `from`, metres.
+fn reach(chain: &OpenChain, from: usize, index: usize) -> f64 {
     let slid = |joint: &OpenJoint| match joint.joint.kind {
         Kind::Slides => joint.joint.limits.iter().fold(0.0_f64, |most, end| most.max(end.abs())),
         Kind::Turns | Kind::TurnsOn => 0.0,
     };
-    let joints = chain.joints().iter().take(index).enumerate();
-    joints.map(|(i, joint)| if i == 0 { slid(joint) } else { joint.before.origin.norm() + slid(joint) }).sum()
+    let joints = chain.joints()[..index].iter().enumerate().skip(from - 1);
+    let way = |(i, joint): (usize, &OpenJoint)| {
+        slid(joint) + if i < from { 0.0 } else { joint.before.origin.norm() }
+    };
+    joints.map(way).sum()
 }
 
 /// A ball around spheres.
@@ -209,16 +221,22 @@ impl Spheres {
                 first += spheres.len();
                 let within = |(at, radius): &(Vec3, f64)| at.norm() + radius;
                 let own_reach = spheres.iter().map(within).fold(0.0, f64::max);
-                let reach = own_reach + reach(chain, moved_by);
+                let arm = |from: usize| match chain.joints()[from - 1].joint.kind {
+                    Kind::Slides => 1.0,
+                    Kind::Turns | Kind::TurnsOn => own_reach + reach(chain, from, moved_by),
+                };
+                let far = own_reach + if moved_by > 0 { reach(chain, 1, moved_by) } else { 0.0 };
                 let pivot = chain.joints().first().map_or(Vec3::zeros(), |joint| joint.before.origin);
                 let is_near = |still: &usize| {
                     let solid = &obstacles[*still];
                     let still = &stills[*still];
                     let apart = (Vec3::from(solid.pose.origin_m) - pivot).norm();
-                    apart < reach + f64::from(still.reach) + 2.0 * f64::from(still.band)
+                    apart < far + f64::from(still.reach) + 2.0 * f64::from(still.band)
                 };
                 Link {
                     moved_by,
+                    arms: (1..=moved_by).map(arm).collect(),
+                    least_m: spheres.iter().map(|(_, radius)| *radius).fold(f64::INFINITY, f64::min),
                     ball: around(&spheres),
                     spheres: own,
                     first: first - spheres.len(),
@@ -251,19 +269,45 @@ impl Spheres {
         values.all(|value| value.abs() <= MOST)
     }
 
+    /// Notes how much larger spheres must be for nothing to touch between two configurations if no larger sphere touches at either. From one to
+    /// the other joints make one of so many `steps` of `changes`.
+    ///
+    /// The centre of a sphere of radius r goes at most s from one to the other, and strays from the chord by a/8, where a bounds its
+    /// second derivative. A point that is r + m from both ends of a chord s is r from all of it if m is at least s²/8r. For two spheres of the
+    /// robot the sum of both rooms is enough, since (s + t)²/(q + r) is at most s²/q + t²/r.
+    pub(super) fn make_room(&self, changes: &[f64], steps: f64, memory: &mut Memory) {
+        memory.rooms.clear();
+        memory.rooms.extend(self.links.iter().map(|link| {
+            let (mut way, mut bend, mut turned) = (0.0, 0.0, 0.0);
+            for (step, arm) in changes.iter().map(|change| change.abs() / steps).zip(&link.arms) {
+                way += step * arm;
+                bend += step * arm * (2.0 * turned + step);
+                turned += step;
+            }
+            (ROUNDED * (way * way / link.least_m + bend) / 8.0) as f32
+        }));
+    }
+
     /// Whether one of eight configurations at least, whose joints are in `values`, is in contact. If none is, those that may be are
-    /// left in the memory's doubts.
+    /// left in the memory's doubts. `with_room`, no contact is sure: those that lack the noted room are in doubt.
     #[inline(always)]
-    pub(super) fn touches<S: Simd>(&self, simd: S, values: &[RoughRow], memory: &mut Memory) -> bool {
+    pub(super) fn touches<S: Simd>(
+        &self,
+        simd: S,
+        values: &[RoughRow],
+        with_room: bool,
+        memory: &mut Memory,
+    ) -> bool {
         self.place(simd, values, memory);
         memory.doubts.clear();
         for (index, link) in self.links.iter().enumerate().rev().filter(|(_, link)| link.moved_by > 0) {
             let centre = point(simd, &memory.balls[index]);
             for number in &link.near {
                 let still = &self.stills[*number];
-                let ball = link.ball.radius + still.clearance;
+                let room = if with_room { memory.rooms[index] } else { 0.0 };
+                let ball = link.ball.radius + room + still.clearance;
                 let apart = centre - Point::splat_rough(simd, still.origin);
-                let far = square(link.ball.radius + still.reach + still.band);
+                let far = square(link.ball.radius + room + still.reach + still.band);
                 if !apart.dot(apart).simd_lt(far).any_true()
                     || !still.squares(simd, &apart).0.simd_lt(square(ball + still.band)).any_true()
                 {
@@ -274,10 +318,10 @@ impl Spheres {
                 for (place, (sphere, at)) in link.spheres.iter().zip(&spheres[link.first..]).enumerate() {
                     let apart = point(simd, at) - Point::splat_rough(simd, still.origin);
                     let (least, most) = still.squares(simd, &apart);
-                    let radius = sphere.radius + still.clearance;
+                    let radius = sphere.radius + room + still.clearance;
                     let near = least.simd_lt(square(radius + still.band));
                     if near.any_true() {
-                        if most.simd_lt(square((radius - still.band).max(0.0))).any_true() {
+                        if !with_room && most.simd_lt(square((radius - still.band).max(0.0))).any_true() {
                             return true;
                         }
                         let marks = near.select(Rough::splat(simd, 1.0), Rough::splat(simd, 0.0)).to_array();
@@ -293,8 +337,9 @@ impl Spheres {
         for pair in &self.pairs {
             let [a, b] = pair.links;
             let apart = point(simd, &memory.balls[a]) - point(simd, &memory.balls[b]);
-            let reach = self.links[a].ball.radius + self.links[b].ball.radius + BAND;
-            if !apart.dot(apart).simd_lt(square(reach)).any_true() {
+            let room = if with_room { memory.rooms[a] + memory.rooms[b] } else { 0.0 };
+            let balls = self.links[a].ball.radius + self.links[b].ball.radius + room + BAND;
+            if !apart.dot(apart).simd_lt(square(balls)).any_true() {
                 continue;
             }
             self.place_spheres(simd, a, memory);
@@ -302,10 +347,10 @@ impl Spheres {
             let Memory { spheres, doubts, .. } = &mut *memory;
             for SpherePair { spheres: [i, j], reach } in &pair.spheres {
                 let apart = point(simd, &spheres[*i]) - point(simd, &spheres[*j]);
-                let gap = apart.dot(apart);
+                let (gap, reach) = (apart.dot(apart), reach + room);
                 let near = gap.simd_lt(square(reach + BAND));
                 if near.any_true() {
-                    if gap.simd_lt(square(reach - BAND)).any_true() {
+                    if !with_room && gap.simd_lt(square(reach - BAND)).any_true() {
                         return true;
                     }
                     let marks = near.select(Rough::splat(simd, 1.0), Rough::splat(simd, 0.0)).to_array();

@@ -154,7 +154,7 @@ fn few_configurations_are_left_to_the_scalar_code() {
         let rows: Vec<RoughRow> = (0..7)
             .map(|_| std::array::from_fn(|_| rand::RngExt::random_range(&mut stream, -0.4_f32..0.4)))
             .collect();
-        if !dispatch!(level(), simd => spheres.touches(simd, &rows, &mut lanes)) {
+        if !dispatch!(level(), simd => spheres.touches(simd, &rows, false, &mut lanes)) {
             doubts += lanes.doubts.iter().flat_map(|doubt| doubt.is_at).filter(|is_in| *is_in).count();
         }
     }
@@ -184,6 +184,34 @@ fn a_motion_that_slips_past_something_thin_is_refused_by_a_finer_look() {
     assert!((10..35).contains(&slipped), "one-sided sample: {slipped} of 40 slipped");
 }
 
+#[test]
+fn what_has_room_for_all_between_is_free_at_each_of_many_configurations() {
+    let mut stream = base::seed::stream(31);
+    let mut near = |middle: f64, by: f64| rand::RngExt::random_range(&mut stream, middle - by..middle + by);
+    let mut thin = |k: u32| {
+        let pose = Pose { origin_m: [near(0.8, 0.4), near(0.0, 0.3), near(0.5, 0.3)], ..Pose::IDENTITY };
+        Solid { name: format!("thin {k}"), pose, form: Form::Sphere(0.001) }
+    };
+    let thin = (0..300).map(&mut thin).collect();
+    let mut robot = of_spheres();
+    robot.solids.iter_mut().for_each(|(_, solid)| solid.form = Form::Sphere(0.01));
+    let mut space = JointSpace::new(robot, thin, &SelfContact::Apart, 0.2);
+    let mut memory = MotionMemory::default();
+    let (mut free, mut slipped) = (0, 0);
+    for case in 0..4000 {
+        let most = near(0.3, 0.3);
+        let from = [0.0, 0.9, 0.0, 0.0, 0.0, 0.0, 0.2].map(|at| near(at, 0.2));
+        let to = from.map(|at| near(at, most));
+        space.self_pairs.truncate(if case % 2 == 0 { 0 } else { 1000 });
+        let is_free = space.goes([&from, &to], 64.0, &mut memory, &mut 0);
+        let holds = space.holds([&from, &to], &mut memory, &mut 0);
+        assert!(is_free || !holds, "case {case}: {from:?} {to:?}");
+        free += u32::from(holds);
+        slipped += u32::from(!is_free && space.goes([&from, &to], 1.0, &mut memory, &mut 0));
+    }
+    assert!(free > 60 && slipped > 20, "one-sided sample: {free} have room, {slipped} slip past something");
+}
+
 /// A ball may graze another between two configurations at which both are apart; a path's motions are looked at as finely as that takes.
 #[test]
 fn a_graze_between_two_looks_is_refused_where_a_path_is_returned() {
@@ -205,7 +233,7 @@ fn a_graze_between_two_looks_is_refused_where_a_path_is_returned() {
         let mut to = from;
         to[1] += 1.4;
         let grazing = of(top_m - 1e-5);
-        slipped += u32::from(grazing.goes([&from, &to], FINER[0], &mut memory, &mut 0));
+        slipped += u32::from(grazing.goes([&from, &to], 4.0, &mut memory, &mut 0));
         refused += u32::from(!grazing.holds([&from, &to], &mut memory, &mut 0));
         let apart = of(top_m + 1e-5);
         assert!(apart.holds([&from, &to], &mut memory, &mut 0), "case {case}: nothing touches");

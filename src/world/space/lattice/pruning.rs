@@ -1,9 +1,9 @@
 //! Which directions a search by jump points goes on in, from how it came: the pruning rules, tabulated.
 //!
-//! A neighbour n of x is pruned, x having been entered from p, if a way from p to n within the block of 3 × 3 cells round x, and
-//! not through x, costs no more than the way through x. If x was entered diagonally, that way must cost less. Diagonal moves
-//! therefore come before straight ones in the ways that are left. The definition holds under every corner rule, so that the
-//! tables are computed from it and no rule needs a list of its own.
+//! Say x was entered from p. A neighbour n of x is pruned if some way from p to n costs no more than the way through x.
+//! That way must stay within the block of 3 × 3 cells round x and avoid x. If x was entered diagonally, it must cost
+//! less. Diagonal moves therefore come before straight ones in the ways that are left. The definition holds under every
+//! corner rule, so that the tables are computed from it and no rule needs a list of its own.
 //!
 //! # Source
 //! Harabor & Grastien, *Online graph pruning for pathfinding on grid maps*, AAAI 2011, section 3 (corners may be cut);
@@ -55,8 +55,8 @@ impl Pruning {
         self.onward[came][moves as usize]
     }
 
-    /// The directions in which a cell with the legal `moves` is a jump point if it is entered: a way goes on from it in a
-    /// direction that a run in that direction does not take anyway.
+    /// The directions in which a cell with the legal `moves` is a jump point when it is entered. Some way goes on from
+    /// it in a direction that a straight run does not take anyway.
     ///
     /// Where no corner is cut, these are straight directions only.
     #[inline]

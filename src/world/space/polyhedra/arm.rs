@@ -133,9 +133,9 @@ impl CarriedArm {
         (frames[AXES] * *self.arm.chain().tool()).origin * CM_PER_M
     }
 
-    /// For every obstacle within `reach` of a rod's surface, the floor last, the rod nearest to it, by the exact distance or by the
-    /// printed one, with what is remembered of a near configuration. What the first joint alone moves keeps its distance to what
-    /// the base stands on and is not held against it.
+    /// For every obstacle within `reach` of a rod's surface, and the floor last, the rod nearest to it. Distances are
+    /// exact, or as printed, and use what is remembered of a near configuration. A body that joint 1 alone moves keeps
+    /// its distance to the solid under the base and is not compared with it.
     pub fn contacts_of(
         &self,
         rods: &[Capsule],
@@ -241,8 +241,8 @@ impl CarriedArm {
         &bodies[..bodies.len() - usize::from(is_above)]
     }
 
-    /// Whether every rod's surface is `least` or more from the obstacles: what [`clearance`](Self::clearance) says, without measuring
-    /// what shows to be farther, and only up to the first that is not.
+    /// Whether every rod's surface is `least` or more from the obstacles. It answers as [`clearance`](Self::clearance)
+    /// would, but measures nothing that is plainly farther, and stops at the first that is nearer.
     pub fn is_clear(&self, q: &Joints, bodies: &[Convex], least: f64, printed: bool, apart: &Apart) -> bool {
         let frames = self.arm.chain().frames(q);
         self.parts().iter().enumerate().all(|(rod, part)| {

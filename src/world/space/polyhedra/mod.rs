@@ -19,8 +19,9 @@ pub use motion::{Motion, motion};
 pub use scene::{SCENE_FILE, Scene, parse_scene, read_scene};
 
 use crate::geometry::{Aabb, Convex, Segment, Vec3};
-use base::grid::Grid3;
+use base::grid::{Grid3, Nodes3};
 use base::text::listed;
+use std::sync::{Arc, OnceLock};
 
 /// What blocks, where, and how finely it is searched.
 #[derive(Debug, Clone)]
@@ -30,10 +31,20 @@ pub struct PolyhedraWorld {
     growth: f64,
     domain: Aabb,
     step: f64,
-    grid: Grid3,
-    near: Vec<bool>,
+    nodes: Nodes3,
+    /// Shared by copies of the world.
+    raster: Arc<OnceLock<Raster>>,
     touching_blocks: bool,
     arm: Option<CarriedArm>,
+}
+
+/// The lattice among the obstacles.
+#[derive(Debug, Clone)]
+struct Raster {
+    /// Nodes in obstacles are blocked.
+    grid: Grid3,
+    /// Whether a step from each node may touch an obstacle.
+    near: Vec<bool>,
 }
 
 /// Where a segment first meets an obstacle.
@@ -71,21 +82,16 @@ impl PolyhedraWorld {
             .collect::<Result<_, _>>()?;
         // Room for the rounding of a side that is a whole number of steps.
         let size = sides.map(|side| ((side / step + 1e-9) as u32).saturating_add(1));
-        let grid = Grid3::new(size.into())?;
-        let near = vec![false; grid.node_count()];
-        let touching_blocks = true;
-        let mut world =
-            Self { obstacles, bodies, growth, domain, step, grid, near, touching_blocks, arm: None };
-        world.rasterise();
-        Ok(world)
+        let nodes = Nodes3::new(size.into())?;
+        let raster = Arc::default();
+        Ok(Self { obstacles, bodies, growth, domain, step, nodes, raster, touching_blocks: true, arm: None })
     }
 
     /// The same world in which a point on an obstacle's face is free: only what lies behind all its planes is blocked.
     #[must_use]
     pub fn touched_freely(mut self) -> Self {
         self.touching_blocks = false;
-        self.grid = Grid3::new(self.grid.size()).expect("a lattice of this size was made before");
-        self.rasterise();
+        self.raster = Arc::default();
         self
     }
 
@@ -96,29 +102,37 @@ impl PolyhedraWorld {
         self
     }
 
-    /// Blocks every node in an obstacle and marks those from which a step may touch one.
-    fn rasterise(&mut self) {
+    /// The lattice with every node in an obstacle blocked and those marked from which a step may touch one.
+    fn rasterised(&self) -> Raster {
+        let size = self.nodes.size();
+        let mut grid = Grid3::new(self.nodes);
+        let mut near = vec![false; grid.node_count()];
         for index in 0..self.obstacles.len() {
             let reach = self.obstacles[index].aabb().grown(self.step);
             let corner = |v: &Vec3| (v - self.domain.min) / self.step;
             let (low, high) = (corner(&reach.min), corner(&reach.max));
-            let size = self.grid.size();
             let range = |axis: usize| {
                 let last = i64::from(size[axis]) - 1;
                 (low[axis].floor() as i64).clamp(0, last)..=(high[axis].ceil() as i64).clamp(-1, last)
             };
             for (z, y) in range(2).flat_map(|z| range(1).map(move |y| (z, y))) {
-                let row =
-                    self.grid.node([0, y as i32, z as i32]).expect("the range was clamped to the lattice");
+                let row = grid.node([0, y as i32, z as i32]).expect("the range was clamped to the lattice");
                 for x in range(0) {
                     let node = row + x as u32;
-                    self.near[node as usize] = true;
+                    near[node as usize] = true;
                     if self.holds(&self.obstacles[index], &self.point(node)) {
-                        self.grid.block(node);
+                        grid.block(node);
                     }
                 }
             }
         }
+        Raster { grid, near }
+    }
+
+    /// The lattice among the obstacles, made when it is first needed: to read a paper takes none.
+    #[inline]
+    fn raster(&self) -> &Raster {
+        self.raster.get_or_init(|| self.rasterised())
     }
 
     /// Whether `point` may not be where it is because of `obstacle`.
@@ -161,9 +175,14 @@ impl PolyhedraWorld {
         self.step
     }
 
+    /// How many nodes the lattice has.
+    pub fn node_count(&self) -> usize {
+        self.nodes.node_count()
+    }
+
     /// The lattice; nodes in obstacles are blocked.
     pub fn grid(&self) -> &Grid3 {
-        &self.grid
+        &self.raster().grid
     }
 
     /// The arm that carries the point.
@@ -174,19 +193,19 @@ impl PolyhedraWorld {
     /// Where `node` is.
     #[inline]
     pub fn point(&self, node: u32) -> Vec3 {
-        self.domain.min + Vec3::from(self.grid.xyz(node).map(f64::from)) * self.step
+        self.domain.min + Vec3::from(self.nodes.xyz(node).map(f64::from)) * self.step
     }
 
     /// The node nearest to `point`, if it lies in the domain.
     pub fn node(&self, point: &Vec3) -> Option<u32> {
         let at = (point - self.domain.min) / self.step;
-        self.grid.node([0, 1, 2].map(|axis: usize| at[axis].round() as i32))
+        self.nodes.node([0, 1, 2].map(|axis: usize| at[axis].round() as i32))
     }
 
     /// Whether a step from `node` to a free neighbour may touch an obstacle; most nodes are far from all.
     #[inline]
     pub fn is_near(&self, node: u32) -> bool {
-        self.near[node as usize]
+        self.raster().near[node as usize]
     }
 
     /// Whether `point` touches no obstacle.

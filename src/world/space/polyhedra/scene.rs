@@ -21,8 +21,8 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// What a scene with an arm is made of: the bodies, the block that the base stands on among them as the last one, and where
-    /// the arm stands.
+    /// The parts of a scene with an arm: the bodies, with the block under the base as the last one, and where the arm
+    /// stands.
     ///
     /// # Errors
     /// A sentence if the scene does not say what is under an arm.

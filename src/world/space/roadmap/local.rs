@@ -83,7 +83,7 @@ impl Local {
         }
     }
 
-    /// Which numbers of a configuration are angles that whole turns part from themselves.
+    /// For each number of a configuration, whether it is an angle of a joint that turns without end.
     pub fn turn_on(&self) -> Vec<bool> {
         match self {
             Self::Arm(lines) => {
