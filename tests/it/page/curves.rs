@@ -44,11 +44,11 @@ fn success_curves_say_the_values_under_the_pointer() {
         for (row, label) in [("original", "Original A*"), ("improved", "Improved A*")] {
             let judged = verdicts.claim(&format!("t2.{row}.{samples}")).unwrap();
             let ours = judged.ours().unwrap().value;
-            let found = value(&format!("{label}: mean of 200 roadmaps"));
+            let found = value(label);
             assert!((ours - found).abs() < 0.01, "{label}, {samples}: {found} on the page, {ours} as judged");
             let printed: f64 = judged.printed.as_ref().unwrap().parse().unwrap();
             assert_eq!(value(&format!("{label}: printed")), printed, "{label}, {samples}");
-            let band = &shown[&format!("{label}: mean of 200 roadmaps")];
+            let band = &shown[label];
             assert!(band.contains(" [") && band.ends_with(']'), "{band}");
         }
     }
