@@ -117,11 +117,6 @@ impl StatisticsPanel {
             (Statistic::Solved | Statistic::Distance, _) => self.along_sweep(scene),
             _ => by_contender(&|label| self.singles(scene, label)),
         };
-        if found.iter().all(|series| series.points.is_empty() && series.dots.is_empty()) {
-            return Err(RenderError::NotStored {
-                what: format!("numbers for `{}` and `{}`", self.spec.x, self.spec.y),
-            });
-        }
         Ok(found)
     }
 
