@@ -283,9 +283,10 @@ def test_a_contender_departs_where_an_option_of_its_own_is_not_the_default() -> 
 
 def test_many_options_with_all_of_their_results_on_one_side_are_counted() -> None:
     few = {"a": [1, 0], "b": [2, 1], "c": [0, 0]}
-    assert shares(few) == "a 1 of 1, b 2 of 3"
+    assert shares(few) == "1 of 1 against with a, 2 of 3 with b"
     many = {**{name: [1, 0] for name in "defgh"}, "b": [2, 1]}
-    assert shares(many) == "b 2 of 3; all under each of 5 more"
+    assert shares(many) == "2 of 3 against with b, all with each of 5 more"
     both = {**many, **{name: [0, 2] for name in "ijklmn"}}
-    assert shares(both) == "b 2 of 3; none under each of 6 more, all under each of 5 more"
-    assert shares({name: [1, 0] for name in "defgh"}) == "d 1 of 1, e 1 of 1, f 1 of 1, g 1 of 1, h 1 of 1"
+    assert shares(both) == "2 of 3 against with b, none with each of 6 more, all with each of 5 more"
+    listed = ", ".join(f"1 of 1 with {name}" for name in "efgh")
+    assert shares({name: [1, 0] for name in "defgh"}) == f"1 of 1 against with d, {listed}"
