@@ -12,7 +12,9 @@ use study::record::{Row, Status};
 /// The pairs of every instance, with censored cases filled in by a difference that outweighs every observed one.
 ///
 /// Where the contender alone failed, the difference is against it; where the other alone failed, it is for it. No
-/// number is below 0. Where the failing side is unknown, both ways are tried.
+/// number is below 0. A side that did not come to an end might have been the better one with more budget: there the sign
+/// is unknown, and both are tried. A result found with either sign does not hang on these cases. Nothing is returned
+/// where nothing is censored.
 pub fn filled(selection: &Selection<'_>, instances: &[Instance<'_>]) -> Vec<Vec<Vec<(f64, f64)>>> {
     let seen = || cases(instances).filter_map(Case::pair);
     let count = seen().count();

@@ -73,7 +73,8 @@ struct LeastOf<'a> {
 }
 
 /// Fewest seeds with which medians of two contenders that draw decide. Of 4 each, all of one are below all of the
-/// other's by chance once in 70 times; of 3 each once in 20 times.
+/// other's by chance once in 70 times; of 3 each once in 20 times. A contender with one seed does not draw; a problem that
+/// was drawn does.
 const FEWEST_SEEDS: usize = 4;
 
 /// One contender on one problem.

@@ -11,8 +11,11 @@ use std::f64::consts::{PI, TAU};
 /// The parts of a step at which limits and reach are checked where they are near; the verifier stops there too.
 pub(super) const PARTS: [f64; 3] = [0.25, 0.5, 0.75];
 
-/// A way of 40 mm (20 mm of the tool and 4° of a hand of 300 mm) begins and ends at the edge of a reach of 1.2 m. It
-/// bulges over it by 0.17 mm, which is 2° of the elbow.
+/// How far the elbow is from being stretched or folded before the wrist cannot leave its reach between two steps.
+///
+/// Say a way of 40 mm (20 mm of the tool and 4° of a hand of 300 mm) begins and ends at the edge of a reach of 1.2 m. It
+/// bulges over it by 0.17 mm, which is 2° of the elbow. One around the hole of 80 mm in the middle bulges by 2.5 mm,
+/// which is 2° too.
 const EDGE_RAD: f64 = 0.05;
 
 /// How far a joint may bend out of what lies between its angles at two steps, 1°. A joint that turns back within a step passes no
