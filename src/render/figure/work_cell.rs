@@ -9,8 +9,10 @@ use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark}
 use crate::render::style::{Dash, GREY, Rgb, Stroke, WHITE, Width, YELLOW, series_color};
 use base::settings::{Accepted, Faults, Settings, SettingsError};
 use engine::planner::Trace;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use study::Study;
 use study::key::InstanceKey;
@@ -140,28 +142,36 @@ fn add_capsules(solids: &mut Solids, capsules: &Trace, paint: Paint) {
     }
 }
 
-/// Which straight lines between the ends of queries are free, and how clear of everything.
-fn straight_lines(scene: &Scene<'_>, instance: &Arc<InstanceKey>) -> Option<String> {
-    let lines = ask::trace(scene, instance, "straight lines").ok()?;
-    let names =
-        scene.run.traces(instance).filter_map(|e| e.name.strip_prefix("pose ")?.strip_suffix("/start"));
-    let mut free = Vec::new();
+/// Of each query: its name, the mm between its straight line and what is nearest, and what that is; no number if it is blocked.
+fn straight_lines<'a>(
+    scene: &Scene<'a>,
+    instance: &Arc<InstanceKey>,
+) -> Vec<(&'a str, Option<f64>, &'a str)> {
+    let line = |trace: &'a Trace| {
+        let (query, near) = trace.name.strip_prefix("line ")?.split_once('/')?;
+        Some((query, (trace.values[0] > 0.0).then_some(trace.values[1]), near))
+    };
+    scene.run.traces(instance).filter_map(line).collect()
+}
+
+/// Which straight lines are free, and how far from which obstacle.
+fn heading(lines: &[(&str, Option<f64>, &str)]) -> String {
+    let mut near: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     let mut blocked = Vec::new();
-    for (name, line) in names.zip(lines.values.chunks(lines.width)) {
-        if line[0] > 0.0 {
-            free.push(format!("{name}: {:.0}", line[1]));
-        } else {
-            blocked.push(name.to_owned());
+    for (query, mm, obstacle) in lines {
+        match mm {
+            Some(mm) => near.entry(obstacle).or_default().push(format!("{query}: {mm:.0}")),
+            None => blocked.push(*query),
         }
     }
-    let mut heading = format!("{} of {} straight lines are free", free.len(), free.len() + blocked.len());
-    for (what, names) in [(", with mm of clearance: ", free), ("; blocked: ", blocked)] {
-        if !names.is_empty() {
-            heading += what;
-            heading += &names.join(", ");
-        }
+    let mut heading = format!("{} of {} straight lines are free", lines.len() - blocked.len(), lines.len());
+    for (obstacle, clear) in near {
+        heading += &format!("; mm from {obstacle}: {}", clear.join(", "));
     }
-    Some(heading)
+    if !blocked.is_empty() {
+        heading += &format!("; blocked: {}", blocked.join(", "));
+    }
+    heading
 }
 
 /// A pose in words: joint angles, where flange and tip are, and where the tool points.
@@ -205,8 +215,9 @@ impl WorkCell {
     fn poses(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let instance = ask::instance(scene, &self.problems, 0)?;
         let mut sheet = Sheet::new(Width::Double, VIEWS.len(), 200.0);
-        if let Some(heading) = straight_lines(scene, instance) {
-            sheet = sheet.titled(heading);
+        let lines = straight_lines(scene, instance);
+        if !lines.is_empty() {
+            sheet = sheet.titled(heading(&lines));
         }
         let named: Vec<(usize, &[String; 2])> = self.poses.iter().enumerate().collect();
         for (row, shown) in named.chunks(self.at_once.max(1)).enumerate() {
@@ -343,17 +354,15 @@ impl Kind for WorkCell {
         let heads =
             ["group", "", "joint angles (°)", "flange (mm)", "tip (mm)", "direction", "straight line"];
         table.head(heads.map(Cell::from).to_vec());
-        let lines = ask::trace(scene, instance, "straight lines").ok();
-        let mut lines = lines.into_iter().flat_map(|lines| lines.values.chunks(lines.width));
+        let lines = straight_lines(scene, instance);
         for trace in scene.run.traces(instance) {
             let Some((group, end)) = trace.name.strip_prefix("pose ").and_then(|name| name.rsplit_once('/'))
             else {
                 continue;
             };
             let group = if end == "start" { group } else { "" };
-            let line = if end == "start" { lines.next() } else { None };
-            let line = line.map_or_else(String::new, |line| {
-                if line[0] > 0.0 { format!("free, {:.1} mm", line[1]) } else { "blocked".to_owned() }
+            let line = lines.iter().find(|line| line.0 == group).map_or_else(String::new, |(_, mm, near)| {
+                mm.map_or_else(|| "blocked".to_owned(), |mm| format!("free, {mm:.1} mm from {near}"))
             });
             let row = [group.to_owned(), end.to_owned()].into_iter().chain(posed(trace)).chain([line]);
             table.row(row.map(Cell::from).collect());

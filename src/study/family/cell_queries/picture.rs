@@ -47,23 +47,24 @@ pub(super) fn traces(lines: &Lines, queries: &[Query]) -> Vec<Trace> {
             traces.push(pose(cell, format!("pose {}/{end}", query.name), config));
         }
     }
-    traces.push(straight_lines(lines, queries));
+    traces.extend(straight_lines(lines, queries));
     traces
 }
 
-/// Of each query in turn: whether the local path from start to goal is free, and how clear of everything it is; no number where
-/// the joints cannot follow it.
-fn straight_lines(lines: &Lines, queries: &[Query]) -> Trace {
+/// Of each query in turn, named after it and what is nearest: whether the local path from start to goal is free, and how clear of
+/// everything it is; no number where the joints cannot follow it.
+fn straight_lines(lines: &Lines, queries: &[Query]) -> Vec<Trace> {
     let mut scratch = Scratch::default();
     let mut line = |query: &Query| {
         let [start, goal] = [&query.start, &query.goal]
             .map(|end| lines.pose(&joints(end).expect("a query of an arm has six angles")));
-        let clearance_m = lines.clearance_m(&start, &goal, &mut scratch);
+        let (clearance_m, near) = lines.clearance_m(&start, &goal, &mut scratch).unwrap_or((f64::NAN, None));
         let is_free = lines.join(&start, &goal, &mut scratch).is_ok();
-        [f64::from(u8::from(is_free)), clearance_m.map_or(f64::NAN, |m| m * 1e3)]
+        let near = near.map_or("the robot itself", |obstacle| &obstacle.name);
+        let values = vec![f64::from(u8::from(is_free)), clearance_m * 1e3];
+        Trace { name: format!("line {}/{near}", query.name), width: 2, values }
     };
-    let values = queries.iter().flat_map(&mut line).collect();
-    Trace { name: "straight lines".to_owned(), width: 2, values }
+    queries.iter().map(&mut line).collect()
 }
 
 /// Where the floor is, if it is not at 0: its height, or no number if there is none.
@@ -83,7 +84,7 @@ pub(super) fn stance(cell: &Cell, q_rad: &[f64]) -> Option<ArmPlacement> {
     cell.place(&q, &mut placed);
     let capsules_mm = placed.iter().map(|c| round(&c.segment.a, &c.segment.b, c.radius)).collect();
     let tip_mm = mm(&cell.robot().arm().chain().forward(&q).origin);
-    Some(ArmPlacement { capsules_mm, tip_mm, clearance_mm: Some(cell.clearance_m(&q) * 1e3) })
+    Some(ArmPlacement { capsules_mm, tip_mm, clearance_mm: Some(cell.clearance_m(&q).0 * 1e3) })
 }
 
 fn body(cell: &Cell, name: String, config: &[f64]) -> Trace {

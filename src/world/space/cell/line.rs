@@ -22,7 +22,7 @@ use super::lines::{
     EdgeEnd, Lines, Path, Pose, Rejection, SAME_RAD, StepSchedule, between, largest_change, middle_outwards,
 };
 use super::way::Way;
-use super::{Standing, lanes};
+use super::{Obstacle, Standing, lanes};
 use crate::geometry::{Capsule, Frame};
 use crate::kinematics::ik::Branch;
 use crate::kinematics::{AXES, Joints, Missed};
@@ -90,9 +90,14 @@ impl Lines {
         self.clear(way.as_ref(), from.branch, scratch)
     }
 
-    /// The least clearance at the steps of the local path between two configurations, 0 where it is in contact; `None` if the
-    /// joints cannot follow it or arrive in another configuration than the one requested.
-    pub fn clearance_m(&self, from: &Pose, to: &Pose, scratch: &mut Scratch) -> Option<f64> {
+    /// The least clearance at the steps of the local path between two configurations, as [`Cell::clearance_m`] has it; `None` if
+    /// the joints cannot follow it or arrive in another configuration than the one requested.
+    pub fn clearance_m(
+        &self,
+        from: &Pose,
+        to: &Pose,
+        scratch: &mut Scratch,
+    ) -> Option<(f64, Option<&Obstacle>)> {
         if self.parts_branches(from, to) {
             return None;
         }
@@ -100,7 +105,7 @@ impl Lines {
             Ok(()) | Err(Rejection::Contact) => {}
             Err(_) => return None,
         }
-        scratch.states.iter().map(|q| self.cell.clearance_m(q)).reduce(f64::min)
+        scratch.states.iter().map(|q| self.cell.clearance_m(q)).min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// The configurations at even steps from `from` along `way`, both ends included.

@@ -23,8 +23,7 @@ pub use time_law::SpeedRule;
 use lanes::Outline;
 
 use crate::geometry::{
-    Aabb, BroadPhase, Capsule, Solid, distance_capsule_capsule, distance_segment_segment,
-    distance_segment_solid,
+    Aabb, BroadPhase, Capsule, distance_capsule_capsule, distance_segment_segment, distance_segment_solid,
 };
 use crate::kinematics::robot::Body;
 use crate::kinematics::{Joints, Robot};
@@ -171,19 +170,21 @@ impl Cell {
         standing
     }
 
-    /// The distance from the robot at `q` to the scene and between its parts, metres; 0 in contact, infinite if
-    /// nothing can touch.
-    pub fn clearance_m(&self, q: &Joints) -> f64 {
+    /// The distance from the robot at `q` to the scene and between its parts, metres, and the obstacle that is that near; `None`
+    /// where another part of the robot is nearer. The distance is 0 in contact, infinite if nothing can touch.
+    pub fn clearance_m(&self, q: &Joints) -> (f64, Option<&Obstacle>) {
         let mut placed = Vec::new();
         self.place(q, &mut placed);
-        let to_solid = |part: usize, solid: &Solid| {
-            distance_segment_solid(&placed[part].segment, solid) - placed[part].radius
+        let to_part = |obstacle: &Obstacle, part: &usize| {
+            distance_segment_solid(&placed[*part].segment, &obstacle.solid) - placed[*part].radius
         };
-        let scene = self.scene.obstacles().iter();
-        let outer =
-            scene.flat_map(|o| self.exposed.iter().map(|part| to_solid(*part, &o.solid)).collect::<Vec<_>>());
-        let inner = self.self_pairs.iter().map(|[a, b]| distance_capsule_capsule(&placed[*a], &placed[*b]));
-        outer.chain(inner).fold(f64::INFINITY, f64::min).max(0.0)
+        let to_robot =
+            |o| (self.exposed.iter().map(|part| to_part(o, part)).fold(f64::INFINITY, f64::min), Some(o));
+        let outer = self.scene.obstacles().iter().map(to_robot);
+        let inner =
+            self.self_pairs.iter().map(|[a, b]| (distance_capsule_capsule(&placed[*a], &placed[*b]), None));
+        let nearest = outer.chain(inner).min_by(|a, b| a.0.total_cmp(&b.0));
+        nearest.map_or((f64::INFINITY, None), |(gap_m, near)| (gap_m.max(0.0), near))
     }
 }
 

@@ -71,7 +71,7 @@ fn the_six_poses_are_as_clear_as_another_program_found_them_to_three_millimetres
         ("P6", P6, 165.0),
     ] {
         let q = pose(degrees);
-        let got_mm = cell.clearance_m(&q) * 1e3;
+        let got_mm = cell.clearance_m(&q).0 * 1e3;
         assert!((got_mm - clearance_mm).abs() < 3.0, "{name}: {got_mm} mm");
         assert_eq!(fu_cell().refusal(&q), None, "{name}");
         assert!(fu_cell().is_free(&q));
@@ -110,7 +110,7 @@ fn a_thickened_body_stands_as_its_clearance_says() {
     let mut seen = BTreeMap::new();
     for index in 0..20_000 {
         let q = draw(&mut stream);
-        let gap_m = cell.clearance_m(&q);
+        let gap_m = cell.clearance_m(&q).0;
         let margin_m = stream.random_range(0.0..0.1);
         cell.place(&q, &mut placed);
         let standing = cell.standing(&placed, |_| margin_m);
@@ -312,7 +312,7 @@ fn a_joint_line_is_free_where_the_arm_is_and_not_where_it_is_not() {
         // Coarser checks may miss what a fine one finds only where parts graze by less than an eighth of a step.
         if touches && joined.is_ok() {
             let least =
-                (0..=200).map(|step| lines.cell().clearance_m(&at(step))).fold(f64::INFINITY, f64::min);
+                (0..=200).map(|step| lines.cell().clearance_m(&at(step)).0).fold(f64::INFINITY, f64::min);
             assert!(least < 1e-3, "seed 35 number {index}");
         }
         assert!(touches || joined.is_ok(), "seed 35 number {index}: {joined:?}");
