@@ -10,7 +10,7 @@ from statistics_judge.depends import Sides
 from statistics_judge.records import Paper
 from statistics_judge.table import Results, of_meanings
 
-# Exceptions, or interpretations that were not varied, that are listed one by one.
+# Exceptions, or choices of a kind, that are listed one by one.
 LISTED = 3
 
 # An exception with more options is counted and not listed.
@@ -79,6 +79,7 @@ class Counted:
     incompatible: int
     none_compatible: bool
     refused: list[int] = field(default_factory=list)
+    calibrated: dict[str, str] = field(default_factory=dict)
 
 
 def within(value: float, bounds: tuple[float, float]) -> bool:
@@ -136,6 +137,12 @@ class Across:
         if self.first is not None and claim not in self.stale[0] and "theorem" not in stored:
             counted = self.counted(claim)
         is_explored = counted.looked > 1
+        # Which choices touch the claim is replan's word; that each of these is settled is computed.
+        calibrated = [
+            f"{choice} = {option}"
+            for choice, option in counted.calibrated.items()
+            if f"{choice} = {option}" in stored.get("calibrated", [])
+        ]
         if not is_explored:
             own = self.default[claim]
             counted = Counted([Result([0], own, own)], 1, 0, 0, none_compatible=False)
@@ -156,9 +163,19 @@ class Across:
         verdict, line = results.verdict()
         beside, on = self.wording(claim, counted, results, line)
         possible = self.possible(claim)
-        unvaried = None if line in ("proved", "lacking") else not_varied(stored.get("not_varied", []))
-        beside = [one for one in (*([possible] if possible else beside), unvaried) if one]
-        found = {"verdict": verdict, "beside": beside, "depends_on": on, "across": None}
+        unvaried = [
+            listed("calibrated", calibrated),
+            listed("choices not varied", stored.get("not_varied", [])),
+        ]
+        unvaried = [] if line in ("proved", "lacking") else unvaried
+        beside = [one for one in (*([possible] if possible else beside), *unvaried) if one]
+        found = {
+            "verdict": verdict,
+            "beside": beside,
+            "depends_on": on,
+            "calibrated": calibrated,
+            "across": None,
+        }
         if is_explored:
             found["across"] = self.across_of(counted, results)
         return found
@@ -211,10 +228,13 @@ class Across:
         """The interpretations that vote and are compatible, with equal results once."""
         assert self.first is not None
         voting = self.voting
-        judged = self.compatible(voting, *self.calibrating(claim))
+        others, own = self.calibrating(claim)
+        judged = self.compatible(voting, others, own)
         none_compatible = bool(voting) and not judged
         judged = voting if none_compatible else judged
         found = Counted([], 0, 0, len(voting) - len(judged), none_compatible)
+        looked = [at for at in voting if all(self.is_looked_at(one, at) for one in (*others, *own))]
+        found.calibrated = self.options_left(judged, looked)
         stored = self.first["claims"].get(claim)
         if stored is None:
             return Counted([], 0, 0, 0, none_compatible=False)
@@ -237,6 +257,22 @@ class Across:
                 found.results.append(Result(seen, now, now))
         found.results.sort(key=lambda one: one.interpretations[0])
         return found
+
+    def is_looked_at(self, claim: str, place: int) -> bool:
+        """Whether a claim was looked at under an interpretation."""
+        assert self.first is not None
+        found = self.result(self.first, claim, place)
+        return found is not None and found["sight"] == "looked"
+
+    def options_left(self, judged: list[int], looked: list[int]) -> dict[str, str]:
+        """By choice, the one option that all compatible interpretations take, where every other was calibrated."""
+        left = {}
+        for choice in self.choices:
+            taken = {self.taken(choice, at) for at in judged}
+            others = {name for name in choice.options if choice.votes({choice.id: name})} - taken
+            if len(taken) == 1 and others and others <= {self.taken(choice, at) for at in looked}:
+                left[choice.id] = taken.pop()
+        return left
 
     def is_powerless(self, claim: str, result: dict[str, Any]) -> bool:
         """Whether a saving of one more instance, stored for a claim, could have refused next to nothing."""
@@ -435,10 +471,10 @@ class Across:
         return False
 
 
-def not_varied(interpretations: list[str]) -> str | None:
-    """The interpretations that touch a claim and were not varied, in words."""
-    more = f" and {len(interpretations) - LISTED} more" if len(interpretations) > LISTED else ""
-    return f"choices not varied: {', '.join(interpretations[:LISTED])}{more}" if interpretations else None
+def listed(what: str, choices: list[str]) -> str | None:
+    """The first of some choices, and how many more there are; nothing if there are none."""
+    more = f" and {len(choices) - LISTED} more" if len(choices) > LISTED else ""
+    return f"{what}: {', '.join(choices[:LISTED])}{more}" if choices else None
 
 
 def flips(results: list[Result]) -> list[Result]:
@@ -458,8 +494,9 @@ def differences(paper: Paper, verdicts: dict[str, Any]) -> Iterator[str | None]:
     for claim, stored in own.verdicts.items():
         expected = {**found[claim], **meant(paper.claim(claim), found)}
         where = f"{paper.id}: `{claim}`"
-        stored = {"beside": [], **stored}
-        wrong = [key for key in ("verdict", "beside", "depends_on") if stored.get(key) != expected[key]]
+        stored = {"beside": [], "calibrated": [], **stored}
+        keys = ("verdict", "beside", "depends_on", "calibrated")
+        wrong = [key for key in keys if stored.get(key) != expected[key]]
         for key in wrong:
             yield f"{where}: `{key}` is {stored.get(key)!r}; recomputed it is {expected[key]!r}"
         across, on_file = expected["across"], stored.get("across")

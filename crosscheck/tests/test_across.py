@@ -131,6 +131,18 @@ def test_a_vote_made_a_probe_changes_what_is_counted() -> None:
     assert different(of, stored(of))
 
 
+def test_a_choice_that_is_called_calibrated_and_is_not_is_noticed() -> None:
+    of = paper("theta")
+    verdicts = stored(of)
+    settled = [claim for claim in verdicts["claim"] if "blocking = draws" in claim.get("calibrated", [])]
+    assert len(settled) > 100
+    settled[0]["calibrated"] = ["border = spared"]
+    settled[1]["calibrated"] = ["blocking = independent"]
+    lines = different(of, verdicts)
+    for claim in settled[:2]:
+        assert any(f"`{claim['claim']}`" in line and "`calibrated`" in line for line in lines)
+
+
 GOOD, FITTED, NO, BAD, NEVER, LACKING = (
     "holds",
     "fitted",

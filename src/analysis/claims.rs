@@ -204,6 +204,7 @@ fn judged(
         outcome,
         chosen: None,
         not_varied: Vec::new(),
+        calibrated: Vec::new(),
         theorem: claim.theorem.clone(),
         part_of: evidence.paper.whole_of(&claim.id).map(|whole| whole.id.clone()),
         changed_after_run: claim.changed_after_run.clone(),

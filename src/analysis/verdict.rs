@@ -249,7 +249,7 @@ pub struct ClaimVerdict {
     /// The verdict.
     pub verdict: Verdict,
     /// What stands beside it: over how many interpretations it is the same or the counts for, open and against; then its exceptions,
-    /// on what it depends, and what was not varied.
+    /// on what it depends, and what was calibrated and what was not varied.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub beside: Vec<String>,
     /// On what it depends.
@@ -260,9 +260,12 @@ pub struct ClaimVerdict {
     /// How its inputs were chosen, where that bears on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chosen: Option<Chosen>,
-    /// Interpretations that touch it and were not varied.
+    /// Choices that touch it and were not varied.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub not_varied: Vec<String>,
+    /// Choices that touch it and are settled, each with its option: the calibration of the studies refuses every other.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub calibrated: Vec<String>,
     /// Why it must hold, if it is asserted and not found out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub theorem: Option<String>,

@@ -241,12 +241,31 @@ fn a_witness_under_one_reading_makes_a_claim_attainable_and_names_the_reading() 
     assert_eq!(Toy::new(&[]).class_and_across("witness"), pair("inconclusive", "no example found"));
 }
 
+/// What stands beside a claim where the calibration leaves one weight.
+const SETTLED: &str = "same under all 3; calibrated: hurry = three";
+
+#[test]
+fn a_choice_that_the_calibration_settles_caps_nothing_whether_refused_options_ran_or_not() {
+    let late = (", room = 1 }", ", room = 1 }\nwhere_compatible = [\"draws\"]");
+    let toy = Toy::new(&[CITED, FITTED, late]);
+    assert_eq!(toy.class_and_across("fewer"), pair("reproduced", SETTLED));
+    assert!(toy.claim("fewer").not_varied.is_empty());
+    // Where nobody asked the number of the calibration under the other weight, nothing is settled.
+    let toy = Toy::new(&[CITED, FITTED, ("instances = { draws = 20, room = 1 }", "instances = { draws = 20 }")]);
+    assert!(toy.claim("fewer").calibrated.is_empty());
+    let unexplored = ("instances = { draws = 20, room = 1 }", "instances = { room = 1 }");
+    let alone = Toy::new(&[CITED, unexplored]);
+    assert_eq!(alone.class_and_across("fewer"), pair("supported", "choices not varied: hurry"));
+    let alone = Toy::new(&[CITED, FITTED, unexplored]);
+    assert_eq!(alone.class_and_across("fewer"), pair("reproduced", SETTLED));
+}
+
 pub const FITTED: (&str, &str) = ("fitted_to = []", "fitted_to = [\"calibrated\"]");
 
 #[test]
 fn a_reading_that_contradicts_what_the_study_was_calibrated_to_is_not_counted() {
     let toy = Toy::new(&[CITED, FITTED]);
-    assert_eq!(toy.class_and_across("fewer"), pair("reproduced", "same under all 3"));
+    assert_eq!(toy.class_and_across("fewer"), pair("reproduced", SETTLED));
     assert_eq!(toy.claim("fewer").across.unwrap().incompatible, 3);
     // A claim never filters itself.
     toy.0.done(&["confirm", "./toy"]);
@@ -312,7 +331,7 @@ fn a_calibration_claim_takes_the_best_fit_of_all_and_does_not_vote_where_the_oth
     let fitted = ("default = \"three\"", "default = \"three\"\nfitted = true");
     let toy = Toy::new(&[CITED, SECOND, both, fitted]);
     for claim in ["calibrated", "any_weight"] {
-        assert_eq!(toy.class_and_across(claim), pair("fitted", "same under all 3"), "{claim}");
+        assert_eq!(toy.class_and_across(claim), pair("fitted", SETTLED), "{claim}");
         let across = toy.claim(claim).across.unwrap();
         assert_eq!((across.looked, across.incompatible), (3, 3), "{claim}");
     }

@@ -46,6 +46,8 @@ pub struct Counted {
     pub none_compatible: bool,
     /// The interpretations, by their places, that are set apart: the verifier refuses their paths, which the paper calls free.
     pub refused: Vec<usize>,
+    /// By choice, the one option that the calibration leaves, where it refuses every other that votes.
+    pub calibrated: BTreeMap<String, String>,
 }
 
 impl Counted {
@@ -117,8 +119,18 @@ impl VotingChoices {
         let compatible = self.compatible(first, &voting, &calibration, default);
         let none_compatible = compatible.is_empty() && !voting.is_empty();
         let judged = if none_compatible { voting.clone() } else { compatible };
-        let mut counted =
-            Counted { incompatible: voting.len() - judged.len(), none_compatible, ..Counted::default() };
+        let looked: Vec<usize> =
+            voting.iter().copied().filter(|place| calibration.is_looked_at(first, *place)).collect();
+        let left = |choice: &Choice| {
+            let option = Self::option_left(choice, first, &judged, &looked)?;
+            Some((choice.id.clone(), option.to_owned()))
+        };
+        let mut counted = Counted {
+            incompatible: voting.len() - judged.len(),
+            none_compatible,
+            calibrated: self.choices.iter().filter_map(left).collect(),
+            ..Counted::default()
+        };
         let most = paper.explore.as_ref().and_then(|explore| explore.refused_above_percent);
         let is_refused =
             |result: &ExploredResult| most.is_some_and(|most| 100.0 * result.refused > f64::from(most));
@@ -134,6 +146,23 @@ impl VotingChoices {
         }
         counted.groups.sort_by_key(|group| group.interpretation);
         counted
+    }
+
+    /// The option that all compatible interpretations take on `choice`, if every other that votes is among `looked`, those
+    /// under which each calibration claim was looked at.
+    fn option_left<'r>(
+        choice: &'r Choice,
+        first: &'r Exploration,
+        compatible: &[usize],
+        looked: &[usize],
+    ) -> Option<&'r str> {
+        let option = |place: &usize| Self::option(choice, &first.interpretations[*place]);
+        let left = option(compatible.first()?);
+        let others: Vec<&str> =
+            choice.options.keys().map(String::as_str).filter(|one| *one != left && choice.votes(one)).collect();
+        let is_refused = |other: &&str| looked.iter().any(|place| option(place) == *other);
+        let is_only = !others.is_empty() && compatible.iter().all(|place| option(place) == left);
+        (is_only && others.iter().all(is_refused)).then_some(left)
     }
 
     /// The interpretations of `first` that vote and are compatible with every calibration claim; all that vote if none is.
@@ -238,6 +267,12 @@ struct Goodness {
 }
 
 impl Calibration<'_> {
+    /// Whether every calibration claim, the judged one among them, was looked at under the interpretation at `place`.
+    fn is_looked_at(&self, first: &Exploration, place: usize) -> bool {
+        let all = [&self.others[..], &self.own].concat();
+        all.iter().all(|id| first.result(id, place).is_some_and(|result| result.sight == Sight::Looked))
+    }
+
     /// How the interpretation at `place` fits; none if one of the others is contradicted or has no power there.
     fn goodness(
         &self,

@@ -6,7 +6,8 @@
 //! once ([`count`]). Those of a minority need a second seed ([`combine`](mod@combine)). The [table of
 //! verdicts](super::verdict_rule) turns the counts into a verdict. The words beside it are [`wording`]'s. The options
 //! on which it depends are found by [`depends`], choices that were not varied by [`touched`], and the change by each
-//! option by [`effects`].
+//! option by [`effects`]. A choice of which the calibration leaves one option is settled for the claims that took no part
+//! in it: other options would not count, whether their trials ran or not.
 
 pub mod by_interpretation;
 pub mod combine;
@@ -132,11 +133,11 @@ impl OfClaim<'_> {
     fn judge(&self, judged: &mut ClaimVerdict, outcomes: &BTreeMap<String, Outcome>) -> bool {
         let touched = Touched::new(self.paper, self.claim);
         self.look_at_seeds(judged, &touched);
-        if judged.theorem.is_none() {
-            judged.not_varied = self.not_varied(&touched);
-        }
         let explored = self.first.filter(|_| judged.theorem.is_none());
         let counted = explored.map(|first| self.choices.counted(self.paper, first, &self.claim.id, outcomes));
+        if judged.theorem.is_none() {
+            (judged.calibrated, judged.not_varied) = self.unvaried(&touched, counted.as_ref());
+        }
         let none_compatible = counted.as_ref().is_some_and(|counted| counted.none_compatible);
         let both = explored.zip(counted.filter(|counted| counted.looked > 1));
         let (explored, counted) =
@@ -178,15 +179,23 @@ impl OfClaim<'_> {
         let (verdict, line) = view.results.verdict();
         let Wording { beside, depends_on } = view.wording(line);
         let is_bearing = !matches!(line, Line::Proved | Line::Lacking);
-        let unvaried = wording::not_varied(&judged.not_varied).filter(|_| is_bearing);
+        let calibrated = wording::listed("calibrated", &judged.calibrated);
+        let not_varied = wording::listed("choices not varied", &judged.not_varied);
+        let unvaried = calibrated.into_iter().chain(not_varied).filter(|_| is_bearing);
         let beside = judged.possible().map_or(beside, |possible| vec![possible.to_owned()]);
         judged.beside = beside.into_iter().chain(unvaried).collect();
         (judged.verdict, judged.depends_on) = (verdict, depends_on);
         judged.across = view.first.map(|first| self.across(first, judged, view, line));
     }
 
-    /// The choices that touch the claim and were looked at under their default alone.
-    fn not_varied(&self, touched: &Touched<'_>) -> Vec<String> {
+    /// Of the choices that touch the claim, those that the calibration leaves one option, each with that option; and those
+    /// that were looked at under their default alone, though the calibration allows others.
+    fn unvaried(&self, touched: &Touched<'_>, counted: Option<&Counted>) -> (Vec<String>, Vec<String>) {
+        let left = |choice: &Choice| {
+            let option = counted.and_then(|counted| counted.calibrated.get(&choice.id));
+            // Another option than the default settles the choice only where the claim was looked at under it.
+            option.filter(|option| **option == choice.default || counted.is_some_and(|own| own.looked > 1))
+        };
         let is_varied = |choice: &Choice| {
             self.first.is_some_and(|first| {
                 let is_other = |place: &usize| {
@@ -200,9 +209,16 @@ impl OfClaim<'_> {
                 (0..first.interpretations.len()).filter(is_other).any(|place| is_seen(&place))
             })
         };
-        let choices = self.choices.choices.iter().filter(|choice| touched.is_touched_by(choice));
-        let is_missed = |choice: &&Choice| touched.is_without(self.paper, choice) || !is_varied(choice);
-        choices.filter(is_missed).map(|choice| choice.id.clone()).collect()
+        let (mut calibrated, mut not_varied) = (Vec::new(), Vec::new());
+        for choice in self.choices.choices.iter().filter(|choice| touched.is_touched_by(choice)) {
+            let is_without = touched.is_without(self.paper, choice);
+            if let Some(option) = left(choice).filter(|_| !is_without) {
+                calibrated.push(format!("{} = {option}", choice.id));
+            } else if is_without || !is_varied(choice) {
+                not_varied.push(choice.id.clone());
+            }
+        }
+        (calibrated, not_varied)
     }
 
     /// What the interpretations make of the claim.

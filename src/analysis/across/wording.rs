@@ -7,7 +7,7 @@ use super::count::{Counted, Group, VotingChoices};
 use super::depends::{Rule, Sides};
 use super::stored::Exploration;
 
-/// How many exceptions, or choices that were not varied, are listed one by one.
+/// How many exceptions, or choices of a kind, are listed one by one.
 const LISTED: usize = 3;
 
 /// An exception with more options than these is counted and not listed.
@@ -19,12 +19,12 @@ pub const ELSEWHERE: &str = "on trials recorded elsewhere, not reproduced here";
 /// Of what holds by its sign and misses the printed size.
 const SIGN_ALONE: &str = "the sign alone";
 
-/// The choices that touch a claim and were not varied, in words.
-pub fn not_varied(choices: &[String]) -> Option<String> {
+/// The first of `choices` after `what`, and how many more there are; `None` if there are none.
+pub fn listed(what: &str, choices: &[String]) -> Option<String> {
     let listed = choices.iter().take(LISTED).cloned().collect::<Vec<_>>().join(", ");
     let more = choices.len().saturating_sub(LISTED);
     let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-    (!choices.is_empty()).then(|| format!("choices not varied: {listed}{more}"))
+    (!choices.is_empty()).then(|| format!("{what}: {listed}{more}"))
 }
 
 /// The results of a claim that count, and where they come from.
