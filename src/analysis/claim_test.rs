@@ -14,7 +14,6 @@ use super::settle::settles;
 use super::verdict::{CriterionFinding, Estimate};
 use base::hash::sha256;
 use base::settings::{Settings, SettingsError, in_first_words, none_called};
-use std::collections::BTreeSet;
 use study::paper::{Claim, Paper, Parts, TestRole};
 use study::{Interpretation, Study};
 
@@ -89,27 +88,25 @@ impl<'a> ClaimTest<'a> {
         stripped(self.entry, self.context.settings).map_or("", |(statistic, _)| statistic)
     }
 
-    /// The name of its numbers: a hash of everything that they depend on but for the trials. Margins and printed values
-    /// are not part of it. None of a rule.
+    /// The name of its numbers: a hash of everything that they depend on but for the trials. Margins, printed values and names of
+    /// claims are not part of it. None of a rule.
     pub fn question(&self) -> Option<String> {
-        let Context { paper, claim, settings, .. } = self.context;
+        let Context { paper, settings, .. } = self.context;
         let (statistic, own) = stripped(self.entry, settings)?;
-        // The text writes every name between quotes.
-        let named: BTreeSet<usize> = own.split('"').filter_map(|text| paper.place_of(text)).collect();
-        let of_other = |other: &Claim| {
-            let decides = other.tests().filter(|(role, ..)| *role == TestRole::Decides);
+        let of_other = |place: usize| {
+            let Claim { untestable, difference, printed, digits, .. } = &paper.claims[place];
+            let decides = paper.claims[place].tests().filter(|(role, ..)| *role == TestRole::Decides);
             let texts = decides.filter_map(|(_, name, settings)| stripped(criterion::find(name)?, settings));
             let texts: Vec<String> = texts.map(|(statistic, text)| format!("{statistic} {text}\n")).collect();
             // Where a number is looked for on problems that meet others, what those print decides which problems these are.
             let is_met = self.entry.name == criterion::EXISTS.name;
-            let print =
-                if is_met { format!(" {:?} {:?}", other.printed, other.digits) } else { String::new() };
-            let Claim { id, untestable, difference, .. } = other;
-            format!("{id} {} {difference:?}{print}\n{}", untestable.is_some(), texts.concat())
+            let print = if is_met { format!(" {printed:?} {digits:?}") } else { String::new() };
+            format!("{} {difference:?}{print}\n{}", untestable.is_some(), texts.concat())
         };
-        let others: String = named.into_iter().map(|place| of_other(&paper.claims[place])).collect();
-        let text = format!("{} {} {statistic} {own}\n{others}", paper.id, claim.id);
-        Some(sha256(text.as_bytes())[..16].to_owned())
+        // The text writes every name between quotes; in place of another claim's name stands what that claim asks.
+        let meant = |text: &str| paper.place_of(text).map_or_else(|| text.to_owned(), of_other);
+        let own: Vec<String> = own.split('"').map(meant).collect();
+        Some(sha256(format!("{statistic} {}", own.join("\"")).as_bytes())[..16].to_owned())
     }
 
     /// Its numbers under the evidence's interpretation; with a hash of what they rest on only if `is_hashed`.

@@ -204,11 +204,6 @@ impl<'a> Context<'a> {
         Err(self.settings.error_about("", &METRIC_KEYS, name, message).about(&columns_of(&study.name)))
     }
 
-    /// The names that the stream of a bootstrap on this claim is derived from.
-    pub fn seed_names(&self) -> [&'a str; 2] {
-        [&self.paper.id, &self.claim.id]
-    }
-
     /// An error unless `low..high` rises and lies in `least..most`.
     ///
     /// # Errors

@@ -13,6 +13,7 @@ use polars::prelude::{ChunkedArray, Column, DataFrame, NamedFrom as _, PolarsRes
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use stats::interval::Interval;
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::Cursor;
@@ -77,7 +78,7 @@ pub struct Answer {
 /// What a question asks, in words.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct About {
-    /// The claim that asks it, whose name seeds the bootstraps.
+    /// The claims that ask it, separated by commas.
     pub claim: String,
     /// The statistic.
     pub statistic: String,
@@ -142,8 +143,24 @@ pub fn measured(evidence: &Evidence<'_>) -> Result<Measured, SettingsError> {
         Ok(found)
     };
     // Gathered in order before any error is passed on, so that it is the first claim's.
-    let all: Vec<Result<_, SettingsError>> = evidence.paper.claims.par_iter().map(of_claim).collect();
-    Ok(all.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
+    let all: Vec<Result<Vec<_>, _>> = evidence.paper.claims.par_iter().map(of_claim).collect();
+    let mut found = Measured::new();
+    for one in all {
+        for (question, (about, numbers)) in one? {
+            match found.entry(question) {
+                Entry::Vacant(place) => {
+                    place.insert((about, numbers));
+                }
+                Entry::Occupied(mut known) => {
+                    let claims = &mut known.get_mut().0.claim;
+                    if !claims.split(", ").any(|claim| claim == about.claim) {
+                        *claims += &format!(", {}", about.claim);
+                    }
+                }
+            }
+        }
+    }
+    Ok(found)
 }
 
 impl Explored {

@@ -1,11 +1,9 @@
 //! Statistics of instances that figures show, so that a figure only draws them.
-//!
-//! `names` of an estimate decide its stream of resamples.
 
 use super::evidence::Evidence;
 use super::selection::{Case, Selection, by_instance, cases};
 use super::statistic::{
-    Estimate, InstanceStatistic, Interval, LEVEL, OverallStatistic, differences_percent, plan,
+    Estimate, InstanceStatistic, Interval, LEVEL, OverallStatistic, PLAN, differences_percent,
 };
 use stats::bands::{curves_of, distance_of_mean, sup_t_between};
 use stats::summary::means_along;
@@ -23,29 +21,20 @@ pub fn solved_percents(selection: &Selection<'_>, evidence: &Evidence<'_>) -> Ve
 }
 
 /// The mean over instances of the share solved, in per cent; none below two instances.
-pub fn mean_solved(selection: &Selection<'_>, evidence: &Evidence<'_>, names: &[&str]) -> Option<Estimate> {
-    pooled::mean_between(&solved_percents(selection, evidence), [0.0, 100.0], plan(names))
+pub fn mean_solved(selection: &Selection<'_>, evidence: &Evidence<'_>) -> Option<Estimate> {
+    pooled::mean_between(&solved_percents(selection, evidence), [0.0, 100.0], PLAN)
 }
 
 /// The mean over instances of the difference between the share solved and that of `base`, in percentage points; none
 /// below two instances.
-pub fn mean_difference(
-    [base, selection]: [&Selection<'_>; 2],
-    evidence: &Evidence<'_>,
-    names: &[&str],
-) -> Option<Estimate> {
+pub fn mean_difference([base, selection]: [&Selection<'_>; 2], evidence: &Evidence<'_>) -> Option<Estimate> {
     let [base, own] = [base, selection].map(|one| one.instances(evidence));
-    pooled::mean_between(&differences_percent([&base, &own]), [-100.0, 100.0], plan(names))
+    pooled::mean_between(&differences_percent([&base, &own]), [-100.0, 100.0], PLAN)
 }
 
 /// What all instances of a selection give.
-pub fn of_all(
-    all: OverallStatistic,
-    selection: &Selection<'_>,
-    evidence: &Evidence<'_>,
-    names: &[&str],
-) -> Option<Estimate> {
-    all.estimate(&selection.instances(evidence), plan(names))
+pub fn of_all(all: OverallStatistic, selection: &Selection<'_>, evidence: &Evidence<'_>) -> Option<Estimate> {
+    all.estimate(&selection.instances(evidence), PLAN)
 }
 
 /// The point whose coordinates are the medians of those of `points`; failures may be infinite.
@@ -198,8 +187,8 @@ impl Curves {
     }
 
     /// Their mean with a simultaneous band; none below two instances.
-    pub fn band(&self, names: &[&str]) -> Option<Band> {
-        let found = sup_t_between(&self.instances, [0.0, 100.0], plan(names))?;
+    pub fn band(&self) -> Option<Band> {
+        let found = sup_t_between(&self.instances, [0.0, 100.0], PLAN)?;
         let band = found.band.iter().map(|band| [band.low.max(0.0), band.high.min(100.0)]).collect();
         Some(Band { mean: found.mean, band })
     }
@@ -218,8 +207,8 @@ impl Curves {
     }
 
     /// How far their mean is from a printed row, as the root of the mean square; none below two instances.
-    pub fn distance(&self, printed: &[f64], names: &[&str]) -> Option<Estimate> {
-        distance_of_mean(&self.instances, printed, plan(names))
+    pub fn distance(&self, printed: &[f64]) -> Option<Estimate> {
+        distance_of_mean(&self.instances, printed, PLAN)
     }
 
     fn at(&self, place: usize) -> Vec<f64> {
@@ -257,16 +246,12 @@ fn best_by(found: &CostHistory, passed_s: f64) -> f64 {
 }
 
 /// The median of the best cost found by each moment, over the queries of all instances; none where it is infinite.
-pub fn best_over_time(
-    instances: &[Vec<CostHistory>],
-    moments: &[f64],
-    names: &[&str],
-) -> Vec<Option<Estimate>> {
+pub fn best_over_time(instances: &[Vec<CostHistory>], moments: &[f64]) -> Vec<Option<Estimate>> {
     let at = |passed_s: &f64| {
         let by = |found: &CostHistory| best_by(found, *passed_s);
         let costs: Vec<Vec<f64>> =
             instances.iter().map(|instance| instance.iter().map(by).collect()).collect();
-        pooled::median(&costs, plan(names)).filter(|estimate| estimate.value.is_finite())
+        pooled::median(&costs, PLAN).filter(|estimate| estimate.value.is_finite())
     };
     moments.iter().map(at).collect()
 }
@@ -297,7 +282,7 @@ mod tests {
         let instance = |at: f64| vec![vec![[at, 10.0], [at + 0.3, 8.0]]];
         let instances: Vec<_> = [0.1, 0.2, 0.3, 9.0, 9.0].map(instance).into();
         let moments = [0.15, 0.25, 0.35, 0.45, 0.65];
-        let found = best_over_time(&instances, &moments, &["a test"]);
+        let found = best_over_time(&instances, &moments);
         let values: Vec<Option<f64>> = found.iter().map(|median| median.map(|m| m.value)).collect();
         assert_eq!(values, [None, None, Some(10.0), Some(10.0), Some(8.0)]);
         assert!(found[2].unwrap().interval.high.is_infinite(), "two of five never find a path");

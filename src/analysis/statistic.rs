@@ -9,7 +9,6 @@ use super::metric::Metric;
 use super::number::Number;
 use super::selection::{Case, Instance, Selection, by_instance, cases, is_unended, unended};
 use super::verdict::{Estimate as VerdictEstimate, Quantity};
-use base::seed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 pub use stats::bootstrap::Estimate;
@@ -62,10 +61,9 @@ pub fn tied(instances: usize) -> Option<String> {
     Some(format!("every case ties: at most {:.1} % of instances could differ (95 %)", 100.0 * bound.high))
 }
 
-/// A bootstrap as every verdict makes it, with the stream of instances that belongs to `names`.
-pub(super) fn plan(names: &[&str]) -> Resampling {
-    Resampling { resamples: 2000, level: LEVEL, seed: seed::derive(0, names) }
-}
+/// A bootstrap as every number has it. All draw the same stream of instances: an estimate has one interval wherever it is asked or
+/// shown, whatever its claim is called.
+pub const PLAN: Resampling = Resampling { resamples: 2000, level: LEVEL, seed: 0 };
 
 /// A metric of a trial as medians take it: infinite where the trial failed, `unended` where it did not come to an end.
 pub fn or_infinite(run: &Run<'_>, row: &Row, metric: &Metric, unended: Option<f64>) -> Option<f64> {
@@ -365,7 +363,7 @@ mod tests {
 
     #[test]
     fn a_share_of_single_chances_is_exact_and_instances_of_several_are_units() {
-        let plan = plan(&["a test"]);
+        let plan = PLAN;
         let exact = Share::new(&[[1.0, 1.0], [0.0, 1.0], [1.0, 1.0], [1.0, 1.0]], 1.0, plan).unwrap();
         let interval = exact.interval.unwrap();
         assert_eq!((exact.value, exact.instances), (0.75, 4));
@@ -385,7 +383,7 @@ mod tests {
 
     #[test]
     fn instances_that_all_agree_leave_an_interval_with_width() {
-        let plan = plan(&["a test"]);
+        let plan = PLAN;
         let of = |hits: f64| Share::new(&[[hits, 10.0]; 20], 10.0, plan).unwrap();
         let interval = |hits: f64| of(hits).interval.map(|found| [found.low, found.high]).unwrap();
         assert!((interval(10.0)[0] - 0.831_566_5).abs() < 1e-6 && interval(10.0)[1] == 1.0, "{:?}", of(10.0));
@@ -411,11 +409,7 @@ mod tests {
             (OverallStatistic::NinetyFifthPercentile, 19.0),
         ] {
             let share = statistic.quantile().unwrap();
-            assert_eq!(
-                pooled::quantile(&numbers, share, plan(&["x"])).unwrap().value,
-                value,
-                "{statistic:?}"
-            );
+            assert_eq!(pooled::quantile(&numbers, share, PLAN).unwrap().value, value, "{statistic:?}");
             assert_eq!((statistic.is_paired(), statistic.no_difference()), (false, None));
         }
         assert_eq!(OverallStatistic::Deviation.quantile(), None);
@@ -425,7 +419,7 @@ mod tests {
     fn a_reduction_and_a_ratio_say_the_same() {
         let pairs: Vec<Vec<(f64, f64)>> = (1..20).map(|i| vec![(f64::from(i), 0.5 * f64::from(i))]).collect();
         let [reduction, ratio] = [OverallStatistic::ReductionPercent, OverallStatistic::Ratio]
-            .map(|of| of.of_pairs(&pairs, plan(&["x"])).unwrap());
+            .map(|of| of.of_pairs(&pairs, PLAN).unwrap());
         assert!((reduction.value - 50.0).abs() < 1e-9 && (ratio.value - 0.5).abs() < 1e-9);
         assert!(reduction.interval.low <= reduction.interval.high, "{:?}", reduction.interval);
     }

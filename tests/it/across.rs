@@ -251,7 +251,8 @@ fn a_choice_that_the_calibration_settles_caps_nothing_whether_refused_options_ra
     assert_eq!(toy.class_and_across("fewer"), pair("reproduced", SETTLED));
     assert!(toy.claim("fewer").not_varied.is_empty());
     // Where nobody asked the number of the calibration under the other weight, nothing is settled.
-    let toy = Toy::new(&[CITED, FITTED, ("instances = { draws = 20, room = 1 }", "instances = { draws = 20 }")]);
+    let toy =
+        Toy::new(&[CITED, FITTED, ("instances = { draws = 20, room = 1 }", "instances = { draws = 20 }")]);
     assert!(toy.claim("fewer").calibrated.is_empty());
     let unexplored = ("instances = { draws = 20, room = 1 }", "instances = { room = 1 }");
     let alone = Toy::new(&[CITED, unexplored]);
@@ -342,7 +343,7 @@ fn a_calibration_claim_takes_the_best_fit_of_all_and_does_not_vote_where_the_oth
 }
 
 #[test]
-fn a_changed_margin_printed_number_or_criterion_of_the_same_numbers_needs_no_trial() {
+fn a_changed_margin_printed_number_name_or_criterion_of_the_same_numbers_needs_no_trial() {
     let toy = Toy::new(&[CITED]);
     let file = fs::read(toy.0.at(RUNS).join("estimates.parquet")).unwrap();
     let outcome = |id: &str| toy.first().result(id, 0).unwrap().outcome;
@@ -362,6 +363,13 @@ fn a_changed_margin_printed_number_or_criterion_of_the_same_numbers_needs_no_tri
     toy.0.done(&["judge", "./toy"]);
     assert_eq!(toy.verdicts().explored.unwrap().stale, [""; 0]);
     assert_eq!(toy.class_and_across("fewer"), pair("reproduced", "same under all 6"));
+    // Another name.
+    let interval = toy.claim("fewer").ours().unwrap().interval;
+    toy.0.edit("toy/paper.toml", "id = \"fewer\"", "id = \"less\"");
+    toy.0.done(&["judge", "./toy"]);
+    assert_eq!(toy.verdicts().explored.unwrap().stale, [""; 0]);
+    assert_eq!(toy.class_and_across("less"), pair("reproduced", "same under all 6"));
+    assert_eq!(toy.claim("less").ours().unwrap().interval, interval);
     assert!(fs::read(toy.0.at(RUNS).join("estimates.parquet")).unwrap() == file, "it was explored again");
     toy.0.done(&["judge", "./toy", "--check"]);
 }

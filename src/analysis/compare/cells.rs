@@ -5,9 +5,8 @@ use super::change::Measured;
 use super::pair::Unit;
 use super::run::{Seen, StoredRun};
 use crate::analysis::metric::{METRICS, Metric};
-use crate::analysis::statistic::plan;
+use crate::analysis::statistic::PLAN;
 use serde::Serialize;
-use stats::bootstrap::Resampling;
 use stats::{pooled, summary};
 use std::collections::BTreeMap;
 use study::key::{InterpretationKey, SweepKey};
@@ -80,9 +79,6 @@ fn cell(study: &str, seen: &Seen<'_>, rows: &[&Row], metric: &'static Metric) ->
         }
     }
     let key = &rows.first()?.key;
-    let names = [study, metric.name, &key.contender, &key.on.group, &name::sweep(&key.sweep)];
-    let plan =
-        plan(&[&["export"], &names[..], &[&seen.names.interpretation(&key.on.interpretation)]].concat());
     let values: Vec<Vec<f64>> =
         units.values().map(|(values, _)| values.clone()).filter(|v| !v.is_empty()).collect();
     let all = values.concat();
@@ -99,15 +95,15 @@ fn cell(study: &str, seen: &Seen<'_>, rows: &[&Row], metric: &'static Metric) ->
         solved,
         instances: units.len(),
         measured: all.len(),
-        mean: Measured::new(summary::mean(&all), pooled::ratio_of_sums(&sums, plan)),
-        median: (all.len() == solved).then(|| median(units.values(), plan)).flatten(),
+        mean: Measured::new(summary::mean(&all), pooled::ratio_of_sums(&sums, PLAN)),
+        median: (all.len() == solved).then(|| median(units.values())).flatten(),
     })
 }
 
 /// The median over units, each with what was measured and how often it failed.
-fn median<'u>(units: impl Iterator<Item = &'u (Vec<f64>, usize)>, plan: Resampling) -> Option<Measured> {
+fn median<'u>(units: impl Iterator<Item = &'u (Vec<f64>, usize)>) -> Option<Measured> {
     let failing =
         |(values, failed): &(Vec<f64>, usize)| [values.clone(), vec![f64::INFINITY; *failed]].concat();
     let units: Vec<Vec<f64>> = units.map(failing).collect();
-    Measured::new(summary::median(&units.concat()), pooled::median(&units, plan))
+    Measured::new(summary::median(&units.concat()), pooled::median(&units, PLAN))
 }

@@ -3,7 +3,7 @@
 use super::pair::{Pair, Unit};
 use super::run::Times;
 use crate::analysis::metric::{Better, Metric};
-use crate::analysis::statistic::{FEWEST_INSTANCES, LEVEL, plan};
+use crate::analysis::statistic::{FEWEST_INSTANCES, LEVEL, PLAN};
 use serde::Serialize;
 use stats::bootstrap::{Estimate, Resampling};
 use stats::interval::Interval;
@@ -205,7 +205,7 @@ impl<'r> Sample<'r> {
 
     /// The change as a whole.
     pub fn change(&self) -> Change {
-        let plan = plan(&["compare", self.study, self.contender, self.metric]);
+        let plan = PLAN;
         let finite = self.finite().concat();
         let all = self.by_unit.values().flatten().copied().collect::<Vec<_>>();
         let mean = |of: fn(&(f64, f64)) -> f64| summary::mean(&finite.iter().map(of).collect::<Vec<_>>());
@@ -273,13 +273,12 @@ impl<'r> Sample<'r> {
 }
 
 /// A bootstrap for a gate: `lines` of them are looked at together, and all of them are to hold with [`LEVEL`].
-pub fn joint_plan(lines: usize, names: &[&str]) -> Resampling {
+pub fn joint_plan(lines: usize) -> Resampling {
     let lines = lines.max(1);
-    let plan = plan(names);
     Resampling {
         level: 1.0 - (1.0 - LEVEL) / lines as f64,
-        resamples: plan.resamples * lines.min(10),
-        ..plan
+        resamples: PLAN.resamples * lines.min(10),
+        ..PLAN
     }
 }
 

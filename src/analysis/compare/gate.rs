@@ -125,7 +125,7 @@ pub fn pass(gates: &[Gate], samples: &[Sample<'_>], of_two_runs: bool) -> Result
 }
 
 fn one(gate: &Gate, sample: &Sample<'_>, lines: usize, of_two_runs: bool) -> Passed {
-    let plan = joint_plan(lines, &["gate", &gate.text, sample.study, sample.contender]);
+    let plan = joint_plan(lines);
     let found = sample.mean_changes(plan)[usize::from(gate.is_percent)];
     let (outcome, more_instances, why) = verdict(gate, sample, found.as_ref(), of_two_runs);
     Passed {

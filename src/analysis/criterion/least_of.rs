@@ -13,12 +13,12 @@ use crate::analysis::number::{Ends, Number, parts, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Selection, is_unended};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{or_infinite, plan};
+use crate::analysis::statistic::{PLAN, or_infinite};
 use crate::analysis::verdict::{Estimate, Quantity};
 use base::settings::{Accepted, Faults, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bootstrap::{self, Resampling};
+use stats::bootstrap;
 use stats::interval::Interval;
 use stats::paired::EQUAL;
 use stats::summary::median;
@@ -69,7 +69,6 @@ struct LeastOf<'a> {
     pairs: Vec<(String, String)>,
     by_percent: f64,
     inclusions: Vec<Inclusion>,
-    plan: Resampling,
 }
 
 /// Fewest seeds with which medians of two contenders that draw decide. Of 4 each, all of one are below all of the
@@ -116,8 +115,7 @@ impl<'a> LeastOf<'a> {
             Inclusion::in_study(selection.study, context.point, low, high)
         };
         let inclusions = pairs.iter().map(inclusion).collect::<Result<_, _>>()?;
-        let plan = plan(&context.seed_names());
-        Ok(Self { selection, metric, pairs, by_percent: settings.by_percent, inclusions, plan })
+        Ok(Self { selection, metric, pairs, by_percent: settings.by_percent, inclusions })
     }
 
     /// Below this a ratio is what the claim says.
@@ -150,7 +148,7 @@ impl<'a> LeastOf<'a> {
             let values = self.values(run, problem, contender, Some(unended[place]));
             if let Some(median) = median(&values) {
                 let units = self.units(run, problem, contender, &values);
-                let found = bootstrap::median(&units, self.plan).map(|found| found.interval);
+                let found = bootstrap::median(&units, PLAN).map(|found| found.interval);
                 let interval = found.map_or([units[0]; 2], |found| [found.low, found.high]);
                 let ended = self.values(run, problem, contender, None);
                 sides.insert((place, contender.as_str()), Side { values, ended, median, interval });

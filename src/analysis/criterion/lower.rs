@@ -10,14 +10,13 @@ use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Case, Instance, Selection, is_unended};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{
-    FEWEST_INSTANCES, OverallStatistic, how, narrows, needs, plan, tied, turned,
+    FEWEST_INSTANCES, OverallStatistic, PLAN, how, narrows, needs, tied, turned,
 };
 use crate::analysis::verdict::{Estimate, Quantity};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stats::bands::{Band, sup_t_between};
-use stats::bootstrap::Resampling;
 use stats::interval::Interval;
 use stats::paired::snapped;
 use study::key::SweepKey;
@@ -73,7 +72,6 @@ struct Lower<'a> {
     selection: Selection<'a>,
     way: Way,
     by_percent: f64,
-    plan: Resampling,
 }
 
 impl<'a> Lower<'a> {
@@ -91,8 +89,7 @@ impl<'a> Lower<'a> {
                 .about("metric")
                 .about(&sweeps_of(&selection.study.name)));
         }
-        let plan = plan(&context.seed_names());
-        Ok(Self { selection, way: settings.is, by_percent: settings.by_percent, plan })
+        Ok(Self { selection, way: settings.is, by_percent: settings.by_percent })
     }
 
     /// What the change of a contender says: a strict comparison that ties on every case is contradicted.
@@ -171,7 +168,7 @@ impl<'a> Lower<'a> {
     }
 
     fn band(&self, instances: &[Instance<'_>], unended: [bool; 2]) -> Option<Band> {
-        sup_t_between(&self.curves(instances, unended), [-100.0, 100.0], self.plan)
+        sup_t_between(&self.curves(instances, unended), [-100.0, 100.0], PLAN)
     }
 
     /// By how much more is solved at each point of the sweep; a part each, as it is and as if the other alone had solved what did not end,
@@ -302,7 +299,7 @@ fn outcome(way: Way, by_percent: f64, change: Interval) -> Outcome {
 impl Criterion for Lower<'_> {
     fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
         match self.selection.metric {
-            Some(_) => overall(&self.selection, OverallStatistic::ReductionPercent, self.plan, evidence),
+            Some(_) => overall(&self.selection, OverallStatistic::ReductionPercent, evidence),
             None => self.numbers_along(evidence),
         }
     }
@@ -379,9 +376,8 @@ mod tests {
     #[test]
     fn instances_that_all_agree_do_not_prove_that_nothing_changes() {
         let outcome = |pair: (f64, f64), instances: usize| {
-            let found = OverallStatistic::ReductionPercent
-                .of_pairs(&vec![vec![pair]; instances], plan(&["agreed"]))
-                .unwrap();
+            let found =
+                OverallStatistic::ReductionPercent.of_pairs(&vec![vec![pair]; instances], PLAN).unwrap();
             assert!(found.is_agreed && found.interval.half_width() > 0.0, "{found:?}");
             outcome(Way::Lower, 10.0, turned(found.interval))
         };

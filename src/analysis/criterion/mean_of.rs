@@ -9,12 +9,11 @@ use crate::analysis::number::{Ends, Number, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Case, Instance, Selection, by_instance};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{FEWEST_INSTANCES, LEVEL, mean, needs, plan, standard_deviation};
+use crate::analysis::statistic::{FEWEST_INSTANCES, LEVEL, PLAN, mean, needs, standard_deviation};
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bootstrap::Resampling;
 use stats::interval::Interval;
 use stats::means::{FEWEST_NORMAL, interval_of_mean, predicted_mean, predicted_normal};
 use toml::Value;
@@ -61,7 +60,6 @@ pub(super) struct MeanOf<'a> {
     pub(super) printed: f64,
     /// The numbers that print so.
     pub(super) rounded: Interval,
-    plan: Resampling,
 }
 
 impl<'a> MeanOf<'a> {
@@ -82,7 +80,7 @@ impl<'a> MeanOf<'a> {
         };
         let printed = print.printed.value();
         let instances = settings.instances as usize;
-        Ok(Self { selection, metric, instances, printed, rounded, plan: plan(&context.seed_names()) })
+        Ok(Self { selection, metric, instances, printed, rounded })
     }
 
     /// The number of a case: the metric, or by how much it exceeds the other contender's.
@@ -120,7 +118,7 @@ impl<'a> MeanOf<'a> {
             return Some(Interval::new(value, value));
         }
         if means.n.min(self.instances) < FEWEST_NORMAL {
-            return predicted_mean(&means.values, self.instances, self.plan).map(|found| found.interval);
+            return predicted_mean(&means.values, self.instances, PLAN).map(|found| found.interval);
         }
         Some(predicted_normal([value, deviation], means.n, self.instances, LEVEL))
     }

@@ -9,11 +9,10 @@ use crate::analysis::number::{Number, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Case, Instance, Selection, cases, most_cases};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{Share, plan, tied, too_few};
+use crate::analysis::statistic::{PLAN, Share, tied, too_few};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bootstrap::Resampling;
 use stats::paired::EQUAL;
 use study::record::Row;
 
@@ -66,7 +65,6 @@ struct OnEvery<'a> {
     selection: Selection<'a>,
     that: Condition,
     bound: f64,
-    plan: Resampling,
 }
 
 /// How one case speaks.
@@ -98,8 +96,7 @@ impl<'a> OnEvery<'a> {
         if !matches!(that, Condition::Solved | Condition::Accepted) {
             selection.metric(context)?;
         }
-        let plan = plan(&context.seed_names());
-        Ok(Self { selection, that, bound: settings.bound.unwrap_or_default(), plan })
+        Ok(Self { selection, that, bound: settings.bound.unwrap_or_default() })
     }
 
     /// How a case speaks; `None` if the claim does not look at it.
@@ -191,7 +188,7 @@ impl Criterion for OnEvery<'_> {
             drawn: self.selection.drawn(&instances),
             ..Number::of_cases(&instances)
         };
-        vec![Share::counted(Share::new(&counts, most_cases(&instances), self.plan), &counts, whole)]
+        vec![Share::counted(Share::new(&counts, most_cases(&instances), PLAN), &counts, whole)]
     }
 
     fn weigh(&self, numbers: &[Number]) -> CriterionResult {

@@ -8,14 +8,14 @@ use crate::analysis::number::{Ends, Number, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Instance, Selection};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{InstanceStatistic, LEVEL, mean, plan};
+use crate::analysis::statistic::{InstanceStatistic, LEVEL, PLAN, mean};
 use crate::analysis::verdict::{Estimate, Quantity};
 use base::settings::{self, Accepted, SettingsError};
 use proofs::exact::Print;
 use proofs::printed::Printed;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bootstrap::{self, Resampling};
+use stats::bootstrap;
 use stats::interval::Interval;
 use stats::proportion::{Rank, predictive};
 use stats::summary::median;
@@ -73,7 +73,6 @@ struct OneInstance<'a> {
     label: Option<String>,
     premises: Vec<String>,
     print: Print,
-    plan: Resampling,
 }
 
 /// The instances that the claim of `context` is held against, one set a criterion of this name that it decides or shows by.
@@ -115,8 +114,7 @@ impl<'a> OneInstance<'a> {
         if statistic != InstanceStatistic::SolvedPercent {
             selection.metric(context)?;
         }
-        let plan = plan(&context.seed_names());
-        Ok(Self { selection, statistic, label, premises, print: context.print()?, plan })
+        Ok(Self { selection, statistic, label, premises, print: context.print()? })
     }
 
     /// What is taken of each instance, in words.
@@ -140,7 +138,7 @@ impl<'a> OneInstance<'a> {
         if interval.contains(printed) {
             return Outcome::Holds;
         }
-        let mean = bootstrap::mean(values, self.plan).filter(|_| self.selection.against.is_some());
+        let mean = bootstrap::mean(values, PLAN).filter(|_| self.selection.against.is_some());
         // Both are savings, or both are losses.
         let is_same = |Interval { low, high }: Interval| (low * printed).min(high * printed) > 0.0;
         if mean.is_some_and(|mean| is_same(mean.interval)) { Outcome::SignOnly } else { Outcome::Fails }

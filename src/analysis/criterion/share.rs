@@ -9,12 +9,11 @@ use crate::analysis::number::{Ends, Number, ended, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Case, Instance, Selection, cases, is_unended, most_cases};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{Share, narrows, needs, plan};
+use crate::analysis::statistic::{PLAN, Share, narrows, needs};
 use crate::analysis::verdict::Quantity;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bootstrap::Resampling;
 use stats::interval::Interval;
 use stats::paired::EQUAL;
 use std::cmp::Reverse;
@@ -118,7 +117,6 @@ impl Hits {
 struct Counted<'a> {
     selection: Selection<'a>,
     settings: Settings,
-    plan: Resampling,
 }
 
 impl<'a> Counted<'a> {
@@ -161,8 +159,7 @@ impl<'a> Counted<'a> {
                 return Err(context.settings.error_at("accepted", message));
             }
         }
-        let plan = plan(&context.seed_names());
-        Ok(Self { selection, settings, plan })
+        Ok(Self { selection, settings })
     }
 
     /// Hits and chances of one case; `None` if the claim does not look at it.
@@ -255,7 +252,7 @@ impl<'a> Counted<'a> {
     fn share(&self, instances: &[Instance<'_>], unknown: Option<bool>) -> (Vec<[f64; 2]>, Option<Share>) {
         let counts: Vec<[f64; 2]> =
             instances.iter().map(|instance| self.of_instance(instance, unknown)).collect();
-        let share = Share::new(&counts, self.most(instances), self.plan);
+        let share = Share::new(&counts, self.most(instances), PLAN);
         (counts, share)
     }
 

@@ -9,12 +9,11 @@ use crate::analysis::number::{Ends, Number, ended, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Case, Instance, Selection, by_instance, cases};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{FEWEST_INSTANCES, needs, plan};
+use crate::analysis::statistic::{FEWEST_INSTANCES, PLAN, needs};
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bootstrap::Resampling;
 use stats::interval::Interval;
 use stats::{pooled, summary};
 use study::column;
@@ -53,7 +52,6 @@ struct Trend<'a> {
     metric: &'static Metric,
     over: String,
     rising: bool,
-    plan: Resampling,
 }
 
 impl<'a> Trend<'a> {
@@ -66,8 +64,7 @@ impl<'a> Trend<'a> {
             let message = format!("there is no column `{}` to look along", settings.over);
             return Err(context.settings.error_at("over", message));
         }
-        let plan = plan(&context.seed_names());
-        Ok(Self { selection, metric, over: settings.over, rising: settings.rising, plan })
+        Ok(Self { selection, metric, over: settings.over, rising: settings.rising })
     }
 
     /// The slopes if each case without an end had a number below or above all that were seen together, whichever goes against a slope that
@@ -87,8 +84,7 @@ impl<'a> Trend<'a> {
             let place = case.row.value(&self.over).filter(|_| case.might_be_solved());
             self.point(case).or_else(|| place.map(|x| (x, if (x > middle) == rising { most } else { least })))
         };
-        let slope =
-            |rising: bool| pooled::slope(&by_instance(instances, |case| number(case, rising)), self.plan);
+        let slope = |rising: bool| pooled::slope(&by_instance(instances, |case| number(case, rising)), PLAN);
         [true, false].into_iter().filter_map(slope).map(|found| found.interval).collect()
     }
 
@@ -126,7 +122,7 @@ impl Criterion for Trend<'_> {
         let points = by_instance(&instances, |case| self.point(case));
         let values = summary::medians_by_thirds(&points.concat());
         let counted = Number { measured: points.len(), values, ..Number::of_cases(&instances) };
-        let whole = counted.estimated(pooled::slope(&points, self.plan));
+        let whole = counted.estimated(pooled::slope(&points, PLAN));
         let others = [Ends::Least, Ends::Most].into_iter().zip(self.slopes_ended(&instances));
         std::iter::once(whole).chain(others.map(|(ends, interval)| Number::ended(ends, interval))).collect()
     }

@@ -9,12 +9,11 @@ use crate::analysis::number::{Ends, Number, ended, parts, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Instance, Selection};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{FEWEST_INSTANCES, OverallStatistic, how, narrows, needs, plan};
+use crate::analysis::statistic::{FEWEST_INSTANCES, OverallStatistic, PLAN, how, narrows, needs};
 use crate::analysis::verdict::{Estimate, Quantity};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bootstrap::Resampling;
 use stats::interval::Interval;
 use stats::paired::{self, snapped};
 
@@ -62,7 +61,6 @@ struct Within<'a> {
     accepted: Interval,
     /// The printed number, if it is what the margin is about.
     printed: Option<f64>,
-    plan: Resampling,
 }
 
 /// What the numbers of a statistic over all instances are called.
@@ -73,7 +71,6 @@ pub(super) const OVERALL: &str = "overall 1";
 pub(super) fn overall(
     selection: &Selection<'_>,
     statistic: OverallStatistic,
-    plan: Resampling,
     evidence: &Evidence<'_>,
 ) -> Vec<Number> {
     let instances = selection.instances(evidence);
@@ -89,8 +86,8 @@ pub(super) fn overall(
         above: signs.higher,
         ..Number::of_cases(&instances)
     };
-    let mut numbers = vec![counted.estimated(statistic.estimate(&instances, plan))];
-    let others = [Ends::Least, Ends::Most].into_iter().zip(statistic.otherwise(selection, &instances, plan));
+    let mut numbers = vec![counted.estimated(statistic.estimate(&instances, PLAN))];
+    let others = [Ends::Least, Ends::Most].into_iter().zip(statistic.otherwise(selection, &instances, PLAN));
     numbers.extend(others.map(|(ends, interval)| Number::ended(ends, interval)));
     let of_group = |group: &String| {
         let n = instances.iter().filter(|instance| instance.group == group).count();
@@ -154,8 +151,7 @@ impl<'a> Within<'a> {
                     .about("accepted"));
             }
         };
-        let plan = plan(&context.seed_names());
-        Ok(Self { selection, metric, statistic: settings.statistic, accepted, printed, plan })
+        Ok(Self { selection, metric, statistic: settings.statistic, accepted, printed })
     }
 
     /// What an interval says of the claim.
@@ -218,7 +214,7 @@ fn on_bounds(accepted: Interval, found: Interval) -> Interval {
 
 impl Criterion for Within<'_> {
     fn numbers(&self, evidence: &Evidence<'_>) -> Vec<Number> {
-        overall(&self.selection, self.statistic, self.plan, evidence)
+        overall(&self.selection, self.statistic, evidence)
     }
 
     fn weigh(&self, numbers: &[Number]) -> CriterionResult {

@@ -176,8 +176,7 @@ impl StatisticsPanel {
     /// How much less a metric is with a contender than with the one that it is held against, in per cent.
     fn reduction(&self, scene: &Scene<'_>, metric: &'static Metric, contender: &str) -> Option<Estimate> {
         let of = Selection { metric: Some(metric), ..self.trials(scene.run, &self.problems, contender) };
-        let names = [scene.run.study.name.as_str(), contender, of.against.as_deref()?, metric.name];
-        of_all(OverallStatistic::ReductionPercent, &of, scene.evidence, &names)
+        of_all(OverallStatistic::ReductionPercent, &of, scene.evidence)
     }
 
     fn by_name(&self, scene: &Scene<'_>) -> Vec<Series> {
@@ -209,13 +208,12 @@ impl StatisticsPanel {
             return self.reduction(scene, self.metric?, contender);
         }
         let own = self.trials(scene.run, groups, contender);
-        let names = [scene.run.study.name.as_str(), groups.first()?, contender];
         match &self.spec.against {
             Some(base) => {
                 let base = self.trials(scene.run, std::slice::from_ref(base), contender);
-                mean_difference([&base, &own], scene.evidence, &names)
+                mean_difference([&base, &own], scene.evidence)
             }
-            None => mean_solved(&own, scene.evidence, &names),
+            None => mean_solved(&own, scene.evidence),
         }
     }
 
@@ -342,9 +340,7 @@ impl StatisticsPanel {
             let distance = |value: SweepValue| {
                 let cells: Vec<Selection<'_>> =
                     row.iter().map(|(cell, _)| at(&value, Some(cell))).collect::<Option<_>>()?;
-                let name = format!("{sweep}={value}");
-                let found = Curves::solved(&cells, scene.evidence)
-                    .distance(&printed, &["row", &run.study.name, &name])?;
+                let found = Curves::solved(&cells, scene.evidence).distance(&printed)?;
                 Some(Point::estimated(0, value.as_f64()?, &found))
             };
             series.points = values.filter_map(distance).collect();
@@ -354,7 +350,7 @@ impl StatisticsPanel {
             values.filter_map(|value| Some((value.as_f64()?, at(&value, None)?))).unzip();
         let curves = Curves::solved(&cells, scene.evidence);
         let n = curves.instances.len();
-        series.points = match curves.band(&["success_bands", contender]) {
+        series.points = match curves.band() {
             Some(found) => {
                 let point = |(x, (mean, [low, high])): (f64, (f64, [f64; 2]))| {
                     Point::new(0, [x, mean], Interval::new(low, high), n)
@@ -405,8 +401,7 @@ impl StatisticsPanel {
         let instances: Vec<Vec<CostHistory>> =
             rows.chunk_by(|a, b| a.key.on == b.key.on).map(of_instance).collect();
         let moments = self.moments();
-        let names = [scene.run.study.name.as_str(), "cost over time", contender];
-        let medians = best_over_time(&instances, &moments, &names);
+        let medians = best_over_time(&instances, &moments);
         let points =
             moments.iter().zip(medians).filter_map(|(at, found)| Some(Point::estimated(0, *at, &found?)));
         self.of_contender(scene, contender, points.collect())
