@@ -23,11 +23,11 @@ pub fn settles(found: &CriterionResult, caps: Caps) -> String {
     match caps.clock {
         Some(Sessions::TooFew) => {
             return format!(
-                "{SESSIONS} sessions of the clock that agree: an interval from one session does not cover how much sessions differ"
+                "{SESSIONS} sessions of the clock that agree: one session's interval does not know by how much sessions differ"
             );
         }
         Some(Sessions::Disagree) => {
-            return "sessions of the clock that agree: the stored ones do not".to_owned();
+            return "a clock whose sessions agree: those that are stored do not".to_owned();
         }
         Some(Sessions::Agree | Sessions::OfAnother) | None => {}
     }
@@ -57,7 +57,7 @@ pub fn settles(found: &CriterionResult, caps: Caps) -> String {
         return agreeing_instances(found);
     }
     more_instances(found)
-        .unwrap_or_else(|| "the paper's own inputs: our measurements decide neither way".to_owned())
+        .unwrap_or_else(|| "the paper's own inputs: what is measured here stands neither way".to_owned())
 }
 
 /// What would settle a claim that nothing decides. `premises` say where alone it is meant, and `is_possible` whether

@@ -54,10 +54,12 @@ fn text(paper: &Paper, verdicts: &Verdicts, which: &Which, below: Below) -> Stri
         };
         text += &lines(&headline, words, below == Below::Nothing);
     }
-    if verdicts.explored.is_some() {
-        text += &format!("\n{LEGEND}\n");
+    let legend = verdicts.explored.is_some().then(|| format!("{LEGEND}\n"));
+    let proved = impossible(verdicts).map(|line| plain("", &line, 2, COLUMNS) + "\n");
+    let notes: String = legend.into_iter().chain(proved).collect();
+    if !notes.is_empty() {
+        text += &format!("\n{notes}");
     }
-    text.extend(impossible(verdicts).map(|line| plain("\n", &line, 2, COLUMNS) + "\n"));
     text + "\n" + &tallied(verdicts, which, Lines::Few)
 }
 
@@ -79,18 +81,15 @@ fn impossible(verdicts: &Verdicts) -> Option<String> {
     (!names.is_empty()).then(|| format!("cannot be true: {listed}{more}"))
 }
 
-/// The verdict, what the paper says and our number; below, or with `is_one` behind them, the claim, and the choice on which its
-/// verdict depends or what else it rests on.
+/// The verdict, what the paper says and our number; below, or with `is_one` behind them, the claim and what its verdict rests on,
+/// which names the choices that it depends on.
 fn lines(headline: &Headline<'_>, rests_on: Option<String>, is_one: bool) -> String {
     let judged = headline.judged;
     let word = judged.word();
     let pad = " ".repeat((VERDICT + 1).saturating_sub(word.chars().count()));
     let first = coloured(judged.verdict, word) + &pad;
     let ours = headline.ours.as_ref().map_or_else(String::new, |ours| format!(": {ours}"));
-    let on = judged.depends_on.as_ref().filter(|_| judged.verdict == Verdict::Depends);
-    let on = on.map(|choices| format!("on {choices}"));
-    let beside = on.into_iter().chain(rests_on).reduce(|on, rest| format!("{on}; {rest}"));
-    let beside = beside.map_or_else(String::new, |words| format!(": {words}"));
+    let beside = rests_on.map_or_else(String::new, |words| format!(": {words}"));
     let indent = VERDICT + 2;
     let says = format!("{}{ours}", headline.says);
     let rests = format!("({}{beside})", judged.claim);

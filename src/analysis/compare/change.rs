@@ -64,7 +64,7 @@ pub struct Change {
 pub struct Measured {
     /// The number.
     pub value: f64,
-    /// Its 95 % interval; `None` of fewer than two instances.
+    /// Its interval; `None` of fewer than two instances.
     pub interval: Option<[f64; 2]>,
 }
 
