@@ -434,7 +434,7 @@ class Across:
         best = sides.separating()
         if best is not None:
             words = f"{best[0]} matters most: {best[1]}"
-        return "a combination", words or "no option separates them"
+        return "several choices", words or "no option separates them"
 
     def departs(self, claim: str, result: Result, *, lists_all: bool = False) -> list[str]:
         """The options of a result's first interpretation that are not the defaults.

@@ -263,7 +263,7 @@ def test_a_combination_names_the_axis_that_separates_best() -> None:
     expected = (
         "4/0/5 for/open/against; order matters most: 2 of 3 against with a, 2 of 3 with c, 1 of 3 with b"
     )
-    assert found == (expected, "a combination")
+    assert found == (expected, "several choices")
 
 
 def test_an_option_under_which_most_results_are_on_the_other_side_is_no_reason() -> None:

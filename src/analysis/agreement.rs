@@ -56,7 +56,7 @@ pub struct ClaimPair {
 pub struct DefaultPair {
     /// The choice.
     pub choice: String,
-    /// The options; none where the side does not have the choice.
+    /// The default on each side; `None` where the side does not have the choice.
     pub options: [Option<String>; 2],
 }
 

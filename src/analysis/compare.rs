@@ -297,7 +297,7 @@ fn notes(seen: &[BTreeMap<&str, Seen<'_>>; 2], lines: &[Line<'_>]) -> Vec<String
         if !first.times.is_empty() && !second.times.is_empty() {
             let cpu = |of: &Manifest| of.made_by.cpu.clone().unwrap_or_else(|| "unknown".to_owned());
             notes.push(format!(
-                "{study}: clocks were read in two sessions (on {} and on {}), and no interval knows by how much sessions \
+                "{study}: clocks were read in two sessions (on {} and on {}), and no interval covers how much sessions \
                  differ",
                 cpu(one),
                 cpu(other)

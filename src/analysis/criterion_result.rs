@@ -17,9 +17,9 @@ pub struct CriterionResult {
     pub because: Vec<String>,
     /// What it takes for granted.
     pub premises: Vec<String>,
-    /// Where an interval around our number would have to lie beyond to decide.
+    /// Bounds for the interval around our number: it decides if it lies beyond one of them.
     pub limits: Vec<f64>,
-    /// What takes more of to narrow that interval.
+    /// The noun, in the plural, of what narrows that interval if there is more of it.
     pub units: &'static str,
     /// How that interval narrows.
     pub narrows: Narrows,

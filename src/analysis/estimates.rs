@@ -88,7 +88,7 @@ pub struct About {
     pub groups: String,
     /// The contenders.
     pub contender: String,
-    /// The contender that they are held against.
+    /// The contender that they are compared with.
     pub against: String,
     /// The metric.
     pub metric: String,

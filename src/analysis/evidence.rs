@@ -50,8 +50,8 @@ struct Index {
     names: Names,
     /// Rows by interpretation, group and contender, in the order of records.
     rows: BTreeMap<InterpretationKey, Groups>,
-    /// The times of each timed trial by session, from 1; those of several are never pooled.
-    interpretations_ns: Vec<BTreeMap<TrialKey, Vec<f64>>>,
+    /// The times of each timed trial in nanoseconds, by session, from 1; times of several sessions are never pooled.
+    times_ns: Vec<BTreeMap<TrialKey, Vec<f64>>>,
 }
 
 /// Rows by group and contender.
@@ -198,11 +198,11 @@ impl<'a> Run<'a> {
 
     /// How many sessions of the clock are stored.
     pub fn sessions(&self) -> usize {
-        self.index.interpretations_ns.len()
+        self.index.times_ns.len()
     }
 
     fn times(&self, row: &Row) -> Option<&Vec<f64>> {
-        self.index.interpretations_ns.get(self.session as usize - 1)?.get(&row.key)
+        self.index.times_ns.get(self.session as usize - 1)?.get(&row.key)
     }
 
     /// Whether its trials ran under the interpretation.
@@ -341,10 +341,10 @@ impl Index {
         }
         for time in &records.times {
             let session = time.session.max(1) as usize;
-            if index.interpretations_ns.len() < session {
-                index.interpretations_ns.resize_with(session, BTreeMap::new);
+            if index.times_ns.len() < session {
+                index.times_ns.resize_with(session, BTreeMap::new);
             }
-            let of_trial = index.interpretations_ns[session - 1].entry(time.trial.clone()).or_default();
+            let of_trial = index.times_ns[session - 1].entry(time.trial.clone()).or_default();
             of_trial.push(time.plan_wall_ns as f64);
         }
         index

@@ -75,7 +75,7 @@ struct Entry {
     git: Option<String>,
     /// The form of the claims' hashes.
     form: u32,
-    /// Where it takes claims over from, if not from the run itself.
+    /// Where it takes claims over from, if they do not come from the run itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     note: Option<String>,
     /// The last seal of an earlier history, which is gone and on which stored verdicts rest.

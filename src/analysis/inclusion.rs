@@ -14,7 +14,7 @@ pub enum Inclusion {
     NeverShorter,
     /// Both: they are equally long.
     Equal,
-    /// Nothing.
+    /// Neither: lengths may differ either way.
     Open,
 }
 

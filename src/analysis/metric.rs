@@ -24,9 +24,9 @@ pub struct Metric {
     pub about: &'static str,
     /// The column it is read from.
     pub column: &'static str,
-    /// By how much the column is multiplied to give the unit.
+    /// The factor from the column's unit to this unit.
     pub scale: f64,
-    /// The column that it is held against: the metric is 1 where it is at most as large (to 1e-9 of it), otherwise 0.
+    /// The column that it is compared with: the metric is 1 where it is at most as large (to 1e-9 of it), otherwise 0.
     pub at_most: Option<&'static str>,
 }
 

@@ -69,13 +69,13 @@ pub struct Number {
     pub censored: usize,
     /// Cases with a path that the verifier refuses.
     pub refused: usize,
-    /// Cases outside of a claim about what is solved.
+    /// Cases to which a claim about what is solved does not apply.
     pub outside: usize,
-    /// Cases below what they are compared with, or that speak for the claim.
+    /// Cases below what they are compared with, or cases for the claim.
     pub below: usize,
     /// Cases that are equal.
     pub equal: usize,
-    /// Cases above, or that speak against it.
+    /// Cases above, or cases against the claim.
     pub above: usize,
     /// Hits.
     pub hits: f64,
@@ -165,10 +165,10 @@ pub struct Numbers {
     pub is_covered: bool,
     /// Whether every problem group that it looks at could be posed.
     pub is_posed: bool,
-    /// The share of the paths that come back which the verifier refuses.
+    /// The share of returned paths that the verifier refuses, from 0 to 1.
     pub refused: f64,
     /// Cases without an end in instances that do not count.
     pub left_out: usize,
-    /// A hash of the trials' results, if it is wanted.
+    /// A hash of the trials' results, if it was requested.
     pub trials: String,
 }

@@ -21,7 +21,7 @@ pub struct Selection<'a> {
     pub groups: Vec<String>,
     /// The contenders.
     pub contenders: Vec<String>,
-    /// The contender that they are held against.
+    /// The contender that they are compared with.
     pub against: Option<String>,
     /// The metric; absent if statuses alone are looked at.
     pub metric: Option<&'static Metric>,

@@ -14,7 +14,7 @@ pub struct SelectionSpec {
     /// The contender, by its label, or several; left out where none is looked at.
     #[serde(default)]
     pub contender: Labels,
-    /// The contender that it is held against, on the same problems.
+    /// The contender that it is compared with, on the same problems.
     pub against: Option<String>,
     /// The metric: a name that `replan list metrics` gives, or one that an interpretation gives a meaning.
     pub metric: Option<String>,

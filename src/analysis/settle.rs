@@ -9,7 +9,7 @@ use stats::proportion::{agreeing_for_width, units_for_margin};
 use study::paper::Parts;
 
 /// On what a claim depends where no option and no two tell its sides apart.
-pub const COMBINATION: &str = "a combination";
+pub const COMBINATION: &str = "several choices";
 
 /// A sentence depends on this if its parts speak both ways.
 pub const MEANT: &str = "what is meant";

@@ -22,13 +22,13 @@ pub enum Quantity {
     Ratio,
     /// How many per cent of another contender's it is.
     PercentOfOther,
-    /// How many points the subject lies above another contender's, both in per cent.
+    /// By how many percentage points the subject lies above another contender's.
     MorePoints,
-    /// Which part of the subject, from 0 to 1.
+    /// A share of the subject, from 0 to 1.
     Share,
     /// The p of a joint test.
     Probability,
-    /// A rank among our instances: a probability, which no printed size compares with.
+    /// A rank among our instances: the share of them, from 0 to 1, that is at least as unusual. No printed size compares with it.
     Rank,
 }
 
@@ -146,7 +146,7 @@ pub struct Across {
     pub settles: Option<String>,
     /// How many different results count.
     pub counted: usize,
-    /// How many interpretations they come from.
+    /// How many interpretations these results come from.
     pub looked: usize,
     /// Of the results, those that speak for it.
     pub holds: usize,
@@ -154,13 +154,13 @@ pub struct Across {
     pub open: usize,
     /// Those that speak against it.
     pub fails: usize,
-    /// Those that speak against most others, without a second seed to say so too: they count as open.
+    /// Results against the majority that no second seed confirms: they count as open.
     pub unconfirmed: usize,
     /// Interpretations that vote and do not look at it.
     pub not_looked_at: usize,
     /// Interpretations that vote and contradict what the study was calibrated to.
     pub incompatible: usize,
-    /// Every voting interpretation does, so that all are judged.
+    /// Whether every voting interpretation contradicts what the study was calibrated to, so that all are judged.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub none_compatible: bool,
     /// Interpretations that are set apart: the verifier refuses their paths, which the paper calls free.
@@ -181,7 +181,7 @@ pub struct Across {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Explored {
-    /// How many interpretations.
+    /// How many interpretations were explored.
     pub interpretations: usize,
     /// How many trials it took.
     pub trials: u64,
@@ -197,7 +197,7 @@ pub struct Explored {
     /// Claims whose stored results of the second seed are stale.
     #[serde(default)]
     pub second_stale: Vec<String>,
-    /// Options that vote under which the verifier refuses many paths, with the share.
+    /// Voting options under which the verifier refuses many paths, each with the share.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub refused: Vec<String>,
     /// How each setting of the choices agrees with what a study was fitted to; none if no choice is fitted.
@@ -281,7 +281,7 @@ pub struct ClaimVerdict {
     /// Its outcome under the default interpretation on the second seed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub second: Option<Outcome>,
-    /// Nothing that it looks at is drawn, so that no second seed says more.
+    /// Whether nothing that it looks at is drawn, so that a second seed changes nothing.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub is_seedless: bool,
     /// What the interpretations make of it, if they were explored; its findings are those under the default interpretation.

@@ -109,9 +109,9 @@ impl Verdict {
             Self::Reproduced => {
                 "holds under every interpretation, or under nine tenths with named exceptions"
             }
-            Self::RightInDirection => "its sign holds so, but its size is not the printed one",
+            Self::RightInDirection => "its sign is reproduced, but its size is not the printed one",
             Self::Supported => {
-                "most interpretations agree and none contradicts it, or a choice that touches it was not varied"
+                "most interpretations agree and none contradicts it, or all agree but a choice was not varied"
             }
             Self::Attainable => "met on an input that was searched for, or on one of many",
             Self::Fitted => "holds, but something in the study was chosen to make it hold",
@@ -122,7 +122,7 @@ impl Verdict {
                 "data or interpretations do not decide; the report names what would settle it"
             }
             Self::NotSupported => {
-                "most interpretations contradict it and none agrees, or a choice that touches it was not varied"
+                "most interpretations contradict it and none agrees, or all contradict it but a choice was not varied"
             }
             Self::NotReproduced => {
                 "contradicted under every interpretation, or under nine tenths with named exceptions"
@@ -182,11 +182,11 @@ impl Chosen {
 /// What was found of a claim.
 #[derive(Debug, Clone)]
 pub struct Results<'a> {
-    /// The outcome of each result that counts; one of a minority is open unless the second seed confirms it.
+    /// The outcome of each result that counts; one against the majority is open unless the second seed confirms it.
     pub outcomes: &'a [Outcome],
-    /// What the default says.
+    /// Which way the default interpretation speaks.
     pub default: Polarity,
-    /// What the second seed says: the default's where nothing is drawn, open where it was not run.
+    /// Which way the second seed speaks: the default's where nothing is drawn, open where it was not run.
     pub second: Polarity,
     /// How its inputs were chosen.
     pub chosen: Option<Chosen>,

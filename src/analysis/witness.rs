@@ -42,9 +42,9 @@ pub enum Under {
 pub struct Wanted {
     /// What it is called: the claim's id, or the words of the call.
     pub name: String,
-    /// Whose it is.
+    /// The contender that it is a number of.
     pub contender: String,
-    /// Whose it is reduced from, in per cent.
+    /// The contender that it is a reduction from, in per cent; `None` if it is no reduction.
     pub against: Option<String>,
     /// What is measured.
     pub metric: &'static Metric,

@@ -31,13 +31,13 @@ struct Audit {
     /// Print the whole report, certificates included, as JSON
     #[arg(long)]
     json: bool,
-    /// Show data behind what is possible, this many vectors a number at most
+    /// Show data that would print each possible number, at most this many vectors a number
     #[arg(long, value_name = "COUNT", num_args = 0..=1, default_missing_value = "20")]
     witness: Option<NonZero<usize>>,
-    /// Try data in an order drawn from this seed, for a sample instead of the first ones
+    /// Try data in an order drawn from this seed: a sample, and not the first ones
     #[arg(long, value_name = "SEED", requires = "witness")]
     seed: Option<u64>,
-    /// Steps that the search for data may take a number
+    /// Steps that the search for data may take for each number
     #[arg(long, value_name = "STEPS", default_value_t = 100_000, requires = "witness")]
     budget: u64,
     /// Write the certificate of every impossible finding into this folder

@@ -22,7 +22,7 @@ pub struct Conformance {
     /// Time limit of a query in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 2.0)]
     time_s: f64,
-    /// Address space of each process
+    /// Memory limit of each process in megabytes (address space)
     #[arg(long, value_name = "MB", default_value_t = 4096)]
     memory_mb: u64,
     /// The program and its arguments

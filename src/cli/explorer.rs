@@ -68,7 +68,7 @@ pub fn scratch(places: &Places, paper: &Paper, command: &str) -> PathBuf {
 
 /// The claims' verdicts by the stored default run.
 pub fn judged(paper: &Paper, places: &Places) -> Result<Verdicts, Failure> {
-    doing(&format!("{}: judging {} claims", paper.id, paper.claims.len()));
+    doing(&format!("{}: judging {} claims and parts of claims", paper.id, paper.claims.len()));
     let evidence = judge::read(paper, default_point(paper), places)?.remembering(&judge::polylines(places));
     let verdicts = claims::judge(&evidence)?;
     evidence.keep_polylines();

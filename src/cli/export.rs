@@ -30,10 +30,10 @@ pub struct Export {
     /// Write into this folder; below target/replan/export/ if absent
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Of an RO-Crate the day of publication, as 2026-01-31
+    /// Day of publication for an RO-Crate, as 2026-01-31
     #[arg(long, value_name = "DAY", value_parser = day, required_if_eq("to", "ro-crate"))]
     date: Option<String>,
-    /// Of an RO-Crate the address of the licence; the LICENSE file of the project if absent
+    /// Address of the licence for an RO-Crate; the LICENSE file of the project if absent
     #[arg(long, value_name = "URL")]
     license: Option<String>,
 }

@@ -15,11 +15,12 @@ const IMPOSSIBLE: usize = 6;
 /// How many lines of 40 the terminal leaves beside those that `repro` prints before and after.
 const LINES: usize = 34;
 
-/// What counts over interpretations are followed by.
-const COUNTED: &str = "for/open/against";
+/// What counts mean, below the claims.
+const LEGEND: &str =
+    "for/open/against: interpretations (one option for each choice) that agree, cannot tell, contradict";
 
 /// Columns for a verdict.
-const VERDICT: usize = 24;
+const VERDICT: usize = 18;
 
 /// Prints the finding and the headline claims, a line for what it says and one for what its verdict rests on.
 pub(super) fn print(paper: &Paper, verdicts: &Verdicts, which: &Which) {
@@ -53,11 +54,12 @@ fn text(paper: &Paper, verdicts: &Verdicts, which: &Which, below: Below) -> Stri
         };
         text += &lines(&headline, words, below == Below::Nothing);
     }
-    if text.contains(COUNTED) {
-        text +=
-            &format!("\n{COUNTED}: interpretations that agree with the claim, cannot tell, contradict it\n");
+    let legend = verdicts.explored.is_some().then(|| format!("{LEGEND}\n"));
+    let proved = impossible(verdicts).map(|line| plain("", &line, 2, COLUMNS) + "\n");
+    let notes: String = legend.into_iter().chain(proved).collect();
+    if !notes.is_empty() {
+        text += &format!("\n{notes}");
     }
-    text.extend(impossible(verdicts).map(|line| plain("\n", &line, 2, COLUMNS) + "\n"));
     text + "\n" + &tallied(verdicts, which, Lines::Few)
 }
 
@@ -79,19 +81,20 @@ fn impossible(verdicts: &Verdicts) -> Option<String> {
     (!names.is_empty()).then(|| format!("cannot be true: {listed}{more}"))
 }
 
-/// The verdict, what the paper says and our number; below, or with `is_one` behind them, the claim and what its verdict rests on.
+/// The verdict, what the paper says and our number; below, or with `is_one` behind them, the claim and what its verdict rests on,
+/// which names the choices that it depends on.
 fn lines(headline: &Headline<'_>, rests_on: Option<String>, is_one: bool) -> String {
     let judged = headline.judged;
-    let word = judged.verdict_text();
+    let word = judged.word();
     let pad = " ".repeat((VERDICT + 1).saturating_sub(word.chars().count()));
-    let first = coloured(judged.verdict, &word) + &pad;
+    let first = coloured(judged.verdict, word) + &pad;
     let ours = headline.ours.as_ref().map_or_else(String::new, |ours| format!(": {ours}"));
     let beside = rests_on.map_or_else(String::new, |words| format!(": {words}"));
     let indent = VERDICT + 2;
     let says = format!("{}{ours}", headline.says);
-    let rests = judged.claim.clone() + &beside;
+    let rests = format!("({}{beside})", judged.claim);
     if is_one {
-        return plain(&(first + " "), &format!("{says} ({rests})"), indent, COLUMNS) + "\n";
+        return plain(&(first + " "), &format!("{says} {rests}"), indent, COLUMNS) + "\n";
     }
     let says = plain(&(first + " "), &says, indent, COLUMNS);
     format!("{says}\n{}\n", plain(&" ".repeat(indent), &rests, indent, COLUMNS))

@@ -20,7 +20,7 @@ pub struct Import {
     /// The format of the file
     #[arg(long, value_name = "FORMAT")]
     from: From,
-    /// A TOML file that names the columns that are keys and metrics; for a log, more properties that are metrics
+    /// A TOML file that names the columns of keys and metrics; for a log, the further properties that are metrics
     #[arg(long, value_name = "FILE", required_if_eq_any = [("from", "csv"), ("from", "parquet")])]
     columns: Option<PathBuf>,
     /// The study that takes them as its records, as `./my/paper/results`; its planners are `recorded`

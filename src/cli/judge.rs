@@ -207,6 +207,6 @@ pub fn polylines(places: &Places) -> std::path::PathBuf {
 
 /// The stored run of `paper`, to be judged under `point`.
 pub fn read<'a>(paper: &'a Paper, point: Interpretation, places: &Places) -> Result<Evidence<'a>, Failure> {
-    doing(&format!("{}: judging {} claims", paper.id, paper.claims.len()));
+    doing(&format!("{}: judging {} claims and parts of claims", paper.id, paper.claims.len()));
     Ok(Evidence::read(paper, point, &places.runs)?)
 }

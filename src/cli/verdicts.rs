@@ -46,7 +46,7 @@ fn table(verdicts: &Verdicts, which: &Which) -> String {
 pub(super) enum Lines {
     /// All.
     All,
-    /// All but how many parts there are and how many claims are asserted.
+    /// All but how many parts there are, how many claims are asserted, and whose paths the verifier refuses.
     Few,
 }
 
@@ -66,7 +66,8 @@ pub(super) fn tallied(verdicts: &Verdicts, which: &Which, lines: Lines) -> Strin
         text += &(wrapped("", &line, 2, COLUMNS) + "\n");
     }
     let named = if lines == Lines::Few { 1 } else { NAMED };
-    for line in explored(verdicts, which, named).into_iter().chain(verdicts.changed()) {
+    let refused = refused_paths(verdicts).filter(|_| lines == Lines::All);
+    for line in explored(verdicts, which, named).into_iter().chain(refused).chain(verdicts.changed()) {
         text += &(wrapped("", &line, 2, COLUMNS) + "\n");
     }
     text
@@ -93,7 +94,7 @@ fn explored(verdicts: &Verdicts, which: &Which, named: usize) -> Vec<String> {
     });
     let interpretations = stale(&explored.stale, "judged under the default interpretation alone", "explore");
     let second = stale(&explored.second_stale, "without a second seed", "confirm");
-    [compatible, interpretations, second, refused_paths(verdicts)].into_iter().flatten().collect()
+    [compatible, interpretations, second].into_iter().flatten().collect()
 }
 
 /// Under which options the verifier refused many paths, if under any.
@@ -101,7 +102,7 @@ pub fn refused_paths(verdicts: &Verdicts) -> Option<String> {
     let refused = &verdicts.explored.as_ref()?.refused;
     (!refused.is_empty()).then(|| {
         format!(
-            "the verifier refuses many paths under {}; `refused_above_percent` in [explore] can set these apart",
+            "the verifier refuses many paths under {}; `refused_above_percent` in [explore] of paper.toml leaves such interpretations out",
             refused.join(", ")
         )
     })

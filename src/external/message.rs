@@ -139,7 +139,7 @@ pub struct Ask {
     /// Whether the motion between each two configurations is free, both ends included.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<Vec<[Vec<f64>; 2]>>,
-    /// Also up to which fraction each motion is free.
+    /// Whether the answer also gives, for each motion, the fraction up to which it is free.
     #[serde(default)]
     pub fractions: bool,
     /// Where the tip is in each of an arm's postures, given as joint angles.

@@ -104,8 +104,8 @@ impl Effect {
             Quantity::Ratio => Self::of_change(subject, estimate, |value| 100.0 * (value - 1.0)),
             Quantity::Share => Self::scaled(estimate, |value| 100.0 * value, " %".to_owned()),
             Quantity::MorePoints => {
-                let words = if estimate.value < 0.0 { " points fewer" } else { " points more" };
-                Self::scaled(estimate, f64::abs, words.to_owned())
+                let direction = if estimate.value < 0.0 { "fewer" } else { "more" };
+                Self::scaled(estimate, f64::abs, format!(" percentage points {direction}"))
             }
             Quantity::PercentOfOther => {
                 let subject = bare(subject);
@@ -179,7 +179,7 @@ mod tests {
             (0.534, [0.498, 0.569], Share, "trials solved", "53 %"),
             (0.505, [0.470, 0.540], Share, "trials solved", "51 %"),
             (1.0, [0.994, 1.0], Share, "instances", "100 %"),
-            (18.15, [14.4, 21.9], MorePoints, "solved queries", "18 points more"),
+            (18.15, [14.4, 21.9], MorePoints, "solved queries", "18 percentage points more"),
             (99.87, [99.2, 100.4], PercentOfOther, "median bends", "99.9 % of the best rival's median bends"),
         ] {
             let ours = Estimate { interval: Some(interval), ..Estimate::bare(value, "as it is", 9) };

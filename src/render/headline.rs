@@ -118,7 +118,7 @@ pub fn ours(judged: &ClaimVerdict, paper: &Paper, verdicts: &Verdicts) -> Option
             judged.printed.as_ref().map_or_else(String::new, |printed| format!("printed {printed}, ours "));
         let number = match ours.quantity {
             Quantity::Rank => {
-                format!("{} of our {noun} lie as far out as the printed numbers", percentage(ours))
+                format!("{} of our {noun} are at least as unusual as the printed numbers", percentage(ours))
             }
             Quantity::Probability if ours.value < LEAST_P => format!("p below {LEAST_P}"),
             Quantity::Probability => format!("p = {}", number(ours.value)),

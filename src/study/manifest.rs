@@ -40,17 +40,17 @@ pub struct Manifest {
     pub choices: Vec<String>,
     /// The interpretations that were run: the option of each of the choices.
     pub interpretations: Vec<Vec<String>>,
-    /// SHA-256 of what the spec asks to run: its comments, question and figures are no part of it.
+    /// SHA-256 of what the spec asks to run; its comments, question and figures do not count.
     pub spec: String,
     /// One hash of everything below that trials depend on.
     pub depends: String,
-    /// The contenders whose trials are bound to a clock: they were recorded, and a run repeats them only on request.
+    /// Contenders whose trials are bound to a clock: they were recorded, and are run again only with `--record`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub recorded: Vec<String>,
     /// Where the records come from, if no run of ours made them: the file, and SHA-256 of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elsewhere: Option<String>,
-    /// What the spec leaves out, and the value that holds there.
+    /// What the spec leaves out, with the value used.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub defaults: Vec<String>,
     /// The program and the machine.
@@ -75,7 +75,7 @@ pub struct Manifest {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Session {
-    /// Its number, from 1, as times bear it.
+    /// Its number, from 1, as rows of times have it.
     pub number: u32,
     /// The git revision of the program.
     pub git: Option<String>,

@@ -59,17 +59,17 @@ struct PaperSpec {
     choices: Vec<ChoiceSpec>,
     /// How far that is explored.
     explore: Option<ExploreSpec>,
-    /// The root of every seed when `replan confirm` runs a study once more that does not say another.
+    /// The root of every seed when `replan confirm` runs a study once more; a study may set another.
     second_seed: Option<u64>,
     /// Limits on each trial of studies that say no others.
     budget: Option<BudgetSpec>,
-    /// Groups of problems that groups of studies are `like`.
+    /// Groups of problems that groups of studies refer to by `like`.
     #[serde(default)]
     problems: Vec<ProblemsSpec>,
-    /// Contenders that those of studies are `like`.
+    /// Contenders that contenders of studies refer to by `like`.
     #[serde(default, rename = "contender")]
     contenders: Vec<ContenderSpec>,
-    /// Everything that it prints, and what answers it; nothing is held against the paper's own list of prints if absent.
+    /// Everything that it prints, each with what answers it; without rows, nothing is compared with the paper's own list of prints.
     #[serde(default)]
     inventory: Vec<InventoryRow>,
     /// What it says.
@@ -87,7 +87,7 @@ struct PaperSpec {
     /// Claims that it no longer has, with the reasons.
     #[serde(default)]
     withdrawn: Vec<Withdrawn>,
-    /// The series, of those that figures have, that a contender is drawn as wherever it is drawn, by its label.
+    /// By label of a contender, the series (colour, marker and dash) that it is drawn as in every figure.
     #[serde(default)]
     series: BTreeMap<String, usize>,
 }
@@ -153,8 +153,8 @@ pub struct Source {
     pub notes: Vec<String>,
     /// What stands below every figure and table of results, if their inputs are not the paper's own.
     pub stand_ins: Option<String>,
-    /// The claims are questions of our own: our clock decides those about times. A sentence about the authors' times is not testable
-    /// by it.
+    /// Whether the claims are questions of our own: our clock then decides those about times. It does not decide a sentence about
+    /// the authors' times.
     #[serde(default)]
     pub ours: bool,
 }
@@ -208,7 +208,7 @@ pub struct Paper {
     pub replies: Vec<Reply>,
     /// Claims that it no longer has, with the reasons.
     pub withdrawn: Vec<Withdrawn>,
-    /// The series, of those that figures have, that a contender is drawn as wherever it is drawn, by its label.
+    /// By label of a contender, the series (colour, marker and dash) that it is drawn as in every figure.
     pub series: BTreeMap<String, usize>,
     /// Its studies, in the order of their names.
     pub studies: Vec<Study>,

@@ -126,7 +126,7 @@ pub struct Reusable<'s> {
     pub units: BTreeMap<usize, StoredUnit<'s>>,
     /// Units with the trials of some contenders only.
     pub parts: BTreeMap<usize, Part<'s>>,
-    /// The contenders of each of these units whose traces are stored; of all in a task that does without contenders.
+    /// By unit, the contenders whose traces are stored; `None` stands for all, in a task without contenders.
     pub traces: BTreeMap<usize, Option<BTreeSet<Text>>>,
 }
 

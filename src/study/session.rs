@@ -158,7 +158,7 @@ struct Tally<'r> {
     trials: usize,
     odd: BTreeMap<Status, UnexpectedStatus>,
     moved: Vec<String>,
-    /// How many of the first trials are as the run before has them.
+    /// How many trials, from the first on, equal those of the run before.
     as_before: usize,
 }
 

@@ -118,8 +118,8 @@ pub struct ContenderSpec {
     /// How many seeds it runs on each problem, 1 if absent; more than 1 only where it draws.
     #[schemars(range(min = 1, max = 100_000))]
     pub repeats: Option<u32>,
-    /// Choices that its study leaves out or that do not touch it, with the option that its settings take: a witness that it
-    /// gives counts under these alone.
+    /// Choices that its study leaves out, or that do not touch it, with the option that its settings take. A witness that it gives
+    /// counts under these options alone.
     #[serde(default)]
     pub departs: BTreeMap<String, String>,
 }
@@ -148,8 +148,8 @@ pub struct SweepSpec {
     /// The values, in the paper's order.
     #[schemars(with = "Vec<AnyValue>")]
     pub values: Spanned<Vec<toml::Value>>,
-    /// Its values are drawn within an instance, as roadmaps in a cell are: claims and figures pool them unless they select one, and
-    /// intervals resample whole instances.
+    /// Whether its values are drawn within an instance, as roadmaps in a cell are. Claims and figures pool them unless they select
+    /// one, and intervals resample whole instances.
     #[serde(default)]
     pub nested: bool,
 }
@@ -164,8 +164,8 @@ pub struct ChoiceSpec {
     pub why: String,
     /// The option taken unless another is named.
     pub default: Spanned<String>,
-    /// The default was chosen so that the claims in `fitted_to` hold: for each setting of the other choices the options
-    /// count with which most of them do.
+    /// Whether the default was chosen so that the claims in `fitted_to` hold. For each setting of the other choices, the options
+    /// that meet most of these claims count.
     #[serde(default)]
     pub fitted: bool,
     /// Of options that are numbers: which of them vote, and who says so.
@@ -204,12 +204,12 @@ pub struct OptionSpec {
     pub paper: Option<String>,
     /// The practice that does so, with its source.
     pub practice: Option<String>,
-    /// Whether it is a probe though its choice cites something for every option that cites nothing.
+    /// Whether it is a probe, though its choice cites a source for every option without one.
     #[serde(default)]
     pub probe: bool,
     /// The number that it stands for, where the choice has `bounds`.
     pub value: Option<f64>,
-    /// Options of other choices, by the choice's name: it is explored only with these. With all, if none are named.
+    /// Options of other choices, by the choice's name, with which alone it is explored; with all if absent.
     #[serde(default)]
     pub only_with: BTreeMap<String, Vec<String>>,
     /// Why it cannot be run: claims on studies that inherit the choice then stay open.
@@ -231,7 +231,7 @@ pub struct OptionSpec {
     #[serde(default)]
     #[schemars(with = "AnyTable")]
     pub robot: Table,
-    /// The same over the scene file.
+    /// What is laid over the scene file of every problem, as for `robot`.
     #[serde(default)]
     #[schemars(with = "AnyTable")]
     pub scene: Table,
@@ -276,16 +276,16 @@ pub struct ExploreSpec {
     /// Seeds kept of each contender; all of them if absent.
     #[serde(default)]
     pub repeats: BTreeMap<String, Count>,
-    /// The study whose claims a study answers under other interpretations than the defaults, by groups and contenders of the same
-    /// labels; its own if absent.
+    /// By study, the other study whose claims it answers under interpretations other than the defaults; groups and contenders of
+    /// both have the same labels. A study answers its own claims if absent.
     #[serde(default)]
     pub stands_for: BTreeMap<String, String>,
-    /// Studies that run only under interpretations that are compatible with what the paper's studies are fitted to, as those that
-    /// run under all say.
+    /// Studies that run only under interpretations compatible with what the paper's studies are fitted to; the studies that run
+    /// under every interpretation decide which these are.
     #[serde(default)]
     pub where_compatible: Vec<String>,
-    /// Where the paper calls its paths free: results are set apart, and named, if the verifier refuses more than so many per cent of
-    /// the paths that a claim looks at.
+    /// Where the paper calls its paths free: a result is set apart, and named, if the verifier refuses more than this share, in per
+    /// cent, of the paths that the claim looks at.
     #[schemars(range(max = 100))]
     pub refused_above_percent: Option<u32>,
 }

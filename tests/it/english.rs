@@ -204,7 +204,7 @@ fn the_readme_is_short_and_the_numbers_of_its_sample_are_those_of_the_report() {
     assert!((400..=900).contains(&words), "{words} words");
     let report = report.split_whitespace().collect::<Vec<_>>().join(" ");
     // A headline that is longer than a line goes on below it.
-    let joined = readme.replace("\n                              ", " ");
+    let joined = readme.replace("\n                        ", " ");
     let sample: Vec<&str> =
         joined.lines().filter(|line| line.starts_with("    ") && line.contains("(n = ")).collect();
     for line in &sample {

@@ -67,17 +67,18 @@ pub struct SharedResult {
     /// The outcome.
     #[serde(rename = "class")]
     pub outcome: &'static str,
-    /// Whether that says something.
+    /// Whether this outcome says something about the claim.
     pub sight: Sight,
-    /// What it counts as across interpretations, if it counts: what speaks against most and was not confirmed is open.
+    /// The outcome that it counts as across interpretations; `None` if it does not count. One against the majority that no second
+    /// seed confirms counts as open.
     pub counts_as: Option<&'static str>,
     /// Our number.
     pub value: Option<f64>,
     /// Its interval.
     pub interval: Option<[f64; 2]>,
-    /// Of how many instances.
+    /// How many instances it rests on.
     pub n: usize,
-    /// The interpretations, by their places.
+    /// The interpretations that give it, by their places.
     pub interpretations: Vec<usize>,
     /// Those of them that count.
     pub counted: Vec<usize>,

@@ -34,7 +34,7 @@ pub struct Group {
 /// The interpretations that count for a claim.
 #[derive(Debug, Default)]
 pub struct Counted {
-    /// By their results.
+    /// The interpretations that count, those with equal results together.
     pub groups: Vec<Group>,
     /// How many interpretations looked at it.
     pub looked: usize,
@@ -44,7 +44,7 @@ pub struct Counted {
     pub incompatible: usize,
     /// No voting interpretation is compatible, so that all of them are judged.
     pub none_compatible: bool,
-    /// The interpretations, by their places, that are set apart: the verifier refuses their paths, which the paper calls free.
+    /// Interpretations that are set apart, by their places: the verifier refuses many of their paths, which the paper calls free.
     pub refused: Vec<usize>,
     /// By choice, the one option that the calibration leaves, where it refuses every other that votes.
     pub calibrated: BTreeMap<String, String>,
@@ -255,7 +255,7 @@ impl VotingChoices {
 /// A claim never filters itself: only `others` make an interpretation incompatible. But what is fitted is fitted to all of them at
 /// once, so that the claim is judged where it fares best together with the others, and not where they alone do.
 struct Calibration<'c> {
-    /// Those whose being contradicted makes an interpretation incompatible.
+    /// Claims that make an interpretation incompatible if one of them is contradicted under it.
     others: Vec<&'c str>,
     /// The claim itself, its parts and the sentence that it is a part of, as far as they are calibration claims.
     own: Vec<&'c str>,

@@ -16,11 +16,11 @@ use study::Choice;
 pub struct Rule {
     /// The options, by choice.
     pub options: Vec<(String, String)>,
-    /// Whether the results that share them are those on the first side.
+    /// Whether the side whose results share these options is the first.
     pub is_first_side: bool,
     /// How many results are on that side.
     pub hits: usize,
-    /// Under how many results some interpretation has these options.
+    /// How many results have these options under one of their interpretations.
     pub covered: usize,
     /// Whether no result on the other side has them.
     pub is_exact: bool,

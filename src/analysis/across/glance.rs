@@ -17,7 +17,7 @@ use study::paper::{Claim, Paper};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Sight {
-    /// The claim is not meant there.
+    /// The paper does not mean the claim under this interpretation.
     Unmeant,
     /// Its trials did not run under the interpretation, or the clock was not read.
     Unexplored,
@@ -41,11 +41,11 @@ impl Sight {
 pub struct Glance {
     /// Its outcome there.
     pub outcome: Outcome,
-    /// Whether that says something.
+    /// Whether this outcome says something about the claim.
     pub sight: Sight,
     /// Our number with its interval, and of how many instances.
     pub ours: Option<(f64, Option<[f64; 2]>, usize)>,
-    /// The share of the paths that come back which the verifier refuses.
+    /// The share of returned paths that the verifier refuses, from 0 to 1.
     pub refused: f64,
     /// A hash of the results that it rests on.
     pub results: String,

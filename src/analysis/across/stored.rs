@@ -69,15 +69,15 @@ pub struct ExploredResult {
     pub interpretations: Vec<usize>,
     /// The outcome.
     pub outcome: Outcome,
-    /// Whether that says something.
+    /// Whether this outcome says something about the claim.
     pub sight: Sight,
     /// Our number.
     pub value: Option<f64>,
     /// Its interval.
     pub interval: Option<[f64; 2]>,
-    /// Of how many instances.
+    /// How many instances it rests on.
     pub n: usize,
-    /// The share of paths that the verifier refuses.
+    /// The share of returned paths that the verifier refuses, from 0 to 1.
     pub refused: f64,
     /// A hash of the trials' results.
     pub results: String,

@@ -45,7 +45,7 @@ pub struct View<'a> {
 pub struct Wording {
     /// What stands beside the verdict, the counts first.
     pub beside: Vec<String>,
-    /// On what it depends.
+    /// The choices on which the verdict depends.
     pub depends_on: Option<String>,
 }
 

@@ -18,7 +18,7 @@ use study::record::{Row, Status};
 pub struct Cell {
     /// The study.
     pub study: String,
-    /// The interpretation: what is not as by default.
+    /// The interpretation: the options that differ from the defaults.
     pub interpretation: String,
     /// The problem group.
     pub group: String,
@@ -36,11 +36,11 @@ pub struct Cell {
     pub solved: usize,
     /// What was drawn independently among them.
     pub instances: usize,
-    /// Solved trials in which it was measured.
+    /// Solved trials in which the metric was measured.
     pub measured: usize,
-    /// The mean of these.
+    /// The mean over these trials.
     pub mean: Option<Measured>,
-    /// The median of all trials, failures infinite; none where a solved trial was not measured.
+    /// The median over all trials, failures infinite; `None` if it was not measured in a solved trial.
     pub median: Option<Measured>,
 }
 

@@ -32,21 +32,22 @@ pub struct Change {
     pub unit: String,
     /// Which way is better: `lower` or `higher`.
     pub better: String,
-    /// Pairs that both sides have a number of.
+    /// Pairs in which both sides have a number.
     pub pairs: usize,
-    /// Pairs that the first side alone has, as the other did not solve the problem; and the second alone.
+    /// Pairs in which only the first side has a number, as the other did not solve the problem; then those in which only the second
+    /// has one.
     pub one_sided: [usize; 2],
-    /// What was drawn independently, of all pairs.
+    /// How many instances were drawn independently, over all pairs.
     pub instances: usize,
-    /// The mean of each side, over pairs that both have a number of.
+    /// The mean of each side, over pairs in which both have a number.
     pub means: Option<[f64; 2]>,
-    /// What the mean changes by, in the unit.
+    /// The change of the mean, in the unit.
     pub mean_change: Option<Measured>,
-    /// What it changes by, in per cent of the first side's; none if that is not above 0.
+    /// The change of the mean in per cent of the first side's; `None` if that mean is not above 0.
     pub mean_change_percent: Option<Measured>,
-    /// The median of all pairs' changes, in the unit; that of a side that did not solve a problem is infinite.
+    /// The median of the changes of all pairs, in the unit; a side that did not solve the problem counts as infinite.
     pub median_change: Option<Measured>,
-    /// The share of pairs, in per cent, in which the second side is better, with half of those in which neither is.
+    /// The share of pairs, in per cent, in which the second side is better; ties count half.
     pub improvement_percent: Option<Measured>,
     /// Pairs in which the second side is better.
     pub wins: usize,
@@ -54,7 +55,7 @@ pub struct Change {
     pub ties: usize,
     /// Pairs in which the first side is better.
     pub losses: usize,
-    /// What the interval of the mean's change says.
+    /// Whether the interval of the mean's change shows a change, and which.
     pub word: Word,
 }
 
@@ -63,7 +64,7 @@ pub struct Change {
 pub struct Measured {
     /// The number.
     pub value: f64,
-    /// Its interval; none of fewer than two instances.
+    /// Its interval; `None` of fewer than two instances.
     pub interval: Option<[f64; 2]>,
 }
 
@@ -77,7 +78,7 @@ pub enum Word {
     Better,
     /// The second side is worse.
     Worse,
-    /// The interval holds no change, or too few instances give none.
+    /// The interval holds zero change, or there are too few instances for an interval.
     Open,
 }
 

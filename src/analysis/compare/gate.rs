@@ -15,9 +15,9 @@ pub struct Gate {
     /// As it was written.
     pub text: String,
     metric: String,
-    /// By how much, with its sign.
+    /// The margin, with its sign.
     by: f64,
-    /// Whether that is in per cent of the first side's mean, not in the metric's unit.
+    /// Whether the margin is in per cent of the first side's mean; otherwise it is in the metric's unit.
     is_percent: bool,
 }
 
@@ -30,15 +30,15 @@ pub struct Passed {
     pub study: String,
     /// The contender, or the two.
     pub contender: String,
-    /// What the mean changes by, in what the gate is written in, with the interval that decides.
+    /// The change of the mean in the gate's unit, with the interval that decides.
     pub change: Option<Measured>,
     /// Level of that interval; higher than 95 % where several lines are looked at together.
     pub level: f64,
     /// What it says.
     pub outcome: Outcome,
-    /// About how many more instances would tell, if it cannot and any number would.
+    /// About how many more instances would decide it; `None` if it is decided, or if no number would.
     pub more_instances: Option<usize>,
-    /// Why it cannot tell, if it cannot.
+    /// Why it is undetermined, if it is.
     pub why: Option<String>,
 }
 
@@ -148,7 +148,7 @@ fn verdict(
 ) -> (Outcome, Option<usize>, Option<String>) {
     let cannot = |more, why: String| (Outcome::CannotTell, more, Some(why));
     if sample.is_time && of_two_runs {
-        let why = "each run has one session of the clock, and no interval knows by how much sessions differ";
+        let why = "each run has one session of the clock, and no interval covers how much sessions differ";
         return cannot(None, why.to_owned());
     }
     if let Some(fewest) = needs(sample.instances()) {

@@ -16,7 +16,7 @@ use study::store::{Records, read_numbers};
 pub struct StoredRun {
     /// What it is called.
     pub name: String,
-    /// What its records depend on, and the records, by study.
+    /// By study, what its records depend on, and the records.
     pub studies: BTreeMap<String, (Manifest, Records)>,
 }
 
@@ -33,7 +33,7 @@ pub struct Seen<'r> {
     pub instances: Instances<'r>,
     /// The times of the first session.
     pub times: Times<'r>,
-    /// How records are named, as far as they alone tell.
+    /// How records are named, as far as the records show it.
     pub names: Names,
 }
 

@@ -35,9 +35,9 @@ truth = "optimal_cost_cells"
 struct Settings {
     /// The trials that are looked at; with `against`, on the cases that both solve.
     select: SelectionSpec,
-    /// The metric of the same trial that is the truth; without it the metric of the contender `against` is.
+    /// The metric of the same trial that holds the truth; without it, the truth is the metric of the contender `against`.
     truth: Option<String>,
-    /// How far they may be apart, in the metric's unit, beyond a billionth of the truth.
+    /// How far metric and truth may be apart, in the metric's unit, beyond a billionth of the truth.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e9))]
     within: f64,
@@ -63,7 +63,7 @@ impl<'a> Equals<'a> {
         if truth.is_some() == selection.against.is_some() {
             return Err(context
                 .settings
-                .error("one of `truth` and `of.against` is accepted")
+                .error("one of `truth` and `select.against` is accepted")
                 .about("truth")
                 .about("against"));
         }
@@ -79,7 +79,7 @@ const APART: &str = "apart";
 struct Tally<'e> {
     /// Trials that are the same, and trials, by instance.
     counts: Vec<[f64; 2]>,
-    /// The farthest apart.
+    /// The largest difference.
     worst: f64,
     /// The sums of the metric and of the truth.
     sums: [f64; 2],

@@ -61,7 +61,7 @@ struct Settings {
     /// Claims that must be met on the same problem.
     #[serde(default)]
     given: Vec<String>,
-    /// Sets of problem groups: what is claimed is no number, but that the metric is not the same in all of a set.
+    /// Sets of problem groups, for a claim without a number: it says that the metric is not the same in all groups of a set.
     #[serde(default)]
     differ: Vec<Vec<String>>,
 }
@@ -73,8 +73,7 @@ struct PlaceSpec {
     study: String,
     /// The problem groups, by their labels; one that ends in `*` stands for all that begin so.
     problems: Labels,
-    /// Its problems were drawn until the claim held: they serve where the claim is given, and say nothing of how often
-    /// it holds.
+    /// Its problems were drawn until the claim held: they serve where the claim is `given`, and do not show how often it holds.
     #[serde(default)]
     selected: bool,
 }

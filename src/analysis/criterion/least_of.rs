@@ -57,7 +57,7 @@ struct Settings {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 99.9))]
     by_percent: f64,
-    /// The metric is the length of a path, so that steps that include others' never make it longer.
+    /// Whether the metric is the length of a path, so that a contender whose steps include another's is never longer.
     #[serde(default)]
     by_inclusion: bool,
 }
@@ -65,7 +65,7 @@ struct Settings {
 struct LeastOf<'a> {
     selection: Selection<'a>,
     metric: &'static Metric,
-    /// Who is claimed to be lower, and than whom.
+    /// The pairs compared: the contender that is claimed to be lower, then the other.
     pairs: Vec<(String, String)>,
     by_percent: f64,
     inclusions: Vec<Inclusion>,

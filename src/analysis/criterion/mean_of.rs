@@ -43,7 +43,7 @@ instances = 500
 struct Settings {
     /// The trials that are looked at; with `against`, by how much the contender's number exceeds the other's on the same problem.
     select: SelectionSpec,
-    /// Of how many instances the printed number is the mean.
+    /// How many instances the printed mean is over.
     #[schemars(range(min = 1))]
     instances: u32,
 }
@@ -54,11 +54,11 @@ pub(super) struct MeanOf<'a> {
     pub(super) selection: Selection<'a>,
     /// The metric.
     pub(super) metric: &'static Metric,
-    /// Of how many instances it is the mean.
+    /// How many instances the printed mean is over.
     pub(super) instances: usize,
     /// The printed number.
     pub(super) printed: f64,
-    /// The numbers that print so.
+    /// The numbers that round to the printed one.
     pub(super) rounded: Interval,
 }
 

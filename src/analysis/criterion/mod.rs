@@ -129,11 +129,11 @@ pub struct Entry {
     pub name: &'static str,
     /// One line for `replan list`.
     pub about: &'static str,
-    /// Raised whenever a change moves what it finds in the same trials, of the settings that it moves: what was found under interpretations
-    /// is then computed again.
+    /// Gives the revision for these settings. It is raised when a change moves what the criterion finds in the same trials; what
+    /// was found under interpretations is then computed again.
     pub revision: fn(&Table) -> u32,
-    /// What its numbers are called, with a revision, once what only weighs them is taken out of its settings: criteria that leave the same
-    /// share their numbers. None of a rule, which looks at no trial.
+    /// Takes out of its settings what only weighs its numbers, and gives the name of these numbers with a revision. Criteria that
+    /// leave the same settings share their numbers. `None` of a rule, which looks at no trial.
     pub question: fn(&mut Table) -> Option<&'static str>,
     /// The shape of its settings, which documents them.
     pub settings: Accepted,

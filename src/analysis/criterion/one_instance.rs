@@ -49,7 +49,7 @@ struct Settings {
     statistic: InstanceStatistic,
     /// What these instances are, where several sets are shown beside each other.
     label: Option<String>,
-    /// What the instances take for granted besides.
+    /// Further premises that the instances rest on.
     #[serde(default)]
     premises: Vec<String>,
 }

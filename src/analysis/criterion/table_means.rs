@@ -150,9 +150,9 @@ fn cell<'a>(context: &Context<'a>, at: &str, id: &str) -> Result<Option<Cell<'a>
 struct RowResult<'a> {
     /// Its problem groups.
     label: String,
-    /// The probability of a row as far from ours.
+    /// The probability of a row that is as far from ours as the printed one.
     p: f64,
-    /// T² and how many cells and instances it has; of exact cells alone none.
+    /// T², and its numbers of cells and of instances; `None` if all cells are exact.
     test: Option<(f64, usize, usize)>,
     /// The cells that say most, in words.
     loudest: Vec<String>,
@@ -160,7 +160,7 @@ struct RowResult<'a> {
     farthest: usize,
     /// Exact cells that do not print as the paper's.
     refused: Vec<&'a str>,
-    /// The share by which every number of the row would have to be off to be refused alone, T² at a share of one.
+    /// The test of the row, and its T² if every number were off by 100 %: the power follows from both.
     power: Option<(JointTest, f64)>,
 }
 

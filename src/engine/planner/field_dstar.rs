@@ -39,9 +39,9 @@ struct FieldSettings {
 #[derive(Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum Interpolates {
-    /// All that have a cost by then.
+    /// All corners that have a cost by then.
     Opened,
-    /// Those that were expanded; their costs change no more.
+    /// Corners that were expanded, whose costs no longer change.
     Expanded,
 }
 

@@ -40,11 +40,12 @@ struct PrmStar {
     /// Samples; without a path after as many there is none to be found; the study's budget of expansions limits them as well.
     #[schemars(range(min = 1, max = 10_000_000))]
     iterations: u64,
-    /// The roadmap is built and searched after the first, whenever there were so many times as many iterations as at the search before,
-    /// and after the last; after the last alone if absent.
+    /// When the roadmap is built and searched: after the first iteration, whenever there are this many times as many iterations as
+    /// at the last search, and at the end. Only at the end if absent.
     #[schemars(range(min = 1.001, max = 100))]
     growth: Option<f64>,
-    /// With how many nearest samples each is joined, however many there are (k-nearest sPRM, the same source's algorithm 2); `e (1 + 1 / d) ln n` if absent.
+    /// How many nearest samples each is joined with (k-nearest sPRM, algorithm 2 of the same source); `e (1 + 1 / d) ln n`, which
+    /// grows with the roadmap, if absent.
     #[schemars(range(min = 1, max = 1000))]
     nearest: Option<usize>,
 }

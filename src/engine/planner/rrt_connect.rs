@@ -44,7 +44,7 @@ struct RrtConnect {
     range: f64,
     /// Where samples come from.
     sampler: DrawSetting,
-    /// Trees take turns only while their sizes differ by less than this share of the one at hand; they always do if absent.
+    /// Trees take turns only while their sizes differ by less than this share of the current one; they always do if absent.
     #[schemars(extend("exclusiveMinimum" = 0))]
     balance: Option<f64>,
     /// Nodes at obstacles draw samples from a ball around them alone; all draw from everywhere if absent.
@@ -65,7 +65,7 @@ struct DynamicDomain {
     /// The radius of a node from which a first step failed, in the unit of `range`.
     #[schemars(extend("exclusiveMinimum" = 0))]
     radius: f64,
-    /// By which share it grows with a step that is free, and shrinks with one that is not.
+    /// The share by which it grows after a free step and shrinks after another.
     #[schemars(range(min = 0, max = 1))]
     alpha: f64,
     /// The least radius.

@@ -61,8 +61,8 @@ struct RrtStar {
     /// How near the goal a node must be to be joined with it, in the unit of `range`; as near as `range` if absent.
     #[schemars(extend("exclusiveMinimum" = 0))]
     reach: Option<f64>,
-    /// Whether every node keeps the nearest one as parent, in place of the cheapest of its neighbours: this is RRT that goes on after its
-    /// first path.
+    /// Whether every node keeps the nearest node as parent, and not the cheapest of its neighbours: this is RRT that goes on after
+    /// its first path.
     #[serde(default)]
     nearest_parent: bool,
 }

@@ -75,7 +75,7 @@ impl VerticesSetting {
 /// The graph; edges are those of the vertex in hand.
 struct Visible<'a> {
     on: Cornered<'a>,
-    /// With the goal.
+    /// The vertices of the graph, the goal among them.
     vertices: Vec<u32>,
     /// Where each corner stands among them, or [`NONE`].
     places: Vec<u32>,

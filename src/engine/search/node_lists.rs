@@ -28,7 +28,7 @@ pub(super) struct NodeLists {
     /// Whether a node was ever opened.
     pub(super) opened: Bits,
     pub(super) closed: Bits,
-    /// By place; those that were not opened say nothing.
+    /// By place; entries of nodes that were not opened hold no meaning.
     nodes: Vec<Node>,
     /// The places of the nodes in the order in which they were opened.
     order: Vec<u32>,

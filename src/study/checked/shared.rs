@@ -182,7 +182,7 @@ impl Study {
     fn not_left_out(&self, id: &str, choices: &[Choice], touching: &BTreeSet<&str>) -> String {
         let listed = touching.iter().copied().collect::<Vec<_>>().join(", ");
         let accepted = if listed.is_empty() {
-            "no choice of the paper does, so that nothing is left out".to_owned()
+            "no choice of the paper does, so there is nothing to leave out".to_owned()
         } else {
             format!("those that do are {listed}")
         };

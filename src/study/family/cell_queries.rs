@@ -85,7 +85,7 @@ struct CellQueries {
     /// The scene file; with a table `[drawn]`, a scene is drawn with each instance, in which nothing stands in anything else and the
     /// arm can stand at every written start and goal.
     scene: String,
-    /// Which of the roadmaps in a drawn scene it is: a sweep over it gives every instance several.
+    /// Which of several roadmaps in one drawn scene it is: a sweep over it gives every instance several.
     roadmap: Option<u32>,
     /// What is laid over the scene file.
     #[schemars(with = "Option<AnyTable>")]
@@ -110,17 +110,17 @@ struct CellQueries {
     /// How many samples the roadmap is built from.
     #[schemars(range(min = 1, max = 100_000))]
     samples: u32,
-    /// Which samples the number counts.
+    /// Which samples the number `samples` counts.
     counted: CountedSetting,
     /// Where samples are drawn from.
     region: Region,
-    /// Over how much of its range a joint is drawn that turns by more than half a turn either way.
+    /// How much of its range is used when a joint is drawn that turns by more than half a turn either way.
     #[serde(default)]
     turns: Turns,
     /// How far the tools of two samples may be apart to be tried as neighbours; given like this, as `radius_deg` or as `nearest`.
     #[schemars(range(min = 0.001, max = FARTHEST_MM))]
     radius_mm: Option<f64>,
-    /// By how much `radius_mm` is multiplied: what varies with a radius that another setting chose.
+    /// The factor on `radius_mm`, for a study that varies a radius set elsewhere.
     #[serde(default = "once")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     radius_times: f64,

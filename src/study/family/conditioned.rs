@@ -113,7 +113,7 @@ struct Conditioned {
     /// At most this many tries an instance; an instance that is not accepted is an invalid problem.
     #[schemars(range(max = 1_000_000_000))]
     tries: u64,
-    /// A file that lists how many tries draws took, so that they need not be tried again.
+    /// A file with the number of tries that each draw took, so that they need not be tried again.
     found: Option<String>,
 }
 

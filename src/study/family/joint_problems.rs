@@ -208,7 +208,7 @@ fn build(settings: &Settings, inputs: &Inputs) -> Result<Box<dyn Family>, Settin
 
 /// What became of files that sums pin.
 enum Pinned {
-    /// One is not there: which, and what helps; and the file of sums.
+    /// One is missing: which and what helps, then the file of sums.
     Lacks(String, [PathBuf; 1]),
     /// All are as the file of sums says.
     As(PathBuf),

@@ -44,7 +44,7 @@ impl Paper {
         }
         if !choice.votes(&choice.default) {
             let message = format!(
-                "the default `{}` needs `paper` or `practice` as other options have: what it is judged by votes",
+                "the default `{}` needs `paper` or `practice`, as other options have: claims are judged by it, so it votes",
                 choice.default
             );
             wrong(&["default"], message, &["bounds", "value", "paper", "practice"]);

@@ -32,11 +32,11 @@ pub(super) struct ClaimSpec {
     pub(super) headline: bool,
     /// What the paper leaves out, if the claim cannot be tested without it; checks then only show what can be shown.
     pub(super) untestable: Option<String>,
-    /// Why it must hold whatever the paper says, if it must: it is then asserted, and no evidence for anything.
+    /// Why it must hold whatever is drawn, if it must: it is then asserted, and counts as no evidence.
     pub(super) theorem: Option<String>,
     /// What was changed in how it is judged after a run had been seen, and why.
     pub(super) changed_after_run: Option<String>,
-    /// The choices under some of whose options alone it is meant, each with those options: a premise that the paper states.
+    /// Premises that the paper states: choices, each with the options under which alone the claim is meant.
     #[serde(default)]
     pub(super) holds_when: BTreeMap<String, Vec<String>>,
     /// How it is judged: the settings of each criterion, by the criterion's name.
@@ -92,13 +92,14 @@ pub struct Claim {
     pub headline: bool,
     /// What the paper leaves out, if the claim cannot be tested without it; checks then only show what can be shown.
     pub untestable: Option<String>,
-    /// Why it must hold whatever the paper says, if it must: it is then asserted, and no evidence for anything.
+    /// Why it must hold whatever is drawn, if it must: it is then asserted, and counts as no evidence.
     pub theorem: Option<String>,
-    /// Two claims: the first prints more than the second by the claim's number, which the paper does not print itself.
+    /// Two claims whose printed numbers differ by this claim's number, the first less the second; the paper does not print it
+    /// itself.
     pub difference: Option<[String; 2]>,
     /// What was changed in how it is judged after a run had been seen, and why.
     pub changed_after_run: Option<String>,
-    /// The choices under some of whose options alone it is meant, each with those options.
+    /// Premises that the paper states: choices, each with the options under which alone the claim is meant.
     pub holds_when: BTreeMap<String, Vec<String>>,
     /// How it is judged, and what is shown beside: rules and criteria by name.
     pub(super) tests: Vec<(TestRole, String, Settings)>,

@@ -46,7 +46,7 @@ pub struct NumbersRow {
     pub printed: Vec<Spanned<String>>,
     /// The table that prints them, where its cells are no claims.
     pub table: Option<Spanned<String>>,
-    /// How many they are, where they are inputs that stand digit by digit in the studies or in a file, which `none` names.
+    /// How many of the numbers are inputs: they stand digit by digit in the studies or in a file, which `none` names.
     pub inputs: Option<Spanned<u32>>,
     /// Why no claim answers them: what else they are.
     pub none: Option<String>,

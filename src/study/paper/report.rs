@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 pub struct ReportSpec {
     /// What was found, in one sentence, for the overview.
     pub finding: Option<String>,
-    /// What was found, with numbers; our number stands for each `{claim}`.
+    /// What was found, with numbers: each `{claim}` is replaced by our number.
     #[schemars(length(max = 5))]
     pub findings: Vec<String>,
     /// Its figures; the first of the studies' if absent.

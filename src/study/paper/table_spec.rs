@@ -97,8 +97,8 @@ pub(super) struct ColumnSpec {
     pub(super) unit: Option<String>,
     /// What its cells are if they are no claims.
     pub(super) none: Option<String>,
-    /// Two columns: the first has more than the second by the numbers of this one, a column that the paper does not print. Rows
-    /// have no cell for it, and a table of its own shows it.
+    /// Two columns: this one, which the paper does not print, is the first less the second. Rows have no cell for it, and a table
+    /// of its own shows it.
     pub(super) difference: Option<[Spanned<String>; 2]>,
     /// What the paper leaves out, if its cells cannot be tested without it.
     pub(super) untestable: Option<String>,
@@ -190,7 +190,7 @@ pub(super) struct CellSpec {
     pub(super) untestable: Option<String>,
     /// What was changed in how it is judged after a run had been seen, and why.
     pub(super) changed_after_run: Option<String>,
-    /// The interpretations under which alone it is meant, each with the options that count: a premise that the paper states.
+    /// Premises that the paper states: choices, each with the options under which alone the cell is meant.
     pub(super) holds_when: BTreeMap<String, Vec<String>>,
     /// The trials that criteria look at: laid under their `select`.
     #[schemars(with = "AnyTable")]

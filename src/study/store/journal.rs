@@ -27,7 +27,7 @@ pub struct Journal {
     lines: BTreeMap<usize, (u64, usize)>,
     /// Units whose records are in memory too.
     held: BTreeMap<usize, Batch>,
-    /// How many more numbers may be.
+    /// How many more numbers may be kept in memory.
     room: usize,
     shape: Shape,
 }

@@ -119,9 +119,9 @@ fn over_face(segment: &Segment, convex: &Convex, visible: u128, beyond: Option<&
 /// What is farther from a segment than a certain edge, by extents along the line of their nearest points.
 struct Beyond {
     direction: Vec3,
-    /// What lies below it along the direction is farther away than the edge.
+    /// A point whose coordinate along the direction is below this is farther away than the edge.
     below: f64,
-    /// What is farther away than this is so too.
+    /// A point at a greater distance than this is farther away than the edge.
     distance: f64,
 }
 

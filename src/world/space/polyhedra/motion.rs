@@ -12,7 +12,7 @@ const SPANS: usize = 200;
 pub struct Motion {
     /// Turns of all joints, added up.
     pub joint_travel_rad: f64,
-    /// From the least to the greatest angle of each joint, added up.
+    /// The range from the least to the greatest angle of each joint, added up.
     pub joint_range_rad: f64,
     /// Second differences of the tip's place, added up.
     pub tip_jitter_cm: f64,

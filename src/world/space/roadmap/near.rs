@@ -16,8 +16,8 @@ pub enum Near {
     Places(f64),
     /// Those whose configurations are at most so far apart.
     Configurations(f64),
-    /// Two, one of them among the so many whose configurations are nearest to the other's; of equally far ones the one
-    /// drawn first.
+    /// A pair, if one of the two is among this many nearest to the other by configuration; of equally far samples the one drawn
+    /// first.
     Nearest(usize),
 }
 
