@@ -1,6 +1,6 @@
 //! Zhang's inflection-point deletion as a stage.
 
-use super::lattice::{SightCorners, SightSetting, lattice, sees_under};
+use super::lattice::{SightCorners, lattice, sees_under};
 use super::{Build, Ending, Entry, Plan, Request, Stage};
 use crate::shorten::{bends, inflection_deletion, path_length};
 use base::grid::{CornerRule, Sight};
@@ -30,7 +30,7 @@ line_of_sight = "exact_interior"
 #[serde(deny_unknown_fields)]
 struct DeleteInflections {
     /// Which cells a line of sight must find free.
-    line_of_sight: SightSetting,
+    line_of_sight: Sight,
     /// Which corners it may pass.
     #[serde(default)]
     sight_corners: SightCorners,
@@ -44,7 +44,7 @@ impl Stage for DeleteInflections {
         let world = lattice(request.world);
         let corners: Vec<[i32; 2]> =
             bends(&plan.path).into_iter().map(|i| [plan.path[i][0] as i32, plan.path[i][1] as i32]).collect();
-        let sight = Sight::from(self.line_of_sight);
+        let sight = self.line_of_sight;
         let corner_rule = self.sight_corners.own().unwrap_or(world.corner_rule());
         let mut refused = Vec::new();
         let kept = inflection_deletion(corners.len(), |i, j| {

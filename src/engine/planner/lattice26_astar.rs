@@ -1,6 +1,6 @@
 //! A* on the cubic lattice with 26 neighbours, among polyhedra.
 
-use super::lattice::{COLUMNS, TiesSetting, UPDATE};
+use super::lattice::{COLUMNS, UPDATE};
 use super::polyhedra::{Posed, plan};
 use super::pool::Pool;
 use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Value};
@@ -51,7 +51,7 @@ struct Lattice26 {
     checked: Checked,
     /// The order among equal f.
     #[serde(default)]
-    ties: TiesSetting,
+    ties: Ties,
     #[serde(skip)]
     pool: Pool<LatticeSearch>,
 }
@@ -194,7 +194,7 @@ fn entrance(world: &PolyhedraWorld, start: &Vec3) -> Option<u32> {
 impl Planner for Lattice26 {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
-        let mut memory = self.pool.any(|| LatticeSearch::new(self.ties.into()));
+        let mut memory = self.pool.any(|| LatticeSearch::new(self.ties));
         let found = search(&posed, self.checked, &mut memory, request.expansions);
         self.pool.keep(memory);
         let found = found?;

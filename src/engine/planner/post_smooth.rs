@@ -3,9 +3,10 @@
 //! # Source
 //! Daniel, Nash, Koenig & Felner, *Theta\*: Any-Angle Path Planning on Grids*, JAIR 39 (2010), Algorithm 2.
 
-use super::lattice::{SightSetting, lattice, sees};
+use super::lattice::{lattice, sees};
 use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
 use crate::shorten::{path_length, smoothing};
+use base::grid::Sight;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -33,7 +34,7 @@ from = "start"
 #[serde(deny_unknown_fields)]
 struct PostSmooth {
     /// Which cells a line of sight must find free.
-    line_of_sight: SightSetting,
+    line_of_sight: Sight,
     /// The end at which smoothing begins.
     from: FirstEnd,
 }
@@ -60,7 +61,7 @@ impl Stage for PostSmooth {
         let mut checks = 0;
         let mut kept = smoothing(nodes.len(), |i, j| {
             checks += 1;
-            sees(world, self.line_of_sight.into(), nodes[i], nodes[j])
+            sees(world, self.line_of_sight, nodes[i], nodes[j])
         });
         if self.from == FirstEnd::Goal {
             kept.reverse();

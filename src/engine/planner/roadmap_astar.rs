@@ -72,7 +72,7 @@ struct RoadmapAstar {
     #[schemars(range(min = 1))]
     nearest: Option<u32>,
     /// What g counts.
-    cost: CostSetting,
+    cost: EdgeCost,
     /// Whether the search is blind: `h = 0`, so that the path costs least in g.
     #[serde(default)]
     blind: bool,
@@ -80,17 +80,6 @@ struct RoadmapAstar {
     goal_shot: ShotSetting,
     /// Which nodes make the path.
     path: PathSetting,
-}
-
-#[derive(Deserialize, JsonSchema, Clone, Copy)]
-#[serde(rename_all = "snake_case")]
-enum CostSetting {
-    /// Edges: each counts 1.
-    Hops,
-    /// The length of the edges.
-    Length,
-    /// Nothing: f is the distance to the goal alone.
-    Nothing,
 }
 
 #[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
@@ -138,13 +127,8 @@ impl RoadmapAstar {
         if let Some(lack) = built.lacks(&self.extent()) {
             return Err(Invalid(lack));
         }
-        let cost = match self.cost {
-            CostSetting::Hops => EdgeCost::Hop,
-            CostSetting::Length => EdgeCost::Length,
-            CostSetting::Nothing => EdgeCost::Nothing,
-        };
         let nearest = self.nearest.map(|count| count as usize);
-        Ok(Part::new(posed, prefix, self.neighbour_mm(posed.map), nearest, cost))
+        Ok(Part::new(posed, prefix, self.neighbour_mm(posed.map), nearest, self.cost))
     }
 
     fn counts(&self, part: &Part<'_>, counters: &Counters, [shots, checked]: [u64; 2]) -> Counts {
@@ -244,7 +228,7 @@ impl Planner for RoadmapAstar {
     /// no more than an edge is long, so that no closed node could be reached cheaper.
     fn is_optimal(&self) -> bool {
         let searches_alone = self.goal_shot == ShotSetting::Never && self.path == PathSetting::Parents;
-        searches_alone && self.nearest.is_none() && matches!(self.cost, CostSetting::Length)
+        searches_alone && self.nearest.is_none() && self.cost == EdgeCost::Length
     }
 
     fn asks(&self) -> Option<Extent> {

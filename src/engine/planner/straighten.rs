@@ -29,16 +29,7 @@ last = "goal"
 #[serde(deny_unknown_fields)]
 struct Straighten {
     /// Which nodes may be joined to an earlier one.
-    last: LastSetting,
-}
-
-#[derive(Deserialize, JsonSchema, Clone, Copy)]
-#[serde(rename_all = "snake_case")]
-enum LastSetting {
-    /// The goal is not tried, as the printed loop ends before it.
-    AsPrinted,
-    /// Every later node is tried, the goal included.
-    Goal,
+    last: LastNode,
 }
 
 impl Stage for Straighten {
@@ -49,13 +40,9 @@ impl Stage for Straighten {
         let map = roadmap(request.world);
         let number = |config: &Vec<f64>| map.number("node", config).expect("a path's nodes are free");
         let nodes: Vec<u32> = plan.path.iter().map(number).collect();
-        let last = match self.last {
-            LastSetting::AsPrinted => LastNode::BeforePrinted,
-            LastSetting::Goal => LastNode::Goal,
-        };
         let mut joins = 0;
         let mut checked = 0;
-        let kept = straightening(nodes.len(), last, |i, j| {
+        let kept = straightening(nodes.len(), self.last, |i, j| {
             let (found, states) = map.join_counted(nodes[i], nodes[j]);
             joins += 1;
             checked += states;

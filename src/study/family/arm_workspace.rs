@@ -3,15 +3,17 @@
 use super::ends::{Ends, PlaneEnd, is_within};
 use super::{Entry, Family, Query};
 use crate::StudyError;
-use crate::preprocessing::workspace_map::{self, ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
-use crate::preprocessing::{Preprocessing, lattice};
+use crate::preprocessing::Preprocessing;
+use crate::preprocessing::workspace_map::{self, ShapeSetting};
 use crate::verification::ARM_COLUMNS;
+use base::grid::CornerRule;
 use base::seed::Stream;
 use base::settings::{Accepted, Faults, Settings, SettingsError};
+use engine::geometry::planar::Touch;
 use engine::kinematics::FARTHEST_CM;
-use engine::kinematics::planar_2r::Planar2r;
+use engine::kinematics::planar_2r::{ElbowRule, Planar2r};
 use engine::planner::Invalid;
-use engine::space::{ArmRules, ArmWorld, Obstacle, TipLattice, WorldKind};
+use engine::space::{ArmRules, ArmWorld, HopRule, Obstacle, TipLattice, WorldKind};
 use rand::RngExt as _;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -68,13 +70,13 @@ struct ArmWorkspace {
     /// How far joint 2 turns to either side; without stops if absent.
     theta2_limit_deg: Option<f64>,
     /// On which side the elbow is.
-    elbow: ElbowSetting,
+    elbow: ElbowRule,
     /// Whether touching an obstacle counts as a collision.
-    touching: TouchSetting,
+    touching: Touch,
     /// How the move between neighbouring cells is checked.
-    hop_check: HopSetting,
+    hop_check: HopRule,
     /// When a diagonal move past blocked cells is allowed.
-    corner_rule: lattice::CornerSetting,
+    corner_rule: CornerRule,
     /// The diameter of every obstacle.
     #[schemars(range(max = FARTHEST_CM))]
     obstacle_diameter_cm: f64,
@@ -147,12 +149,12 @@ impl ArmWorkspace {
         let rules = ArmRules {
             arm,
             q2_limit_rad,
-            elbow: self.elbow.into(),
+            elbow: self.elbow,
             lattice,
             inner_radius_cm: self.inner_radius_cm,
-            touch: self.touching.into(),
-            corner_rule: self.corner_rule.into(),
-            hop: self.hop_check.into(),
+            touch: self.touching,
+            corner_rule: self.corner_rule,
+            hop: self.hop_check,
         };
         let world = ArmWorld::new(rules, obstacles.clone());
         let blocked = match (self.check_ends(&world, settings), self.blocked_ends) {
