@@ -1,5 +1,6 @@
 //! Bidirectional A* on a lattice, with Zhang's falling weight or a constant one.
 
+use super::entry::planner;
 use super::lattice::{self, COLUMNS_DISTINCT, Posed, UPDATE};
 use super::pool::Pool;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
@@ -28,10 +29,7 @@ meeting = "generated_any"
 side = "alternate"
 ties = "fifo"
 "#,
-    build: Build::Planner(|settings| {
-        let read: TwoSided = settings.read()?;
-        Ok(Box::new(read))
-    }),
+    build: Build::Planner(planner::<TwoSided>),
 };
 
 #[derive(Deserialize, JsonSchema)]

@@ -6,7 +6,7 @@
 //! at which the curve follows the path itself.
 
 use super::polyhedra::{densified, points, polyhedra, replace, trace};
-use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
+use super::{Build, Entry, Plan, Request, Stage, Value};
 use crate::shorten::cubic_spline;
 use base::settings::{Accepted, Settings, SettingsError};
 use schemars::JsonSchema;
@@ -70,8 +70,8 @@ enum Control {
 type Curve = Vec<(usize, [f64; 3])>;
 
 impl Stage for Spline {
-    fn refine(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
-        if plan.ending != Ending::Solved || self.control == Control::Off {
+    fn tidied(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
+        if self.control == Control::Off {
             return plan;
         }
         let world = polyhedra(request.world);

@@ -8,7 +8,7 @@
 //! Tang, Zhou & Xu (2023), section 4.2, after Jia, *Path planning for space manipulator to avoid obstacle based on
 //! A\* algorithm*, J. Mech. Eng. 46(13), 109 (2010).
 
-use super::lattice::{COLUMNS, UPDATE};
+use super::lattice::{COLUMNS, UPDATE, counted};
 use super::polyhedra::polyhedra;
 use super::{Build, Ending, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, SideInputs, Stop, Ties, sum};
@@ -222,7 +222,7 @@ impl Planner for JointAstar {
         };
         let rules = Rules { stop: Stop::GoalPopped, max_expansions: request.expansions };
         let report = Search::new(Heap::new(Ties::Fifo)).run(terms, 0, is_goal, rules, &mut ());
-        let counts = super::lattice26_astar::counts(&report);
+        let counts = counted(&[report.counters]);
         let (ending, trail) = match &report.outcome {
             Outcome::Solved(route) => {
                 let mut trail: Vec<Joints> = route.nodes.iter().map(|node| at(*node)).collect();

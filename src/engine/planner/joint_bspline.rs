@@ -10,7 +10,7 @@
 use super::bspline::{check_points, raise};
 use super::polyhedra::polyhedra;
 use super::posture::trails;
-use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
+use super::{Build, Entry, Plan, Request, Stage, Value};
 use crate::shorten::{cubic_spline, path_length};
 use base::settings::{Accepted, Settings};
 use schemars::JsonSchema;
@@ -66,8 +66,8 @@ enum Control {
 }
 
 impl Stage for JointSpline {
-    fn refine(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
-        if plan.ending != Ending::Solved || self.control == Control::Off {
+    fn tidied(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
+        if self.control == Control::Off {
             return plan;
         }
         let world = polyhedra(request.world);

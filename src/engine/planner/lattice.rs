@@ -77,6 +77,17 @@ pub(super) fn lattice(world: &World) -> &LatticeWorld {
 /// node stays closed.
 pub(super) const UPDATE: Update = Update { lower_open: true, reopen_closed: false, take_equal: false };
 
+/// The counts of a search's sides together: those of [`COLUMNS`].
+pub(super) fn counted(sides: &[Counters]) -> Counts {
+    let sum = |get: fn(&Counters) -> u64| Value::Count(sides.iter().map(get).sum());
+    Counts::from([
+        ("opened", sum(|side| side.opened)),
+        ("closed", sum(|side| side.closed)),
+        ("expansions", sum(|side| side.expansions)),
+        ("generated", sum(|side| side.generated)),
+    ])
+}
+
 /// The plan that a search's outcome amounts to.
 pub(super) fn plan<C: Cost>(
     grid: &Grid2,
@@ -84,13 +95,7 @@ pub(super) fn plan<C: Cost>(
     sides: &[Counters],
     traces: Vec<Trace>,
 ) -> Plan {
-    let sum = |get: fn(&Counters) -> u64| Value::Count(sides.iter().map(get).sum());
-    let counts = Counts::from([
-        ("opened", sum(|side| side.opened)),
-        ("closed", sum(|side| side.closed)),
-        ("expansions", sum(|side| side.expansions)),
-        ("generated", sum(|side| side.generated)),
-    ]);
+    let counts = counted(sides);
     let (ending, path, cost) = match outcome {
         Outcome::Solved(route) => {
             let point = |cell: &u32| grid.xy(*cell).map(f64::from).to_vec();

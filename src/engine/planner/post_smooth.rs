@@ -3,8 +3,9 @@
 //! # Source
 //! Daniel, Nash, Koenig & Felner, *Theta\*: Any-Angle Path Planning on Grids*, JAIR 39 (2010), Algorithm 2.
 
+use super::entry::stage;
 use super::lattice::{lattice, sees};
-use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
+use super::{Build, Entry, Plan, Request, Stage, Value};
 use crate::shorten::{path_length, smoothing};
 use base::grid::Sight;
 use base::settings::Accepted;
@@ -24,10 +25,7 @@ pub static ENTRY: Entry = Entry {
 line_of_sight = "exact_interior"
 from = "start"
 "#,
-    build: Build::Stage(|settings| {
-        let read: PostSmooth = settings.read()?;
-        Ok(Box::new(read))
-    }),
+    build: Build::Stage(stage::<PostSmooth>),
 };
 
 #[derive(Deserialize, JsonSchema)]
@@ -49,10 +47,7 @@ enum FirstEnd {
 }
 
 impl Stage for PostSmooth {
-    fn refine(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
-        if plan.ending != Ending::Solved {
-            return plan;
-        }
+    fn tidied(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
         let world = lattice(request.world);
         let mut nodes: Vec<[i32; 2]> = plan.path.iter().map(|at| [at[0] as i32, at[1] as i32]).collect();
         if self.from == FirstEnd::Goal {

@@ -1,5 +1,6 @@
 //! A* on a roadmap, as Fu et al. write it: f = depth + distance, with or without a shot at the goal.
 
+use super::lattice::counted;
 use super::roadmap::{EdgeCost, Part, Posed, solved, unsolved};
 use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Trace, Value};
 use crate::search::{
@@ -133,11 +134,8 @@ impl RoadmapAstar {
 
     fn counts(&self, part: &Part<'_>, counters: &Counters, [shots, checked]: [u64; 2]) -> Counts {
         let components = part.map.components(part.prefix, part.radius_mm);
-        let mut counts = Counts::from([
-            ("opened", Value::Count(counters.opened)),
-            ("closed", Value::Count(counters.closed)),
-            ("expansions", Value::Count(counters.expansions)),
-            ("generated", Value::Count(counters.generated)),
+        let mut counts = counted(&[*counters]);
+        counts.extend([
             ("checked_states", Value::Count(checked)),
             ("used_samples", Value::Count(u64::from(part.prefix))),
             ("straight_mm", Value::Real(part.map.gap_mm(part.start, part.goal))),

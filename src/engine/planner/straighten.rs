@@ -1,7 +1,8 @@
 //! Fu's post-processing as a stage: each node is joined with the furthest later one that a local path reaches.
 
+use super::entry::stage;
 use super::roadmap::{roadmap, solved};
-use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
+use super::{Build, Entry, Plan, Request, Stage, Value};
 use crate::shorten::{LastNode, straightening};
 use base::settings::Accepted;
 use schemars::JsonSchema;
@@ -19,10 +20,7 @@ pub static ENTRY: Entry = Entry {
     example: r#"
 last = "goal"
 "#,
-    build: Build::Stage(|settings| {
-        let read: Straighten = settings.read()?;
-        Ok(Box::new(read))
-    }),
+    build: Build::Stage(stage::<Straighten>),
 };
 
 #[derive(Deserialize, JsonSchema)]
@@ -33,10 +31,7 @@ struct Straighten {
 }
 
 impl Stage for Straighten {
-    fn refine(&self, request: &Request<'_>, plan: Plan) -> Plan {
-        if plan.ending != Ending::Solved {
-            return plan;
-        }
+    fn tidied(&self, request: &Request<'_>, plan: Plan) -> Plan {
         let map = roadmap(request.world);
         let number = |config: &Vec<f64>| map.number("node", config).expect("a path's nodes are free");
         let nodes: Vec<u32> = plan.path.iter().map(number).collect();

@@ -3,6 +3,7 @@
 //! Edges are found when a vertex is expanded, all at once; each other vertex counts as looked at.
 
 use super::corners;
+use super::entry::planner;
 use super::lattice::{Posed, UPDATE};
 use super::one_side::{Found, OneSided};
 use super::pool::Pool;
@@ -28,10 +29,7 @@ pub static ENTRY: Entry = Entry {
 ties = "larger_g"
 vertices = "all"
 "#,
-    build: Build::Planner(|settings| {
-        let read: VisibilityAstar = settings.read()?;
-        Ok(Box::new(read))
-    }),
+    build: Build::Planner(planner::<VisibilityAstar>),
 };
 
 #[derive(Deserialize, JsonSchema)]
