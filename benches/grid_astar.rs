@@ -16,6 +16,8 @@
 
 #[path = "peer/mod.rs"]
 mod peer;
+#[path = "total.rs"]
+mod total;
 
 use base::grid::{
     Components, CornerRule, DIRECTIONS, Grid2, components, independent_cells, read_movingai_map, rectangles,
@@ -28,52 +30,14 @@ use engine::search::{
     Best, Buckets, GridGraph, Octile, OctileAstar, Rules, ScaledOctile, Search, SideInputs, Update,
 };
 use engine::space::{LatticeWorld, World};
-use pathfinding::{
-    num_traits::Zero,
-    prelude::{astar, dijkstra},
-};
+use pathfinding::prelude::{astar, dijkstra};
 use peer::Peer;
 use petgraph::graph::{NodeIndex, UnGraph};
 use rand::RngExt as _;
 use serde_json::json;
-use std::{cmp::Ordering, hint::black_box, ops::Add, path::Path, time::Duration};
+use std::{hint::black_box, path::Path, time::Duration};
+use total::Total;
 use verify::lattice::{Case, Landmarks};
-
-/// An `f64` in total order, as the crate asks of costs.
-#[derive(Clone, Copy, PartialEq)]
-struct Total(f64);
-
-impl Eq for Total {}
-
-impl PartialOrd for Total {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Total {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.0.total_cmp(&other.0)
-    }
-}
-
-impl Add for Total {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self(self.0 + other.0)
-    }
-}
-
-impl Zero for Total {
-    fn zero() -> Self {
-        Self(0.0)
-    }
-
-    fn is_zero(&self) -> bool {
-        self.0 == 0.0
-    }
-}
 
 /// A map and queries on it; each solver returns the sum of their costs, in units of 985 and 1393 or in cells.
 struct Posed {

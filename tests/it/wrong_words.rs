@@ -195,7 +195,7 @@ pub const WRONG: &[Wrong] = &[
         "room",
         "map = \"room.map.txt\"",
         "map = \"..\"",
-        "input file `..` is a folder (./mini/..); a file is",
+        "input file `..` is a folder (./mini/..); a regular file is",
     ),
     wrong("room.map", "#", "x", "room.map.txt: line 3, column 4: found `x`; a cell is one of"),
     wrong(
