@@ -8,7 +8,7 @@
 //! `u32` nodes, totally ordered `f64` costs and successors from an unallocated iterator.
 
 mod cpu;
-#[path = "../total.rs"]
+#[path = "../shared/total.rs"]
 mod total;
 
 use base::grid::{CornerRule, Offsets};

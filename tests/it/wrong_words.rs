@@ -264,6 +264,13 @@ pub const WRONG: &[Wrong] = &[
         "kind = \"statistics\"\ncaption = \"What is saved.\"\nsettings = { panels = [{ y = \"contenders\", x = \"solved\", marks = [\"box\"] }] }",
         "mini/room.toml:27:66: panel 1: `marks` has box; accepted are point",
     ),
+    // Of two panels, the fault of the second is reported beside that of the first.
+    wrong(
+        "room",
+        "kind = \"grid_search\"\ncaption = \"A search in a room.\"\nshows = [{ problems = \"room\", instances = 1 }]\nsettings = { problems = [\"room\"], contenders = [\"A*\"] }",
+        "kind = \"statistics\"\ncaption = \"What is saved.\"\nsettings = { panels = [{ x = \"contenders\", y = \"opened\" }, { y = \"contenders\", x = \"solved\", marks = [\"box\"] }] }",
+        "panel 2: `marks` has box; accepted are point",
+    ),
     wrong("paper", "id = \"nodes\"", "id = \"cost\"", "another claim or cell is called `cost` already"),
     wrong(
         "paper",

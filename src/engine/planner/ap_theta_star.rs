@@ -35,5 +35,5 @@ struct TiesAlone {
 
 fn build(settings: &Settings) -> Result<Box<dyn Planner>, SettingsError> {
     let TiesAlone { ties } = settings.read()?;
-    Ok(corners::planner(move || AngleRanges::new(BucketHeap::new(ties.into()))))
+    Ok(corners::planner(move || AngleRanges::new(BucketHeap::new(ties))))
 }

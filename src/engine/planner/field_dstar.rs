@@ -60,5 +60,5 @@ fn build(settings: &Settings) -> Result<Box<dyn Planner>, SettingsError> {
         only_expanded: matches!(interpolates, Some(Interpolates::Expanded)),
         looks_ahead: !matches!(extraction, Some(Extraction::Interpolated)),
     };
-    Ok(corners::planner(move || Interpolated::new(BucketHeap::new(ties.into()), rules)))
+    Ok(corners::planner(move || Interpolated::new(BucketHeap::new(ties), rules)))
 }
