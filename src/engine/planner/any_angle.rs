@@ -25,6 +25,7 @@ pub(super) struct AnyAngleSettings {
     #[serde(default)]
     ties: Ties,
     /// What the distance to the goal is multiplied by; 1 if absent. Below 1, more is expanded and paths tend to be shorter.
+    #[schemars(range(min = 0))]
     weight: Option<f64>,
     /// Whether a closed node to which a better way is found is expanded again; only where `theta_star` looks at lines of sight.
     #[serde(default)]
@@ -51,10 +52,6 @@ enum CountedSetting {
 pub(super) fn built(settings: &Settings, when: When) -> Result<Box<dyn Planner>, SettingsError> {
     let read: AnyAngleSettings = settings.read()?;
     let mut faults = Faults::default();
-    if let Some(weight) = read.weight.filter(|weight| !weight.is_finite() || *weight < 0.0) {
-        let message = format!("weight is {weight}; 0 or any larger number is accepted");
-        faults.add(settings.error_at("weight", message));
-    }
     if when == When::Taken {
         let printed = read.counted_sight.filter(|counted| *counted == CountedSetting::Printed);
         for (key, is_set) in [("reopen", read.reopen), ("counted_sight", printed.is_some())] {

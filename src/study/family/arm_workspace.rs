@@ -65,9 +65,10 @@ struct ArmWorkspace {
     /// The side of a lattice cell.
     step_cm: f64,
     /// How far the tip must stay from the base.
-    #[schemars(range(max = FARTHEST_CM))]
+    #[schemars(range(min = 0, max = FARTHEST_CM))]
     inner_radius_cm: f64,
     /// How far joint 2 turns to either side; without stops if absent.
+    #[schemars(range(max = 180), extend("exclusiveMinimum" = 0))]
     theta2_limit_deg: Option<f64>,
     /// On which side the elbow is.
     elbow: ElbowRule,
@@ -129,10 +130,6 @@ enum Direction {
 impl ArmWorkspace {
     fn posed(&self, settings: &Settings) -> Result<Posed, SettingsError> {
         let mut faults = Faults::default();
-        if !(self.inner_radius_cm.is_finite() && self.inner_radius_cm >= 0.0) {
-            let message = format!("inner_radius_cm is {}; 0 or more is accepted", self.inner_radius_cm);
-            faults.add(settings.error_at("inner_radius_cm", message));
-        }
         let arm = Planar2r::new(self.links_cm[0], self.links_cm[1])
             .map_err(|error| settings.error_at("links_cm", format!("links_cm: {error}")));
         let lattice = TipLattice::new(self.x_cm, self.y_cm, self.step_cm)
@@ -142,10 +139,9 @@ impl ArmWorkspace {
         let ends = faults.keep(self.ends(settings));
         let obstacles =
             faults.keep(self.obstacles().map_err(|(key, message)| settings.error_at(&key, message)));
-        let limit = self.q2_limit_rad().map_err(|message| settings.error_at("theta2_limit_deg", message));
-        let limit = faults.keep(limit);
         let posed = arm.zip(lattice).zip(ends).zip(obstacles);
-        let ((((arm, lattice), ends), obstacles), q2_limit_rad) = faults.or(posed.zip(limit))?;
+        let (((arm, lattice), ends), obstacles) = faults.or(posed)?;
+        let q2_limit_rad = self.theta2_limit_deg.map_or(f64::INFINITY, f64::to_radians);
         let rules = ArmRules {
             arm,
             q2_limit_rad,
@@ -195,13 +191,6 @@ impl ArmWorkspace {
                 Err(settings.error_at(given, message))
             }
         }
-    }
-
-    fn q2_limit_rad(&self) -> Result<f64, String> {
-        let Some(limit) = self.theta2_limit_deg else { return Ok(f64::INFINITY) };
-        let is_right = limit > 0.0 && limit <= 180.0;
-        let message = || format!("theta2_limit_deg is {limit}; above 0 and at most 180 is accepted");
-        is_right.then(|| limit.to_radians()).ok_or_else(message)
     }
 
     fn check_ends(&self, world: &ArmWorld, settings: &Settings) -> Result<(), SettingsError> {

@@ -1,7 +1,7 @@
 //! Queries of an arm in its work cell, answered on roadmaps drawn from a seed.
 
 mod groups;
-mod picture;
+pub(super) mod picture;
 
 pub use groups::GROUPS_FILE;
 

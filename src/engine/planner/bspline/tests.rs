@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::planner::{Counts, Ending};
+use base::settings::Settings;
 use world::geometry::{Aabb, Convex};
 use world::space::World;
 
