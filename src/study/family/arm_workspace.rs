@@ -319,7 +319,7 @@ mod tests {
             ("links_cm = [30, 0]", ["links_cm", "link 2 is 0 long; a link must be longer than 0"]),
             ("step_cm = 3", ["step_cm is 3", "does not divide x_cm of 100 cm"]),
             ("step_cm = 0", ["step_cm is 0", "a step above 0 is accepted"]),
-            ("inner_radius_cm = -1", ["inner_radius_cm is -1", "0 or more is accepted"]),
+            ("inner_radius_cm = -1", ["`inner_radius_cm` is -1", "a number from 0 to"]),
             ("obstacle_diameter_cm = 0", ["obstacle 1", "must be greater than 0"]),
             (
                 "obstacle_shapes = ['circle', 'square', 'square']",
@@ -328,7 +328,7 @@ mod tests {
             ("obstacle_shapes = []", ["0 shapes for 2 obstacles", "one for all or one"]),
             ("obstacle_shapes = ['star']", ["star", "triangle"]),
             ("elbows = 'higher'", ["elbows", "elbow"]),
-            ("theta2_limit_deg = 0", ["theta2_limit_deg is 0", "above 0 and at most 180"]),
+            ("theta2_limit_deg = 0", ["`theta2_limit_deg` is 0", "above 0 to 180"]),
             ("theta2_limit_deg = 30", ["the goal [0.0, 45.0]", "the arm may stand from 48.36"]),
             (
                 "direction = 'goal_to_start'\ngoal_cm = [8, 36]",

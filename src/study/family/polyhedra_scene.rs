@@ -422,7 +422,7 @@ mod tests {
                 "line = 'blocked'".to_owned(),
                 ["line keeps drawn scenes", "a scene with a table `[drawn]` is accepted"],
             ),
-            ("scatter_cm = 0".to_owned(), ["scatter_cm is 0", "more than 0 is accepted"]),
+            ("scatter_cm = 0".to_owned(), ["`scatter_cm` is 0", "a number above 0 is accepted"]),
             ("body = 'bones'".to_owned(), ["no body `bones`", "it has paper, mesh"]),
             ("scene = 'data/scenes/none.toml'".to_owned(), ["`data/scenes/none.toml`", "does not exist"]),
             ("robot = 'data/robots/none.toml'".to_owned(), ["`data/robots/none.toml`", "does not exist"]),
