@@ -14,97 +14,30 @@
 //! - `verifier`: the verifier's own optimum, by landmarks made before, and `verifier_dijkstra`: the crate's search without an
 //!   estimate, which is what such an optimum costs otherwise.
 
+#[path = "shared/grid_queries.rs"]
+mod grid_queries;
 #[path = "peer/mod.rs"]
 mod peer;
+#[path = "shared/total.rs"]
+mod total;
 
-use base::grid::{
-    Components, CornerRule, DIRECTIONS, Grid2, components, independent_cells, read_movingai_map, rectangles,
-};
+use base::grid::{DIRECTIONS, independent_cells, read_movingai_map, rectangles};
 use base::seed;
-use base::settings::Settings;
 use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main, measurement::WallTime};
-use engine::planner::{self, Build, Planner, Request};
-use engine::search::{
+use engine as ours;
+use grid_queries::{Posed, planner};
+use ours::search::{
     Best, Buckets, GridGraph, Octile, OctileAstar, Rules, ScaledOctile, Search, SideInputs, Update,
 };
-use engine::space::{LatticeWorld, World};
-use pathfinding::{
-    num_traits::Zero,
-    prelude::{astar, dijkstra},
-};
+use pathfinding::prelude::{astar, dijkstra};
 use peer::Peer;
 use petgraph::graph::{NodeIndex, UnGraph};
-use rand::RngExt as _;
 use serde_json::json;
-use std::{cmp::Ordering, hint::black_box, ops::Add, path::Path, time::Duration};
+use std::{hint::black_box, path::Path, time::Duration};
+use total::Total;
 use verify::lattice::{Case, Landmarks};
 
-/// An `f64` in total order, as the crate asks of costs.
-#[derive(Clone, Copy, PartialEq)]
-struct Total(f64);
-
-impl Eq for Total {}
-
-impl PartialOrd for Total {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Total {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.0.total_cmp(&other.0)
-    }
-}
-
-impl Add for Total {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self(self.0 + other.0)
-    }
-}
-
-impl Zero for Total {
-    fn zero() -> Self {
-        Self(0.0)
-    }
-
-    fn is_zero(&self) -> bool {
-        self.0 == 0.0
-    }
-}
-
-/// A map and queries on it; each solver returns the sum of their costs, in units of 985 and 1393 or in cells.
-struct Posed {
-    world: World,
-    queries: Vec<[u32; 2]>,
-    /// The queries' ends as planners take them.
-    ends: Vec<[Vec<f64>; 2]>,
-}
-
 impl Posed {
-    fn new(grid: Grid2, query_count: usize) -> Self {
-        let lattice = LatticeWorld::new(grid, CornerRule::ForbidAny);
-        let grid = lattice.grid();
-        let parts: Components = components(grid, lattice.moves());
-        let mut stream = seed::stream(30);
-        let mut queries = Vec::new();
-        while queries.len() < query_count {
-            let ends = [0, 1].map(|_| stream.random_range(0..grid.cell_count()));
-            if ends[0] != ends[1] && parts.are_joined(ends[0], ends[1]) {
-                queries.push(ends);
-            }
-        }
-        let point = |cell: u32| grid.xy(cell).map(f64::from).to_vec();
-        let ends = queries.iter().map(|ends| ends.map(point)).collect();
-        Self { world: World::Lattice(lattice), queries, ends }
-    }
-
-    fn lattice(&self) -> &LatticeWorld {
-        self.world.as_lattice().unwrap()
-    }
-
     fn octile(&self, search: &mut OctileAstar) -> u64 {
         let solve = |&[start, goal]: &[u32; 2]| search.solve(start, goal, u64::MAX);
         self.queries
@@ -112,15 +45,6 @@ impl Posed {
             .map(solve)
             .map(|report| u64::from(ScaledOctile::scaled(report.outcome.route().unwrap().cost)))
             .sum()
-    }
-
-    fn planned(&self, planner: &dyn Planner) -> f64 {
-        let plan = |[start, goal]: &[Vec<f64>; 2]| {
-            let request =
-                Request { world: &self.world, start, goal, expansions: u64::MAX, seed: 0, trace: false };
-            planner.plan(&request).unwrap().cost.unwrap()
-        };
-        self.ends.iter().map(plan).sum()
     }
 
     fn general(&self, search: &mut Search<Octile, Buckets<Best>>) -> u64 {
@@ -134,23 +58,6 @@ impl Posed {
             u64::from(ScaledOctile::scaled(report.outcome.route().unwrap().cost))
         };
         self.queries.iter().map(&mut solve).sum()
-    }
-
-    fn crate_best(&self) -> u64 {
-        let width = self.lattice().grid().width();
-        let moves = self.lattice().moves();
-        let successors =
-            |&cell: &u32| moves.from_cell(cell).map(|(to, diagonal)| (to, if diagonal { 1393 } else { 985 }));
-        let solve = |&[start, goal]: &[u32; 2]| {
-            let [x, y] = [goal % width, goal / width];
-            let h = |&cell: &u32| {
-                ScaledOctile::distance([(cell % width).abs_diff(x), (cell / width).abs_diff(y)])
-            };
-            let (path, cost) = astar(&start, successors, h, |&cell| cell == goal).unwrap();
-            black_box(path);
-            u64::from(cost)
-        };
-        self.queries.iter().map(solve).sum()
     }
 
     /// Every cell as a node and every legal step as an edge.
@@ -255,15 +162,8 @@ impl Posed {
     }
 }
 
-fn planner() -> Box<dyn Planner> {
-    let Build::Planner(build) = planner::find("astar_octile").unwrap().build else {
-        panic!("it is a planner")
-    };
-    build(&Settings::composed("a bench", toml::Table::new())).unwrap()
-}
-
 fn compare(group: &mut BenchmarkGroup<'_, WallTime>, posed: &Posed) {
-    let planner = planner();
+    let planner = planner("astar_octile");
     let mut general = Search::new(Buckets::default());
     let mut fast = OctileAstar::new(posed.lattice().moves()).unwrap();
     let truth = posed.octile(&mut fast);

@@ -15,54 +15,23 @@
 //! where it has nothing to gain.
 
 mod cpu;
+#[path = "../shared/grid_queries.rs"]
+mod grid_queries;
 
-use base::grid::{
-    CornerRule, Grid2, components, independent_cells, read_movingai_map, rectangles, rooms, streets,
-};
+use base::grid::{independent_cells, read_movingai_map, rectangles, rooms, streets};
 use base::seed;
-use base::settings::Settings;
 use cpu::CpuTime;
 use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main};
-use pathfinding::prelude::astar;
-use rand::RngExt as _;
-use replan_engine::planner::{self, Build, Planner, Request};
-use replan_engine::search::{Counters, JumpSearch, Octile, OctileAstar, Report, ScaledOctile};
-use replan_engine::space::{JumpLines, JumpTable, Jumps, LatticeWorld, World};
-use std::{hint::black_box, path::Path, time::Duration};
+use grid_queries::{Posed, planner};
+use ours::search::{Counters, JumpSearch, Octile, OctileAstar, Report, ScaledOctile};
+use ours::space::{JumpLines, JumpTable, Jumps};
+use replan_engine as ours;
+use std::{path::Path, time::Duration};
 
 const SIZE_CELLS: [u32; 2] = [512, 512];
 const QUERIES: usize = 40;
 
-/// A map and queries on it; each solver returns the sum of their costs in units of 985 and 1393.
-struct Posed {
-    world: World,
-    queries: Vec<[u32; 2]>,
-    /// The queries' ends as planners take them.
-    ends: Vec<[Vec<f64>; 2]>,
-}
-
 impl Posed {
-    fn new(grid: Grid2) -> Self {
-        let lattice = LatticeWorld::new(grid, CornerRule::ForbidAny);
-        let grid = lattice.grid();
-        let mut stream = seed::stream(30);
-        let mut queries = Vec::new();
-        let parts = components(grid, lattice.moves());
-        while queries.len() < QUERIES {
-            let ends = [0, 1].map(|_| stream.random_range(0..grid.cell_count()));
-            if ends[0] != ends[1] && parts.are_joined(ends[0], ends[1]) {
-                queries.push(ends);
-            }
-        }
-        let point = |cell: u32| grid.xy(cell).map(f64::from).to_vec();
-        let ends = queries.iter().map(|ends| ends.map(point)).collect();
-        Self { world: World::Lattice(lattice), queries, ends }
-    }
-
-    fn lattice(&self) -> &LatticeWorld {
-        self.world.as_lattice().unwrap()
-    }
-
     /// The sum of costs, and what was counted in all.
     fn sum(&self, mut solve: impl FnMut(u32, u32) -> Report<Octile>) -> (u64, Counters) {
         let mut sum = 0;
@@ -83,37 +52,6 @@ impl Posed {
     fn jumped(&self, search: &mut JumpSearch, jumps: &impl Jumps) -> (u64, Counters) {
         self.sum(|start, goal| search.solve(jumps, start, goal, u64::MAX))
     }
-
-    fn planned(&self, planner: &dyn Planner) -> f64 {
-        let plan = |[start, goal]: &[Vec<f64>; 2]| {
-            let request =
-                Request { world: &self.world, start, goal, expansions: u64::MAX, seed: 0, trace: false };
-            planner.plan(&request).unwrap().cost.unwrap()
-        };
-        self.ends.iter().map(plan).sum()
-    }
-
-    fn by_the_crate(&self) -> u64 {
-        let width = self.lattice().grid().width();
-        let moves = self.lattice().moves();
-        let successors =
-            |&cell: &u32| moves.from_cell(cell).map(|(to, diagonal)| (to, if diagonal { 1393 } else { 985 }));
-        let solve = |&[start, goal]: &[u32; 2]| {
-            let [x, y] = [goal % width, goal / width];
-            let h = |&cell: &u32| {
-                ScaledOctile::distance([(cell % width).abs_diff(x), (cell / width).abs_diff(y)])
-            };
-            let (path, cost) = astar(&start, successors, h, |&cell| cell == goal).unwrap();
-            black_box(path);
-            u64::from(cost)
-        };
-        self.queries.iter().map(solve).sum()
-    }
-}
-
-fn planner(name: &str) -> Box<dyn Planner> {
-    let Build::Planner(build) = planner::find(name).unwrap().build else { panic!("it is a planner") };
-    build(&Settings::composed("a bench", toml::Table::new())).unwrap()
 }
 
 fn compare(group: &mut BenchmarkGroup<'_, CpuTime>, name: &str, posed: &Posed) {
@@ -125,7 +63,7 @@ fn compare(group: &mut BenchmarkGroup<'_, CpuTime>, name: &str, posed: &Posed) {
     let mut jump = JumpSearch::new([grid.width(), grid.height()]).unwrap();
     let (truth, cells) = posed.walked(&mut walk);
     let (scanned, points) = posed.jumped(&mut jump, &lines);
-    assert_eq!([scanned, posed.jumped(&mut jump, &table).0, posed.by_the_crate()], [truth; 3]);
+    assert_eq!([scanned, posed.jumped(&mut jump, &table).0, posed.crate_best()], [truth; 3]);
     let planners = ["astar_octile", "jps", "jps_plus"].map(|name| (name, planner(name)));
     let exact = posed.planned(planners[0].1.as_ref());
     assert!(
@@ -151,7 +89,7 @@ fn compare(group: &mut BenchmarkGroup<'_, CpuTime>, name: &str, posed: &Posed) {
     });
     group.bench_function("prepare_jps", |bencher| bencher.iter(|| JumpLines::new(world)));
     group.bench_function("prepare_jps_plus", |bencher| bencher.iter(|| JumpTable::new(world)));
-    group.bench_function("pathfinding", |bencher| bencher.iter(|| posed.by_the_crate()));
+    group.bench_function("pathfinding", |bencher| bencher.iter(|| posed.crate_best()));
 }
 
 fn jps(criterion: &mut Criterion<CpuTime>) {
@@ -171,7 +109,7 @@ fn jps(criterion: &mut Criterion<CpuTime>) {
             .sample_size(10)
             .warm_up_time(Duration::from_millis(300))
             .measurement_time(Duration::from_secs(2));
-        compare(&mut group, name, &Posed::new(grid));
+        compare(&mut group, name, &Posed::new(grid, QUERIES));
         group.finish();
     }
 }

@@ -8,54 +8,21 @@
 //! `u32` nodes, totally ordered `f64` costs and successors from an unallocated iterator.
 
 mod cpu;
+#[path = "../shared/total.rs"]
+mod total;
 
 use base::grid::{CornerRule, Offsets};
 use base::settings::Settings;
 use cpu::CpuTime;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use pathfinding::{num_traits::Zero, prelude::astar};
+use pathfinding::prelude::astar;
 use replan_engine::geometry::Vec2;
 use replan_engine::geometry::planar::{Circle, Touch};
 use replan_engine::kinematics::planar_2r::{ElbowRule, Planar2r};
 use replan_engine::planner::{self, Build, Planner, Request};
 use replan_engine::space::{ArmRules, ArmWorld, HopRule, Obstacle, TipLattice, World};
-use std::{cmp::Ordering, hint::black_box, ops::Add, time::Duration};
-
-/// An `f64` in total order, as the crate asks of costs.
-#[derive(Clone, Copy, PartialEq)]
-struct Total(f64);
-
-impl Eq for Total {}
-
-impl PartialOrd for Total {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Total {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.0.total_cmp(&other.0)
-    }
-}
-
-impl Add for Total {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self(self.0 + other.0)
-    }
-}
-
-impl Zero for Total {
-    fn zero() -> Self {
-        Self(0.0)
-    }
-
-    fn is_zero(&self) -> bool {
-        self.0 == 0.0
-    }
-}
+use std::{hint::black_box, time::Duration};
+use total::Total;
 
 const ENDS: [[f64; 2]; 2] = [[49.0, 3.0], [0.0, 45.0]];
 

@@ -90,9 +90,7 @@ impl LoadedFiles {
         results.extend(faults);
         (Self { papers, robots }, results)
     }
-}
 
-impl LoadedFiles {
     /// The text on a paper or study by itself; none for what has one line only.
     fn described(&self, what: What, name: &str) -> Result<Option<String>, Failure> {
         let find = |id: &str| self.papers.iter().find(|paper| paper.id == id);
@@ -111,34 +109,36 @@ fn title(what: What) -> String {
     what.to_possible_value().expect("no variant is hidden").get_name().to_owned()
 }
 
-fn singular(what: What) -> &'static str {
+/// What one of a kind is called, and how its entries are listed if a registry has them.
+fn kind(what: What) -> (&'static str, Option<fn() -> Vec<Item>>) {
     match what {
-        What::Papers => "paper",
-        What::Studies => "study",
-        What::Choices => "choice",
-        What::Robots => "robot",
-        What::Planners => "planner",
-        What::Stages => "stage",
-        What::Families => "family",
-        What::Preprocessing => "kind of preprocessed object",
-        What::Tasks => "task",
-        What::Criteria => "criterion",
-        What::Rules => "rule",
-        What::Metrics => "metric",
-        What::Verdicts => "verdict",
-        What::Figures => "kind of figure",
-        What::Files => "kind of file",
+        What::Papers => ("paper", None),
+        What::Studies => ("study", None),
+        What::Choices => ("choice", None),
+        What::Robots => ("robot", None),
+        What::Planners => ("planner", Some(catalogue::planners)),
+        What::Stages => ("stage", Some(catalogue::stages)),
+        What::Families => ("family", Some(catalogue::families)),
+        What::Preprocessing => ("kind of preprocessed object", Some(catalogue::preprocessing)),
+        What::Tasks => ("task", Some(catalogue::tasks)),
+        What::Criteria => ("criterion", Some(catalogue::criteria)),
+        What::Rules => ("rule", Some(catalogue::rules)),
+        What::Metrics => ("metric", None),
+        What::Verdicts => ("verdict", None),
+        What::Figures => ("kind of figure", Some(catalogue::figures)),
+        What::Files => ("kind of file", Some(catalogue::files)),
     }
 }
 
 /// What the one thing of the kind `what` that is called `name` is.
 fn one(what: What, name: &str) -> Result<(), Failure> {
-    let Some(items) = items(what) else {
+    let (singular, items) = kind(what);
+    let Some(items) = items else {
         let (found, results) = LoadedFiles::read(|kind| kind.contains(&what));
         let rows = rows(what, &found);
         let known = rows.iter().map(|(known, _)| known.as_str());
         let row = rows.iter().find(|(known, _)| known == name);
-        let (_, about) = row.ok_or_else(|| Failure::input(none_called(singular(what), name, known)))?;
+        let (_, about) = row.ok_or_else(|| Failure::input(none_called(singular, name, known)))?;
         let described = found.described(what, name)?;
         say!("{}", described.unwrap_or_else(|| format!("{name}\n{}", wrapped("  ", about, 2))));
         if let Some(metric) = metric::find(name).filter(|_| what == What::Metrics) {
@@ -149,34 +149,18 @@ fn one(what: What, name: &str) -> Result<(), Failure> {
         }
         return all(results, "papers and robots cannot be listed");
     };
+    let items = items();
     let known = items.iter().map(|item| item.name);
     let item = items.iter().find(|item| item.name == name);
-    let item = item.ok_or_else(|| Failure::input(none_called(singular(what), name, known)))?;
+    let item = item.ok_or_else(|| Failure::input(none_called(singular, name, known)))?;
     say!("{}", explained(item));
     Ok(())
 }
 
-fn items(what: What) -> Option<Vec<Item>> {
-    Some(match what {
-        What::Planners => catalogue::planners(),
-        What::Stages => catalogue::stages(),
-        What::Families => catalogue::families(),
-        What::Preprocessing => catalogue::preprocessing(),
-        What::Tasks => catalogue::tasks(),
-        What::Criteria => catalogue::criteria(),
-        What::Rules => catalogue::rules(),
-        What::Figures => catalogue::figures(),
-        What::Files => catalogue::files(),
-        What::Papers | What::Studies | What::Choices | What::Robots | What::Metrics | What::Verdicts => {
-            return None;
-        }
-    })
-}
-
 fn rows(what: What, LoadedFiles { papers, robots }: &LoadedFiles) -> Vec<(String, String)> {
     let row = |name: &str, about: &str| (name.to_owned(), about.to_owned());
-    if let Some(items) = items(what) {
-        return items.iter().map(|item| row(item.name, item.about)).collect();
+    if let Some(items) = kind(what).1 {
+        return items().iter().map(|item| row(item.name, item.about)).collect();
     }
     match what {
         What::Papers => papers.iter().map(|paper| row(&paper.id, &paper.source.title)).collect(),

@@ -7,7 +7,7 @@ use crate::analysis::history::History;
 use crate::analysis::verdict::{ClaimVerdict, CriterionFinding, Verdicts};
 use crate::render::prose::{plain, wrapped};
 use crate::render::report::across_lines;
-use crate::render::tables::short;
+use crate::render::tables::in_full;
 use base::settings::did_you_mean;
 use clap::Args;
 use std::path::PathBuf;
@@ -123,9 +123,7 @@ fn found(finding: &CriterionFinding) -> String {
     let outcome = finding.outcome.map_or_else(String::new, |outcome| format!(": {}", outcome.name()));
     let mut lines = vec![format!("{}{outcome}", finding.criterion)];
     if let Some(ours) = &finding.ours {
-        let solved =
-            ours.solved.map_or_else(String::new, |[solved, all]| format!(", {solved} of {all} solved"));
-        lines.push(format!("ours: {} ({}; n = {}{solved})", short(ours), ours.what, ours.n));
+        lines.push(format!("ours: {}", in_full(ours)));
     }
     lines.extend(finding.because.iter().cloned());
     lines.extend(finding.settles.iter().map(|settles| format!("what would settle it: {settles}")));

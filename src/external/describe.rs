@@ -1,8 +1,8 @@
 //! The engine's worlds as data.
 
 use super::world::{
-    Cell, Corners, Elbow, Grid, Joint, Motion, Part, PlanarArm, Plane, Polyhedra, Polyhedron, Pose, Shape,
-    Solid, Straight, World,
+    Cell, Elbow, Grid, Joint, Motion, Part, PlanarArm, Plane, Polyhedra, Polyhedron, Pose, Shape, Solid,
+    Straight, World,
 };
 use base::grid::Vertices;
 use engine::geometry::planar::Touch;
@@ -31,14 +31,6 @@ pub fn describe(world: &EngineWorld, any_angle: bool) -> Result<World, String> {
     })
 }
 
-fn corners(rule: base::grid::CornerRule) -> Corners {
-    match rule {
-        base::grid::CornerRule::Allow => Corners::Allow,
-        base::grid::CornerRule::ForbidBoth => Corners::ForbidBoth,
-        base::grid::CornerRule::ForbidAny => Corners::ForbidAny,
-    }
-}
-
 fn grid(lattice: &LatticeWorld, any_angle: bool) -> Grid {
     let grid = lattice.cells();
     let cell = |x, y| if grid.is_free_xy(x, y) { '.' } else { '@' };
@@ -46,7 +38,7 @@ fn grid(lattice: &LatticeWorld, any_angle: bool) -> Grid {
     Grid {
         size: [grid.width(), grid.height()],
         rows: (0..grid.height() as i32).map(row).collect(),
-        corners: corners(lattice.corner_rule()),
+        corners: lattice.corner_rule(),
         any_angle,
         vertices: lattice.cornered().map(|_| Vertices::Corners),
     }
@@ -71,7 +63,7 @@ fn planar_arm(world: &ArmWorld) -> PlanarArm {
         size: rules.lattice.size(),
         inner_radius_cm: rules.inner_radius_cm,
         touching_collides: rules.touch == Touch::Contact,
-        corners: corners(rules.corner_rule),
+        corners: rules.corner_rule,
         swept: rules.hop == HopRule::Continuous,
         obstacles: world.obstacles().iter().map(shape).collect(),
     }

@@ -1,6 +1,6 @@
 //! Worlds as data, so complete that a planner can rebuild the collision check. A world's units are in its fields' names.
 
-use base::grid::Vertices;
+use base::grid::{CornerRule, Vertices};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -69,7 +69,7 @@ pub struct Grid {
     /// Row 0 first, a character a cell: `.` is free and `@` blocked.
     pub rows: Vec<String>,
     /// Which diagonal steps are refused for the two cells that flank them.
-    pub corners: Corners,
+    pub corners: CornerRule,
     /// Whether a step may join any two cells: it must then not cross the inside of a blocked cell, and where it runs through
     /// the corner of cells the rule of corners holds. Otherwise a step leads to one of the eight neighbours.
     pub any_angle: bool,
@@ -78,18 +78,6 @@ pub struct Grid {
     /// along edges of blocked cells, but not between two that share an edge; it may pass between two that touch at a corner.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub vertices: Option<Vertices>,
-}
-
-/// Which diagonal steps are refused.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Corners {
-    /// None.
-    Allow,
-    /// Those between two blocked cells.
-    ForbidBoth,
-    /// Those beside at least one blocked cell.
-    ForbidAny,
 }
 
 /// A planar arm with its base at the origin, `q1` measured from +x and `q2` from the first link, both counter-clockwise. A
@@ -111,7 +99,7 @@ pub struct PlanarArm {
     /// Whether touching an obstacle is a collision.
     pub touching_collides: bool,
     /// Which diagonal steps to a next lattice point are refused for the two points that flank them.
-    pub corners: Corners,
+    pub corners: CornerRule,
     /// Whether both links are swept between two points, the joints moving evenly; otherwise the end points alone count.
     pub swept: bool,
     /// What must not be touched by tip and links.

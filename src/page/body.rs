@@ -12,7 +12,7 @@ use crate::render::RenderError;
 use crate::render::figure::caption;
 use crate::render::headline::{Headline, evidence, headlines, ours};
 use crate::render::prose::prose;
-use crate::render::tables::{Beside, beside, short};
+use crate::render::tables::{Beside, beside, in_full, short};
 use study::paper::PrintedTable;
 
 /// What the text is made of.
@@ -264,9 +264,7 @@ impl Body<'_> {
         );
         let mut add = |line: &str| text += &format!("<li>{}</li>", inline(line, |id| self.is_claim(id)));
         if let Some(ours) = &finding.ours {
-            let solved =
-                ours.solved.map_or_else(String::new, |[solved, all]| format!(", {solved} of {all} solved"));
-            add(&format!("ours: {} ({}; n = {}{solved})", short(ours), ours.what, ours.n));
+            add(&format!("ours: {}", in_full(ours)));
         }
         finding.because.iter().for_each(|line| add(line));
         finding.settles.iter().for_each(|line| add(&format!("what would settle it: {line}")));

@@ -255,6 +255,12 @@ pub fn short(estimate: &Estimate) -> String {
     rounded(estimate, (more - leading).clamp(0.0, 10.0) as usize)
 }
 
+/// Our number with what it is, how many instances and how many of its cases are behind it.
+pub fn in_full(ours: &Estimate) -> String {
+    let solved = ours.solved.map_or_else(String::new, |[solved, all]| format!(", {solved} of {all} solved"));
+    format!("{} ({}; n = {}{solved})", short(ours), ours.what, ours.n)
+}
+
 /// The same with so many decimals where it has an interval that is more than the number itself.
 fn rounded(estimate: &Estimate, decimals: usize) -> String {
     match estimate.interval {

@@ -169,10 +169,22 @@ impl Study {
     #[must_use]
     pub fn reseeded(mut self) -> Self {
         self.seed = self.second_seed.unwrap_or(self.seed);
-        self.timing = None;
-        self.keeps.clear();
-        self.figures.clear();
-        self
+        self.untimed()
+    }
+
+    /// The study without clocks and figures, and with nothing kept for these.
+    fn untimed(self) -> Self {
+        Self { timing: None, keeps: Vec::new(), figures: Vec::new(), ..self }
+    }
+
+    /// Leaves at most so many instances of each group and repeats of each contender.
+    fn cut(&mut self, instances: u32, repeats: u32) {
+        for group in &mut self.groups {
+            group.instances = group.instances.min(instances);
+        }
+        for contender in &mut self.contenders {
+            contender.repeats = contender.repeats.min(repeats);
+        }
     }
 
     /// The study cut down to what is explored of it under each interpretation: no clock is read, and nothing is kept for figures.
@@ -180,16 +192,8 @@ impl Study {
     pub fn explored(mut self, explore: &ExploredStudy, instances: u32) -> Self {
         let repeats = explore.repeats.unwrap_or(u32::MAX);
         self.cut_to = Some([instances, repeats]);
-        for group in &mut self.groups {
-            group.instances = group.instances.min(instances);
-        }
-        for contender in &mut self.contenders {
-            contender.repeats = contender.repeats.min(repeats);
-        }
-        self.timing = None;
-        self.keeps.clear();
-        self.figures.clear();
-        self
+        self.cut(instances, repeats);
+        self.untimed()
     }
 
     /// Every point of the sweeps over contenders, the first sweep varying slowest; one empty point without such sweeps.
@@ -378,12 +382,7 @@ impl Study {
     /// The study cut down to what `--quick` keeps.
     #[must_use]
     pub fn quick(mut self) -> Self {
-        for group in &mut self.groups {
-            group.instances = group.instances.min(self.quick.instances);
-        }
-        for contender in &mut self.contenders {
-            contender.repeats = contender.repeats.min(self.quick.repeats.unwrap_or(u32::MAX));
-        }
+        self.cut(self.quick.instances, self.quick.repeats.unwrap_or(u32::MAX));
         self.budget = self.quick.budget.unwrap_or(self.budget);
         self.timing = self.timing.map(|full| self.quick.timing.unwrap_or(full));
         self.task_settings = self.quick_task_settings();

@@ -21,24 +21,13 @@ impl Inputs {
         if let Some(file) = tried.iter().find(|path| path.is_file()) {
             return Ok(file.clone());
         }
-        if let Some(folder) = tried.iter().find(|path| path.is_dir()) {
-            return Err(format!(
-                "input file `{name}` is a folder ({}); a file is accepted",
-                folder.display()
-            ));
-        }
-        if let Some(other) = tried.iter().find(|path| path.exists()) {
-            return Err(format!(
-                "input file `{name}` is a device, a pipe or a socket ({}); a regular file is accepted",
-                other.display()
-            ));
-        }
-        if let Some(link) = tried.iter().find(|path| path.is_symlink()) {
-            let found = missing(link);
-            return Err(format!(
-                "input file `{name}` {found} ({}); a regular file is accepted",
-                link.display()
-            ));
+        let found = |is: fn(&Path) -> bool| tried.iter().find(|path| is(path));
+        let folder = found(Path::is_dir).map(|path| (path, "is a folder"));
+        let other = || found(Path::exists).map(|path| (path, "is a device, a pipe or a socket"));
+        let link = || found(Path::is_symlink).map(|path| (path, missing(path)));
+        if let Some((path, what)) = folder.or_else(other).or_else(link) {
+            let path = path.display();
+            return Err(format!("input file `{name}` {what} ({path}); a regular file is accepted"));
         }
         let places: Vec<String> = tried.iter().map(|path| path.display().to_string()).collect();
         Err(format!("input file `{name}` does not exist; looked for {}", places.join(", ")))

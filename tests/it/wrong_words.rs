@@ -195,7 +195,7 @@ pub const WRONG: &[Wrong] = &[
         "room",
         "map = \"room.map.txt\"",
         "map = \"..\"",
-        "input file `..` is a folder (./mini/..); a file is",
+        "input file `..` is a folder (./mini/..); a regular file is",
     ),
     wrong("room.map", "#", "x", "room.map.txt: line 3, column 4: found `x`; a cell is one of"),
     wrong(
@@ -263,6 +263,13 @@ pub const WRONG: &[Wrong] = &[
         "kind = \"grid_search\"\ncaption = \"A search in a room.\"\nshows = [{ problems = \"room\", instances = 1 }]\nsettings = { problems = [\"room\"], contenders = [\"A*\"] }",
         "kind = \"statistics\"\ncaption = \"What is saved.\"\nsettings = { panels = [{ y = \"contenders\", x = \"solved\", marks = [\"box\"] }] }",
         "mini/room.toml:27:66: panel 1: `marks` has box; accepted are point",
+    ),
+    // Of two panels, the fault of the second is reported beside that of the first.
+    wrong(
+        "room",
+        "kind = \"grid_search\"\ncaption = \"A search in a room.\"\nshows = [{ problems = \"room\", instances = 1 }]\nsettings = { problems = [\"room\"], contenders = [\"A*\"] }",
+        "kind = \"statistics\"\ncaption = \"What is saved.\"\nsettings = { panels = [{ x = \"contenders\", y = \"opened\" }, { y = \"contenders\", x = \"solved\", marks = [\"box\"] }] }",
+        "panel 2: `marks` has box; accepted are point",
     ),
     wrong("paper", "id = \"nodes\"", "id = \"cost\"", "another claim or cell is called `cost` already"),
     wrong(

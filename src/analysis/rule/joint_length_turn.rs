@@ -1,6 +1,6 @@
 //! Whether one path can have both the printed length and the printed turn sum.
 
-use super::{Entry, check_search, refused, rule};
+use super::{Entry, refused, rule};
 use base::settings::Accepted;
 use proofs::proof::{self, Ends, Search};
 use proofs::turns::Convention;
@@ -28,7 +28,6 @@ longest = 15.0
     build: |context| {
         let read: Settings = context.settings.read()?;
         let Settings { size, start, goal, longest, .. } = read;
-        check_search(context, size, longest)?;
         let length = context.print_of(&read.length)?;
         let turn = context.print_of(&read.turn)?;
         let meant = match context.known_metric(&read.metric)?.name {
@@ -57,6 +56,7 @@ longest = 15.0
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// The map's columns and rows.
+    #[schemars(inner(range(min = 1, max = 200)))]
     size: [i32; 2],
     /// The column and row of the start cell.
     start: [i32; 2],
@@ -73,5 +73,6 @@ struct Settings {
     /// The metric that sums angles between segments.
     interior: String,
     /// How far to look for a path with the turn sum alone, cells.
+    #[schemars(range(min = 0, max = 200))]
     longest: f64,
 }

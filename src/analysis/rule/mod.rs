@@ -15,7 +15,6 @@ mod point_distance;
 mod straight_line;
 mod turn_needs_length;
 
-use super::context::Context;
 use super::criterion::{Criterion, Entry};
 use super::criterion_result::CriterionResult;
 use super::evidence::Evidence;
@@ -23,8 +22,6 @@ use super::number::Number;
 use super::outcome::Outcome;
 use super::polylines::Polylines;
 use super::verdict::POSSIBLE;
-use base::settings::SettingsError;
-use base::text::listed;
 use proofs::proof::Proof;
 
 /// A rule: a criterion that selects no trial. Polylines only remember what other claims needed.
@@ -71,19 +68,6 @@ fn decided(proof: Proof) -> CriterionResult {
         premises: proof.premises,
         ..CriterionResult::default()
     }
-}
-
-/// Refuses a grid or a length that a search for polylines would not come to the end of.
-fn check_search(context: &Context<'_>, size: [i32; 2], longest: f64) -> Result<(), SettingsError> {
-    if !size.iter().all(|side| (1..=200).contains(side)) {
-        let message = format!("size is {}; 1 to 200 columns and rows are accepted", listed(size));
-        return Err(context.settings.error_at("size", message));
-    }
-    if !(0.0..=200.0).contains(&longest) {
-        let message = format!("longest is {longest}; 0 to 200 cells are accepted");
-        return Err(context.settings.error_at("longest", message));
-    }
-    Ok(())
 }
 
 /// Every rule, in the order of their names.

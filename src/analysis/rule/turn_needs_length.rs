@@ -1,6 +1,6 @@
 //! How long a path must be to have a printed turn sum, and whether that leaves room under another printed length.
 
-use super::{Entry, check_search, refused, rule};
+use super::{Entry, refused, rule};
 use base::settings::Accepted;
 use proofs::proof::{self, Ends, Search};
 use proofs::turns::Convention;
@@ -27,7 +27,6 @@ longest = 15.0
     build: |context| {
         let read: Settings = context.settings.read()?;
         let Settings { size, start, goal, longest, shorter, .. } = read;
-        check_search(context, size, longest)?;
         let turn = context.print_of(&read.turn)?;
         let against = context.print_of(&read.against)?;
         let is_exterior = context.known_metric(&read.metric)?.name == read.exterior;
@@ -45,6 +44,7 @@ longest = 15.0
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// The map's columns and rows.
+    #[schemars(inner(range(min = 1, max = 200)))]
     size: [i32; 2],
     /// The column and row of the start cell.
     start: [i32; 2],
@@ -62,5 +62,6 @@ struct Settings {
     /// The metric that sums changes of heading.
     exterior: String,
     /// How far to look, cells.
+    #[schemars(range(min = 0, max = 200))]
     longest: f64,
 }

@@ -2,7 +2,6 @@
 
 use super::arguments::{count, digits, each_of_sample, shown, spreads};
 use super::{Entry, Proof, Test, Window};
-use crate::input::Input;
 use crate::meaning::Divisor;
 use crate::sample::Sample;
 use crate::statistic::Statistic;
@@ -17,7 +16,7 @@ pub static ENTRY: Entry = Entry {
     example: "success [share of 20, ±sd] = 0.25 ± 0.30",
     premises: "every value is 0 or the whole; mean and deviation are of the same n values",
     source: "Heathers & Brown, DEBIT: A Simple Consistency Test for Binary Data (2019)",
-    tests,
+    tests: |input, give| each_of_sample(input, of_sample, give),
     relation: None,
 };
 
@@ -31,10 +30,6 @@ struct Debit {
 
 /// Counts that are looked through one by one.
 const COUNTS: i128 = 20_000;
-
-fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    each_of_sample(input, of_sample, give);
-}
 
 fn of_sample(sample: &Sample) -> Option<Debit> {
     if !sample.is_binary() || sample.is_count || sample.trials.is_some() {

@@ -19,7 +19,7 @@ pub static ENTRY: Entry = Entry {
     example: "success [% of 250] = 33.3",
     premises: "n is the number of values behind the mean; each is a multiple of the grain; none is left out or weighted",
     source: "Brown & Heathers, The GRIM Test, Social Psychological and Personality Science 8 (2017) 363-369 (preprint 2016)",
-    tests,
+    tests: |input, give| each_of_sample(input, of_sample, give),
     relation: Some(FromRelation {
         keys: &[
             ("value", "The mean or share, in quotes: the printed number, or the name of a cell."),
@@ -53,10 +53,6 @@ struct Grim {
     /// The only count that there can be, where `29/30` stands beside the number.
     successes: Option<u64>,
     values: String,
-}
-
-fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    each_of_sample(input, of_sample, give);
 }
 
 fn of_sample(sample: &Sample) -> Option<Grim> {

@@ -2,7 +2,6 @@
 
 use super::arguments::{digits, each_of_sample};
 use super::{Entry, Proof, Test};
-use crate::input::Input;
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::Quoted;
@@ -16,7 +15,7 @@ pub static ENTRY: Entry = Entry {
     example: "median 5.0 with 75 % quantile 4.0",
     premises: "all are of the same values",
     source: "the definition of quantiles",
-    tests,
+    tests: |input, give| each_of_sample(input, of_sample, give),
     relation: None,
 };
 
@@ -26,10 +25,6 @@ struct Order {
     pairs: Vec<[usize; 2]>,
     /// The share of values below each; none for the mean.
     ranks: Vec<Option<Exact>>,
-}
-
-fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    each_of_sample(input, of_sample, give);
 }
 
 fn of_sample(sample: &Sample) -> Option<Order> {

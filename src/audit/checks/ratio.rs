@@ -16,7 +16,7 @@ pub static ENTRY: Entry = Entry {
     example: "ratio 2.00 of 3.1 and 1.5",
     premises: "the quotient was taken of the true values behind the two cells, not problem by problem",
     source: "interval arithmetic",
-    tests,
+    tests: |input, give| each_of_cell(input, of_cell, give),
     relation: Some(FromRelation {
         keys: &[
             ("value", "The ratio, in quotes: the printed number, or the name of a cell."),
@@ -35,10 +35,6 @@ pub(super) struct Formed {
     pub(super) forms: Vec<Form>,
     /// What is assumed.
     pub(super) premise: &'static str,
-}
-
-fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    each_of_cell(input, of_cell, give);
 }
 
 fn of_cell(index: usize, table: &Table, row: usize, at: usize) -> Option<Formed> {

@@ -16,7 +16,7 @@ pub static ENTRY: Entry = Entry {
     example: "total 10.0 of parts 4.0 and 5.0",
     premises: "the total is the sum of the parts on every problem; all means are over the same problems",
     source: "linearity of the mean; interval arithmetic",
-    tests,
+    tests: |input, give| each_of_cell(input, of_cell, give),
     relation: Some(FromRelation {
         keys: &[
             ("total", "The mean of the whole, in quotes: the printed number, or the name of a cell."),
@@ -35,10 +35,6 @@ struct SumOfMeans {
     numbers: Vec<Quoted>,
     /// Every measured value is cut to a multiple of this, the total on its own.
     cut: Option<Exact>,
-}
-
-fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    each_of_cell(input, of_cell, give);
 }
 
 /// Whether the cell holds something that adds up: a mean, a total, or a value of its own.

@@ -16,7 +16,7 @@ pub static ENTRY: Entry = Entry {
     example: "total 100.0 s, mean 2.0 s, n = 40",
     premises: "the total is the sum of the values that the mean is of",
     source: "the definition of the mean; interval arithmetic",
-    tests,
+    tests: |input, give| each_of_sample(input, of_sample, give),
     relation: Some(FromRelation {
         keys: &[
             ("total", "The sum of all values, in quotes: the printed number, or the name of a cell."),
@@ -37,10 +37,6 @@ struct TotalOverMean {
     n: Option<u64>,
     /// The total's unit in the mean's.
     unit: Exact,
-}
-
-fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    each_of_sample(input, of_sample, give);
 }
 
 fn of_sample(sample: &Sample) -> Option<TotalOverMean> {

@@ -23,7 +23,7 @@ pub static ENTRY: Entry = Entry {
     example: "turn sum 229.17 beside length 14.65 from 22:15 to 26:28",
     premises: "moves go to one of eight neighbours; the sum is of changes of direction, or of the angles between moves",
     source: "enumeration over moves (octile_turns.rs); for any-angle paths see proofs::turns",
-    tests,
+    tests: |input, give| each_of_cell(input, of_cell, give),
     relation: Some(FromRelation { keys: &[TURNS, LENGTH, FROM, TO], build }),
 };
 
@@ -38,10 +38,6 @@ struct TurnSum {
 
 /// Moves of paths whose turns are enumerated.
 const MOVES: u32 = 31;
-
-fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    each_of_cell(input, of_cell, give);
-}
 
 fn of_cell(index: usize, table: &Table, row: usize, length: usize) -> Option<TurnSum> {
     let meaning = &table.columns[length].meaning;

@@ -1,6 +1,8 @@
 //! Legal moves of an 8-connected grid, one byte a cell.
 
 use super::Grid2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// The eight steps `[dx, dy]` in the order of masks, which is also the default order of neighbours.
 ///
@@ -8,7 +10,8 @@ use super::Grid2;
 pub const DIRECTIONS: [[i32; 2]; 8] = [[1, 1], [1, 0], [1, -1], [0, 1], [0, -1], [-1, 1], [-1, 0], [-1, -1]];
 
 /// When a diagonal move is refused because of the two cells that flank it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum CornerRule {
     /// Never.
     Allow,

@@ -5,9 +5,13 @@
 //! that and not as a near miss.
 
 use super::Grid2;
+use schemars::JsonSchema;
+use serde::Deserialize;
 
-/// Which cells a segment counts as entering.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Which cells a segment counts as entering. Between corners of cells only `exact_interior` is accepted: a line may run along a blocked
+/// cell, but not between two that share an edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Sight {
     /// Cells whose interior the segment crosses. Where it passes exactly through the corner between two cells,
     /// neither of the two is entered.

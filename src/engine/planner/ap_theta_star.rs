@@ -4,9 +4,9 @@
 //! Daniel, Nash, Koenig & Felner, *Theta\*: Any-Angle Path Planning on Grids*, JAIR 39 (2010), section 6.
 
 use super::corners;
-use super::lattice::{COLUMNS_DISTINCT, TiesSetting};
+use super::lattice::COLUMNS_DISTINCT;
 use super::{Build, Entry, Planner};
-use crate::search::{AngleRanges, BucketHeap};
+use crate::search::{AngleRanges, BucketHeap, Ties};
 use base::settings::{Accepted, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -30,10 +30,10 @@ ties = "smaller_g"
 #[serde(deny_unknown_fields)]
 struct TiesAlone {
     /// The order among equal f.
-    ties: TiesSetting,
+    ties: Ties,
 }
 
 fn build(settings: &Settings) -> Result<Box<dyn Planner>, SettingsError> {
     let TiesAlone { ties } = settings.read()?;
-    Ok(corners::planner(move || AngleRanges::new(BucketHeap::new(ties.into()))))
+    Ok(corners::planner(move || AngleRanges::new(BucketHeap::new(ties))))
 }

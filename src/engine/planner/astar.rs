@@ -1,12 +1,12 @@
 //! A* on a lattice with the Euclidean or the octile heuristic.
 
-use super::lattice::{COLUMNS_DISTINCT, Posed, TiesSetting, UPDATE};
+use super::lattice::{COLUMNS_DISTINCT, Posed, UPDATE};
 use super::one_side::{Found, OneSided};
 use super::pool::Pool;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
     BucketHeap, Combined, Estimate, GridGraph, Observer, Octile, Report, Rules, Search, SideInputs, Stop,
-    Update, euclidean_to, falling, octile_to, weighted,
+    Ties, Update, euclidean_to, falling, octile_to, weighted,
 };
 use base::grid::NeighbourOrder;
 use base::settings::Accepted;
@@ -48,7 +48,7 @@ struct Astar {
     weight: Weight,
     /// The order among equal f.
     #[serde(default)]
-    ties: TiesSetting,
+    ties: Ties,
     /// The order in which neighbours are generated; it decides among the first opened of equal f.
     #[serde(default)]
     neighbours: NeighbourOrder,
@@ -149,7 +149,7 @@ impl Astar {
             update: Update { take_equal: self.equal_ways == Some(EqualWays::Last), ..UPDATE },
         };
         let rules = Rules { stop: Stop::GoalPopped, max_expansions: expansions };
-        let mut search = self.pool.any(|| Search::new(BucketHeap::new(self.ties.into())));
+        let mut search = self.pool.any(|| Search::new(BucketHeap::new(self.ties)));
         let report = search.run(terms, posed.start, |cell| cell == goal, rules, &mut ());
         self.pool.keep(search);
         report

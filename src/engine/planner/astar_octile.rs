@@ -1,5 +1,6 @@
 //! The fast A* for 8-connected grids with the octile heuristic.
 
+use super::entry::planner;
 use super::lattice::{self, COLUMNS_DISTINCT, Posed};
 use super::pool::Pool;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
@@ -20,10 +21,7 @@ pub static ENTRY: Entry = Entry {
     columns: COLUMNS_DISTINCT,
     settings: Accepted::shape::<AstarOctile>(),
     example: "",
-    build: Build::Planner(|settings| {
-        let read: AstarOctile = settings.read()?;
-        Ok(Box::new(read))
-    }),
+    build: Build::Planner(planner::<AstarOctile>),
 };
 
 #[derive(Deserialize, JsonSchema)]

@@ -1,11 +1,12 @@
 //! Bidirectional A* on a lattice, with Zhang's falling weight or a constant one.
 
-use super::lattice::{self, COLUMNS_DISTINCT, Posed, TiesSetting, UPDATE};
+use super::entry::planner;
+use super::lattice::{self, COLUMNS_DISTINCT, Posed, UPDATE};
 use super::pool::Pool;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
     Bidirectional, BidirectionalReport, BidirectionalRules, Closings, Combined, End, GridGraph, Heap,
-    Meeting, Observer, Octile, SideChoice, euclidean_to, falling, sum,
+    Meeting, Observer, Octile, SideChoice, Ties, euclidean_to, falling, sum,
 };
 use base::grid::NeighbourOrder;
 use base::settings::Accepted;
@@ -28,10 +29,7 @@ meeting = "generated_any"
 side = "alternate"
 ties = "fifo"
 "#,
-    build: Build::Planner(|settings| {
-        let read: TwoSided = settings.read()?;
-        Ok(Box::new(read))
-    }),
+    build: Build::Planner(planner::<TwoSided>),
 };
 
 #[derive(Deserialize, JsonSchema)]
@@ -40,18 +38,18 @@ struct TwoSided {
     /// What h is multiplied by.
     weight: Weight,
     /// When the two sides have met.
-    meeting: MeetingSetting,
+    meeting: Meeting,
     /// What is done once they have met while a node is expanded.
     #[serde(default)]
-    end: EndSetting,
+    end: End,
     /// What a side's h is the distance to.
     #[serde(default)]
     aim: Aim,
     /// Which side moves next.
-    side: SideSetting,
+    side: SideChoice,
     /// The order among equal f.
     #[serde(default)]
-    ties: TiesSetting,
+    ties: Ties,
     /// The order in which neighbours are generated; it decides among the first opened of equal f.
     #[serde(default)]
     neighbours: NeighbourOrder,
@@ -68,29 +66,6 @@ enum Weight {
     One,
     /// (R + r) / R, as Zhang's eq. 2.
     Falling,
-}
-
-#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-enum MeetingSetting {
-    /// A side generates a node that the other has generated before, be it open or closed there.
-    GeneratedAny,
-    /// A side generates a node that the other has closed.
-    ClosedByOther,
-    /// A side closes a node that the other has closed; the node is not expanded again.
-    BothClosed,
-    /// The best sum found is no more than the smallest f on either side.
-    OptimalStop,
-}
-
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Default, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-enum EndSetting {
-    /// The expansion is finished, and the node with the smallest sum of both g is kept.
-    #[default]
-    Expansion,
-    /// The first node that met is kept; no later successor is generated. The optimal stop goes on all the same.
-    Contact,
 }
 
 #[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Default, PartialEq, Eq)]
@@ -113,32 +88,12 @@ impl Observer for Front<'_> {
     }
 }
 
-#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-enum SideSetting {
-    /// Strictly in turn, the start's side first.
-    Alternate,
-    /// The side with the smaller least f; the start's side if they are equal.
-    SmallerF,
-}
-
 impl TwoSided {
     fn rules(&self, max_expansions: u64) -> BidirectionalRules {
         BidirectionalRules {
-            meeting: match self.meeting {
-                MeetingSetting::GeneratedAny => Meeting::GeneratedAny,
-                MeetingSetting::ClosedByOther => Meeting::ClosedByOther,
-                MeetingSetting::BothClosed => Meeting::BothClosed,
-                MeetingSetting::OptimalStop => Meeting::OptimalStop,
-            },
-            end: match self.end {
-                EndSetting::Expansion => End::Expansion,
-                EndSetting::Contact => End::Contact,
-            },
-            choice: match self.side {
-                SideSetting::Alternate => SideChoice::Alternate,
-                SideSetting::SmallerF => SideChoice::SmallerF,
-            },
+            meeting: self.meeting,
+            end: self.end,
+            choice: self.side,
             update: UPDATE,
             max_expansions,
         }
@@ -199,7 +154,7 @@ impl Planner for TwoSided {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
         let grid = posed.world.grid();
-        let mut memory = self.pool.any(|| Bidirectional::new(Heap::new(self.ties.into())));
+        let mut memory = self.pool.any(|| Bidirectional::new(Heap::new(self.ties)));
         let closings = Closings::default();
         let report = if request.trace {
             self.run(&mut memory, &posed, request.expansions, [0, 1].map(|side| closings.one_side(side)))
@@ -220,7 +175,7 @@ impl Planner for TwoSided {
 
     fn is_optimal(&self) -> bool {
         // The distance to a front is no bound on the way to the goal.
-        self.weight == Weight::One && self.meeting == MeetingSetting::OptimalStop && self.aim == Aim::Root
+        self.weight == Weight::One && self.meeting == Meeting::OptimalStop && self.aim == Aim::Root
     }
 
     fn is_complete(&self) -> bool {

@@ -5,10 +5,11 @@
 //! corners, by up to a fifth of a step. With `guarded`, control points near a contact are repeated up to three times,
 //! at which the curve follows the path itself.
 
+use super::entry::stage;
 use super::polyhedra::{densified, points, polyhedra, replace, trace};
-use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
+use super::{Build, Entry, Plan, Request, Stage, Value};
 use crate::shorten::cubic_spline;
-use base::settings::{Accepted, Settings, SettingsError};
+use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use world::geometry::{Segment, Vec3};
@@ -27,21 +28,8 @@ control = "steps"
 guarded = true
 points_per_span = 4
 "#,
-    build: Build::Stage(|settings: &Settings| {
-        let read: Spline = settings.read()?;
-        check_points(settings, read.points_per_span)?;
-        Ok(Box::new(read))
-    }),
+    build: Build::Stage(stage::<Spline>),
 };
-
-/// Refuses a curve of too many points, or of none, on each of its spans.
-pub(super) fn check_points(settings: &Settings, points_per_span: u32) -> Result<(), SettingsError> {
-    if (1..=64).contains(&points_per_span) {
-        return Ok(());
-    }
-    let message = format!("points_per_span is {points_per_span}; 1 to 64 is accepted");
-    Err(settings.error_at("points_per_span", message))
-}
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -51,7 +39,7 @@ struct Spline {
     /// Whether control points count more often where the curve touches an obstacle.
     guarded: bool,
     /// Points of the curve returned for each of its spans.
-    #[schemars(range(max = 1000))]
+    #[schemars(range(min = 1, max = 64))]
     points_per_span: u32,
 }
 
@@ -70,8 +58,8 @@ enum Control {
 type Curve = Vec<(usize, [f64; 3])>;
 
 impl Stage for Spline {
-    fn refine(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
-        if plan.ending != Ending::Solved || self.control == Control::Off {
+    fn tidied(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
+        if self.control == Control::Off {
             return plan;
         }
         let world = polyhedra(request.world);

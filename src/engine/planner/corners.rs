@@ -77,10 +77,6 @@ impl<S: CornerSearch, F: Fn() -> S + Send + Sync> Planner for BetweenCorners<S, 
         Ok(self.planned(request, &Posed::new(request)?))
     }
 
-    fn is_optimal(&self) -> bool {
-        false
-    }
-
     fn is_complete(&self) -> bool {
         true
     }

@@ -1,7 +1,8 @@
 //! Zhang's inflection-point deletion as a stage.
 
-use super::lattice::{SightCorners, SightSetting, lattice, sees_under};
-use super::{Build, Ending, Entry, Plan, Request, Stage};
+use super::entry::stage;
+use super::lattice::{SightCorners, lattice, sees_under};
+use super::{Build, Entry, Plan, Request, Stage};
 use crate::shorten::{bends, inflection_deletion, path_length};
 use base::grid::{CornerRule, Sight};
 use base::settings::Accepted;
@@ -20,31 +21,25 @@ pub static ENTRY: Entry = Entry {
     example: r#"
 line_of_sight = "exact_interior"
 "#,
-    build: Build::Stage(|settings| {
-        let read: DeleteInflections = settings.read()?;
-        Ok(Box::new(read))
-    }),
+    build: Build::Stage(stage::<DeleteInflections>),
 };
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct DeleteInflections {
     /// Which cells a line of sight must find free.
-    line_of_sight: SightSetting,
+    line_of_sight: Sight,
     /// Which corners it may pass.
     #[serde(default)]
     sight_corners: SightCorners,
 }
 
 impl Stage for DeleteInflections {
-    fn refine(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
-        if plan.ending != Ending::Solved {
-            return plan;
-        }
+    fn tidied(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
         let world = lattice(request.world);
         let corners: Vec<[i32; 2]> =
             bends(&plan.path).into_iter().map(|i| [plan.path[i][0] as i32, plan.path[i][1] as i32]).collect();
-        let sight = Sight::from(self.line_of_sight);
+        let sight = self.line_of_sight;
         let corner_rule = self.sight_corners.own().unwrap_or(world.corner_rule());
         let mut refused = Vec::new();
         let kept = inflection_deletion(corners.len(), |i, j| {

@@ -1,5 +1,6 @@
 //! One local path from start to goal and nothing else: the baseline that a roadmap has to beat.
 
+use super::entry::planner;
 use super::roadmap::{Posed, solved, unsolved};
 use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request};
 use base::settings::Accepted;
@@ -16,10 +17,7 @@ pub static ENTRY: Entry = Entry {
     columns: &[],
     settings: Accepted::shape::<Direct>(),
     example: "",
-    build: Build::Planner(|settings| {
-        let read: Direct = settings.read()?;
-        Ok(Box::new(read))
-    }),
+    build: Build::Planner(planner::<Direct>),
 };
 
 #[derive(Deserialize, JsonSchema)]

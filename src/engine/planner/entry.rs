@@ -2,6 +2,8 @@
 
 use base::grid::CornerRule;
 use base::settings::{Accepted, Settings, SettingsError};
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -150,14 +152,33 @@ pub trait Planner: Send + Sync {
 
 /// A stage that tidies a solved plan.
 pub trait Stage: Send + Sync {
-    /// The plan, tidied; counts are added to, never replaced.
-    fn refine(&self, request: &Request<'_>, plan: Plan) -> Plan;
+    /// A solved plan, tidied; counts are added to, never replaced.
+    fn tidied(&self, request: &Request<'_>, plan: Plan) -> Plan;
+
+    /// The plan, tidied if it is solved.
+    fn refine(&self, request: &Request<'_>, plan: Plan) -> Plan {
+        if plan.ending == Ending::Solved { self.tidied(request, plan) } else { plan }
+    }
 
     /// Which corners its segments on a lattice may pass, if not those that moves may; the verifier then judges a segment by
     /// whichever of the two rules it keeps.
     fn sight_corners(&self) -> Option<CornerRule> {
         None
     }
+}
+
+/// A planner that is its settings.
+pub(super) fn planner<T: Planner + DeserializeOwned + JsonSchema + 'static>(
+    settings: &Settings,
+) -> Result<Box<dyn Planner>, SettingsError> {
+    Ok(Box::new(settings.read::<T>()?))
+}
+
+/// A stage that is its settings.
+pub(super) fn stage<T: Stage + DeserializeOwned + JsonSchema + 'static>(
+    settings: &Settings,
+) -> Result<Box<dyn Stage>, SettingsError> {
+    Ok(Box::new(settings.read::<T>()?))
 }
 
 /// How an entry is built from its settings.

@@ -1,9 +1,9 @@
 //! Field D\* between corners of cells, as one search from start to goal.
 
 use super::corners;
-use super::lattice::{COLUMNS_DISTINCT, TiesSetting};
+use super::lattice::COLUMNS_DISTINCT;
 use super::{Build, Entry, Planner};
-use crate::search::{BucketHeap, FieldRules, Interpolated};
+use crate::search::{BucketHeap, FieldRules, Interpolated, Ties};
 use base::settings::{Accepted, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -29,7 +29,7 @@ extraction = "looks_ahead"
 #[serde(deny_unknown_fields)]
 struct FieldSettings {
     /// The order among equal f.
-    ties: TiesSetting,
+    ties: Ties,
     /// Between which corners costs are interpolated; `opened` if absent.
     interpolates: Option<Interpolates>,
     /// How a step of the path is chosen; `looks_ahead` if absent.
@@ -60,5 +60,5 @@ fn build(settings: &Settings) -> Result<Box<dyn Planner>, SettingsError> {
         only_expanded: matches!(interpolates, Some(Interpolates::Expanded)),
         looks_ahead: !matches!(extraction, Some(Extraction::Interpolated)),
     };
-    Ok(corners::planner(move || Interpolated::new(BucketHeap::new(ties.into()), rules)))
+    Ok(corners::planner(move || Interpolated::new(BucketHeap::new(ties), rules)))
 }

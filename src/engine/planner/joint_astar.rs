@@ -8,7 +8,7 @@
 //! Tang, Zhou & Xu (2023), section 4.2, after Jia, *Path planning for space manipulator to avoid obstacle based on
 //! A\* algorithm*, J. Mech. Eng. 46(13), 109 (2010).
 
-use super::lattice::{COLUMNS, UPDATE};
+use super::lattice::{COLUMNS, UPDATE, counted};
 use super::polyhedra::polyhedra;
 use super::{Build, Ending, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, SideInputs, Stop, Ties, sum};
@@ -38,19 +38,11 @@ neighbours = 12
 ",
     build: Build::Planner(|settings| {
         let read: JointAstar = settings.read()?;
-        if !(read.delta_deg > 0.0 && read.delta_deg <= 45.0) {
-            let message = format!("delta_deg is {}; more than 0 and at most 45 is accepted", read.delta_deg);
-            return Err(settings.error_at("delta_deg", message));
-        }
         settings.accept_without("delta_deg", setting_in_radians("delta_deg", read.delta_deg, 0.0))?;
         if ![12, 728].contains(&read.neighbours) {
             let message =
                 format!("neighbours is {}; 12 (one joint) or 728 (any joints) is accepted", read.neighbours);
             return Err(settings.error_at("neighbours", message));
-        }
-        if !(read.goal_steps > 0.0 && read.goal_steps <= 1.0) {
-            let message = format!("goal_steps is {}; more than 0 and at most 1 is accepted", read.goal_steps);
-            return Err(settings.error_at("goal_steps", message));
         }
         Ok(Box::new(read))
     }),
@@ -67,6 +59,7 @@ const FAR_CM: f64 = 50.0;
 #[serde(deny_unknown_fields)]
 struct JointAstar {
     /// The step of each joint.
+    #[schemars(range(max = 45), extend("exclusiveMinimum" = 0))]
     delta_deg: f64,
     /// 12: one joint, up or down; 728: any joints at once.
     neighbours: u32,
@@ -75,6 +68,7 @@ struct JointAstar {
     branch: BranchSetting,
     /// How near the goal a state is from which it is reached, in steps: 1 or a half.
     #[serde(default = "one_step")]
+    #[schemars(range(max = 1), extend("exclusiveMinimum" = 0))]
     goal_steps: f64,
 }
 
@@ -222,7 +216,7 @@ impl Planner for JointAstar {
         };
         let rules = Rules { stop: Stop::GoalPopped, max_expansions: request.expansions };
         let report = Search::new(Heap::new(Ties::Fifo)).run(terms, 0, is_goal, rules, &mut ());
-        let counts = super::lattice26_astar::counts(&report);
+        let counts = counted(&[report.counters]);
         let (ending, trail) = match &report.outcome {
             Outcome::Solved(route) => {
                 let mut trail: Vec<Joints> = route.nodes.iter().map(|node| at(*node)).collect();

@@ -7,12 +7,13 @@
 //! # Source
 //! Tang, Zhou & Xu (2023), section 4.1.3: "Finally, cubic spline processing is applied to the planned path".
 
-use super::bspline::{check_points, raise};
+use super::bspline::raise;
+use super::entry::stage;
 use super::polyhedra::polyhedra;
 use super::posture::trails;
-use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
+use super::{Build, Entry, Plan, Request, Stage, Value};
 use crate::shorten::{cubic_spline, path_length};
-use base::settings::{Accepted, Settings};
+use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use world::kinematics::{AXES, Joints};
@@ -32,11 +33,7 @@ control = "trail"
 guarded = true
 points_per_span = 2
 "#,
-    build: Build::Stage(|settings: &Settings| {
-        let read: JointSpline = settings.read()?;
-        check_points(settings, read.points_per_span)?;
-        Ok(Box::new(read))
-    }),
+    build: Build::Stage(stage::<JointSpline>),
 };
 
 /// Between two points of the curve rods are checked at least this often.
@@ -52,7 +49,7 @@ struct JointSpline {
     /// Whether control points count more often where a rod would touch.
     guarded: bool,
     /// Points of the curve returned for each of its spans.
-    #[schemars(range(max = 1000))]
+    #[schemars(range(min = 1, max = 64))]
     points_per_span: u32,
 }
 
@@ -66,8 +63,8 @@ enum Control {
 }
 
 impl Stage for JointSpline {
-    fn refine(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
-        if plan.ending != Ending::Solved || self.control == Control::Off {
+    fn tidied(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
+        if self.control == Control::Off {
             return plan;
         }
         let world = polyhedra(request.world);

@@ -9,11 +9,10 @@
 //! Harabor & Grastien, *Online graph pruning for pathfinding on grid maps*, AAAI 2011; *Improving jump point search*,
 //! ICAPS 2014, sections 4 and 5.
 
-use super::jump_points::{COLUMNS, JumpPoints, Preparation};
-use super::lattice::Posed;
-use super::{Build, Entry, Invalid, Plan, Planner, Request};
+use super::jump_points::{COLUMNS, JumpPoints, built};
+use super::{Build, Entry};
 use base::settings::Accepted;
-use world::space::{JumpLines, WorldKind};
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -24,33 +23,5 @@ pub static ENTRY: Entry = Entry {
     columns: COLUMNS,
     settings: Accepted::shape::<JumpPoints>(),
     example: "preparation = \"kept\"",
-    build: Build::Planner(|settings| {
-        let read: JumpPoints = settings.read()?;
-        Ok(Box::new(Jps(read)))
-    }),
+    build: Build::Planner(|settings| built(settings, false)),
 };
-
-struct Jps(JumpPoints);
-
-impl Planner for Jps {
-    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
-        let posed = Posed::new(request)?;
-        let made;
-        let lines = match self.0.preparation {
-            Preparation::Kept => posed.world.jump_lines(),
-            Preparation::EachQuery => {
-                made = JumpLines::new(posed.world);
-                &made
-            }
-        };
-        self.0.plan(&posed, request, lines, lines.bytes())
-    }
-
-    fn is_optimal(&self) -> bool {
-        true
-    }
-
-    fn is_complete(&self) -> bool {
-        true
-    }
-}

@@ -10,11 +10,10 @@
 //! # Source
 //! Harabor & Grastien, *Improving jump point search*, ICAPS 2014, sections 5 and 6.
 
-use super::jump_points::{COLUMNS, JumpPoints, Preparation};
-use super::lattice::Posed;
-use super::{Build, Entry, Invalid, Plan, Planner, Request};
+use super::jump_points::{COLUMNS, JumpPoints, built};
+use super::{Build, Entry};
 use base::settings::Accepted;
-use world::space::{JumpTable, WorldKind};
+use world::space::WorldKind;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -25,33 +24,5 @@ pub static ENTRY: Entry = Entry {
     columns: COLUMNS,
     settings: Accepted::shape::<JumpPoints>(),
     example: "preparation = \"kept\"",
-    build: Build::Planner(|settings| {
-        let read: JumpPoints = settings.read()?;
-        Ok(Box::new(JpsPlus(read)))
-    }),
+    build: Build::Planner(|settings| built(settings, true)),
 };
-
-struct JpsPlus(JumpPoints);
-
-impl Planner for JpsPlus {
-    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
-        let posed = Posed::new(request)?;
-        let made;
-        let table = match self.0.preparation {
-            Preparation::Kept => posed.world.jump_table(),
-            Preparation::EachQuery => {
-                made = JumpTable::new(posed.world);
-                &made
-            }
-        };
-        self.0.plan(&posed, request, table, table.bytes())
-    }
-
-    fn is_optimal(&self) -> bool {
-        true
-    }
-
-    fn is_complete(&self) -> bool {
-        true
-    }
-}

@@ -1,7 +1,7 @@
 //! Ends, settings and plans that the planners on a lattice share.
 
 use super::{Counts, Ending, Invalid, Plan, Request, Trace, Value};
-use crate::search::{Closing, Closings, Cost, Counters, Outcome, Ties, Update};
+use crate::search::{Closing, Closings, Cost, Counters, Outcome, Update};
 use base::grid::{CornerRule, Grid2, Sight, corners_see};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -13,56 +13,6 @@ pub(super) const COLUMNS: &[&str] = &["opened", "closed", "expansions", "generat
 /// The same, and how many different nodes were opened, for planners that stand beside one with two sides.
 pub(super) const COLUMNS_DISTINCT: &[&str] =
     &["opened", "opened_distinct", "closed", "expansions", "generated"];
-
-/// The order among equal f, as settings write it.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum TiesSetting {
-    /// The node that was put in first.
-    #[default]
-    Fifo,
-    /// The node that was put in last.
-    Lifo,
-    /// The node with the larger g; among those the one that was put in first.
-    LargerG,
-    /// The node with the smaller g; among those the one that was put in first.
-    SmallerG,
-}
-
-impl From<TiesSetting> for Ties {
-    fn from(setting: TiesSetting) -> Self {
-        match setting {
-            TiesSetting::Fifo => Self::Fifo,
-            TiesSetting::Lifo => Self::Lifo,
-            TiesSetting::LargerG => Self::LargerG,
-            TiesSetting::SmallerG => Self::SmallerG,
-        }
-    }
-}
-
-/// Which cells a line of sight must find free, as settings write it. Between corners of cells only `exact_interior` is accepted: a
-/// line may run along a blocked cell, but not between two that share an edge.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum SightSetting {
-    /// Cells whose interior the segment crosses; where it passes through the corner between two cells, neither is
-    /// entered.
-    ExactInterior,
-    /// Cells that the segment touches at all: at a corner also the two that flank it.
-    ClosedCells,
-    /// Cells of Bresenham's line drawn from the first end to the second.
-    Bresenham,
-}
-
-impl From<SightSetting> for Sight {
-    fn from(setting: SightSetting) -> Self {
-        match setting {
-            SightSetting::ExactInterior => Self::ExactInterior,
-            SightSetting::ClosedCells => Self::ClosedCells,
-            SightSetting::Bresenham => Self::Bresenham,
-        }
-    }
-}
 
 /// Which corners a line of sight may pass, as settings write it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -127,6 +77,17 @@ pub(super) fn lattice(world: &World) -> &LatticeWorld {
 /// node stays closed.
 pub(super) const UPDATE: Update = Update { lower_open: true, reopen_closed: false, take_equal: false };
 
+/// The counts of a search's sides together: those of [`COLUMNS`].
+pub(super) fn counted(sides: &[Counters]) -> Counts {
+    let sum = |get: fn(&Counters) -> u64| Value::Count(sides.iter().map(get).sum());
+    Counts::from([
+        ("opened", sum(|side| side.opened)),
+        ("closed", sum(|side| side.closed)),
+        ("expansions", sum(|side| side.expansions)),
+        ("generated", sum(|side| side.generated)),
+    ])
+}
+
 /// The plan that a search's outcome amounts to.
 pub(super) fn plan<C: Cost>(
     grid: &Grid2,
@@ -134,13 +95,7 @@ pub(super) fn plan<C: Cost>(
     sides: &[Counters],
     traces: Vec<Trace>,
 ) -> Plan {
-    let sum = |get: fn(&Counters) -> u64| Value::Count(sides.iter().map(get).sum());
-    let counts = Counts::from([
-        ("opened", sum(|side| side.opened)),
-        ("closed", sum(|side| side.closed)),
-        ("expansions", sum(|side| side.expansions)),
-        ("generated", sum(|side| side.generated)),
-    ]);
+    let counts = counted(sides);
     let (ending, path, cost) = match outcome {
         Outcome::Solved(route) => {
             let point = |cell: &u32| grid.xy(*cell).map(f64::from).to_vec();

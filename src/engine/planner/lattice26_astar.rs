@@ -1,9 +1,10 @@
 //! A* on the cubic lattice with 26 neighbours, among polyhedra.
 
-use super::lattice::{COLUMNS, TiesSetting, UPDATE};
+use super::entry::planner;
+use super::lattice::{COLUMNS, UPDATE, counted};
 use super::polyhedra::{Posed, plan};
 use super::pool::Pool;
-use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Value};
+use super::{Build, Ending, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
     Combined, CubicAstar, CubicQuery, Graph, Heap, Outcome, Report, Rules, Search, SideInputs, Stop, Ties,
     sum,
@@ -28,10 +29,7 @@ pub static ENTRY: Entry = Entry {
 checked = "segments"
 ties = "fifo"
 "#,
-    build: Build::Planner(|settings| {
-        let read: Lattice26 = settings.read()?;
-        Ok(Box::new(read))
-    }),
+    build: Build::Planner(planner::<Lattice26>),
 };
 
 /// Which part of a move must be free.
@@ -51,7 +49,7 @@ struct Lattice26 {
     checked: Checked,
     /// The order among equal f.
     #[serde(default)]
-    ties: TiesSetting,
+    ties: Ties,
     #[serde(skip)]
     pool: Pool<LatticeSearch>,
 }
@@ -194,25 +192,14 @@ fn entrance(world: &PolyhedraWorld, start: &Vec3) -> Option<u32> {
 impl Planner for Lattice26 {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
-        let mut memory = self.pool.any(|| LatticeSearch::new(self.ties.into()));
+        let mut memory = self.pool.any(|| LatticeSearch::new(self.ties));
         let found = search(&posed, self.checked, &mut memory, request.expansions);
         self.pool.keep(memory);
         let found = found?;
-        Ok(plan(found.ending, &found.points, counts(&found.report)))
+        Ok(plan(found.ending, &found.points, counted(&[found.report.counters])))
     }
 
     fn is_optimal(&self) -> bool {
         true
     }
-}
-
-/// A search's counters by column.
-pub(super) fn counts(report: &Report<f64>) -> Counts {
-    let counters = report.counters;
-    Counts::from([
-        ("opened", Value::Count(counters.opened)),
-        ("closed", Value::Count(counters.closed)),
-        ("expansions", Value::Count(counters.expansions)),
-        ("generated", Value::Count(counters.generated)),
-    ])
 }

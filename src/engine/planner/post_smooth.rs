@@ -3,9 +3,11 @@
 //! # Source
 //! Daniel, Nash, Koenig & Felner, *Theta\*: Any-Angle Path Planning on Grids*, JAIR 39 (2010), Algorithm 2.
 
-use super::lattice::{SightSetting, lattice, sees};
-use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
+use super::entry::stage;
+use super::lattice::{lattice, sees};
+use super::{Build, Entry, Plan, Request, Stage, Value};
 use crate::shorten::{path_length, smoothing};
+use base::grid::Sight;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -23,17 +25,14 @@ pub static ENTRY: Entry = Entry {
 line_of_sight = "exact_interior"
 from = "start"
 "#,
-    build: Build::Stage(|settings| {
-        let read: PostSmooth = settings.read()?;
-        Ok(Box::new(read))
-    }),
+    build: Build::Stage(stage::<PostSmooth>),
 };
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PostSmooth {
     /// Which cells a line of sight must find free.
-    line_of_sight: SightSetting,
+    line_of_sight: Sight,
     /// The end at which smoothing begins.
     from: FirstEnd,
 }
@@ -48,10 +47,7 @@ enum FirstEnd {
 }
 
 impl Stage for PostSmooth {
-    fn refine(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
-        if plan.ending != Ending::Solved {
-            return plan;
-        }
+    fn tidied(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
         let world = lattice(request.world);
         let mut nodes: Vec<[i32; 2]> = plan.path.iter().map(|at| [at[0] as i32, at[1] as i32]).collect();
         if self.from == FirstEnd::Goal {
@@ -60,7 +56,7 @@ impl Stage for PostSmooth {
         let mut checks = 0;
         let mut kept = smoothing(nodes.len(), |i, j| {
             checks += 1;
-            sees(world, self.line_of_sight.into(), nodes[i], nodes[j])
+            sees(world, self.line_of_sight, nodes[i], nodes[j])
         });
         if self.from == FirstEnd::Goal {
             kept.reverse();

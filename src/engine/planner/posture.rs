@@ -71,10 +71,7 @@ struct Attempt<'a> {
 }
 
 impl Stage for Posture {
-    fn refine(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
-        if plan.ending != Ending::Solved {
-            return plan;
-        }
+    fn tidied(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
         let world = polyhedra(request.world);
         let arm = world.arm().expect("a checked study gives this stage an arm");
         let nodes = densified(&points(&plan), world.step());

@@ -7,7 +7,7 @@
 //! Tang, Zhou & Xu (2023), eq. 31, which bounds "the amount of attitude adjustment" without saying from where.
 
 use super::posture::turn_between;
-use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
+use super::{Build, Entry, Plan, Request, Stage, Value};
 use base::settings::{Accepted, Settings};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -49,9 +49,9 @@ struct PostureTurns {
 }
 
 impl Stage for PostureTurns {
-    fn refine(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
+    fn tidied(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
         let trail: Vec<Joints> = plan.path.iter().map(|q| std::array::from_fn(|i| q[i])).collect();
-        let Some(first) = trail.first().filter(|_| plan.ending == Ending::Solved) else { return plan };
+        let Some(first) = trail.first() else { return plan };
         let world = super::polyhedra::polyhedra(request.world);
         let arm = world.arm().expect("a checked study gives this stage an arm");
         let arrives = |pair: &&[Joints]| (arm.tip(&pair[1]) - arm.tip(&pair[0])).norm() > STILL_CM;
@@ -71,8 +71,8 @@ impl Stage for PostureTurns {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Counts;
     use super::super::posture::tests::followed;
+    use super::super::{Counts, Ending};
     use super::*;
 
     /// Nodes along lines beside a box, and those at which the tip is turned by more than 0.05 rad.

@@ -4,7 +4,7 @@
 //! Karaman & Frazzoli, *Int. J. Robotics Research* 30(7), 846 (2011), algorithm 4 with k-nearest neighbours, built anew whenever it is searched.
 
 use super::rrt_star::neighbour_count;
-use super::sampled::{IMPROVING_COLUMNS, Progress, SampledPlanner, SampledSearch, local};
+use super::sampled::{IMPROVING_COLUMNS, Progress, SampledSearch, local, sampled};
 use super::{Build, Entry, Request};
 use crate::sampling::{Draw, DrawSetting, Motions, Tree};
 use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, SideInputs, Stop, Ties, Update, sum};
@@ -26,10 +26,7 @@ sampler = "halton"
 iterations = 1_000
 growth = 1.1
 "#,
-    build: Build::Planner(|settings| {
-        let search: PrmStar = settings.read()?;
-        Ok(Box::new(SampledPlanner(search)))
-    }),
+    build: Build::Planner(sampled::<PrmStar>),
 };
 
 #[derive(Deserialize, JsonSchema)]

@@ -2,6 +2,8 @@
 
 use super::{Counts, Ending, Invalid, Plan, Request};
 use crate::search::Graph;
+use schemars::JsonSchema;
+use serde::Deserialize;
 use world::space::World;
 use world::space::roadmap::{Links, Roadmap};
 
@@ -45,10 +47,11 @@ pub(super) fn unsolved(ending: Ending, counts: Counts) -> Plan {
 }
 
 /// What an edge costs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub(super) enum EdgeCost {
     /// One.
-    Hop,
+    Hops,
     /// The straight way of the tool.
     Length,
     /// Nothing: the estimate alone leads.
@@ -130,7 +133,7 @@ impl<'a> Part<'a> {
 
     fn step(&self, gap_mm: f64) -> f64 {
         match self.cost {
-            EdgeCost::Hop => 1.0,
+            EdgeCost::Hops => 1.0,
             EdgeCost::Length => gap_mm,
             EdgeCost::Nothing => 0.0,
         }

@@ -1,5 +1,6 @@
 //! A* on a roadmap, as Fu et al. write it: f = depth + distance, with or without a shot at the goal.
 
+use super::lattice::counted;
 use super::roadmap::{EdgeCost, Part, Posed, solved, unsolved};
 use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Trace, Value};
 use crate::search::{
@@ -72,7 +73,7 @@ struct RoadmapAstar {
     #[schemars(range(min = 1))]
     nearest: Option<u32>,
     /// What g counts.
-    cost: CostSetting,
+    cost: EdgeCost,
     /// Whether the search is blind: `h = 0`, so that the path costs least in g.
     #[serde(default)]
     blind: bool,
@@ -80,17 +81,6 @@ struct RoadmapAstar {
     goal_shot: ShotSetting,
     /// Which nodes make the path.
     path: PathSetting,
-}
-
-#[derive(Deserialize, JsonSchema, Clone, Copy)]
-#[serde(rename_all = "snake_case")]
-enum CostSetting {
-    /// Edges: each counts 1.
-    Hops,
-    /// The length of the edges.
-    Length,
-    /// Nothing: f is the distance to the goal alone.
-    Nothing,
 }
 
 #[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
@@ -138,22 +128,14 @@ impl RoadmapAstar {
         if let Some(lack) = built.lacks(&self.extent()) {
             return Err(Invalid(lack));
         }
-        let cost = match self.cost {
-            CostSetting::Hops => EdgeCost::Hop,
-            CostSetting::Length => EdgeCost::Length,
-            CostSetting::Nothing => EdgeCost::Nothing,
-        };
         let nearest = self.nearest.map(|count| count as usize);
-        Ok(Part::new(posed, prefix, self.neighbour_mm(posed.map), nearest, cost))
+        Ok(Part::new(posed, prefix, self.neighbour_mm(posed.map), nearest, self.cost))
     }
 
     fn counts(&self, part: &Part<'_>, counters: &Counters, [shots, checked]: [u64; 2]) -> Counts {
         let components = part.map.components(part.prefix, part.radius_mm);
-        let mut counts = Counts::from([
-            ("opened", Value::Count(counters.opened)),
-            ("closed", Value::Count(counters.closed)),
-            ("expansions", Value::Count(counters.expansions)),
-            ("generated", Value::Count(counters.generated)),
+        let mut counts = counted(&[*counters]);
+        counts.extend([
             ("checked_states", Value::Count(checked)),
             ("used_samples", Value::Count(u64::from(part.prefix))),
             ("straight_mm", Value::Real(part.map.gap_mm(part.start, part.goal))),
@@ -244,7 +226,7 @@ impl Planner for RoadmapAstar {
     /// no more than an edge is long, so that no closed node could be reached cheaper.
     fn is_optimal(&self) -> bool {
         let searches_alone = self.goal_shot == ShotSetting::Never && self.path == PathSetting::Parents;
-        searches_alone && self.nearest.is_none() && matches!(self.cost, CostSetting::Length)
+        searches_alone && self.nearest.is_none() && self.cost == EdgeCost::Length
     }
 
     fn asks(&self) -> Option<Extent> {

@@ -1,5 +1,6 @@
 //! The cost of building the roadmap of a plan, as counts; the plan itself stays as it is.
 
+use super::entry::stage;
 use super::roadmap::roadmap;
 use super::{Build, Entry, Plan, Request, Stage, Value};
 use base::settings::Accepted;
@@ -16,10 +17,7 @@ pub static ENTRY: Entry = Entry {
     columns: &["roadmap_pairs", "roadmap_edges", "roadmap_checked_states"],
     settings: Accepted::shape::<RoadmapCost>(),
     example: "",
-    build: Build::Stage(|settings| {
-        let read: RoadmapCost = settings.read()?;
-        Ok(Box::new(read))
-    }),
+    build: Build::Stage(stage::<RoadmapCost>),
 };
 
 #[derive(Deserialize, JsonSchema)]
@@ -27,7 +25,7 @@ pub static ENTRY: Entry = Entry {
 struct RoadmapCost {}
 
 impl Stage for RoadmapCost {
-    fn refine(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
+    fn tidied(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
         let tally = roadmap(request.world).tally();
         plan.counts.extend([
             ("roadmap_pairs", Value::Count(tally.pairs)),
@@ -35,5 +33,10 @@ impl Stage for RoadmapCost {
             ("roadmap_checked_states", Value::Count(tally.checked)),
         ]);
         plan
+    }
+
+    /// What the roadmap cost, whatever became of the plan.
+    fn refine(&self, request: &Request<'_>, plan: Plan) -> Plan {
+        self.tidied(request, plan)
     }
 }

@@ -4,7 +4,7 @@
 //! `LaValle`, *Rapidly-Exploring Random Trees: A New Tool for Path Planning*, TR 98-11, Iowa State University (1998); the goal as a sample
 //! now and then as in `LaValle` & Kuffner, *Int. J. Robotics Research* 20(5), 378 (2001).
 
-use super::sampled::{COLUMNS, Progress, SampledPlanner, SampledSearch, extended};
+use super::sampled::{COLUMNS, Progress, SampledSearch, extended, sampled};
 use super::{Build, Entry, Request};
 use crate::sampling::{Draw, DrawSetting, Motions, Tree};
 use base::settings::Accepted;
@@ -26,10 +26,7 @@ sampler = "seeded"
 goal_share = 0.05
 iterations = 100_000
 "#,
-    build: Build::Planner(|settings| {
-        let search: Rrt = settings.read()?;
-        Ok(Box::new(SampledPlanner(search)))
-    }),
+    build: Build::Planner(sampled::<Rrt>),
 };
 
 #[derive(Deserialize, JsonSchema)]

@@ -5,7 +5,7 @@
 //! (Thomason, Kingston & Kavraki, *Motions in Microseconds via Vectorized Sampling-Based Planning*, ICRA 2024); the dynamic domain as in
 //! Yershova et al., ICRA 2005, and Jaillet et al., IROS 2005 (adaptive radius).
 
-use super::sampled::{COLUMNS, Progress, SampledPlanner, SampledSearch, extended};
+use super::sampled::{COLUMNS, Progress, SampledSearch, extended, sampled};
 use super::{Build, Entry, Request};
 use crate::sampling::{Draw, DrawSetting, Motions, Tree};
 use base::settings::Accepted;
@@ -30,10 +30,7 @@ first = "start"
 iterations = 100_000
 nodes = 100_000
 "#,
-    build: Build::Planner(|settings| {
-        let search: RrtConnect = settings.read()?;
-        Ok(Box::new(SampledPlanner(search)))
-    }),
+    build: Build::Planner(sampled::<RrtConnect>),
 };
 
 #[derive(Deserialize, JsonSchema)]

@@ -4,6 +4,9 @@ use super::roadmap::roadmap;
 use super::{Counts, Ending, Invalid, Plan, Planner, Request, Trace, Value};
 use crate::sampling::{Motions, Tree};
 use crate::shorten::path_length;
+use base::settings::{Settings, SettingsError};
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
 use world::space::roadmap::Local;
 
 /// What every planner that samples counts; `joint_length_rad` is the verifier's, beside a length that the planner measures.
@@ -64,6 +67,13 @@ pub(super) trait SampledSearch: Send + Sync {
     fn draws(&self) -> bool;
 }
 
+/// The planner of a search by samples that is its settings.
+pub(super) fn sampled<T: SampledSearch + DeserializeOwned + JsonSchema + 'static>(
+    settings: &Settings,
+) -> Result<Box<dyn Planner>, SettingsError> {
+    Ok(Box::new(SampledPlanner(settings.read::<T>()?)))
+}
+
 /// The planner of a search by samples; where the start is the goal, nothing is searched.
 pub(super) struct SampledPlanner<S>(pub(super) S);
 
@@ -81,14 +91,6 @@ impl<S: SampledSearch> Planner for SampledPlanner<S> {
         let is_cut = self.0.iterations() > request.expansions && found.iterations == request.expansions;
         let without = if is_cut { Ending::BudgetSpent } else { Ending::NoPath };
         Ok(plan(request, &motions, found, (without, S::IMPROVES)))
-    }
-
-    fn is_optimal(&self) -> bool {
-        false
-    }
-
-    fn is_complete(&self) -> bool {
-        false
     }
 
     fn draws(&self) -> bool {

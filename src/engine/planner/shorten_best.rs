@@ -1,7 +1,8 @@
 //! The shortest path that leaves out nodes of a roadmap's path: a yardstick for straightening.
 
+use super::entry::stage;
 use super::roadmap::{roadmap, solved};
-use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
+use super::{Build, Entry, Plan, Request, Stage, Value};
 use crate::shorten::least_selection;
 use base::settings::Accepted;
 use schemars::JsonSchema;
@@ -19,10 +20,7 @@ pub static ENTRY: Entry = Entry {
     example: r#"
 least = "nodes"
 "#,
-    build: Build::Stage(|settings| {
-        let read: ShortenBest = settings.read()?;
-        Ok(Box::new(read))
-    }),
+    build: Build::Stage(stage::<ShortenBest>),
 };
 
 #[derive(Deserialize, JsonSchema)]
@@ -42,10 +40,7 @@ enum Least {
 }
 
 impl Stage for ShortenBest {
-    fn refine(&self, request: &Request<'_>, plan: Plan) -> Plan {
-        if plan.ending != Ending::Solved {
-            return plan;
-        }
+    fn tidied(&self, request: &Request<'_>, plan: Plan) -> Plan {
         let map = roadmap(request.world);
         let number = |config: &Vec<f64>| map.number("node", config).expect("a path's nodes are free");
         let nodes: Vec<u32> = plan.path.iter().map(number).collect();

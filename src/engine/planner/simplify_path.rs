@@ -5,7 +5,7 @@
 
 use super::roadmap::roadmap;
 use super::sampled::claimed;
-use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
+use super::{Build, Entry, Plan, Request, Stage, Value};
 use crate::sampling::{BSpline, Draw, DrawSetting, Motions, Operation, Reduce, simplify};
 use base::seed;
 use base::settings::Accepted;
@@ -59,10 +59,7 @@ struct SimplifyPath {
 }
 
 impl Stage for SimplifyPath {
-    fn refine(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
-        if plan.ending != Ending::Solved {
-            return plan;
-        }
+    fn tidied(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
         let local = roadmap(request.world).local();
         let mut draw = Draw::new(DrawSetting::Seeded, seed::derive(request.seed, &["simplify_path"]));
         let bspline = self.bspline.unwrap_or(BSpline { rounds: 0, least_change: 0.0, share: 0.0 });

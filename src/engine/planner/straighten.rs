@@ -1,7 +1,8 @@
 //! Fu's post-processing as a stage: each node is joined with the furthest later one that a local path reaches.
 
+use super::entry::stage;
 use super::roadmap::{roadmap, solved};
-use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
+use super::{Build, Entry, Plan, Request, Stage, Value};
 use crate::shorten::{LastNode, straightening};
 use base::settings::Accepted;
 use schemars::JsonSchema;
@@ -19,43 +20,24 @@ pub static ENTRY: Entry = Entry {
     example: r#"
 last = "goal"
 "#,
-    build: Build::Stage(|settings| {
-        let read: Straighten = settings.read()?;
-        Ok(Box::new(read))
-    }),
+    build: Build::Stage(stage::<Straighten>),
 };
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Straighten {
     /// Which nodes may be joined to an earlier one.
-    last: LastSetting,
-}
-
-#[derive(Deserialize, JsonSchema, Clone, Copy)]
-#[serde(rename_all = "snake_case")]
-enum LastSetting {
-    /// The goal is not tried, as the printed loop ends before it.
-    AsPrinted,
-    /// Every later node is tried, the goal included.
-    Goal,
+    last: LastNode,
 }
 
 impl Stage for Straighten {
-    fn refine(&self, request: &Request<'_>, plan: Plan) -> Plan {
-        if plan.ending != Ending::Solved {
-            return plan;
-        }
+    fn tidied(&self, request: &Request<'_>, plan: Plan) -> Plan {
         let map = roadmap(request.world);
         let number = |config: &Vec<f64>| map.number("node", config).expect("a path's nodes are free");
         let nodes: Vec<u32> = plan.path.iter().map(number).collect();
-        let last = match self.last {
-            LastSetting::AsPrinted => LastNode::BeforePrinted,
-            LastSetting::Goal => LastNode::Goal,
-        };
         let mut joins = 0;
         let mut checked = 0;
-        let kept = straightening(nodes.len(), last, |i, j| {
+        let kept = straightening(nodes.len(), self.last, |i, j| {
             let (found, states) = map.join_counted(nodes[i], nodes[j]);
             joins += 1;
             checked += states;

@@ -1,7 +1,8 @@
 //! Tang's local path optimisation as a stage.
 
+use super::entry::stage;
 use super::polyhedra::{points, polyhedra, replace, trace};
-use super::{Build, Ending, Entry, Plan, Request, Stage};
+use super::{Build, Entry, Plan, Request, Stage};
 use crate::shorten::{Resume, stepwise_straightening};
 use base::settings::Accepted;
 use schemars::JsonSchema;
@@ -20,10 +21,7 @@ pub static ENTRY: Entry = Entry {
     example: r#"
 resume = "last_joined"
 "#,
-    build: Build::Stage(|settings| {
-        let read: Straighten = settings.read()?;
-        Ok(Box::new(read))
-    }),
+    build: Build::Stage(stage::<Straighten>),
 };
 
 #[derive(Deserialize, JsonSchema)]
@@ -45,10 +43,7 @@ enum ResumeSetting {
 }
 
 impl Stage for Straighten {
-    fn refine(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
-        if plan.ending != Ending::Solved {
-            return plan;
-        }
+    fn tidied(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
         let world = polyhedra(request.world);
         let nodes = points(&plan);
         let resume = match self.resume {

@@ -1,6 +1,8 @@
 //! Ends, settings and plans that the planners share that move an arm's tip over its lattice.
 
-use super::{Counts, Ending, Invalid, Plan, Request, Trace, Value};
+use super::lattice::counted;
+use super::roadmap::unsolved;
+use super::{Ending, Invalid, Plan, Request, Trace, Value};
 use crate::search::{
     Bent, BentGraph, ColumnGraph, Combined, Cost as _, Graph, Heap, LatticeAstar, LatticeQuery, ListScans,
     Outcome, Report, Route, Rules, Search, SideInputs, Stop, Successors, Ties, Update, sum,
@@ -255,25 +257,14 @@ impl<'a> Posed<'a> {
 
     /// The plan that a search's report amounts to; with `trace`, the arm's stations along its path.
     pub(super) fn plan(&self, report: &Report<f64>, scans: ListScans, trace: bool) -> Plan {
-        let counters = report.counters;
         let ListScans { minimum_comparisons, membership_comparisons } = scans;
-        let counts = Counts::from([
-            ("opened", Value::Count(counters.opened)),
-            ("closed", Value::Count(counters.closed)),
-            ("expansions", Value::Count(counters.expansions)),
-            ("generated", Value::Count(counters.generated)),
+        let mut counts = counted(&[report.counters]);
+        counts.extend([
             ("minimum_comparisons", Value::Count(minimum_comparisons)),
             ("membership_comparisons", Value::Count(membership_comparisons)),
             ("list_operations", Value::Count(minimum_comparisons + membership_comparisons)),
         ]);
-        let mut plan = Plan {
-            ending: Ending::NoPath,
-            path: Vec::new(),
-            cost: None,
-            counts,
-            traces: Vec::new(),
-            reason: None,
-        };
+        let mut plan = unsolved(Ending::NoPath, counts);
         match &report.outcome {
             Outcome::NoPath => {}
             Outcome::BudgetSpent => plan.ending = Ending::BudgetSpent,

@@ -3,12 +3,13 @@
 //! Edges are found when a vertex is expanded, all at once; each other vertex counts as looked at.
 
 use super::corners;
-use super::lattice::{Posed, TiesSetting, UPDATE};
+use super::entry::planner;
+use super::lattice::{Posed, UPDATE};
 use super::one_side::{Found, OneSided};
 use super::pool::Pool;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
-    BucketHeap, Combined, Cornered, Graph, Observer, Rules, Search, SideInputs, Stop, euclidean_to, sum,
+    BucketHeap, Combined, Cornered, Graph, Observer, Rules, Search, SideInputs, Stop, Ties, euclidean_to, sum,
 };
 use base::grid::seen_corners;
 use base::settings::Accepted;
@@ -28,17 +29,14 @@ pub static ENTRY: Entry = Entry {
 ties = "larger_g"
 vertices = "all"
 "#,
-    build: Build::Planner(|settings| {
-        let read: VisibilityAstar = settings.read()?;
-        Ok(Box::new(read))
-    }),
+    build: Build::Planner(planner::<VisibilityAstar>),
 };
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct VisibilityAstar {
     /// The order among equal f.
-    ties: TiesSetting,
+    ties: Ties,
     /// Which corners of blocked cells are vertices.
     vertices: VerticesSetting,
     #[serde(skip)]
@@ -133,7 +131,7 @@ impl OneSided for VisibilityAstar {
         }
         let estimate = Combined { h: euclidean_to(on.grid, goal), combine: sum };
         let mut graph = Visible::new(on, vertices);
-        let mut search = self.pool.any(|| Search::new(BucketHeap::new(self.ties.into())));
+        let mut search = self.pool.any(|| Search::new(BucketHeap::new(self.ties)));
         let terms = SideInputs { graph: &mut graph, estimate: &estimate, observer, update: UPDATE };
         let rules = Rules { stop: Stop::GoalPopped, max_expansions: expansions };
         let report = search.run(terms, posed.start, |corner| corner == goal, rules, &mut ());

@@ -5,6 +5,7 @@
 //! shrinks with the spacing, and moving the points along their edges removes most of it. The result is a path, and so no
 //! lower bound.
 
+use super::entry::planner;
 use super::key_nodes::{GUARDED, key};
 use super::polyhedra::{Posed, plan};
 use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Value};
@@ -26,14 +27,7 @@ pub static ENTRY: Entry = Entry {
     example: "
 spacing_cm = 3.0
 ",
-    build: Build::Planner(|settings| {
-        let read: Visibility = settings.read()?;
-        if !(read.spacing_cm.is_finite() && read.spacing_cm > 0.0) {
-            let message = format!("spacing_cm is {}; more than 0 is accepted", read.spacing_cm);
-            return Err(settings.error_at("spacing_cm", message));
-        }
-        Ok(Box::new(read))
-    }),
+    build: Build::Planner(planner::<Visibility>),
 };
 
 /// Sliding stops when a round shortens the path by less than this share.
@@ -45,6 +39,7 @@ const ROUNDS: u32 = 200;
 #[serde(deny_unknown_fields)]
 struct Visibility {
     /// How far apart the points on an edge are, at most.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     spacing_cm: f64,
 }
 

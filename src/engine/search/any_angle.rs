@@ -18,6 +18,8 @@ use super::observe::{Observer, Place};
 use super::side::{Side, SideInputs, Update};
 use super::{Outcome, Report, Route};
 use base::grid::{DIRECTIONS, Grid2, Moves};
+use schemars::JsonSchema;
+use serde::Deserialize;
 
 /// When it is looked at whether a parent sees a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,7 +31,8 @@ pub enum When {
 }
 
 /// How many neighbours a node has at most.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Branching {
     /// Along rows and columns.
     Four,

@@ -12,11 +12,12 @@ use super::graph::Graph;
 use super::observe::{Observer, Place};
 use super::side::{Side, SideInputs, Update};
 use super::{Counters, Outcome, Route};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
-/// When the two sides have met.
-///
-/// All but the last end as [`End`] says; they promise no shortest path.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// When the two sides have met. All but the optimal stop promise no shortest path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Meeting {
     /// A side generates a node that the other has generated before, be it open or closed there.
     GeneratedAny,
@@ -31,7 +32,8 @@ pub enum Meeting {
 
 /// How the search ends once the sides have met while a node is expanded. A node that both sides closed ends it at once.
 /// The optimal stop compares the least f of both sides.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum End {
     /// The expansion in hand is finished; of the nodes that met in it, the one with the smallest sum of the two g is kept,
     /// of equals the one generated first.
@@ -42,7 +44,8 @@ pub enum End {
 }
 
 /// Which side moves next. A side whose OPEN is empty is passed over.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum SideChoice {
     /// Strictly in turn, the start's side first.
     Alternate,

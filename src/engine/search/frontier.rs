@@ -1,6 +1,8 @@
 //! OPEN lists: which of the open nodes is taken next.
 
 use super::cost::quantised;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -51,7 +53,8 @@ pub trait Frontier {
 }
 
 /// The order among offers with equal f.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Ties {
     /// The node that was first opened earlier; lowering its g does not move a node.
     #[default]
@@ -62,7 +65,9 @@ pub enum Ties {
     LargerG,
     /// The node with the smaller g (to 1e-9), then the one first opened earlier.
     SmallerG,
-    /// The node whose cost has the smaller [`tie`](super::Cost::tie), then the one first opened earlier.
+    /// The node whose cost has the smaller [`tie`](super::Cost::tie), then the one first opened earlier; no setting asks for it by this
+    /// name.
+    #[serde(skip)]
     Smaller,
 }
 

@@ -1,11 +1,15 @@
 //! Greedy straightening from the start.
 
+use schemars::JsonSchema;
+use serde::Deserialize;
+
 /// Which nodes may be joined to an earlier one directly.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum LastNode {
     /// As the steps are printed: with nodes 1..=n, `i + 1 < j < n - 1`, and the procedure ends at node n − 1, so
     /// neither the goal nor the node before it is ever joined to an earlier one.
-    BeforePrinted,
+    AsPrinted,
     /// Every later node, the goal included.
     Goal,
 }
@@ -24,7 +28,7 @@ pub fn straightening(
     mut can_join: impl FnMut(usize, usize) -> bool,
 ) -> Vec<usize> {
     let end = match last {
-        LastNode::BeforePrinted => count.saturating_sub(2),
+        LastNode::AsPrinted => count.saturating_sub(2),
         LastNode::Goal => count,
     };
     let mut kept: Vec<usize> = (0..count.min(1)).collect();
@@ -43,13 +47,13 @@ mod tests {
     #[test]
     fn the_printed_indices_never_reach_the_last_two_nodes() {
         assert_eq!(straightening(7, LastNode::Goal, |_, _| true), [0, 6]);
-        assert_eq!(straightening(7, LastNode::BeforePrinted, |_, _| true), [0, 4, 5, 6]);
-        for last in [LastNode::Goal, LastNode::BeforePrinted] {
+        assert_eq!(straightening(7, LastNode::AsPrinted, |_, _| true), [0, 4, 5, 6]);
+        for last in [LastNode::Goal, LastNode::AsPrinted] {
             assert_eq!(straightening(5, last, |_, _| false), [0, 1, 2, 3, 4]);
             assert_eq!(straightening(1, last, |_, _| true), [0]);
             assert!(straightening(0, last, |_, _| true).is_empty());
         }
-        assert_eq!(straightening(3, LastNode::BeforePrinted, |_, _| true), [0, 1, 2]);
+        assert_eq!(straightening(3, LastNode::AsPrinted, |_, _| true), [0, 1, 2]);
         assert_eq!(straightening(3, LastNode::Goal, |_, _| true), [0, 2]);
     }
 

@@ -30,10 +30,6 @@ contenders = ["A*", "Improved A*"]
     build: |settings, study, paper| {
         let read: GridSearch = settings.read()?;
         ask::known(settings, study, &read.problems, &read.contenders)?;
-        if read.moments.iter().any(|share| !(0.0..=1.0).contains(share)) {
-            let message = "shares of opened cells from 0 to 1 are accepted, one a panel";
-            return Err(settings.error_at("moments", message));
-        }
         let mut printed = Vec::new();
         for (index, row) in read.printed.iter().enumerate() {
             ask::all_printed(settings, paper, &format!("printed.{index}"), row)?;
@@ -53,6 +49,7 @@ struct GridSearch {
     contenders: Vec<String>,
     /// Shares of all opened cells: one panel each, about what was opened by then, instead of one at the end.
     #[serde(default)]
+    #[schemars(inner(range(min = 0, max = 1)))]
     moments: Vec<f64>,
     /// Claims of each contender, in their order, whose printed numbers stand beside ours.
     #[serde(default)]

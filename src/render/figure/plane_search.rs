@@ -75,19 +75,20 @@ impl Kind for PlaneSearch {
 
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let mut sheet = Sheet::new(Width::Double, self.panels.len().min(2), 200.0);
-        for of in &self.panels {
-            let mut panel = self.map(scene, &of.title)?;
-            let row = ask::trial(scene, &self.problems, self.instance, None, &of.contender)?;
+        for setting in &self.panels {
+            let mut panel = self.map(scene, &setting.title)?;
+            let row = ask::trial(scene, &self.problems, self.instance, None, &setting.contender)?;
             let path = ask::points(ask::trace(scene, &row.key, "path")?);
+            let search = Search { scene, row, path: &path, setting, radius_mm: self.radius_mm };
             // Obstacles are drawn over samples and ways: no mark of what is free covers a wall.
-            if !of.bare {
-                ways(&mut panel, scene, row, &path, of)?;
+            if !setting.bare {
+                search.add_ways(&mut panel)?;
             }
             self.obstacles(&mut panel, scene)?;
-            if !of.bare {
-                match of.straightened {
-                    Some(kept) => straightened(&mut panel, scene, row, &path, kept)?,
-                    None => self.searches(&mut panel, scene, row, &path, of)?,
+            if !setting.bare {
+                match setting.straightened {
+                    Some(kept) => search.add_straightened(&mut panel, kept)?,
+                    None => search.add_searches(&mut panel)?,
                 }
             }
             ask::add_ends(&mut panel, &path, 3.4, [(Marker::Square, GREEN), (Marker::Square, ORANGE)]);
@@ -95,33 +96,6 @@ impl Kind for PlaneSearch {
         }
         Ok(sheet)
     }
-}
-
-/// The ways that a panel shows: the path, or how far the search has come.
-fn ways(
-    panel: &mut Panel,
-    scene: &Scene<'_>,
-    row: &Row,
-    path: &[[f64; 2]],
-    of: &SearchPanel,
-) -> Result<(), RenderError> {
-    if let Some(kept) = of.straightened {
-        let raw = ask::points(ask::trace(scene, &row.key, "raw_path")?);
-        let stroke = Stroke::solid(GREY, 1.0).dashed(if kept > 0 { Dash::Dashed } else { Dash::Solid });
-        panel.add(Line::through(raw, stroke).labelled("path as searched"));
-        if kept > 0 {
-            let shown = path[..kept.min(path.len())].to_vec();
-            panel.add(Line::through(shown, Stroke::solid(BLACK, 1.5)).labelled("straightened"));
-        }
-        return Ok(());
-    }
-    let closed = ask::points(ask::trace(scene, &row.key, "closed")?);
-    let (points, width, label) = match of.searches {
-        None => (path.to_vec(), 1.5, "path"),
-        Some(shown) => (closed[..(shown + 1).min(closed.len())].to_vec(), 1.2, "way so far"),
-    };
-    panel.add(Line::through(points, Stroke::solid(BLACK, width)).labelled(label));
-    Ok(())
 }
 
 impl PlaneSearch {
@@ -150,22 +124,50 @@ impl PlaneSearch {
         }
         Ok(())
     }
+}
 
-    fn searches(
-        &self,
-        panel: &mut Panel,
-        scene: &Scene<'_>,
-        row: &Row,
-        path: &[[f64; 2]],
-        of: &SearchPanel,
-    ) -> Result<(), RenderError> {
-        let closed = ask::points(ask::trace(scene, &row.key, "closed")?);
-        let all = of.searches.is_none();
-        let shown = of.searches.unwrap_or(closed.len()).min(closed.len());
-        let Some(goal) = path.last() else { return Ok(()) };
+/// One trial with what a panel shows of it.
+struct Search<'a> {
+    scene: &'a Scene<'a>,
+    row: &'a Row,
+    path: &'a [[f64; 2]],
+    setting: &'a SearchPanel,
+    radius_mm: f64,
+}
+
+impl Search<'_> {
+    fn trace(&self, name: &str) -> Result<Vec<[f64; 2]>, RenderError> {
+        ask::trace(self.scene, &self.row.key, name).map(ask::points)
+    }
+
+    /// Adds the way that is shown: the path, or how far the search has come.
+    fn add_ways(&self, panel: &mut Panel) -> Result<(), RenderError> {
+        if let Some(kept) = self.setting.straightened {
+            let stroke = Stroke::solid(GREY, 1.0).dashed(if kept > 0 { Dash::Dashed } else { Dash::Solid });
+            panel.add(Line::through(self.trace("raw_path")?, stroke).labelled("path as searched"));
+            if kept > 0 {
+                let shown = self.path[..kept.min(self.path.len())].to_vec();
+                panel.add(Line::through(shown, Stroke::solid(BLACK, 1.5)).labelled("straightened"));
+            }
+            return Ok(());
+        }
+        let closed = self.trace("closed")?;
+        let (points, width, label) = match self.setting.searches {
+            None => (self.path.to_vec(), 1.5, "path"),
+            Some(shown) => (closed[..(shown + 1).min(closed.len())].to_vec(), 1.2, "way so far"),
+        };
+        panel.add(Line::through(points, Stroke::solid(BLACK, width)).labelled(label));
+        Ok(())
+    }
+
+    fn add_searches(&self, panel: &mut Panel) -> Result<(), RenderError> {
+        let closed = self.trace("closed")?;
+        let all = self.setting.searches.is_none();
+        let shown = self.setting.searches.unwrap_or(closed.len()).min(closed.len());
+        let Some(goal) = self.path.last() else { return Ok(()) };
         let dotted = Stroke::solid(BLACK, 0.8).dashed(Dash::Dotted);
         let missed = if all { shown.saturating_sub(1) } else { shown };
-        for at in closed.iter().take(if of.shoots { missed } else { 0 }) {
+        for at in closed.iter().take(if self.setting.shoots { missed } else { 0 }) {
             panel.add(Line::through(vec![*at, *goal], dotted).labelled("local path to the goal, not free"));
         }
         if !all && let Some(at) = closed.get(shown.saturating_sub(1)) {
@@ -181,6 +183,27 @@ impl PlaneSearch {
         panel.add(Points::unlabelled(picked, Marker::Circle, 2.6, SKY).labelled("searched"));
         Ok(())
     }
+
+    /// Adds the nodes of the path before straightening, and the first `kept` of the straightened one.
+    fn add_straightened(&self, panel: &mut Panel, kept: usize) -> Result<(), RenderError> {
+        let raw = self.trace("raw_path")?;
+        let shown = self.path[..kept.min(self.path.len())].to_vec();
+        let reached = shown.last().and_then(|last| raw.iter().position(|at| at == last)).unwrap_or(0);
+        let inner = raw.iter().enumerate().skip(1).take(raw.len() - 2);
+        let (gone, open): (Vec<_>, Vec<_>) = inner.partition(|(index, _)| *index < reached);
+        let places =
+            |nodes: Vec<(usize, &[f64; 2])>| nodes.into_iter().map(|(_, at)| *at).collect::<Vec<_>>();
+        // A legend names no mark that is nowhere.
+        let mut mark = |places: Vec<[f64; 2]>, marker, radius, colour, label: &str| {
+            if !places.is_empty() {
+                panel.add(Points::unlabelled(places, marker, radius, colour).labelled(label));
+            }
+        };
+        mark(places(open), Marker::Circle, 2.4, SKY, "searched");
+        mark(places(gone), Marker::Circle, 2.4, GREY.mixed(BLACK, 0.5), "abandoned");
+        mark(shown, Marker::Diamond, 2.8, VERMILLION, "retained");
+        Ok(())
+    }
 }
 
 fn circle(middle: [f64; 2], radius: f64) -> Line {
@@ -190,30 +213,4 @@ fn circle(middle: [f64; 2], radius: f64) -> Line {
     };
     let stroke = Stroke::solid(VERMILLION, 0.8).dashed(Dash::Dashed);
     Line::through((0..=72).map(point).collect(), stroke).labelled("neighbourhood of the current node")
-}
-
-/// The nodes of the path before straightening, and the first `kept` of the straightened one.
-fn straightened(
-    panel: &mut Panel,
-    scene: &Scene<'_>,
-    row: &Row,
-    path: &[[f64; 2]],
-    kept: usize,
-) -> Result<(), RenderError> {
-    let raw = ask::points(ask::trace(scene, &row.key, "raw_path")?);
-    let shown = path[..kept.min(path.len())].to_vec();
-    let reached = shown.last().and_then(|last| raw.iter().position(|at| at == last)).unwrap_or(0);
-    let inner = raw.iter().enumerate().skip(1).take(raw.len() - 2);
-    let (gone, open): (Vec<_>, Vec<_>) = inner.partition(|(index, _)| *index < reached);
-    let places = |nodes: Vec<(usize, &[f64; 2])>| nodes.into_iter().map(|(_, at)| *at).collect::<Vec<_>>();
-    // A legend names no mark that is nowhere.
-    let mut mark = |places: Vec<[f64; 2]>, marker, radius, colour, label: &str| {
-        if !places.is_empty() {
-            panel.add(Points::unlabelled(places, marker, radius, colour).labelled(label));
-        }
-    };
-    mark(places(open), Marker::Circle, 2.4, SKY, "searched");
-    mark(places(gone), Marker::Circle, 2.4, GREY.mixed(BLACK, 0.5), "abandoned");
-    mark(shown, Marker::Diamond, 2.8, VERMILLION, "retained");
-    Ok(())
 }

@@ -36,12 +36,6 @@ views = ["corner"]
         if let Some(query) = &read.query {
             faults.keep(ask::query(settings, study, &read.problem, query, (&["query"], query)));
         }
-        for (key, count) in [("contenders", read.contenders.len()), ("views", read.views.len())] {
-            if count == 0 {
-                let message = format!("{key} is empty; at least one is accepted");
-                faults.add(settings.error_at(key, message).about(key));
-            }
-        }
         let sweep = read.sweep.as_ref().and_then(|text| faults.keep(ask::sweep(settings, study, text)));
         Ok(Box::new(faults.or(Some(Polyhedra { read, sweep }))?))
     },
@@ -64,8 +58,10 @@ struct Read {
     #[schemars(range(min = 0.0))]
     grown_cm: Option<f64>,
     /// One row each.
+    #[schemars(length(min = 1))]
     contenders: Vec<String>,
     /// One panel each.
+    #[schemars(length(min = 1))]
     views: Vec<View>,
     /// The sweeps' values of the trial that is shown, as `setting=value,…`; the first trial if absent.
     sweep: Option<String>,

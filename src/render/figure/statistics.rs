@@ -13,7 +13,7 @@ use crate::render::RenderError;
 use crate::render::chart::Sheet;
 use crate::render::latex::Table;
 use crate::render::style::Width;
-use base::settings::{Accepted, AnyTable, Settings, SettingsError, none_called};
+use base::settings::{Accepted, AnyTable, Faults, Settings, SettingsError, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use study::key::SweepValue;
@@ -246,14 +246,16 @@ impl Statistics {
         let Read { every, panels, columns } = settings.read()?;
         let written = settings.table().get("panels").and_then(toml::Value::as_array);
         let mut made = Vec::new();
+        let mut faults = Faults::default();
         for (index, own) in written.into_iter().flatten().filter_map(toml::Value::as_table).enumerate() {
             let mut table = every.clone();
             table.extend(own.clone());
             let keys = [format!("panels.{index}"), "every".to_owned()];
             let whose = format!("panel {}", index + 1);
             let own = Settings::of_parts(settings, &[&keys[0], &keys[1]], whose, table);
-            made.push(StatisticsPanel::new(own, study, paper)?);
+            made.extend(faults.keep(StatisticsPanel::new(own, study, paper)));
         }
+        faults.done()?;
         let mut order: Vec<String> = Vec::new();
         for label in made.iter().flat_map(|panel| &panel.contenders) {
             if !order.contains(label) {

@@ -341,15 +341,7 @@ impl Kind for WorkCell {
             return Ok(None);
         }
         let instance = ask::instance(scene, &self.problems, 0)?;
-        let kinds = [
-            Column::Left,
-            Column::Left,
-            Column::Right,
-            Column::Right,
-            Column::Right,
-            Column::Right,
-            Column::Right,
-        ];
+        let kinds = [vec![Column::Left; 2], vec![Column::Right; 5]].concat();
         let mut table = Table::new(label, caption, &kinds);
         let heads =
             ["group", "", "joint angles (°)", "flange (mm)", "tip (mm)", "direction", "straight line"];

@@ -3,15 +3,17 @@
 use super::ends::{Ends, PlaneEnd, is_within};
 use super::{Entry, Family, Query};
 use crate::StudyError;
-use crate::preprocessing::workspace_map::{self, ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
-use crate::preprocessing::{Preprocessing, lattice};
+use crate::preprocessing::Preprocessing;
+use crate::preprocessing::workspace_map::{self, ShapeSetting};
 use crate::verification::ARM_COLUMNS;
+use base::grid::CornerRule;
 use base::seed::Stream;
 use base::settings::{Accepted, Faults, Settings, SettingsError};
+use engine::geometry::planar::Touch;
 use engine::kinematics::FARTHEST_CM;
-use engine::kinematics::planar_2r::Planar2r;
+use engine::kinematics::planar_2r::{ElbowRule, Planar2r};
 use engine::planner::Invalid;
-use engine::space::{ArmRules, ArmWorld, Obstacle, TipLattice, WorldKind};
+use engine::space::{ArmRules, ArmWorld, HopRule, Obstacle, TipLattice, WorldKind};
 use rand::RngExt as _;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -63,18 +65,19 @@ struct ArmWorkspace {
     /// The side of a lattice cell.
     step_cm: f64,
     /// How far the tip must stay from the base.
-    #[schemars(range(max = FARTHEST_CM))]
+    #[schemars(range(min = 0, max = FARTHEST_CM))]
     inner_radius_cm: f64,
     /// How far joint 2 turns to either side; without stops if absent.
+    #[schemars(range(max = 180), extend("exclusiveMinimum" = 0))]
     theta2_limit_deg: Option<f64>,
     /// On which side the elbow is.
-    elbow: ElbowSetting,
+    elbow: ElbowRule,
     /// Whether touching an obstacle counts as a collision.
-    touching: TouchSetting,
+    touching: Touch,
     /// How the move between neighbouring cells is checked.
-    hop_check: HopSetting,
+    hop_check: HopRule,
     /// When a diagonal move past blocked cells is allowed.
-    corner_rule: lattice::CornerSetting,
+    corner_rule: CornerRule,
     /// The diameter of every obstacle.
     #[schemars(range(max = FARTHEST_CM))]
     obstacle_diameter_cm: f64,
@@ -127,10 +130,6 @@ enum Direction {
 impl ArmWorkspace {
     fn posed(&self, settings: &Settings) -> Result<Posed, SettingsError> {
         let mut faults = Faults::default();
-        if !(self.inner_radius_cm.is_finite() && self.inner_radius_cm >= 0.0) {
-            let message = format!("inner_radius_cm is {}; 0 or more is accepted", self.inner_radius_cm);
-            faults.add(settings.error_at("inner_radius_cm", message));
-        }
         let arm = Planar2r::new(self.links_cm[0], self.links_cm[1])
             .map_err(|error| settings.error_at("links_cm", format!("links_cm: {error}")));
         let lattice = TipLattice::new(self.x_cm, self.y_cm, self.step_cm)
@@ -140,19 +139,18 @@ impl ArmWorkspace {
         let ends = faults.keep(self.ends(settings));
         let obstacles =
             faults.keep(self.obstacles().map_err(|(key, message)| settings.error_at(&key, message)));
-        let limit = self.q2_limit_rad().map_err(|message| settings.error_at("theta2_limit_deg", message));
-        let limit = faults.keep(limit);
         let posed = arm.zip(lattice).zip(ends).zip(obstacles);
-        let ((((arm, lattice), ends), obstacles), q2_limit_rad) = faults.or(posed.zip(limit))?;
+        let (((arm, lattice), ends), obstacles) = faults.or(posed)?;
+        let q2_limit_rad = self.theta2_limit_deg.map_or(f64::INFINITY, f64::to_radians);
         let rules = ArmRules {
             arm,
             q2_limit_rad,
-            elbow: self.elbow.into(),
+            elbow: self.elbow,
             lattice,
             inner_radius_cm: self.inner_radius_cm,
-            touch: self.touching.into(),
-            corner_rule: self.corner_rule.into(),
-            hop: self.hop_check.into(),
+            touch: self.touching,
+            corner_rule: self.corner_rule,
+            hop: self.hop_check,
         };
         let world = ArmWorld::new(rules, obstacles.clone());
         let blocked = match (self.check_ends(&world, settings), self.blocked_ends) {
@@ -193,13 +191,6 @@ impl ArmWorkspace {
                 Err(settings.error_at(given, message))
             }
         }
-    }
-
-    fn q2_limit_rad(&self) -> Result<f64, String> {
-        let Some(limit) = self.theta2_limit_deg else { return Ok(f64::INFINITY) };
-        let is_right = limit > 0.0 && limit <= 180.0;
-        let message = || format!("theta2_limit_deg is {limit}; above 0 and at most 180 is accepted");
-        is_right.then(|| limit.to_radians()).ok_or_else(message)
     }
 
     fn check_ends(&self, world: &ArmWorld, settings: &Settings) -> Result<(), SettingsError> {
@@ -328,7 +319,7 @@ mod tests {
             ("links_cm = [30, 0]", ["links_cm", "link 2 is 0 long; a link must be longer than 0"]),
             ("step_cm = 3", ["step_cm is 3", "does not divide x_cm of 100 cm"]),
             ("step_cm = 0", ["step_cm is 0", "a step above 0 is accepted"]),
-            ("inner_radius_cm = -1", ["inner_radius_cm is -1", "0 or more is accepted"]),
+            ("inner_radius_cm = -1", ["`inner_radius_cm` is -1", "a number from 0 to"]),
             ("obstacle_diameter_cm = 0", ["obstacle 1", "must be greater than 0"]),
             (
                 "obstacle_shapes = ['circle', 'square', 'square']",
@@ -337,7 +328,7 @@ mod tests {
             ("obstacle_shapes = []", ["0 shapes for 2 obstacles", "one for all or one"]),
             ("obstacle_shapes = ['star']", ["star", "triangle"]),
             ("elbows = 'higher'", ["elbows", "elbow"]),
-            ("theta2_limit_deg = 0", ["theta2_limit_deg is 0", "above 0 and at most 180"]),
+            ("theta2_limit_deg = 0", ["`theta2_limit_deg` is 0", "above 0 to 180"]),
             ("theta2_limit_deg = 30", ["the goal [0.0, 45.0]", "the arm may stand from 48.36"]),
             (
                 "direction = 'goal_to_start'\ngoal_cm = [8, 36]",

@@ -1,7 +1,7 @@
 //! Queries of an arm in its work cell, answered on roadmaps drawn from a seed.
 
 mod groups;
-mod picture;
+pub(super) mod picture;
 
 pub use groups::GROUPS_FILE;
 
@@ -111,7 +111,7 @@ struct CellQueries {
     #[schemars(range(min = 1, max = 100_000))]
     samples: u32,
     /// Which samples the number `samples` counts.
-    counted: CountedSetting,
+    counted: Counted,
     /// Where samples are drawn from.
     region: Region,
     /// How much of its range is used when a joint is drawn that turns by more than half a turn either way.
@@ -134,7 +134,7 @@ struct CellQueries {
     #[schemars(range(min = 1))]
     nearest: Option<u32>,
     /// What moves straight between neighbours.
-    path: PathSetting,
+    path: cell::Path,
     /// How far the tool may move between two configurations that are checked.
     #[schemars(range(min = 0.1, max = 1000.0))]
     step_mm: f64,
@@ -148,7 +148,7 @@ struct CellQueries {
     #[schemars(range(min = 0.001, max = 360))]
     turn_deg: f64,
     /// What the end of a local path must be.
-    end: EndSetting,
+    end: EdgeEnd,
     /// The tool's speed; without it the path has no time.
     speed: Option<SpeedSetting>,
 }
@@ -161,15 +161,6 @@ enum Queries {
     File(String),
     /// So many are drawn.
     Drawn(#[schemars(range(max = 10_000))] NonZeroU32),
-}
-
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-enum CountedSetting {
-    /// The first N that were accepted.
-    Accepted,
-    /// Those accepted among the first N draws.
-    Drawn,
 }
 
 /// Where samples are drawn from, evenly.
@@ -194,26 +185,6 @@ enum Turns {
     Half,
     /// The whole range.
     Whole,
-}
-
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-enum PathSetting {
-    /// The tool's way.
-    Tool,
-    /// The way in the space of joint angles.
-    Joints,
-}
-
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-enum EndSetting {
-    /// The configuration itself.
-    Own,
-    /// The configuration, joints 4 and 6 up to whole turns.
-    WholeTurns,
-    /// Any configuration with the tool in the same pose.
-    PoseOnly,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
@@ -291,10 +262,7 @@ impl CellQueries {
 
     fn rules(&self) -> LineRules {
         LineRules {
-            path: match self.path {
-                PathSetting::Tool => cell::Path::Tool,
-                PathSetting::Joints => cell::Path::Joints,
-            },
+            path: self.path,
             step_m: self.step_mm * 1e-3,
             step_rad: self.step_deg.to_radians(),
             jump_rad: self.jump_deg.to_radians(),
@@ -303,11 +271,7 @@ impl CellQueries {
                 speed_m_s: speed.tool_mm_s * 1e-3,
                 acceleration_m_s2: speed.acceleration_mm_s2 * 1e-3,
             }),
-            end: match self.end {
-                EndSetting::Own => EdgeEnd::Own,
-                EndSetting::WholeTurns => EdgeEnd::WholeTurns,
-                EndSetting::PoseOnly => EdgeEnd::PoseOnly,
-            },
+            end: self.end,
         }
     }
 }
@@ -428,8 +392,8 @@ impl Posed {
         let mut samples = Vec::new();
         let mut draws = 0;
         let is_done = |accepted: usize, draws: u32| match self.read.counted {
-            CountedSetting::Accepted => accepted >= wanted as usize || draws / DRAWS_PER_SAMPLE >= wanted,
-            CountedSetting::Drawn => draws >= wanted,
+            Counted::Accepted => accepted >= wanted as usize || draws / DRAWS_PER_SAMPLE >= wanted,
+            Counted::Drawn => draws >= wanted,
         };
         let fits =
             |q: &Joints| self.branch.is_none_or(|branch| self.cell.robot().arm().branch_of(q) == branch);
@@ -506,10 +470,7 @@ impl Family for Posed {
         let cell = self.cell_of(seed)?;
         let queries = self.queries_drawn(&cell, seed)?;
         let (samples, draws) = self.samples(&cell, seed);
-        let counted = match self.read.counted {
-            CountedSetting::Accepted => Counted::Accepted,
-            CountedSetting::Drawn => Counted::Drawn,
-        };
+        let counted = self.read.counted;
         if counted == Counted::Accepted && samples.len() < self.read.samples as usize {
             let found = samples.len();
             let wanted = self.read.samples;

@@ -95,6 +95,7 @@ families = [
 #[serde(deny_unknown_fields)]
 struct Conditioned {
     /// The families that are drawn from.
+    #[schemars(length(min = 1))]
     families: Vec<ConditionedFamily>,
     /// Settings that all of them share.
     #[schemars(with = "AnyTable")]
@@ -111,7 +112,7 @@ struct Conditioned {
     /// At most this many expansions a try.
     expansions: u64,
     /// At most this many tries an instance; an instance that is not accepted is an invalid problem.
-    #[schemars(range(max = 1_000_000_000))]
+    #[schemars(range(min = 1, max = 1_000_000_000))]
     tries: u64,
     /// A file with the number of tries that each draw took, so that they need not be tried again.
     found: Option<String>,
@@ -177,12 +178,6 @@ impl Conditioned {
                 let message = format!("`given.{name}` is [{low}, {high}]; [least, greatest] is accepted");
                 faults.add(settings.error_at(&format!("given.{name}"), message));
             }
-        }
-        if self.families.is_empty() {
-            faults.add(settings.error_at("families", "families is empty; at least one family is accepted"));
-        }
-        if self.tries == 0 {
-            faults.add(settings.error_at("tries", "tries is 0; at least 1 is accepted"));
         }
         faults.done()
     }

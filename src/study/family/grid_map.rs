@@ -6,7 +6,7 @@ use super::{Entry, Family, Query};
 use crate::StudyError;
 use crate::preprocessing::{Preprocessing, lattice};
 use crate::verification::LATTICE_COLUMNS;
-use base::grid::{FileMap, Vertices, read_map};
+use base::grid::{CornerRule, FileMap, Vertices, read_map};
 use base::settings::{Accepted, Faults};
 use engine::planner::Invalid;
 use engine::space::{LatticeWorld, WorldKind};
@@ -67,7 +67,7 @@ struct GridMap {
     #[schemars(range(max = 10_000))]
     queries: Option<NonZeroU32>,
     /// When a diagonal move past blocked cells is allowed.
-    corner_rule: lattice::CornerSetting,
+    corner_rule: CornerRule,
     /// Where the vertices are that paths lead over; `centres` of cells if absent. At `corners`, a start or goal [x, y] is the lower
     /// left corner of that cell.
     vertices: Option<Vertices>,

@@ -8,7 +8,7 @@
 use super::{Entry, Family, Query};
 use crate::StudyError;
 use crate::preprocessing::{Preprocessing, lattice};
-use base::grid::{Scenario, Vertices, read_movingai_map, read_scenarios};
+use base::grid::{CornerRule, Scenario, Vertices, read_movingai_map, read_scenarios};
 use base::ignored::ignored_note;
 use base::settings::{Accepted, Faults};
 use engine::planner::{Counts, Invalid, Value};
@@ -86,7 +86,7 @@ struct MovingAi {
     scenarios: String,
     /// The benchmark's lengths hold for `forbid_any`.
     #[serde(default = "no_corner_is_cut")]
-    corner_rule: lattice::CornerSetting,
+    corner_rule: CornerRule,
     /// Where the vertices are that paths lead over; `centres` of cells if absent. At `corners`, a cell of a query stands for its upper
     /// left corner, [x, y] as the file counts, and the benchmark's lengths do not hold.
     vertices: Option<Vertices>,
@@ -94,8 +94,8 @@ struct MovingAi {
     every: Option<NonZeroUsize>,
 }
 
-fn no_corner_is_cut() -> lattice::CornerSetting {
-    lattice::CornerSetting::ForbidAny
+fn no_corner_is_cut() -> CornerRule {
+    CornerRule::ForbidAny
 }
 
 impl MovingAi {

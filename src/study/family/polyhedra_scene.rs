@@ -61,6 +61,7 @@ struct SceneSettings {
     /// The queries: start and goal each.
     queries: Vec<QuerySettings>,
     /// Each draw's start and goal lie in balls of this radius about the written ones.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     scatter_cm: Option<f64>,
     /// Which drawn scenes are kept, by the straight lines from starts to goals.
     #[serde(default)]
@@ -163,12 +164,6 @@ fn posed(settings: &Settings, inputs: &Inputs) -> Result<Posed, StudyError> {
         })
     }));
     let robot = faults.keep(read.robot(settings, inputs)).flatten();
-    if let Some(radius) = read.scatter_cm
-        && !(radius.is_finite() && radius > 0.0)
-    {
-        let message = format!("scatter_cm is {radius}; more than 0 is accepted");
-        faults.add(settings.error_at("scatter_cm", message));
-    }
     let (file, (scene, drawn)) = faults.or(scene)?;
     let (robot_file, robot) = robot.unzip();
     if read.line == Line::Blocked && drawn.is_none() {
@@ -427,7 +422,7 @@ mod tests {
                 "line = 'blocked'".to_owned(),
                 ["line keeps drawn scenes", "a scene with a table `[drawn]` is accepted"],
             ),
-            ("scatter_cm = 0".to_owned(), ["scatter_cm is 0", "more than 0 is accepted"]),
+            ("scatter_cm = 0".to_owned(), ["`scatter_cm` is 0", "a number above 0 is accepted"]),
             ("body = 'bones'".to_owned(), ["no body `bones`", "it has paper, mesh"]),
             ("scene = 'data/scenes/none.toml'".to_owned(), ["`data/scenes/none.toml`", "does not exist"]),
             ("robot = 'data/robots/none.toml'".to_owned(), ["`data/robots/none.toml`", "does not exist"]),

@@ -8,7 +8,7 @@ use super::{Entry, Family, Query};
 use crate::StudyError;
 use crate::preprocessing::{Preprocessing, lattice};
 use crate::verification::LATTICE_COLUMNS;
-use base::grid::{Grid2, GridError, Vertices, corner_vertices};
+use base::grid::{CornerRule, Grid2, GridError, Vertices, corner_vertices};
 use base::seed::{self, Stream};
 use base::settings::{Accepted, Faults, Settings, SettingsError};
 use engine::planner::Invalid;
@@ -66,7 +66,7 @@ pub(super) struct Frame<'a> {
     pub(super) start: &'a PlaneEnd<u32>,
     pub(super) goal: &'a PlaneEnd<u32>,
     pub(super) queries: Option<NonZeroU32>,
-    pub(super) corner_rule: lattice::CornerSetting,
+    pub(super) corner_rule: CornerRule,
     pub(super) vertices: Vertices,
 }
 
@@ -107,7 +107,7 @@ macro_rules! settings {
             #[schemars(range(max = 10_000))]
             queries: Option<std::num::NonZeroU32>,
             /// When a diagonal move past blocked cells is allowed.
-            corner_rule: $crate::preprocessing::lattice::CornerSetting,
+            corner_rule: base::grid::CornerRule,
             /// Where the vertices are that paths lead over; `centres` of cells if absent. At `corners`, a start or goal [x, y] is the
             /// lower left corner of that cell, which is freed if it is written. The last column and row of corners are the right and upper
             /// edge: a map of 100 cells has corners 0 to 100.

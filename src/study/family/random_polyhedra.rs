@@ -61,6 +61,7 @@ struct RandomPolyhedra {
     /// The least and the greatest extent along each axis.
     size_cm: [f64; 2],
     /// The shapes that are drawn from, each with equal chance.
+    #[schemars(length(min = 1))]
     shapes: Vec<ShapeName>,
     /// The least distance between the boxes about two obstacles; they may overlap without it.
     gap_cm: Option<f64>,
@@ -116,10 +117,6 @@ impl RandomPolyhedra {
                 "size_cm is [{least}, {greatest}]; two rising sizes above 0 and below side_cm are accepted"
             );
             faults.add(settings.error_at("size_cm", message));
-        }
-        if self.shapes.is_empty() {
-            let message = "shapes is empty; at least one of box, prism, octahedron, wedge, pyramid is needed";
-            faults.add(settings.error_at("shapes", message));
         }
         self.check_drawn(settings, &mut faults);
         let empty = self.world(Vec::new()).map_err(|invalid| settings.error_at("step_cm", invalid.0));

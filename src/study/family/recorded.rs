@@ -3,7 +3,7 @@
 use super::{Entry, Family, Query};
 use crate::StudyError;
 use crate::preprocessing::{Preprocessing, lattice};
-use base::grid::{Grid2, Vertices};
+use base::grid::{CornerRule, Grid2, Vertices};
 use base::settings::Accepted;
 use engine::planner::Invalid;
 use engine::space::WorldKind;
@@ -50,7 +50,7 @@ impl Family for Posed {
     /// Two free cells stand for a world that is not known.
     fn prepare(&self, _seed: u64) -> Result<Preprocessing, Invalid> {
         let cells = Grid2::new(2, 1).expect("two cells are within the limits");
-        let world = lattice::world(cells, lattice::CornerSetting::Allow, Vertices::Centres);
+        let world = lattice::world(cells, CornerRule::Allow, Vertices::Centres);
         lattice::prepare(world, self.queries.iter().map(Query::ends))
     }
 

@@ -5,8 +5,6 @@ use base::grid::{CornerRule, Grid2, Vertices, components};
 use base::settings::{Settings, SettingsError};
 use engine::planner::{Counts, Invalid, Trace, Value};
 use engine::space::{LatticeWorld, World, WorldKind};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -15,32 +13,10 @@ pub static ENTRY: Entry = Entry {
     columns: &["free_cells", "components", "octile_distance_cells", "tries"],
 };
 
-/// The corner rule as settings write it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum CornerSetting {
-    /// Every corner may be cut.
-    Allow,
-    /// A corner may be cut unless both cells that flank it are blocked.
-    ForbidBoth,
-    /// A corner may be cut only if both cells that flank it are free.
-    ForbidAny,
-}
-
-impl From<CornerSetting> for CornerRule {
-    fn from(setting: CornerSetting) -> Self {
-        match setting {
-            CornerSetting::Allow => Self::Allow,
-            CornerSetting::ForbidBoth => Self::ForbidBoth,
-            CornerSetting::ForbidAny => Self::ForbidAny,
-        }
-    }
-}
-
 /// The lattice on `cells`.
-pub fn world(cells: Grid2, corners: CornerSetting, vertices: Vertices) -> LatticeWorld {
+pub fn world(cells: Grid2, corners: CornerRule, vertices: Vertices) -> LatticeWorld {
     match vertices {
-        Vertices::Centres => LatticeWorld::new(cells, corners.into()),
+        Vertices::Centres => LatticeWorld::new(cells, corners),
         Vertices::Corners => LatticeWorld::of_corners(cells),
     }
 }
@@ -57,12 +33,8 @@ pub fn kind(vertices: Vertices) -> WorldKind {
 ///
 /// # Errors
 /// Vertices at corners of cells, and a rule that forbids to pass some of them.
-pub fn check_rule(
-    settings: &Settings,
-    corners: CornerSetting,
-    vertices: Vertices,
-) -> Result<(), SettingsError> {
-    if vertices == Vertices::Centres || corners == CornerSetting::Allow {
+pub fn check_rule(settings: &Settings, corners: CornerRule, vertices: Vertices) -> Result<(), SettingsError> {
+    if vertices == Vertices::Centres || corners == CornerRule::Allow {
         return Ok(());
     }
     let message = "with vertices = \"corners\", paths may pass between two blocked cells that touch at a corner, and corner_rule = \

@@ -2,10 +2,9 @@
 
 use super::{Entry, Preprocessing};
 use engine::geometry::Vec2;
-use engine::geometry::planar::{Circle, ConvexPolygon, Touch};
-use engine::kinematics::planar_2r::ElbowRule;
+use engine::geometry::planar::{Circle, ConvexPolygon};
 use engine::planner::{Counts, Trace, Value};
-use engine::space::{ArmWorld, HopRule, Obstacle, World, Zone};
+use engine::space::{ArmWorld, Obstacle, World, Zone};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::f64::consts::PI;
@@ -16,66 +15,6 @@ pub static ENTRY: Entry = Entry {
     about: "a planar arm's workspace: which tip positions are free, and why others are not",
     columns: &["free_cells", "outer_cells", "inner_cells", "obstacle_cells", "link_cells"],
 };
-
-/// The elbow rule as settings write it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum ElbowSetting {
-    /// θ2 is negative: the elbow is to the left of the line from base to tip.
-    NegativeTheta2,
-    /// The elbow is the higher of the two.
-    Higher,
-}
-
-impl From<ElbowSetting> for ElbowRule {
-    fn from(setting: ElbowSetting) -> Self {
-        match setting {
-            ElbowSetting::NegativeTheta2 => Self::NegativeQ2,
-            ElbowSetting::Higher => Self::HigherElbow,
-        }
-    }
-}
-
-/// Whether touching is contact, as settings write it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum TouchSetting {
-    /// Touching an obstacle is a collision.
-    Collides,
-    /// Only the inside of an obstacle is forbidden.
-    Free,
-}
-
-impl From<TouchSetting> for Touch {
-    fn from(setting: TouchSetting) -> Self {
-        match setting {
-            TouchSetting::Collides => Self::Contact,
-            TouchSetting::Free => Self::Free,
-        }
-    }
-}
-
-/// The hop rule as settings write it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum HopSetting {
-    /// Free end points make a free hop.
-    EndPoints,
-    /// Both links are swept, the joints moving evenly.
-    Continuous,
-    /// Both links are swept, the tip moving along the straight line.
-    TipLine,
-}
-
-impl From<HopSetting> for HopRule {
-    fn from(setting: HopSetting) -> Self {
-        match setting {
-            HopSetting::EndPoints => Self::EndPoints,
-            HopSetting::Continuous => Self::Continuous,
-            HopSetting::TipLine => Self::TipLine,
-        }
-    }
-}
 
 /// The shape of an obstacle whose size is one number, its diameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize, JsonSchema)]

@@ -51,17 +51,6 @@ range_cm = 5.0
 ",
     build: |settings: &Settings| {
         let read: FormulaError = settings.read()?;
-        if read.samples == 0 {
-            return Err(settings.error_at("samples", "samples is 0; at least 1 is accepted"));
-        }
-        if !(read.reach > 0.0 && read.reach.is_finite()) {
-            let message = format!("reach is {}; more than 0 is accepted", read.reach);
-            return Err(settings.error_at("reach", message));
-        }
-        if !(read.range_cm > 0.0 && read.range_cm.is_finite()) {
-            let message = format!("range_cm is {}; more than 0 is accepted", read.range_cm);
-            return Err(settings.error_at("range_cm", message));
-        }
         Ok(Box::new(read))
     },
 };
@@ -79,11 +68,13 @@ const LABEL: &str = "Printed distance";
 #[serde(deny_unknown_fields)]
 struct FormulaError {
     /// Segments drawn beside each obstacle.
-    #[schemars(range(max = 10_000_000))]
+    #[schemars(range(min = 1, max = 10_000_000))]
     samples: u32,
     /// Their ends lie in the box about the obstacle, grown by this share of its extent.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     reach: f64,
     /// The range of the repulsive potential, its d0.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     range_cm: f64,
 }
 

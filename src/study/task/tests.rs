@@ -105,7 +105,7 @@ repeats = 4
     assert_eq!(shown(&untimed.quick()), (7, None, 5));
     for (wrong, part) in [
         (quick.replace("expansions = 7", "expansions = 0"), "a whole number from 1 to"),
-        (quick.replace("samples = 5", "samples = 0"), "samples is 0; at least 1 is accepted"),
+        (quick.replace("samples = 5", "samples = 0"), "`samples` is 0; a whole number from 1 to"),
         (quick.replace("budget", "budgets"), "budgets"),
     ] {
         let error = with_quick(&wrong).unwrap_err();

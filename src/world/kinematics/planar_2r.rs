@@ -9,6 +9,8 @@
 
 use super::{KinematicsError, angle::nearest_copy};
 use crate::geometry::Vec2;
+use schemars::JsonSchema;
+use serde::Deserialize;
 
 /// A planar arm of two links.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,12 +29,15 @@ pub struct Branches {
 }
 
 /// What a paper may mean by "elbow up".
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum ElbowRule {
     /// The branch with `q2 <= 0`: the elbow is to the left of the line from base to tip.
+    #[serde(rename = "negative_theta2")]
     NegativeQ2,
     /// The branch whose elbow has the greater y; the one with `q2 <= 0` if both are equally high. It changes
     /// branch, and so jumps, where a path crosses the line above the base.
+    #[serde(rename = "higher")]
     HigherElbow,
 }
 

@@ -1,7 +1,8 @@
 //! A path over the edges of a cube, smoothed in three ways.
 
 use super::*;
-use crate::planner::Counts;
+use crate::planner::{Counts, Ending};
+use base::settings::Settings;
 use world::geometry::{Aabb, Convex};
 use world::space::World;
 

@@ -1,7 +1,7 @@
 //! Curves through a trail with a corner, with and without a box that the corner goes round.
 
 use super::*;
-use crate::planner::Counts;
+use crate::planner::{Counts, Ending};
 use std::path::Path;
 use world::geometry::{Aabb, Convex, Frame, Vec3};
 use world::kinematics::Robot;

@@ -36,19 +36,37 @@ pub(super) fn traces(lines: &Lines, queries: &[Query]) -> Vec<Trace> {
             }
         }
     }
-    let mut traces = vec![
-        Trace { name: "boxes".to_owned(), width: 24, values: boxes },
-        Trace { name: "rounds".to_owned(), width: 7, values: rounds },
-    ];
-    traces.extend(floor(cell));
-    for query in queries {
-        for (end, config) in [("start", &query.start), ("goal", &query.goal)] {
-            traces.push(body(cell, format!("body {}/{end}", query.name), config));
-            traces.push(pose(cell, format!("pose {}/{end}", query.name), config));
-        }
-    }
-    traces.extend(straight_lines(lines, queries));
-    traces
+    let floor = floor(cell);
+    let arms = at_ends(queries, |q| stance(cell, q), |q| pose(cell, q));
+    let lines = straight_lines(lines, queries);
+    stills(boxes, rounds).into_iter().chain(floor).chain(arms).chain(lines).collect()
+}
+
+/// Boxes, by their corners, and all that is drawn as capsules.
+pub(in crate::family) fn stills(boxes: Vec<f64>, rounds: Vec<f64>) -> [Trace; 2] {
+    [("boxes", 24, boxes), ("rounds", 7, rounds)].map(|(name, width, values)| Trace {
+        name: name.to_owned(),
+        width,
+        values,
+    })
+}
+
+/// The robot at the ends of queries: the capsules of its stance, and its pose in numbers.
+pub(in crate::family) fn at_ends(
+    queries: &[Query],
+    stance: impl Fn(&[f64]) -> Option<ArmPlacement>,
+    pose: impl Fn(&[f64]) -> Vec<f64>,
+) -> Vec<Trace> {
+    let ends = |query: &Query| {
+        [("start", &query.start), ("goal", &query.goal)].map(|(end, q)| {
+            let end = format!("{}/{end}", query.name);
+            let stance = stance(q).expect("a query has as many numbers as the robot has joints");
+            let values = pose(q);
+            let body = Trace { name: format!("body {end}"), width: 7, values: stance.capsules_mm.concat() };
+            [body, Trace { name: format!("pose {end}"), width: values.len(), values }]
+        })
+    };
+    queries.iter().flat_map(ends).flatten().collect()
 }
 
 /// Of each query in turn, named after it and what is nearest: whether the local path from start to goal is free, and how clear of
@@ -87,23 +105,18 @@ pub(super) fn stance(cell: &Cell, q_rad: &[f64]) -> Option<ArmPlacement> {
     Some(ArmPlacement { capsules_mm, tip_mm, clearance_mm: Some(cell.clearance_m(&q).0 * 1e3) })
 }
 
-fn body(cell: &Cell, name: String, config: &[f64]) -> Trace {
-    let stance = stance(cell, config).expect("a query of an arm has six angles");
-    Trace { name, width: 7, values: stance.capsules_mm.concat() }
-}
-
 /// Joint angles in degrees, flange and tip in millimetres, and the tool's direction.
-fn pose(cell: &Cell, name: String, config: &[f64]) -> Trace {
+fn pose(cell: &Cell, config: &[f64]) -> Vec<f64> {
     let q = joints(config).expect("a query of an arm has six angles");
     let chain = cell.robot().arm().chain();
     let tip = chain.forward(&q);
     let direction: [f64; 3] = tip.rotation.column(2).into_owned().into();
     let places = [mm(&chain.flange(&q).origin), mm(&tip.origin), direction];
-    let values = q.map(f64::to_degrees).into_iter().chain(places.concat()).collect();
-    Trace { name, width: 15, values }
+    q.map(f64::to_degrees).into_iter().chain(places.concat()).collect()
 }
 
-fn round(a: &Vec3, b: &Vec3, radius_m: f64) -> [f64; 7] {
+/// A capsule about the segment between two points.
+pub(in crate::family) fn round(a: &Vec3, b: &Vec3, radius_m: f64) -> [f64; 7] {
     let ([ax, ay, az], [bx, by, bz]) = (mm(a), mm(b));
     [ax, ay, az, bx, by, bz, radius_m * 1e3]
 }

@@ -291,8 +291,8 @@ fn samples_are_those_that_drawing_and_looking_one_by_one_gives() {
         assert_eq!(samples, expected, "{over}");
         let wanted = posed.read.samples as usize;
         match posed.read.counted {
-            CountedSetting::Accepted => assert!(samples.len() == wanted && draws > samples.len() as u32),
-            CountedSetting::Drawn => assert!(draws as usize == wanted && samples.len() < wanted),
+            Counted::Accepted => assert!(samples.len() == wanted && draws > samples.len() as u32),
+            Counted::Drawn => assert!(draws as usize == wanted && samples.len() < wanted),
         }
     }
 }

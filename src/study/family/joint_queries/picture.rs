@@ -1,6 +1,7 @@
 //! The data of pictures of a robot among solids, millimetres, in the form of cells: boxes by their corners, all else by
 //! capsules.
 
+use super::super::cell_queries::picture::{at_ends, round, stills};
 use super::{ArmPlacement, Query};
 use base::robot::{Joint, Kind};
 use base::solid::{Form, Solid};
@@ -16,25 +17,13 @@ pub(in crate::family) fn traces(space: &JointSpace, floor_m: Option<f64>, querie
     for solid in space.obstacles().iter().skip(usize::from(floor_m.is_some())) {
         match solid.form {
             Form::Box(_) => boxes.extend(corners(solid)),
-            _ => rounds.extend(capsule_around(solid, &Frame::IDENTITY).ok().as_ref().map(round)),
+            _ => rounds.extend(capsule_around(solid, &Frame::IDENTITY).ok().as_ref().map(capsule_mm)),
         }
     }
-    let mut traces = vec![
-        Trace { name: "boxes".to_owned(), width: 24, values: boxes },
-        Trace { name: "rounds".to_owned(), width: 7, values: rounds.concat() },
-        Trace {
-            name: "floor".to_owned(),
-            width: 1,
-            values: floor_m.map(|height| height * 1e3).into_iter().collect(),
-        },
-    ];
-    for query in queries {
-        for (end, q) in [("start", &query.start), ("goal", &query.goal)] {
-            traces.push(body(space, format!("body {}/{end}", query.name), q));
-            traces.push(pose(space, format!("pose {}/{end}", query.name), q));
-        }
-    }
-    traces
+    let height_mm = floor_m.map(|height| height * 1e3).into_iter().collect();
+    let floor = Trace { name: "floor".to_owned(), width: 1, values: height_mm };
+    let arms = at_ends(queries, |q| stance(space, q), |q| pose(space, q));
+    stills(boxes, rounds.concat()).into_iter().chain([floor]).chain(arms).collect()
 }
 
 /// The corners of a box, x before y before z.
@@ -45,9 +34,8 @@ fn corners(solid: &Solid) -> Vec<f64> {
     (0..8).flat_map(|i| solid.pose.point(corner(i)).map(|x| x * 1e3)).collect()
 }
 
-fn round(capsule: &Capsule) -> [f64; 7] {
-    let (a, b) = (capsule.segment.a * 1e3, capsule.segment.b * 1e3);
-    [a.x, a.y, a.z, b.x, b.y, b.z, capsule.radius * 1e3]
+fn capsule_mm(capsule: &Capsule) -> [f64; 7] {
+    round(&capsule.segment.a, &capsule.segment.b, capsule.radius)
 }
 
 /// Where the robot is at `q`, every part by the capsule around it; `None` for another number of angles.
@@ -58,18 +46,13 @@ pub(super) fn stance(space: &JointSpace, q: &[f64]) -> Option<ArmPlacement> {
     let frames = space.chain().frames(q);
     let capsules =
         space.robot().solids.iter().filter_map(|(link, solid)| capsule_around(solid, &frames[*link]).ok());
-    let capsules_mm = capsules.map(|capsule| round(&capsule)).collect();
+    let capsules_mm = capsules.map(|capsule| capsule_mm(&capsule)).collect();
     let tip = space.chain().forward(q).origin * 1e3;
     Some(ArmPlacement { capsules_mm, tip_mm: [tip.x, tip.y, tip.z], clearance_mm: None })
 }
 
-fn body(space: &JointSpace, name: String, q: &[f64]) -> Trace {
-    let stance = stance(space, q).expect("a query has as many numbers as the robot has joints");
-    Trace { name, width: 7, values: stance.capsules_mm.concat() }
-}
-
 /// Joint angles in degrees and slides in millimetres, last joint and tip in millimetres, and the tip's direction.
-fn pose(space: &JointSpace, name: String, q: &[f64]) -> Trace {
+fn pose(space: &JointSpace, q: &[f64]) -> Vec<f64> {
     let frames = space.chain().frames(q);
     let tip = space.chain().forward(q);
     let last = frames[frames.len() - 1].origin * 1e3;
@@ -80,5 +63,5 @@ fn pose(space: &JointSpace, name: String, q: &[f64]) -> Trace {
     };
     let mut values: Vec<f64> = space.robot().joints.iter().zip(q).map(shown).collect();
     values.extend([last, at, direction].iter().flat_map(|v| [v.x, v.y, v.z]));
-    Trace { name, width: values.len(), values }
+    values
 }

@@ -5,10 +5,13 @@ use crate::geometry::{
     Vec3,
     error::{GeometryError, finite, positive},
 };
+use schemars::JsonSchema;
+use serde::Deserialize;
 use std::f64::consts::TAU;
 
 /// A coordinate axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Axis {
     /// Along x.
     X,

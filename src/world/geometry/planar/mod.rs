@@ -16,6 +16,8 @@ pub use contact::{
     intersects_segment_segment,
 };
 pub use polygon::ConvexPolygon;
+use schemars::JsonSchema;
+use serde::Deserialize;
 
 use super::{
     Vec2,
@@ -23,9 +25,11 @@ use super::{
 };
 
 /// Whether shapes that only touch are in contact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Touch {
     /// Touching is contact: shapes are closed.
+    #[serde(rename = "collides")]
     Contact,
     /// Touching is free: only the inside of an obstacle is forbidden.
     Free,

@@ -16,6 +16,8 @@ mod tip_line;
 
 pub use lattice::TipLattice;
 pub use obstacle::Obstacle;
+use schemars::JsonSchema;
+use serde::Deserialize;
 
 use crate::geometry::Vec2;
 use crate::geometry::planar::{Segment2, Touch};
@@ -27,7 +29,8 @@ use sweep::Sweep;
 use tip_line::TipLine;
 
 /// What decides whether a hop between free states is free.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum HopRule {
     /// Nothing: free end points make a free hop, whatever lies between.
     EndPoints,

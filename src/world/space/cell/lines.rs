@@ -7,6 +7,8 @@ use super::time_law::SpeedRule;
 use crate::geometry::Frame;
 use crate::kinematics::Joints;
 use crate::kinematics::ik::Branch;
+use schemars::JsonSchema;
+use serde::Deserialize;
 
 /// How far a configuration at the end of an edge may be from the one requested: radians.
 pub(super) const SAME_RAD: f64 = 1e-6;
@@ -47,7 +49,8 @@ impl Rejection {
 }
 
 /// What the end of an edge must be.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum EdgeEnd {
     /// The configuration itself.
     Own,
@@ -58,7 +61,8 @@ pub enum EdgeEnd {
 }
 
 /// What is straight.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Path {
     /// The tool's way.
     Tool,

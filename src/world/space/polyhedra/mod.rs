@@ -147,7 +147,21 @@ impl PolyhedraWorld {
     /// The share of the way at which the segment enters the obstacle; `None` if it passes by.
     #[inline]
     fn entry(&self, segment: &Segment, obstacle: &Convex) -> Option<f64> {
-        if self.touching_blocks { entry(segment, obstacle) } else { inner_entry(segment, obstacle) }
+        let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
+        for face in obstacle.faces() {
+            let [a, b] = [segment.a, segment.b].map(|end| face.plane.height(&end));
+            let is_beside = if self.touching_blocks { a > 0.0 && b > 0.0 } else { a >= 0.0 && b >= 0.0 };
+            if is_beside {
+                return None;
+            }
+            if a > 0.0 {
+                enter = enter.max(a / (a - b));
+            } else if b > 0.0 {
+                leave = leave.min(a / (a - b));
+            }
+        }
+        let is_entered = if self.touching_blocks { enter <= leave } else { enter < leave };
+        is_entered.then_some(enter)
     }
 
     /// What the point must keep clear of.
@@ -285,38 +299,4 @@ fn grown(body: &Convex, growth: f64) -> Result<Convex, crate::geometry::Geometry
     let planes: Vec<(Vec3, f64)> =
         body.faces().iter().map(|face| (face.plane.normal, face.plane.offset + growth)).collect();
     Convex::from_planes(&planes)
-}
-
-/// The share of the way at which the segment enters the solid; `None` if it passes by.
-fn entry(segment: &Segment, convex: &Convex) -> Option<f64> {
-    let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
-    for face in convex.faces() {
-        let (a, b) = (face.plane.height(&segment.a), face.plane.height(&segment.b));
-        if a > 0.0 && b > 0.0 {
-            return None;
-        }
-        if a > 0.0 {
-            enter = enter.max(a / (a - b));
-        } else if b > 0.0 {
-            leave = leave.min(a / (a - b));
-        }
-    }
-    (enter <= leave).then_some(enter)
-}
-
-/// As [`entry`], of the solid without its faces: a segment that only touches it passes by.
-fn inner_entry(segment: &Segment, convex: &Convex) -> Option<f64> {
-    let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
-    for face in convex.faces() {
-        let (a, b) = (face.plane.height(&segment.a), face.plane.height(&segment.b));
-        if a >= 0.0 && b >= 0.0 {
-            return None;
-        }
-        if a > 0.0 {
-            enter = enter.max(a / (a - b));
-        } else if b > 0.0 {
-            leave = leave.min(a / (a - b));
-        }
-    }
-    (enter < leave).then_some(enter)
 }

@@ -80,7 +80,7 @@ enum Shape {
     /// A prism with a regular base.
     Prism {
         /// The direction of its axis.
-        axis: AxisName,
+        axis: Axis,
         /// x, y and z of its middle, in centimetres.
         center: [f64; 3],
         /// How far the base's corners are from the axis, in centimetres.
@@ -136,33 +136,12 @@ struct PlaneEntry {
     offset: f64,
 }
 
-#[derive(Deserialize, JsonSchema, Clone, Copy)]
-#[serde(rename_all = "snake_case")]
-enum AxisName {
-    /// Along x.
-    X,
-    /// Along y.
-    Y,
-    /// Along z.
-    Z,
-}
-
-impl From<AxisName> for Axis {
-    fn from(name: AxisName) -> Self {
-        match name {
-            AxisName::X => Self::X,
-            AxisName::Y => Self::Y,
-            AxisName::Z => Self::Z,
-        }
-    }
-}
-
 impl Shape {
     fn solid(&self) -> Result<Convex, GeometryError> {
         match self {
             Self::Box { center, size } => Convex::cuboid((*center).into(), (*size).into()),
             Self::Prism { axis, center, radius, height, sides, turn_rad } => {
-                Convex::prism((*axis).into(), (*center).into(), *radius, *height, *sides, *turn_rad)
+                Convex::prism(*axis, (*center).into(), *radius, *height, *sides, *turn_rad)
             }
             Self::Octahedron { center, radius } => Convex::octahedron((*center).into(), *radius),
             Self::Wedge { center, size } => Convex::wedge((*center).into(), (*size).into()),

@@ -14,6 +14,8 @@ mod tests;
 pub use local::{Local, MotionScratch, joints};
 pub use near::Near;
 pub use plane::{PlaneMap, RASTER_MM};
+use schemars::JsonSchema;
+use serde::Deserialize;
 
 use super::cell::{Rejection, Scratch};
 use local::Node;
@@ -34,7 +36,8 @@ pub struct Sample {
 }
 
 /// Which samples belong to a roadmap of N.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Counted {
     /// The first N that were accepted.
     Accepted,
