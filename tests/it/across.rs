@@ -251,7 +251,8 @@ fn a_choice_that_the_calibration_settles_caps_nothing_whether_refused_options_ra
     assert_eq!(toy.class_and_across("fewer"), pair("reproduced", SETTLED));
     assert!(toy.claim("fewer").not_varied.is_empty());
     // Where nobody asked the number of the calibration under the other weight, nothing is settled.
-    let toy = Toy::new(&[CITED, FITTED, ("instances = { draws = 20, room = 1 }", "instances = { draws = 20 }")]);
+    let toy =
+        Toy::new(&[CITED, FITTED, ("instances = { draws = 20, room = 1 }", "instances = { draws = 20 }")]);
     assert!(toy.claim("fewer").calibrated.is_empty());
     let unexplored = ("instances = { draws = 20, room = 1 }", "instances = { room = 1 }");
     let alone = Toy::new(&[CITED, unexplored]);

@@ -158,8 +158,12 @@ impl VotingChoices {
     ) -> Option<&'r str> {
         let option = |place: &usize| Self::option(choice, &first.interpretations[*place]);
         let left = option(compatible.first()?);
-        let others: Vec<&str> =
-            choice.options.keys().map(String::as_str).filter(|one| *one != left && choice.votes(one)).collect();
+        let others: Vec<&str> = choice
+            .options
+            .keys()
+            .map(String::as_str)
+            .filter(|one| *one != left && choice.votes(one))
+            .collect();
         let is_refused = |other: &&str| looked.iter().any(|place| option(place) == *other);
         let is_only = !others.is_empty() && compatible.iter().all(|place| option(place) == left);
         (is_only && others.iter().all(is_refused)).then_some(left)
