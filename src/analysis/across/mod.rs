@@ -6,8 +6,8 @@
 //! once ([`count`]). Those of a minority need a second seed ([`combine`](mod@combine)). The [table of
 //! verdicts](super::verdict_rule) turns the counts into a verdict. The words beside it are [`wording`]'s. The options
 //! on which it depends are found by [`depends`], choices that were not varied by [`touched`], and the change by each
-//! option by [`effects`]. A choice of which the calibration leaves one option is settled for the claims that took no part
-//! in it: other options would not count, whether their trials ran or not.
+//! option by [`effects`]. Where the calibration leaves one option of a choice, the choice is settled for claims that took
+//! no part in it: other options would not count, whether their trials ran or not.
 
 pub mod by_interpretation;
 pub mod combine;
