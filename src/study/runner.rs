@@ -21,7 +21,6 @@ use super::task::Task;
 use super::unit::{Entrant, StudyContext, Unit};
 use base::hash::sha256;
 use base::seed;
-use engine::space::WorldKind;
 use rayon::prelude::*;
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -394,10 +393,7 @@ impl<'a> BuiltStudy<'a> {
         let mut places = BTreeMap::new();
         for &index in todo {
             let unit = self.unit(index);
-            // A trial of an arm or among polyhedra may take seconds, and what it is prepared for little: a stop would wait for all.
-            let is_long = [WorldKind::Arm, WorldKind::ArmAmongPolyhedra, WorldKind::Polyhedra];
-            let is_alone = self.interpretations.len() == 1 || parts.contains_key(&index);
-            if is_alone || is_long.contains(&unit.family.world()) {
+            if self.interpretations.len() == 1 || parts.contains_key(&index) {
                 all.push(vec![index]);
                 continue;
             }
