@@ -1,4 +1,4 @@
-"""What VAMP's own code finds on each problem beside our stored trials, as `run` writes and exports them."""
+"""What VAMP's own code finds on each problem beside our trials, as `run` writes and exports them."""
 
 import csv
 import statistics

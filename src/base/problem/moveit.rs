@@ -20,6 +20,9 @@ const TOLERANCES: [&str; 2] = ["tolerance_above", "tolerance_below"];
 /// A tolerance up to this means the position itself: `MoveIt`'s own is 1e-4.
 const EXACT: f64 = 1e-3;
 
+/// A joint's name, its number, and where that stands.
+type Named<'a> = (&'a str, f64, &'a Node);
+
 /// The problem of a scene and a request. Starts and goals are in the order of the robot's joints.
 ///
 /// # Errors
@@ -37,7 +40,7 @@ pub fn parse_moveit(
     let other = Yaml::parse(request)?;
     let reader = Reader { yaml: Yaml(Source(request)), ..reader };
     let (start, goals) = reader.request(&other, expected)?;
-    let differs = |(name, value): &(&str, f64)| {
+    let differs = |(name, value, _): &Named<'_>| {
         let same = expected.joints.iter().zip(&start.joints).find(|(joint, _)| *joint == name);
         same.is_some_and(|(_, start)| start != value)
     };
@@ -72,7 +75,7 @@ impl Reader<'_> {
     }
 
     /// The solids, and the numbers of joints in the state of the robot.
-    fn scene(self, root: &Node) -> Result<(Vec<Solid>, Vec<(&str, f64)>), SettingsError> {
+    fn scene(self, root: &Node) -> Result<(Vec<Solid>, Vec<Named<'_>>), SettingsError> {
         self.moveit_rest(root, &["robot_model_name", "world", "robot_state", "fixed_frame_transforms"])?;
         let state = self.yaml.find(root, "robot_state")?;
         let joints = state.map_or(Ok(Vec::new()), |state| self.state(state))?;
@@ -113,7 +116,7 @@ impl Reader<'_> {
     }
 
     /// The numbers of the joints of a state. One in which the base is moved would be another problem.
-    fn state(self, state: &Node) -> Result<Vec<(&str, f64)>, SettingsError> {
+    fn state(self, state: &Node) -> Result<Vec<Named<'_>>, SettingsError> {
         self.moveit_rest(state, &["joint_state", "multi_dof_joint_state"])?;
         if let Some(base) = self.yaml.find(state, "multi_dof_joint_state")? {
             self.moveit_rest(base, &["joint_names", "transforms"])?;
@@ -133,7 +136,8 @@ impl Reader<'_> {
                 format!("{} numbers for {} joints; one each is accepted", values.len(), names.len());
             return Err(self.fault(values_at, message));
         }
-        Ok(names.into_iter().zip(values).collect())
+        let values = values.into_iter().zip(self.yaml.list(values_at)?);
+        Ok(names.into_iter().zip(values).map(|(name, (value, at))| (name, value, at)).collect())
     }
 
     /// A frame that is another than the robot's base would move all.
@@ -213,7 +217,7 @@ impl Reader<'_> {
         self.moveit_rest(root, &["start_state", "goal_constraints"])?;
         let start = self.yaml.get(root, "start_state")?;
         let named = self.state(start)?;
-        let others = named.iter().map(|(name, _)| *name).filter(|name| !expected.joints.contains(name));
+        let others = named.iter().map(|(name, ..)| *name).filter(|name| !expected.joints.contains(name));
         let others = others.collect::<Vec<_>>().join("`, `");
         if !others.is_empty() {
             self.note(format!("joints of the start that do not move in `{}`: `{others}`", expected.robot));
@@ -246,7 +250,7 @@ impl Reader<'_> {
             }
             let name = self.yaml.word(self.yaml.get(joint, "joint_name")?)?;
             let position = self.yaml.get(joint, "position")?;
-            named.push((name, self.yaml.number(position, "position")?));
+            named.push((name, self.yaml.number(position, "position")?, position));
         }
         self.in_order(goal, "goal", &named, expected)
     }
@@ -256,11 +260,11 @@ impl Reader<'_> {
         self,
         at: &Node,
         what: &str,
-        named: &[(&str, f64)],
+        named: &[Named<'_>],
         expected: &Expected<'_>,
     ) -> Result<Ended, SettingsError> {
-        for (index, (name, _)) in named.iter().enumerate() {
-            if named[..index].iter().any(|(other, _)| other == name) {
+        for (index, (name, ..)) in named.iter().enumerate() {
+            if named[..index].iter().any(|(other, ..)| other == name) {
                 let name = brief(name);
                 return Err(
                     self.fault(at, format!("the {what} gives joint `{name}` twice; once is accepted"))
@@ -275,8 +279,9 @@ impl Reader<'_> {
                     format!("the {what} has no joint `{joint}` of `{robot}`; all joints are accepted"),
                 )
             };
-            let found = named.iter().find(|(name, _)| name == joint).ok_or_else(missing)?;
-            self.yaml.0.radians(&at.at, what, [found.1]).map(|[value]| value)
+            let (_, value, at) = named.iter().find(|(name, ..)| name == joint).ok_or_else(missing)?;
+            let key = format!("joint `{joint}` of the {what}");
+            self.yaml.0.radians(&at.at, &key, [*value]).map(|[value]| value)
         };
         let joints = expected.joints.iter().map(value).collect::<Result<_, _>>()?;
         Ok(Ended { joints, at: at.at.clone() })

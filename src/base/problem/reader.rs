@@ -198,8 +198,8 @@ impl Reader<'_> {
                 format!("{key} has {found} numbers; {accepted}, as the robot has joints, are accepted");
             return Err(self.fault(node, message));
         }
-        for number in &written {
-            self.yaml.0.radians(&node.at, key, [*number])?;
+        for (number, at) in written.iter().zip(self.yaml.list(node)?) {
+            self.yaml.0.radians(&at.at, key, [*number])?;
         }
         let ordered = order.map(|order| order.iter().map(|place| written[*place]).collect());
         Ok(Ended { joints: ordered.unwrap_or(written), at: node.at.clone() })

@@ -110,7 +110,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     (
         "start: [0.0, 1.5]",
         "start: [0.0, 90]",
-        "p.json:20:10: start has the angle 90; is it in degrees? radians",
+        "p.json:20:16: start has the angle 90; is it in degrees? radians",
     ),
     (
         "start: [0.0, 1.5]",
@@ -412,7 +412,11 @@ const WRONG_SCENES: &[(&str, &str, &str)] = &[
 const WRONG_REQUESTS: &[(&str, &str, &str)] = &[
     ("joint_name: lift", "joint_name: drop", "the goal has no joint `lift` of `panda`"),
     ("finger, lift", "finger, drop", "the start has no joint `lift` of `panda`"),
-    ("position: -0.25", "position: -45", "is it in degrees"),
+    (
+        "position: -0.25",
+        "position: -45",
+        "request.yaml:4:54: joint `turn` of the goal has the angle -45; is it in degrees",
+    ),
     (
         "position: -0.25",
         "posture: 0.2, position: -0.25",

@@ -2,7 +2,8 @@
 //!
 //! It goes on until its budget is spent. Informed samples come from the ellipsoid of points that could lie on a shorter
 //! path than the best so far. A joint that turns without end takes the shorter way round there, so paths the other way
-//! round are missed.
+//! round are missed. A leg of the best path that a finer look refuses leaves the tree: the node behind it takes another parent, or is cut off
+//! with all behind it.
 //!
 //! # Source
 //! Karaman & Frazzoli, *Int. J. Robotics Research* 30(7), 846 (2011), algorithm 6 with k-nearest neighbours; Gammell, Srinivasa &
@@ -21,7 +22,7 @@ use world::space::WorldKind;
 pub static ENTRY: Entry = Entry {
     name: "rrt_star",
     about: "RRT that goes on: each new node takes the cheapest of its neighbours as parent and is offered to them; informed or not",
-    revision: 2,
+    revision: 3,
     needs: WorldKind::Roadmap,
     columns: IMPROVING_COLUMNS,
     settings: Accepted::shape::<RrtStar>(),
@@ -93,18 +94,39 @@ impl Costs {
         node
     }
 
-    /// Makes `parent` the parent of a node, which costs less there, and all behind it with it.
+    /// Makes `parent` the parent of a node, which has this cost there; what all behind it cost changes as much.
     fn rewire(&mut self, node: u32, parent: u32, cost: f64) {
-        let old = self.tree.parent(node);
-        self.children[old as usize].retain(|child| *child != node);
+        self.detach(node);
         self.children[parent as usize].push(node);
         self.tree.set_parent(node, parent);
         let less = self.cost[node as usize] - cost;
-        let mut behind = vec![node];
-        while let Some(node) = behind.pop() {
+        for node in self.branch(node) {
             self.cost[node as usize] -= less;
-            behind.extend_from_slice(&self.children[node as usize]);
         }
+    }
+
+    /// Cuts off a node with all behind it: they are near nothing any more.
+    fn cut(&mut self, node: u32) {
+        self.detach(node);
+        for node in self.branch(node) {
+            self.tree.hide(node);
+            self.cost[node as usize] = f64::INFINITY;
+        }
+    }
+
+    fn detach(&mut self, node: u32) {
+        self.children[self.tree.parent(node) as usize].retain(|child| *child != node);
+    }
+
+    /// A node and all behind it.
+    fn branch(&self, node: u32) -> Vec<u32> {
+        let mut branch = vec![node];
+        let mut next = 0;
+        while next < branch.len() {
+            branch.extend_from_slice(&self.children[branch[next] as usize]);
+            next += 1;
+        }
+        branch
     }
 }
 
@@ -194,12 +216,20 @@ impl SampledSearch for RrtStar {
             }
             let mut path = costs.tree.path(last.0);
             path.push(request.goal.to_vec());
-            path.dedup();
-            if motions.refused_leg(&path).is_none() {
-                found.note(whole(&last));
-                found.path = path;
-            } else {
-                before_goal.retain(|(node, _)| *node != last.0);
+            match motions.refused_leg(&path) {
+                None => {
+                    path.dedup();
+                    found.note(whole(&last));
+                    found.path = path;
+                }
+                Some(leg) if leg + 2 == path.len() => before_goal.retain(|(node, _)| *node != last.0),
+                Some(leg) => {
+                    let refused = costs.tree.way(last.0)[leg + 1];
+                    if self.nearest_parent || !replanted(motions, &mut costs, refused) {
+                        costs.cut(refused);
+                        before_goal.retain(|(node, _)| costs.cost[*node as usize].is_finite());
+                    }
+                }
             }
         }
         found.nodes = costs.tree.count();
@@ -239,6 +269,24 @@ fn insert(motions: &mut Motions<'_>, costs: &mut Costs, nearest: u32, config: &[
         }
     }
     node
+}
+
+/// Gives a node the cheapest neighbour as parent from which a finer look lets it be reached; whether there is one.
+fn replanted(motions: &mut Motions<'_>, costs: &mut Costs, node: u32) -> bool {
+    let config = costs.tree.config(node).to_vec();
+    let branch = costs.branch(node);
+    let mut near = costs.tree.nearest_of(&config, neighbour_count(costs.tree.count(), config.len()));
+    near.retain(|(other, _)| !branch.contains(other));
+    near.iter_mut().for_each(|(other, gap)| *gap += costs.cost[*other as usize]);
+    near.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let parent = near.into_iter().find(|(other, _)| {
+        let leg = [costs.tree.config(*other).to_vec(), config.clone()];
+        motions.refused_leg(&leg).is_none()
+    });
+    if let Some((parent, cost)) = parent {
+        costs.rewire(node, parent, cost);
+    }
+    parent.is_some()
 }
 
 #[cfg(test)]

@@ -1,4 +1,7 @@
 //! Ends, counts and claimed lengths that planners share that sample.
+//!
+//! They plan for arms and in the plane. A point among polyhedra is not theirs: no claim asks for one, and studies compare such plans
+//! with OMPL's.
 
 use super::roadmap::roadmap;
 use super::{Counts, Ending, Invalid, Plan, Planner, Request, Trace, Value};
@@ -32,7 +35,7 @@ pub(super) struct Progress {
     pub(super) path: Vec<Vec<f64>>,
     pub(super) iterations: u64,
     pub(super) nodes: usize,
-    /// The iteration and the length of each path that was shorter than all before.
+    /// The iteration and the length of each path that was shorter than all before; not the time, which no second run would repeat.
     pub(super) incumbents: Vec<(u64, f64)>,
 }
 

@@ -70,6 +70,11 @@ impl Tree {
         }
     }
 
+    /// Hides a node: it is near nothing any more.
+    pub fn hide(&mut self, node: u32) {
+        self.configs.hide(node);
+    }
+
     /// The node nearest to a configuration, and how far it is; the older of two that are equally far.
     pub fn nearest(&self, config: &[f64]) -> (u32, f64) {
         self.configs.nearest(config)

@@ -296,14 +296,13 @@ impl Set {
         JointSpace::with_clearance(robot, obstacles, &self.contact, self.step_rad, self.clearance_m)
     }
 
-    /// That a start or goal that is planned for is beyond the limits of a joint, at its place.
-    fn beyond(&self, index: usize, problem: &Problem) -> Option<String> {
+    /// Why the robot cannot be at the start or goal that is planned for, at its place.
+    fn refusal(&self, index: usize, problem: &Problem) -> Option<String> {
+        let space = self.space(problem);
         let ends = [("start", Some(&problem.start)), ("goal", problem.goals.first())];
         ends.into_iter().find_map(|(what, end)| {
             let end = end?;
-            let refusal =
-                self.robot.joints.iter().zip(&end.joints).find_map(|(joint, at)| joint.refusal(*at))?;
-            let message = format!("the {what} cannot be posed: {refusal}");
+            let message = format!("the {what} cannot be posed: {}", space.refusal(&end.joints)?);
             Some(self.problems.fault(index, end.at.clone(), message).to_string())
         })
     }
@@ -380,7 +379,7 @@ impl Family for Set {
             match self.problem(index as u64) {
                 Ok(problem) => {
                     called_invalid += u64::from(!problem.is_valid);
-                    refused.extend(self.beyond(index, &problem).filter(|_| problem.is_valid));
+                    refused.extend(self.refusal(index, &problem).filter(|_| problem.is_valid));
                     named = named.or(problem.robot);
                     notes.extend(problem.notes);
                     ignored.extend(problem.ignored);

@@ -210,38 +210,62 @@ fn points_in_the_plane_lie_on_its_raster() {
     }
 }
 
-/// An arm of two joints about z whose only solid is a ball at its end, beside a ball that is thinner than a step of its motions.
-fn past_something_thin() -> World {
-    let ball = |x: f64, y: f64, radius: f64| Solid {
-        name: "ball".to_owned(),
-        pose: Pose { origin_m: [x, y, 0.0], ..Pose::IDENTITY },
-        form: Form::Sphere(radius),
-    };
-    let joint = |x: f64| Joint {
-        name: format!("joint at {x} m"),
+/// A robot of two joints, each at its place `x` and of its axis and kind, whose only solid is at its end, beside an obstacle.
+fn beside(joints: [(f64, [f64; 3], Kind); 2], solid: Solid, obstacle: Solid, step_rad: f64) -> World {
+    let joint = |(x, axis, kind): (f64, [f64; 3], Kind)| Joint {
+        name: format!("joint at {x} m along {axis:?}"),
         before: Pose { origin_m: [x, 0.0, 0.0], ..Pose::IDENTITY },
-        axis: [0.0, 0.0, 1.0],
-        kind: Kind::Turns,
-        limits: [-3.0, 3.0],
+        axis,
+        kind,
+        limits: if kind == Kind::Slides { [0.0, 1.0] } else { [-3.0, 3.0] },
         speed: None,
     };
     let robot = Robot {
         name: "two".to_owned(),
         base: "base".to_owned(),
-        joints: vec![joint(0.0), joint(0.5)],
-        solids: vec![(2, ball(0.5, 0.0, 0.03))],
+        joints: joints.map(joint).to_vec(),
+        solids: vec![(2, solid)],
         owners: vec!["end".to_owned()],
         tip: Pose::IDENTITY,
         files: Vec::new(),
         notes: Vec::new(),
     };
-    let space = JointSpace::new(robot, vec![ball(0.99, 0.1, 0.001)], &SelfContact::Unchecked, 0.2);
+    let space = JointSpace::new(robot, vec![obstacle], &SelfContact::Unchecked, step_rad);
     World::Roadmap(Box::new(Roadmap::build(
         Local::Joints(Box::new(space)),
         Vec::new(),
         Near::Places(0.0),
         Counted::Accepted,
     )))
+}
+
+fn solid(x: f64, y: f64, form: Form) -> Solid {
+    Solid { name: "solid".to_owned(), pose: Pose { origin_m: [x, y, 0.0], ..Pose::IDENTITY }, form }
+}
+
+/// An arm of two joints about z whose only solid is a ball at its end, beside a ball that is thinner than a step of its motions.
+fn past_something_thin() -> World {
+    let joints = [0.0, 0.5].map(|x| (x, [0.0, 0.0, 1.0], Kind::Turns));
+    beside(joints, solid(0.5, 0.0, Form::Sphere(0.03)), solid(0.99, 0.1, Form::Sphere(0.001)), 0.2)
+}
+
+/// A cube of 1 cm slides in a square of 1 m over a wall. Between two configurations that are checked it may cut the wall's edge.
+#[test]
+fn where_a_finer_look_refuses_legs_of_the_best_path_shorter_ones_are_found_still() {
+    let joints = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|axis| (0.0, axis, Kind::Slides));
+    let wall = solid(0.5, 0.25, Form::Box([0.05, 0.35, 0.1]));
+    let world = beside(joints, solid(0.0, 0.0, Form::Box([0.005; 3])), wall, 0.02);
+    let (start, goal) = ([0.2, 0.3], [0.8, 0.3]);
+    let shortest_m = 2.0 * libm::hypot(0.245, 0.305) + 0.11;
+    let settings =
+        "range = 0.28\nreach = 0.05\nsampler = 'seeded'\ngoal_share = 0\niterations = 2000\ninformed = false";
+    let planner = planner("rrt_star", settings);
+    for seed in 0..8 {
+        let request =
+            Request { world: &world, start: &start, goal: &goal, expansions: 2000, seed, trace: false };
+        let length_m = planner.plan(&request).unwrap().counts["initial_length_rad"].as_f64();
+        assert!((shortest_m..1.035 * shortest_m).contains(&length_m), "seed {seed}: {length_m} m");
+    }
 }
 
 #[test]

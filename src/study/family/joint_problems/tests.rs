@@ -67,13 +67,15 @@ fn each_problem_is_an_instance_and_what_is_wrong_with_one_is_counted() {
     let [ignored, called, refused] = &notes[..] else { panic!("{notes:?}") };
     assert_eq!(ignored, "set.json: ignored keys: `index`; docs/FILES.md has the reasons");
     assert_eq!(called, "set.json: problems that the set calls invalid: 1 of 5");
-    let expected = "set.json: refused problems, which count as invalid: 2 of 5; the first: ";
-    assert!(refused.starts_with(expected) && refused.contains("set.json:5:13: "), "{refused}");
+    let expected = "set.json: refused problems, which count as invalid: 3 of 5; the first: ";
+    let place = "set.json:3:13: the start cannot be posed: part `lower";
+    assert!(refused.starts_with(expected) && refused.contains(place), "{refused}");
     let wrong = |index| family.prepare(index).err().map(|invalid| invalid.0).unwrap_or_default();
     assert!(wrong(2).contains("the problem set calls this problem invalid"), "{}", wrong(2));
     assert!(wrong(3).contains("is it in degrees? radians are accepted"), "{}", wrong(3));
     assert!(wrong(5).contains("the set has 5"), "{}", wrong(5));
-    let limited = notes_on(&SET.replace("120", "1.2")).pop().unwrap();
+    assert!(wrong(3).contains("set.json:5:17: "), "{}", wrong(3));
+    let limited = notes_on(&SET.replace("[0, 0]", "[0, 1.2]").replace("120", "1.2")).pop().unwrap();
     let expected = "1 of 5; the first: ";
     let place = "set.json:6:33: the goal cannot be posed: joint `one` is at -3.5 rad, outside -3 to 3";
     assert!(limited.contains(expected) && limited.contains(place), "{limited}");
