@@ -13,11 +13,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pyarrow.parquet as pq
 import pytest
 
 from statistics_judge import classes
+from statistics_judge.estimates import explored as cut
 from statistics_judge.found import Found
-from statistics_judge.judge import CRITERIA, Claim, compare, is_few, recomputed
+from statistics_judge.judge import CRITERIA, Claim, Compared, compare, compare_rows, is_few, recomputed
 from statistics_judge.medians import over
 from statistics_judge.printed import Printed
 from statistics_judge.printed_cells import as_far, level_rank
@@ -263,6 +265,40 @@ def test_findings_that_are_missing_and_other_claims_are_noticed(judged: Judged) 
     wrong = copy.deepcopy(verdicts)
     wrong["claim"].pop()
     assert any("has other claims" in line for line in compare(paper, claims, wrong).differ)
+
+
+def test_an_altered_number_of_estimates_parquet_is_noticed(tmp_path: Path, metrics: list[Metric]) -> None:
+    runs = tmp_path / "karaman"
+    shutil.copytree(ROOT / "data/runs/karaman", runs)
+    paper = Paper(ROOT / "experiments/karaman", runs, metrics, explored("karaman"))
+    claims = recomputed(paper)
+
+    def rows_compared() -> Compared:
+        found = Compared()
+        compare_rows(paper, claims, found)
+        return found
+
+    sound = rows_compared()
+    assert sound.differ == []
+    assert 0 < sound.rows <= sound.all_rows
+    table = pq.read_table(runs / "estimates.parquet")
+    altered = [
+        None if value is None else value * (1 + 1e-6) + 1e-6 for value in table.column("value").to_pylist()
+    ]
+    at = table.column_names.index("value")
+    pq.write_table(table.set_column(at, "value", [altered]), runs / "estimates.parquet")
+    wrong = rows_compared().differ
+    assert len(wrong) == sound.rows
+    assert all("its value is" in line for line in wrong), wrong
+
+
+def test_an_exploration_sees_its_first_instances_alone(metrics: list[Metric]) -> None:
+    # The values as estimates.parquet has them are those of 40 and 120 instances a group.
+    paper = Paper(ROOT / "experiments/zhang", ROOT / "data/runs/zhang", metrics, explored("zhang"))
+    papers = [paper, cut(paper, has_more=False), cut(paper, has_more=True)]
+    studies = [one.studies["ensemble"] for one in papers]
+    rows = [study.rows("simple cells 10 %", "A*") for study in studies]
+    assert [len(np.unique(studies[0].instance[own])) for own in rows] == [200, 40, 120]
 
 
 def test_the_command_ends_with_3_where_something_differs(tmp_path: Path, metrics: list[Metric]) -> None:
