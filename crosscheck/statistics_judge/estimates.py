@@ -63,6 +63,9 @@ def as_stored(criterion: str, own: Estimate) -> Estimate:
     if criterion == "mean_of":
         # Its interval is that about the printed mean, which is no number of the table.
         return replace(own, interval=None)
+    if criterion == "equals":
+        # Its cases are the equal ones, of those that are compared.
+        return replace(own, solved=None)
     if criterion != "lower" or own.interval is None:
         return own
     low, high = (end.mapped(lambda number: 0.0 - number) for end in own.interval)
