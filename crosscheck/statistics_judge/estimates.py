@@ -30,14 +30,18 @@ Finds = Callable[[Paper, dict[str, Any], str], Estimate | None]
 
 
 def rows(paper: Paper) -> Iterator[dict[str, Any]]:
-    """The rows of the default interpretation on the first seed that are the whole of a number, as measured."""
+    """The rows of the default interpretation on the first seed."""
     path = paper.runs / "estimates.parquet"
     if not path.is_file():
         return
     for row in pq.read_table(path).to_pylist():
-        is_default = 0 in row["interpretations"] and not row["is_second_seed"]
-        if is_default and not row["part"] and row["ends"] == "measured" and row["value"] is not None:
+        if 0 in row["interpretations"] and not row["is_second_seed"]:
             yield row
+
+
+def is_whole(row: dict[str, Any]) -> bool:
+    """Whether a row is a whole number as measured, that does not rest on the clock."""
+    return not row["part"] and row["ends"] == "measured" and row["value"] is not None and not row["sessions"]
 
 
 def criterion_of(claim: dict[str, Any], row: dict[str, Any]) -> str | None:
@@ -88,7 +92,7 @@ def compared(paper: Paper, finds: Finds) -> Iterator[tuple[str, dict[str, Any], 
         of_row = papers[row["has_more_instances"]]
         claim = next((one for one in paper.claims if one["id"] == row["claim"]), {})
         name = criterion_of(claim, row)
-        if name is None or row["sessions"] or not has_trials(paper, row):
+        if name is None or not is_whole(row) or not has_trials(paper, row):
             yield None
             continue
         more = ", with more instances" if row["has_more_instances"] else ""

@@ -61,7 +61,7 @@ class Compared:
     intervals: int = 0
     classes: int = 0
     across: int = 0
-    # Rows of estimates.parquet: those computed again, and all that could be.
+    # Rows of the defaults in estimates.parquet: those computed again, and all.
     rows: int = 0
     all_rows: int = 0
     near: list[str] = field(default_factory=list)

@@ -11,6 +11,7 @@ import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -25,7 +26,7 @@ from statistics_judge.printed import Printed
 from statistics_judge.printed_cells import as_far, level_rank
 from statistics_judge.records import Metric, Paper
 from statistics_judge.shares import share
-from statistics_judge.sizes import of_change, on_bounds
+from statistics_judge.sizes import of_change, on_bounds, ratio
 
 ROOT = Path(__file__).parents[2]
 REQUEST = ROOT / "target/replan/crosscheck/statistics.json"
@@ -78,8 +79,8 @@ def test_zeros_and_failures_are_equal_to_themselves() -> None:
 
 def test_rounding_alone_is_no_change_meets_a_margin_and_lies_on_a_bound() -> None:
     one, other = 0.1 + 0.2 + 0.3, 0.3 + 0.2 + 0.1
-    for ratio in (one / other, other / one):
-        change = 100 * (ratio - 1)
+    for quotient in (one / other, other / one):
+        change = 100 * (quotient - 1)
         assert change != 0
         assert of_change(change, change, 0.0, False) == of_change(change, change, 0.0, True) == classes.FAILS
     # A fifth less is a fifth less, though 0.8 - 1 is not -0.2.
@@ -90,6 +91,16 @@ def test_rounding_alone_is_no_change_meets_a_margin_and_lies_on_a_bound() -> Non
     assert on_bounds(one, 0.0, other) == other
     assert on_bounds(other, one, 1.0) == one
     assert on_bounds(one + 1e-6, 0.0, other) == one + 1e-6
+
+
+def test_a_mean_of_ratios_weighs_every_instance_alike() -> None:
+    # Ratios 2, 1/2 and 5/10, of two cases; an instance with nothing to divide by is left out.
+    bases, values = np.array([1.0, 40.0, 4.0, 6.0, 0.0]), np.array([2.0, 20.0, 3.0, 2.0, 7.0])
+    cases = SimpleNamespace(unit=np.array([0, 1, 2, 2, 3]))
+    of_ratios, of_means = (ratio(cases, bases, values, "a test", of_instances=way) for way in (True, False))
+    assert of_ratios and of_means
+    assert (of_ratios[0], of_ratios[2]) == (pytest.approx(1), 3)
+    assert (of_means[0], of_means[2]) == (pytest.approx(34 / 51), 4)
 
 
 def test_what_lowers_an_outcome_raises_none() -> None:
