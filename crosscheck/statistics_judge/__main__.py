@@ -43,7 +43,8 @@ def report(name: str, compared: Compared) -> None:
     """Say what agrees, what is near and what differs."""
     agree = (
         f"{compared.estimates} estimates, {compared.intervals} intervals, {compared.classes} outcomes "
-        f"and {compared.across} combinations across interpretations agree"
+        f"and {compared.across} combinations across interpretations agree; "
+        f"compared {compared.rows} of {compared.all_rows} rows of the defaults in estimates.parquet"
     )
     print(f"{name}: {agree}; {len(compared.near)} near, {len(compared.differ)} differ", flush=True)
     for line in compared.near:

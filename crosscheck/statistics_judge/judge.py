@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from statistics_judge import across, classes, means, medians, printed_cells, shares, sizes
+from statistics_judge import across, classes, estimates, means, medians, printed_cells, shares, sizes
 from statistics_judge.found import FEWEST_INSTANCES, Asked, Estimate, Found
 from statistics_judge.records import Paper, Study
 from statistics_judge.selection import labels, select
@@ -61,6 +61,9 @@ class Compared:
     intervals: int = 0
     classes: int = 0
     across: int = 0
+    # Rows of the defaults in estimates.parquet: those computed again, and all.
+    rows: int = 0
+    all_rows: int = 0
     near: list[str] = field(default_factory=list)
     differ: list[str] = field(default_factory=list)
 
@@ -236,7 +239,33 @@ def compare(paper: Paper, claims: list[Claim], verdicts: dict[str, Any]) -> Comp
             compared.across += 1
         else:
             compared.differ.append(line)
+    compare_rows(paper, claims, compared)
     return compared
+
+
+def compare_rows(paper: Paper, claims: list[Claim], compared: Compared) -> None:
+    """The default interpretation's rows of estimates.parquet."""
+    known = {claim.id: claim for claim in claims}
+
+    def finds(of: Paper, claim: dict[str, Any], name: str) -> Estimate | None:
+        studies = studies_of(claim["check"][name])
+        judged = known[claim["id"]]
+        if all(of.studies[study] is paper.studies[study] for study in studies):
+            found = judged.findings[judged.names.index(name)]
+            return found.estimate if found else None
+        return of_criterion(of, claim, name, claim["check"][name], decides=False).estimate
+
+    for found in estimates.compared(paper, finds):
+        compared.all_rows += 1
+        if found is None:
+            continue
+        where, row, own = found
+        compared.rows += 1
+        interval = None if row["low"] is None else [row["low"], row["high"]]
+        stored = {"value": row["value"], "n": row["n"], "interval": interval}
+        if own is not None and own.solved is not None:
+            stored["solved"] = [row["solved"], row["total"]]
+        compared.differ += [f"{where}: {line}" for line in differences(own, stored, Compared())]
 
 
 def whole(claim: Claim, possible: list[Classes]) -> Classes:

@@ -1,5 +1,6 @@
 """Papers, studies and stored trials as numpy arrays."""
 
+import copy
 import itertools
 import json
 import operator
@@ -81,6 +82,8 @@ class Study:
         """Remember where it is; nothing is read before it is asked for."""
         self.name, self.spec, self.runs = path.stem, spec, runs
         self.taken: dict[str, str] = {}
+        # The instances of a group and the seeds of a contender that are looked at; all if not given.
+        self.most: tuple[int | None, int | None] = (None, None)
         self._columns: dict[str, Reals] = {}
         self._clocked: dict[int, Reals] = {}
         # What many claims ask of one contender on one problem, and who asks.
@@ -205,11 +208,35 @@ class Study:
         """Whether each trial was solved."""
         return self.status == "solved"
 
+    def first(self, instances: int | None, repeats: int | None) -> "Study":
+        """The study with its first instances and seeds alone; itself if that is all that is stored."""
+        stored = (int(one.max(initial=0)) + 1 for one in (self.instance, self.repeat))
+        if all(
+            most is None or most >= all_of for most, all_of in zip((instances, repeats), stored, strict=True)
+        ):
+            return self
+        first = copy.copy(self)
+        first.most, first.known = (instances, repeats), {}
+        vars(first).pop("_places", None)
+        return first
+
+    def has_instances(self, count: int) -> bool:
+        """Whether so many instances, or all that its spec asks for, of each group are stored."""
+        groups, names = self.trials.words("group")
+        wanted = {own["label"]: min(own.get("instances", 1), count) for own in self.spec.get("problems", [])}
+        return all(
+            len(np.unique(self.instance[groups == names.index(label)])) >= least
+            for label, least in wanted.items()
+            if label in names
+        )
+
     @cached_property
     def _places(self) -> dict[tuple[str, str], Places]:
         groups, group_names = self.trials.words("group")
         contenders, contender_names = self.trials.words("contender")
         kept = np.ones(self.count, dtype=bool)
+        for most, numbered in zip(self.most, (self.instance, self.repeat), strict=True):
+            kept &= most is None or numbered < most
         for choice in self.inherited:
             options, names = self.trials.words(OPTION + choice)
             wanted = self.taken[choice]

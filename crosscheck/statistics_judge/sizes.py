@@ -32,16 +32,27 @@ EQUAL = 1e-9
 # Which share of the cases lies below a quantile.
 QUANTILES = {"lower_quartile": 0.25, "median": 0.5, "upper_quartile": 0.75, "ninety_fifth_percentile": 0.95}
 
+# Statistics that hold two contenders against each other.
+PAIRED = ("ratio", "mean_of_ratios", "reduction_percent")
+
 Outcome = Callable[[float, float], str]
 
 
-def ratio(cases: Cases, bases: Reals, values: Reals, seed: str) -> tuple[float, Interval, int] | None:
-    """The sum of one contender's numbers over that of the other's, over the cases that have both."""
+def ratio(
+    cases: Cases, bases: Reals, values: Reals, seed: str, *, of_instances: bool = False
+) -> tuple[float, Interval, int] | None:
+    """The sum of one contender's numbers over that of the other's, over the cases that have both.
+
+    Or the mean of that over the instances where the other's sum is above 0.
+    """
     kept = ~np.isnan(bases) & ~np.isnan(values)
     names, unit = np.unique(cases.unit[kept], return_inverse=True)
     own, base = sums_by_unit(unit, len(names), values[kept], bases[kept])
-    interval = agreed_ratio(own, base) or bootstrap(ratio_of_sums(own, base), len(names), seed)
-    return interval and (float(own.sum() / base.sum()), interval, len(names))
+    if of_instances:
+        own = own[base > 0] / base[base > 0]
+        base = np.ones(len(own))
+    interval = agreed_ratio(own, base) or bootstrap(ratio_of_sums(own, base), len(own), seed)
+    return interval and (float(own.sum() / base.sum()), interval, len(own))
 
 
 def filled(cases: Cases) -> list[tuple[Reals, Reals]]:
@@ -70,8 +81,9 @@ def filled(cases: Cases) -> list[tuple[Reals, Reals]]:
 
 def otherwise(cases: Cases, statistic: str, seed: str, of: Callable[[Interval], Interval]) -> list[Interval]:
     """The intervals of a statistic when cases without a number had any that they may have had."""
-    if statistic in ("ratio", "reduction_percent"):
-        found = [ratio(cases, *numbers, seed + " filled") for numbers in filled(cases)]
+    if statistic in PAIRED:
+        is_mean = statistic == "mean_of_ratios"
+        found = [ratio(cases, *numbers, seed + " filled", of_instances=is_mean) for numbers in filled(cases)]
         return [of(one[1]) for one in found if one is not None]
     seen = cases.values[~np.isnan(cases.values)]
     if not cases.unended.any() or len(seen) == 0:
@@ -267,7 +279,9 @@ def within(asked: Asked) -> Found:
     value, interval, n = found
     least, most, printed = accepted(asked)
     middle = (least + most) / 2 if printed is None else printed
-    none = {"reduction_percent": 0.0, "ratio": 1.0, "ratio_of_groups": 1.0}.get(statistic)
+    none = {"reduction_percent": 0.0, "ratio": 1.0, "mean_of_ratios": 1.0, "ratio_of_groups": 1.0}.get(
+        statistic
+    )
 
     def outcome(low: float, high: float) -> str:
         low, high = (on_bounds(end, least, most) for end in (low, high))
@@ -309,9 +323,10 @@ def on_bounds(number: float, *bounds: float) -> float:
 
 def of_all(cases: Cases, statistic: str, seed: str) -> tuple[float, Interval, int] | None:
     """A statistic of all instances, its interval, and how many instances it rests on."""
-    if statistic in ("ratio", "reduction_percent"):
-        found = ratio(cases, cases.bases, cases.values, seed)
-        if found is None or statistic == "ratio":
+    if statistic in PAIRED:
+        is_mean = statistic == "mean_of_ratios"
+        found = ratio(cases, cases.bases, cases.values, seed, of_instances=is_mean)
+        if found is None or statistic != "reduction_percent":
             return found
         return 100 * (1 - found[0]), reduction(found[1]), found[2]
     if statistic == "ratio_of_groups":

@@ -11,19 +11,22 @@ import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
+import pyarrow.parquet as pq
 import pytest
 
 from statistics_judge import classes
+from statistics_judge.estimates import explored as cut
 from statistics_judge.found import Found
-from statistics_judge.judge import CRITERIA, Claim, compare, is_few, recomputed
+from statistics_judge.judge import CRITERIA, Claim, Compared, compare, compare_rows, is_few, recomputed
 from statistics_judge.medians import over
 from statistics_judge.printed import Printed
 from statistics_judge.printed_cells import as_far, level_rank
 from statistics_judge.records import Metric, Paper
 from statistics_judge.shares import share
-from statistics_judge.sizes import of_change, on_bounds
+from statistics_judge.sizes import of_change, on_bounds, ratio
 
 ROOT = Path(__file__).parents[2]
 REQUEST = ROOT / "target/replan/crosscheck/statistics.json"
@@ -76,8 +79,8 @@ def test_zeros_and_failures_are_equal_to_themselves() -> None:
 
 def test_rounding_alone_is_no_change_meets_a_margin_and_lies_on_a_bound() -> None:
     one, other = 0.1 + 0.2 + 0.3, 0.3 + 0.2 + 0.1
-    for ratio in (one / other, other / one):
-        change = 100 * (ratio - 1)
+    for quotient in (one / other, other / one):
+        change = 100 * (quotient - 1)
         assert change != 0
         assert of_change(change, change, 0.0, False) == of_change(change, change, 0.0, True) == classes.FAILS
     # A fifth less is a fifth less, though 0.8 - 1 is not -0.2.
@@ -88,6 +91,16 @@ def test_rounding_alone_is_no_change_meets_a_margin_and_lies_on_a_bound() -> Non
     assert on_bounds(one, 0.0, other) == other
     assert on_bounds(other, one, 1.0) == one
     assert on_bounds(one + 1e-6, 0.0, other) == one + 1e-6
+
+
+def test_a_mean_of_ratios_weighs_every_instance_alike() -> None:
+    # Ratios 2, 1/2 and 5/10, of two cases; an instance with nothing to divide by is left out.
+    bases, values = np.array([1.0, 40.0, 4.0, 6.0, 0.0]), np.array([2.0, 20.0, 3.0, 2.0, 7.0])
+    cases = SimpleNamespace(unit=np.array([0, 1, 2, 2, 3]))
+    of_ratios, of_means = (ratio(cases, bases, values, "a test", of_instances=way) for way in (True, False))
+    assert of_ratios and of_means
+    assert (of_ratios[0], of_ratios[2]) == (pytest.approx(1), 3)
+    assert (of_means[0], of_means[2]) == (pytest.approx(34 / 51), 4)
 
 
 def test_what_lowers_an_outcome_raises_none() -> None:
@@ -263,6 +276,40 @@ def test_findings_that_are_missing_and_other_claims_are_noticed(judged: Judged) 
     wrong = copy.deepcopy(verdicts)
     wrong["claim"].pop()
     assert any("has other claims" in line for line in compare(paper, claims, wrong).differ)
+
+
+def test_an_altered_number_of_estimates_parquet_is_noticed(tmp_path: Path, metrics: list[Metric]) -> None:
+    runs = tmp_path / "karaman"
+    shutil.copytree(ROOT / "data/runs/karaman", runs)
+    paper = Paper(ROOT / "experiments/karaman", runs, metrics, explored("karaman"))
+    claims = recomputed(paper)
+
+    def rows_compared() -> Compared:
+        found = Compared()
+        compare_rows(paper, claims, found)
+        return found
+
+    sound = rows_compared()
+    assert sound.differ == []
+    assert 0 < sound.rows <= sound.all_rows
+    table = pq.read_table(runs / "estimates.parquet")
+    altered = [
+        None if value is None else value * (1 + 1e-6) + 1e-6 for value in table.column("value").to_pylist()
+    ]
+    at = table.column_names.index("value")
+    pq.write_table(table.set_column(at, "value", [altered]), runs / "estimates.parquet")
+    wrong = rows_compared().differ
+    assert len(wrong) == sound.rows
+    assert all("its value is" in line for line in wrong), wrong
+
+
+def test_an_exploration_sees_its_first_instances_alone(metrics: list[Metric]) -> None:
+    # The values as estimates.parquet has them are those of 40 and 120 instances a group.
+    paper = Paper(ROOT / "experiments/zhang", ROOT / "data/runs/zhang", metrics, explored("zhang"))
+    papers = [paper, cut(paper, has_more=False), cut(paper, has_more=True)]
+    studies = [one.studies["ensemble"] for one in papers]
+    rows = [study.rows("simple cells 10 %", "A*") for study in studies]
+    assert [len(np.unique(studies[0].instance[own])) for own in rows] == [200, 40, 120]
 
 
 def test_the_command_ends_with_3_where_something_differs(tmp_path: Path, metrics: list[Metric]) -> None:

@@ -140,6 +140,8 @@ pub enum OverallStatistic {
     ReductionPercent,
     /// The sum over the cases that both solve over the other contender's.
     Ratio,
+    /// The mean of the instances' ratios, each of the sums over the cases that both solve; one without a sum to divide by is left out.
+    MeanOfRatios,
     /// The median on the first of two problem groups over that on the second.
     RatioOfGroups,
 }
@@ -156,20 +158,21 @@ impl OverallStatistic {
             Self::Deviation => "standard deviation",
             Self::ReductionPercent => "reduction in % of the mean",
             Self::Ratio => "ratio of the means",
+            Self::MeanOfRatios => "mean of the instances' ratios",
             Self::RatioOfGroups => "ratio of the medians on two groups",
         }
     }
 
     /// Whether it sets two contenders beside each other.
     pub fn is_paired(self) -> bool {
-        matches!(self, Self::ReductionPercent | Self::Ratio)
+        matches!(self, Self::ReductionPercent | Self::Ratio | Self::MeanOfRatios)
     }
 
     /// The number that means no difference, if it sets two contenders beside each other.
     pub fn no_difference(self) -> Option<f64> {
         match self {
             Self::ReductionPercent => Some(0.0),
-            Self::Ratio | Self::RatioOfGroups => Some(1.0),
+            Self::Ratio | Self::MeanOfRatios | Self::RatioOfGroups => Some(1.0),
             _ => None,
         }
     }
@@ -251,8 +254,14 @@ impl OverallStatistic {
         let sums = |pairs: &Vec<(f64, f64)>| {
             pairs.iter().fold([0.0, 0.0], |[own, base], pair| [own + pair.1, base + pair.0])
         };
-        let ratio = pooled::ratio_of_pairs(&pairs.iter().map(sums).collect::<Vec<_>>(), plan)?;
-        if self == Self::Ratio {
+        // In a mean of ratios every instance weighs the same.
+        let weighed = |[own, base]: [f64; 2]| match self {
+            Self::MeanOfRatios => (base > 0.0).then(|| [own / base, 1.0]),
+            _ => Some([own, base]),
+        };
+        let weighed: Vec<[f64; 2]> = pairs.iter().map(sums).filter_map(weighed).collect();
+        let ratio = pooled::ratio_of_pairs(&weighed, plan)?;
+        if self != Self::ReductionPercent {
             return Some(ratio);
         }
         let percent = |ratio: f64| 100.0 * (1.0 - ratio);
@@ -413,6 +422,17 @@ mod tests {
             assert_eq!((statistic.is_paired(), statistic.no_difference()), (false, None));
         }
         assert_eq!(OverallStatistic::Deviation.quantile(), None);
+    }
+
+    #[test]
+    fn a_mean_of_ratios_weighs_every_instance_alike() {
+        // Ratios 2, 1/2 and 5/10, of two cases; an instance with nothing to divide by is left out.
+        let pairs = [vec![(1.0, 2.0)], vec![(40.0, 20.0)], vec![(4.0, 3.0), (6.0, 2.0)], vec![(0.0, 7.0)]];
+        let [of_ratios, of_means] = [OverallStatistic::MeanOfRatios, OverallStatistic::Ratio]
+            .map(|of| of.of_pairs(&pairs, plan(&["x"])).unwrap());
+        assert!((of_ratios.value - 1.0).abs() < 1e-12 && of_ratios.units == 3, "{of_ratios:?}");
+        assert!((of_means.value - 34.0 / 51.0).abs() < 1e-12 && of_means.units == 4, "{of_means:?}");
+        assert_eq!((of_ratios.interval.low, of_ratios.interval.high), (0.5, 2.0), "{of_ratios:?}");
     }
 
     #[test]

@@ -2,8 +2,8 @@
 //!
 //! A rule is one option, or two. It is exact if no result on the other side has it, and then the smallest comes first: one option,
 //! then two. Of as many options the rule under which the fewest interpretations stand comes first. Without an exact rule a
-//! combination of options decides. An option is named that all results on a side share and at most half of those on the other
-//! side have, or else the choice that separates best, with its counts.
+//! combination of options decides. The choice that separates best is named, with its counts, or else an option that all results
+//! on a side share and at most half of those on the other side have.
 
 use super::count::{Group, VotingChoices};
 use super::glance::Sight;

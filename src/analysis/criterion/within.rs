@@ -20,7 +20,7 @@ use stats::paired::{self, snapped};
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "within",
-    about: "does the interval of a mean, quantile, deviation, ratio or reduction lie within a margin or within bounds?",
+    about: "does the interval of a mean, quantile, deviation, ratio, mean of ratios or reduction lie within a margin or within bounds?",
     revision: |_| 4,
     question: |settings| {
         without(settings, &["margin", "margin_percent", "printed_ratio", "accepted"]);
@@ -229,7 +229,9 @@ impl Criterion for Within<'_> {
         let ours = Estimate::new(value, interval, what, all.n);
         let ours = match self.statistic {
             OverallStatistic::ReductionPercent => ours.measures(Quantity::LessPercent, metric.as_str()),
-            OverallStatistic::Ratio => ours.measures(Quantity::Ratio, metric.as_str()),
+            OverallStatistic::Ratio | OverallStatistic::MeanOfRatios => {
+                ours.measures(Quantity::Ratio, metric.as_str())
+            }
             _ => ours,
         };
         let Interval { low, high } = interval;
@@ -263,7 +265,7 @@ impl Criterion for Within<'_> {
     fn show(&self, evidence: &Evidence<'_>, numbers: &[Number], found: &mut CriterionResult) {
         let Some(value) = whole(numbers).value.filter(|_| found.ours.is_some()) else { return };
         let own = |case: &selection::Case<'_>| match self.statistic {
-            OverallStatistic::Ratio => {
+            OverallStatistic::Ratio | OverallStatistic::MeanOfRatios => {
                 case.pair().filter(|(base, _)| *base > 0.0).map(|(base, own)| own / base)
             }
             OverallStatistic::ReductionPercent => case.saving_percent(),
