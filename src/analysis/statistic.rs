@@ -61,8 +61,8 @@ pub fn tied(instances: usize) -> Option<String> {
     Some(format!("every case ties: at most {:.1} % of instances could differ (95 %)", 100.0 * bound.high))
 }
 
-/// A bootstrap as every number has it. All draw the same stream of instances: an estimate has one interval wherever it is asked or
-/// shown, whatever its claim is called.
+/// The bootstrap of every number. All draw the same stream of instances, so that an estimate has one interval wherever it stands,
+/// whatever its claim is called.
 pub const PLAN: Resampling = Resampling { resamples: 2000, level: LEVEL, seed: 0 };
 
 /// A metric of a trial as medians take it: infinite where the trial failed, `unended` where it did not come to an end.

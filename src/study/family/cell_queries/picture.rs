@@ -69,8 +69,8 @@ pub(in crate::family) fn at_ends(
     queries.iter().flat_map(ends).flatten().collect()
 }
 
-/// Of each query in turn, named after it and what is nearest: whether the local path from start to goal is free, and how clear of
-/// everything it is; no number where the joints cannot follow it.
+/// Of each query in turn, named after it and what is nearest: whether the local path from start to goal is free, and how far from
+/// everything it stays, in mm. That is NaN where the joints cannot follow it.
 fn straight_lines(lines: &Lines, queries: &[Query]) -> Vec<Trace> {
     let mut scratch = Scratch::default();
     let mut line = |query: &Query| {
