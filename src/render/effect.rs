@@ -16,7 +16,7 @@ pub fn percentage(share: &Estimate) -> String {
 }
 
 /// `size` with so many decimals; a half goes away from zero, also where it is a half but for rounding, as 100 times 0.145 is.
-fn rounded(size: f64, decimals: usize) -> String {
+pub(super) fn rounded(size: f64, decimals: usize) -> String {
     let unit = libm::pow(10.0, decimals as f64);
     let exact = libm::round(size * unit * 1e6) / 1e6;
     format!("{:.decimals$}", libm::round(exact) / unit)

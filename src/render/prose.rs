@@ -1,6 +1,6 @@
 //! Text: a paper's own words with our numbers put in, Markdown that shows text as it is, and lines of limited length.
 
-use super::effect::{effect, percentage, side_by_side};
+use super::effect::{effect, percentage, rounded, side_by_side};
 use crate::analysis::verdict::{ClaimVerdict, Estimate, Verdicts};
 use base::text::shown;
 use study::paper::filled;
@@ -19,7 +19,7 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
             "verdict" => judged.map(ClaimVerdict::verdict_text),
             "interpretations" => judged.and_then(ClaimVerdict::rests_on),
             "n" => ours.map(|ours| ours.n.to_string()),
-            "tenths" => ours.map(|ours| format!("{:.1}", ours.value)),
+            "tenths" => ours.map(|ours| rounded(ours.value, 1)),
             "effect" => ours
                 .map(|ours| effect(ours).unwrap_or_else(|| number(ours.value)))
                 .or_else(|| beside(verdicts.parts_ours(judged?))),
