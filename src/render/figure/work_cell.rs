@@ -160,13 +160,13 @@ fn heading(lines: &[(&str, Option<f64>, &str)]) -> String {
     let mut blocked = Vec::new();
     for (query, mm, obstacle) in lines {
         match mm {
-            Some(mm) => near.entry(obstacle).or_default().push(format!("{query}: {mm:.0}")),
+            Some(mm) => near.entry(obstacle).or_default().push(format!("{query} ({mm:.0} mm)")),
             None => blocked.push(*query),
         }
     }
     let mut heading = format!("{} of {} straight lines are free", lines.len() - blocked.len(), lines.len());
     for (obstacle, clear) in near {
-        heading += &format!("; mm from {obstacle}: {}", clear.join(", "));
+        heading += &format!("; nearest to {obstacle}: {}", clear.join(", "));
     }
     if !blocked.is_empty() {
         heading += &format!("; blocked: {}", blocked.join(", "));
