@@ -277,7 +277,9 @@ fn replanted(motions: &mut Motions<'_>, costs: &mut Costs, node: u32) -> bool {
     let branch = costs.branch(node);
     let mut near = costs.tree.nearest_of(&config, neighbour_count(costs.tree.count(), config.len()));
     near.retain(|(other, _)| !branch.contains(other));
-    near.iter_mut().for_each(|(other, gap)| *gap += costs.cost[*other as usize]);
+    for (other, gap) in &mut near {
+        *gap += costs.cost[*other as usize];
+    }
     near.sort_by(|a, b| a.1.total_cmp(&b.1));
     let parent = near.into_iter().find(|(other, _)| {
         let leg = [costs.tree.config(*other).to_vec(), config.clone()];
