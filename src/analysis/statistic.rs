@@ -429,7 +429,7 @@ mod tests {
         // Ratios 2, 1/2 and 5/10, of two cases; an instance with nothing to divide by is left out.
         let pairs = [vec![(1.0, 2.0)], vec![(40.0, 20.0)], vec![(4.0, 3.0), (6.0, 2.0)], vec![(0.0, 7.0)]];
         let [of_ratios, of_means] = [OverallStatistic::MeanOfRatios, OverallStatistic::Ratio]
-            .map(|of| of.of_pairs(&pairs, plan(&["x"])).unwrap());
+            .map(|of| of.of_pairs(&pairs, PLAN).unwrap());
         assert!((of_ratios.value - 1.0).abs() < 1e-12 && of_ratios.units == 3, "{of_ratios:?}");
         assert!((of_means.value - 34.0 / 51.0).abs() < 1e-12 && of_means.units == 4, "{of_means:?}");
         assert_eq!((of_ratios.interval.low, of_ratios.interval.high), (0.5, 2.0), "{of_ratios:?}");
