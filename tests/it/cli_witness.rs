@@ -34,7 +34,7 @@ fn a_map_is_found_on_which_the_claim_holds_and_the_same_at_any_number_of_threads
 
 /// The verdict of a claim: the first word of the line above the one that its id begins.
 fn class_of<'t>(claim: &str, table: &'t str) -> &'t str {
-    let is_its = |id: &str| id.trim().split(':').next() == Some(claim);
+    let is_its = |id: &str| id.trim().trim_matches(['(', ')']).split(':').next() == Some(claim);
     let line = table.lines().zip(table.lines().skip(1)).find(|(_, id)| is_its(id)).map(|(line, _)| line);
     line.and_then(|line| line.split_whitespace().next()).unwrap_or_default()
 }

@@ -39,7 +39,7 @@ const KEYS: [(&str, Option<&str>, &str); 16] = [
     ("columns", None, "names of the numbers of a point, separated by commas; null where they are not named"),
     ("values", None, "numbers of the trace, point after point"),
     ("session", None, "session in which the clock was read, from 1; sessions are never pooled"),
-    ("clock_repeat", None, "which reading of the clock in its session, from 0"),
+    ("clock_repeat", None, "which choice of the clock in its session, from 0"),
     (clock::COLUMN, Some("ns"), clock::ABOUT),
 ];
 
