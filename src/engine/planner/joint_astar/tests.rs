@@ -110,7 +110,7 @@ fn a_small_budget_is_spent_and_a_box_on_the_goal_is_refused() {
     let refusal = planner("delta_deg = 8.0\nneighbours = 12").unwrap().plan(&request).unwrap_err();
     assert!(refusal.to_string().contains("no branch of the arm is free"), "{refusal}");
     for (text, part) in [
-        ("delta_deg = 0.0\nneighbours = 12", "delta_deg is 0"),
+        ("delta_deg = 0.0\nneighbours = 12", "`delta_deg` is 0.0"),
         ("delta_deg = 5.0\nneighbours = 26", "12 (one joint) or 728 (any joints)"),
     ] {
         let Err(error) = planner(text) else { panic!("{text} was accepted") };
