@@ -90,7 +90,7 @@ impl Lines {
         self.clear(way.as_ref(), from.branch, scratch)
     }
 
-    /// The least clearance at the steps of the local path between two configurations, as [`Cell::clearance_m`] has it; `None` if
+    /// The least clearance at the steps of the local path between two configurations, as [`clearance_m`](super::Cell::clearance_m) has it; `None` if
     /// the joints cannot follow it or arrive in another configuration than the one requested.
     pub fn clearance_m(
         &self,
