@@ -90,7 +90,8 @@ def compared(paper: Paper, finds: Finds) -> Iterator[tuple[str, dict[str, Any], 
     papers = [explored(paper, has_more=has_more) for has_more in (False, True)]
     for row in rows(paper):
         of_row = papers[row["has_more_instances"]]
-        claim = next((one for one in paper.claims if one["id"] == row["claim"]), {})
+        # Claims that ask the same share a row.
+        claim = next((one for one in paper.claims if one["id"] in row["claim"].split(", ")), {})
         name = criterion_of(claim, row)
         if name is None or not is_whole(row) or not has_trials(paper, row):
             yield None

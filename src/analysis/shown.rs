@@ -34,7 +34,7 @@ pub fn mean_difference([base, selection]: [&Selection<'_>; 2], evidence: &Eviden
 
 /// What all instances of a selection give.
 pub fn of_all(all: OverallStatistic, selection: &Selection<'_>, evidence: &Evidence<'_>) -> Option<Estimate> {
-    all.estimate(&selection.instances(evidence), PLAN)
+    all.estimate(&selection.instances(evidence))
 }
 
 /// The point whose coordinates are the medians of those of `points`; failures may be infinite.

@@ -189,12 +189,12 @@ impl OverallStatistic {
     }
 
     /// The number with its bootstrap interval over instances; none below two.
-    pub fn estimate(self, instances: &[Instance<'_>], plan: Resampling) -> Option<Estimate> {
+    pub fn estimate(self, instances: &[Instance<'_>]) -> Option<Estimate> {
         if self.is_paired() {
-            return self.of_pairs(&super::selection::pairs(instances), plan);
+            return self.of_pairs(&super::selection::pairs(instances));
         }
         if self == Self::RatioOfGroups {
-            return of_groups(instances, plan);
+            return of_groups(instances);
         }
         let quantile = self.quantile();
         let values = by_instance(instances, |case| match (quantile, case.value) {
@@ -205,26 +205,18 @@ impl OverallStatistic {
             values.iter().map(|instance| [instance.iter().sum(), instance.len() as f64]).collect::<Vec<_>>()
         };
         match (self, quantile) {
-            (_, Some(share)) => pooled::quantile(&values, share, plan),
-            (Self::Deviation, None) => pooled::deviation(&values, plan),
-            _ => pooled::ratio_of_sums(&sums(), plan),
+            (_, Some(share)) => pooled::quantile(&values, share, PLAN),
+            (Self::Deviation, None) => pooled::deviation(&values, PLAN),
+            _ => pooled::ratio_of_sums(&sums(), PLAN),
         }
     }
 
     /// The intervals that it would have if cases without a number had one that they may have had, the least or the greatest;
     /// empty if all cases have numbers.
-    pub fn otherwise(
-        self,
-        selection: &Selection<'_>,
-        instances: &[Instance<'_>],
-        plan: Resampling,
-    ) -> Vec<Interval> {
+    pub fn otherwise(self, selection: &Selection<'_>, instances: &[Instance<'_>]) -> Vec<Interval> {
         if self.is_paired() {
             let pairs = filled(selection, instances).into_iter();
-            return pairs
-                .filter_map(|pairs| self.of_pairs(&pairs, plan))
-                .map(|found| found.interval)
-                .collect();
+            return pairs.filter_map(|pairs| self.of_pairs(&pairs)).map(|found| found.interval).collect();
         }
         let seen: Vec<f64> = cases(instances).filter_map(|case| case.value).collect();
         if seen.is_empty() || unended(instances) == 0 {
@@ -243,14 +235,12 @@ impl OverallStatistic {
         let first = instances[0].group;
         let given = |ends: [f64; 2]| ended(instances, |instance| ends[usize::from(instance.group != first)]);
         let anything = Interval::new(f64::NEG_INFINITY, f64::INFINITY);
-        [low, high]
-            .map(|ends| self.estimate(&given(ends), plan).map_or(anything, |found| found.interval))
-            .to_vec()
+        [low, high].map(|ends| self.estimate(&given(ends)).map_or(anything, |found| found.interval)).to_vec()
     }
 
     /// The statistic of pairs by instance, the other contender's number first. Instances that all have the same ratio
     /// leave an interval with width.
-    pub fn of_pairs(self, pairs: &[Vec<(f64, f64)>], plan: Resampling) -> Option<Estimate> {
+    pub fn of_pairs(self, pairs: &[Vec<(f64, f64)>]) -> Option<Estimate> {
         let sums = |pairs: &Vec<(f64, f64)>| {
             pairs.iter().fold([0.0, 0.0], |[own, base], pair| [own + pair.1, base + pair.0])
         };
@@ -260,7 +250,7 @@ impl OverallStatistic {
             _ => Some([own, base]),
         };
         let weighed: Vec<[f64; 2]> = pairs.iter().map(sums).filter_map(weighed).collect();
-        let ratio = pooled::ratio_of_pairs(&weighed, plan)?;
+        let ratio = pooled::ratio_of_pairs(&weighed, PLAN)?;
         if self != Self::ReductionPercent {
             return Some(ratio);
         }
@@ -277,13 +267,13 @@ pub fn turned(Interval { low, high }: Interval) -> Interval {
 
 /// The median on the first group over that on the second, the interval from the ends of both; of a single instance the number
 /// itself.
-fn of_groups(instances: &[Instance<'_>], plan: Resampling) -> Option<Estimate> {
+fn of_groups(instances: &[Instance<'_>]) -> Option<Estimate> {
     let first = instances.first()?.group;
     let side = |is_first: bool| {
         let own = instances.iter().filter(|instance| (instance.group == first) == is_first);
         let values: Vec<Vec<f64>> = own.map(Instance::values).collect();
         let median = summary::median(&values.concat())?;
-        let found = pooled::median(&values, plan);
+        let found = pooled::median(&values, PLAN);
         Some((median, found.map_or(Interval::new(median, median), |found| found.interval)))
     };
     let (above, one) = side(true)?;
@@ -327,7 +317,7 @@ impl Share {
     /// The share of `counts`, the hits and chances of each instance; none without chances. An instance can have `most` chances, or
     /// as many as were seen. The interval is the same everywhere ([`pooled::share`]). It has a closed form where every instance can
     /// have one chance alone, and where all agree. Differences of shares are not looked at here.
-    pub fn new(counts: &[[f64; 2]], most: f64, plan: Resampling) -> Option<Self> {
+    pub fn new(counts: &[[f64; 2]], most: f64) -> Option<Self> {
         let counts: Vec<[f64; 2]> = counts.iter().copied().filter(|count| count[1] > 0.0).collect();
         let [hits, chances] = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
         let most = counts.iter().fold(most, |most, count| most.max(count[1]));
@@ -335,7 +325,7 @@ impl Share {
         let is_single = most <= 1.0 && counts.iter().all(|count| count[1] == 1.0);
         let agreed = mean_of_agreed(&counts, most, LEVEL).filter(|_| is_single || instances > 1);
         let interval = if is_single { clopper_pearson(hits as usize, instances, LEVEL) } else { agreed };
-        let interval = interval.or_else(|| pooled::share(&counts, most, plan).filter(|_| instances > 1));
+        let interval = interval.or_else(|| pooled::share(&counts, most, PLAN).filter(|_| instances > 1));
         let is_agreed = agreed.is_some();
         let is_exact = is_single || is_agreed && (hits == 0.0 || hits == chances);
         (chances > 0.0).then(|| Self { value: hits / chances, interval, is_exact, is_agreed, instances })
@@ -372,28 +362,26 @@ mod tests {
 
     #[test]
     fn a_share_of_single_chances_is_exact_and_instances_of_several_are_units() {
-        let plan = PLAN;
-        let exact = Share::new(&[[1.0, 1.0], [0.0, 1.0], [1.0, 1.0], [1.0, 1.0]], 1.0, plan).unwrap();
+        let exact = Share::new(&[[1.0, 1.0], [0.0, 1.0], [1.0, 1.0], [1.0, 1.0]], 1.0).unwrap();
         let interval = exact.interval.unwrap();
         assert_eq!((exact.value, exact.instances), (0.75, 4));
         assert!((interval.low - 0.1941).abs() < 1e-4 && (interval.high - 0.9937).abs() < 1e-4, "{exact:?}");
         // Instances that agree within themselves: as uncertain as their number says, not as that of their queries.
         let instances: Vec<[f64; 2]> =
             (0..10).map(|i| [if i % 2 == 0 { 100.0 } else { 0.0 }, 100.0]).collect();
-        let of_instances = Share::new(&instances, 100.0, plan).unwrap();
+        let of_instances = Share::new(&instances, 100.0).unwrap();
         assert!(
             of_instances.value == 0.5 && of_instances.interval.unwrap().half_width() > 0.25,
             "{of_instances:?}"
         );
-        let single = Share::new(&[[3.0, 4.0]], 4.0, plan).unwrap();
+        let single = Share::new(&[[3.0, 4.0]], 4.0).unwrap();
         assert_eq!((single.value, single.interval), (0.75, None), "one instance has no interval");
-        assert!(Share::new(&[[0.0, 0.0]], 1.0, plan).is_none() && Share::new(&[], 1.0, plan).is_none());
+        assert!(Share::new(&[[0.0, 0.0]], 1.0).is_none() && Share::new(&[], 1.0).is_none());
     }
 
     #[test]
     fn instances_that_all_agree_leave_an_interval_with_width() {
-        let plan = PLAN;
-        let of = |hits: f64| Share::new(&[[hits, 10.0]; 20], 10.0, plan).unwrap();
+        let of = |hits: f64| Share::new(&[[hits, 10.0]; 20], 10.0, PLAN).unwrap();
         let interval = |hits: f64| of(hits).interval.map(|found| [found.low, found.high]).unwrap();
         assert!((interval(10.0)[0] - 0.831_566_5).abs() < 1e-6 && interval(10.0)[1] == 1.0, "{:?}", of(10.0));
         assert!((interval(0.0)[1] - 0.168_433_5).abs() < 1e-6 && interval(0.0)[0] == 0.0, "{:?}", of(0.0));
@@ -428,8 +416,8 @@ mod tests {
     fn a_mean_of_ratios_weighs_every_instance_alike() {
         // Ratios 2, 1/2 and 5/10, of two cases; an instance with nothing to divide by is left out.
         let pairs = [vec![(1.0, 2.0)], vec![(40.0, 20.0)], vec![(4.0, 3.0), (6.0, 2.0)], vec![(0.0, 7.0)]];
-        let [of_ratios, of_means] = [OverallStatistic::MeanOfRatios, OverallStatistic::Ratio]
-            .map(|of| of.of_pairs(&pairs, PLAN).unwrap());
+        let [of_ratios, of_means] =
+            [OverallStatistic::MeanOfRatios, OverallStatistic::Ratio].map(|of| of.of_pairs(&pairs).unwrap());
         assert!((of_ratios.value - 1.0).abs() < 1e-12 && of_ratios.units == 3, "{of_ratios:?}");
         assert!((of_means.value - 34.0 / 51.0).abs() < 1e-12 && of_means.units == 4, "{of_means:?}");
         assert_eq!((of_ratios.interval.low, of_ratios.interval.high), (0.5, 2.0), "{of_ratios:?}");
@@ -439,7 +427,7 @@ mod tests {
     fn a_reduction_and_a_ratio_say_the_same() {
         let pairs: Vec<Vec<(f64, f64)>> = (1..20).map(|i| vec![(f64::from(i), 0.5 * f64::from(i))]).collect();
         let [reduction, ratio] = [OverallStatistic::ReductionPercent, OverallStatistic::Ratio]
-            .map(|of| of.of_pairs(&pairs, PLAN).unwrap());
+            .map(|of| of.of_pairs(&pairs).unwrap());
         assert!((reduction.value - 50.0).abs() < 1e-9 && (ratio.value - 0.5).abs() < 1e-9);
         assert!(reduction.interval.low <= reduction.interval.high, "{:?}", reduction.interval);
     }

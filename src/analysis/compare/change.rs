@@ -206,12 +206,11 @@ impl<'r> Sample<'r> {
 
     /// The change as a whole.
     pub fn change(&self) -> Change {
-        let plan = PLAN;
         let finite = self.finite().concat();
         let all = self.by_unit.values().flatten().copied().collect::<Vec<_>>();
         let mean = |of: fn(&(f64, f64)) -> f64| summary::mean(&finite.iter().map(of).collect::<Vec<_>>());
         let means = mean(|pair| pair.0).zip(mean(|pair| pair.1));
-        let [change, percent] = self.mean_changes(plan);
+        let [change, percent] = self.mean_changes(PLAN);
         let Signs { lower, equal, higher } = signs(&all);
         let (wins, losses) = if self.worse() > 0.0 { (lower, higher) } else { (higher, lower) };
         Change {
@@ -228,8 +227,8 @@ impl<'r> Sample<'r> {
             mean_change_percent: means
                 .filter(|(first, _)| *first > 0.0)
                 .and_then(|(first, second)| Measured::new(Some(100.0 * (second / first - 1.0)), percent)),
-            median_change: self.median(&all, plan),
-            improvement_percent: self.improvement(&all, wins, equal, plan),
+            median_change: self.median(&all),
+            improvement_percent: self.improvement(&all, wins, equal),
             wins,
             ties: equal,
             losses,
@@ -237,27 +236,21 @@ impl<'r> Sample<'r> {
         }
     }
 
-    fn median(&self, all: &[(f64, f64)], plan: Resampling) -> Option<Measured> {
+    fn median(&self, all: &[(f64, f64)]) -> Option<Measured> {
         let change = |(first, second): &(f64, f64)| second - first;
         let of_unit = |pairs: &Vec<(f64, f64)>| pairs.iter().map(change).collect::<Vec<_>>();
-        let found = pooled::median(&self.by_unit.values().map(of_unit).collect::<Vec<_>>(), plan);
+        let found = pooled::median(&self.by_unit.values().map(of_unit).collect::<Vec<_>>(), PLAN);
         let median = summary::median(&all.iter().map(change).collect::<Vec<_>>());
         Measured::new(median, found).map(Measured::unbounded)
     }
 
-    fn improvement(
-        &self,
-        all: &[(f64, f64)],
-        wins: usize,
-        ties: usize,
-        plan: Resampling,
-    ) -> Option<Measured> {
+    fn improvement(&self, all: &[(f64, f64)], wins: usize, ties: usize) -> Option<Measured> {
         let hits = |pairs: &Vec<(f64, f64)>| {
             let Signs { lower, equal, higher } = signs(pairs);
             let won = if self.worse() > 0.0 { lower } else { higher };
             [100.0 * (won as f64 + 0.5 * equal as f64), pairs.len() as f64]
         };
-        let found = pooled::ratio_of_sums(&self.by_unit.values().map(hits).collect::<Vec<_>>(), plan);
+        let found = pooled::ratio_of_sums(&self.by_unit.values().map(hits).collect::<Vec<_>>(), PLAN);
         let share = 100.0 * (wins as f64 + 0.5 * ties as f64) / all.len() as f64;
         Measured::new((!all.is_empty()).then_some(share), found)
     }

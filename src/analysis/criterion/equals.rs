@@ -10,7 +10,7 @@ use crate::analysis::number::{Number, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Case, Instance, Selection, cases, most_cases};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{PLAN, Share, too_few};
+use crate::analysis::statistic::{Share, too_few};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -138,7 +138,7 @@ impl Criterion for Equals<'_> {
         let Tally { counts, worst, sums, unknown, broken, .. } =
             self.selection.run(evidence).map(|run| self.tally(run, &instances)).unwrap_or_default();
         let refused = cases(&instances).filter(|case| case.row.status == Status::Rejected).count();
-        let share = Share::new(&counts, most_cases(&instances), PLAN);
+        let share = Share::new(&counts, most_cases(&instances));
         let percent = Some(100.0 * (sums[0] / sums[1] - 1.0)).filter(|percent| percent.is_finite());
         let apart =
             Number { part: APART.to_owned(), value: percent, greatest: Some(worst), ..Number::default() };

@@ -376,8 +376,7 @@ mod tests {
     #[test]
     fn instances_that_all_agree_do_not_prove_that_nothing_changes() {
         let outcome = |pair: (f64, f64), instances: usize| {
-            let found =
-                OverallStatistic::ReductionPercent.of_pairs(&vec![vec![pair]; instances], PLAN).unwrap();
+            let found = OverallStatistic::ReductionPercent.of_pairs(&vec![vec![pair]; instances]).unwrap();
             assert!(found.is_agreed && found.interval.half_width() > 0.0, "{found:?}");
             outcome(Way::Lower, 10.0, turned(found.interval))
         };

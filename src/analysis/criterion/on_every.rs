@@ -9,7 +9,7 @@ use crate::analysis::number::{Number, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Case, Instance, Selection, cases, most_cases};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{PLAN, Share, tied, too_few};
+use crate::analysis::statistic::{Share, tied, too_few};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -188,7 +188,7 @@ impl Criterion for OnEvery<'_> {
             drawn: self.selection.drawn(&instances),
             ..Number::of_cases(&instances)
         };
-        vec![Share::counted(Share::new(&counts, most_cases(&instances), PLAN), &counts, whole)]
+        vec![Share::counted(Share::new(&counts, most_cases(&instances)), &counts, whole)]
     }
 
     fn weigh(&self, numbers: &[Number]) -> CriterionResult {

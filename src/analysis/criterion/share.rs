@@ -9,7 +9,7 @@ use crate::analysis::number::{Ends, Number, ended, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Case, Instance, Selection, cases, is_unended, most_cases};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{PLAN, Share, narrows, needs};
+use crate::analysis::statistic::{Share, narrows, needs};
 use crate::analysis::verdict::Quantity;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
@@ -252,7 +252,7 @@ impl<'a> Counted<'a> {
     fn share(&self, instances: &[Instance<'_>], unknown: Option<bool>) -> (Vec<[f64; 2]>, Option<Share>) {
         let counts: Vec<[f64; 2]> =
             instances.iter().map(|instance| self.of_instance(instance, unknown)).collect();
-        let share = Share::new(&counts, self.most(instances), PLAN);
+        let share = Share::new(&counts, self.most(instances));
         (counts, share)
     }
 

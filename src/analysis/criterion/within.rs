@@ -9,7 +9,7 @@ use crate::analysis::number::{Ends, Number, ended, parts, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Instance, Selection};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{FEWEST_INSTANCES, OverallStatistic, PLAN, how, narrows, needs};
+use crate::analysis::statistic::{FEWEST_INSTANCES, OverallStatistic, how, narrows, needs};
 use crate::analysis::verdict::{Estimate, Quantity};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
@@ -86,8 +86,8 @@ pub(super) fn overall(
         above: signs.higher,
         ..Number::of_cases(&instances)
     };
-    let mut numbers = vec![counted.estimated(statistic.estimate(&instances, PLAN))];
-    let others = [Ends::Least, Ends::Most].into_iter().zip(statistic.otherwise(selection, &instances, PLAN));
+    let mut numbers = vec![counted.estimated(statistic.estimate(&instances))];
+    let others = [Ends::Least, Ends::Most].into_iter().zip(statistic.otherwise(selection, &instances));
     numbers.extend(others.map(|(ends, interval)| Number::ended(ends, interval)));
     let of_group = |group: &String| {
         let n = instances.iter().filter(|instance| instance.group == group).count();
