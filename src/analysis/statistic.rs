@@ -381,7 +381,7 @@ mod tests {
 
     #[test]
     fn instances_that_all_agree_leave_an_interval_with_width() {
-        let of = |hits: f64| Share::new(&[[hits, 10.0]; 20], 10.0, PLAN).unwrap();
+        let of = |hits: f64| Share::new(&[[hits, 10.0]; 20], 10.0).unwrap();
         let interval = |hits: f64| of(hits).interval.map(|found| [found.low, found.high]).unwrap();
         assert!((interval(10.0)[0] - 0.831_566_5).abs() < 1e-6 && interval(10.0)[1] == 1.0, "{:?}", of(10.0));
         assert!((interval(0.0)[1] - 0.168_433_5).abs() < 1e-6 && interval(0.0)[0] == 0.0, "{:?}", of(0.0));
