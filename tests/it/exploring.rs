@@ -128,7 +128,7 @@ fn a_confirmation_keeps_to_the_budget_of_trials_and_says_what_it_left_out() {
 
 /// Enough trials that a command can be caught at work.
 const SLOW: [(&str, &str); 4] =
-    [CITED, ("[12, 12]", "[60, 60]"), ("[11, 9]", "[59, 50]"), ("instances = 40", "instances = 200")];
+    [CITED, ("[12, 12]", "[150, 150]"), ("[11, 9]", "[149, 120]"), ("instances = 40", "instances = 200")];
 
 /// Sends Ctrl-C once `file` has `bytes`, or says that the command was over before.
 fn interrupt(toy: &Toy, mut child: Child, file: &Path, bytes: u64) -> ProgramOutput {

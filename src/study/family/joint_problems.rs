@@ -196,7 +196,7 @@ fn build(settings: &Settings, inputs: &Inputs) -> Result<Box<dyn Family>, Settin
         contact,
         support,
         step_rad: read.step_deg.to_radians(),
-        // Absent it is no unknown: no clearance is asked for.
+        // Absent it is no unknown: the problem needs no clearance.
         clearance_m: read.clearance_mm.unwrap_or(0.0) * 1e-3,
         cylinders: read.cylinders.unwrap_or(CylinderSetting::Prisms),
         boxes_in: read.boxes_in,
