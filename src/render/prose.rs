@@ -25,6 +25,9 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
                 .or_else(|| beside(verdicts.parts_ours(judged?))),
             "shown" => judged.and_then(|judged| beside(judged.shown().map(|ours| (ours, None)).collect())),
             "percent" => ours.map(percentage),
+            "percent_low" => {
+                ours.and_then(|ours| ours.interval).map(|[low, _]| format!("{} %", rounded(100.0 * low, 1)))
+            }
             "interval" => {
                 ours.and_then(|ours| ours.interval).map(|[low, high]| format!("[{low:.1}, {high:.1}]"))
             }
