@@ -19,6 +19,7 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
             "verdict" => judged.map(ClaimVerdict::verdict_text),
             "interpretations" => judged.and_then(ClaimVerdict::rests_on),
             "n" => ours.map(|ours| ours.n.to_string()),
+            "cases" => ours.and_then(|ours| ours.solved).map(|[_, all]| all.to_string()),
             "tenths" => ours.map(|ours| rounded(ours.value, 1)),
             "effect" => ours
                 .map(|ours| effect(ours).unwrap_or_else(|| number(ours.value)))

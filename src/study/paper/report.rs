@@ -31,9 +31,9 @@ pub const FIGURES: usize = 6;
 
 /// The forms in which a text can show our number beside a claim: with one decimal, as a percentage with the digits of
 /// its interval, or in words with a direction. Of a claim with parts the words are those of its parts. Other forms give
-/// a shown number that decides nothing, the interval or one of its ends, the number of instances, the verdict, the words
-/// beside it, or the printed values that would have been refused.
-pub const FORMS: [&str; 11] = [
+/// a shown number that decides nothing, the interval or one of its ends, the number of instances, the number of cases that could be
+/// posed, the verdict, the words beside it, or the printed values that would have been refused.
+pub const FORMS: [&str; 12] = [
     "tenths",
     "percent",
     "effect",
@@ -42,6 +42,7 @@ pub const FORMS: [&str; 11] = [
     "low",
     "high",
     "n",
+    "cases",
     "verdict",
     "interpretations",
     "power",
