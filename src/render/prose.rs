@@ -15,6 +15,7 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
     filled(text, |claim, form| {
         let judged = verdicts.claim(claim);
         let ours = judged.and_then(|judged| judged.ours());
+        let interval = ours.and_then(|ours| ours.interval);
         let found = match form {
             "verdict" => judged.map(ClaimVerdict::verdict_text),
             "interpretations" => judged.and_then(ClaimVerdict::rests_on),
@@ -26,12 +27,10 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
                 .or_else(|| beside(verdicts.parts_ours(judged?))),
             "shown" => judged.and_then(|judged| beside(judged.shown().map(|ours| (ours, None)).collect())),
             "percent" => ours.map(percentage),
-            "interval" => {
-                ours.and_then(|ours| ours.interval).map(|[low, high]| format!("[{low:.1}, {high:.1}]"))
-            }
+            "interval" => interval.map(|[low, high]| format!("[{low:.1}, {high:.1}]")),
             "power" => judged.and_then(ClaimVerdict::power).map(str::to_owned),
-            "low" => ours.and_then(|ours| ours.interval).map(|[low, _]| number(low)),
-            "high" => ours.and_then(|ours| ours.interval).map(|[_, high]| number(high)),
+            "low" => interval.map(|[low, _]| number(low)),
+            "high" => interval.map(|[_, high]| number(high)),
             _ => ours.map(|ours| number(ours.value)),
         };
         found.unwrap_or_else(|| "–".to_owned())
