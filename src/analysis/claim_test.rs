@@ -106,7 +106,8 @@ impl<'a> ClaimTest<'a> {
         // The text writes every name between quotes; in place of another claim's name stands what that claim asks.
         let meant = |text: &str| paper.place_of(text).map_or_else(|| text.to_owned(), of_other);
         let own: Vec<String> = own.split('"').map(meant).collect();
-        Some(sha256(format!("{statistic} {}", own.join("\"")).as_bytes())[..16].to_owned())
+        let refused = if self.criterion.counts_refused() { " with refused paths" } else { "" };
+        Some(sha256(format!("{statistic}{refused} {}", own.join("\"")).as_bytes())[..16].to_owned())
     }
 
     /// Its numbers under the evidence's interpretation; with a hash of what they rest on only if `is_hashed`.
@@ -155,6 +156,9 @@ impl<'a> ClaimTest<'a> {
             let each = numbers.by_session.iter().take(numbers.sessions).map(|one| weigh(one));
             let (agreement, because) = sessions(&each.collect::<Vec<_>>());
             found.because.extend(because);
+            if !paper.choices.is_empty() {
+                found.because.push("the clock was read under the defaults alone".to_owned());
+            }
             if paper.source.ours { agreement } else { Sessions::OfAnother }
         });
         let studies = criterion.studies();
