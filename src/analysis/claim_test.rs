@@ -106,8 +106,7 @@ impl<'a> ClaimTest<'a> {
         // The text writes every name between quotes; in place of another claim's name stands what that claim asks.
         let meant = |text: &str| paper.place_of(text).map_or_else(|| text.to_owned(), of_other);
         let own: Vec<String> = own.split('"').map(meant).collect();
-        let refused = if self.criterion.counts_refused() { " with refused paths" } else { "" };
-        Some(sha256(format!("{statistic}{refused} {}", own.join("\"")).as_bytes())[..16].to_owned())
+        Some(sha256(format!("{statistic} {}", own.join("\"")).as_bytes())[..16].to_owned())
     }
 
     /// Its numbers under the evidence's interpretation; with a hash of what they rest on only if `is_hashed`.

@@ -402,6 +402,22 @@ fn another_metric_or_selection_is_not_explored_and_the_claim_is_named() {
 }
 
 #[test]
+fn counts_of_searches_that_left_refused_paths_out_are_explored_again() {
+    let toy = Toy::new(&[("line_of_sight = \"exact_interior\"", "line_of_sight = \"bresenham\"")]);
+    let folder = toy.0.at("toy");
+    let paper = Paper::load(&folder, &Inputs { roots: vec![folder.clone()] }).unwrap();
+    let mut stored = Estimates::read(&paper, &toy.0.at(RUNS)).unwrap();
+    assert_eq!(toy.verdicts().explored.unwrap().stale, [""; 0]);
+    // As it would be named if solved trials alone were counted: `shorter` looks at refused paths, `fewer` does not.
+    for answer in &mut stored.first.as_mut().unwrap().answers {
+        answer.question.truncate(16);
+    }
+    stored.write(&toy.0.at(RUNS)).unwrap();
+    toy.0.done(&["judge", "./toy"]);
+    assert_eq!(toy.verdicts().explored.unwrap().stale, ["shorter"]);
+}
+
+#[test]
 fn estimates_that_were_edited_or_are_another_papers_are_refused_until_they_are_made_again() {
     let toy = Toy::new(&[CITED]);
     let path = toy.0.at(RUNS).join("estimates.parquet");
