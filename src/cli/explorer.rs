@@ -147,8 +147,8 @@ impl<'p> Explorer<'p> {
         Ok(found)
     }
 
-    /// The most trials that run beyond the first round where `room` trials are left, and the most seconds of one core for all rounds,
-    /// if a trial of a study takes as long as `each` says; of the other studies, if every search opened all that there is.
+    /// The most trials that run beyond the first round where `room` trials are left, and the most seconds of one core for all rounds.
+    /// A trial of a study takes as long as `each` says. Of the other studies every search is taken to open all that there is.
     pub fn most_beyond(
         &self,
         points: &[Interpretation],

@@ -55,8 +55,14 @@ const PLAIN: Kind = Kind {
     power: 0.95,
     is_unlucky: false,
     compatible: INTERPRETATIONS,
-    most: &[(Column::Against, 0.0), (Column::Depends, 0.05)],
+    most: &[(Column::Against, RARE), (Column::Depends, 0.05)],
 };
+
+/// How often a verdict is plainly wrong at most: the instances of a seed mislead nearly all interpretations at once.
+const RARE: f64 = 0.002;
+
+/// The same of samples of little power: on the other seed they mostly stay open, which does not speak against the first.
+const LITTLE: f64 = 0.025;
 
 const HALF: usize = INTERPRETATIONS / 2;
 
@@ -65,45 +71,45 @@ const KINDS: [Kind; 8] = [
     Kind {
         truth: "false under all",
         true_under: 0,
-        most: &[(Column::For, 0.0), (Column::Depends, 0.05)],
+        most: &[(Column::For, RARE), (Column::Depends, 0.05)],
         ..PLAIN
     },
     Kind {
         truth: "true under half",
         true_under: HALF,
-        most: &[(Column::For, 0.0), (Column::Against, 0.0)],
+        most: &[(Column::For, RARE), (Column::Against, RARE)],
         ..PLAIN
     },
     Kind {
         truth: "true under all but four",
         true_under: INTERPRETATIONS - 4,
-        most: &[(Column::Against, 0.0)],
+        most: &[(Column::Against, RARE)],
         ..PLAIN
     },
     Kind {
         truth: "true under all, samples of little power",
         power: 0.3,
-        most: &[(Column::Against, 0.01)],
+        most: &[(Column::Against, LITTLE)],
         ..PLAIN
     },
     Kind {
         truth: "false under all, samples of little power",
         true_under: 0,
         power: 0.3,
-        most: &[(Column::For, 0.01)],
+        most: &[(Column::For, LITTLE)],
         ..PLAIN
     },
     Kind {
         truth: "true under all, the first seed of the defaults unlucky",
         is_unlucky: true,
-        most: &[(Column::Against, 0.0), (Column::For, 0.0)],
+        most: &[(Column::Against, RARE), (Column::For, RARE)],
         ..PLAIN
     },
     Kind {
         truth: "true under the half that fits a calibration",
         true_under: HALF,
         compatible: HALF,
-        most: &[(Column::Against, 0.0), (Column::Depends, 0.3)],
+        most: &[(Column::Against, RARE), (Column::Depends, 0.3)],
         ..PLAIN
     },
 ];
