@@ -59,10 +59,10 @@ const PLAIN: Kind = Kind {
 };
 
 /// How often a verdict is plainly wrong at most: the instances of a seed mislead nearly all interpretations at once.
-const RARE: f64 = 0.002;
+const RARE: f64 = 0.005;
 
 /// The same of samples of little power: on the other seed they mostly stay open, which does not speak against the first.
-const LITTLE: f64 = 0.025;
+const LITTLE: f64 = 0.01;
 
 const HALF: usize = INTERPRETATIONS / 2;
 
@@ -168,13 +168,17 @@ impl Kind {
 
 #[test]
 fn no_verdict_errs_more_often_than_is_stated() {
+    let mut wrong = Vec::new();
     for kind in &KINDS {
         let tally = kind.tally();
         for (column, most) in kind.most {
             let count = tally[Column::ALL.iter().position(|own| own == column).unwrap()];
-            assert!(count as f64 <= most * PAPERS as f64, "{}: {column:?} {count} of {PAPERS}", kind.truth);
+            if count as f64 > most * PAPERS as f64 {
+                wrong.push(format!("{}: {column:?} {count} of {PAPERS}", kind.truth));
+            }
         }
     }
+    assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
 #[test]
