@@ -74,6 +74,13 @@ impl Estimate {
         Self { value, interval: None, what: what.into(), quantity, subject, n, solved: None }
     }
 
+    /// It without its interval, and without the words about that.
+    #[must_use]
+    pub fn without_interval(self) -> Self {
+        let words: Vec<&str> = self.what.split(", ").filter(|words| !words.contains("95 %")).collect();
+        Self { interval: None, what: words.join(", "), ..self }
+    }
+
     /// It, as a number of this kind of `subject`.
     #[must_use]
     pub fn measures(self, quantity: Quantity, subject: impl Into<String>) -> Self {

@@ -23,7 +23,7 @@ use study::lock::Lock;
 pub struct Explore {
     #[command(flatten)]
     round: RoundArgs,
-    /// Print what would run and the most that it takes, and run nothing
+    /// Print what would run and the most that it takes, as timed on the first instances; keep nothing
     #[arg(long, conflicts_with = "shard")]
     plan: bool,
 }
@@ -54,14 +54,21 @@ fn plan(which: &Which) -> Result<(), Failure> {
     let explorer = Explorer::new(&paper, &places, None, scratch(&places, &paper, "explore"));
     let budget = budget(&paper)?;
     let (points, trials) = explorer.affordable(&budget)?;
-    let (more, seconds) = explorer.most_beyond(&points, budget.trials - trials)?;
+    let each = explorer.seconds_a_trial(&points)?;
+    let (more, seconds) = explorer.most_beyond(&points, budget.trials - trials, &each)?;
     say!(
         "{}: then, with more instances where an outcome is near a flip, at most {}",
         paper.id,
         counted(more as usize, ["trial", "trials"])
     );
+    let explored = paper.studies.iter().filter(|study| study.explore.is_some()).map(|study| &study.name);
+    let untimed: Vec<&str> = explored.filter(|name| !each.contains_key(*name)).map(String::as_str).collect();
+    let bound = match &untimed[..] {
+        [] => String::new(),
+        names => format!("; {}, not timed, as if each search opened all that there is", names.join(", ")),
+    };
     say!(
-        "{}: in all at most about {} of one core, if each search opened all that there is",
+        "{}: in all at most about {} of one core, by what the first instances take{bound}",
         paper.id,
         lasting(seconds)
     );

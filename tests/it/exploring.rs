@@ -89,7 +89,7 @@ fn a_plan_counts_the_second_round_within_the_budget_and_gives_its_time() {
         format!("with more instances where an outcome is near a flip, at most {trials} trials\n")
     };
     assert!(plan.contains(&more(again)), "{plan}");
-    assert!(plan.ends_with(" s of one core, if each search opened all that there is\n"), "{plan}");
+    assert!(plan.ends_with(" s of one core, by what the first instances take\n"), "{plan}");
     let short = format!("trials = {}", first_round + 90);
     let (plan, _) = planned(&Toy::unexplored(&[CITED, MORE, MET, ("trials = 100_000", &short)]));
     assert!(plan.contains(&more(90)), "{plan}");

@@ -119,7 +119,7 @@ impl<'a> Lower<'a> {
             self.selection.description(),
             how(all.is_agreed),
             below + equal + above,
-            if self.selection.all_ends { "" } else { " that both solve" },
+            self.selection.given_in_words(),
         )
     }
 

@@ -240,8 +240,10 @@ impl Criterion for Within<'_> {
             None => format!("accepted {} to {}", self.accepted.low, self.accepted.high),
         };
         let agreed = if all.is_agreed { " that all agree" } else { "" };
+        let spread =
+            if low < high { format!("95 % interval {low:.4} to {high:.4}, ") } else { String::new() };
         let because = format!(
-            "{}: {} of {metric} {value:.4} (95 % interval {low:.4} to {high:.4}, {} instances{agreed}); {accepted}",
+            "{}: {} of {metric} {value:.4} ({spread}{} instances{agreed}); {accepted}",
             self.selection.description(),
             self.statistic.name(),
             all.n,
