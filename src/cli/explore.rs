@@ -10,8 +10,10 @@ use super::{Failure, How, Which, counted, judge, verdicts};
 use crate::analysis::estimates::{Estimates, Explored};
 use crate::analysis::evidence::default_point;
 use clap::Args;
+use std::collections::{BTreeMap, BTreeSet};
 use study::Interpretation;
 use study::lock::Lock;
+use study::paper::Paper;
 
 /// Explores a paper's choices: runs what each study says under the defaults, every other option by itself and a sample of
 /// their product, within the paper's budget of trials, and judges every claim under each.
@@ -54,6 +56,11 @@ fn plan(which: &Which) -> Result<(), Failure> {
     let explorer = Explorer::new(&paper, &places, None, scratch(&places, &paper, "explore"));
     let budget = budget(&paper)?;
     let (points, trials) = explorer.affordable(&budget)?;
+    for line in anew(&paper) {
+        say!("{}: {line}", paper.id);
+    }
+    let [all, different] = explorer.shared_first(&points)?;
+    say!("{}: {different} of the {all} trials run, and interpretations share them", paper.id);
     let (more, seconds) = explorer.most_beyond(&points, budget.trials - trials)?;
     say!(
         "{}: then, with more instances where an outcome is near a flip, at most {}",
@@ -66,6 +73,29 @@ fn plan(which: &Which) -> Result<(), Failure> {
         lasting(seconds)
     );
     Ok(())
+}
+
+/// Which choices need new trials, and of which contenders, and which only count stored trials anew: a line for choices that are alike.
+fn anew(paper: &Paper) -> Vec<String> {
+    let mut alike: BTreeMap<BTreeSet<&str>, Vec<&str>> = BTreeMap::new();
+    for choice in &paper.choices {
+        let explored = paper.studies.iter().filter(|study| study.explore.is_some());
+        let contenders = explored.flat_map(|study| {
+            let inherits = study.choices.iter().any(|own| own.id == choice.id);
+            study.contenders.iter().filter(move |contender| inherits && choice.sets(contender))
+        });
+        let labels = contenders.map(|contender| contender.label.as_str()).collect();
+        alike.entry(labels).or_default().push(&choice.id);
+    }
+    let line = |(labels, ids): (BTreeSet<&str>, Vec<&str>)| {
+        let whose: Vec<&str> = labels.into_iter().collect();
+        let what = match &whose[..] {
+            [] => "no new trial; stored ones are counted anew".to_owned(),
+            whose => format!("new trials of {}", whose.join(", ")),
+        };
+        format!("{}: {what}", ids.join(", "))
+    };
+    alike.into_iter().map(line).collect()
 }
 
 /// A time in the unit that suits it.

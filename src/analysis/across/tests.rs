@@ -4,6 +4,7 @@ use super::combine::{confirmed, flips};
 use super::count::{Counted, Group, VotingChoices};
 use super::glance::{Glance, Sight};
 use super::stored::{Exploration, ExploredClaim, ExploredResult, Now, results};
+use super::tested::by_option;
 use super::wording::View;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -146,6 +147,35 @@ impl Planted {
         let found = view.wording(line);
         (found.beside.join("; "), found.depends_on)
     }
+}
+
+#[test]
+fn a_joint_test_names_the_options_that_fit_and_those_that_fit_with_no_other() {
+    let found: [(&[&str], Outcome); 6] = [
+        (&["draws", "spared", "start"], Holds),
+        (&["draws", "cleared", "goal"], Holds),
+        (&["draws", "counted", "goal"], Fails),
+        (&["count", "spared", "start"], Fails),
+        (&["count", "counted", "start"], Fails),
+        (&["draws", "cleared", "start"], Fails),
+    ];
+    let mut planted = Planted::new(&[("blocking", "draws"), ("border", "spared"), ("smoothing", "start")], &found);
+    let said = |planted: &Planted| {
+        let results = &planted.first.claims["fewer"].results;
+        let values = results.iter().zip([0.4, 0.3, 0.02, 0.01, 0.03, 0.04]);
+        let results: Vec<_> = values.map(|(result, value)| (value, result)).collect();
+        by_option(&planted.choices, &planted.first, &results, &|p| format!("p = {p}"))
+    };
+    let both = [
+        "fits: blocking = draws, border = cleared or spared, with any smoothing",
+        "refuses: blocking = count (at most p = 0.03), border = counted (at most p = 0.03)",
+    ];
+    assert_eq!(said(&planted), Some(both.map(str::to_owned)));
+    // What a test refuses under probes alone says nothing of what the paper may mean.
+    for (choice, option) in [(0, "count"), (1, "counted")] {
+        planted.choices.choices[choice].options.insert(option.to_owned(), Arc::new(OptionSpec::default()));
+    }
+    assert_eq!(said(&planted), None);
 }
 
 #[test]

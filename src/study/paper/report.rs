@@ -32,8 +32,8 @@ pub const FIGURES: usize = 6;
 /// The forms in which a text can show our number beside a claim: with one decimal, as a percentage with the digits of
 /// its interval, or in words with a direction. Of a claim with parts the words are those of its parts. Other forms give
 /// a shown number that decides nothing, the interval or one of its ends, the number of instances, the verdict, the words
-/// beside it, or the printed values that would have been refused.
-pub const FORMS: [&str; 11] = [
+/// beside it, the printed values that would have been refused or, of a joint test, the options that fit and those that do not.
+pub const FORMS: [&str; 13] = [
     "tenths",
     "percent",
     "effect",
@@ -45,6 +45,8 @@ pub const FORMS: [&str; 11] = [
     "verdict",
     "interpretations",
     "power",
+    "fits",
+    "refuses",
 ];
 
 /// `text` with every `{claim}` or `{claim:form}` replaced by `with` of claim and form.
