@@ -10,7 +10,7 @@ use super::{Failure, How, Which, counted, judge, verdicts};
 use crate::analysis::estimates::{Estimates, Explored};
 use crate::analysis::evidence::default_point;
 use clap::Args;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use study::Interpretation;
 use study::lock::Lock;
 use study::paper::Paper;
@@ -60,7 +60,7 @@ fn plan(which: &Which) -> Result<(), Failure> {
         say!("{}: {line}", paper.id);
     }
     let [all, different] = explorer.shared_first(&points)?;
-    say!("{}: {different} of the {all} trials run, and interpretations share them", paper.id);
+    say!("{}: {different} different trials run for these {all}, which interpretations share", paper.id);
     let (more, seconds) = explorer.most_beyond(&points, budget.trials - trials)?;
     say!(
         "{}: then, with more instances where an outcome is near a flip, at most {}",
@@ -77,21 +77,27 @@ fn plan(which: &Which) -> Result<(), Failure> {
 
 /// Which choices need new trials, and of which contenders, and which only count stored trials anew: a line for choices that are alike.
 fn anew(paper: &Paper) -> Vec<String> {
-    let mut alike: BTreeMap<BTreeSet<&str>, Vec<&str>> = BTreeMap::new();
+    let mut alike: Vec<(BTreeSet<&str>, Vec<&str>)> = Vec::new();
+    let mut all = BTreeSet::new();
     for choice in &paper.choices {
-        let explored = paper.studies.iter().filter(|study| study.explore.is_some());
-        let contenders = explored.flat_map(|study| {
+        let mut labels = BTreeSet::new();
+        for study in paper.studies.iter().filter(|study| study.explore.is_some()) {
             let inherits = study.choices.iter().any(|own| own.id == choice.id);
-            study.contenders.iter().filter(move |contender| inherits && choice.sets(contender))
-        });
-        let labels = contenders.map(|contender| contender.label.as_str()).collect();
-        alike.entry(labels).or_default().push(&choice.id);
+            all.extend(study.contenders.iter().map(|contender| contender.label.as_str()));
+            let own = study.contenders.iter().filter(|contender| inherits && choice.sets(contender));
+            labels.extend(own.map(|contender| contender.label.as_str()));
+        }
+        match alike.iter_mut().find(|(known, _)| *known == labels) {
+            Some((_, ids)) => ids.push(&choice.id),
+            None => alike.push((labels, vec![&choice.id])),
+        }
     }
     let line = |(labels, ids): (BTreeSet<&str>, Vec<&str>)| {
-        let whose: Vec<&str> = labels.into_iter().collect();
-        let what = match &whose[..] {
-            [] => "no new trial; stored ones are counted anew".to_owned(),
-            whose => format!("new trials of {}", whose.join(", ")),
+        let named = || labels.iter().map(|label| format!("`{label}`")).collect::<Vec<_>>().join(", ");
+        let what = match labels.len() {
+            0 => "no new trial; stored ones are counted anew".to_owned(),
+            most if most == all.len() => "new trials of every contender".to_owned(),
+            _ => format!("new trials of {}", named()),
         };
         format!("{}: {what}", ids.join(", "))
     };

@@ -5,7 +5,7 @@ use super::super::outcome::Polarity;
 use super::count::VotingChoices;
 use super::glance::Sight;
 use super::stored::{Exploration, ExploredResult};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use study::Choice;
 use study::paper::{Claim, Paper};
 
@@ -54,13 +54,15 @@ pub fn tested(paper: &Paper, choices: &VotingChoices, first: &Exploration, claim
         format!("{} or less, contradicted: {} further results", p(*value), refused.len() - REFUSED)
     });
     let named = kept.into_iter().chain(refused.into_iter().take(REFUSED)).map(line);
-    by_option(choices, first, &results, &p).into_iter().flatten().chain(named).chain(rest).collect()
+    let touching = table_means::touching(paper, claim);
+    by_option(choices, &touching, first, &results, &p).into_iter().flatten().chain(named).chain(rest).collect()
 }
 
-/// Which options fit, and which fit with no option of other choices, of `results` under interpretations that vote; `None` unless there
-/// are both.
+/// Which options of the choices `touching` the claim fit, and which fit with no option of other choices, of `results` under
+/// interpretations that vote; `None` unless there are both.
 pub(super) fn by_option(
     choices: &VotingChoices,
+    touching: &BTreeMap<&str, &Choice>,
     first: &Exploration,
     results: &[(f64, &ExploredResult)],
     p: &impl Fn(f64) -> String,
@@ -76,7 +78,7 @@ pub(super) fn by_option(
         of.map(|(place, ..)| VotingChoices::option(choice, place).to_owned()).collect()
     };
     let (mut fits, mut refuses, mut any) = (Vec::new(), Vec::new(), Vec::new());
-    for choice in &choices.choices {
+    for choice in choices.choices.iter().filter(|choice| touching.contains_key(choice.id.as_str())) {
         let (looked, kept) = (options(choice, false), options(choice, true));
         if looked.len() < 2 || kept.is_empty() {
             continue;

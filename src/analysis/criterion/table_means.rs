@@ -23,6 +23,7 @@ use serde::Deserialize;
 use stats::beta::combined;
 use stats::means::FEWEST_NORMAL;
 use std::collections::BTreeMap;
+use study::Choice;
 use study::paper::{Claim, Paper};
 
 /// The registry's entry.
@@ -91,12 +92,15 @@ pub fn interpretations(paper: &Paper, claim: &Claim) -> usize {
     if calibration.peek().is_some() && calibration.all(|id| *id != claim.id) {
         return 1;
     }
+    let voting = |choice: &Choice| choice.options.keys().filter(|name| choice.votes(name)).count().max(1);
+    touching(paper, claim).values().map(|choice| voting(choice)).product()
+}
+
+/// The choices that touch the trials of the studies that `claim` looks at, by id.
+pub fn touching<'p>(paper: &'p Paper, claim: &Claim) -> BTreeMap<&'p str, &'p Choice> {
     let studies = places(claim).filter_map(|place| paper.study(&place.study));
-    let mut options: BTreeMap<&str, usize> = BTreeMap::new();
-    for choice in studies.flat_map(|study| &study.choices).filter(|choice| choice.touches_trials) {
-        options.insert(&choice.id, choice.options.keys().filter(|name| choice.votes(name)).count().max(1));
-    }
-    options.values().product()
+    let choices = studies.flat_map(|study| &study.choices).filter(|choice| choice.touches_trials);
+    choices.map(|choice| (choice.id.as_str(), choice)).collect()
 }
 
 impl<'a> TableMeans<'a> {
