@@ -55,7 +55,12 @@ pub fn tested(paper: &Paper, choices: &VotingChoices, first: &Exploration, claim
     });
     let named = kept.into_iter().chain(refused.into_iter().take(REFUSED)).map(line);
     let touching = table_means::touching(paper, claim);
-    by_option(choices, &touching, first, &results, &p).into_iter().flatten().chain(named).chain(rest).collect()
+    by_option(choices, &touching, first, &results, &p)
+        .into_iter()
+        .flatten()
+        .chain(named)
+        .chain(rest)
+        .collect()
 }
 
 /// Which options of the choices `touching` the claim fit, and which fit with no option of other choices, of `results` under
@@ -95,5 +100,6 @@ pub(super) fn by_option(
         }
     }
     let with_any = if any.is_empty() { String::new() } else { format!(", with any {}", any.join(", ")) };
-    (!fits.is_empty()).then(|| [format!("{FITS}{}{with_any}", fits.join(", ")), REFUSES.to_owned() + &refuses.join(", ")])
+    (!fits.is_empty())
+        .then(|| [format!("{FITS}{}{with_any}", fits.join(", ")), REFUSES.to_owned() + &refuses.join(", ")])
 }

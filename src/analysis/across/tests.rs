@@ -160,8 +160,7 @@ fn a_joint_test_names_the_options_that_fit_and_those_that_fit_with_no_other() {
         (&["draws", "cleared", "start", "other"], Fails),
     ];
     // The claim does not look at what the choice of a planner touches.
-    let defaults =
-        [("blocking", "draws"), ("border", "spared"), ("smoothing", "start"), ("planner", "one")];
+    let defaults = [("blocking", "draws"), ("border", "spared"), ("smoothing", "start"), ("planner", "one")];
     let mut planted = Planted::new(&defaults, &found);
     let said = |planted: &Planted| {
         let results = &planted.first.claims["fewer"].results;

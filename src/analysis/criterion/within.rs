@@ -237,7 +237,9 @@ impl Criterion for Within<'_> {
         };
         let Interval { low, high } = interval;
         let accepted = match self.printed {
-            Some(printed) => format!("printed {}, margin {}", computed(printed), computed(self.accepted.high - printed)),
+            Some(printed) => {
+                format!("printed {}, margin {}", computed(printed), computed(self.accepted.high - printed))
+            }
             None => format!("accepted {} to {}", computed(self.accepted.low), computed(self.accepted.high)),
         };
         let agreed = if all.is_agreed { " that all agree" } else { "" };
