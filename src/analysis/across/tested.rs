@@ -92,7 +92,8 @@ pub(super) fn by_option(
             any.push(choice.id.clone());
             continue;
         }
-        fits.push(format!("{} = {}", choice.id, Vec::from_iter(kept.iter().cloned()).join(" or ")));
+        let kept_options: Vec<&str> = kept.iter().map(String::as_str).collect();
+        fits.push(format!("{} = {}", choice.id, kept_options.join(" or ")));
         for option in looked.difference(&kept) {
             let own = voting.iter().filter(|(place, ..)| VotingChoices::option(choice, place) == *option);
             let greatest = own.map(|(_, value, _)| *value).fold(0.0, f64::max);
