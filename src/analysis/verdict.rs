@@ -1,12 +1,14 @@
 //! Verdicts: the finding about each claim.
 
-use super::criterion::table_means::TIMES;
 use super::outcome::{Outcome, Polarity};
 use super::verdict_rule::{Chosen, Verdict};
 use serde::{Deserialize, Serialize};
 use stats::interval::Interval;
 use std::collections::BTreeMap;
 use study::paper::Reply;
+
+/// How the line begins that gives a probability times the number of interpretations.
+pub const TIMES: &str = "p times ";
 
 /// What kind of number an estimate is.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]

@@ -75,7 +75,7 @@ fn plan(which: &Which) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Which choices need new trials, and of which contenders, and which only count stored trials anew: a line for choices that are alike.
+/// Which choices need new trials of some contenders, and which only count stored trials anew: a line for choices that are alike.
 fn anew(paper: &Paper) -> Vec<String> {
     let mut alike: Vec<(BTreeSet<&str>, Vec<&str>)> = Vec::new();
     let mut all = BTreeSet::new();
@@ -84,7 +84,7 @@ fn anew(paper: &Paper) -> Vec<String> {
         for study in paper.studies.iter().filter(|study| study.explore.is_some()) {
             let inherits = study.choices.iter().any(|own| own.id == choice.id);
             all.extend(study.contenders.iter().map(|contender| contender.label.as_str()));
-            let own = study.contenders.iter().filter(|contender| inherits && choice.sets(contender));
+            let own = study.contenders.iter().filter(|contender| inherits && contender.is_set_by(choice));
             labels.extend(own.map(|contender| contender.label.as_str()));
         }
         match alike.iter_mut().find(|(known, _)| *known == labels) {

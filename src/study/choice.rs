@@ -1,6 +1,5 @@
 //! Choices: what a paper leaves open, the options that settle it, and interpretations, which take one option of each.
 
-use super::contender::Contender;
 use super::family::lay;
 use super::key::InterpretationKey;
 use super::name;
@@ -95,16 +94,6 @@ impl Choice {
     /// Whether the option called `name` votes: the paper may mean it, and it can be run.
     pub fn votes(&self, name: &str) -> bool {
         self.can_run(name) && self.is_meant(name)
-    }
-
-    /// Whether some option sets something of the trials of `contender`: of its stages, or of every problem.
-    pub fn sets(&self, contender: &Contender) -> bool {
-        let uses = |name: &String| contender.stages.iter().any(|stage| stage.entry.name == name);
-        self.options.values().any(|option| {
-            !option.problem.is_empty()
-                || option.stage.keys().any(uses)
-                || option.contender.get(&contender.label).is_some_and(|own| own.keys().any(uses))
-        })
     }
 
     /// The options that the paper may mean and that cannot be run, each with the reason.

@@ -19,10 +19,10 @@ const REFUSED: usize = 10;
 pub const FITS: &str = "fits: ";
 
 /// How the line begins that says which options fit with no other.
-pub const REFUSES: &str = "refuses: ";
+pub const REFUSES: &str = "refuses, each with its greatest p: ";
 
-/// What is said of a claim that is tested jointly: which options fit and which do not, and its results, the likeliest first, each with
-/// the interpretations that give it.
+/// The lines of a claim that is tested jointly: which options fit and which do not, and its results, the likeliest first, each with the
+/// interpretations that give it.
 pub fn tested(paper: &Paper, choices: &VotingChoices, first: &Exploration, claim: &Claim) -> Vec<String> {
     let explored = first.claims.get(&claim.id).filter(|_| claim.check(table_means::ENTRY.name).is_some());
     let mut results: Vec<(f64, &ExploredResult)> = explored
@@ -97,7 +97,7 @@ pub(super) fn by_option(
         for option in looked.difference(&kept) {
             let own = voting.iter().filter(|(place, ..)| VotingChoices::option(choice, place) == *option);
             let greatest = own.map(|(_, value, _)| *value).fold(0.0, f64::max);
-            refuses.push(format!("{} = {option} (at most {})", choice.id, p(greatest)));
+            refuses.push(format!("{} = {option} ({})", choice.id, p(greatest)));
         }
     }
     let with_any = if any.is_empty() { String::new() } else { format!(", with any {}", any.join(", ")) };

@@ -162,7 +162,7 @@ fn a_joint_test_names_the_options_that_fit_and_those_that_fit_with_no_other() {
     // The claim does not look at what the choice of a planner touches.
     let defaults = [("blocking", "draws"), ("border", "spared"), ("smoothing", "start"), ("planner", "one")];
     let mut planted = Planted::new(&defaults, &found);
-    let said = |planted: &Planted| {
+    let by_options = |planted: &Planted| {
         let results = &planted.first.claims["fewer"].results;
         let values = results.iter().zip([0.4, 0.3, 0.02, 0.01, 0.03, 0.04]);
         let results: Vec<_> = values.map(|(result, value)| (value, result)).collect();
@@ -172,14 +172,14 @@ fn a_joint_test_names_the_options_that_fit_and_those_that_fit_with_no_other() {
     };
     let both = [
         "fits: blocking = draws, border = cleared or spared, with any smoothing",
-        "refuses: blocking = count (at most p = 0.03), border = counted (at most p = 0.03)",
+        "refuses, each with its greatest p: blocking = count (p = 0.03), border = counted (p = 0.03)",
     ];
-    assert_eq!(said(&planted), Some(both.map(str::to_owned)));
+    assert_eq!(by_options(&planted), Some(both.map(str::to_owned)));
     // What a test refuses under probes alone says nothing of what the paper may mean.
     for (choice, option) in [(0, "count"), (1, "counted")] {
         planted.choices.choices[choice].options.insert(option.to_owned(), Arc::new(OptionSpec::default()));
     }
-    assert_eq!(said(&planted), None);
+    assert_eq!(by_options(&planted), None);
 }
 
 #[test]

@@ -15,7 +15,7 @@ use crate::analysis::number::{Ends, Number, parts, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Instance, Selection, by_instance};
 use crate::analysis::statistic::mean;
-use crate::analysis::verdict::{Estimate, Quantity};
+use crate::analysis::verdict::{Estimate, Quantity, TIMES};
 use base::settings::{Accepted, Faults, SettingsError};
 use nalgebra::DMatrix;
 use schemars::JsonSchema;
@@ -64,9 +64,6 @@ struct PlaceSpec {
     /// The claims that print them.
     claims: Vec<String>,
 }
-
-/// How the line begins that gives a probability times the number of interpretations.
-pub const TIMES: &str = "p times ";
 
 /// A probability in a few digits.
 pub fn p_text(p: f64) -> String {

@@ -32,7 +32,7 @@ pub const FIGURES: usize = 6;
 /// The forms in which a text can show our number beside a claim: with one decimal, as a percentage with the digits of
 /// its interval, or in words with a direction. Of a claim with parts the words are those of its parts. Other forms give
 /// a shown number that decides nothing, the interval or one of its ends, the number of instances, the verdict, the words
-/// beside it, the printed values that would have been refused or, of a joint test, the options that fit and those that do not.
+/// beside it, or the printed values that would have been refused. Of a joint test two give the options that fit and those that do not.
 pub const FORMS: [&str; 13] = [
     "tenths",
     "percent",
