@@ -162,9 +162,11 @@ impl<'p> Explorer<'p> {
             }
         };
         let seconds = |round: Round| {
-            let each = self.studies_in(round).into_iter();
-            let each =
-                each.map(|ran| Ok(ran.study.as_trials_see(points).len() as f64 * of_study(&ran.study)?));
+            let each = self.studies_in(round).into_iter().map(|ran| {
+                let [all, different] = self.shared(&ran.study, points)?;
+                let alone = ran.study.as_trials_see(points).len() as f64;
+                Ok(different as f64 / all as f64 * alone * of_study(&ran.study)?)
+            });
             each.sum::<Result<f64, Failure>>()
         };
         let mut wanted = trials(&self.trials_each(first_instances, |study| self.is_late(study))?, points);
@@ -176,6 +178,19 @@ impl<'p> Explorer<'p> {
         let beyond = wanted.min(room);
         let share = if wanted > 0 { beyond as f64 / wanted as f64 } else { 0.0 };
         Ok((beyond, seconds(Round::First)? + share * more))
+    }
+
+    /// How many trials `study` keeps under `points`, and how many different ones run for them.
+    fn shared(&self, study: &Study, points: &[Interpretation]) -> Result<[u64; 2], Failure> {
+        let points = study.as_trials_see(points);
+        let different = BuiltStudy::new(study, &points, &self.places.inputs)?.different_trials();
+        Ok([self.trials_of(study)? * points.len() as u64, different])
+    }
+
+    /// How many trials the first round keeps under `points`, and how many different ones run for them.
+    pub fn shared_first(&self, points: &[Interpretation]) -> Result<[u64; 2], Failure> {
+        let mut each = self.studies_in(Round::First).into_iter().map(|ran| self.shared(&ran.study, points));
+        each.try_fold([0; 2], |[all, different], of| of.map(|[more, new]| [all + more, different + new]))
     }
 
     /// The studies that run in `round`.

@@ -1,6 +1,7 @@
 //! Text: a paper's own words with our numbers put in, Markdown that shows text as it is, and lines of limited length.
 
 use super::effect::{effect, percentage, rounded, side_by_side};
+use crate::analysis::across::tested::{FITS, REFUSES};
 use crate::analysis::verdict::{ClaimVerdict, Estimate, Verdicts};
 use base::text::shown;
 use study::paper::filled;
@@ -29,6 +30,8 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
             "percent" => ours.map(percentage),
             "percent_low" => interval.map(|[low, _]| format!("{} %", rounded(100.0 * low, 1))),
             "interval" => interval.map(|[low, high]| format!("[{low:.1}, {high:.1}]")),
+            "fits" => judged.and_then(|judged| judged.by_option(FITS)).map(str::to_owned),
+            "refuses" => judged.and_then(|judged| judged.by_option(REFUSES)).map(str::to_owned),
             "power" => judged.and_then(ClaimVerdict::power).map(str::to_owned),
             "low" => interval.map(|[low, _]| number(low)),
             "high" => interval.map(|[_, high]| number(high)),

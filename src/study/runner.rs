@@ -318,6 +318,31 @@ impl<'a> BuiltStudy<'a> {
         self.task.trials(unit)
     }
 
+    /// How many different trials there are: a contender's trials on a problem run once for all interpretations that set the same of both.
+    pub fn different_trials(&self) -> u64 {
+        let each = self.starts[self.posed.len()];
+        let mut seen = BTreeSet::new();
+        let mut count = 0;
+        for interpretation in 0..self.points.len() {
+            for (place, (group, ..)) in self.posed.iter().enumerate() {
+                let unit = self.unit(interpretation * each + self.starts[place]);
+                let family = std::ptr::from_ref(unit.family).cast::<()>();
+                let own = self.trials(&unit).len() as u64 * u64::from(group.instances);
+                let of_all = unit.entrants.iter().map(|entrant| entrant.contender.repeats).sum::<u32>();
+                if unit.entrants.is_empty() && seen.insert((place, family, None)) {
+                    count += own;
+                }
+                for (at, entrant) in unit.entrants.iter().enumerate() {
+                    let pipeline = (at, Arc::as_ptr(&entrant.pipeline));
+                    if seen.insert((place, family, Some(pipeline))) {
+                        count += own * u64::from(entrant.contender.repeats) / u64::from(of_all);
+                    }
+                }
+            }
+        }
+        count
+    }
+
     /// One unit's records.
     pub fn run_unit(&self, unit: &Unit<'_>) -> Batch {
         self.task.run(unit)

@@ -98,6 +98,16 @@ fn a_plan_counts_the_second_round_within_the_budget_and_gives_its_time() {
 }
 
 #[test]
+fn a_plan_says_which_choices_need_new_trials_and_how_many_of_all_run() {
+    let (plan, all) = planned(&Toy::unexplored(&[CITED, MET]));
+    assert!(plan.contains("toy: hurry: new trials of `A*`\n"), "{plan}");
+    assert!(plan.contains("toy: idle: no new trial; stored ones are counted anew\n"), "{plan}");
+    // Of the contenders, A* alone runs under both options of `hurry`: on 20 instances, and on the room.
+    let different = 2 * (20 + 1) + 2 * 20;
+    assert!(plan.contains(&format!("toy: {different} different trials run for these {all}")), "{plan}");
+}
+
+#[test]
 fn a_confirmation_keeps_to_the_budget_of_trials_and_says_what_it_left_out() {
     let toy = Toy::new(&[CITED]);
     // The default on the second seed: three contenders on 40 instances, and one on the room.

@@ -16,7 +16,7 @@ pub mod depends;
 pub mod effects;
 pub mod glance;
 pub mod stored;
-mod tested;
+pub mod tested;
 pub mod touched;
 pub mod wording;
 
@@ -250,7 +250,7 @@ impl OfClaim<'_> {
             none_compatible: counted.none_compatible,
             refused: counted.refused.iter().map(named).collect(),
             effects: effects::effects(self.choices, first, &judged.claim, judged.outcome),
-            tested: tested::tested(first, self.claim),
+            tested: tested::tested(self.paper, self.choices, first, self.claim),
             probes: effects::probes(self.choices, first, &judged.claim, judged.outcome),
         };
         across.settles = across_settles(&across, judged, line);

@@ -12,6 +12,7 @@ use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_INSTANCES, OverallStatistic, how, narrows, needs};
 use crate::analysis::verdict::{Estimate, Quantity};
 use base::settings::{Accepted, SettingsError};
+use base::text::computed;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::interval::Interval;
@@ -236,8 +237,10 @@ impl Criterion for Within<'_> {
         };
         let Interval { low, high } = interval;
         let accepted = match self.printed {
-            Some(printed) => format!("printed {printed}, margin {}", self.accepted.high - printed),
-            None => format!("accepted {} to {}", self.accepted.low, self.accepted.high),
+            Some(printed) => {
+                format!("printed {}, margin {}", computed(printed), computed(self.accepted.high - printed))
+            }
+            None => format!("accepted {} to {}", computed(self.accepted.low), computed(self.accepted.high)),
         };
         let agreed = if all.is_agreed { " that all agree" } else { "" };
         let spread =
