@@ -1,20 +1,29 @@
-//! `replan list`: everything that specs can name.
+//! `replan list`: everything that specs can name, and what is known of one of these, within 80 columns.
+//!
+//! Everything registered has one form here, [`Item`]: for this command, for the schemas of files, and for tests of both.
 
-use super::catalogue::{self, Item};
-use super::explain::{explained, wrapped};
-use super::places::{experiments, home, papers};
+use super::explorer::Explorer;
+use super::places::{Places, experiments, home, papers};
 use super::progress::doing;
-use super::{Failure, all, described};
-use crate::analysis::metric;
+use super::{Failure, Which, all, counted};
 use crate::analysis::verdict_rule::Verdict;
+use crate::analysis::{criterion, metric, rule};
+use crate::render::figure;
+use crate::render::prose::plain;
+use base::file::read_text;
 use base::robot::read_urdf;
-use base::settings::none_called;
+use base::settings::describe::{Default, Field, fields};
+use base::settings::{Accepted, none_called};
 use clap::{Args, ValueEnum};
 use engine::kinematics::{AXES, Robot, robot::Body};
+use engine::planner::{self, Build};
 use rayon::prelude::*;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
-use study::paper::Paper;
-use study::{Inputs, Study, recorded_mark};
+use study::files::{self, FileKind};
+use study::paper::{self, Paper};
+use study::{Contender, Group, Inputs, Study, elsewhere_mark, family, preprocessing, recorded_mark, task};
 
 /// Where robots are shipped.
 const ROBOTS: &str = "data/robots";
@@ -95,10 +104,10 @@ impl LoadedFiles {
     fn described(&self, what: What, name: &str) -> Result<Option<String>, Failure> {
         let find = |id: &str| self.papers.iter().find(|paper| paper.id == id);
         Ok(match (what, name.split_once('/')) {
-            (What::Papers, _) => find(name).map(described::paper),
+            (What::Papers, _) => find(name).map(paper_alone),
             (What::Studies, Some((id, study))) => {
                 let found = find(id).and_then(|paper| Some((paper, paper.study(study)?)));
-                found.map(|(paper, study)| described::study(paper, study)).transpose()?
+                found.map(|(paper, study)| study_alone(paper, study)).transpose()?
             }
             _ => None,
         })
@@ -116,17 +125,17 @@ fn kind(what: What) -> (&'static str, Option<fn() -> Vec<Item>>) {
         What::Studies => ("study", None),
         What::Choices => ("choice", None),
         What::Robots => ("robot", None),
-        What::Planners => ("planner", Some(catalogue::planners)),
-        What::Stages => ("stage", Some(catalogue::stages)),
-        What::Families => ("family", Some(catalogue::families)),
-        What::Preprocessing => ("kind of preprocessed object", Some(catalogue::preprocessing)),
-        What::Tasks => ("task", Some(catalogue::tasks)),
-        What::Criteria => ("criterion", Some(catalogue::criteria)),
-        What::Rules => ("rule", Some(catalogue::rules)),
+        What::Planners => ("planner", Some(planners)),
+        What::Stages => ("stage", Some(stages)),
+        What::Families => ("family", Some(families)),
+        What::Preprocessing => ("kind of preprocessed object", Some(preprocessing)),
+        What::Tasks => ("task", Some(tasks)),
+        What::Criteria => ("criterion", Some(criteria)),
+        What::Rules => ("rule", Some(rules)),
         What::Metrics => ("metric", None),
         What::Verdicts => ("verdict", None),
-        What::Figures => ("kind of figure", Some(catalogue::figures)),
-        What::Files => ("kind of file", Some(catalogue::files)),
+        What::Figures => ("kind of figure", Some(figures)),
+        What::Files => ("kind of file", Some(files)),
     }
 }
 
@@ -243,4 +252,316 @@ fn loaded() -> (Vec<Paper>, Vec<Result<(), Failure>>) {
         results.push(paper.map(|paper| papers.push(paper)));
     }
     (papers, results)
+}
+
+/// A paper: its source, studies and claims, and how it is run.
+fn paper_alone(paper: &Paper) -> String {
+    let source = &paper.source;
+    let mut lines = vec![paper.id.clone(), wrapped("  ", &source.title, 2)];
+    for text in [&source.authors, &source.published].into_iter().flatten() {
+        lines.push(wrapped("  ", text, 2));
+    }
+    let claims = counted(paper.claims.len(), ["claim", "claims"]);
+    lines.push(format!("  {claims}, {}", counted(paper.studies.len(), ["study", "studies"])));
+    lines.push("\nStudies".to_owned());
+    lines.extend(
+        paper.studies.iter().map(|study| wrapped(&format!("  {}: ", study.name), &study.question, 6)),
+    );
+    lines.push("\nExamples".to_owned());
+    for (command, about) in [
+        ("repro", "run what has changed, judge the claims, draw the figures"),
+        ("show", "every claim with its verdict"),
+        ("report", "the report as a page"),
+    ] {
+        lines.push(wrapped(&format!("  replan {command} {}   ", paper.id), about, 6));
+    }
+    lines.join("\n")
+}
+
+/// A study of `paper`: its question, what it runs, and how.
+///
+/// # Errors
+/// Problems that cannot be built.
+fn study_alone(paper: &Paper, study: &Study) -> Result<String, Failure> {
+    let id = &paper.id;
+    let name = &study.name;
+    let places = Places::find(&Which { paper: id.clone(), out: None }, "")?;
+    doing(&format!("{id}/{name}: counting its trials"));
+    let trials = Explorer::new(paper, &places, None, PathBuf::new()).trials_of(study)?;
+    let mut lines = vec![
+        format!("{id}/{name}"),
+        wrapped("  ", &study.question, 2),
+        wrapped("  paper: ", &paper.source.title, 6),
+        wrapped("  task: ", study.task.name, 6),
+        format!("  {} under the default interpretation", counted(trials as usize, ["trial", "trials"])),
+    ];
+    let marks = [recorded_mark(study.clock_bound()), elsewhere_mark(study.elsewhere())];
+    lines.extend(marks.into_iter().flatten().map(|mark| wrapped("  ", &mark, 6)));
+    lines.extend(compared(study));
+    let of = |label: &str, ids: Vec<&str>| (!ids.is_empty()).then(|| wrapped(label, &ids.join(", "), 2));
+    lines.extend(of("\nSweeps over: ", study.sweeps.iter().map(|sweep| sweep.key.as_str()).collect()));
+    lines.extend(of("\nChoices: ", study.choices.iter().map(|choice| choice.id.as_str()).collect()));
+    lines.push("\nExample".to_owned());
+    lines.push(wrapped(
+        &format!("  replan run {id}   "),
+        "run what has changed of all of the paper's studies",
+        6,
+    ));
+    Ok(lines.join("\n"))
+}
+
+/// The groups of problems of a study, and its contenders.
+fn compared(study: &Study) -> Vec<String> {
+    let group = |group: &Group| {
+        let instances = counted(group.instances as usize, ["instance", "instances"]);
+        wrapped(&format!("  {}: ", group.label), &format!("{instances} of `{}`", group.family.name), 6)
+    };
+    let contender = |contender: &Contender| {
+        let stages: Vec<&str> = contender.stages.iter().map(|stage| stage.entry.name).collect();
+        let seeds = counted(contender.repeats as usize, ["seed", "seeds"]);
+        wrapped(&format!("  {}: ", contender.label), &format!("{}; {seeds}", stages.join(", then ")), 6)
+    };
+    let problems = std::iter::once("\nProblems".to_owned()).chain(study.groups.iter().map(group));
+    let contenders = std::iter::once("\nContenders".to_owned()).chain(study.contenders.iter().map(contender));
+    problems.chain(contenders).collect()
+}
+
+/// Terminals have at least this many columns.
+const COLUMNS: usize = 80;
+/// And so many rows.
+const ROWS: usize = 24;
+
+/// `first` and then the words of `text`, on lines of 80 columns, those after the first indented by `indent`.
+fn wrapped(first: &str, text: &str, indent: usize) -> String {
+    plain(first, text, indent, COLUMNS)
+}
+
+/// Everything that is known of `item`.
+fn explained(item: &Item) -> String {
+    let mut parts = vec![item.name.to_owned(), wrapped("  ", item.about, 2)];
+    if !item.columns.is_empty() {
+        parts.push(wrapped("  It fills the columns ", &format!("{}.", item.columns.join(", ")), 2));
+    }
+    match item.settings.map(|accepted| fields(&accepted.schema())) {
+        Some(keys) if keys.is_empty() => parts.push("\nIt has no settings.".to_owned()),
+        Some(keys) => {
+            parts.push("\nKeys".to_owned());
+            parts.extend(keys.iter().map(key));
+        }
+        None => {
+            parts.push("\nIt has no settings of its own; the family of the problems has them.".to_owned());
+        }
+    }
+    if let Some(file) = item.file {
+        parts.push(format!("\nExample\n  {file}"));
+        parts.extend(short(file));
+    }
+    if let Some(example) = item.shown() {
+        parts.push("\nExample".to_owned());
+        parts.extend(example.lines().map(|line| format!("  {line}")));
+    }
+    parts.join("\n")
+}
+
+/// What the project's `file` says without its comments, indented, if it is here and fits a terminal.
+fn short(file: &str) -> Option<String> {
+    let text = read_text(&home(None).ok()?.join(file)).ok()?;
+    let lines: Vec<String> =
+        text.lines().filter(|line| !line.starts_with('#')).map(|line| format!("    {line}")).collect();
+    let fits = lines.len() <= ROWS && lines.iter().all(|line| line.chars().count() <= COLUMNS);
+    fits.then(|| lines.join("\n").replace("    \n", "\n").trim_end().to_owned())
+}
+
+fn key(field: &Field) -> String {
+    let unit = field.unit.map_or_else(String::new, |unit| format!(" ({unit})"));
+    let default = match &field.default {
+        Default::Required => "; required".to_owned(),
+        Default::Value(value) => format!("; {value} if left out"),
+        Default::Absent => "; may be left out".to_owned(),
+    };
+    let mut lines =
+        vec![wrapped(&format!("  {}: ", field.name), &format!("{}{unit}{default}", field.accepted), 6)];
+    if !field.meaning.is_empty() {
+        lines.push(wrapped("      ", &field.meaning, 6));
+    }
+    for (word, about) in &field.words {
+        lines.push(wrapped(&format!("      \"{word}\": "), about, 10));
+    }
+    lines.join("\n")
+}
+
+/// What names an entry in a file, and the table of its settings; `{}` stands for its name.
+#[derive(Clone, Copy)]
+pub struct Frame(&'static str, &'static str);
+
+const PLANNER: Frame = Frame("[[contender]]\nlabel = \"mine\"\nplanner = \"{}\"", "contender.settings");
+const STAGE: Frame = Frame("[[contender.then]]\nstage = \"{}\"", "contender.then.settings");
+const FAMILY: Frame = Frame("[[problems]]\nlabel = \"mine\"\nfamily = \"{}\"", "problems.settings");
+const TASK: Frame = Frame("task = \"{}\"", "task_settings");
+const CRITERION: Frame = Frame("[[claim]]\nid = \"mine\"\nat = \"section 1\"", "claim.check.{}");
+const RULE: Frame = Frame("[[claim]]\nid = \"mine\"\nat = \"section 1\"", "claim.rule.{}");
+const FIGURE: Frame = Frame("[[figure]]\nid = \"mine\"\nkind = \"{}\"\ncaption = \"…\"", "figure.settings");
+const NONE: Frame = Frame("", "");
+
+impl Item {
+    /// Its example as a file has it; `None` if it takes no settings.
+    pub fn shown(&self) -> Option<String> {
+        let place = self.place();
+        let mut text = self.frame.0.replace("{}", self.name);
+        if !self.example.is_empty() {
+            text += &format!("\n[{place}]");
+        }
+        for line in self.example.trim().lines() {
+            // What is indented continues an array; brackets at the beginning of a line are a table's.
+            let (brackets, rest) = line.split_at(line.len() - line.trim_start_matches('[').len());
+            let within = if brackets.is_empty() { String::new() } else { format!("{brackets}{place}.") };
+            text += &format!("\n{within}{rest}");
+        }
+        (!place.is_empty()).then_some(text)
+    }
+
+    /// The table of its settings in a file: `contender.settings`.
+    pub fn place(&self) -> String {
+        self.frame.1.replace("{}", self.name)
+    }
+}
+
+/// Something that specs name.
+pub struct Item {
+    /// Its name.
+    pub name: &'static str,
+    /// One line on it.
+    pub about: &'static str,
+    /// Its settings, if it is a thing that is set.
+    pub settings: Option<Accepted>,
+    /// Settings that it can be built from; empty if it needs none.
+    pub example: &'static str,
+    /// A file of this repository that is one, if it is a kind of file.
+    pub file: Option<&'static str>,
+    /// The text before its settings in a file, with `{}` for its name, and the table of the settings.
+    pub frame: Frame,
+    /// The columns that it fills.
+    pub columns: &'static [&'static str],
+}
+
+/// A thing that is set, from what its registry has of it.
+fn item(
+    frame: Frame,
+    [name, about, example]: [&'static str; 3],
+    settings: Accepted,
+    columns: &'static [&'static str],
+) -> Item {
+    Item { name, about, settings: Some(settings), example, file: None, frame, columns }
+}
+
+fn planners_or_stages(first: bool) -> Vec<Item> {
+    let fits = |entry: &&planner::Entry| matches!(entry.build, Build::Planner(_)) == first;
+    let frame = if first { PLANNER } else { STAGE };
+    let planners = study::planner::all().filter(fits);
+    planners.map(|e| item(frame, [e.name, e.about, e.example], e.settings, e.columns)).collect()
+}
+
+/// Planners: the first in a contender's pipeline.
+pub fn planners() -> Vec<Item> {
+    planners_or_stages(true)
+}
+
+/// Stages: the others.
+pub fn stages() -> Vec<Item> {
+    planners_or_stages(false)
+}
+
+/// Families of problems.
+pub fn families() -> Vec<Item> {
+    let families = family::REGISTRY.iter();
+    families.map(|e| item(FAMILY, [e.name, e.about, e.example], e.settings, e.columns)).collect()
+}
+
+/// Tasks.
+pub fn tasks() -> Vec<Item> {
+    task::REGISTRY.iter().map(|e| item(TASK, [e.name, e.about, e.example], e.settings, e.columns)).collect()
+}
+
+/// Criteria of claims.
+pub fn criteria() -> Vec<Item> {
+    criteria_or_rules(criterion::REGISTRY, CRITERION)
+}
+
+/// Rules of arithmetic on printed numbers.
+pub fn rules() -> Vec<Item> {
+    criteria_or_rules(rule::REGISTRY, RULE)
+}
+
+fn criteria_or_rules(registry: &[&criterion::Entry], frame: Frame) -> Vec<Item> {
+    registry.iter().map(|e| item(frame, [e.name, e.about, e.example], e.settings, &[])).collect()
+}
+
+/// Kinds of figure.
+pub fn figures() -> Vec<Item> {
+    figure::REGISTRY.iter().map(|e| item(FIGURE, [e.name, e.about, e.example], e.settings, &[])).collect()
+}
+
+/// Kinds of preprocessed object, which have no settings of their own: their family's make them.
+pub fn preprocessing() -> Vec<Item> {
+    let kind = |e: &&preprocessing::Entry| Item {
+        name: e.name,
+        about: e.about,
+        settings: None,
+        example: "",
+        file: None,
+        frame: NONE,
+        columns: e.columns,
+    };
+    preprocessing::REGISTRY.iter().map(kind).collect()
+}
+
+/// What `replan-audit` reads: the committed schema, which its tests hold to its checks.
+struct AuditTables;
+
+impl JsonSchema for AuditTables {
+    fn schema_name() -> Cow<'static, str> {
+        "AuditTables".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        serde_json::from_str(include_str!("../../docs/schema/audit_tables.schema.json"))
+            .expect("it is a schema")
+    }
+}
+
+/// Kinds of TOML file that replan reads, in the order of their names.
+pub fn files() -> Vec<Item> {
+    let named = [
+        FileKind {
+            name: "audit_tables",
+            about: "printed tables, samples and relations for replan audit: docs/audit/zhang.toml",
+            accepted: Accepted::shape::<AuditTables>(),
+            example: "docs/audit/fu2018.toml",
+        },
+        FileKind {
+            name: "crosscheck",
+            about: "the questions to an independent judge: crosscheck.toml in a paper's folder",
+            accepted: super::crosscheck::FILE,
+            example: "experiments/gallery/crosscheck.toml",
+        },
+        FileKind {
+            name: "paper",
+            about: "a paper's source, inventory, claims and tables: paper.toml in its folder",
+            accepted: paper::FILE,
+            example: "experiments/movingai_sample/paper.toml",
+        },
+        FileKind {
+            name: "planner_protocol",
+            about: "lines of JSON that planners from outside and replan write: docs/PLANNER_PROTOCOL.md",
+            accepted: Accepted::shape::<external::message::Messages>(),
+            example: "docs/PLANNER_PROTOCOL.md",
+        },
+    ];
+    let kind = |kind: &FileKind| Item {
+        file: Some(kind.example),
+        ..item(NONE, [kind.name, kind.about, ""], kind.accepted, &[])
+    };
+    let mut all: Vec<Item> = named.iter().chain(files::KINDS).map(kind).collect();
+    all.sort_by_key(|item| item.name);
+    all
 }
