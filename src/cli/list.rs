@@ -65,7 +65,7 @@ enum What {
 
 impl List {
     /// Runs the command.
-    pub fn run(self) -> Result<(), Failure> {
+    pub(super) fn run(self) -> Result<(), Failure> {
         if let (Some(what), Some(name)) = (self.what, &self.name) {
             return one(what, name);
         }

@@ -30,7 +30,7 @@ const EXAMPLES: &str = "Examples:
 
 impl Schema {
     /// Runs the command.
-    pub fn run(self) -> Result<(), Failure> {
+    pub(super) fn run(self) -> Result<(), Failure> {
         if !self.check {
             fs::create_dir_all(&self.folder)?;
         }

@@ -4,7 +4,7 @@ use super::Failure;
 use super::rounds::at_work;
 use clap::Args;
 use std::path::{Path, PathBuf};
-use study::plan::{Plan, State};
+use study::plan::{Plan, Progressed, State};
 
 /// Says how far the shards are.
 #[derive(Args)]
@@ -28,14 +28,13 @@ impl Status {
 
 /// The progress of `plan` in words, of the parts in `folder`, which is that of the round at work in `all`.
 fn progress_text(plan: &Plan, all: &Path, folder: &Path) -> String {
-    let mut numbers: [Vec<usize>; 4] = Default::default();
-    let mut units_done = 0;
-    for number in 1..=plan.shards {
-        let found = plan.progressed(folder, number);
-        numbers[found.state as usize].push(number);
-        units_done += found.units;
-    }
-    let [done, running, stopped, waiting] = &numbers;
+    let found: Vec<Progressed> = (1..=plan.shards).map(|number| plan.progressed(folder, number)).collect();
+    let with = |state: State| -> Vec<usize> {
+        (1..=plan.shards).filter(|number| found[number - 1].state == state).collect()
+    };
+    let [done, running, stopped, waiting] =
+        [State::Done, State::Running, State::Stopped, State::Waiting].map(with);
+    let units_done: usize = found.iter().map(|found| found.units).sum();
     let listed = |numbers: &[usize]| match numbers.len() {
         1..=20 => format!(" ({})", numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")),
         0 | 21.. => String::new(),
@@ -46,9 +45,9 @@ fn progress_text(plan: &Plan, all: &Path, folder: &Path) -> String {
         done.len(),
         plan.shards,
         running.len(),
-        listed(running),
+        listed(&running),
         stopped.len(),
-        listed(stopped),
+        listed(&stopped),
         waiting.len(),
         plan.units()
     );
