@@ -1,4 +1,4 @@
-//! The six-axis arm in the cell of fu2018, against parry3d and MuJoCo.
+//! The six-axis arm in the cell of fu2018: what studies ask of it, against parry3d where parry3d can be asked the same.
 //!
 //! - `configuration/ours` and `/parry3d`: is a random configuration free? Both place the same capsules by the same forward
 //!   kinematics; parry3d's capsules are asked behind the same axis-aligned boxes. The two are held to equal answers
@@ -8,14 +8,19 @@
 //! - `motion/ours` and `/parry3d`: a straight motion in joint space between near configurations, every state at even steps of
 //!   1/32 rad. Ours also covers what lies between the states (see `space::cell`), parry3d's states alone are asked, so
 //!   neither is a proof, and ours does more.
+//! - `motion/tool_line`: a local path with inverse kinematics between neighbours within 500 mm, contacts and all.
+//! - `forward`, `inverse_on`, `inverse_all`: kinematics.
+//! - `roadmap/task_space_1500`: 1500 samples, edges up to 500 mm that end in their own configuration.
 //! - `roadmap/joint_space_1500`: 1500 samples, each tried with its 12 nearest in joint space on a straight line there at steps
 //!   of 1/32 rad; the search for neighbours is part of it. `roadmap/parry3d_1500`: the same pairs, given, and parry3d's states.
+//! - `query/original` and `/improved`: one query on that roadmap, its local paths already known.
 
 mod cpu;
 #[path = "../peer/mod.rs"]
 mod peer;
 
 use base::seed;
+use base::settings::Settings;
 use cpu::CpuTime;
 use criterion::{Criterion, criterion_group, criterion_main};
 use parry3d::math::{Pose as ParryPose, Vector};
@@ -25,6 +30,8 @@ use peer::Peer;
 use rand::RngExt as _;
 use replan_engine::geometry::{Aabb, Capsule, Solid, Vec3};
 use replan_engine::kinematics::{Joints, Robot};
+use replan_engine::planner::{self, Build, Planner, Request};
+use replan_engine::space::World;
 use replan_engine::space::cell::{Cell, EdgeEnd, LineRules, Lines, Path, Pose, Scene, Scratch, Standing};
 use replan_engine::space::roadmap::{Counted, Local, Near, Roadmap, Sample};
 use std::f64::consts::PI;
@@ -40,17 +47,21 @@ fn cell() -> Cell {
     Cell::new(robot, scene, true)
 }
 
-/// Straight lines in joint space at steps of at most 1/32 rad.
-fn joint_rules() -> LineRules {
+fn rules() -> LineRules {
     LineRules {
-        path: Path::Joints,
+        path: Path::Tool,
         step_m: 0.02,
-        step_rad: 1.0 / 32.0,
+        step_rad: 4_f64.to_radians(),
         jump_rad: 20_f64.to_radians(),
         turn_rad: PI,
         speed: None,
         end: EdgeEnd::Own,
     }
+}
+
+/// Straight lines in joint space at steps of at most 1/32 rad.
+fn joint_rules() -> LineRules {
+    LineRules { path: Path::Joints, step_rad: 1.0 / 32.0, ..rules() }
 }
 
 fn draw(stream: &mut seed::Stream) -> Joints {
@@ -203,13 +214,57 @@ fn mujoco(cell: &Cell, drawn: &[Joints]) -> Option<Peer> {
     Some(peer)
 }
 
+fn kinematics(c: &mut Criterion<CpuTime>) {
+    let cell = cell();
+    let mut stream = seed::stream(SEED);
+    let arm = cell.robot().arm();
+    let drawn: Vec<Joints> = (0..1024).map(|_| draw(&mut stream)).collect();
+    let mut next = (0..drawn.len()).cycle();
+    let mut group = c.benchmark_group("kinematics");
+    group.bench_function("forward", |b| {
+        b.iter(|| black_box(arm.chain().forward(&drawn[next.next().expect("endless")])));
+    });
+    let poses: Vec<_> = drawn.iter().map(|q| (arm.chain().forward(q), arm.branch_of(q), *q)).collect();
+    group.bench_function("inverse_on", |b| {
+        b.iter(|| {
+            let (tool, branch, q) = &poses[next.next().expect("endless")];
+            black_box(arm.inverse_on(tool, *branch, q))
+        });
+    });
+    group.bench_function("inverse_all", |b| {
+        b.iter(|| {
+            let (tool, _, q) = &poses[next.next().expect("endless")];
+            black_box(arm.inverse(tool, q))
+        });
+    });
+    group.finish();
+}
+
 fn motions(c: &mut Criterion<CpuTime>) {
-    let lines = Lines::new(cell(), joint_rules());
+    let lines = Lines::new(cell(), rules());
     let samples = samples(lines.cell(), 400);
     let poses: Vec<Pose> =
         samples.iter().map(|s| lines.pose(&s.config.as_slice().try_into().expect("six angles"))).collect();
+    let near = |a: &Pose, b: &Pose| (a.tool.origin - b.tool.origin).norm() <= 0.5;
     let mut scratch = Scratch::default();
+    let mut joined = Vec::new();
+    for (i, a) in poses.iter().enumerate() {
+        for b in poses[..i].iter().filter(|b| near(a, b)) {
+            if lines.join(a, b, &mut scratch).is_ok() {
+                joined.push((*a, *b));
+            }
+        }
+    }
+    println!("motion: {} free local paths", joined.len());
+    let mut next = (0..joined.len()).cycle();
     let mut group = c.benchmark_group("motion");
+    group.bench_function("tool_line", |b| {
+        b.iter(|| {
+            let (from, to) = &joined[next.next().expect("endless")];
+            black_box(lines.join(from, to, &mut scratch))
+        });
+    });
+    let lines = Lines::new(cell(), joint_rules());
     let parry = Parry::new(lines.cell());
     let pairs = neighbours(&samples);
     let mut next = (0..pairs.len()).cycle();
@@ -280,9 +335,49 @@ fn joint_roadmap(c: &mut Criterion<CpuTime>) {
     group.finish();
 }
 
+fn roadmaps(c: &mut Criterion<CpuTime>) {
+    let lines = Lines::new(cell(), rules());
+    let samples = samples(lines.cell(), 1500);
+    let built = || {
+        Roadmap::build(
+            Local::Arm(Box::new(lines.clone())),
+            samples.clone(),
+            Near::Places(500.0),
+            Counted::Accepted,
+        )
+    };
+    let mut group = c.benchmark_group("roadmap");
+    group.sample_size(10).measurement_time(Duration::from_secs(4));
+    group.bench_function("task_space_1500", |b| b.iter(|| black_box(built())));
+    group.finish();
+    let world = World::Roadmap(Box::new(built()));
+    let pose = |degrees: [f64; 6]| degrees.map(f64::to_radians).to_vec();
+    let (start, goal) =
+        (pose([-41.0, -49.0, 2.0, -7.0, 47.0, -41.0]), pose([56.0, -78.0, 45.0, -7.0, 33.0, 56.0]));
+    let mut group = c.benchmark_group("query");
+    for (name, shot) in [("original", "never"), ("improved", "before_expansion")] {
+        let planner = planner(shot);
+        let request =
+            Request { world: &world, start: &start, goal: &goal, expansions: 10_000, seed: 0, trace: false };
+        group.bench_function(name, |b| b.iter(|| black_box(planner.plan(&request))));
+    }
+    group.finish();
+}
+
+fn planner(shot: &str) -> Box<dyn Planner> {
+    let text = format!(
+        "samples = 1500\nneighbour_mm = 500\ncost = 'hops'\ngoal_shot = '{shot}'\npath = 'parents'\n"
+    );
+    let Some(Build::Planner(build)) = planner::find("roadmap_astar").map(|entry| entry.build) else {
+        unreachable!("the registry has the planner");
+    };
+    let table = text.parse().expect("the settings are TOML");
+    build(&Settings::composed("a bench", table)).expect("the settings are the planner's")
+}
+
 criterion_group! {
     name = benches;
     config = cpu::criterion().measurement_time(Duration::from_secs(2)).warm_up_time(Duration::from_millis(500));
-    targets = configurations, motions, joint_roadmap
+    targets = configurations, kinematics, motions, roadmaps, joint_roadmap
 }
 criterion_main!(benches);

@@ -177,7 +177,8 @@ def unknown(asked: Asked, cases: Cases) -> Flags:
         return cases.unended & (hits_of(asked, cases)[1] == 0)
     if kind in ("above", "lower", "higher", "lower_throughout"):
         return cases.might_be_solved
-    return cases.unended
+    # What the other contender solves is none of its failures.
+    return cases.unended & ~cases.base_solved if kind == "cured" else cases.unended
 
 
 def by_unit(asked: Asked, cases: Cases, given: bool | None = None) -> tuple[Reals, Reals]:
@@ -236,6 +237,8 @@ def hits_of(asked: Asked, cases: Cases) -> tuple[Reals, Reals]:
         hit, known = gap < -EQUAL, cases.paired
     elif kind == "higher":
         hit, known = gap > EQUAL, cases.paired
+    elif kind == "cured":
+        hit, known = cases.own_solved, ~cases.base_solved & ~cases.cut()[1]
     else:
         raise ValueError(f"share: hits = {kind!r} is not known here")
     return (hit & known).astype(float), known.astype(float)

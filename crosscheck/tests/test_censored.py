@@ -101,6 +101,19 @@ def test_one_solves_more_throughout_only_if_it_does_at_every_point() -> None:
         assert (list(hits), list(chances)) == (expected, [1, 1, 1])
 
 
+def test_what_is_cured_is_a_share_of_failures_that_ended() -> None:
+    of = asked(
+        [(1.0, NONE), (NONE, REFUSED), (1.0, 1.0), (1.0, SPENT), (SPENT, 1.0), (SPENT, NONE)],
+        {"hits": "cured"},
+    )
+    for given, expected in [
+        (None, ([1, 0, 0, 0, 0, 0], [1, 1, 0, 0, 0, 1])),
+        (True, ([1, 0, 0, 1, 0, 1], [1, 1, 0, 1, 0, 1])),
+    ]:
+        hits, chances = shares.by_unit(of, of.cases(), given)
+        assert (list(hits), list(chances)) == expected
+
+
 def test_what_chance_decides_hangs_both_ways() -> None:
     one, two = frozenset([HOLDS]), frozenset([HOLDS, FAILS])
     assert hangs(HOLDS, one, []) == hangs(HOLDS, one, [one]) == {False}

@@ -83,6 +83,8 @@ enum Hits {
     SolvedMore,
     /// Instances with more cases solved than by the other contender at every point of the sweep.
     SolvedMoreThroughout,
+    /// Cases that the other contender leaves unsolved and this one solves.
+    Cured,
     /// Instances with at least the share `bound` of their cases solved.
     SolvedAtLeast,
 }
@@ -106,6 +108,7 @@ impl Hits {
             Self::LowerThroughout => "instances on every case of which it is lower",
             Self::SolvedMore => "instances of which it solves more",
             Self::SolvedMoreThroughout => "instances of which it solves more at every point of the sweep",
+            Self::Cured => "cases that it solves of those that the other fails",
             Self::SolvedAtLeast => "instances of which it solves at least",
         }
     }
@@ -180,6 +183,8 @@ impl<'a> Counted<'a> {
             Hits::Lower | Hits::LowerThroughout => hit(gap()? < -EQUAL),
             Hits::Higher => hit(gap()? > EQUAL),
             Hits::SolvedMore | Hits::SolvedMoreThroughout => hit(row.is_solved() && !case.base?.is_solved()),
+            Hits::Cured => hit(row.is_solved())
+                .filter(|_| case.base.is_some_and(|base| !base.is_solved() && !is_unended(base))),
         }
     }
 
@@ -189,6 +194,8 @@ impl<'a> Counted<'a> {
         match self.settings.hits {
             // What ended without a path, or with a refused one, has no marks; what did not end might have had some.
             Hits::Marked | Hits::Events => case.is_unended() && self.counts(case).is_none(),
+            // What the other solves is none of its failures.
+            Hits::Cured => case.is_unended() && !case.base.is_some_and(Row::is_solved),
             Hits::Above | Hits::Lower | Hits::Higher | Hits::LowerThroughout => case.might_be_solved(),
             Hits::Solved
             | Hits::Rejected
