@@ -3,8 +3,8 @@
 //! In papers and studies, the settings of an entry are described by that entry. So an editor completes them, and
 //! `replan check` finds every fault in all tables of all files at once.
 
+use super::Failure;
 use super::list::{self, Item};
-use super::{Failure, all};
 use base::settings::generator;
 use clap::Args;
 use schemars::SchemaGenerator;
@@ -19,52 +19,17 @@ pub struct Schema {
     /// The folder for the schemas, one `<kind>.schema.json` each
     #[arg(default_value = "docs/schema")]
     folder: PathBuf,
-    /// Write nothing; list schemas that are out of date
-    #[arg(long)]
-    check: bool,
 }
 
 const EXAMPLES: &str = "Examples:
   replan schema
-  replan schema --check               are the stored schemas up to date?";
+  replan schema my/schemas";
 
 impl Schema {
     /// Runs the command.
     pub(super) fn run(self) -> Result<(), Failure> {
-        if !self.check {
-            fs::create_dir_all(&self.folder)?;
-        }
-        let kinds = list::files();
-        let mut results: Vec<Result<(), Failure>> = kinds.iter().map(|kind| self.each(kind)).collect();
-        if self.check {
-            let entries = fs::read_dir(&self.folder).into_iter().flatten().flatten();
-            let of_kind = |name: &str| kinds.iter().any(|kind| name == file_name(kind.name));
-            let mut names: Vec<String> =
-                entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-            names.sort();
-            results.extend(names.iter().filter(|name| !of_kind(name)).map(|name| {
-                let path = self.folder.join(name);
-                Err(Failure::stale(format!("{} is the schema of no kind of file; remove it", path.display())))
-            }));
-        }
-        all(results, "schemas are not current")?;
-        if self.check {
-            let names: Vec<&str> = kinds.iter().map(|kind| kind.name).collect();
-            say!("{} schemas in {} are current: {}", kinds.len(), self.folder.display(), names.join(", "));
-        }
-        Ok(())
-    }
-
-    fn each(&self, kind: &Item) -> Result<(), Failure> {
-        let path = self.folder.join(file_name(kind.name));
-        let text = text(kind.name);
-        if self.check {
-            let stored = fs::read_to_string(&path).unwrap_or_default();
-            let stale = || Failure::stale(format!("{} is not current; run `replan schema`", path.display()));
-            return if stored == text { Ok(()) } else { Err(stale()) };
-        }
-        fs::write(&path, text)?;
-        say!("{}", path.display());
+        write_all(&self.folder)?;
+        list::files().iter().for_each(|kind| say!("{}", self.folder.join(file_name(kind.name)).display()));
         Ok(())
     }
 }
@@ -95,13 +60,8 @@ fn made(kind: &str, names: bool) -> Value {
     schema
 }
 
-/// The schema of the kind of file called `kind`, as it is written to disk.
-pub fn text(kind: &str) -> String {
-    serde_json::to_string_pretty(&schema(kind)).expect("a schema is plain JSON") + "\n"
-}
-
 /// The name of the file of the schema of `kind`.
-pub fn file_name(kind: &str) -> String {
+fn file_name(kind: &str) -> String {
     format!("{kind}.schema.json")
 }
 
@@ -109,9 +69,12 @@ pub fn file_name(kind: &str) -> String {
 ///
 /// # Errors
 /// A folder or file that cannot be written.
-pub fn write_all(folder: &Path) -> std::io::Result<()> {
+pub(super) fn write_all(folder: &Path) -> std::io::Result<()> {
     fs::create_dir_all(folder)?;
-    list::files().iter().try_for_each(|kind| fs::write(folder.join(file_name(kind.name)), text(kind.name)))
+    list::files().iter().try_for_each(|kind| {
+        let text = serde_json::to_string_pretty(&schema(kind.name)).expect("a schema is plain JSON") + "\n";
+        fs::write(folder.join(file_name(kind.name)), text)
+    })
 }
 
 /// The settings of each item that takes some, by its name.

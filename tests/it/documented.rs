@@ -318,6 +318,8 @@ fn the_committed_schemas_are_current() {
         let stored: Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
         assert!(stored == schema::schema(kind.name), "{}: run `replan schema`", path.display());
     }
+    let stored = fs::read_dir(root().join("docs/schema")).unwrap().count();
+    assert_eq!(stored, list::files().len(), "docs/schema has a schema of no kind of file");
 }
 
 #[test]
