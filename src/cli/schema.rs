@@ -29,7 +29,9 @@ impl Schema {
     /// Runs the command.
     pub(super) fn run(self) -> Result<(), Failure> {
         write_all(&self.folder)?;
-        list::files().iter().for_each(|kind| say!("{}", self.folder.join(file_name(kind.name)).display()));
+        for kind in list::files() {
+            say!("{}", self.folder.join(file_name(kind.name)).display());
+        }
         Ok(())
     }
 }
