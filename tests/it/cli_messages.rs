@@ -3,7 +3,7 @@
 use crate::across::{CITED, Toy};
 use crate::paper::Bench;
 use base::settings::Document;
-use replan::cli::{catalogue, file_schema};
+use replan::cli::{list, schema};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
