@@ -1,29 +1,23 @@
 //! `replan list`: everything that specs can name, and what is known of one of these, within 80 columns.
-//!
-//! Everything registered has one form here, [`Item`]: for this command, for the schemas of files, and for tests of both.
 
 use super::explorer::Explorer;
 use super::places::{Places, experiments, home, papers};
 use super::progress::doing;
+use super::schema::{self, Item};
 use super::{Failure, Which, all, counted};
+use crate::analysis::metric;
 use crate::analysis::verdict_rule::Verdict;
-use crate::analysis::{criterion, metric, rule};
-use crate::render::figure;
 use crate::render::prose::plain;
 use base::file::read_text;
 use base::robot::read_urdf;
 use base::settings::describe::{Default, Field, fields};
-use base::settings::{Accepted, none_called};
+use base::settings::none_called;
 use clap::{Args, ValueEnum};
 use engine::kinematics::{AXES, Robot, robot::Body};
-use engine::planner::{self, Build};
 use rayon::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
-use std::borrow::Cow;
 use std::path::{Path, PathBuf};
-use study::files::{self, FileKind};
-use study::paper::{self, Paper};
-use study::{Contender, Group, Inputs, Study, elsewhere_mark, family, preprocessing, recorded_mark, task};
+use study::paper::Paper;
+use study::{Contender, Group, Inputs, Study, elsewhere_mark, recorded_mark};
 
 /// Where robots are shipped.
 const ROBOTS: &str = "data/robots";
@@ -65,7 +59,7 @@ enum What {
 
 impl List {
     /// Runs the command.
-    pub(super) fn run(self) -> Result<(), Failure> {
+    pub fn run(self) -> Result<(), Failure> {
         if let (Some(what), Some(name)) = (self.what, &self.name) {
             return one(what, name);
         }
@@ -125,17 +119,17 @@ fn kind(what: What) -> (&'static str, Option<fn() -> Vec<Item>>) {
         What::Studies => ("study", None),
         What::Choices => ("choice", None),
         What::Robots => ("robot", None),
-        What::Planners => ("planner", Some(planners)),
-        What::Stages => ("stage", Some(stages)),
-        What::Families => ("family", Some(families)),
-        What::Preprocessing => ("kind of preprocessed object", Some(preprocessing)),
-        What::Tasks => ("task", Some(tasks)),
-        What::Criteria => ("criterion", Some(criteria)),
-        What::Rules => ("rule", Some(rules)),
+        What::Planners => ("planner", Some(schema::planners)),
+        What::Stages => ("stage", Some(schema::stages)),
+        What::Families => ("family", Some(schema::families)),
+        What::Preprocessing => ("kind of preprocessed object", Some(schema::preprocessing)),
+        What::Tasks => ("task", Some(schema::tasks)),
+        What::Criteria => ("criterion", Some(schema::criteria)),
+        What::Rules => ("rule", Some(schema::rules)),
         What::Metrics => ("metric", None),
         What::Verdicts => ("verdict", None),
-        What::Figures => ("kind of figure", Some(figures)),
-        What::Files => ("kind of file", Some(files)),
+        What::Figures => ("kind of figure", Some(schema::figures)),
+        What::Files => ("kind of file", Some(schema::files)),
     }
 }
 
@@ -388,180 +382,4 @@ fn key(field: &Field) -> String {
         lines.push(wrapped(&format!("      \"{word}\": "), about, 10));
     }
     lines.join("\n")
-}
-
-/// What names an entry in a file, and the table of its settings; `{}` stands for its name.
-#[derive(Clone, Copy)]
-pub struct Frame(&'static str, &'static str);
-
-const PLANNER: Frame = Frame("[[contender]]\nlabel = \"mine\"\nplanner = \"{}\"", "contender.settings");
-const STAGE: Frame = Frame("[[contender.then]]\nstage = \"{}\"", "contender.then.settings");
-const FAMILY: Frame = Frame("[[problems]]\nlabel = \"mine\"\nfamily = \"{}\"", "problems.settings");
-const TASK: Frame = Frame("task = \"{}\"", "task_settings");
-const CRITERION: Frame = Frame("[[claim]]\nid = \"mine\"\nat = \"section 1\"", "claim.check.{}");
-const RULE: Frame = Frame("[[claim]]\nid = \"mine\"\nat = \"section 1\"", "claim.rule.{}");
-const FIGURE: Frame = Frame("[[figure]]\nid = \"mine\"\nkind = \"{}\"\ncaption = \"…\"", "figure.settings");
-const NONE: Frame = Frame("", "");
-
-impl Item {
-    /// Its example as a file has it; `None` if it takes no settings.
-    pub fn shown(&self) -> Option<String> {
-        let place = self.place();
-        let mut text = self.frame.0.replace("{}", self.name);
-        if !self.example.is_empty() {
-            text += &format!("\n[{place}]");
-        }
-        for line in self.example.trim().lines() {
-            // What is indented continues an array; brackets at the beginning of a line are a table's.
-            let (brackets, rest) = line.split_at(line.len() - line.trim_start_matches('[').len());
-            let within = if brackets.is_empty() { String::new() } else { format!("{brackets}{place}.") };
-            text += &format!("\n{within}{rest}");
-        }
-        (!place.is_empty()).then_some(text)
-    }
-
-    /// The table of its settings in a file: `contender.settings`.
-    pub fn place(&self) -> String {
-        self.frame.1.replace("{}", self.name)
-    }
-}
-
-/// Something that specs name.
-pub struct Item {
-    /// Its name.
-    pub name: &'static str,
-    /// One line on it.
-    pub about: &'static str,
-    /// Its settings, if it is a thing that is set.
-    pub settings: Option<Accepted>,
-    /// Settings that it can be built from; empty if it needs none.
-    pub example: &'static str,
-    /// A file of this repository that is one, if it is a kind of file.
-    pub file: Option<&'static str>,
-    /// The text before its settings in a file, with `{}` for its name, and the table of the settings.
-    pub frame: Frame,
-    /// The columns that it fills.
-    pub columns: &'static [&'static str],
-}
-
-/// A thing that is set, from what its registry has of it.
-fn item(
-    frame: Frame,
-    [name, about, example]: [&'static str; 3],
-    settings: Accepted,
-    columns: &'static [&'static str],
-) -> Item {
-    Item { name, about, settings: Some(settings), example, file: None, frame, columns }
-}
-
-fn planners_or_stages(first: bool) -> Vec<Item> {
-    let fits = |entry: &&planner::Entry| matches!(entry.build, Build::Planner(_)) == first;
-    let frame = if first { PLANNER } else { STAGE };
-    let planners = study::planner::all().filter(fits);
-    planners.map(|e| item(frame, [e.name, e.about, e.example], e.settings, e.columns)).collect()
-}
-
-/// Planners: the first in a contender's pipeline.
-pub fn planners() -> Vec<Item> {
-    planners_or_stages(true)
-}
-
-/// Stages: the others.
-pub fn stages() -> Vec<Item> {
-    planners_or_stages(false)
-}
-
-/// Families of problems.
-pub fn families() -> Vec<Item> {
-    let families = family::REGISTRY.iter();
-    families.map(|e| item(FAMILY, [e.name, e.about, e.example], e.settings, e.columns)).collect()
-}
-
-/// Tasks.
-pub fn tasks() -> Vec<Item> {
-    task::REGISTRY.iter().map(|e| item(TASK, [e.name, e.about, e.example], e.settings, e.columns)).collect()
-}
-
-/// Criteria of claims.
-pub fn criteria() -> Vec<Item> {
-    criteria_or_rules(criterion::REGISTRY, CRITERION)
-}
-
-/// Rules of arithmetic on printed numbers.
-pub fn rules() -> Vec<Item> {
-    criteria_or_rules(rule::REGISTRY, RULE)
-}
-
-fn criteria_or_rules(registry: &[&criterion::Entry], frame: Frame) -> Vec<Item> {
-    registry.iter().map(|e| item(frame, [e.name, e.about, e.example], e.settings, &[])).collect()
-}
-
-/// Kinds of figure.
-pub fn figures() -> Vec<Item> {
-    figure::REGISTRY.iter().map(|e| item(FIGURE, [e.name, e.about, e.example], e.settings, &[])).collect()
-}
-
-/// Kinds of preprocessed object, which have no settings of their own: their family's make them.
-pub fn preprocessing() -> Vec<Item> {
-    let kind = |e: &&preprocessing::Entry| Item {
-        name: e.name,
-        about: e.about,
-        settings: None,
-        example: "",
-        file: None,
-        frame: NONE,
-        columns: e.columns,
-    };
-    preprocessing::REGISTRY.iter().map(kind).collect()
-}
-
-/// What `replan-audit` reads: the committed schema, which its tests hold to its checks.
-struct AuditTables;
-
-impl JsonSchema for AuditTables {
-    fn schema_name() -> Cow<'static, str> {
-        "AuditTables".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        serde_json::from_str(include_str!("../../docs/schema/audit_tables.schema.json"))
-            .expect("it is a schema")
-    }
-}
-
-/// Kinds of TOML file that replan reads, in the order of their names.
-pub fn files() -> Vec<Item> {
-    let named = [
-        FileKind {
-            name: "audit_tables",
-            about: "printed tables, samples and relations for replan audit: docs/audit/zhang.toml",
-            accepted: Accepted::shape::<AuditTables>(),
-            example: "docs/audit/fu2018.toml",
-        },
-        FileKind {
-            name: "crosscheck",
-            about: "the questions to an independent judge: crosscheck.toml in a paper's folder",
-            accepted: super::crosscheck::FILE,
-            example: "experiments/gallery/crosscheck.toml",
-        },
-        FileKind {
-            name: "paper",
-            about: "a paper's source, inventory, claims and tables: paper.toml in its folder",
-            accepted: paper::FILE,
-            example: "experiments/movingai_sample/paper.toml",
-        },
-        FileKind {
-            name: "planner_protocol",
-            about: "lines of JSON that planners from outside and replan write: docs/PLANNER_PROTOCOL.md",
-            accepted: Accepted::shape::<external::message::Messages>(),
-            example: "docs/PLANNER_PROTOCOL.md",
-        },
-    ];
-    let kind = |kind: &FileKind| Item {
-        file: Some(kind.example),
-        ..item(NONE, [kind.name, kind.about, ""], kind.accepted, &[])
-    };
-    let mut all: Vec<Item> = named.iter().chain(files::KINDS).map(kind).collect();
-    all.sort_by_key(|item| item.name);
-    all
 }

@@ -46,7 +46,7 @@ pub mod export;
 mod findings;
 mod import;
 mod judge;
-pub mod list;
+mod list;
 mod load;
 mod merge;
 mod new;

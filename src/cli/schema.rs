@@ -1,16 +1,23 @@
 //! `replan schema`: the JSON Schema of every kind of TOML file, made from the same types that read the files.
 //!
+//! Everything registered has one form here, [`Item`]: for the schemas, for `replan list`, and for tests of both.
+//!
 //! In papers and studies, the settings of an entry are described by that entry. So an editor completes them, and
 //! `replan check` finds every fault in all tables of all files at once.
 
 use super::Failure;
-use super::list::{self, Item};
-use base::settings::generator;
+use crate::analysis::{criterion, rule};
+use crate::render::figure;
+use base::settings::{Accepted, generator};
 use clap::Args;
-use schemars::SchemaGenerator;
+use engine::planner::{self, Build};
+use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value, json};
+use std::borrow::Cow;
 use std::fs;
 use std::path::{Path, PathBuf};
+use study::files::{self, FileKind};
+use study::{family, paper, preprocessing, task};
 
 /// Writes JSON Schemas.
 #[derive(Args)]
@@ -29,7 +36,7 @@ impl Schema {
     /// Runs the command.
     pub(super) fn run(self) -> Result<(), Failure> {
         write_all(&self.folder)?;
-        for kind in list::files() {
+        for kind in files() {
             say!("{}", self.folder.join(file_name(kind.name)).display());
         }
         Ok(())
@@ -51,7 +58,7 @@ fn made(kind: &str, names: bool) -> Value {
         "study" => study(names),
         "paper" => paper(names),
         other => {
-            let kinds = list::files();
+            let kinds = files();
             let found = kinds.iter().find(|item| item.name == other).and_then(|item| item.settings);
             found.map_or(Value::Bool(true), |accepted| (*accepted.schema()).clone())
         }
@@ -73,7 +80,7 @@ fn file_name(kind: &str) -> String {
 /// A folder or file that cannot be written.
 pub(super) fn write_all(folder: &Path) -> std::io::Result<()> {
     fs::create_dir_all(folder)?;
-    list::files().iter().try_for_each(|kind| {
+    files().iter().try_for_each(|kind| {
         let text = serde_json::to_string_pretty(&schema(kind.name)).expect("a schema is plain JSON") + "\n";
         fs::write(folder.join(file_name(kind.name)), text)
     })
@@ -84,17 +91,16 @@ fn parts(items: &[Item], generator: &mut SchemaGenerator) -> Vec<(&'static str, 
     items.iter().filter_map(|item| Some((item.name, item.settings?.within(generator)))).collect()
 }
 
-/// The schema of `kind` alone, with what `generator` was asked for.
+/// The schema of `kind` alone, with the definitions that `generator` has made.
 fn whole(kind: &str, generator: SchemaGenerator) -> Value {
-    let found = list::files().into_iter().find(|item| item.name == kind).and_then(|item| item.settings);
+    let found = files().into_iter().find(|item| item.name == kind).and_then(|item| item.settings);
     found.map_or(Value::Bool(true), |accepted| accepted.whole_with(generator))
 }
 
 fn study(names: bool) -> Value {
     let mut generator = generator();
     let [planners, stages, families, tasks, figures] =
-        [list::planners(), list::stages(), list::families(), list::tasks(), list::figures()]
-            .map(|items| parts(&items, &mut generator));
+        [planners(), stages(), families(), tasks(), figures()].map(|items| parts(&items, &mut generator));
     let mut root = whole("study", generator);
     // Sweeps and interpretations fill in what a contender or a group leaves out: nothing is required there.
     choose(&mut root, Some("ContenderSpec"), ("planner", "settings"), &planners, false, names);
@@ -107,7 +113,7 @@ fn study(names: bool) -> Value {
 
 fn paper(names: bool) -> Value {
     let mut generator = generator();
-    let [criteria, rules] = [list::criteria(), list::rules()].map(|items| parts(&items, &mut generator));
+    let [criteria, rules] = [criteria(), rules()].map(|items| parts(&items, &mut generator));
     let several = |part: &Value| json!({ "type": "array", "items": part });
     let shown = criteria.iter().map(|(name, part)| (*name, several(part))).collect();
     let mut root = whole("paper", generator);
@@ -164,4 +170,180 @@ fn without_required(root: &Value, part: &Value) -> Value {
         table.remove("required");
     }
     copy
+}
+
+/// What names an entry in a file, and the table of its settings; `{}` stands for its name.
+#[derive(Clone, Copy)]
+pub struct Frame(&'static str, &'static str);
+
+const PLANNER: Frame = Frame("[[contender]]\nlabel = \"mine\"\nplanner = \"{}\"", "contender.settings");
+const STAGE: Frame = Frame("[[contender.then]]\nstage = \"{}\"", "contender.then.settings");
+const FAMILY: Frame = Frame("[[problems]]\nlabel = \"mine\"\nfamily = \"{}\"", "problems.settings");
+const TASK: Frame = Frame("task = \"{}\"", "task_settings");
+const CRITERION: Frame = Frame("[[claim]]\nid = \"mine\"\nat = \"section 1\"", "claim.check.{}");
+const RULE: Frame = Frame("[[claim]]\nid = \"mine\"\nat = \"section 1\"", "claim.rule.{}");
+const FIGURE: Frame = Frame("[[figure]]\nid = \"mine\"\nkind = \"{}\"\ncaption = \"…\"", "figure.settings");
+const NONE: Frame = Frame("", "");
+
+impl Item {
+    /// Its example as a file has it; `None` if it takes no settings.
+    pub fn shown(&self) -> Option<String> {
+        let place = self.place();
+        let mut text = self.frame.0.replace("{}", self.name);
+        if !self.example.is_empty() {
+            text += &format!("\n[{place}]");
+        }
+        for line in self.example.trim().lines() {
+            // What is indented continues an array; brackets at the beginning of a line are a table's.
+            let (brackets, rest) = line.split_at(line.len() - line.trim_start_matches('[').len());
+            let within = if brackets.is_empty() { String::new() } else { format!("{brackets}{place}.") };
+            text += &format!("\n{within}{rest}");
+        }
+        (!place.is_empty()).then_some(text)
+    }
+
+    /// The table of its settings in a file: `contender.settings`.
+    pub fn place(&self) -> String {
+        self.frame.1.replace("{}", self.name)
+    }
+}
+
+/// Something that specs name.
+pub struct Item {
+    /// Its name.
+    pub name: &'static str,
+    /// One line on it.
+    pub about: &'static str,
+    /// Its settings, if it is a thing that is set.
+    pub settings: Option<Accepted>,
+    /// Settings that it can be built from; empty if it needs none.
+    pub example: &'static str,
+    /// A file of this repository that is one, if it is a kind of file.
+    pub file: Option<&'static str>,
+    /// The text before its settings in a file, with `{}` for its name, and the table of the settings.
+    pub frame: Frame,
+    /// The columns that it fills.
+    pub columns: &'static [&'static str],
+}
+
+/// A thing that is set, from what its registry has of it.
+fn item(
+    frame: Frame,
+    [name, about, example]: [&'static str; 3],
+    settings: Accepted,
+    columns: &'static [&'static str],
+) -> Item {
+    Item { name, about, settings: Some(settings), example, file: None, frame, columns }
+}
+
+fn planners_or_stages(first: bool) -> Vec<Item> {
+    let fits = |entry: &&planner::Entry| matches!(entry.build, Build::Planner(_)) == first;
+    let frame = if first { PLANNER } else { STAGE };
+    let planners = study::planner::all().filter(fits);
+    planners.map(|e| item(frame, [e.name, e.about, e.example], e.settings, e.columns)).collect()
+}
+
+/// Planners: the first in a contender's pipeline.
+pub fn planners() -> Vec<Item> {
+    planners_or_stages(true)
+}
+
+/// Stages: the others.
+pub fn stages() -> Vec<Item> {
+    planners_or_stages(false)
+}
+
+/// Families of problems.
+pub fn families() -> Vec<Item> {
+    let families = family::REGISTRY.iter();
+    families.map(|e| item(FAMILY, [e.name, e.about, e.example], e.settings, e.columns)).collect()
+}
+
+/// Tasks.
+pub fn tasks() -> Vec<Item> {
+    task::REGISTRY.iter().map(|e| item(TASK, [e.name, e.about, e.example], e.settings, e.columns)).collect()
+}
+
+/// Criteria of claims.
+pub fn criteria() -> Vec<Item> {
+    criteria_or_rules(criterion::REGISTRY, CRITERION)
+}
+
+/// Rules of arithmetic on printed numbers.
+pub fn rules() -> Vec<Item> {
+    criteria_or_rules(rule::REGISTRY, RULE)
+}
+
+fn criteria_or_rules(registry: &[&criterion::Entry], frame: Frame) -> Vec<Item> {
+    registry.iter().map(|e| item(frame, [e.name, e.about, e.example], e.settings, &[])).collect()
+}
+
+/// Kinds of figure.
+pub fn figures() -> Vec<Item> {
+    figure::REGISTRY.iter().map(|e| item(FIGURE, [e.name, e.about, e.example], e.settings, &[])).collect()
+}
+
+/// Kinds of preprocessed object, which have no settings of their own: their family's make them.
+pub fn preprocessing() -> Vec<Item> {
+    let kind = |e: &&preprocessing::Entry| Item {
+        name: e.name,
+        about: e.about,
+        settings: None,
+        example: "",
+        file: None,
+        frame: NONE,
+        columns: e.columns,
+    };
+    preprocessing::REGISTRY.iter().map(kind).collect()
+}
+
+/// What `replan-audit` reads: the committed schema, which its tests hold to its checks.
+struct AuditTables;
+
+impl JsonSchema for AuditTables {
+    fn schema_name() -> Cow<'static, str> {
+        "AuditTables".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> schemars::Schema {
+        serde_json::from_str(include_str!("../../docs/schema/audit_tables.schema.json"))
+            .expect("it is a schema")
+    }
+}
+
+/// Kinds of TOML file that replan reads, in the order of their names.
+pub fn files() -> Vec<Item> {
+    let named = [
+        FileKind {
+            name: "audit_tables",
+            about: "printed tables, samples and relations for replan audit: docs/audit/zhang.toml",
+            accepted: Accepted::shape::<AuditTables>(),
+            example: "docs/audit/fu2018.toml",
+        },
+        FileKind {
+            name: "crosscheck",
+            about: "the questions to an independent judge: crosscheck.toml in a paper's folder",
+            accepted: super::crosscheck::FILE,
+            example: "experiments/gallery/crosscheck.toml",
+        },
+        FileKind {
+            name: "paper",
+            about: "a paper's source, inventory, claims and tables: paper.toml in its folder",
+            accepted: paper::FILE,
+            example: "experiments/movingai_sample/paper.toml",
+        },
+        FileKind {
+            name: "planner_protocol",
+            about: "lines of JSON that planners from outside and replan write: docs/PLANNER_PROTOCOL.md",
+            accepted: Accepted::shape::<external::message::Messages>(),
+            example: "docs/PLANNER_PROTOCOL.md",
+        },
+    ];
+    let kind = |kind: &FileKind| Item {
+        file: Some(kind.example),
+        ..item(NONE, [kind.name, kind.about, ""], kind.accepted, &[])
+    };
+    let mut all: Vec<Item> = named.iter().chain(files::KINDS).map(kind).collect();
+    all.sort_by_key(|item| item.name);
+    all
 }

@@ -4,8 +4,8 @@ use super::search::{Scratch, octile};
 use super::{Case, Landmarks};
 
 impl Case<'_> {
-    /// The least cost of an 8-connected path from start to goal, straight moves costing 1 and diagonal ones √2, found sooner with
-    /// landmarks of the map; `None` if there is no path, or if start or goal is not a free cell.
+    /// The least cost of an 8-connected path from start to goal, straight moves costing 1 and diagonal ones √2; `None` if there is no
+    /// path, or if start or goal is not a free cell. Landmarks of the map make it faster.
     ///
     /// Costs are (straight, diagonal) counts, compared as the floats they round to. Two counts of one cost are the same counts, and
     /// others differ by more than bounds are off by rounding.
