@@ -39,7 +39,12 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-select = { study = "compare", problems = "maps", metric = "opened", contender = "Weighted A*", against = "A*" }
+[select]
+study = "compare"
+problems = "maps"
+metric = "opened"
+contender = "Weighted A*"
+against = "A*"
 "#,
     build: |context| Ok(Box::new(Lower::new(context)?)),
 };

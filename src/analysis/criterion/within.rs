@@ -29,9 +29,14 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-select = { study = "compare", problems = "maps", contender = "Weighted A*", against = "A*", metric = "opened" }
 statistic = "ratio"
 accepted = [0.0, 0.5]
+[select]
+study = "compare"
+problems = "maps"
+contender = "Weighted A*"
+against = "A*"
+metric = "opened"
 "#,
     build: |context| Ok(Box::new(Within::new(context)?)),
 };
