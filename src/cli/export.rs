@@ -40,13 +40,15 @@ pub struct Export {
 
 const EXAMPLES: &str = "Examples:
   replan export zhang --to csv
-  replan export zhang --to posthoc --out traces";
+  replan export zhang --to parquet --out trials";
 
 /// A format that stored runs are exported in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Format {
     /// Comma-separated values: trials, preprocessed objects and times of each study, and statistics.csv
     Csv,
+    /// One Parquet file of all trials, and one of their statistics
+    Parquet,
     /// A benchmark log of OMPL for each problem group
     OmplLog,
     /// A database (SQL) that Planner Arena reads

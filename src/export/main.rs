@@ -6,6 +6,7 @@
 mod arena;
 mod benchmark;
 mod file_names;
+mod frames;
 mod log;
 mod posthoc;
 
@@ -42,6 +43,7 @@ fn main() -> ExitCode {
 fn stage(format: Format, staged: &mut Staged, out: &Path, folder: &Path, run: &StoredRun) -> Stage {
     match format {
         Format::Csv | Format::RoCrate => unreachable!("`Export` writes these itself"),
+        Format::Parquet => frames::stage(staged, out, folder, run),
         Format::OmplLog => {
             let all = experiments(run);
             let mut names = FileNames::default();

@@ -130,6 +130,31 @@ fn logs_have_a_run_for_each_trial_and_leave_out_what_was_not_measured() {
 }
 
 #[test]
+fn one_parquet_file_has_the_trials_of_all_studies_and_the_columns_of_each() {
+    let folder = exported("baselines", "parquet");
+    let read = |name: &str| FrameReader::open(File::open(folder.path().join(name)).unwrap()).unwrap();
+    let mut reader = read("trials.parquet");
+    let described: Vec<serde_json::Value> = serde_json::from_str(reader.entry("columns").unwrap()).unwrap();
+    let trials = reader.frame().unwrap();
+    for study in STUDIES {
+        let own = stored(study);
+        let mask =
+            trials.column("study").unwrap().str().unwrap().iter().map(|name| name == Some(study)).collect();
+        let part = trials.filter(&mask).unwrap();
+        for column in own.columns() {
+            let found = part.column(column.name()).unwrap();
+            assert!(found.cast(column.dtype()).unwrap().equals_missing(column), "{study}: {}", column.name());
+        }
+    }
+    let names: Vec<&str> = described.iter().map(|one| one["name"].as_str().unwrap()).collect();
+    assert_eq!(names.len(), trials.width());
+    let statistics = read("statistics.parquet").frame().unwrap();
+    assert!(
+        statistics.height() > 20 && statistics.column("mean_low").unwrap().null_count() < statistics.height()
+    );
+}
+
+#[test]
 fn a_trace_for_posthoc_opens_and_expands_as_the_search_did() {
     let folder = exported("zhang", "posthoc");
     let files: Vec<PathBuf> =
@@ -272,7 +297,7 @@ fn what_cannot_be_exported_leaves_nothing_and_says_why() {
     let out = folder.path().join("out");
     for (arguments, code, message) in [
         (["nowhere", "--to", "planner-arena"], 2, "`nowhere` holds no stored run"),
-        (["gallery", "--to", "xlsx"], 2, "[possible values: csv, ompl-log, planner-arena, posthoc"),
+        (["gallery", "--to", "xlsx"], 2, "[possible values: csv, parquet, ompl-log, planner-arena, posthoc"),
         (["fu2018", "--to", "ro-crate"], 2, "--date <DAY>"),
         (["fu2018", "--to", "posthoc"], 2, "`fu2018` has no stored search on a grid"),
     ] {
