@@ -61,15 +61,24 @@ pub fn refused(instances: &[Instance<'_>]) -> usize {
     cases(instances).filter(refused).count()
 }
 
-/// How many cases are outside a claim about cases that all compared contenders solve.
+/// How many cases are outside a claim about cases that all compared contenders solve. A refused path that gave a number is inside.
 pub fn outside(instances: &[Instance<'_>]) -> usize {
-    cases(instances).filter(|case| !case.is_solved() && !case.might_be_solved()).count()
+    let is_outside = |case: &&Case<'_>| {
+        let is_counted = case.base.map_or(case.value, |_| case.pair().map(|(_, own)| own)).is_some();
+        !is_counted && !case.is_solved() && !case.might_be_solved()
+    };
+    cases(instances).filter(is_outside).count()
 }
 
 /// The sentence that `count` cases are outside a claim about `selection`; `None` if none is.
 pub fn outside_in_words(selection: &Selection<'_>, count: usize) -> Option<String> {
-    let both = if selection.against.is_some() { "solved by both" } else { "solved" };
-    (count > 0).then(|| format!("{count} more cases are outside of the claim: not {both}"))
+    let why = match (selection.counts_refused(), selection.against.is_some()) {
+        (true, true) => "no path of one at least",
+        (true, false) => "no path",
+        (false, true) => "not solved by both",
+        (false, false) => "not solved",
+    };
+    (count > 0).then(|| format!("{count} more cases are outside of the claim: {why}"))
 }
 
 /// How many problems of `selection` cannot be posed, with the reason of the first, in words; `None` if all can.

@@ -210,7 +210,7 @@ fn the_judge_of_statistics_is_given_metrics_and_papers() {
     let metric =
         request["metrics"].as_array().unwrap().iter().find(|metric| metric["name"] == "plan_time_ms");
     let expected = serde_json::json!({
-        "name": "plan_time_ms", "column": "plan_wall_ns", "scale": 1e-6, "better": "lower", "clock": true, "status": false, "at_most": null,
+        "name": "plan_time_ms", "column": "plan_wall_ns", "scale": 1e-6, "better": "lower", "clock": true, "status": false, "of_search": false, "at_most": null,
     });
     assert_eq!(metric, Some(&expected));
     assert_eq!(request["papers"].as_array().unwrap().len(), 1, "{request}");
