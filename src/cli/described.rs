@@ -7,7 +7,7 @@ use super::progress::doing;
 use super::{Failure, Which, counted};
 use std::path::PathBuf;
 use study::paper::Paper;
-use study::{Contender, Group, Study, elsewhere_mark, recorded_mark};
+use study::{Choice, Contender, Group, Study, elsewhere_mark, recorded_mark};
 
 /// A paper: its source, studies and claims, and how it is run.
 pub fn paper(paper: &Paper) -> String {
@@ -30,6 +30,18 @@ pub fn paper(paper: &Paper) -> String {
     ] {
         lines.push(wrapped(&format!("  replan {command} {}   ", paper.id), about, 6));
     }
+    lines.join("\n")
+}
+
+/// A choice that a paper leaves open: its options, and why it is one.
+pub fn choice(choice: &Choice) -> String {
+    let options: Vec<&str> = choice.options.keys().map(String::as_str).collect();
+    let lines = [
+        choice.id.clone(),
+        wrapped("  options: ", &options.join(", "), 6),
+        wrapped("  default: ", &choice.default, 6),
+        wrapped("  why: ", &choice.why, 6),
+    ];
     lines.join("\n")
 }
 

@@ -8,7 +8,7 @@ use super::{Failure, all, described};
 use crate::analysis::metric;
 use crate::analysis::verdict_rule::Verdict;
 use base::robot::read_urdf;
-use base::settings::none_called;
+use base::settings::{did_you_mean, none_called};
 use clap::{Args, ValueEnum};
 use engine::kinematics::{AXES, Robot, robot::Body};
 use rayon::prelude::*;
@@ -31,7 +31,8 @@ pub struct List {
 
 const EXAMPLES: &str = "Examples:
   replan list planners
-  replan list criteria one_instance   one entry with its settings and an example";
+  replan list criteria one_instance   one entry with its settings and an example
+  replan list choices ties            a choice, in every paper that leaves it open";
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum What {
@@ -96,6 +97,10 @@ impl LoadedFiles {
         let find = |id: &str| self.papers.iter().find(|paper| paper.id == id);
         Ok(match (what, name.split_once('/')) {
             (What::Papers, _) => find(name).map(described::paper),
+            (What::Choices, Some((id, choice))) => {
+                let choices = find(id).into_iter().flat_map(|paper| &paper.choices);
+                choices.filter(|own| own.id == choice).map(described::choice).next()
+            }
             (What::Studies, Some((id, study))) => {
                 let found = find(id).and_then(|paper| Some((paper, paper.study(study)?)));
                 found.map(|(paper, study)| described::study(paper, study)).transpose()?
@@ -130,17 +135,48 @@ fn kind(what: What) -> (&'static str, Option<fn() -> Vec<Item>>) {
     }
 }
 
+/// A message names so many things of a kind at most.
+const NAMED: usize = 30;
+
+/// That nothing of the kind `what` is called `name`, with the nearest name; with all if they are few.
+fn none_listed(what: What, name: &str, known: &[&str]) -> Failure {
+    let singular = kind(what).0;
+    if known.len() <= NAMED {
+        return Failure::input(none_called(singular, name, known.iter().copied()));
+    }
+    let ends = known.iter().filter_map(|known| Some(known.rsplit_once('/')?.1));
+    let hint = did_you_mean(name, known.iter().copied().chain(ends));
+    let count = known.len();
+    Failure::input(format!(
+        "there is no {singular} `{name}`{hint}; `replan list {}` lists all {count}",
+        title(what)
+    ))
+}
+
+/// The row called `name`, with or without the paper before it; or all of the paper called `name`.
+fn named<'r>(rows: &'r [(String, String)], name: &str) -> Vec<(&'r str, &'r str)> {
+    let is_named = |known: &str| {
+        known == name || known.split_once('/').is_some_and(|(paper, own)| own == name || paper == name)
+    };
+    let rows = rows.iter().map(|(known, about)| (known.as_str(), about.as_str()));
+    rows.filter(|(known, _)| is_named(known)).collect()
+}
+
 /// What the one thing of the kind `what` that is called `name` is.
 fn one(what: What, name: &str) -> Result<(), Failure> {
-    let (singular, items) = kind(what);
+    let items = kind(what).1;
     let Some(items) = items else {
         let (found, results) = LoadedFiles::read(|kind| kind.contains(&what));
         let rows = rows(what, &found);
-        let known = rows.iter().map(|(known, _)| known.as_str());
-        let row = rows.iter().find(|(known, _)| known == name);
-        let (_, about) = row.ok_or_else(|| Failure::input(none_called(singular, name, known)))?;
-        let described = found.described(what, name)?;
-        say!("{}", described.unwrap_or_else(|| format!("{name}\n{}", wrapped("  ", about, 2))));
+        let named = named(&rows, name);
+        if named.is_empty() {
+            let known: Vec<&str> = rows.iter().map(|(known, _)| known.as_str()).collect();
+            return Err(none_listed(what, name, &known));
+        }
+        for (known, about) in &named {
+            let described = if named.len() == 1 { found.described(what, known)? } else { None };
+            say!("{}", described.unwrap_or_else(|| format!("{known}\n{}", wrapped("  ", about, 2))));
+        }
         if let Some(metric) = metric::find(name).filter(|_| what == What::Metrics) {
             let unit = if metric.unit.is_empty() { "none: it is a count or a flag" } else { &metric.unit };
             say!("{}", wrapped("  unit: ", unit, 2));
@@ -150,9 +186,9 @@ fn one(what: What, name: &str) -> Result<(), Failure> {
         return all(results, "papers and robots cannot be listed");
     };
     let items = items();
-    let known = items.iter().map(|item| item.name);
+    let known: Vec<&str> = items.iter().map(|item| item.name).collect();
     let item = items.iter().find(|item| item.name == name);
-    let item = item.ok_or_else(|| Failure::input(none_called(singular, name, known)))?;
+    let item = item.ok_or_else(|| none_listed(what, name, &known))?;
     say!("{}", explained(item));
     Ok(())
 }
