@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Processor time of a first build by package, seconds: what `cargo run` compiles with crates downloaded and an empty target folder.
-# `benches/first-build.sh -p replan-audit` measures what another `cargo build` compiles.
+# `benches/first-build.sh -p replan-audit` measures what another `cargo build` compiles, and `REPLAN_REVISION=02acae0c` before it what
+# that revision compiled.
 set -euo pipefail
 
 # Cargo runs this file in front of the compiler.
@@ -14,9 +15,14 @@ fi
 wrapper=$(realpath "$0")
 cd "$(dirname "$0")/.."
 [ $# -gt 0 ] || set -- --bin replan
-cargo fetch --locked --quiet
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
+if [ -n "${REPLAN_REVISION:-}" ]; then
+  mkdir "$folder/revision"
+  git archive "$REPLAN_REVISION" | tar -x -C "$folder/revision"
+  cd "$folder/revision"
+fi
+cargo fetch --locked --quiet
 mkdir "$folder/times"
 TIMEFORMAT='all: %U s for programs and %S s for the system, %R s on the clock'
 time REPLAN_TIMES="$folder/times" RUSTC_WRAPPER="$wrapper" CARGO_TARGET_DIR="$folder/target" \

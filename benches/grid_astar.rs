@@ -6,13 +6,10 @@
 //!
 //! - `astar_octile`: [`OctileAstar`] on a map it has seen before;
 //! - `planner`: the planner of that name as studies call it, from request to plan, over the same search;
-//! - `general`: the kernel it specialises, over the same buckets;
 //! - `pathfinding_u32`: the crate with `u32` nodes and costs and successors from legal-move masks, unallocated;
 //! - `pathfinding_typical`: the crate with `(x, y)` nodes, `f64` costs and a `Vec` of successors;
 //! - `petgraph`: that crate's A* on a graph made before, `u32` costs;
-//! - `networkx` and `pathfinding_python`, on `30x30` alone: the Python packages, on a graph and a grid made before;
-//! - `verifier`: the verifier's own optimum, by landmarks made before, and `verifier_dijkstra`: the crate's search without an
-//!   estimate, which is what such an optimum costs otherwise.
+//! - `networkx` and `pathfinding_python`, on `30x30` alone: the Python packages, on a graph and a grid made before.
 
 #[path = "shared/grid_queries.rs"]
 mod grid_queries;
@@ -26,16 +23,13 @@ use base::seed;
 use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main, measurement::WallTime};
 use engine as ours;
 use grid_queries::{Posed, planner};
-use ours::search::{
-    Best, Buckets, GridGraph, Octile, OctileAstar, Rules, ScaledOctile, Search, SideInputs, Update,
-};
-use pathfinding::prelude::{astar, dijkstra};
+use ours::search::{OctileAstar, ScaledOctile};
+use pathfinding::prelude::astar;
 use peer::Peer;
 use petgraph::graph::{NodeIndex, UnGraph};
 use serde_json::json;
 use std::{hint::black_box, path::Path, time::Duration};
 use total::Total;
-use verify::lattice::{Case, Landmarks};
 
 impl Posed {
     fn octile(&self, search: &mut OctileAstar) -> u64 {
@@ -45,19 +39,6 @@ impl Posed {
             .map(solve)
             .map(|report| u64::from(ScaledOctile::scaled(report.outcome.route().unwrap().cost)))
             .sum()
-    }
-
-    fn general(&self, search: &mut Search<Octile, Buckets<Best>>) -> u64 {
-        let mut solve = |&[start, goal]: &[u32; 2]| {
-            let graph = &mut GridGraph::new(self.lattice().moves());
-            let observer = &mut ();
-            let update = Update::default();
-            let estimate = &ScaledOctile::new(self.lattice().grid().width(), Some(goal));
-            let terms = SideInputs { graph, estimate, observer, update };
-            let report = search.run(terms, start, |node| node == goal, Rules::default(), &mut ());
-            u64::from(ScaledOctile::scaled(report.outcome.route().unwrap().cost))
-        };
-        self.queries.iter().map(&mut solve).sum()
     }
 
     /// Every cell as a node and every legal step as an edge.
@@ -110,28 +91,6 @@ impl Posed {
         json!({ "package": package, "rows": rows, "moves": moves, "queries": self.queries })
     }
 
-    /// A query as the verifier takes it.
-    fn case<'a>(&'a self, [start, goal]: &'a [Vec<f64>; 2]) -> Case<'a> {
-        Case { grid: self.lattice().grid(), corner_rule: self.lattice().corner_rule(), start, goal }
-    }
-
-    fn verified(&self, landmarks: &Landmarks) -> f64 {
-        self.ends.iter().map(|ends| self.case(ends).optimal_cost_by(Some(landmarks)).unwrap()).sum()
-    }
-
-    fn crate_dijkstra(&self) -> u64 {
-        let moves = self.lattice().moves();
-        let successors = |&cell: &u32| {
-            moves.from_cell(cell).map(|(to, diagonal)| (to, if diagonal { 1393_u32 } else { 985 }))
-        };
-        let solve = |&[start, goal]: &[u32; 2]| {
-            let (path, cost) = dijkstra(&start, successors, |&cell| cell == goal).unwrap();
-            black_box(path);
-            u64::from(cost)
-        };
-        self.queries.iter().map(solve).sum()
-    }
-
     fn crate_typical(&self) -> f64 {
         let grid = self.lattice().grid();
         let successors = |&(x, y): &(i32, i32)| {
@@ -164,27 +123,20 @@ impl Posed {
 
 fn compare(group: &mut BenchmarkGroup<'_, WallTime>, posed: &Posed) {
     let planner = planner("astar_octile");
-    let mut general = Search::new(Buckets::default());
     let mut fast = OctileAstar::new(posed.lattice().moves()).unwrap();
     let truth = posed.octile(&mut fast);
-    assert_eq!([posed.general(&mut general), posed.crate_best()], [truth; 2]);
+    assert_eq!(posed.crate_best(), truth);
     let exact = posed.planned(planner.as_ref());
     assert!((exact - posed.crate_typical()).abs() < 1e-6 * exact);
     let in_cells = truth as f64 / f64::from(ScaledOctile::STRAIGHT);
     assert!((exact - in_cells).abs() < 1e-5 * exact, "1393 / 985 is √2 to a millionth");
-    let landmarks = Landmarks::new(&posed.case(&posed.ends[0])).expect("a map of 4 million cells at most");
-    assert!((exact - posed.verified(&landmarks)).abs() < 1e-6 * exact);
-    assert_eq!(posed.crate_dijkstra(), truth);
     let graph = posed.graph();
     assert_eq!(posed.petgraph(&graph), truth);
     group.bench_function("astar_octile", |bencher| bencher.iter(|| posed.octile(&mut fast)));
     group.bench_function("planner", |bencher| bencher.iter(|| posed.planned(planner.as_ref())));
-    group.bench_function("general", |bencher| bencher.iter(|| posed.general(&mut general)));
     group.bench_function("pathfinding_u32", |bencher| bencher.iter(|| posed.crate_best()));
     group.bench_function("pathfinding_typical", |bencher| bencher.iter(|| posed.crate_typical()));
     group.bench_function("petgraph", |bencher| bencher.iter(|| posed.petgraph(&graph)));
-    group.bench_function("verifier", |bencher| bencher.iter(|| posed.verified(&landmarks)));
-    group.bench_function("verifier_dijkstra", |bencher| bencher.iter(|| posed.crate_dijkstra()));
 }
 
 fn compare_python(group: &mut BenchmarkGroup<'_, WallTime>, posed: &Posed) {

@@ -126,6 +126,9 @@ class Across:
         """The outcome under the defaults on the second seed."""
         if self.second is None or claim in self.stale[1]:
             return None
+        if not self.second["claims"].get(claim, {}).get("studies"):
+            # Arithmetic on what is printed looks at no trial: no seed can move it.
+            return None
         found = self.result(self.second, claim, 0)
         return stored_outcome(found) if found and found["sight"] == "looked" else None
 

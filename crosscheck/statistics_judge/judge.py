@@ -2,7 +2,7 @@
 
 import itertools
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from statistics_judge import across, classes, estimates, means, medians, printed_cells, shares, sizes
@@ -295,7 +295,11 @@ def compare_findings(paper: str, claim: Claim, stored: dict[str, Any], compared:
             known.append(frozenset([finding.get("outcome")]))
             continue
         where = f"{paper}: `{claim.id}`, finding {place + 1} ({own.criterion})"
-        for line in differences(own.estimate, finding.get("ours"), compared):
+        estimate = own.estimate
+        if estimate and stored.get("is_seedless") and finding.get("outcome"):
+            # Nothing is drawn, so that no other instance could be.
+            estimate = replace(estimate, interval=None)
+        for line in differences(estimate, finding.get("ours"), compared):
             compared.differ.append(f"{where}: {line}")
         compare_class(where, finding.get("outcome"), own.classes, compared)
         known.append(own.classes)

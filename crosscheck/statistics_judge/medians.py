@@ -132,7 +132,7 @@ def measured_side(
     if metric.clock:
         rows, values = rows[~np.isnan(values)], values[~np.isnan(values)]
     missing = np.where(np.isin(study.status[rows], CUT), given, np.inf)
-    values = np.where(study.solved[rows] & ~np.isnan(values), values, missing)
+    values = np.where(metric.given(study.status[rows]) & ~np.isnan(values), values, missing)
     if len(values) == 0:
         return None
     units = values
@@ -249,7 +249,10 @@ def differs(asked: Asked) -> Found:
         is_cut |= any(cut[of].any() for of in rows)
         # Failures are infinite; what did not end is left out, and so are trials that were not timed.
         ended = [of[~cut[of] & ~(metric.clock & np.isnan(measured[of]))] for of in rows]
-        found = [np.where(study.solved[of] & ~np.isnan(measured[of]), measured[of], np.inf) for of in ended]
+        found = [
+            np.where(metric.given(study.status[of]) & ~np.isnan(measured[of]), measured[of], np.inf)
+            for of in ended
+        ]
         if all(len(of) for of in found):
             medians = [middle(of) for of in found]
             differ += any(of != medians[0] and abs(of - medians[0]) > 1e-9 for of in medians)

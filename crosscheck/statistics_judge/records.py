@@ -40,6 +40,12 @@ class Metric:
     better: str
     clock: bool
     status: bool
+    # Whether it counts what the search did, which holds even where the verifier refuses the path.
+    of_search: bool = False
+
+    def given(self, status: npt.NDArray[np.str_]) -> Flags:
+        """Whether trials that ended so have a number."""
+        return (status == "solved") | (self.of_search & (status == "rejected"))
 
 
 class Table:

@@ -50,12 +50,13 @@ class Cases:
         return self.study.values(metric, self.session)[self.own]
 
     def solved_values(self, rows: Places) -> Reals:
-        """The metric where the trial was solved or, if all ends count, ended at all; NaN elsewhere."""
+        """The metric where the trial gives one or, if all ends count, ended at all; NaN elsewhere."""
         if self.metric is None:
             return np.full(len(rows), np.nan)
         measured = self.study.values(self.metric, self.session)[rows]
-        ended = np.isin(self.study.status[rows], ["no_path", "rejected"]) if self.all_ends else False
-        return np.where(self.study.solved[rows] | ended, measured, np.nan)
+        status = self.study.status[rows]
+        ended = np.isin(status, ["no_path", "rejected"]) if self.all_ends else False
+        return np.where(self.metric.given(status) | ended, measured, np.nan)
 
     @property
     def own_solved(self) -> Flags:

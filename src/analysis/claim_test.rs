@@ -155,6 +155,9 @@ impl<'a> ClaimTest<'a> {
             let each = numbers.by_session.iter().take(numbers.sessions).map(|one| weigh(one));
             let (agreement, because) = sessions(&each.collect::<Vec<_>>());
             found.because.extend(because);
+            if !paper.choices.is_empty() {
+                found.because.push("the clock was read under the defaults alone".to_owned());
+            }
             if paper.source.ours { agreement } else { Sessions::OfAnother }
         });
         let studies = criterion.studies();

@@ -126,6 +126,11 @@ impl About {
     }
 }
 
+/// A question whose numbers are of trials with refused paths too: without such trials it is the question itself.
+pub fn with_refused(question: &str) -> String {
+    format!("{question} with refused paths")
+}
+
 /// The numbers of every question that decides a claim, under the evidence's interpretation.
 ///
 /// # Errors
@@ -135,10 +140,11 @@ pub fn measured(evidence: &Evidence<'_>) -> Result<Measured, SettingsError> {
         let mut found = Vec::new();
         for test in claim_tests(evidence.paper, claim, &evidence.point) {
             let test = test?;
-            let question = test.question().filter(|_| !test.is_shown());
-            found.extend(
-                question.map(|question| (question, (About::new(claim, &test), test.numbers(evidence, true)))),
-            );
+            let Some(question) = test.question().filter(|_| !test.is_shown()) else { continue };
+            let numbers = test.numbers(evidence, true);
+            let is_other = numbers.refused > 0.0 && test.criterion().counts_refused();
+            let question = if is_other { with_refused(&question) } else { question };
+            found.push((question, (About::new(claim, &test), numbers)));
         }
         Ok(found)
     };

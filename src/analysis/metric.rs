@@ -28,6 +28,8 @@ pub struct Metric {
     pub scale: f64,
     /// The column that it is compared with: the metric is 1 where it is at most as large (to 1e-9 of it), otherwise 0.
     pub at_most: Option<&'static str>,
+    /// Whether it counts what the search did, which holds even where the verifier refuses the path.
+    pub is_of_search: bool,
 }
 
 /// What is read from the trial's status in place of a column: 1 where a path came back, refused or not, otherwise 0.
@@ -52,6 +54,7 @@ fn of_column(column: &Column) -> Metric {
         column: column.name,
         scale: 1.0,
         at_most: None,
+        is_of_search: column.is_of_search,
     }
 }
 
@@ -66,6 +69,7 @@ fn derived() -> [Metric; 6] {
         column,
         scale: 1.0,
         at_most: None,
+        is_of_search: false,
     };
     let time = |name, label, column, (unit, scale): (&str, f64)| {
         let about = column::find(column).map_or(clock::ABOUT, |column| column.about);
@@ -143,6 +147,11 @@ impl Metric {
     /// Whether it is read from the clock.
     pub fn is_clock(&self) -> bool {
         self.column == clock::COLUMN
+    }
+
+    /// Whether a trial that ended so has a number: a solved one or, of what the search did, one whose path is refused.
+    pub fn is_given_by(&self, row: &Row) -> bool {
+        row.is_solved() || self.is_of_search && row.status == Status::Rejected
     }
 
     /// Whether a clock decides it, ours or a planner's own: it differs between machines and sessions.

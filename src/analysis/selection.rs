@@ -311,9 +311,15 @@ impl<'a> Selection<'a> {
         })
     }
 
+    /// Whether trials with refused paths have numbers although not all ends do.
+    pub fn counts_refused(&self) -> bool {
+        !self.all_ends && self.metric.is_some_and(|metric| metric.is_of_search)
+    }
+
     /// Whether a trial has a number.
     fn counts(&self, row: &Row) -> bool {
-        row.is_solved() || self.all_ends && matches!(row.status, Status::NoPath | Status::Rejected)
+        self.metric.is_some_and(|metric| metric.is_given_by(row))
+            || self.all_ends && matches!(row.status, Status::NoPath | Status::Rejected)
     }
 
     /// Whether the metric was looked for on a trial's instance: the clock is read on the first instances of each group alone, so that
@@ -339,6 +345,15 @@ impl<'a> Selection<'a> {
         };
         let ends = if self.all_ends { ", whether a path is found or not" } else { "" };
         format!("{who}{against} on {} of {}{query}{at}{ends}", self.groups_text(), self.study.name)
+    }
+
+    /// Which cases have numbers of both contenders, in words.
+    pub fn given_in_words(&self) -> &'static str {
+        match (self.all_ends, self.counts_refused()) {
+            (true, _) => "",
+            (false, true) => " in which both find a path",
+            (false, false) => " that both solve",
+        }
     }
 
     fn groups_text(&self) -> String {

@@ -26,7 +26,8 @@ pub struct SelectionSpec {
     /// Only instances count in which every contender that is compared solves every query.
     #[serde(default)]
     pub whole_instances: bool,
-    /// A trial that ends without a path, or with one that is refused, has a number too: what it took. Otherwise only solved ones do.
+    /// A trial that ends without a path, or with one that is refused, has a number too: what it took. Otherwise solved ones do and,
+    /// where the metric counts what the search did, those whose path is refused.
     #[serde(default)]
     pub all_ends: bool,
 }

@@ -19,7 +19,7 @@ use stats::proportion::{clopper_pearson, mean_of_agreed};
 use stats::summary;
 pub(super) use stats::summary::{mean, median, quantile_type7 as quantile, standard_deviation};
 use std::collections::BTreeMap;
-use study::record::{Row, Status};
+use study::record::Row;
 
 /// Level of every interval.
 pub const LEVEL: f64 = 0.95;
@@ -70,7 +70,7 @@ pub fn or_infinite(run: &Run<'_>, row: &Row, metric: &Metric, unended: Option<f6
     match (row.status, run.value(row, metric)) {
         // The clock is read for some seeds only: one that was not timed has not failed.
         (_, None) if metric.is_clock() => None,
-        (Status::Solved, Some(value)) => Some(value),
+        (_, Some(value)) if metric.is_given_by(row) => Some(value),
         (_, _) if is_unended(row) => unended,
         (_, _) => Some(f64::INFINITY),
     }

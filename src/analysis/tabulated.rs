@@ -77,7 +77,8 @@ fn cell_of(run: &Run<'_>, group: &str, label: &str, cell: &CellSpec, metric: &Me
     };
     let rows = run.rows(group, label);
     let measured = |run: &Run<'_>| {
-        let measured: Vec<_> = rows.iter().map(|row| (row.is_solved(), run.value(row, metric))).collect();
+        let measured: Vec<_> =
+            rows.iter().map(|row| (metric.is_given_by(row), run.value(row, metric))).collect();
         with_failures(&measured, metric.is_clock())
     };
     let values = measured(run);

@@ -7,6 +7,9 @@ use stats::interval::Interval;
 use std::collections::BTreeMap;
 use study::paper::Reply;
 
+/// How the line begins that gives a probability times the number of interpretations.
+pub const TIMES: &str = "p times ";
+
 /// What kind of number an estimate is.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -72,6 +75,13 @@ impl Estimate {
     pub fn bare(value: f64, what: impl Into<String>, n: usize) -> Self {
         let (quantity, subject) = (Quantity::Number, String::new());
         Self { value, interval: None, what: what.into(), quantity, subject, n, solved: None }
+    }
+
+    /// It without its interval, and without the words about that.
+    #[must_use]
+    pub fn without_interval(self) -> Self {
+        let words: Vec<&str> = self.what.split(", ").filter(|words| !words.contains("95 %")).collect();
+        Self { interval: None, what: words.join(", "), ..self }
     }
 
     /// It, as a number of this kind of `subject`.
@@ -166,7 +176,7 @@ pub struct Across {
     /// Interpretations that are set apart: the verifier refuses their paths, which the paper calls free.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub refused: Vec<String>,
-    /// The results of a joint test, the likeliest first, each with its interpretations.
+    /// Of a joint test: which options fit and which do not, then its results, the likeliest first, each with its interpretations.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tested: Vec<String>,
     /// How probes, which are never counted, would change its verdict.
@@ -350,6 +360,17 @@ impl ClaimVerdict {
     pub fn power(&self) -> Option<&str> {
         let mut because = self.findings.iter().flat_map(|finding| &finding.because);
         because.find_map(|line| line.strip_prefix("power: "))
+    }
+
+    /// Its probability times the number of interpretations that the paper may mean, in words.
+    pub fn multiplied(&self) -> Option<&str> {
+        let mut because = self.findings.iter().flat_map(|finding| &finding.because);
+        because.find_map(|line| line.strip_prefix(TIMES))
+    }
+
+    /// The line of a joint test that begins with `what`: which options fit, or which do not.
+    pub fn by_option(&self, what: &str) -> Option<&str> {
+        self.across.as_ref()?.tested.iter().find_map(|line| line.strip_prefix(what))
     }
 
     /// What would settle it, where it is open.

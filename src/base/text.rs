@@ -162,6 +162,12 @@ pub fn listed<N: Number>(numbers: impl AsRef<[N]>) -> String {
     format!("[{}]", numbers.join(", "))
 }
 
+/// A number that was computed from written ones, without the digits that rounding left behind: twelve count.
+pub fn computed(value: f64) -> String {
+    let rounded = format!("{value:.11e}").parse().unwrap_or(value);
+    format!("{rounded}")
+}
+
 /// A number in its fewest digits, and with an exponent where those would be many.
 pub fn written<N: Number>(number: &N) -> String {
     format!("{number:?}")
@@ -170,6 +176,22 @@ pub fn written<N: Number>(number: &N) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_computed_number_is_written_without_what_rounding_left_behind() {
+        for (value, text) in [
+            (100.0 * 0.949, "94.9"),
+            (1.302 - 1.1837, "0.1183"),
+            (100.0 * 0.57, "57"),
+            (-0.1 - 0.2, "-0.3"),
+            (1.0 / 3.0, "0.333333333333"),
+            (123_456_789.125, "123456789.125"),
+            (0.0, "0"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(computed(value), text);
+        }
+    }
 
     #[test]
     fn marks_and_ends_of_lines_of_every_system_become_plain_text_and_other_encodings_are_named() {

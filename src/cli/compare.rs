@@ -1,17 +1,13 @@
 //! `replan compare`: two stored runs, or two contenders of one, beside each other.
 
+use super::Failure;
 use super::places::stored_run;
 use super::progress::doing;
 use super::verdicts::COLUMNS;
-use super::{Failure, command_line};
 use crate::analysis::agreement::{Agreement, Encoding};
 use crate::analysis::compare::{CompareOptions, Comparison, Gate, Outcome, Sides, StoredRun, compare};
-use crate::render::vector::Provenance;
 use crate::render::{agreement, comparison};
-use base::hash::sha256;
 use clap::Args;
-use std::path::PathBuf;
-use study::store::write_whole;
 
 /// Compares two stored runs.
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own on the command line")]
@@ -27,7 +23,7 @@ pub struct Compare {
     #[arg(long, num_args = 2, value_names = ["X", "Y"])]
     contenders: Vec<String>,
     /// Compare the verdicts of two encodings of one paper, not their records
-    #[arg(long, requires = "second", conflicts_with_all = ["contenders", "studies", "metrics", "gates", "csv", "figure"])]
+    #[arg(long, requires = "second", conflicts_with_all = ["contenders", "studies", "metrics", "gates", "csv"])]
     verdicts: bool,
     /// Only this study; may be given several times
     #[arg(long = "study", value_name = "STUDY")]
@@ -50,9 +46,6 @@ pub struct Compare {
     /// Print tables of Markdown
     #[arg(long, group = "format")]
     markdown: bool,
-    /// Draw the changes with their intervals as an SVG file
-    #[arg(long, value_name = "FILE")]
-    figure: Option<PathBuf>,
 }
 
 const EXAMPLES: &str = "Examples:
@@ -91,10 +84,6 @@ impl Compare {
         };
         let found = compare(&sides, &options).map_err(Failure::input)?;
         self.print(&found);
-        if let Some(path) = &self.figure {
-            let drawn = comparison::figure(&found, &Self::provenance(&found))?;
-            write_whole(path, drawn.svg.as_bytes())?;
-        }
         self.judge(&found)
     }
 
@@ -122,12 +111,6 @@ impl Compare {
             () => comparison::text(found, COLUMNS),
         };
         say!("{}", text.trim_end());
-    }
-
-    fn provenance(found: &Comparison) -> Provenance {
-        let title = format!("What changes from {} to {}.", found.sides[0], found.sides[1]);
-        let spec_hash = sha256(comparison::csv(found).as_bytes());
-        Provenance { command: command_line(), spec_hash, title }
     }
 
     /// The exit code that the gates ask for.

@@ -10,8 +10,10 @@ use super::{Failure, How, Which, counted, judge, verdicts};
 use crate::analysis::estimates::{Estimates, Explored};
 use crate::analysis::evidence::default_point;
 use clap::Args;
+use std::collections::BTreeSet;
 use study::Interpretation;
 use study::lock::Lock;
+use study::paper::Paper;
 
 /// Explores a paper's choices: runs what each study says under the defaults, every other option by itself and a sample of
 /// their product, within the paper's budget of trials, and judges every claim under each.
@@ -23,7 +25,7 @@ use study::lock::Lock;
 pub struct Explore {
     #[command(flatten)]
     round: RoundArgs,
-    /// Print what would run and the most that it takes, and run nothing
+    /// Print what would run and the most that it takes, as timed on the first instances; keep nothing
     #[arg(long, conflicts_with = "shard")]
     plan: bool,
 }
@@ -54,18 +56,59 @@ fn plan(which: &Which) -> Result<(), Failure> {
     let explorer = Explorer::new(&paper, &places, None, scratch(&places, &paper, "explore"));
     let budget = budget(&paper)?;
     let (points, trials) = explorer.affordable(&budget)?;
-    let (more, seconds) = explorer.most_beyond(&points, budget.trials - trials)?;
+    for line in anew(&paper) {
+        say!("{}: {line}", paper.id);
+    }
+    let [all, different] = explorer.shared_first(&points)?;
+    say!("{}: {different} different trials run for these {all}, which interpretations share", paper.id);
+    let each = explorer.seconds_a_trial(&points)?;
+    let (more, seconds) = explorer.most_beyond(&points, budget.trials - trials, &each)?;
     say!(
         "{}: then, with more instances where an outcome is near a flip, at most {}",
         paper.id,
         counted(more as usize, ["trial", "trials"])
     );
+    let explored = paper.studies.iter().filter(|study| study.explore.is_some()).map(|study| &study.name);
+    let untimed: Vec<&str> = explored.filter(|name| !each.contains_key(*name)).map(String::as_str).collect();
+    let bound = match &untimed[..] {
+        [] => String::new(),
+        names => format!("; {}, not timed, as if each search opened all that there is", names.join(", ")),
+    };
     say!(
-        "{}: in all at most about {} of one core, if each search opened all that there is",
+        "{}: in all at most about {} of one core, by what the first instances take{bound}",
         paper.id,
         lasting(seconds)
     );
     Ok(())
+}
+
+/// Which choices need new trials of some contenders, and which only count stored trials anew: a line for choices that are alike.
+fn anew(paper: &Paper) -> Vec<String> {
+    let mut alike: Vec<(BTreeSet<&str>, Vec<&str>)> = Vec::new();
+    let mut all = BTreeSet::new();
+    for choice in &paper.choices {
+        let mut labels = BTreeSet::new();
+        for study in paper.studies.iter().filter(|study| study.explore.is_some()) {
+            let inherits = study.choices.iter().any(|own| own.id == choice.id);
+            all.extend(study.contenders.iter().map(|contender| contender.label.as_str()));
+            let own = study.contenders.iter().filter(|contender| inherits && contender.is_set_by(choice));
+            labels.extend(own.map(|contender| contender.label.as_str()));
+        }
+        match alike.iter_mut().find(|(known, _)| *known == labels) {
+            Some((_, ids)) => ids.push(&choice.id),
+            None => alike.push((labels, vec![&choice.id])),
+        }
+    }
+    let line = |(labels, ids): (BTreeSet<&str>, Vec<&str>)| {
+        let named = || labels.iter().map(|label| format!("`{label}`")).collect::<Vec<_>>().join(", ");
+        let what = match labels.len() {
+            0 => "no new trial; stored ones are counted anew".to_owned(),
+            most if most == all.len() => "new trials of every contender".to_owned(),
+            _ => format!("new trials of {}", named()),
+        };
+        format!("{}: {what}", ids.join(", "))
+    };
+    alike.into_iter().map(line).collect()
 }
 
 /// A time in the unit that suits it.

@@ -27,6 +27,9 @@ use study::spec::ExploreSpec;
 use study::store::{Records, read_numbers};
 use study::{Interpretation, Study};
 
+/// The most interpretations under which a study's first instances are timed.
+const TIMED: usize = 8;
+
 /// A study cut down to what is explored of it, and the study whose claims it answers.
 struct Ran<'p> {
     study: Study,
@@ -129,12 +132,40 @@ impl<'p> Explorer<'p> {
         self.paper.studies.iter().any(|study| most_instances(study) > first_instances(study))
     }
 
+    /// What a trial of each explored study takes, in seconds of one core: the mean over the first instances, under some of `points`.
+    /// Studies without first instances that can run here are left out.
+    pub fn seconds_a_trial(&self, points: &[Interpretation]) -> Result<BTreeMap<String, f64>, Failure> {
+        let mut found = BTreeMap::new();
+        for Ran { study, .. } in self.studies(first_instances) {
+            doing(&format!("{}: timing the first instances of {}", self.paper.id, study.name));
+            let seen = study.as_trials_see(points);
+            let some: Vec<Interpretation> =
+                seen.iter().step_by(seen.len().div_ceil(TIMED)).cloned().collect();
+            let seconds = BuiltStudy::new(&study, &some, &self.places.inputs)?.seconds_a_trial();
+            found.extend(seconds.map(|seconds| (study.name.clone(), seconds)));
+        }
+        Ok(found)
+    }
+
     /// The most trials that run beyond the first round where `room` trials are left, and the most seconds of one core for all rounds.
-    pub fn most_beyond(&self, points: &[Interpretation], room: u64) -> Result<(u64, f64), Failure> {
+    /// A trial of a study takes as long as `each` says. Of the other studies every search is taken to open all that there is.
+    pub fn most_beyond(
+        &self,
+        points: &[Interpretation],
+        room: u64,
+        each: &BTreeMap<String, f64>,
+    ) -> Result<(u64, f64), Failure> {
+        let of_study = |study: &Study| -> Result<f64, Failure> {
+            match each.get(&study.name) {
+                Some(seconds) => Ok(self.trials_of(study)? as f64 * seconds),
+                None => Ok(study.work(&self.places.inputs)?.seconds),
+            }
+        };
         let seconds = |round: Round| {
             let each = self.studies_in(round).into_iter().map(|ran| {
-                let points = ran.study.as_trials_see(points).len() as f64;
-                Ok(points * ran.study.work(&self.places.inputs)?.seconds)
+                let [all, different] = self.shared(&ran.study, points)?;
+                let alone = ran.study.as_trials_see(points).len() as f64;
+                Ok(different as f64 / all as f64 * alone * of_study(&ran.study)?)
             });
             each.sum::<Result<f64, Failure>>()
         };
@@ -147,6 +178,19 @@ impl<'p> Explorer<'p> {
         let beyond = wanted.min(room);
         let share = if wanted > 0 { beyond as f64 / wanted as f64 } else { 0.0 };
         Ok((beyond, seconds(Round::First)? + share * more))
+    }
+
+    /// How many trials `study` keeps under `points`, and how many different ones run for them.
+    fn shared(&self, study: &Study, points: &[Interpretation]) -> Result<[u64; 2], Failure> {
+        let points = study.as_trials_see(points);
+        let different = BuiltStudy::new(study, &points, &self.places.inputs)?.different_trials();
+        Ok([self.trials_of(study)? * points.len() as u64, different])
+    }
+
+    /// How many trials the first round keeps under `points`, and how many different ones run for them.
+    pub fn shared_first(&self, points: &[Interpretation]) -> Result<[u64; 2], Failure> {
+        let mut each = self.studies_in(Round::First).into_iter().map(|ran| self.shared(&ran.study, points));
+        each.try_fold([0; 2], |[all, different], of| of.map(|[more, new]| [all + more, different + new]))
     }
 
     /// The studies that run in `round`.

@@ -1,20 +1,23 @@
-//! `replan list`: everything that specs can name.
+//! `replan list`: everything that specs can name, and what is known of one of these, within 80 columns.
 
-use super::catalogue::{self, Item};
-use super::explain::{explained, wrapped};
-use super::places::{experiments, home, papers};
+use super::explorer::Explorer;
+use super::places::{Places, experiments, home, papers};
 use super::progress::doing;
-use super::{Failure, all, described};
+use super::schema::{self, Item};
+use super::{Failure, Which, all, counted};
 use crate::analysis::metric;
 use crate::analysis::verdict_rule::Verdict;
+use crate::render::prose::plain;
+use base::file::read_text;
 use base::robot::read_urdf;
+use base::settings::describe::{Default, Field, fields};
 use base::settings::{did_you_mean, none_called};
 use clap::{Args, ValueEnum};
 use engine::kinematics::{AXES, Robot, robot::Body};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use study::paper::Paper;
-use study::{Inputs, Study, recorded_mark};
+use study::{Choice, Contender, Group, Inputs, Study, elsewhere_mark, recorded_mark};
 
 /// Where robots are shipped.
 const ROBOTS: &str = "data/robots";
@@ -96,14 +99,14 @@ impl LoadedFiles {
     fn described(&self, what: What, name: &str) -> Result<Option<String>, Failure> {
         let find = |id: &str| self.papers.iter().find(|paper| paper.id == id);
         Ok(match (what, name.split_once('/')) {
-            (What::Papers, _) => find(name).map(described::paper),
+            (What::Papers, _) => find(name).map(paper_alone),
             (What::Choices, Some((id, choice))) => {
                 let choices = find(id).into_iter().flat_map(|paper| &paper.choices);
-                choices.filter(|own| own.id == choice).map(described::choice).next()
+                choices.filter(|own| own.id == choice).map(choice_alone).next()
             }
             (What::Studies, Some((id, study))) => {
                 let found = find(id).and_then(|paper| Some((paper, paper.study(study)?)));
-                found.map(|(paper, study)| described::study(paper, study)).transpose()?
+                found.map(|(paper, study)| study_alone(paper, study)).transpose()?
             }
             _ => None,
         })
@@ -121,17 +124,17 @@ fn kind(what: What) -> (&'static str, Option<fn() -> Vec<Item>>) {
         What::Studies => ("study", None),
         What::Choices => ("choice", None),
         What::Robots => ("robot", None),
-        What::Planners => ("planner", Some(catalogue::planners)),
-        What::Stages => ("stage", Some(catalogue::stages)),
-        What::Families => ("family", Some(catalogue::families)),
-        What::Preprocessing => ("kind of preprocessed object", Some(catalogue::preprocessing)),
-        What::Tasks => ("task", Some(catalogue::tasks)),
-        What::Criteria => ("criterion", Some(catalogue::criteria)),
-        What::Rules => ("rule", Some(catalogue::rules)),
+        What::Planners => ("planner", Some(schema::planners)),
+        What::Stages => ("stage", Some(schema::stages)),
+        What::Families => ("family", Some(schema::families)),
+        What::Preprocessing => ("kind of preprocessed object", Some(schema::preprocessing)),
+        What::Tasks => ("task", Some(schema::tasks)),
+        What::Criteria => ("criterion", Some(schema::criteria)),
+        What::Rules => ("rule", Some(schema::rules)),
         What::Metrics => ("metric", None),
         What::Verdicts => ("verdict", None),
-        What::Figures => ("kind of figure", Some(catalogue::figures)),
-        What::Files => ("kind of file", Some(catalogue::files)),
+        What::Figures => ("kind of figure", Some(schema::figures)),
+        What::Files => ("kind of file", Some(schema::files)),
     }
 }
 
@@ -279,4 +282,152 @@ fn loaded() -> (Vec<Paper>, Vec<Result<(), Failure>>) {
         results.push(paper.map(|paper| papers.push(paper)));
     }
     (papers, results)
+}
+
+/// A paper: its source, studies and claims, and how it is run.
+fn paper_alone(paper: &Paper) -> String {
+    let source = &paper.source;
+    let mut lines = vec![paper.id.clone(), wrapped("  ", &source.title, 2)];
+    for text in [&source.authors, &source.published].into_iter().flatten() {
+        lines.push(wrapped("  ", text, 2));
+    }
+    let claims = counted(paper.claims.len(), ["claim", "claims"]);
+    lines.push(format!("  {claims}, {}", counted(paper.studies.len(), ["study", "studies"])));
+    lines.push("\nStudies".to_owned());
+    lines.extend(
+        paper.studies.iter().map(|study| wrapped(&format!("  {}: ", study.name), &study.question, 6)),
+    );
+    lines.push("\nExamples".to_owned());
+    for (command, about) in [
+        ("repro", "run what has changed, judge the claims, draw the figures"),
+        ("show", "every claim with its verdict"),
+        ("report", "the report as a page"),
+    ] {
+        lines.push(wrapped(&format!("  replan {command} {}   ", paper.id), about, 6));
+    }
+    lines.join("\n")
+}
+
+/// A choice that a paper leaves open: its options, and why it is one.
+pub(super) fn choice_alone(choice: &Choice) -> String {
+    let options: Vec<&str> = choice.options.keys().map(String::as_str).collect();
+    let lines = [
+        choice.id.clone(),
+        wrapped("  options: ", &options.join(", "), 6),
+        wrapped("  default: ", &choice.default, 6),
+        wrapped("  why: ", &choice.why, 6),
+    ];
+    lines.join("\n")
+}
+
+/// A study of `paper`: its question, what it runs, and how.
+///
+/// # Errors
+/// Problems that cannot be built.
+fn study_alone(paper: &Paper, study: &Study) -> Result<String, Failure> {
+    let id = &paper.id;
+    let name = &study.name;
+    let places = Places::find(&Which { paper: id.clone(), out: None }, "")?;
+    doing(&format!("{id}/{name}: counting its trials"));
+    let trials = Explorer::new(paper, &places, None, PathBuf::new()).trials_of(study)?;
+    let mut lines = vec![
+        format!("{id}/{name}"),
+        wrapped("  ", &study.question, 2),
+        wrapped("  paper: ", &paper.source.title, 6),
+        wrapped("  task: ", study.task.name, 6),
+        format!("  {} under the default interpretation", counted(trials as usize, ["trial", "trials"])),
+    ];
+    let marks = [recorded_mark(study.clock_bound()), elsewhere_mark(study.elsewhere())];
+    lines.extend(marks.into_iter().flatten().map(|mark| wrapped("  ", &mark, 6)));
+    lines.extend(compared(study));
+    let of = |label: &str, ids: Vec<&str>| (!ids.is_empty()).then(|| wrapped(label, &ids.join(", "), 2));
+    lines.extend(of("\nSweeps over: ", study.sweeps.iter().map(|sweep| sweep.key.as_str()).collect()));
+    lines.extend(of("\nChoices: ", study.choices.iter().map(|choice| choice.id.as_str()).collect()));
+    lines.push("\nExample".to_owned());
+    lines.push(wrapped(
+        &format!("  replan run {id}   "),
+        "run what has changed of all of the paper's studies",
+        6,
+    ));
+    Ok(lines.join("\n"))
+}
+
+/// The groups of problems of a study, and its contenders.
+fn compared(study: &Study) -> Vec<String> {
+    let group = |group: &Group| {
+        let instances = counted(group.instances as usize, ["instance", "instances"]);
+        wrapped(&format!("  {}: ", group.label), &format!("{instances} of `{}`", group.family.name), 6)
+    };
+    let contender = |contender: &Contender| {
+        let stages: Vec<&str> = contender.stages.iter().map(|stage| stage.entry.name).collect();
+        let seeds = counted(contender.repeats as usize, ["seed", "seeds"]);
+        wrapped(&format!("  {}: ", contender.label), &format!("{}; {seeds}", stages.join(", then ")), 6)
+    };
+    let problems = std::iter::once("\nProblems".to_owned()).chain(study.groups.iter().map(group));
+    let contenders = std::iter::once("\nContenders".to_owned()).chain(study.contenders.iter().map(contender));
+    problems.chain(contenders).collect()
+}
+
+/// Terminals have at least this many columns.
+const COLUMNS: usize = 80;
+/// And so many rows.
+const ROWS: usize = 24;
+
+/// `first` and then the words of `text`, on lines of 80 columns, those after the first indented by `indent`.
+fn wrapped(first: &str, text: &str, indent: usize) -> String {
+    plain(first, text, indent, COLUMNS)
+}
+
+/// Everything that is known of `item`.
+fn explained(item: &Item) -> String {
+    let mut parts = vec![item.name.to_owned(), wrapped("  ", item.about, 2)];
+    if !item.columns.is_empty() {
+        parts.push(wrapped("  It fills the columns ", &format!("{}.", item.columns.join(", ")), 2));
+    }
+    match item.settings.map(|accepted| fields(&accepted.schema())) {
+        Some(keys) if keys.is_empty() => parts.push("\nIt has no settings.".to_owned()),
+        Some(keys) => {
+            parts.push("\nKeys".to_owned());
+            parts.extend(keys.iter().map(key));
+        }
+        None => {
+            parts.push("\nIt has no settings of its own; the family of the problems has them.".to_owned());
+        }
+    }
+    if let Some(file) = item.file {
+        parts.push(format!("\nExample\n  {file}"));
+        parts.extend(short(file));
+    }
+    if let Some(example) = item.shown() {
+        parts.push("\nExample".to_owned());
+        parts.extend(example.lines().map(|line| format!("  {line}")));
+    }
+    parts.join("\n")
+}
+
+/// What the project's `file` says without its comments, indented, if it is here and fits a terminal.
+fn short(file: &str) -> Option<String> {
+    let text = read_text(&home(None).ok()?.join(file)).ok()?;
+    let lines: Vec<String> =
+        text.lines().filter(|line| !line.starts_with('#')).map(|line| format!("    {line}")).collect();
+    let fits = lines.len() <= ROWS && lines.iter().all(|line| line.chars().count() <= COLUMNS);
+    fits.then(|| lines.join("\n").replace("    \n", "\n").trim_end().to_owned())
+}
+
+fn key(field: &Field) -> String {
+    let unit = field.unit.map_or_else(String::new, |unit| format!(" ({unit})"));
+    let default = match &field.default {
+        Default::Required => "; required".to_owned(),
+        Default::Value(value) => format!("; {value} if left out"),
+        Default::Absent => "; may be left out".to_owned(),
+    };
+    let mut lines =
+        vec![wrapped(&format!("  {}: ", field.name), &format!("{}{unit}{default}", field.accepted), 6)];
+    if !field.meaning.is_empty() {
+        lines.push(wrapped("      ", &field.meaning, 6));
+    }
+    for (word, about) in &field.words {
+        lines.push(wrapped(&format!("      \"{word}\": "), about, 10));
+    }
+    lines.join("\n")
 }

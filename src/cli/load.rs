@@ -1,7 +1,7 @@
 //! Loads a paper as the flags ask for it.
 
-use super::file_schema::schema_of_any_names;
 use super::places::Places;
+use super::schema::schema_of_any_names;
 use super::{Failure, How};
 use crate::analysis::claims;
 use base::settings::Faults;

@@ -34,20 +34,15 @@ macro_rules! say {
 }
 
 mod beside;
-pub mod catalogue;
 mod check;
 mod compare;
 mod confirm;
 mod conformance;
 mod consent;
 pub mod crosscheck;
-mod described;
-mod example;
-mod explain;
 mod explore;
 mod explorer;
 pub mod export;
-pub mod file_schema;
 mod findings;
 mod import;
 mod judge;
@@ -64,7 +59,7 @@ mod report;
 mod repro;
 mod rounds;
 mod run;
-mod schema;
+pub mod schema;
 mod shard;
 mod sharded;
 mod show;

@@ -3,7 +3,7 @@
 //! The templates are the files below `new/`. Each opens with the `#:schema` line by which editors find the JSON Schema of its
 //! kind; the schemas are written beside the paper, unless it lies in a project that has them.
 
-use super::{Failure, file_schema};
+use super::{Failure, schema};
 use clap::{Args, ValueEnum};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -82,7 +82,7 @@ impl New {
             say!("{}", path.display());
         }
         if !is_in_project {
-            file_schema::write_all(&self.folder.join(OWN_SCHEMAS))?;
+            schema::write_all(&self.folder.join(OWN_SCHEMAS))?;
         }
         // A bare name would be taken for a paper of the project.
         let is_bare = self.folder.components().count() == 1 && !self.folder.starts_with(".");

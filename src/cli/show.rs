@@ -2,7 +2,7 @@
 
 use super::places::Places;
 use super::verdicts::{COLUMNS, coloured, print};
-use super::{Failure, Which, described, places::check_stored};
+use super::{Failure, Which, list, places::check_stored};
 use crate::analysis::history::History;
 use crate::analysis::verdict::{ClaimVerdict, CriterionFinding, Verdicts};
 use crate::render::prose::{plain, wrapped};
@@ -56,7 +56,7 @@ impl Show {
                     return Err(none_holds(&verdicts, &choices, &words, &which));
                 }
                 for choice in named {
-                    say!("{}", described::choice(choice));
+                    say!("{}", list::choice_alone(choice));
                 }
                 found
             }

@@ -1,14 +1,7 @@
-//! Comparisons as text, Markdown, comma-separated values and a figure.
+//! Comparisons as text, Markdown and comma-separated values.
 
-use super::RenderError;
-use super::chart::marks::Line;
-use super::chart::rows::Whiskers;
-use super::chart::{Axis, Panel, Sheet};
 use super::prose;
-use super::style::{INK, Stroke, Width, series_color, series_marker};
-use super::vector::{Figure, Provenance};
 use crate::analysis::compare::{Cell, Change, Comparison, Measured, Outcome, Passed, SOLVED, Solved, Word};
-use crate::analysis::statistic::Interval;
 use study::store::quoted;
 
 /// A table of texts.
@@ -188,78 +181,6 @@ pub fn gate_line(passed: &Passed) -> String {
         }
     };
     format!("gate {}: {}: {}: {outcome}{change}", passed.gate, passed.study, passed.contender)
-}
-
-/// The changes of the means in per cent, and how probable an improvement is, each with its interval, study by study.
-///
-/// # Errors
-/// [`RenderError::NotStored`] if nothing was paired; those of drawing.
-pub fn figure(comparison: &Comparison, from: &Provenance) -> Result<Figure, RenderError> {
-    let mut studies: Vec<&str> = comparison.changes.iter().map(|change| change.study.as_str()).collect();
-    studies.dedup();
-    if studies.is_empty() {
-        return Err(RenderError::NotStored { what: "a pair of trials with one key".to_owned() });
-    }
-    let most =
-        studies.iter().map(|study| comparison.changes.iter().filter(|c| c.study == **study).count()).max();
-    let mut sheet = Sheet::new(Width::Double, 2, (most.unwrap_or(1) as f64 * 13.0).max(60.0)).level();
-    for study in studies {
-        let changes: Vec<&Change> =
-            comparison.changes.iter().filter(|change| change.study == study).collect();
-        let names = changes.iter().map(|change| format!("{}: {}", change.contender, change.metric));
-        let percent = |change: &Change| match change.metric.as_str() {
-            SOLVED => change.mean_change,
-            _ => change.mean_change_percent,
-        };
-        let title = format!("{study}: change of the mean");
-        sheet.add(panel(&title, "change (%; solved: points)", names.collect(), &changes, percent, 0.0));
-        let bare = vec![String::new(); changes.len()];
-        let title = format!("{study}: probability of improvement");
-        sheet.add(panel(
-            &title,
-            "probability (%)",
-            bare,
-            &changes,
-            |change| change.improvement_percent,
-            50.0,
-        ));
-    }
-    let note =
-        format!("From {} to {}; 95 % intervals over instances.", comparison.sides[0], comparison.sides[1]);
-    sheet.noted(note).draw(from)
-}
-
-fn panel(
-    title: &str,
-    axis: &str,
-    names: Vec<String>,
-    changes: &[&Change],
-    of: impl Fn(&Change) -> Option<Measured>,
-    still: f64,
-) -> Panel {
-    let found: Vec<Option<Measured>> = changes.iter().map(|change| of(change)).collect();
-    let ends =
-        found.iter().flatten().flat_map(|found| found.interval.into_iter().flatten().chain([found.value]));
-    let axis = Axis::over(axis, ends.chain([still]));
-    let mut panel = Panel::new(title, axis, Axis::names("", names).reversed());
-    panel.add(Line::through(
-        vec![[still, -0.5], [still, changes.len() as f64 - 0.5]],
-        Stroke::solid(INK, 0.6),
-    ));
-    for (row, found) in found.iter().enumerate() {
-        let Some(found) = found else { continue };
-        let [low, high] = found.interval.unwrap_or([found.value; 2]);
-        let row = row as f64;
-        panel.add(Whiskers {
-            at: [found.value, row],
-            ends: [Interval::new(low, high), Interval::new(row, row)],
-            is_hollow: false,
-            marker: series_marker(0),
-            color: series_color(0),
-            label: String::new(),
-        });
-    }
-    panel
 }
 
 fn solved(comparison: &Comparison) -> Table {

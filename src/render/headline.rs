@@ -122,7 +122,10 @@ pub fn ours(judged: &ClaimVerdict, paper: &Paper, verdicts: &Verdicts) -> Option
         let number = match ours.quantity {
             Quantity::Rank => rank(ours, noun),
             Quantity::Probability if ours.value < LEAST_P => format!("p below {LEAST_P}"),
-            Quantity::Probability => format!("p = {}", number(ours.value)),
+            Quantity::Probability => {
+                let times = judged.multiplied().map_or_else(String::new, |times| format!(", times {times}"));
+                format!("p = {}{times}", number(ours.value))
+            }
             _ => effect(ours).unwrap_or_else(|| short(ours) + &unit),
         };
         // One instance may hold many cases, such as the queries of one map.

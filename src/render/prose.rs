@@ -1,6 +1,7 @@
 //! Text: a paper's own words with our numbers put in, Markdown that shows text as it is, and lines of limited length.
 
 use super::effect::{effect, percentage, rounded, side_by_side};
+use crate::analysis::across::tested::{FITS, REFUSES};
 use crate::analysis::verdict::{ClaimVerdict, Estimate, Verdicts};
 use base::text::shown;
 use study::paper::filled;
@@ -15,25 +16,25 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
     filled(text, |claim, form| {
         let judged = verdicts.claim(claim);
         let ours = judged.and_then(|judged| judged.ours());
+        let interval = ours.and_then(|ours| ours.interval);
         let found = match form {
             "verdict" => judged.map(ClaimVerdict::verdict_text),
             "interpretations" => judged.and_then(ClaimVerdict::rests_on),
             "n" => ours.map(|ours| ours.n.to_string()),
+            "cases" => ours.and_then(|ours| ours.solved).map(|[_, all]| all.to_string()),
             "tenths" => ours.map(|ours| rounded(ours.value, 1)),
             "effect" => ours
                 .map(|ours| effect(ours).unwrap_or_else(|| number(ours.value)))
                 .or_else(|| beside(verdicts.parts_ours(judged?))),
             "shown" => judged.and_then(|judged| beside(judged.shown().map(|ours| (ours, None)).collect())),
             "percent" => ours.map(percentage),
-            "percent_low" => {
-                ours.and_then(|ours| ours.interval).map(|[low, _]| format!("{} %", rounded(100.0 * low, 1)))
-            }
-            "interval" => {
-                ours.and_then(|ours| ours.interval).map(|[low, high]| format!("[{low:.1}, {high:.1}]"))
-            }
+            "percent_low" => interval.map(|[low, _]| format!("{} %", rounded(100.0 * low, 1))),
+            "interval" => interval.map(|[low, high]| format!("[{low:.1}, {high:.1}]")),
+            "fits" => judged.and_then(|judged| judged.by_option(FITS)).map(str::to_owned),
+            "refuses" => judged.and_then(|judged| judged.by_option(REFUSES)).map(str::to_owned),
             "power" => judged.and_then(ClaimVerdict::power).map(str::to_owned),
-            "low" => ours.and_then(|ours| ours.interval).map(|[low, _]| three_digits(low)),
-            "high" => ours.and_then(|ours| ours.interval).map(|[_, high]| three_digits(high)),
+            "low" => interval.map(|[low, _]| three_digits(low)),
+            "high" => interval.map(|[_, high]| three_digits(high)),
             _ => ours.map(|ours| number(ours.value)),
         };
         found.unwrap_or_else(|| "–".to_owned())

@@ -48,6 +48,8 @@ pub struct Column {
     title: Option<&'static str>,
     /// Which way is better.
     pub better: Better,
+    /// Whether it counts what the search did: the count holds even where the verifier refuses the path that was found.
+    pub is_of_search: bool,
 }
 
 /// How names of measured quantities end, and the unit that this stands for; `1` for a share.
@@ -93,10 +95,15 @@ impl Column {
     const fn neither(self, title: &'static str) -> Self {
         Self { title: Some(title), ..self }
     }
+
+    /// It, counting what the search did.
+    const fn of_search(self) -> Self {
+        Self { is_of_search: true, ..self }
+    }
 }
 
 const fn count(name: &'static str, about: &'static str) -> Column {
-    Column { name, kind: Kind::Count, about, title: None, better: Better::Neither }
+    Column { name, kind: Kind::Count, about, title: None, better: Better::Neither, is_of_search: false }
 }
 
 const fn real(name: &'static str, about: &'static str) -> Column {
@@ -122,21 +129,21 @@ pub static COLUMNS: &[Column] = &[
     count("unsafe_hops", "hops during which the arm hits an obstacle, both links swept").lower("Hops that hit an obstacle"),
     real("deepest_cm", "how deep a link goes into an obstacle along the path, in cm; 0 if it enters none").lower("Deepest in an obstacle"),
     count("is_unsafe", "1 if the arm hits an obstacle anywhere along the path, else 0").lower("Paths that hit an obstacle"),
-    count("opened", "nodes ever put on an open list, both sides").lower("Opened nodes"),
-    count("opened_distinct", "nodes ever put on an open list, those of both sides counted once").lower("Opened nodes, each once"),
-    count("closed", "nodes ever put on a closed list, both sides").lower("Closed nodes"),
-    count("expansions", "nodes expanded").lower("Expansions"),
-    count("generated", "successors generated, known ones included").lower("Generated successors"),
+    count("opened", "nodes ever put on an open list, both sides").lower("Opened nodes").of_search(),
+    count("opened_distinct", "nodes ever put on an open list, those of both sides counted once").lower("Opened nodes, each once").of_search(),
+    count("closed", "nodes ever put on a closed list, both sides").lower("Closed nodes").of_search(),
+    count("expansions", "nodes expanded").lower("Expansions").of_search(),
+    count("generated", "successors generated, known ones included").lower("Generated successors").of_search(),
     count("preprocessing_bytes", "memory that the planner prepared for the map, besides its legal moves"),
-    count("minimum_comparisons", "comparisons that finding the least f would take in a plain list"),
-    count("membership_comparisons", "comparisons that looking successors up would take in plain lists"),
-    count("list_operations", "minimum and membership comparisons together").lower("Linear-scan operations"),
-    count("iterations", "iterations by the planner's own count").lower("Iterations"),
-    count("question_batches", "batches of questions that a planner from outside asked"),
-    count("questions_valid", "configurations that it asked about").lower("Configurations checked for the planner"),
-    count("questions_motion", "motions that it asked about").lower("Motions checked for the planner"),
-    count("questions_fk", "postures whose tip it asked for"),
-    count("questions_ik", "poses whose postures it asked for"),
+    count("minimum_comparisons", "comparisons that finding the least f would take in a plain list").of_search(),
+    count("membership_comparisons", "comparisons that looking successors up would take in plain lists").of_search(),
+    count("list_operations", "minimum and membership comparisons together").lower("Linear-scan operations").of_search(),
+    count("iterations", "iterations by the planner's own count").lower("Iterations").of_search(),
+    count("question_batches", "batches of questions that a planner from outside asked").of_search(),
+    count("questions_valid", "configurations that it asked about").lower("Configurations checked for the planner").of_search(),
+    count("questions_motion", "motions that it asked about").lower("Motions checked for the planner").of_search(),
+    count("questions_fk", "postures whose tip it asked for").of_search(),
+    count("questions_ik", "poses whose postures it asked for").of_search(),
     count("incumbents", "paths that it handed over before its result").neither("Paths, each better"),
     count("is_cut_off", "1 if its time ran out and its last incumbent was taken, else 0"),
     count("promises_determinism", "1 if it promised equal results for equal queries and seeds, else 0"),
@@ -168,15 +175,15 @@ pub static COLUMNS: &[Column] = &[
     count("roadmap_checked_states", "configurations checked for contact for all edges of the roadmap, before any query").lower("Configurations checked for the roadmap"),
     real("straight_mm", "distance of the tool's or the particle's places at start and goal"),
     count("smoothing_checks", "lines of sight that post-smoothing looked at").lower("Lines of sight of smoothing"),
-    count("sight_checks", "lines of sight between two cells that were looked at").lower("Lines of sight"),
-    count("shots", "local paths to the goal that were tried before an expansion").neither("Shots at the goal"),
+    count("sight_checks", "lines of sight between two cells that were looked at").lower("Lines of sight").of_search(),
+    count("shots", "local paths to the goal that were tried before an expansion").neither("Shots at the goal").of_search(),
     count("joins", "local paths that were tried to straighten the path"),
     real("joint_length_rad", "way of all joints together: root of the sum of squares of each leg's changes; a metre of a slide counts as a radian").lower("Joint-space length"),
     count("valid_problems", "problems of the set at whose start and one goal at least the robot can be").neither("Valid problems"),
     count("set_problems", "problems of the set").neither("Problems of the set"),
-    count("tree_nodes", "nodes of the planner's trees or roadmap").lower("Nodes of the trees"),
-    count("motions", "straight motions that the planner checked").lower("Motions checked"),
-    count("motion_states", "configurations checked for contact on those motions").lower("Configurations checked on motions"),
+    count("tree_nodes", "nodes of the planner's trees or roadmap").lower("Nodes of the trees").of_search(),
+    count("motions", "straight motions that the planner checked").lower("Motions checked").of_search(),
+    count("motion_states", "configurations checked for contact on those motions").lower("Configurations checked on motions").of_search(),
     real("initial_length_rad", "way of all joints together along the planner's path, before any stage").lower("Joint-space length before simplification"),
     count("first_iterations", "iterations until the planner's first path").lower("Iterations to the first path"),
     real("first_length_rad", "way of all joints together along the planner's first path").lower("Joint-space length of the first path"),
@@ -185,7 +192,7 @@ pub static COLUMNS: &[Column] = &[
     count("samples", "samples of a roadmap"),
     count("draws", "configurations drawn for a roadmap, refused ones included"),
     count("edges", "pairs of samples that are joined"),
-    count("checked_states", "configurations checked for contact: for a roadmap's edges; of a query, in its shots and when it straightens").lower("Configurations checked by the query"),
+    count("checked_states", "configurations checked for contact: for a roadmap's edges; of a query, in its shots and when it straightens").lower("Configurations checked by the query").of_search(),
     count("rejected_branch", "pairs on different branches of the inverse kinematics"),
     count("rejected_turn", "pairs whose orientations differ by more than is allowed"),
     count("rejected_unreachable", "pairs whose line leaves the wrist's reach"),

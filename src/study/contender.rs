@@ -1,6 +1,6 @@
 //! Contenders: pipelines of a planner and stages under a label, at one point of the sweeps.
 
-use super::choice::Interpretation;
+use super::choice::{Choice, Interpretation};
 use super::key::{SweepKey, SweepValue};
 use super::{name, planner};
 use base::settings::{Faults, Place, Settings, SettingsError};
@@ -56,6 +56,16 @@ impl Contender {
     /// Whether its trials were recorded elsewhere, and imported.
     pub fn is_elsewhere(&self) -> bool {
         self.stages.iter().any(|stage| stage.entry.name == planner::recorded::ENTRY.name)
+    }
+
+    /// Whether some option of `choice` sets something of its trials: of its stages, or of every problem.
+    pub fn is_set_by(&self, choice: &Choice) -> bool {
+        let uses = |name: &String| self.stages.iter().any(|stage| stage.entry.name == name);
+        choice.options.values().any(|option| {
+            !option.problem.is_empty()
+                || option.stage.keys().any(uses)
+                || option.contender.get(&self.label).is_some_and(|own| own.keys().any(uses))
+        })
     }
 
     /// The pipeline under the interpretation `point` with the sweep's settings laid on top.

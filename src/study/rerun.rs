@@ -53,7 +53,7 @@ pub fn rerun(
         unit.entrants.retain(|entrant| !entrant.contender.is_recorded());
     }
     units.iter().try_for_each(|unit| built.check_files(unit))?;
-    let pool = super::session::pool(Some(threads));
+    let pool = super::runner::pool(Some(threads));
     let again = pool.install(|| units.par_iter().map(|unit| built.run_unit(unit)).collect::<Vec<_>>());
     let stored: BTreeMap<&TrialKey, &Row> = records.batch.rows.iter().map(|row| (&row.key, row)).collect();
     let rows: Vec<Row> = again.into_iter().flat_map(|batch| batch.rows).collect();

@@ -8,6 +8,7 @@ mod timed;
 
 use super::checked::Study;
 use super::choice::Interpretation;
+use super::clock;
 use super::contender::{Pipelines, SweepPoint};
 use super::error::StudyError;
 use super::family::Family;
@@ -286,6 +287,22 @@ impl<'a> BuiltStudy<'a> {
         Ok(())
     }
 
+    /// Seconds of one core that a trial takes, as measured on the first instance of each problem group; its records are dropped.
+    /// `None` without trials, and where programs or files are needed that may not run or are not there.
+    pub fn seconds_a_trial(&self) -> Option<f64> {
+        let none = BTreeMap::new();
+        let is_first = |index: &usize| self.unit(*index).key.instance == 0;
+        let first: Vec<usize> = (0..self.units().len()).filter(is_first).collect();
+        let can_run = self.study.recorded().next().is_none() && self.check_programs(&first, &none).is_ok();
+        let trials: usize = first.iter().map(|index| self.trials(&self.unit(*index)).len()).sum();
+        if !can_run || trials == 0 {
+            return None;
+        }
+        let run = || self.alike(&first, &none).iter().for_each(|alike| drop(self.run_alike(alike, &none)));
+        let (nanoseconds, ()) = pool(Some(1)).install(|| clock::timed(run));
+        Some(nanoseconds as f64 * 1e-9 / trials as f64)
+    }
+
     /// The study that it was built of.
     pub fn study(&self) -> &'a Study {
         self.study
@@ -299,6 +316,31 @@ impl<'a> BuiltStudy<'a> {
     /// What names one unit's trials, in the order of records.
     pub fn trials(&self, unit: &Unit<'_>) -> Vec<TrialKey> {
         self.task.trials(unit)
+    }
+
+    /// How many different trials there are: a contender's trials on a problem run once for all interpretations that set the same of both.
+    pub fn different_trials(&self) -> u64 {
+        let each = self.starts[self.posed.len()];
+        let mut seen = BTreeSet::new();
+        let mut count = 0;
+        for interpretation in 0..self.points.len() {
+            for (place, (group, ..)) in self.posed.iter().enumerate() {
+                let unit = self.unit(interpretation * each + self.starts[place]);
+                let family = std::ptr::from_ref(unit.family).cast::<()>();
+                let own = self.trials(&unit).len() as u64 * u64::from(group.instances);
+                let of_all = unit.entrants.iter().map(|entrant| entrant.contender.repeats).sum::<u32>();
+                if unit.entrants.is_empty() && seen.insert((place, family, None)) {
+                    count += own;
+                }
+                for (at, entrant) in unit.entrants.iter().enumerate() {
+                    let pipeline = (at, Arc::as_ptr(&entrant.pipeline));
+                    if seen.insert((place, family, Some(pipeline))) {
+                        count += own * u64::from(entrant.contender.repeats) / u64::from(of_all);
+                    }
+                }
+            }
+        }
+        count
     }
 
     /// One unit's records.
@@ -411,4 +453,12 @@ impl<'a> BuiltStudy<'a> {
         }
         all
     }
+}
+
+/// A pool of `threads` threads; of the machine's number if absent.
+pub(super) fn pool(threads: Option<usize>) -> rayon::ThreadPool {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.unwrap_or(0))
+        .build()
+        .expect("the system gives a process its first threads")
 }

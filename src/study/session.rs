@@ -7,7 +7,7 @@ use super::manifest::{MadeBy, Manifest, Session};
 use super::name::Names;
 use super::record::{Batch, Row, Status, Timing};
 use super::reuse::{self, Before, Damage, Gathered, Keeps, Moved, Reusable};
-use super::runner::{BuiltStudy, Progress, SESSION};
+use super::runner::{BuiltStudy, Progress, SESSION, pool};
 use super::shard::Portion;
 use super::store::{
     Columns, GROUP_VALUES, Journal, RecordWriter, Records, Shape, Staged, Traces, finish_put, open_traces,
@@ -393,12 +393,4 @@ fn unknown_trial(study: &str, trial: &str, all: &[String]) -> StudyError {
     let near = did_you_mean(trial, all.iter().map(String::as_str));
     let hint = format!("its first one is `{study}/{}`", all.first().map_or("", String::as_str));
     StudyError::UnknownTrial { study: study.to_owned(), trial: trial.to_owned(), near, hint }
-}
-
-/// A pool of `threads` threads; of the machine's number if absent.
-pub(super) fn pool(threads: Option<usize>) -> rayon::ThreadPool {
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads.unwrap_or(0))
-        .build()
-        .expect("the system gives a process its first threads")
 }

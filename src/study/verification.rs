@@ -91,7 +91,7 @@ pub fn truth(world: &World, query: &Query, guide: &Guide) -> Truth {
             Truth::Corners(CornerCase::new(cells, query.ends()).least())
         }
         World::Lattice(lattice) => {
-            Truth::Lattice(case(lattice, &query.start, &query.goal).optimal_cost_by(guide.0.as_ref()))
+            Truth::Lattice(case(lattice, &query.start, &query.goal).optimal_cost(guide.0.as_ref()))
         }
         World::Roadmap(roadmap) => Truth::Roadmap(roadmap::Case::new(roadmap)),
         World::Polyhedra(world) => Truth::Polyhedra(Box::new(polyhedra::truth(world))),

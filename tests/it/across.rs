@@ -193,6 +193,13 @@ pub fn pair(verdict: &str, counts: &str) -> (String, String) {
 /// What stands beside a claim that the weight turns.
 pub const ON_HURRY: &str = "1/0/1 for/open/against; contradicted only if hurry = none (1 of 1)";
 
+/// A claim before another that looks at no trial.
+const LOST: (&str, &str) = (
+    "[[claim]]\nid = \"witness\"",
+    "[[claim]]\nid = \"lost\"\nat = \"section 2\"\nsays = \"it is good\"\nuntestable = \"no measure is \
+     named\"\n\n[[claim]]\nid = \"witness\"",
+);
+
 /// A source for the option without a weight.
 pub const CITED: (&str, &str) = ("[choice.option.none]", "[choice.option.none]\npractice = \"textbooks\"");
 
@@ -207,7 +214,7 @@ fn a_silly_reading_does_not_veto_and_is_printed() {
 
 #[test]
 fn a_claim_depends_on_a_default_once_a_second_seed_agrees_and_is_inconclusive_before() {
-    let toy = Toy::new(&[CITED]);
+    let toy = Toy::new(&[CITED, LOST]);
     // What turns it has not turned twice: it is open, and more than a tenth of what counts.
     assert_eq!(toy.class_and_across("fewer"), pair("inconclusive", "1/1/0 for/open/against"));
     assert_eq!(toy.claim("fewer").across.unwrap().unconfirmed, 1);
@@ -215,6 +222,11 @@ fn a_claim_depends_on_a_default_once_a_second_seed_agrees_and_is_inconclusive_be
     assert_eq!(toy.class_and_across("fewer"), pair("depends on hurry", ON_HURRY));
     let judged = toy.claim("fewer");
     assert_eq!((judged.second, judged.outcome), (Some(Outcome::Holds), Outcome::Holds));
+    // The room is a file and A* draws nothing; what looks at no trial has no seed at all.
+    let seed = |id: &str| toy.claim(id).beside_with_seed().unwrap_or_default();
+    let seeds = ["calibrated", "lost"]
+        .map(|id| (seed(id).contains("the seed moves nothing"), seed(id).contains("seed")));
+    assert_eq!(seeds, [(true, true), (false, false)]);
     // What is stored is what judging gives, and a report says so.
     toy.0.done(&["judge", "./toy", "--check"]);
 }
@@ -387,6 +399,22 @@ fn another_metric_or_selection_is_not_explored_and_the_claim_is_named() {
     toy.0.done(&["judge", "./toy"]);
     assert_eq!(toy.verdicts().explored.unwrap().stale, ["fewer", "shorter", "witness"]);
     assert!(toy.verdicts().claims.iter().filter(|judged| judged.across.is_some()).count() == 1);
+}
+
+#[test]
+fn counts_of_searches_that_left_refused_paths_out_are_explored_again() {
+    let toy = Toy::new(&[("line_of_sight = \"exact_interior\"", "line_of_sight = \"bresenham\"")]);
+    let folder = toy.0.at("toy");
+    let paper = Paper::load(&folder, &Inputs { roots: vec![folder.clone()] }).unwrap();
+    let mut stored = Estimates::read(&paper, &toy.0.at(RUNS)).unwrap();
+    assert_eq!(toy.verdicts().explored.unwrap().stale, [""; 0]);
+    // As it would be named if solved trials alone were counted: `shorter` looks at refused paths, `fewer` does not.
+    for answer in &mut stored.first.as_mut().unwrap().answers {
+        answer.question.truncate(16);
+    }
+    stored.write(&toy.0.at(RUNS)).unwrap();
+    toy.0.done(&["judge", "./toy"]);
+    assert_eq!(toy.verdicts().explored.unwrap().stale, ["shorter"]);
 }
 
 #[test]

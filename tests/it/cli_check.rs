@@ -263,23 +263,3 @@ fn an_option_of_a_choice_changes_what_exists() {
         ],
     );
 }
-
-#[test]
-fn a_check_of_schemas_says_what_it_checked_and_refuses_what_is_left_over() {
-    let bench = Bench::new();
-    bench.done(&["schema"]);
-    let output = bench.done(&["schema", "--check"]);
-    assert_eq!(
-        output,
-        "10 schemas in docs/schema are current: audit_tables, cell_groups, cell_scene, crosscheck, paper, plane_map, planner_protocol, \
-        polyhedra_scene, robot, study\n"
-    );
-    bench.write("docs/schema/spec.schema.json", b"{}");
-    let output = bench.run(&["schema", "--check"]);
-    assert_eq!(output.code, Some(3), "{}", output.err);
-    assert!(
-        output.err.contains("docs/schema/spec.schema.json is the schema of no kind of file; remove it"),
-        "{}",
-        output.err
-    );
-}

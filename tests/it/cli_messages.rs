@@ -3,7 +3,7 @@
 use crate::across::{CITED, Toy};
 use crate::paper::Bench;
 use base::settings::Document;
-use replan::cli::{catalogue, file_schema};
+use replan::cli::schema;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -107,12 +107,12 @@ fn a_lattice_of_too_many_points_is_refused_with_the_step_found_and_the_limit() {
 #[test]
 fn every_kind_of_file_has_an_example_of_its_kind() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    for kind in catalogue::files() {
+    for kind in schema::files() {
         let file = kind.file.unwrap_or_else(|| panic!("{} has no example", kind.name));
         assert!(root.join(file).is_file(), "{}: {file}", kind.name);
         if Path::new(file).extension().is_some_and(|end| end == "toml") {
             let document = Document::open(&root.join(file)).unwrap();
-            document.validate(&file_schema::schema(kind.name)).unwrap();
+            document.validate(&schema::schema(kind.name)).unwrap();
         }
         assert!(listed(&["list", "files", kind.name]).contains(&format!("\nExample\n  {file}\n")), "{file}");
     }

@@ -7,8 +7,7 @@ use engine::planner::{Ending, Request};
 use replan::analysis::context::Context;
 use replan::analysis::criterion;
 use replan::analysis::rule;
-use replan::cli::catalogue::{self, Item};
-use replan::cli::file_schema;
+use replan::cli::schema::{self, Item};
 use replan::render::figure;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -21,14 +20,14 @@ use study::{Inputs, Interpretation, family, task};
 
 fn everything() -> Vec<(&'static str, Vec<Item>)> {
     vec![
-        ("planner", catalogue::planners()),
-        ("stage", catalogue::stages()),
-        ("family", catalogue::families()),
-        ("task", catalogue::tasks()),
-        ("criterion", catalogue::criteria()),
-        ("rule", catalogue::rules()),
-        ("figure", catalogue::figures()),
-        ("file", catalogue::files()),
+        ("planner", schema::planners()),
+        ("stage", schema::stages()),
+        ("family", schema::families()),
+        ("task", schema::tasks()),
+        ("criterion", schema::criteria()),
+        ("rule", schema::rules()),
+        ("figure", schema::figures()),
+        ("file", schema::files()),
     ]
 }
 
@@ -79,7 +78,7 @@ fn every_key_of_everything_registered_has_a_meaning() {
 #[test]
 fn every_example_of_a_planner_a_stage_a_family_and_a_task_builds() {
     let inputs = Inputs { roots: vec![root().to_owned(), root().join("experiments/zhang")] };
-    for item in catalogue::planners().iter().chain(&catalogue::stages()) {
+    for item in schema::planners().iter().chain(&schema::stages()) {
         let entry = study::planner::find(item.name).unwrap();
         let built = match entry.build {
             engine::planner::Build::Planner(build) => build(&example(item)).map(|_| ()),
@@ -87,11 +86,11 @@ fn every_example_of_a_planner_a_stage_a_family_and_a_task_builds() {
         };
         built.unwrap_or_else(|error| panic!("{}: {error}", item.name));
     }
-    for item in catalogue::families() {
+    for item in schema::families() {
         let built = (family::find(item.name).unwrap().build)(&example(&item), &inputs);
         built.unwrap_or_else(|error| panic!("{}: {error}", item.name));
     }
-    for item in catalogue::tasks() {
+    for item in schema::tasks() {
         let built = (task::find(item.name).unwrap().build)(&example(&item));
         built.unwrap_or_else(|error| panic!("{}: {error}", item.name));
     }
@@ -109,7 +108,7 @@ fn posed() -> Vec<(Preprocessing, Vec<Query>)> {
         assert!(preprocessing.world.kind() == family.world() && !queries.is_empty(), "{}", item.name);
         (preprocessing, queries)
     };
-    catalogue::families().into_iter().map(pose).collect()
+    schema::families().into_iter().map(pose).collect()
 }
 
 #[test]
@@ -120,7 +119,7 @@ fn every_example_of_a_planner_solves_a_problem_of_an_example_of_a_family() {
             .iter()
             .flat_map(|(preprocessing, queries)| queries.iter().map(move |query| (preprocessing, query)))
     };
-    for item in catalogue::planners() {
+    for item in schema::planners() {
         let entry = study::planner::find(item.name).unwrap();
         let engine::planner::Build::Planner(build) = entry.build else { panic!("{} is none", item.name) };
         if study::planner::is_recorded(entry) {
@@ -224,11 +223,11 @@ fn builds_somewhere(
 #[test]
 fn every_example_of_a_criterion_and_a_rule_builds_in_a_new_paper_and_so_names_nothing_of_any_other() {
     let papers = new_papers();
-    for item in catalogue::criteria() {
+    for item in schema::criteria() {
         let entry = criterion::find(item.name).unwrap();
         builds_somewhere(&item, &papers, &|context| (entry.build)(context).map(|_| ()));
     }
-    for item in catalogue::rules() {
+    for item in schema::rules() {
         let entry = rule::find(item.name).unwrap();
         builds_somewhere(&item, &papers, &|context| (entry.build)(context).map(|_| ()));
     }
@@ -237,7 +236,7 @@ fn every_example_of_a_criterion_and_a_rule_builds_in_a_new_paper_and_so_names_no
 #[test]
 fn every_example_of_a_figure_builds_in_a_committed_paper() {
     let papers = committed_papers();
-    for item in catalogue::figures() {
+    for item in schema::figures() {
         let entry = figure::find(item.name).unwrap();
         let settings = example(&item);
         let mut errors = BTreeSet::new();
@@ -303,8 +302,8 @@ fn foreign_words(schema: &Value, found: &mut BTreeSet<String>) {
 #[test]
 fn no_schema_has_a_word_that_the_validator_does_not_know() {
     let mut found = BTreeSet::new();
-    for kind in catalogue::files() {
-        foreign_words(&file_schema::schema(kind.name), &mut found);
+    for kind in schema::files() {
+        foreign_words(&schema::schema(kind.name), &mut found);
     }
     assert!(found.is_empty(), "{found:?}");
     foreign_words(&serde_json::json!({ "properties": { "a": { "pattern": "x" } } }), &mut found);
@@ -313,11 +312,13 @@ fn no_schema_has_a_word_that_the_validator_does_not_know() {
 
 #[test]
 fn the_committed_schemas_are_current() {
-    for kind in catalogue::files() {
+    for kind in schema::files() {
         let path = root().join(format!("docs/schema/{}.schema.json", kind.name));
         let stored: Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
-        assert!(stored == file_schema::schema(kind.name), "{}: run `replan schema`", path.display());
+        assert!(stored == schema::schema(kind.name), "{}: run `replan schema`", path.display());
     }
+    let stored = fs::read_dir(root().join("docs/schema")).unwrap().count();
+    assert_eq!(stored, schema::files().len(), "docs/schema has a schema of no kind of file");
 }
 
 #[test]
@@ -354,7 +355,7 @@ fn every_committed_file_keeps_to_its_schema_and_a_misspelled_key_does_not() {
     }
     for (kind, file) in files {
         let path = root().join(&file);
-        let schema = file_schema::schema(kind);
+        let schema = schema::schema(kind);
         let document = Document::open(&path).unwrap();
         document.validate(&schema).unwrap_or_else(|error| panic!("{error}"));
         let wrong = Document::new(&path, format!("no_such_key = 1\n{}", document.text()));

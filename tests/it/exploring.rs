@@ -89,12 +89,22 @@ fn a_plan_counts_the_second_round_within_the_budget_and_gives_its_time() {
         format!("with more instances where an outcome is near a flip, at most {trials} trials\n")
     };
     assert!(plan.contains(&more(again)), "{plan}");
-    assert!(plan.ends_with(" s of one core, if each search opened all that there is\n"), "{plan}");
+    assert!(plan.ends_with(" s of one core, by what the first instances take\n"), "{plan}");
     let short = format!("trials = {}", first_round + 90);
     let (plan, _) = planned(&Toy::unexplored(&[CITED, MORE, MET, ("trials = 100_000", &short)]));
     assert!(plan.contains(&more(90)), "{plan}");
     let (plan, _) = planned(&Toy::unexplored(&[CITED, MET]));
     assert!(plan.contains(&more(0)), "{plan}");
+}
+
+#[test]
+fn a_plan_says_which_choices_need_new_trials_and_how_many_of_all_run() {
+    let (plan, all) = planned(&Toy::unexplored(&[CITED, MET]));
+    assert!(plan.contains("toy: hurry: new trials of `A*`\n"), "{plan}");
+    assert!(plan.contains("toy: idle: no new trial; stored ones are counted anew\n"), "{plan}");
+    // Of the contenders, A* alone runs under both options of `hurry`: on 20 instances, and on the room.
+    let different = 2 * (20 + 1) + 2 * 20;
+    assert!(plan.contains(&format!("toy: {different} different trials run for these {all}")), "{plan}");
 }
 
 #[test]

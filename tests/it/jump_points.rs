@@ -27,7 +27,7 @@ fn is_solved(planner: &dyn Planner, world: &World, [start, goal]: [u32; 2], what
     let request = Request { world, start: &start, goal: &goal, expansions: 1_000_000, seed: 0, trace: false };
     let plan = planner.plan(&request).unwrap();
     let case = Case { grid: lattice.grid(), corner_rule: lattice.corner_rule(), start: &start, goal: &goal };
-    let optimum = case.optimal_cost();
+    let optimum = case.optimal_cost(None);
     let refusal = match plan.ending {
         Ending::Solved => {
             let path = &plan.path[..];

@@ -2,6 +2,7 @@
 
 use super::super::claim_test::{CappedFinding, ClaimTest, claim_tests};
 use super::super::claims;
+use super::super::estimates::with_refused;
 use super::super::number::Numbers;
 use super::super::outcome::{self, Caps, Outcome, Polarity};
 use super::super::polylines::Polylines;
@@ -108,7 +109,11 @@ fn weighed<'e>(
             built.insert(meaning.clone(), built_now.collect::<Result<_, SettingsError>>()?);
         }
         let of_claim = &built[&meaning];
-        let numbers = |(question, _): &(Option<String>, ClaimTest<'_>)| match question {
+        let numbers = |(question, test): &(Option<String>, ClaimTest<'_>)| match question {
+            Some(question) if test.criterion().counts_refused() => {
+                let without = || answer(place, question).filter(|(_, numbers)| numbers.refused == 0.0);
+                answer(place, &with_refused(question)).or_else(without)
+            }
             Some(question) => answer(place, question),
             None => Some((usize::MAX, &none)),
         };

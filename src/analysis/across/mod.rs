@@ -16,7 +16,7 @@ pub mod depends;
 pub mod effects;
 pub mod glance;
 pub mod stored;
-mod tested;
+pub mod tested;
 pub mod touched;
 pub mod wording;
 
@@ -166,12 +166,18 @@ impl OfClaim<'_> {
         none_compatible
     }
 
-    /// Gives `judged` its outcome on the second seed, and whether a seed moves anything.
+    /// Gives `judged` its outcome on the second seed, if it looks at trials, and whether a seed moves anything. Where nothing is
+    /// drawn, no other instance could be: its numbers have no interval.
     fn look_at_seeds(&self, judged: &mut ClaimVerdict, touched: &Touched<'_>) {
         let own = self.second.and_then(|second| second.result(&self.claim.id, 0));
+        let own = own.filter(|_| touched.looks_at_trials());
         judged.second = own.filter(|own| own.sight == glance::Sight::Looked).map(|own| own.outcome);
         let is_moved = judged.second.is_some_and(|second| second != judged.outcome);
         judged.is_seedless = !is_moved && touched.draws_nothing(self.paper);
+        let deciding = judged.findings.iter_mut().filter(|finding| finding.outcome.is_some());
+        for ours in deciding.filter_map(|finding| finding.ours.as_mut()).filter(|_| judged.is_seedless) {
+            *ours = ours.clone().without_interval();
+        }
     }
 
     /// Gives `judged` the verdict of its results, with what stands beside it.
@@ -244,7 +250,7 @@ impl OfClaim<'_> {
             none_compatible: counted.none_compatible,
             refused: counted.refused.iter().map(named).collect(),
             effects: effects::effects(self.choices, first, &judged.claim, judged.outcome),
-            tested: tested::tested(first, self.claim),
+            tested: tested::tested(self.paper, self.choices, first, self.claim),
             probes: effects::probes(self.choices, first, &judged.claim, judged.outcome),
         };
         across.settles = across_settles(&across, judged, line);

@@ -41,7 +41,7 @@ pub struct ExploredClaim {
     pub results: Vec<ExploredResult>,
 }
 
-/// Every claim of `first` with its results; `more` are those of interpretations, by their places, that ran once more with more instances.
+/// Every claim that `first` and `more` say something of under all of their interpretations, with its results; `more` are those of interpretations, by their places, that ran once more with more instances.
 fn claims(first: &[Glances], more: &BTreeMap<usize, Glances>) -> BTreeMap<String, ExploredClaim> {
     let of_claim = |id: &String| {
         let mut seen = Vec::new();
@@ -53,7 +53,9 @@ fn claims(first: &[Glances], more: &BTreeMap<usize, Glances>) -> BTreeMap<String
         }
         (id.clone(), ExploredClaim { studies, results: results(&seen) })
     };
-    first.first().into_iter().flat_map(BTreeMap::keys).map(of_claim).collect()
+    let has = |glances: &Glances, id: &String| glances.is_empty() || glances.contains_key(id);
+    let is_whole = |id: &&String| first.iter().chain(more.values()).all(|glances| has(glances, id));
+    first.first().into_iter().flat_map(BTreeMap::keys).filter(is_whole).map(of_claim).collect()
 }
 
 /// A hash of the meanings of claims that are met exactly, alone or together.

@@ -4,6 +4,7 @@ use super::combine::{confirmed, flips};
 use super::count::{Counted, Group, VotingChoices};
 use super::glance::{Glance, Sight};
 use super::stored::{Exploration, ExploredClaim, ExploredResult, Now, results};
+use super::tested::by_option;
 use super::wording::View;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -146,6 +147,39 @@ impl Planted {
         let found = view.wording(line);
         (found.beside.join("; "), found.depends_on)
     }
+}
+
+#[test]
+fn a_joint_test_names_the_options_that_fit_and_those_that_fit_with_no_other() {
+    let found: [(&[&str], Outcome); 6] = [
+        (&["draws", "spared", "start", "one"], Holds),
+        (&["draws", "cleared", "goal", "one"], Holds),
+        (&["draws", "counted", "goal", "one"], Fails),
+        (&["count", "spared", "start", "one"], Fails),
+        (&["count", "counted", "start", "one"], Fails),
+        (&["draws", "cleared", "start", "other"], Fails),
+    ];
+    // The claim does not look at what the choice of a planner touches.
+    let defaults = [("blocking", "draws"), ("border", "spared"), ("smoothing", "start"), ("planner", "one")];
+    let mut planted = Planted::new(&defaults, &found);
+    let by_options = |planted: &Planted| {
+        let results = &planted.first.claims["fewer"].results;
+        let values = results.iter().zip([0.4, 0.3, 0.02, 0.01, 0.03, 0.04]);
+        let results: Vec<_> = values.map(|(result, value)| (value, result)).collect();
+        let all = &planted.choices.choices;
+        let touching = all.iter().filter(|choice| choice.id != "planner").map(|own| (own.id.as_str(), own));
+        by_option(&planted.choices, &touching.collect(), &planted.first, &results, &|p| format!("p = {p}"))
+    };
+    let both = [
+        "fits: blocking = draws, border = cleared or spared, with any smoothing",
+        "refuses, each with its greatest p: blocking = count (p = 0.03), border = counted (p = 0.03)",
+    ];
+    assert_eq!(by_options(&planted), Some(both.map(str::to_owned)));
+    // What a test refuses under probes alone says nothing of what the paper may mean.
+    for (choice, option) in [(0, "count"), (1, "counted")] {
+        planted.choices.choices[choice].options.insert(option.to_owned(), Arc::new(OptionSpec::default()));
+    }
+    assert_eq!(by_options(&planted), None);
 }
 
 #[test]

@@ -48,6 +48,11 @@ impl<'p> Touched<'p> {
         })
     }
 
+    /// Whether it looks at trials at all: arithmetic on what is printed does not.
+    pub fn looks_at_trials(&self) -> bool {
+        !self.studies.is_empty()
+    }
+
     /// Whether no seed decides anything of it: neither its problems nor a contender's trials.
     pub fn draws_nothing(&self, paper: &Paper) -> bool {
         self.studies.iter().all(|study| {

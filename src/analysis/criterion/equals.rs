@@ -24,8 +24,12 @@ pub static ENTRY: Entry = Entry {
     question: |_| Some("equal trials 1"),
     settings: Accepted::shape::<Settings>(),
     example: r#"
-select = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
 truth = "optimal_cost_cells"
+[select]
+study = "compare"
+problems = "maps"
+contender = "A*"
+metric = "path_cost_cells"
 "#,
     build: |context| Ok(Box::new(Equals::new(context)?)),
 };

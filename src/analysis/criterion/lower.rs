@@ -39,7 +39,12 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-select = { study = "compare", problems = "maps", metric = "opened", contender = "Weighted A*", against = "A*" }
+[select]
+study = "compare"
+problems = "maps"
+metric = "opened"
+contender = "Weighted A*"
+against = "A*"
 "#,
     build: |context| Ok(Box::new(Lower::new(context)?)),
 };
@@ -119,7 +124,7 @@ impl<'a> Lower<'a> {
             self.selection.description(),
             how(all.is_agreed),
             below + equal + above,
-            if self.selection.all_ends { "" } else { " that both solve" },
+            self.selection.given_in_words(),
         )
     }
 

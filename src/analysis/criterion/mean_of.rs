@@ -32,8 +32,12 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-select = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
 instances = 500
+[select]
+study = "compare"
+problems = "maps"
+contender = "A*"
+metric = "path_cost_cells"
 "#,
     build: |context| Ok(Box::new(MeanOf::new(context)?)),
 };

@@ -62,6 +62,11 @@ pub trait Criterion {
         self.selections().iter().any(|selection| selection.is_clock())
     }
 
+    /// Whether trials with refused paths have numbers, since these count what the search did.
+    fn counts_refused(&self) -> bool {
+        self.selections().iter().any(|selection| selection.counts_refused())
+    }
+
     /// Whether trials ran under the evidence's interpretation of all that it looks at; of anything at all, if one witness would do.
     fn is_covered(&self, evidence: &Evidence<'_>) -> bool {
         let is_run = |study: &&Study| evidence.run(&study.name).is_some_and(Run::is_covered);

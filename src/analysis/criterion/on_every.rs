@@ -27,8 +27,13 @@ pub static ENTRY: Entry = Entry {
     question: |_| Some("every case 1"),
     settings: Accepted::shape::<Settings>(),
     example: r#"
-select = { study = "compare", problems = "maps", contender = "Weighted A*", against = "A*", metric = "opened" }
 that = "lower"
+[select]
+study = "compare"
+problems = "maps"
+contender = "Weighted A*"
+against = "A*"
+metric = "opened"
 "#,
     build: |context| Ok(Box::new(OnEvery::new(context)?)),
 };

@@ -33,8 +33,12 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-select = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
 statistic = "mean"
+[select]
+study = "compare"
+problems = "maps"
+contender = "A*"
+metric = "path_cost_cells"
 "#,
     build: |context| Ok(Box::new(OneInstance::new(context)?)),
 };

@@ -25,7 +25,11 @@ pub static ENTRY: Entry = Entry {
     question: |_| Some("extremes 1"),
     settings: Accepted::shape::<Settings>(),
     example: r#"
-select = { study = "compare", problems = "maps", contender = "A*", metric = "path_cost_cells" }
+[select]
+study = "compare"
+problems = "maps"
+contender = "A*"
+metric = "path_cost_cells"
 "#,
     build: |context| Ok(Box::new(PrintsAs::new(context)?)),
 };

@@ -32,9 +32,16 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-select = { study = "compare", problems = "maps", metric = "opened" }
-rows = [{ contender = "Weighted A*", against = "A*", statistics = ["mean"], claims = ["table1.weighted.saving"] }]
 refused_below = 0.05
+[select]
+study = "compare"
+problems = "maps"
+metric = "opened"
+[[rows]]
+contender = "Weighted A*"
+against = "A*"
+statistics = ["mean"]
+claims = ["table1.weighted.saving"]
 "#,
     build: |context| Ok(Box::new(RowOneInstance::new(context)?)),
 };

@@ -12,6 +12,7 @@ use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{Share, narrows, needs};
 use crate::analysis::verdict::Quantity;
 use base::settings::{Accepted, SettingsError};
+use base::text::computed;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::interval::Interval;
@@ -304,7 +305,7 @@ impl Counted<'_> {
     fn description(&self) -> String {
         if let Some(bound) = self.settings.bound {
             if self.settings.hits == Hits::SolvedAtLeast {
-                return format!("{} {} % of its cases", self.settings.hits.label(), 100.0 * bound);
+                return format!("{} {} % of its cases", self.settings.hits.label(), computed(100.0 * bound));
             }
             let metric = self.selection.metric.map_or("", |metric| &metric.label).to_lowercase();
             return format!("trials with {metric} above {bound}");
@@ -319,7 +320,7 @@ impl Counted<'_> {
         let interval =
             if low.is_nan() { String::new() } else { format!(" (95 % interval {low:.2} to {high:.2})") };
         let accepted = self.settings.accepted.map_or_else(String::new, |[least, most]| {
-            format!("; accepted {} to {} %", 100.0 * least, 100.0 * most)
+            format!("; accepted {} to {} %", computed(100.0 * least), computed(100.0 * most))
         });
         let who = self.selection.description();
         let what = self.description();

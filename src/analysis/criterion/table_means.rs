@@ -15,7 +15,7 @@ use crate::analysis::number::{Ends, Number, parts, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Instance, Selection, by_instance};
 use crate::analysis::statistic::mean;
-use crate::analysis::verdict::{Estimate, Quantity};
+use crate::analysis::verdict::{Estimate, Quantity, TIMES};
 use base::settings::{Accepted, Faults, SettingsError};
 use nalgebra::DMatrix;
 use schemars::JsonSchema;
@@ -23,8 +23,8 @@ use serde::Deserialize;
 use stats::beta::combined;
 use stats::means::FEWEST_NORMAL;
 use std::collections::BTreeMap;
-use study::Study;
-use study::paper::Claim;
+use study::Choice;
+use study::paper::{Claim, Paper};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -65,6 +65,11 @@ struct PlaceSpec {
     claims: Vec<String>,
 }
 
+/// A probability in a few digits.
+pub fn p_text(p: f64) -> String {
+    if p < 1e-3 { format!("{p:.1e}") } else { format!("{p:.3}") }
+}
+
 struct Cell<'a> {
     id: &'a str,
     mean: MeanOf<'a>,
@@ -77,17 +82,22 @@ struct TableMeans<'a> {
     interpretations: usize,
 }
 
-/// How many interpretations the paper may mean that trials of `studies` tell apart: 1 if other claims chose among them.
-fn interpretations(context: &Context<'_>, studies: &BTreeMap<&str, &Study>) -> usize {
-    let mut calibration = context.paper.studies.iter().flat_map(|study| &study.fitted_to).peekable();
-    if calibration.peek().is_some() && calibration.all(|id| *id != context.claim.id) {
+/// By how many interpretations the probability of `claim` is multiplied: those that the paper may mean and that trials of the studies
+/// tell apart; 1 if other claims chose among them.
+pub fn interpretations(paper: &Paper, claim: &Claim) -> usize {
+    let mut calibration = paper.studies.iter().flat_map(|study| &study.fitted_to).peekable();
+    if calibration.peek().is_some() && calibration.all(|id| *id != claim.id) {
         return 1;
     }
-    let mut options: BTreeMap<&str, usize> = BTreeMap::new();
-    for choice in studies.values().flat_map(|study| &study.choices).filter(|choice| choice.touches_trials) {
-        options.insert(&choice.id, choice.options.keys().filter(|name| choice.votes(name)).count().max(1));
-    }
-    options.values().product()
+    let voting = |choice: &Choice| choice.options.keys().filter(|name| choice.votes(name)).count().max(1);
+    touching(paper, claim).values().map(|choice| voting(choice)).product()
+}
+
+/// The choices that touch the trials of the studies that `claim` looks at, by id.
+pub fn touching<'p>(paper: &'p Paper, claim: &Claim) -> BTreeMap<&'p str, &'p Choice> {
+    let studies = places(claim).filter_map(|place| paper.study(&place.study));
+    let choices = studies.flat_map(|study| &study.choices).filter(|choice| choice.touches_trials);
+    choices.map(|choice| (choice.id.as_str(), choice)).collect()
 }
 
 impl<'a> TableMeans<'a> {
@@ -95,12 +105,10 @@ impl<'a> TableMeans<'a> {
         let settings: Settings = context.settings.read()?;
         let mut faults = Faults::default();
         let mut rows: BTreeMap<(String, Vec<String>, usize), Vec<Cell<'a>>> = BTreeMap::new();
-        let mut studies = BTreeMap::new();
         for (index, place) in settings.places.iter().enumerate() {
             let Some(study) = faults.keep(context.study(&format!("in.{index}"), &place.study, &[])) else {
                 continue;
             };
-            studies.insert(study.name.as_str(), study);
             for (at, id) in place.claims.iter().enumerate() {
                 let at = format!("in.{index}.claims.{at}");
                 let Some(cell) = faults.keep(cell(context, &at, id)).flatten() else { continue };
@@ -117,7 +125,7 @@ impl<'a> TableMeans<'a> {
             let message = "no claim that `mean_of` judges is named; at least one is needed";
             return Err(context.settings.error_at("in", message).about("in").about("claims"));
         }
-        let interpretations = interpretations(context, &studies);
+        let interpretations = interpretations(context.paper, context.claim);
         Ok(Self {
             rows: rows.into_values().collect(),
             refused_below: settings.refused_below,
@@ -128,8 +136,13 @@ impl<'a> TableMeans<'a> {
 
 /// The claims whose printed means `claim` judges jointly; none if it is judged otherwise.
 pub fn cells(claim: &Claim) -> Vec<String> {
+    places(claim).flat_map(|place| place.claims).collect()
+}
+
+/// The places of the means that `claim` judges jointly; none if it is judged otherwise.
+fn places(claim: &Claim) -> impl Iterator<Item = PlaceSpec> {
     let settings = claim.check(ENTRY.name).and_then(|settings| settings.read::<Settings>().ok());
-    settings.into_iter().flat_map(|settings| settings.places).flat_map(|place| place.claims).collect()
+    settings.into_iter().flat_map(|settings| settings.places)
 }
 
 /// The cell that the claim `id` is, `None` if it is not testable or a difference of two others.
@@ -304,13 +317,10 @@ impl<'a> TableMeans<'a> {
                 row.loudest.join(", ")
             )
         };
-        let times = match self.interpretations {
-            1 => String::new(),
-            many => format!("; times {many} interpretations {:.2e}", self.judged(p)),
-        };
-        let whole =
-            format!("all rows together (Fisher): p = {p:.2e}{times}, refused below {}", self.refused_below);
-        std::iter::once(whole).chain(rows.iter().map(of_row)).collect()
+        let whole = format!("all rows together (Fisher): p = {p:.2e}, refused below {}", self.refused_below);
+        let many = self.interpretations;
+        let times = (many > 1).then(|| format!("{TIMES}{many} interpretations: {}", p_text(self.judged(p))));
+        std::iter::once(whole).chain(times).chain(rows.iter().map(of_row)).collect()
     }
 }
 

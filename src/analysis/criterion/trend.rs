@@ -29,9 +29,13 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-select = { study = "compare", problems = "maps", contender = "A*", metric = "opened" }
 over = "path_cost_cells"
 rising = true
+[select]
+study = "compare"
+problems = "maps"
+contender = "A*"
+metric = "opened"
 "#,
     build: |context| Ok(Box::new(Trend::new(context)?)),
 };

@@ -12,6 +12,7 @@ use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_INSTANCES, OverallStatistic, how, narrows, needs};
 use crate::analysis::verdict::{Estimate, Quantity};
 use base::settings::{Accepted, SettingsError};
+use base::text::computed;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::interval::Interval;
@@ -28,9 +29,14 @@ pub static ENTRY: Entry = Entry {
     },
     settings: Accepted::shape::<Settings>(),
     example: r#"
-select = { study = "compare", problems = "maps", contender = "Weighted A*", against = "A*", metric = "opened" }
 statistic = "ratio"
 accepted = [0.0, 0.5]
+[select]
+study = "compare"
+problems = "maps"
+contender = "Weighted A*"
+against = "A*"
+metric = "opened"
 "#,
     build: |context| Ok(Box::new(Within::new(context)?)),
 };
@@ -236,12 +242,16 @@ impl Criterion for Within<'_> {
         };
         let Interval { low, high } = interval;
         let accepted = match self.printed {
-            Some(printed) => format!("printed {printed}, margin {}", self.accepted.high - printed),
-            None => format!("accepted {} to {}", self.accepted.low, self.accepted.high),
+            Some(printed) => {
+                format!("printed {}, margin {}", computed(printed), computed(self.accepted.high - printed))
+            }
+            None => format!("accepted {} to {}", computed(self.accepted.low), computed(self.accepted.high)),
         };
         let agreed = if all.is_agreed { " that all agree" } else { "" };
+        let spread =
+            if low < high { format!("95 % interval {low:.4} to {high:.4}, ") } else { String::new() };
         let because = format!(
-            "{}: {} of {metric} {value:.4} (95 % interval {low:.4} to {high:.4}, {} instances{agreed}); {accepted}",
+            "{}: {} of {metric} {value:.4} ({spread}{} instances{agreed}); {accepted}",
             self.selection.description(),
             self.statistic.name(),
             all.n,

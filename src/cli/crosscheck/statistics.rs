@@ -82,6 +82,7 @@ fn request_json(places: &[Places], explored: &[PathBuf]) -> Value {
             "better": metric.better.name(),
             "clock": metric.is_clock(),
             "status": metric.is_status(),
+            "of_search": metric.is_of_search,
         })
     };
     let of_paper = |(places, explored): (&Places, &PathBuf)| {

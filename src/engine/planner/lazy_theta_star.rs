@@ -1,4 +1,4 @@
-//! Lazy Theta\* on 8-connected grids: paths bend at cell centres and may go in any direction.
+//! Lazy Theta\* on 8-connected grids: paths bend at vertices, which are centres of cells or their corners, and may go in any direction.
 //!
 //! # Source
 //! Nash, Koenig & Tovey, *Lazy Theta\*: Any-Angle Path Planning and Path Length Analysis in 3D*, AAAI 2010.

@@ -1,4 +1,4 @@
-//! Theta\* on 8-connected grids: paths bend at cell centres and may go in any direction.
+//! Theta\* on 8-connected grids: paths bend at vertices, which are centres of cells or their corners, and may go in any direction.
 //!
 //! # Source
 //! Nash, Daniel, Koenig & Felner, *Theta\*: Any-Angle Path Planning on Grids*, AAAI 2007.

@@ -29,7 +29,12 @@ pub static ENTRY: Entry = Entry {
     statistic: "{n}.",
     settings: Accepted::shape::<Read>(),
     example: r#"
-panels = [{ x = "samples", y = "solved", problems = ["cell"], contenders = ["Original A*", "Improved A*"], printed = ["t2.original.", "t2.improved."] }]
+[[panels]]
+x = "samples"
+y = "solved"
+problems = ["cell"]
+contenders = ["Original A*", "Improved A*"]
+printed = ["t2.original.", "t2.improved."]
 "#,
     build: |settings, study, paper| Ok(Box::new(Statistics::new(settings, study, paper)?)),
 };

@@ -25,7 +25,7 @@ pub static ENTRY: Entry = Entry {
     settings: Accepted::shape::<WorkCell>(),
     example: r#"
 problems = "cell"
-poses = [["4/start", "H"], ["1/start", "P1"], ["3/start", "P2"], ["2/goal", "P3"], ["7/start", "P5"], ["9/start", "P6"]]
+poses = [["4/start", "H"], ["1/start", "P1"], ["3/start", "P2"]]
 at_once = 3
 "#,
     build: |settings, study, _paper| {

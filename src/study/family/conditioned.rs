@@ -42,17 +42,12 @@ tries = 100000
 found = "data/draws/zhang_conditioned.txt"
 given = { path_cost_cells = [14.65, 14.66] }
 shared = { size_cells = [30, 30], start = [22, 15], goal = [26, 28] }
-families = [
-    { family = "random_cells", settings = { blocked_share = 0.1 } },
-    { family = "random_cells", settings = { blocked_share = 0.2 } },
-    { family = "random_cells", settings = { blocked_share = 0.3 } },
-    { family = "random_rectangles", settings = { count = 8, side_cells = [2, 5] } },
-    { family = "random_rectangles", settings = { count = 17, side_cells = [2, 5] } },
-    { family = "random_rectangles", settings = { count = 27, side_cells = [2, 5] } },
-    { family = "random_bars", settings = { count = 18, length_cells = [3, 8] } },
-    { family = "random_bars", settings = { count = 38, length_cells = [3, 8] } },
-    { family = "random_bars", settings = { count = 62, length_cells = [3, 8] } },
-]
+[[families]]
+family = "random_cells"
+settings = { blocked_share = 0.2 }
+[[families]]
+family = "random_rectangles"
+settings = { count = 17, side_cells = [2, 5] }
 "#,
     build: |settings, inputs| {
         let read: Conditioned = settings.read()?;

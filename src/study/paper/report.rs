@@ -31,9 +31,10 @@ pub const FIGURES: usize = 6;
 
 /// The forms in which a text can show our number beside a claim: with one decimal, as a percentage (or the least of it) with the digits of
 /// its interval, or in words with a direction. Of a claim with parts the words are those of its parts. Other forms give
-/// a shown number that decides nothing, the interval or one of its ends, the number of instances, the verdict, the words
-/// beside it, or the printed values that would have been refused.
-pub const FORMS: [&str; 12] = [
+/// a shown number that decides nothing, the interval or one of its ends, the number of instances, or that of the cases
+/// that could be posed. The rest give the verdict, the words beside it, or the printed values that would have been refused. Of a joint
+/// test two give the options that fit and those that do not.
+pub const FORMS: [&str; 15] = [
     "tenths",
     "percent",
     "percent_low",
@@ -43,9 +44,12 @@ pub const FORMS: [&str; 12] = [
     "low",
     "high",
     "n",
+    "cases",
     "verdict",
     "interpretations",
     "power",
+    "fits",
+    "refuses",
 ];
 
 /// `text` with every `{claim}` or `{claim:form}` replaced by `with` of claim and form.

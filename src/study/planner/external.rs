@@ -43,7 +43,10 @@ pub static ENTRY: Entry = Entry {
     settings: Accepted::shape::<Written>(),
     example: r#"
 command = ["python3", "planners/python/examples/grid_astar.py"]
-files = ["planners/python/examples/grid_astar.py", "planners/python/replan_planner/__init__.py"]
+files = [
+    "planners/python/examples/grid_astar.py",
+    "planners/python/replan_planner/__init__.py",
+]
 version = "1"
 time_s = 2.0
 memory_mb = 1024

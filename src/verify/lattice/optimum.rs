@@ -4,17 +4,12 @@ use super::search::{Scratch, octile};
 use super::{Case, Landmarks};
 
 impl Case<'_> {
-    /// The least cost of an 8-connected path from start to goal, straight moves costing 1 and diagonal ones √2;
-    /// `None` if there is no path, or if start or goal is not a free cell.
-    pub fn optimal_cost(&self) -> Option<f64> {
-        self.optimal_cost_by(None)
-    }
-
-    /// The same, found sooner with landmarks of the map.
+    /// The least cost of an 8-connected path from start to goal, straight moves costing 1 and diagonal ones √2; `None` if there is no
+    /// path, or if start or goal is not a free cell. Landmarks of the map make it faster.
     ///
     /// Costs are (straight, diagonal) counts, compared as the floats they round to. Two counts of one cost are the same counts, and
     /// others differ by more than bounds are off by rounding.
-    pub fn optimal_cost_by(&self, landmarks: Option<&Landmarks>) -> Option<f64> {
+    pub fn optimal_cost(&self, landmarks: Option<&Landmarks>) -> Option<f64> {
         let (start, goal) = (self.cell(self.start)?, self.cell(self.goal)?);
         if !self.grid.is_free_xy(start[0], start[1]) || !self.grid.is_free_xy(goal[0], goal[1]) {
             return None;

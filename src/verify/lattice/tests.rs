@@ -152,7 +152,7 @@ fn the_optimum_is_what_relaxing_every_move_gives() {
             let end = grid.xy(goal).map(f64::from);
             let case = Case { grid: &grid, corner_rule: rule, start: &start, goal: &end };
             let wanted = Some(truth[goal as usize]).filter(|cost| cost.is_finite());
-            let got = case.optimal_cost();
+            let got = case.optimal_cost(None);
             assert_eq!(got.is_some(), wanted.is_some(), "seed {seed}, {rule:?}, {start:?} to {end:?}");
             let (got, wanted) = (got.unwrap_or_default(), wanted.unwrap_or_default());
             assert!((got - wanted).abs() < 1e-9, "seed {seed}, {rule:?}, to {end:?}: {got}, not {wanted}");
@@ -227,8 +227,8 @@ fn landmarks_change_no_optimum_and_know_where_there_is_no_path() {
                     let case = Case { grid: &grid, corner_rule: rule, start: &start, goal: &goal };
                     let is_free = grid.is_free(cell(start)) && grid.is_free(cell(goal));
                     let truth = Some(truth[cell(goal) as usize]).filter(|cost| is_free && cost.is_finite());
-                    let with = case.optimal_cost_by(landmarks.as_ref());
-                    let without = case.optimal_cost();
+                    let with = case.optimal_cost(landmarks.as_ref());
+                    let without = case.optimal_cost(None);
                     let off = with.zip(truth).map_or(0.0, |(with, truth)| (with - truth).abs());
                     let place =
                         format!("seed {seed}, {rule:?}: {start:?} to {goal:?}: {with:?}, not {truth:?}");
@@ -263,6 +263,6 @@ fn of_two_ways_in_one_bucket_the_shorter_is_found() {
     for [start, goal] in [ends, [ends[1], ends[0]]] {
         let case = Case { grid: &grid, corner_rule: CornerRule::Allow, start: &start, goal: &goal };
         let landmarks = Landmarks::new(&case);
-        assert_eq!([case.optimal_cost(), case.optimal_cost_by(landmarks.as_ref())], [least; 2]);
+        assert_eq!([case.optimal_cost(None), case.optimal_cost(landmarks.as_ref())], [least; 2]);
     }
 }

@@ -25,30 +25,24 @@ pub(crate) mod tests;
 
 pub use aabb::{Aabb, BroadPhase};
 pub use convex::{
-    Axis, Convex, Edge, Face, Plane, distance_point_convex, distance_segment_convex,
-    intersects_segment_convex, nearest_by_edge, nearest_segment_convex, nearest_segment_convex_listed,
-    nearest_segment_convex_listed_first, nearest_segment_convex_printed, nearest_segment_segment_literal,
-    nearest_segment_segment_printed,
+    Axis, Convex, Edge, Face, Plane, distance_segment_convex, nearest_by_edge, nearest_segment_convex,
+    nearest_segment_convex_listed, nearest_segment_convex_listed_first, nearest_segment_convex_printed,
+    nearest_segment_segment_literal, nearest_segment_segment_printed,
 };
 pub use error::GeometryError;
 pub use frame::Frame;
-pub use oriented_box::{
-    OrientedBox, distance_point_box, distance_segment_box, intersects_capsule_box, nearest_segment_box,
-};
+pub use oriented_box::{OrientedBox, distance_segment_box};
 pub use points::heights_over;
 pub use round::{
-    Capsule, HalfSpace, Sphere, distance_capsule_capsule, distance_capsule_sphere,
-    distance_segment_half_space, intersects_capsule_capsule, nearest_segment_half_space,
+    Capsule, HalfSpace, Sphere, distance_capsule_capsule, distance_segment_half_space,
+    intersects_capsule_capsule, nearest_segment_half_space,
 };
 pub use rounded::{Placed, Rounded, intersects_placed_placed};
 pub use segment::{
     Nearest, Segment, distance_point_segment, distance_segment_segment, nearest_point_segment,
     nearest_segment_segment, squared_distance_segment_segment,
 };
-pub use solid::{
-    Solid, distance_capsule_solid, distance_point_solid, distance_segment_solid, intersects_capsule_solid,
-    nearest_segment_solid,
-};
+pub use solid::{Solid, distance_segment_solid};
 
 /// A point or a direction in space.
 pub type Vec3 = nalgebra::Vector3<f64>;

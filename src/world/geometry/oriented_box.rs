@@ -6,7 +6,7 @@
 //! to a tolerance is needed, and no case for faces, edges and corners.
 
 use super::{
-    Aabb, Capsule, Frame, Nearest, Segment, Vec3,
+    Aabb, Frame, Segment, Vec3,
     error::{GeometryError, finite_point, positive},
 };
 
@@ -30,14 +30,6 @@ impl OrientedBox {
         positive("the box's size along y", size.y)?;
         positive("the box's size along z", size.z)?;
         Ok(Self { frame, half: size * 0.5 })
-    }
-
-    /// The axis-aligned box from corner `min` to corner `max`.
-    ///
-    /// # Errors
-    /// As [`new`](Self::new); a side is not above 0 if the corners are swapped.
-    pub fn from_corners(min: Vec3, max: Vec3) -> Result<Self, GeometryError> {
-        Self::new(Frame::at((min + max) * 0.5), max - min)
     }
 
     /// The frame of the box, at its centre.
@@ -103,43 +95,11 @@ fn share_nearest_box(a: &Vec3, d: &Vec3, half: &Vec3) -> f64 {
     low + (high - low) * (slope_low / (slope_low - slope_high))
 }
 
-/// The square of the distance between a segment and a box.
-#[inline]
-fn squared_distance_segment_box(segment: &Segment, shape: &OrientedBox) -> f64 {
-    let a = shape.frame.local(&segment.a);
-    let d = shape.frame.local(&segment.b) - a;
-    let share = share_nearest_box(&a, &d, &shape.half);
-    excess(&(a + d * share), &shape.half).norm_squared()
-}
-
-/// The distance from a point to a box.
-#[inline]
-pub fn distance_point_box(point: &Vec3, shape: &OrientedBox) -> f64 {
-    excess(&shape.frame.local(point), &shape.half).norm()
-}
-
 /// The distance between a segment and a box.
 #[inline]
 pub fn distance_segment_box(segment: &Segment, shape: &OrientedBox) -> f64 {
-    squared_distance_segment_box(segment, shape).sqrt()
-}
-
-/// The nearest points of a segment and a box.
-pub fn nearest_segment_box(segment: &Segment, shape: &OrientedBox) -> Nearest {
     let a = shape.frame.local(&segment.a);
     let d = shape.frame.local(&segment.b) - a;
     let share = share_nearest_box(&a, &d, &shape.half);
-    let on_a = a + d * share;
-    let outside = excess(&on_a, &shape.half);
-    Nearest {
-        distance: outside.norm(),
-        on_a: shape.frame.point(&on_a),
-        on_b: shape.frame.point(&(on_a - outside)),
-    }
-}
-
-/// Whether a capsule and a box share a point; touching is sharing.
-#[inline]
-pub fn intersects_capsule_box(capsule: &Capsule, shape: &OrientedBox) -> bool {
-    squared_distance_segment_box(&capsule.segment, shape) <= capsule.radius * capsule.radius
+    excess(&(a + d * share), &shape.half).norm()
 }

@@ -1,7 +1,7 @@
 //! Capsules, spheres and half-spaces: a segment or a point with a radius, and the floor.
 
 use super::{
-    Frame, Nearest, Segment, Vec3, distance_point_segment, distance_segment_segment,
+    Frame, Nearest, Segment, Vec3, distance_segment_segment,
     error::{GeometryError, finite, finite_point, positive},
     squared_distance_segment_segment,
 };
@@ -117,12 +117,6 @@ pub fn distance_segment_half_space(segment: &Segment, half_space: &HalfSpace) ->
 #[inline]
 pub fn distance_capsule_capsule(p: &Capsule, q: &Capsule) -> f64 {
     (distance_segment_segment(&p.segment, &q.segment) - p.radius - q.radius).max(0.0)
-}
-
-/// The distance between a capsule and a sphere.
-#[inline]
-pub fn distance_capsule_sphere(capsule: &Capsule, sphere: &Sphere) -> f64 {
-    (distance_point_segment(&sphere.center, &capsule.segment) - capsule.radius - sphere.radius).max(0.0)
 }
 
 /// Whether two capsules share a point; touching is sharing.

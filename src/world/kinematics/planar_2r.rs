@@ -114,11 +114,6 @@ impl Planar2r {
             ElbowRule::NegativeQ2 | ElbowRule::HigherElbow => branches.negative,
         }
     }
-
-    /// The determinant of the tip's Jacobian, square units a square radian: 0 where the arm is singular.
-    pub fn jacobian_determinant(&self, [_, q2]: [f64; 2]) -> f64 {
-        self.l1 * self.l2 * libm::sin(q2)
-    }
 }
 
 /// `to`, with whole turns added to each angle so that it is as near as possible to `from`: what the joints
@@ -167,7 +162,6 @@ mod tests {
             assert_eq!((both.negative[1], both.positive[1]), (-q2, q2), "{target:?}");
             assert!((arm().forward(both.negative) - target).norm() < 1e-13, "{target:?}: {both:?}");
             assert!((arm().forward(both.positive) - target).norm() < 1e-13, "{target:?}: {both:?}");
-            assert!(arm().jacobian_determinant(both.positive).abs() < 1e-12, "{target:?}");
         }
         for out in [[30.0, 40.000_000_1], [5.999_999_9, 8.0], [0.0, 0.0], [f64::NAN, 1.0]] {
             let refused = arm().inverse(&Vec2::from(out));

@@ -280,10 +280,4 @@ impl Chain {
         }
         jacobian
     }
-
-    /// The determinant of the Jacobian of the flange's origin: 0 at a singular pose. Cubic metres (radians count as 1).
-    pub fn jacobian_determinant(&self, q: &Joints) -> f64 {
-        let frames = self.frames(q);
-        Self::jacobian(&frames, AXES, &frames[AXES].origin).determinant()
-    }
 }

@@ -53,12 +53,13 @@ fn with(text: &str, [begin, end]: [&str; 2], table: &str) -> String {
 
 #[test]
 fn the_rates_that_are_printed_are_those_found() {
-    if papers() != PAPERS {
-        return;
-    }
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/OPERATING_CHARACTERISTICS.md");
     let text = fs::read_to_string(&path).unwrap();
-    let page = with(&with(&text, VERDICTS, &verdicts::table()), RATES, &table());
+    let mut page = with(&text, VERDICTS, &verdicts::table());
+    // A tenth of the papers gives other rates of criteria.
+    if papers() == PAPERS {
+        page = with(&page, RATES, &table());
+    }
     if std::env::var_os("REPLAN_WRITE").is_some() {
         fs::write(&path, &page).unwrap();
     }

@@ -46,7 +46,8 @@ pub fn taken_for_ordinary(shift: f64) -> f64 {
     normal_below(z - shift) - normal_below(-z - shift)
 }
 
-fn normal_below(z: f64) -> f64 {
+/// How likely a standard normal number lies below `z`.
+pub fn normal_below(z: f64) -> f64 {
     libm::erfc(-z / std::f64::consts::SQRT_2) / 2.0
 }
 

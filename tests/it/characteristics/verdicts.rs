@@ -1,11 +1,12 @@
 //! How often whole verdicts are wrong: synthetic papers with choices, of known truth under each interpretation.
 //!
 //! Every interpretation gives a result of its own on each of two seeds: it speaks for the truth with the power of the sample, against
-//! it as often as one end of an interval errs, and is open otherwise. A minority counts only if the second seed confirms it, and the
-//! table of verdicts says what that amounts to.
+//! it as often as one end of an interval errs, and is open otherwise. All interpretations see the same instances of a seed, so that
+//! their results go together. A minority counts only if the second seed confirms it, and the table of verdicts says what that
+//! amounts to.
 
+use super::theory::{normal, normal_below};
 use base::seed::{self, Stream};
-use rand::RngExt as _;
 use replan::analysis::across::combine::confirmed;
 use replan::analysis::across::count::Group;
 use replan::analysis::outcome::{Outcome, Polarity};
@@ -19,6 +20,17 @@ const INTERPRETATIONS: usize = 40;
 
 /// How often one end of an interval lies on the wrong side of the truth.
 const WRONG: f64 = 0.025;
+
+/// How the errors of two interpretations on the same instances correlate: what `zhang` saves in closed nodes, opened nodes and path cost
+/// under two of its interpretations correlates so over the instances of its ensemble, in the mean over those that differ (0.70 to 0.72).
+const SHARED: f64 = 0.7;
+
+/// Where each interpretation lies among all samples of its kind, from 0 to 1, on the instances of one seed.
+fn places_among_samples(stream: &mut Stream) -> Vec<f64> {
+    let common = normal(stream);
+    let mut place = || normal_below(SHARED.sqrt() * common + (1.0 - SHARED).sqrt() * normal(stream));
+    (0..INTERPRETATIONS).map(|_| place()).collect()
+}
 
 /// Papers of one kind.
 struct Kind {
@@ -43,8 +55,14 @@ const PLAIN: Kind = Kind {
     power: 0.95,
     is_unlucky: false,
     compatible: INTERPRETATIONS,
-    most: &[(Column::Against, 0.0), (Column::Depends, 0.05)],
+    most: &[(Column::Against, RARE), (Column::Depends, 0.05)],
 };
+
+/// How often a verdict is plainly wrong at most: the instances of a seed mislead nearly all interpretations at once.
+const RARE: f64 = 0.005;
+
+/// The same of samples of little power: on the other seed they mostly stay open, which does not speak against the first.
+const LITTLE: f64 = 0.01;
 
 const HALF: usize = INTERPRETATIONS / 2;
 
@@ -53,58 +71,62 @@ const KINDS: [Kind; 8] = [
     Kind {
         truth: "false under all",
         true_under: 0,
-        most: &[(Column::For, 0.0), (Column::Depends, 0.05)],
+        most: &[(Column::For, RARE), (Column::Depends, 0.05)],
         ..PLAIN
     },
     Kind {
         truth: "true under half",
         true_under: HALF,
-        most: &[(Column::For, 0.0), (Column::Against, 0.0)],
+        most: &[(Column::For, RARE), (Column::Against, RARE)],
         ..PLAIN
     },
     Kind {
         truth: "true under all but four",
         true_under: INTERPRETATIONS - 4,
-        most: &[(Column::Against, 0.0)],
+        most: &[(Column::Against, RARE)],
         ..PLAIN
     },
     Kind {
         truth: "true under all, samples of little power",
         power: 0.3,
-        most: &[(Column::Against, 0.01)],
+        most: &[(Column::Against, LITTLE)],
         ..PLAIN
     },
     Kind {
         truth: "false under all, samples of little power",
         true_under: 0,
         power: 0.3,
-        most: &[(Column::For, 0.01)],
+        most: &[(Column::For, LITTLE)],
         ..PLAIN
     },
     Kind {
         truth: "true under all, the first seed of the defaults unlucky",
         is_unlucky: true,
-        most: &[(Column::Against, 0.0), (Column::For, 0.0)],
+        most: &[(Column::Against, RARE), (Column::For, RARE)],
         ..PLAIN
     },
     Kind {
         truth: "true under the half that fits a calibration",
         true_under: HALF,
         compatible: HALF,
-        most: &[(Column::Against, 0.0), (Column::Depends, 0.3)],
+        most: &[(Column::Against, RARE), (Column::Depends, 0.3)],
         ..PLAIN
     },
 ];
 
 impl Kind {
-    /// What an interpretation gives on one seed.
-    fn outcome(&self, place: usize, stream: &mut Stream) -> Outcome {
-        let at: f64 = stream.random();
-        match (at < self.power, at > 1.0 - WRONG, place < self.true_under) {
-            (true, _, true) | (_, true, false) => Outcome::Holds,
-            (true, _, false) | (_, true, true) => Outcome::Fails,
-            (false, false, _) => Outcome::Open,
-        }
+    /// What each interpretation gives on one seed. A sample that makes a number great speaks for the claim under all.
+    fn outcomes(&self, stream: &mut Stream) -> Vec<Outcome> {
+        let outcome = |(place, at): (usize, f64)| {
+            let is_true = place < self.true_under;
+            let [above, below] = if is_true { [self.power, WRONG] } else { [WRONG, self.power] };
+            match at {
+                _ if at > 1.0 - above => Outcome::Holds,
+                _ if at < below => Outcome::Fails,
+                _ => Outcome::Open,
+            }
+        };
+        places_among_samples(stream).into_iter().enumerate().map(outcome).collect()
     }
 
     /// How many papers stand in each column.
@@ -112,10 +134,8 @@ impl Kind {
         let mut tally = [0; 6];
         for paper in 0..PAPERS {
             let mut stream = seed::stream(seed::derive(47, &[self.truth, &paper.to_string()]));
-            let mut seed_of = || {
-                (0..INTERPRETATIONS).map(|place| self.outcome(place, &mut stream)).collect::<Vec<Outcome>>()
-            };
-            let [mut first, second] = [seed_of(), seed_of()];
+            let [mut first, second] = [self.outcomes(&mut stream), self.outcomes(&mut stream)];
+            let calibrated = places_among_samples(&mut stream);
             if self.is_unlucky {
                 first[0] = Outcome::Fails;
             }
@@ -127,7 +147,7 @@ impl Kind {
             let mut groups: Vec<Group> = first.iter().enumerate().map(group).collect();
             groups.retain(|group| {
                 let refused = if group.interpretation < self.compatible { WRONG } else { self.power };
-                self.compatible == INTERPRETATIONS || stream.random::<f64>() > refused
+                self.compatible == INTERPRETATIONS || calibrated[group.interpretation] > refused
             });
             let is_counted = groups.first().is_some_and(|group| group.interpretation == 0);
             let outcomes = confirmed(&groups, |group| Some(second[group.interpretation]));
@@ -148,13 +168,17 @@ impl Kind {
 
 #[test]
 fn no_verdict_errs_more_often_than_is_stated() {
+    let mut wrong = Vec::new();
     for kind in &KINDS {
         let tally = kind.tally();
         for (column, most) in kind.most {
             let count = tally[Column::ALL.iter().position(|own| own == column).unwrap()];
-            assert!(count as f64 <= most * PAPERS as f64, "{}: {column:?} {count} of {PAPERS}", kind.truth);
+            if count as f64 > most * PAPERS as f64 {
+                wrong.push(format!("{}: {column:?} {count} of {PAPERS}", kind.truth));
+            }
         }
     }
+    assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
 #[test]

@@ -58,6 +58,22 @@ const SAMPLES: &[Sample] = &[
         accepts: [0.05, 0.9],
     },
     Sample {
+        family: "random_cells",
+        over: "corner_rule = \"allow\"\nvertices = \"corners\"",
+        worlds: 5,
+        motions: 3000,
+        any_angle: false,
+        accepts: [0.05, 0.95],
+    },
+    Sample {
+        family: "random_cells",
+        over: "corner_rule = \"allow\"\nvertices = \"corners\"\nblocked_share = 0.5",
+        worlds: 5,
+        motions: 3000,
+        any_angle: true,
+        accepts: [0.05, 0.9],
+    },
+    Sample {
         family: "arm_workspace",
         over: "obstacles_cm = [[0, 35]]\nhop_check = \"continuous\"",
         worlds: 1,

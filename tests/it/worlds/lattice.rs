@@ -29,7 +29,7 @@ pub fn lattice(number: u64) -> Case {
     let (grid, ends) = drawn(number);
     let size = [grid.width(), grid.height()];
     let [start, goal] = ends.map(|cell| cell.map(f64::from).to_vec());
-    let optimum = Query { grid: &grid, corner_rule: rule, start: &start, goal: &goal }.optimal_cost();
+    let optimum = Query { grid: &grid, corner_rule: rule, start: &start, goal: &goal }.optimal_cost(None);
     let name = format!("lattice {number}, {size:?} under {rule:?}, {start:?} to {goal:?}");
     let world = World::Lattice(LatticeWorld::new(grid, rule));
     Case { name, world, start, goal, posed: Posed::Lattice(optimum) }

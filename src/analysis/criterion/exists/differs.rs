@@ -115,6 +115,10 @@ impl Criterion for Differs<'_> {
         found.trial = first.map(|row| run.trial(row));
     }
 
+    fn counts_refused(&self) -> bool {
+        self.metric.is_of_search
+    }
+
     fn studies(&self) -> Vec<&Study> {
         vec![self.study]
     }

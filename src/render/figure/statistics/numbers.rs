@@ -277,8 +277,9 @@ impl StatisticsPanel {
             return self.of_contender(scene, contender, point.into_iter().collect());
         }
         let both = |row: &Row| {
-            let value =
-                |metric| if row.is_solved() { scene.run.value(row, metric) } else { Some(f64::INFINITY) };
+            let value = |metric: &Metric| {
+                if metric.is_given_by(row) { scene.run.value(row, metric) } else { Some(f64::INFINITY) }
+            };
             Some([value(other)?, value(metric)?])
         };
         let of = self.trials(scene.run, &self.problems, contender);

@@ -143,16 +143,3 @@ impl Beyond {
 pub fn distance_segment_convex(segment: &Segment, convex: &Convex) -> f64 {
     nearest_segment_convex(segment, convex).distance
 }
-
-/// The distance from a point to a convex polyhedron.
-pub fn distance_point_convex(point: &Vec3, convex: &Convex) -> f64 {
-    distance_segment_convex(&Segment::new(*point, *point), convex)
-}
-
-/// Whether a segment comes within `radius` of a convex polyhedron: contact of a capsule, or contact of the
-/// segment with the polyhedron's true offset. Touching is contact.
-pub fn intersects_segment_convex(segment: &Segment, convex: &Convex, radius: f64) -> bool {
-    // A plane with both ends further away than the radius settles most queries.
-    let beyond = |face: &Face| face.plane.height(&segment.a).min(face.plane.height(&segment.b)) > radius;
-    !convex.faces.iter().any(beyond) && distance_segment_convex(segment, convex) <= radius
-}

@@ -1,7 +1,7 @@
 //! Convex polyhedra: planes, faces, edges and vertices, checked when built.
 //!
 //! A polyhedron grown by a radius ("true offset") is not another polyhedron: it has round edges, and none is built
-//! here. Rods with a thickness compare the exact distance with their radius, which [`intersects_segment_convex`] does.
+//! here. Rods with a thickness compare their radius with the exact distance, [`distance_segment_convex`].
 //! A point that keeps a margin is treated otherwise: its world and its verifier move the planes out by the margin. That
 //! keeps corners sharp, since a path over an obstacle needs edges to go over, and forbids more than the margin there.
 
@@ -11,10 +11,7 @@ mod planes;
 mod primitives;
 mod printed;
 
-pub use distance::{
-    distance_point_convex, distance_segment_convex, intersects_segment_convex, nearest_by_edge,
-    nearest_segment_convex,
-};
+pub use distance::{distance_segment_convex, nearest_by_edge, nearest_segment_convex};
 pub use primitives::Axis;
 pub use printed::{
     nearest_segment_convex_listed, nearest_segment_convex_listed_first, nearest_segment_convex_printed,

@@ -94,19 +94,9 @@ pub fn distance_segment_segment(p: &Segment2, q: &Segment2) -> f64 {
         .min(distance_point_segment(&q.b, p))
 }
 
-/// The distance from a point to a disc.
-pub fn distance_point_circle(point: &Vec2, circle: &Circle) -> f64 {
-    ((point - circle.center).norm() - circle.radius).max(0.0)
-}
-
 /// The distance between a segment and a disc.
 pub fn distance_segment_circle(segment: &Segment2, circle: &Circle) -> f64 {
     (distance_point_segment(&circle.center, segment) - circle.radius).max(0.0)
-}
-
-/// The distance from a point to a convex polygon.
-pub fn distance_point_polygon(point: &Vec2, polygon: &ConvexPolygon) -> f64 {
-    distance_segment_polygon(&Segment2::new(*point, *point), polygon)
 }
 
 /// The distance between a segment and a convex polygon.

@@ -2,10 +2,9 @@
 
 use super::{reference, sample};
 use crate::geometry::{
-    Capsule, Convex, Edge, Nearest, OrientedBox, Segment, Vec3, distance_capsule_capsule, distance_point_box,
-    distance_point_segment, distance_segment_box, distance_segment_convex, distance_segment_segment,
-    intersects_capsule_box, intersects_capsule_capsule, intersects_segment_convex, nearest_point_segment,
-    nearest_segment_box, nearest_segment_convex, nearest_segment_segment,
+    Capsule, Convex, Edge, Nearest, Segment, Vec3, distance_capsule_capsule, distance_point_segment,
+    distance_segment_box, distance_segment_convex, distance_segment_segment, intersects_capsule_capsule,
+    nearest_point_segment, nearest_segment_convex, nearest_segment_segment,
 };
 use base::seed;
 
@@ -79,16 +78,9 @@ fn segments_and_boxes_are_as_far_apart_as_a_quadratic_program_finds_them() {
         let shape = sample::oriented_box(&mut stream);
         let p = sample::segment_beside(&mut stream, &sample::box_faces(&shape));
         let slow = reference::segment_polyhedron(&p, &sample::box_planes(&shape));
-        let fast = nearest_segment_box(&p, &shape);
-        assert!((fast.distance - slow).abs() < EXACT, "seed {seed} pair {index}: {fast:?}, not {slow}");
-        assert_attained(&fast, seed, index);
-        assert!((fast.distance - distance_segment_box(&p, &shape)).abs() < 1e-15);
-        assert_eq!(distance_point_box(&p.a, &shape), distance_segment_box(&Segment::new(p.a, p.a), &shape));
-        assert_box_holds(&shape, &fast.on_b, seed, index);
+        let fast = distance_segment_box(&p, &shape);
+        assert!((fast - slow).abs() < EXACT, "seed {seed} pair {index}: {fast}, not {slow}");
         sampled.count(slow, &p, &[0, 1, 2].map(|axis| shape.frame().axis(axis)));
-        assert_threshold(slow, |radius| {
-            intersects_capsule_box(&Capsule::new(p.a, p.b, radius).unwrap(), &shape)
-        });
     }
     sampled.assert_worth_drawing();
 }
@@ -109,7 +101,6 @@ fn segments_and_polyhedra_are_as_far_apart_as_a_quadratic_program_finds_them() {
         assert!(outside < EXACT, "seed {seed} pair {index}: nearest point {outside} outside");
         let edge = |e: &Edge| solid.vertices()[e.ends[1]] - solid.vertices()[e.ends[0]];
         sampled.count(slow, &p, &solid.edges().iter().map(edge).collect::<Vec<_>>());
-        assert_threshold(slow, |radius| intersects_segment_convex(&p, &solid, radius));
     }
     sampled.assert_worth_drawing();
 }
@@ -125,11 +116,6 @@ fn a_box_and_the_polyhedron_of_its_corners_are_equally_far_from_everything() {
         let (a, b) = (distance_segment_box(&p, &shape), distance_segment_convex(&p, &solid));
         assert!((a - b).abs() < EXACT, "seed {seed} pair {index}: {a} and {b}");
     }
-}
-
-fn assert_box_holds(shape: &OrientedBox, point: &Vec3, seed: u64, index: u32) {
-    let outside = (shape.frame().local(point).abs() - shape.half()).max();
-    assert!(outside < EXACT, "seed {seed} pair {index}: nearest point {outside} outside the box");
 }
 
 /// Contact begins at the distance and nowhere else.

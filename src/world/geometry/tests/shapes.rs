@@ -2,8 +2,7 @@
 
 use crate::geometry::{
     Aabb, Axis, BroadPhase, Capsule, Convex, Face, Frame, GeometryError, HalfSpace, OrientedBox, Segment,
-    Solid, Sphere, Vec3, distance_capsule_solid, distance_capsule_sphere, distance_point_convex,
-    distance_point_solid, distance_segment_solid, intersects_capsule_solid, nearest_segment_solid,
+    Solid, Sphere, Vec3, distance_segment_convex, distance_segment_solid,
 };
 use std::f64::consts::{FRAC_PI_4, TAU};
 
@@ -42,7 +41,8 @@ fn named_polyhedra_have_their_faces_edges_corners_and_volumes() {
 fn a_prism_lies_along_its_axis_and_a_wedge_keeps_its_lower_left_half() {
     for (axis, along) in [(Axis::X, Vec3::x()), (Axis::Y, Vec3::y()), (Axis::Z, Vec3::z())] {
         let prism = Convex::prism(axis, Vec3::zeros(), 1.0, 10.0, 5, 0.1).unwrap();
-        assert!((distance_point_convex(&(along * 7.0), &prism) - 2.0).abs() < 1e-12, "{axis:?}");
+        let point = Segment::new(along * 7.0, along * 7.0);
+        assert!((distance_segment_convex(&point, &prism) - 2.0).abs() < 1e-12, "{axis:?}");
     }
     let first = Convex::prism(Axis::X, Vec3::zeros(), 1.0, 2.0, 5, 0.0).unwrap();
     assert!(first.vertices().iter().any(|v| (v - Vec3::new(1.0, 1.0, 0.0)).norm() < 1e-12), "{first:?}");
@@ -129,7 +129,6 @@ fn negative_and_unreal_sizes_are_refused() {
     let nan = Vec3::new(0.0, 0.0, f64::NAN);
     let refusals = [
         OrientedBox::new(Frame::IDENTITY, Vec3::new(1.0, 1.0, -1.0)).unwrap_err(),
-        OrientedBox::from_corners(Vec3::x(), -Vec3::x()).unwrap_err(),
         Capsule::new(zero, nan, 1.0).unwrap_err(),
         Capsule::new(zero, zero, 0.0).unwrap_err(),
         Sphere::new(zero, f64::NAN).unwrap_err(),
@@ -138,7 +137,7 @@ fn negative_and_unreal_sizes_are_refused() {
     ];
     assert_eq!(refusals[0].to_string(), "the box's size along z is -1; it must be greater than 0");
     assert_eq!(
-        refusals[4].to_string(),
+        refusals[3].to_string(),
         "the sphere's radius is NaN; every coordinate and size must be a finite number"
     );
 }
@@ -157,34 +156,14 @@ fn solids() -> Vec<(&'static str, Solid)> {
 }
 
 #[test]
-fn every_solid_is_met_at_the_same_place_from_the_same_side() {
+fn every_solid_is_as_far_from_the_same_side_and_0_from_what_enters_it() {
     let reach = Segment::new(Vec3::new(-1.0, 0.0, 0.0), Vec3::new(1.0, 0.0, 0.0));
     for (name, solid) in solids() {
-        let near = nearest_segment_solid(&reach, &solid);
-        assert!((near.distance - 3.0).abs() < 1e-12, "{name}: {near:?}");
-        assert!((near.on_a - reach.b).norm() < 1e-12, "{name}: {near:?}");
-        assert!((near.on_b - Vec3::new(4.0, 0.0, 0.0)).norm() < 1e-12, "{name}: {near:?}");
-        assert!((distance_segment_solid(&reach, &solid) - near.distance).abs() < 1e-15, "{name}");
-        assert!((distance_point_solid(&reach.a, &solid) - 5.0).abs() < 1e-12, "{name}");
-        let capsule = |radius| Capsule::new(reach.a, reach.b, radius).unwrap();
-        assert!((distance_capsule_solid(&capsule(1.0), &solid) - 2.0).abs() < 1e-12, "{name}");
-        assert!(!intersects_capsule_solid(&capsule(2.999_999_9), &solid), "{name}");
-        assert!(intersects_capsule_solid(&capsule(3.000_000_1), &solid), "{name}");
+        assert!((distance_segment_solid(&reach, &solid) - 3.0).abs() < 1e-12, "{name}");
         let inside = Segment::new(reach.a, Vec3::new(5.0, 0.0, 0.0));
-        let common = nearest_segment_solid(&inside, &solid);
-        assert_eq!((common.distance, common.on_a), (0.0, common.on_b), "{name}");
+        assert_eq!(distance_segment_solid(&inside, &solid), 0.0, "{name}");
         assert!((solid.aabb().min.x - 4.0).abs() < 1e-12 || name == "wall", "{name}: {:?}", solid.aabb());
     }
-}
-
-#[test]
-fn an_axis_aligned_capsule_through_a_box_is_in_contact() {
-    let block = Solid::Box(OrientedBox::from_corners(Vec3::repeat(-1.0), Vec3::repeat(1.0)).unwrap());
-    let rod = Capsule::new(Vec3::new(0.0, 0.0, -3.0), Vec3::new(0.0, 0.0, 3.0), 0.05).unwrap();
-    assert!(intersects_capsule_solid(&rod, &block));
-    assert_eq!(distance_capsule_solid(&rod, &block), 0.0);
-    let ball = Sphere::new(Vec3::new(0.0, 2.0, 0.0), 0.5).unwrap();
-    assert!((distance_capsule_sphere(&rod, &ball) - 1.45).abs() < 1e-12);
 }
 
 #[test]

@@ -22,7 +22,7 @@ use serde::Deserialize;
 use crate::geometry::Vec2;
 use crate::geometry::planar::{Segment2, Touch};
 use crate::kinematics::planar_2r::{ElbowRule, Planar2r};
-use base::grid::{Columns, CornerRule, DIRECTIONS, Grid2, Moves};
+use base::grid::{Columns, CornerRule, Grid2};
 use base::text::listed;
 use hops::Hops;
 use sweep::Sweep;
@@ -201,22 +201,6 @@ impl ArmWorld {
         }
         let clearances_cm = [from, to].map(|cell| self.clearances_cm[cell as usize]);
         sweep.is_free(self.posture(from), self.posture(to), clearances_cm)
-    }
-
-    /// The free hops to the eight nearest points of every cell.
-    pub fn eight_moves(&self) -> Moves {
-        let legal = |cell: u32| {
-            let [x, y] = self.grid.xy(cell);
-            let is_legal = |[dx, dy]: [i32; 2]| {
-                let to = self.grid.cell(x + dx, y + dy).filter(|&to| self.grid.is_free(to));
-                self.grid.is_free(cell) && to.is_some_and(|to| self.may_hop(cell.min(to), cell.max(to)))
-            };
-            DIRECTIONS
-                .into_iter()
-                .enumerate()
-                .fold(0, |mask, (bit, step)| mask | u8::from(is_legal(step)) << bit)
-        };
-        Moves::from_masks(self.grid.width(), (0..self.grid.cell_count()).map(legal).collect())
     }
 
     /// The free cell at `point` = [x, y], centimetres.

@@ -271,22 +271,6 @@ fn a_corner_rule_binds_diagonal_hops_of_one_cell_only() {
 }
 
 #[test]
-fn eight_moves_are_the_hops_to_the_nearest_points() {
-    for hop in [HopRule::EndPoints, HopRule::Continuous, HopRule::TipLine] {
-        let world = case_1(hop);
-        let moves = world.eight_moves();
-        let grid = world.grid();
-        let plain = Moves::new(grid, CornerRule::Allow);
-        let count =
-            |moves: &Moves| -> u32 { (0..grid.cell_count()).map(|c| moves.mask(c).count_ones()).sum() };
-        match hop {
-            HopRule::EndPoints => assert_eq!(count(&moves), count(&plain)),
-            HopRule::Continuous | HopRule::TipLine => assert!(count(&moves) < count(&plain)),
-        }
-    }
-}
-
-#[test]
 fn a_lattice_and_a_query_that_do_not_fit_say_why() {
     let lattice = |x: [f64; 2], step| TipLattice::new(x, [0.0, 50.0], step).unwrap_err().1;
     assert_eq!(

@@ -126,7 +126,7 @@ fn a_grown_box_keeps_its_corners_and_is_called_grown() {
     // 5 cm from the body, and yet in the corner of the grown one, which reaches to 14 on every axis.
     let corner = [11.0 + 5.0 / 3.0_f64.sqrt(); 3];
     let at = Vec3::from(corner);
-    assert!((crate::geometry::distance_point_convex(&at, &body) - 5.0).abs() < 1e-9);
+    assert!((crate::geometry::distance_segment_convex(&Segment::new(at, at), &body) - 5.0).abs() < 1e-9);
     assert_eq!(
         world.free_point("start", &corner).unwrap_err(),
         format!("the start {corner:?} is inside obstacle 1 grown by 3 cm")

@@ -2,7 +2,7 @@
 
 use super::super::urdf;
 use super::*;
-use crate::geometry::{Solid, Sphere, Vec3, intersects_capsule_solid};
+use crate::geometry::{Solid, Sphere, Vec3, distance_segment_solid};
 use crate::kinematics::open_chain::OpenChain;
 use crate::kinematics::{AXES, Arm, Chain};
 use base::robot::parse_urdf;
@@ -175,7 +175,7 @@ fn capsules_hold_the_solids_that_they_stand_for() {
                 // A prism around a cylinder stands out by less than a hundredth of its radius.
                 let ball =
                     Solid::Sphere(Sphere::new(center, radius.max(0.01 * capsule.radius + 1e-9)).unwrap());
-                held += u32::from(intersects_capsule_solid(&capsule, &ball));
+                held += u32::from(distance_segment_solid(&capsule.segment, &ball) <= capsule.radius);
             }
         }
         let all: usize = read.solids.iter().map(|(_, solid)| solid.rounded().0.len()).sum();
