@@ -136,3 +136,16 @@ fn lines(headline: &Headline<'_>, rests_on: Option<String>, is_one: bool) -> Str
     let says = plain(&(first + " "), &says, indent, COLUMNS);
     format!("{says}\n{}\n", plain(&" ".repeat(indent), &rests, indent, COLUMNS))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_choice_is_named_by_an_option_of_it_and_not_by_a_word_in_a_sentence() {
+        let lines = " 53/0/9 for/open/against; side_choice matters most: 8 of 15; holds only if end = any; depends on ties;";
+        let named = ["side_choice", "end", "ties"].map(|id| names(lines, id));
+        assert_eq!(named, [true; 3]);
+        assert_eq!(["choice", "most", "side", "against", "any"].map(|id| names(lines, id)), [false; 5]);
+    }
+}

@@ -321,9 +321,6 @@ fn every_help_is_written_in_short_plain_sentences() {
 /// Keys of specs that hold sentences of ours, beside those that pages show.
 const SENTENCES: [&str; 3] = ["why", "notes", "changed_after_run"];
 
-/// Papers whose sentences were written before this test and are not rewritten yet.
-const LEFT_OUT: [&str; 2] = ["tang2023", "theta"];
-
 /// The texts below `value` that stand under a key of [`SENTENCES`]; `is_one` says whether `value` does.
 fn own_sentences(value: &toml::Value, is_one: bool, found: &mut Vec<String>) {
     match value {
@@ -344,9 +341,8 @@ fn reasons_and_notes_of_specs_are_written_in_short_plain_sentences() {
     let mut texts = 0;
     let mut found = Vec::new();
     for folder in fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path()) {
-        let paper = folder.file_name().unwrap().to_string_lossy().into_owned();
         for path in fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
-            if LEFT_OUT.contains(&paper.as_str()) || path.extension().is_none_or(|ending| ending != "toml") {
+            if path.extension().is_none_or(|ending| ending != "toml") {
                 continue;
             }
             let spec: toml::Value = toml::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
