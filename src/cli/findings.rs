@@ -18,12 +18,9 @@ const LINES: usize = 34;
 
 /// What stands beside verdicts, and its meaning below the claims. An interpretation takes one option for each choice.
 const LEGEND: [(&str, &str); 4] = [
-    (
-        "for/open/against",
-        "interpretations (one option for each choice) that agree, cannot tell, contradict",
-    ),
+    ("for/open/against", "interpretations (one option for each choice) that agree, cannot tell, contradict"),
     ("same under all", "no interpretation changes the result"),
-    ("met under", "interpretations under which our number meets the printed one, of all that count"),
+    ("met under", "where our number meets the printed one"),
     ("choices not varied", "other options of these were not tried for the claim"),
 ];
 
@@ -61,7 +58,7 @@ enum Below {
 enum Choices {
     /// The legend says of each what the paper leaves open.
     Explained,
-    /// Their ids alone.
+    /// Their ids alone, and how one is explained.
     Named,
 }
 
@@ -80,14 +77,18 @@ fn text(paper: &Paper, verdicts: &Verdicts, which: &Which, (below, choices): (Be
         text += &lines(&headline, words, below == Below::Nothing);
     }
     let legend = LEGEND.iter().filter(|(words, _)| named.contains(words));
-    let legend = legend.map(|(words, meaning)| format!("{words}: {meaning}"));
-    let is_named = |choice: &&Choice| choices == Choices::Explained && names(&named, &choice.id);
-    let explained = paper.choices.iter().filter(is_named).map(|choice| {
-        let clause = choice.why.split([';', ':']).next().unwrap_or_default();
-        format!("{}: {}", choice.id, clause.split(". ").next().unwrap_or_default())
-    });
-    let notes = legend.chain(explained).chain(impossible(verdicts));
-    let notes: String = notes.map(|line| plain("", &line, 2, COLUMNS) + "\n").collect();
+    let mut notes: Vec<String> = legend.map(|(words, meaning)| format!("{words}: {meaning}")).collect();
+    let mut open = paper.choices.iter().filter(|choice| names(&named, &choice.id));
+    if choices == Choices::Explained {
+        notes.extend(open.map(|choice| {
+            let clause = choice.why.split([';', ':']).next().unwrap_or_default();
+            format!("{}: {}", choice.id, clause.split(". ").next().unwrap_or_default())
+        }));
+    } else if let (Some(line), Some(choice)) = (notes.last_mut(), open.next()) {
+        *line += &format!("; a choice: {} {}", which.command("show"), choice.id);
+    }
+    notes.extend(impossible(verdicts));
+    let notes: String = notes.iter().map(|line| plain("", line, 2, COLUMNS) + "\n").collect();
     if !notes.is_empty() {
         text += &format!("\n{notes}");
     }

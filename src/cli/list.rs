@@ -11,7 +11,7 @@ use crate::render::prose::plain;
 use base::file::read_text;
 use base::robot::read_urdf;
 use base::settings::describe::{Default, Field, fields};
-use base::settings::{did_you_mean, none_called};
+use base::settings::did_you_mean;
 use clap::{Args, ValueEnum};
 use engine::kinematics::{AXES, Robot, robot::Body};
 use rayon::prelude::*;
@@ -144,16 +144,14 @@ const NAMED: usize = 30;
 /// That nothing of the kind `what` is called `name`, with the nearest name; with all if they are few.
 fn none_listed(what: What, name: &str, known: &[&str]) -> Failure {
     let singular = kind(what).0;
-    if known.len() <= NAMED {
-        return Failure::input(none_called(singular, name, known.iter().copied()));
-    }
     let ends = known.iter().filter_map(|known| Some(known.rsplit_once('/')?.1));
     let hint = did_you_mean(name, known.iter().copied().chain(ends));
-    let count = known.len();
-    Failure::input(format!(
-        "there is no {singular} `{name}`{hint}; `replan list {}` lists all {count}",
-        title(what)
-    ))
+    let there_are = match known.len() {
+        0 => "there are none at all".to_owned(),
+        1..=NAMED => format!("there are {}", known.join(", ")),
+        count => format!("`replan list {}` lists all {count}", title(what)),
+    };
+    Failure::input(format!("there is no {singular} `{name}`{hint}; {there_are}"))
 }
 
 /// The row called `name`, with or without the paper before it; or all of the paper called `name`.

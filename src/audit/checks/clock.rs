@@ -68,7 +68,11 @@ impl Test for Clock {
         }
         let places = printed.decimals() as usize + 2;
         let at = |k: i128| multiple(tick, k, places);
-        format!("{printed} is not a multiple of {tick}; the nearest multiples are {} and {}", at(last), at(first))
+        format!(
+            "{printed} is not a multiple of {tick}; the nearest multiples are {} and {}",
+            at(last),
+            at(first)
+        )
     }
 
     fn premises(&self) -> Vec<String> {

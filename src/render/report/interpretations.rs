@@ -128,7 +128,10 @@ pub fn across_lines(judged: &ClaimVerdict) -> impl Iterator<Item = String> {
         let more = [
             (across.not_looked_at, "do not look at it or lack power"),
             (across.incompatible, "contradict what the studies were calibrated to"),
-            (across.unconfirmed, "differ from most others, are not confirmed by the second seed, and count as open"),
+            (
+                across.unconfirmed,
+                "differ from most others, are not confirmed by the second seed, and count as open",
+            ),
         ];
         if !across.refused.is_empty() {
             parts.push(format!(
