@@ -87,8 +87,12 @@ fn text(paper: &Paper, verdicts: &Verdicts, which: &Which, (below, choices): (Be
     } else if let (Some(line), Some(choice)) = (notes.last_mut(), open.next()) {
         *line += &format!("; a choice: {} {}", which.command("show"), choice.id);
     }
+    if below == Below::Nothing {
+        notes = vec![notes.join("; ")];
+    }
     notes.extend(impossible(verdicts));
-    let notes: String = notes.iter().map(|line| plain("", line, 2, COLUMNS) + "\n").collect();
+    let notes: String =
+        notes.iter().filter(|line| !line.is_empty()).map(|line| plain("", line, 2, COLUMNS) + "\n").collect();
     if !notes.is_empty() {
         text += &format!("\n{notes}");
     }
