@@ -147,7 +147,7 @@ fn rank(ours: &Estimate, noun: &str) -> String {
     if ours.value < ORDINARY {
         format!("only {share} of our {noun} lie as far from the mean as the printed numbers")
     } else {
-        format!("the printed numbers are ordinary: {share} of our {noun} lie as far from the mean or farther")
+        format!("ordinary, as {share} of our {noun} lie as far from the mean")
     }
 }
 

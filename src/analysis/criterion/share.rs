@@ -109,7 +109,7 @@ impl Hits {
             Self::LowerThroughout => "instances where it is lower in every case",
             Self::SolvedMore => "instances where it solves more cases",
             Self::SolvedMoreThroughout => "instances where it solves more at every point of the sweep",
-            Self::Cured => "cases that the other fails and it solves",
+            Self::Cured => "cases that it solves of those that the other fails",
             Self::SolvedAtLeast => "instances where it solves at least",
         }
     }
